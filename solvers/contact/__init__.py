@@ -1,0 +1,1 @@
+"""Line contacts: dry (Hertz), lubricated by formula, and lubricated by solution (ehl)."""

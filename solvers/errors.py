@@ -1,0 +1,36 @@
+"""The exceptions a solver raises.
+
+Exception
+└── SolverError
+    ├── InvalidInput    the input describes nothing that can exist or be computed
+    └── NoSolution      the numbers were fine, the iteration was not
+"""
+
+
+class SolverError(Exception):
+    """Base of everything the solvers raise on purpose."""
+
+    def __init__(self, code: str, message: str) -> None:
+        super().__init__(message)
+        self.code = code
+        self.message = message
+
+
+class InvalidInput(SolverError):
+    """Physically impossible or unsupported input.
+
+    `code` is stable and meant for programs; `message` says what to change; `field` is the dotted name of the
+    input at fault, without unit ("pinion.teeth"), or None where no single input is.
+    """
+
+    def __init__(self, code: str, message: str, field: str | None = None) -> None:
+        super().__init__(code, message)
+        self.field = field
+
+
+class NoSolution(SolverError):
+    """An iteration that ended without meeting its criteria; `residuals` says by how much."""
+
+    def __init__(self, code: str, message: str, residuals: dict[str, float] | None = None) -> None:
+        super().__init__(code, message)
+        self.residuals = residuals or {}

@@ -1,0 +1,1 @@
+"""Involute geometry of external parallel-axis gear pairs, spur and helical."""
