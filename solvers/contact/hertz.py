@@ -1,6 +1,6 @@
 """Dry elastic line contact of two cylinders (Hertz; Johnson, Contact Mechanics, 1985, section 4.2)."""
 
-from typing import TypeVar
+from typing import TypeVar, cast
 
 import numpy as np
 
@@ -17,9 +17,9 @@ def reduced_modulus(solid_1: Solid, solid_2: Solid) -> float:
 
 def half_width(line_load: Real, radius: Real, modulus: float) -> Real:
     """Half width b = sqrt(8 w R / (pi E')) [m] for w [N/m], reduced radius R [m] and E' [Pa]."""
-    return np.sqrt(8.0 * line_load * radius / (np.pi * modulus))
+    return cast("Real", np.sqrt(8.0 * line_load * radius / (np.pi * modulus)))
 
 
 def maximum_pressure(line_load: Real, radius: Real, modulus: float) -> Real:
     """Largest pressure p_H = sqrt(w E' / (2 pi R)) [Pa]; the mean is pi/4 of it."""
-    return np.sqrt(line_load * modulus / (2.0 * np.pi * radius))
+    return cast("Real", np.sqrt(line_load * modulus / (2.0 * np.pi * radius)))
