@@ -37,7 +37,6 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         version=MODEL_VERSION,
         lifespan=lifespan,
         redoc_url=None,
-        max_body_size=settings.max_body_bytes,
     )
     for routes in (calculations, service):
         app.include_router(routes.router)

@@ -10,6 +10,7 @@ from uuid import uuid4
 import anyio
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.exceptions import HTTPException
+from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.metrics import DURATION, REQUESTS
@@ -54,41 +55,51 @@ class Protection:
             await send(message)
 
         try:
-            if _header_bytes(scope) > self._settings.max_header_bytes:
-                refusal = problem(request_id, 431, "headers_too_large", "The request headers are too large")
-                await refusal(scope, receive, send_decorated)
-            else:
-                await self._app(scope, _punctual(receive, self._settings.body_deadline_s), send_decorated)
+            refusal = self._refusal(scope, request_id)
+            application = refusal or self._app
+            await application(scope, self._limited(receive), send_decorated)
         finally:
             _record(scope, status, request_id, time.perf_counter() - started)
+
+    def _refusal(self, scope: Scope, request_id: str) -> JSONResponse | None:
+        """The answer to a request whose headers alone are too much, or announce too much."""
+        if sum(len(name) + len(value) for name, value in scope["headers"]) > self._settings.max_header_bytes:
+            return problem(request_id, 431, "headers_too_large", "The request headers are too large")
+        announced = Headers(scope=scope).get("content-length", "")
+        if announced.isdecimal() and int(announced) > self._settings.max_body_bytes:
+            return problem(request_id, 413, "content_too_large", self._too_large())
+        return None
+
+    def _limited(self, receive: Receive) -> Receive:
+        """`receive` that gives up on a body that takes too long or grows too large."""
+        due = anyio.current_time() + self._settings.body_deadline_s
+        received = 0
+        complete = False
+
+        async def receive_within_limits() -> Message:
+            nonlocal received, complete
+            if complete:
+                return await receive()
+            with anyio.CancelScope(deadline=due) as scope:
+                message = await receive()
+            if scope.cancelled_caught:
+                raise HTTPException(408, "The request body took too long to arrive")
+            received += len(message.get("body", b""))
+            if received > self._settings.max_body_bytes:
+                raise HTTPException(413, self._too_large())
+            complete = not message.get("more_body", False)
+            return message
+
+        return receive_within_limits
+
+    def _too_large(self) -> str:
+        return f"The request body is larger than {self._settings.max_body_bytes} bytes"
 
 
 def _request_id(scope: Scope) -> str:
     """The client's request id if it is a decent one, else a new one."""
     sent = Headers(scope=scope).get("x-request-id", "")
     return sent if ACCEPTABLE_ID.fullmatch(sent) else uuid4().hex
-
-
-def _header_bytes(scope: Scope) -> int:
-    return sum(len(name) + len(value) for name, value in scope["headers"])
-
-
-def _punctual(receive: Receive, deadline_s: float) -> Receive:
-    """`receive` that gives up on a body that takes longer than the deadline."""
-    due = anyio.current_time() + deadline_s
-    complete = False
-
-    async def receive_in_time() -> Message:
-        nonlocal complete
-        if complete:
-            return await receive()
-        with anyio.CancelScope(deadline=due):
-            message = await receive()
-            complete = not message.get("more_body", False)
-            return message
-        raise HTTPException(408, "The request body took too long to arrive")
-
-    return receive_in_time
 
 
 def _decorate(message: Message, request_id: str, seconds: float) -> None:

@@ -15,7 +15,7 @@ class Settings(BaseSettings):
     model_config = SettingsConfigDict(env_prefix="TRIBODRIVE_", frozen=True)
 
     host: str = Field("127.0.0.1", description="address to listen on")
-    port: int = Field(8000, ge=0, le=65535, description="port to listen on; 0 takes a free one")
+    port: int = Field(8000, ge=1, le=65535, description="port to listen on")
     workers: int = Field(os.cpu_count() or 2, ge=1, le=256, description="worker processes that solve")
     queue: int = Field(64, ge=0, description="requests that may wait for a worker; one more is answered 503")
     deadline_s: float = Field(30.0, gt=0, description="longest time for one calculation, waiting included; then 504")
