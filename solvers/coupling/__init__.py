@@ -1,0 +1,1 @@
+"""Gear couplings after Pahl: kinematics, tooth loads, lubrication, friction, axial thrust, losses."""
