@@ -60,7 +60,8 @@ class Runner:
         self._admitted += 1
         QUEUE.set(self._admitted)
         try:
-            return await _unless_disconnected(receive, self._run, function, *args)
+            result: T = await _unless_disconnected(receive, self._run, function, *args)
+            return result
         finally:
             self._admitted -= 1
             QUEUE.set(self._admitted)

@@ -3,11 +3,11 @@
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field
-from solvers.coupling import inputs as si
 
 from app.conversion import to_si
 from app.quantities import Input
 from app.requests.common import Request, Section
+from solvers.coupling import inputs as si
 
 PAHL = "Pahl 1978"
 
