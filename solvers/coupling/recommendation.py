@@ -7,6 +7,7 @@ solved for, and the load capacity is maximised between them.
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from math import exp, log
 
@@ -55,7 +56,8 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
     scan = _scan(state)
     sliding = _sliding_notices(inputs)
     if inputs.min_misalignment == inputs.max_misalignment and sliding:
-        return _infeasible("sliding_velocity", scan, sliding)
+        nowhere = replace(scan, feasible=(False,) * len(scan.feasible))
+        return _infeasible("sliding_velocity", nowhere, sliding)
     low, high, failed = crowning_window(state)
     if failed is not None:
         return _infeasible(failed, scan, sliding)
