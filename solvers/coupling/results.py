@@ -160,7 +160,7 @@ class Losses:
 class Limits:
     """Design limits and linear stiffness with every tooth loaded [m/s, rad, N m, N m/rad, N/m].
 
-    `allowable_misalignment` None: the coupling does not turn.
+    `allowable_misalignment` None: the coupling turns too slowly to reach the limit, or not at all.
     """
 
     sliding_velocity_limit: float
