@@ -101,18 +101,22 @@ def balance_rows(
     lever: float,
     force_limit: float,
     state: FloatArray,
-    residual: FloatArray,
-) -> None:
-    """Balance the sleeve at every rotor angle, each started from the one before, then from rest if that fails."""
+) -> float:
+    """Balance the sleeve at every rotor angle, each started from the one before, then from rest if that fails.
+
+    Returns the largest residual, that of the first angle without balance if there is one: no later angle is tried.
+    """
     force = np.zeros(2)
+    largest = 0.0
     for row in range(interference.shape[0]):
         if row > 0:
             state[row] = state[row - 1]
-        for _ in range(2):
-            residual[row] = balance_sleeve(
-                interference[row], normal[row], arm[row], lever, force_limit, force, state[row]
-            )
-            if residual[row] < FORCE_TOLERANCE:
-                break
+        residual = balance_sleeve(interference[row], normal[row], arm[row], lever, force_limit, force, state[row])
+        if residual >= FORCE_TOLERANCE:
             force[:] = 0.0
             state[row] = 0.0
+            residual = balance_sleeve(interference[row], normal[row], arm[row], lever, force_limit, force, state[row])
+        largest = max(largest, residual)
+        if residual >= FORCE_TOLERANCE:
+            break
+    return largest

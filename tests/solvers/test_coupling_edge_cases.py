@@ -268,7 +268,7 @@ def answered(calculation: Callable[[], object], reasons: set[str]) -> object | N
     return result
 
 
-@settings(deadline=None, max_examples=300)
+@settings(max_examples=300)
 @given(any_inputs())
 def test_any_valid_input_is_answered_or_refused_with_a_reason(inputs: CouplingInputs) -> None:
     reasons = {"hertz_pressure", "contact_width"}
@@ -282,13 +282,13 @@ def test_any_valid_input_is_answered_or_refused_with_a_reason(inputs: CouplingIn
         assert force.sum() * result.geometry.pitch_radius == pytest.approx(inputs.operation.torque, rel=1e-6)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(any_inputs())
 def test_any_orbit_is_answered_or_refused_with_a_reason(inputs: CouplingInputs) -> None:
     answered(lambda: solve_orbit(inputs), {"torque_too_low", "sleeve_orbit"})
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(any_inputs(), st.floats(1e-3, 1.0), st.floats(1.0, 5.0))
 def test_any_recommendation_is_answered_or_refused_with_a_reason(
     inputs: CouplingInputs, low: float, width: float
