@@ -49,7 +49,8 @@ def sleeve_equilibrium(
     """Thrust and overturning moment of two meshes, the shafts moving apart at `axial_velocity` [m/s] per mesh.
 
     Without any sliding (no axial velocity, and no misalignment or no speed) the direction of friction is open: the
-    result is zero. Raises NoSolution `sleeve_equilibrium` where the tooth forces cannot hold the moment of friction.
+    result is zero. Raises NoSolution `sleeve_equilibrium` where the tooth forces cannot hold the moment of friction; an
+    equilibrium exists at any rate while mu d_o/l_H < cos(pi/z) (Brouwer: Phi maps the forces the teeth hold into them).
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     meshes = two_meshes(inputs, geometry)
