@@ -19,7 +19,7 @@ class Film(NamedTuple):
     Per interval (n, m): fluidity 1/eta, its logarithmic derivatives by temperature and pressure, stress [Pa],
     rate [1/s], stiffness d rate/d stress, effective fluidity rate/stress and its derivative by stress, density.
     Per node (n, m + 1): stream (function, from surface 1) [kg/(m s)], couette (its part without pressure gradient),
-    and the derivatives by nodal temperature of the mid-film stress and of the flow coefficients ln A and B.
+    poiseuille (the shape, from 0 to 1, of its part with it), and the derivatives by nodal temperature of the mid-film stress and of the flow coefficients ln A and B.
     Per column (n,): mid-film stress and its derivatives by p, by G = h dp/dx and by h.
     """
 
@@ -34,6 +34,7 @@ class Film(NamedTuple):
     density: FloatArray
     stream: FloatArray
     couette: FloatArray
+    poiseuille: FloatArray
     mid_by_temperature: FloatArray
     log_a_by_temperature: FloatArray
     b_by_temperature: FloatArray
@@ -46,7 +47,7 @@ class Film(NamedTuple):
 def film_arrays(nodes: int, film_nodes: int) -> Film:
     """Room for `nodes` columns."""
     intervals = [np.zeros((nodes, film_nodes - 1)) for _ in range(9)]
-    at_nodes = [np.zeros((nodes, film_nodes)) for _ in range(5)]
+    at_nodes = [np.zeros((nodes, film_nodes)) for _ in range(6)]
     columns = [np.zeros(nodes) for _ in range(4)]
     return Film(*intervals, *at_nodes, *columns)
 
@@ -148,14 +149,13 @@ def stress_response(problem: Problem, i: int, h: float, film: Film) -> None:
 def flow(
     problem: Problem,
     i: int,
-    g: float,
     h: float,
     density_slope: float,
     film: Film,
     coefficients: FlowCoefficients,
     above: FloatArray,
 ) -> None:
-    """Flow coefficients A and B of a column, their derivatives at fixed temperature, and its stream function.
+    """Flow coefficients A and B of a column, their derivatives at fixed temperature, and its stream functions.
 
     With phi = rate/stress, F0 = int phi, F1 = int phi (zeta - 1/2), R(zeta) the density above zeta, N0 = int phi R,
     N1 = int phi (zeta - 1/2) R: A = F1 N0/F0 - N1 and B = u1 R(0) + du N0/F0 (Eq. 17, density varying across the
@@ -184,7 +184,7 @@ def flow(
     film.b_by_temperature[i, :] = 0.0
     heating = -problem.laws.density * problem.laws.thermal_expansion
     through_a, through_b, j0, j1 = 0.0, 0.0, 0.0, 0.0
-    film.stream[i, 0], film.couette[i, 0] = 0.0, 0.0
+    film.couette[i, 0], film.poiseuille[i, 0] = 0.0, 0.0
     for j in range(m):
         zeta = (j + 0.5) / m - 0.5
         phi = film.effective[i, j] / m
@@ -193,8 +193,7 @@ def flow(
         by_density_b = (problem.speed_1 + du * mid0 / f0) / m
         couette = h * film.density[i, j] * by_density_b
         film.couette[i, j + 1] = film.couette[i, j] + couette
-        pressure_flow = film.density[i, j] * h * h * g * (mid1 - f1 * mid0 / f0) / m
-        film.stream[i, j + 1] = film.stream[i, j] + couette + pressure_flow
+        film.poiseuille[i, j + 1] = film.poiseuille[i, j] + film.density[i, j] * by_density_a
         j0 += phi
         j1 += phi * zeta
         by_phi_a = (zeta * n0 / f0 + f1 * above[j] / f0 - f1 * n0 / (f0 * f0) - zeta * above[j]) / (m * a)
@@ -240,4 +239,4 @@ def evaluate_column(
     else:
         shear_eyring(problem, i, g, h, film)
     stress_response(problem, i, h, film)
-    flow(problem, i, g, h, density_slope, film, coefficients, above)
+    flow(problem, i, h, density_slope, film, coefficients, above)

@@ -68,7 +68,8 @@ def match_stream(
     """Make every column carry the same mass; fills the fluid fraction and returns the mass flux [kg/(m s)].
 
     The flux is taken where the pressure is largest, since there it does not depend on the pressure gradient. A full
-    column gets its defect along the Couette profile; a broken one carries it in a fraction of the gap.
+    column makes up for what the surfaces do not drag with the profile of pressure flow; a broken one carries the flux
+    in a fraction of the gap. So convection conserves mass on the way to the solution, too.
     """
     flux = faces.flux[pressure.argmax()] * problem.flux_scale
     last = film.stream.shape[1] - 1
@@ -77,13 +78,13 @@ def match_stream(
         if cavitated[i]:
             gap_flux = coefficients.b[i, VALUE] * film_height[i] * problem.gap_scale
             heat.fluid_fraction[i] = min(flux / gap_flux, 1.0)
-            factor = flux / film.stream[i, last]
+            factor = flux / film.couette[i, last]
             for k in range(last + 1):
-                film.stream[i, k] *= factor
+                film.stream[i, k] = film.couette[i, k] * factor
         else:
-            factor = (flux - film.stream[i, last]) / film.couette[i, last]
+            defect = flux - film.couette[i, last]
             for k in range(last + 1):
-                film.stream[i, k] += factor * film.couette[i, k]
+                film.stream[i, k] = film.couette[i, k] + defect * film.poiseuille[i, k]
     return flux
 
 
@@ -95,6 +96,7 @@ def balance_columns(
     film_height: FloatArray,
     gradient: FloatArray,
     temperature: FloatArray,
+    damping: float,
     film: Film,
     heat: Heat,
 ) -> None:
@@ -105,7 +107,7 @@ def balance_columns(
         h = film_height[i] * problem.gap_scale
         g = limited_gradient(problem, h * gradient[i] * slope)
         surface_history(problem, i, surface_matrix, heat)
-        column_balance(problem, i, weights[i] * problem.half_width, temperature, g, h, film, heat)
+        column_balance(problem, i, weights[i] * problem.half_width, temperature, g, h, damping, film, heat)
 
 
 @kernel
@@ -257,6 +259,7 @@ def solve_coupled(
     faces: FaceFluxes,
     film: Film,
     heat: Heat,
+    damping: float,
     max_iterations: int,
     pressure_tolerance: float,
     temperature_tolerance: float,
@@ -273,7 +276,7 @@ def solve_coupled(
         limited = evaluate_flow(problem, pressure, film_height, gradient, temperature, film, coefficients)
         assemble_faces(problem, x, pressure, film_height, gradient, cavitated, coefficients, faces)
         match_stream(problem, pressure, film_height, cavitated, coefficients, faces, film, heat)
-        balance_columns(problem, weights, surface_matrix, film_height, gradient, temperature, film, heat)
+        balance_columns(problem, weights, surface_matrix, film_height, gradient, temperature, damping, film, heat)
         for i in range(1, n):
             factor_column(i, film, heat)
             solve_responses(i, film, heat)
@@ -290,6 +293,13 @@ def solve_coupled(
         if not (np.isfinite(last_p) and np.isfinite(last_t) and np.isfinite(step[n])):
             return h0, iteration, np.inf, np.inf, False
         scale = min(1.0, 0.3 / max(last_p, 1e-300), 40.0 / max(last_t, 1e-300))
+        used = damping
+        if scale < 0.2 and damping < 1e4:
+            damping = max(10.0 * damping, 30.0)
+            continue
+        damping = damping * 0.2 if scale == 1.0 and last_p < 0.1 else damping
+        if damping < 0.03:
+            damping = 0.0
         for _ in range(12):
             for i in range(n):
                 trial[i] = pressure[i] + scale * step[i]
@@ -308,7 +318,7 @@ def solve_coupled(
         for i in range(n):
             for k in range(nodes):
                 temperature[i, k] = max(temperature[i, k] + scale * step_t[i, k], 200.0)
-        if scale == 1.0 and not changed and not limited:
+        if used == 0.0 and scale == 1.0 and not changed and not limited:
             if last_p < pressure_tolerance and last_t < temperature_tolerance:
                 return h0, iteration + 1, last_p, last_t, True
     return h0, max_iterations, last_p, last_t, False

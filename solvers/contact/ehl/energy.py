@@ -91,6 +91,7 @@ def column_balance(
     temperature: FloatArray,
     g: float,
     h: float,
+    damping: float,
     film: Film,
     heat: Heat,
 ) -> None:
@@ -106,6 +107,7 @@ def column_balance(
     conductance = theta * problem.conductivity * m / h
     capacity = problem.specific_heat / width
     expansion = problem.laws.density * problem.laws.thermal_expansion
+    inertia = damping * np.pi**2 * problem.conductivity / (h * m)
     t = temperature[i]
     heat.generated[i], heat.compression[i] = 0.0, 0.0
     for k in range(m + 1):
@@ -163,6 +165,7 @@ def column_balance(
         elif k == m:
             scale = heat.gain_2[i]
             heat.flux_2[i] = -residual
+        diagonal += inertia if 0 < k < m else 0.5 * inertia
         heat.residual[i, k] = scale * residual
         heat.lower[i, k], heat.pivot[i, k], heat.upper[i, k] = -scale * lower, scale * diagonal, -scale * upper
         heat.heating[i, k] = scale * heating

@@ -56,23 +56,27 @@ def film_shape(x: FloatArray, deflection: FloatArray, pressure: FloatArray, h0: 
 
 
 @kernel
-def pressure_gradients(x: FloatArray, pressure: FloatArray, cavitated: BoolArray, gradient: FloatArray) -> None:
-    """dP/dX at the nodes: central, one-sided at the inlet, zero where the film is broken."""
+def gradient_stencil(x: FloatArray, i: int, cavitated: BoolArray) -> tuple[int, int, float]:
+    """The two nodes whose pressure difference makes dP/dX at node i, and its factor."""
     n = x.size
-    gradient[0] = (pressure[1] - pressure[0]) / (x[1] - x[0])
-    gradient[n - 1] = (pressure[n - 1] - pressure[n - 2]) / (x[n - 1] - x[n - 2])
-    for i in range(1, n - 1):
-        gradient[i] = (pressure[i + 1] - pressure[i - 1]) / (x[i + 1] - x[i - 1])
-    for i in range(n):
-        if cavitated[i]:
-            gradient[i] = 0.0
+    left, right = max(i - 1, 0), min(i + 1, n - 1)
+    if cavitated[i]:
+        return left, right, 0.0
+    if i + 1 < n and cavitated[i + 1]:
+        left = i
+    return left, right, 1.0 / (x[right] - x[left])
 
 
 @kernel
-def _gradient_weight(x: FloatArray, i: int, cavitated: BoolArray) -> tuple[int, int, float]:
-    """The two nodes whose difference makes dP/dX at node i, and its factor."""
-    left, right = max(i - 1, 0), min(i + 1, x.size - 1)
-    return left, right, 0.0 if cavitated[i] else 1.0 / (x[right] - x[left])
+def pressure_gradients(x: FloatArray, pressure: FloatArray, cavitated: BoolArray, gradient: FloatArray) -> None:
+    """dP/dX at the nodes: central, one-sided at the inlet, zero where the film is broken.
+
+    The last node before the rupture looks forward, so that its gradient vanishes with its pressure: a node can join
+    the broken film without a jump.
+    """
+    for i in range(x.size):
+        left, right, factor = gradient_stencil(x, i, cavitated)
+        gradient[i] = factor * (pressure[right] - pressure[left])
 
 
 @kernel
@@ -119,7 +123,7 @@ def assemble_faces(
             flux += scale * b[node, VALUE] * film[node]
             change += scale * b[node, BY_T] * film[node]
             by_g = scale * film[node] * b[node, BY_G] * slope
-            left, right, factor = _gradient_weight(x, node, cavitated)
+            left, right, factor = gradient_stencil(x, node, cavitated)
             h = film[node] * h_scale
             faces.by_pressure[i, node - i + 2] += scale * film[node] * b[node, BY_P] * p_scale
             faces.by_pressure[i, right - i + 2] += by_g * h * factor
@@ -138,7 +142,7 @@ def assemble_faces(
             node, weight = (i, share) if side == 0 else (i + 1, 1.0 - share)
             scale = -poiseuille * weight
             change += scale * log_a[node, BY_T]
-            left, right, factor = _gradient_weight(x, node, cavitated)
+            left, right, factor = gradient_stencil(x, node, cavitated)
             h = film[node] * h_scale
             faces.by_pressure[i, node - i + 2] += scale * log_a[node, BY_P] * p_scale
             if right - i + 2 < 5:

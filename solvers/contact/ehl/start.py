@@ -50,7 +50,7 @@ def march_temperatures(
             p = max(pressure[i], 0.0) * problem.maximum_pressure
             evaluate_column(problem, i, temperature[i], p, 0.0, h, film, coefficients, above)
             film.stream[i] = profile
-            column_balance(problem, i, weights[i] * problem.half_width, temperature, 0.0, h, film, heat)
+            column_balance(problem, i, weights[i] * problem.half_width, temperature, 0.0, h, 0.0, film, heat)
             factor_column(i, film, heat)
             step[i] = -heat.residual[i]
             solve_column(i, film, heat, step)
