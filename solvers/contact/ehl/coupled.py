@@ -13,21 +13,26 @@ from solvers.contact.ehl.energy import (
     solve_responses,
     surface_history,
 )
+from solvers.contact.ehl.krylov import combine_basis, extend_basis
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.reynolds import (
     BY_G,
     BY_H,
     BY_P,
-    BY_T,
     VALUE,
     FaceFluxes,
     FlowCoefficients,
+    add_flux_changes,
     assemble_faces,
     assemble_system,
     film_shape,
     pressure_gradients,
     release_cavitated,
 )
+
+REVERSE_SWEEPS = 3
+KRYLOV = 10
+KRYLOV_TOLERANCE = 0.01
 
 
 @kernel
@@ -122,26 +127,21 @@ def _last_reverse(heat: Heat) -> int:
 
 
 @kernel
-def _relax_column(
-    problem: Problem, i: int, surface_matrix: FloatArray, film: Film, heat: Heat, given: FloatArray, step: FloatArray
-) -> None:
-    """Temperature step of column i from those of its neighbours and of the surface upstream; `given` is added.
+def _relax_column(i: int, film: Film, heat: Heat, given: FloatArray, weight: float, step: FloatArray) -> None:
+    """Temperature step of column i from those of its neighbours and of the surfaces upstream; `given` is added.
 
-    After it, row i of heat.flux_1 and flux_2 stays that of the present temperatures: changes live in `step` alone.
+    The residual counts with `weight`; heat.change_1 and change_2 hold the flash temperatures' steps from upstream.
     """
-    m = step.shape[1] - 1
-    n = step.shape[0]
+    n, m = step.shape[0], step.shape[1] - 1
     for k in range(m + 1):
         inflow = heat.from_left[i, k] * step[i - 1, k]
         if i + 1 < n:
             inflow += heat.from_right[i, k] * step[i + 1, k]
         if k == 0:
-            inflow *= heat.gain_1[i]
+            inflow = inflow * heat.gain_1[i] + heat.change_1[i]
         elif k == m:
-            inflow *= heat.gain_2[i]
-        step[i, k] = inflow - heat.residual[i, k]
-    step[i, 0] += heat.history_1[i]
-    step[i, m] += heat.history_2[i]
+            inflow = inflow * heat.gain_2[i] + heat.change_2[i]
+        step[i, k] = inflow - weight * heat.residual[i, k]
     solve_column(i, film, heat, step)
     for k in range(m + 1):
         step[i, k] += given[i, k]
@@ -151,43 +151,33 @@ def _relax_column(
 def temperature_step(
     problem: Problem,
     surface_matrix: FloatArray,
-    temperature: FloatArray,
     film: Film,
     heat: Heat,
     given: FloatArray,
-    sweeps: int,
+    weight: float,
     step: FloatArray,
 ) -> None:
     """Solve the linearised heat balance of all columns for `step` (n, k), with the responses `given` to pressure.
 
-    A march along the flow; columns with reverse flow are swept backward first, their right neighbours lagging.
+    A march along the flow; columns with reverse flow are swept backward in between, their right neighbours lagging.
+    `weight` is 1 for a Newton step and 0 for the derivative alone.
     """
     n, last = step.shape[0], step.shape[1] - 1
     flux_1, flux_2 = np.zeros(n), np.zeros(n)
-    base_1, base_2 = heat.history_1.copy(), heat.history_2.copy()
-    step[:, :] = 0.0
     reverse = _last_reverse(heat)
-    for sweep in range(sweeps if reverse > 0 else 1):
-        if sweep > 0:
-            for i in range(reverse, 0, -1):
-                heat.history_1[i] = _history(problem.surface_heating_1, surface_matrix, flux_1, i)
-                heat.history_2[i] = _history(problem.surface_heating_2, surface_matrix, flux_2, i)
-                _relax_column(problem, i, surface_matrix, film, heat, given, step)
-        for i in range(1, n if sweep == sweeps - 1 or reverse == 0 else reverse + 1):
-            heat.history_1[i] = _history(problem.surface_heating_1, surface_matrix, flux_1, i)
-            heat.history_2[i] = _history(problem.surface_heating_2, surface_matrix, flux_2, i)
-            _relax_column(problem, i, surface_matrix, film, heat, given, step)
-            rise_1 = temperature[i, 0] + step[i, 0] - problem.bulk_1 - base_1[i] - heat.history_1[i]
-            rise_2 = temperature[i, last] + step[i, last] - problem.bulk_2 - base_2[i] - heat.history_2[i]
-            flux_1[i] = rise_1 / heat.gain_1[i] - heat.flux_1[i]
-            flux_2[i] = rise_2 / heat.gain_2[i] - heat.flux_2[i]
-    heat.history_1[:] = base_1
-    heat.history_2[:] = base_2
-    for k in range(1, last):
-        if film.stream[0, k + 1] < film.stream[0, k - 1]:
-            step[0, k] = temperature[1, k] + step[1, k] - temperature[0, k]
-        else:
-            step[0, k] = problem.inlet - temperature[0, k]
+    step[:, :] = 0.0
+    for sweep in range(REVERSE_SWEEPS if reverse > 0 else 1):
+        final = sweep == REVERSE_SWEEPS - 1 or reverse == 0
+        for i in range(1, n if final else reverse + 1):
+            heat.change_1[i] = _history(problem.surface_heating_1, surface_matrix, flux_1, i)
+            heat.change_2[i] = _history(problem.surface_heating_2, surface_matrix, flux_2, i)
+            _relax_column(i, film, heat, given, weight, step)
+            own_1 = step[i, 0] - heat.change_1[i] + weight * heat.residual[i, 0]
+            own_2 = step[i, last] - heat.change_2[i] + weight * heat.residual[i, last]
+            flux_1[i], flux_2[i] = own_1 / heat.gain_1[i], own_2 / heat.gain_2[i]
+        if not final:
+            for i in range(reverse - 1, 0, -1):
+                _relax_column(i, film, heat, given, weight, step)
 
 
 @kernel
@@ -199,23 +189,43 @@ def _history(surface_heating: float, surface_matrix: FloatArray, flux: FloatArra
 
 
 @kernel
-def include_temperature(
-    coefficients: FlowCoefficients, film: Film, heat: Heat, step: FloatArray
-) -> None:
-    """Make the derivatives of A and B total: with the response of temperature, and with its own residual step."""
-    n, nodes = step.shape
-    for i in range(n):
+def inlet_step(problem: Problem, film: Film, temperature: FloatArray, step: FloatArray) -> None:
+    """First column of `step`: oil enters at the inlet temperature, and leaves at that of the column behind it."""
+    for k in range(1, step.shape[1] - 1):
+        if film.stream[0, k + 1] < film.stream[0, k - 1]:
+            step[0, k] = temperature[1, k] + step[1, k] - temperature[0, k]
+        else:
+            step[0, k] = problem.inlet - temperature[0, k]
+
+
+@kernel
+def include_temperature(coefficients: FlowCoefficients, film: Film, heat: Heat) -> None:
+    """Make the derivatives of A and B total: with the response of temperature."""
+    n, nodes = heat.by_p.shape
+    for i in range(1, n):
         for k in range(nodes):
             a, b = film.log_a_by_temperature[i, k], film.b_by_temperature[i, k]
-            if i > 0:
-                coefficients.log_a[i, BY_P] += a * heat.by_p[i, k]
-                coefficients.log_a[i, BY_G] += a * heat.by_g[i, k]
-                coefficients.log_a[i, BY_H] += a * heat.by_h[i, k]
-                coefficients.b[i, BY_P] += b * heat.by_p[i, k]
-                coefficients.b[i, BY_G] += b * heat.by_g[i, k]
-                coefficients.b[i, BY_H] += b * heat.by_h[i, k]
-            coefficients.log_a[i, BY_T] += a * step[i, k]
-            coefficients.b[i, BY_T] += b * step[i, k]
+            coefficients.log_a[i, BY_P] += a * heat.by_p[i, k]
+            coefficients.log_a[i, BY_G] += a * heat.by_g[i, k]
+            coefficients.log_a[i, BY_H] += a * heat.by_h[i, k]
+            coefficients.b[i, BY_P] += b * heat.by_p[i, k]
+            coefficients.b[i, BY_G] += b * heat.by_g[i, k]
+            coefficients.b[i, BY_H] += b * heat.by_h[i, k]
+
+
+@kernel
+def add_temperature_changes(
+    faces: FaceFluxes, cavitated: BoolArray, film: Film, step: FloatArray, given: FloatArray, residual: FloatArray
+) -> None:
+    """Add to `residual` what a temperature step does to the balance of mass, beyond the responses `given`."""
+    n, nodes = step.shape
+    log_a, b = np.zeros(n), np.zeros(n)
+    for i in range(1, n):
+        for k in range(nodes):
+            change = step[i, k] - given[i, k]
+            log_a[i] += film.log_a_by_temperature[i, k] * change
+            b[i] += film.b_by_temperature[i, k] * change
+    add_flux_changes(faces, cavitated, log_a, b, residual)
 
 
 @kernel
@@ -245,6 +255,60 @@ def pressure_responses(
 
 
 @kernel
+def newton_step(
+    problem: Problem,
+    x: FloatArray,
+    deflection: FloatArray,
+    surface_matrix: FloatArray,
+    film_height: FloatArray,
+    gradient: FloatArray,
+    cavitated: BoolArray,
+    faces: FaceFluxes,
+    film: Film,
+    heat: Heat,
+    jacobian: FloatArray,
+    residual: FloatArray,
+    step: FloatArray,
+    step_t: FloatArray,
+) -> int:
+    """Step in (P, H0) and T from the linearised equations; returns the products it took.
+
+    The Jacobian knows how each column responds to its own pressure; what it passes on to the columns downstream, as
+    heat in oil and surfaces, enters through GMRES, preconditioned with the inverse Jacobian.
+    """
+    n, nodes = step_t.shape
+    given = np.zeros((n, nodes))
+    basis, hessenberg = np.zeros((KRYLOV + 1, n + 1)), np.zeros((KRYLOV, KRYLOV))
+    rotations, rhs = np.zeros((KRYLOV, 2)), np.zeros(KRYLOV + 1)
+    inverse = np.linalg.inv(jacobian)
+    temperature_step(problem, surface_matrix, film, heat, given, 1.0, step_t)
+    add_temperature_changes(faces, cavitated, film, step_t, given, residual)
+    start = -np.dot(inverse, residual)
+    norm = np.sqrt(np.dot(start, start))
+    if not (np.isfinite(norm) and norm > 0.0):
+        step[:] = start
+        return 0
+    basis[0] = start / norm
+    rhs[0] = norm
+    change = np.zeros(n + 1)
+    count = 0
+    while count < KRYLOV:
+        pressure_responses(problem, x, deflection, film_height, gradient, cavitated, basis[count], heat, given)
+        temperature_step(problem, surface_matrix, film, heat, given, 0.0, step_t)
+        change[:] = 0.0
+        add_temperature_changes(faces, cavitated, film, step_t, given, change)
+        basis[count + 1] = basis[count] + np.dot(inverse, change)
+        remaining = extend_basis(basis, hessenberg, rotations, rhs, count)
+        count += 1
+        if remaining < KRYLOV_TOLERANCE * norm:
+            break
+    combine_basis(basis, hessenberg, rhs, count, step)
+    pressure_responses(problem, x, deflection, film_height, gradient, cavitated, step, heat, given)
+    temperature_step(problem, surface_matrix, film, heat, given, 1.0, step_t)
+    return count
+
+
+@kernel
 def solve_coupled(
     problem: Problem,
     x: FloatArray,
@@ -268,7 +332,7 @@ def solve_coupled(
     n, nodes = temperature.shape
     film_height, gradient, trial = np.empty(n), np.empty(n), np.empty(n)
     jacobian, residual = np.empty((n + 1, n + 1)), np.empty(n + 1)
-    given, step_t = np.zeros((n, nodes)), np.zeros((n, nodes))
+    step, step_t = np.zeros(n + 1), np.zeros((n, nodes))
     last_p, last_t = np.inf, np.inf
     for iteration in range(max_iterations):
         film_shape(x, deflection, pressure, h0, film_height)
@@ -280,15 +344,15 @@ def solve_coupled(
         for i in range(1, n):
             factor_column(i, film, heat)
             solve_responses(i, film, heat)
-        given[:, :] = 0.0
-        temperature_step(problem, surface_matrix, temperature, film, heat, given, 3, step_t)
         changed = release_cavitated(faces, cavitated)
-        include_temperature(coefficients, film, heat, step_t)
+        include_temperature(coefficients, film, heat)
         assemble_faces(problem, x, pressure, film_height, gradient, cavitated, coefficients, faces)
         assemble_system(x, deflection, weights, pressure, cavitated, faces, jacobian, residual)
-        step = np.linalg.solve(jacobian, -residual)
-        pressure_responses(problem, x, deflection, film_height, gradient, cavitated, step, heat, given)
-        temperature_step(problem, surface_matrix, temperature, film, heat, given, 3, step_t)
+        newton_step(
+            problem, x, deflection, surface_matrix, film_height, gradient, cavitated, faces, film, heat,
+            jacobian, residual, step, step_t,
+        )
+        inlet_step(problem, film, temperature, step_t)
         last_p, last_t = np.abs(step[:n]).max(), np.abs(step_t).max()
         if not (np.isfinite(last_p) and np.isfinite(last_t) and np.isfinite(step[n])):
             return h0, iteration, np.inf, np.inf, False

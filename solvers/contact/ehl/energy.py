@@ -16,7 +16,7 @@ class Heat(NamedTuple):
     Per node (n, k): lower, pivot (inverse), upper of the factored tridiagonal part, heating (the rank-one column:
     what a mid-film stress does) and its solution, residual, inflow from the left and right columns, response of
     temperature to p, G and h. Per column (n,): sherman 1/(1 + v x), flux_1, flux_2 into the surfaces [W/m^2], history
-    (flash temperature from upstream) and gain (own flux to own temperature) of both surfaces, fluid fraction;
+    (flash temperature from upstream), its change in a step and gain (own flux to own temperature) of both surfaces, fluid fraction;
     generated and compression [W/m^2].
     """
 
@@ -36,6 +36,8 @@ class Heat(NamedTuple):
     flux_2: FloatArray
     history_1: FloatArray
     history_2: FloatArray
+    change_1: FloatArray
+    change_2: FloatArray
     gain_1: FloatArray
     gain_2: FloatArray
     fluid_fraction: FloatArray
@@ -46,7 +48,7 @@ class Heat(NamedTuple):
 def heat_arrays(nodes: int, film_nodes: int) -> Heat:
     """Room for `nodes` columns."""
     at_nodes = [np.zeros((nodes, film_nodes)) for _ in range(11)]
-    columns = [np.zeros(nodes) for _ in range(10)]
+    columns = [np.zeros(nodes) for _ in range(12)]
     return Heat(*at_nodes, *columns)
 
 

@@ -8,13 +8,12 @@ from solvers.arrays import BoolArray, FloatArray
 from solvers.compiled import kernel
 from solvers.contact.ehl.problem import Problem
 
-# Columns of the coefficient arrays: value, and derivatives by p, by G = h dp/dx, by h, and the change that the
-# temperature residual of the column implies.
-VALUE, BY_P, BY_G, BY_H, BY_T = 0, 1, 2, 3, 4
+# Columns of the coefficient arrays: value, and derivatives by p, by G = h dp/dx and by h.
+VALUE, BY_P, BY_G, BY_H = 0, 1, 2, 3
 
 
 class FlowCoefficients(NamedTuple):
-    """Of the mass flux m = B h - A h^3 dp/dx at each node: ln A and B with their derivatives, (n, 5) each.
+    """Of the mass flux m = B h - A h^3 dp/dx at each node: ln A and B with their derivatives, (n, 4) each.
 
     Derivatives are total ones: where temperature is unknown they include its response.
     """
@@ -26,23 +25,27 @@ class FlowCoefficients(NamedTuple):
 class FaceFluxes(NamedTuple):
     """Mass flux (divided by flux_scale) through the face right of each node, and its derivatives.
 
-    Shapes: flux, change (n,); by_pressure (n, 5): nodes i-2..i+2; by_film (n, 3): nodes i-1..i+1.
+    Shapes: flux (n,); by_pressure (n, 5): nodes i-2..i+2; by_film (n, 3): nodes i-1..i+1; by_b (n, 2): B of the node
+    and of its neighbour upstream (at the first face: downstream); by_log_a (n, 2): ln A of nodes i, i+1.
     """
 
     flux: FloatArray
-    change: FloatArray
+    by_b: FloatArray
+    by_log_a: FloatArray
     by_pressure: FloatArray
     by_film: FloatArray
 
 
 def flow_coefficients(nodes: int) -> FlowCoefficients:
     """Room for the coefficients of `nodes` nodes."""
-    return FlowCoefficients(np.zeros((nodes, 5)), np.zeros((nodes, 5)))
+    return FlowCoefficients(np.zeros((nodes, 4)), np.zeros((nodes, 4)))
 
 
 def face_fluxes(nodes: int) -> FaceFluxes:
     """Room for the faces of `nodes` nodes."""
-    return FaceFluxes(np.zeros(nodes), np.zeros(nodes), np.zeros((nodes, 5)), np.zeros((nodes, 3)))
+    return FaceFluxes(
+        np.zeros(nodes), np.zeros((nodes, 2)), np.zeros((nodes, 2)), np.zeros((nodes, 5)), np.zeros((nodes, 3))
+    )
 
 
 @kernel
@@ -114,14 +117,14 @@ def assemble_faces(
     for i in range(n - 1):
         faces.by_pressure[i, :] = 0.0
         faces.by_film[i, :] = 0.0
-        flux, change = 0.0, 0.0
+        flux = 0.0
         ratio = 0.5 * (x[i + 1] - x[i]) / (x[i] - x[i - 1]) if i > 0 else -0.5
         other = i - 1 if i > 0 else 1
         for side in range(2):
             node, weight = (i, 1.0 + ratio) if side == 0 else (other, -ratio)
             scale = weight * couette_scale
             flux += scale * b[node, VALUE] * film[node]
-            change += scale * b[node, BY_T] * film[node]
+            faces.by_b[i, side] = scale * film[node]
             by_g = scale * film[node] * b[node, BY_G] * slope
             left, right, factor = gradient_stencil(x, node, cavitated)
             h = film[node] * h_scale
@@ -141,7 +144,7 @@ def assemble_faces(
         for side in range(2):
             node, weight = (i, share) if side == 0 else (i + 1, 1.0 - share)
             scale = -poiseuille * weight
-            change += scale * log_a[node, BY_T]
+            faces.by_log_a[i, side] = scale
             left, right, factor = gradient_stencil(x, node, cavitated)
             h = film[node] * h_scale
             faces.by_pressure[i, node - i + 2] += scale * log_a[node, BY_P] * p_scale
@@ -151,7 +154,6 @@ def assemble_faces(
             by_h = log_a[node, BY_H] + log_a[node, BY_G] * slope * gradient[node]
             faces.by_film[i, node - i + 1] += scale * h_scale * by_h - 1.5 * poiseuille / height
         faces.flux[i] = flux
-        faces.change[i] = change
 
 
 @kernel
@@ -173,7 +175,7 @@ def assemble_system(
             jacobian[i, i] = 1.0
             residual[i] = pressure[i]
             continue
-        residual[i] = faces.flux[i] - faces.flux[i - 1] + faces.change[i] - faces.change[i - 1]
+        residual[i] = faces.flux[i] - faces.flux[i - 1]
         for side in range(2):
             face, sign = (i, 1.0) if side == 0 else (i - 1, -1.0)
             for k in range(3):
@@ -192,6 +194,21 @@ def assemble_system(
         jacobian[n, j] = weights[j]
         residual[n] += weights[j] * pressure[j]
     jacobian[n, n] = 0.0
+
+
+@kernel
+def add_flux_changes(
+    faces: FaceFluxes, cavitated: BoolArray, log_a: FloatArray, b: FloatArray, residual: FloatArray
+) -> None:
+    """Add to `residual` (n + 1,) what changes of ln A and B at the nodes (n,) do to the balance of mass."""
+    before = 0.0
+    for i in range(cavitated.size - 1):
+        other = i - 1 if i > 0 else 1
+        change = faces.by_b[i, 0] * b[i] + faces.by_b[i, 1] * b[other]
+        change += faces.by_log_a[i, 0] * log_a[i] + faces.by_log_a[i, 1] * log_a[i + 1]
+        if i > 0 and not cavitated[i]:
+            residual[i] += change - before
+        before = change
 
 
 @kernel
