@@ -19,6 +19,8 @@ from solvers.contact.ehl.reynolds import (
     BY_G,
     BY_H,
     BY_P,
+    PATIENCE,
+    RUPTURE_TOLERANCE,
     VALUE,
     FaceFluxes,
     FlowCoefficients,
@@ -73,8 +75,8 @@ def match_stream(
     """Make every column carry the same mass; fills the fluid fraction and returns the mass flux [kg/(m s)].
 
     The flux is taken where the pressure is largest, since there it does not depend on the pressure gradient. A full
-    column makes up for what the surfaces do not drag with the profile of pressure flow; a broken one carries the flux
-    in a fraction of the gap. So convection conserves mass on the way to the solution, too.
+    column makes up for what the surfaces do not drag with the profile of pressure flow; a broken one keeps
+    the profile of the last full one in a fraction of the gap. So convection conserves mass on the way to the solution, too.
     """
     flux = faces.flux[pressure.argmax()] * problem.flux_scale
     last = film.stream.shape[1] - 1
@@ -83,9 +85,7 @@ def match_stream(
         if cavitated[i]:
             gap_flux = coefficients.b[i, VALUE] * film_height[i] * problem.gap_scale
             heat.fluid_fraction[i] = min(flux / gap_flux, 1.0)
-            factor = flux / film.couette[i, last]
-            for k in range(last + 1):
-                film.stream[i, k] = film.couette[i, k] * factor
+            film.stream[i] = film.stream[i - 1]
         else:
             defect = flux - film.couette[i, last]
             for k in range(last + 1):
@@ -334,7 +334,9 @@ def solve_coupled(
     jacobian, residual = np.empty((n + 1, n + 1)), np.empty(n + 1)
     step, step_t = np.zeros(n + 1), np.zeros((n, nodes))
     last_p, last_t = np.inf, np.inf
+    before, relaxation = np.inf, 1.0
     for iteration in range(max_iterations):
+        cavitated[n - 1] = cavitated[n - 2]
         film_shape(x, deflection, pressure, h0, film_height)
         pressure_gradients(x, pressure, cavitated, gradient)
         limited = evaluate_flow(problem, pressure, film_height, gradient, temperature, film, coefficients)
@@ -344,7 +346,7 @@ def solve_coupled(
         for i in range(1, n):
             factor_column(i, film, heat)
             solve_responses(i, film, heat)
-        changed = release_cavitated(faces, cavitated)
+        changed = release_cavitated(faces, cavitated, 0.0 if iteration < PATIENCE else RUPTURE_TOLERANCE)
         include_temperature(coefficients, film, heat)
         assemble_faces(problem, x, pressure, film_height, gradient, cavitated, coefficients, faces)
         assemble_system(x, deflection, weights, pressure, cavitated, faces, jacobian, residual)
@@ -361,9 +363,21 @@ def solve_coupled(
         if scale < 0.2 and damping < 1e4:
             damping = max(10.0 * damping, 30.0)
             continue
-        damping = damping * 0.2 if scale == 1.0 and last_p < 0.1 else damping
-        if damping < 0.03:
-            damping = 0.0
+        if scale == 1.0 and last_p < 0.1:
+            damping = 0.2 * damping if damping > 0.15 else 0.0
+        if iteration > PATIENCE:
+            relaxation = max(0.7 * relaxation, 0.3) if last_p > 0.7 * before else min(1.5 * relaxation, 1.0)
+        before = last_p
+        converged = (
+            used == 0.0
+            and scale == 1.0
+            and not changed
+            and not limited
+            and last_p < pressure_tolerance
+            and last_t < temperature_tolerance
+        )
+        if not converged:
+            scale = min(scale, relaxation)
         for _ in range(12):
             for i in range(n):
                 trial[i] = pressure[i] + scale * step[i]
@@ -382,7 +396,6 @@ def solve_coupled(
         for i in range(n):
             for k in range(nodes):
                 temperature[i, k] = max(temperature[i, k] + scale * step_t[i, k], 200.0)
-        if used == 0.0 and scale == 1.0 and not changed and not limited:
-            if last_p < pressure_tolerance and last_t < temperature_tolerance:
-                return h0, iteration + 1, last_p, last_t, True
+        if converged:
+            return h0, iteration + 1, last_p, last_t, True
     return h0, max_iterations, last_p, last_t, False

@@ -6,6 +6,8 @@ from solvers.arrays import BoolArray, FloatArray
 from solvers.compiled import kernel
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.reynolds import (
+    PATIENCE,
+    RUPTURE_TOLERANCE,
     BY_G,
     BY_H,
     BY_P,
@@ -87,6 +89,7 @@ def solve_pressure(
     jacobian, residual = np.empty((n + 1, n + 1)), np.empty(n + 1)
     last = np.inf
     for iteration in range(max_iterations):
+        cavitated[n - 1] = cavitated[n - 2]
         film_shape(x, deflection, pressure, h0, film)
         pressure_gradients(x, pressure, cavitated, gradient)
         slope = problem.maximum_pressure / problem.half_width
@@ -101,7 +104,7 @@ def solve_pressure(
                 coefficients.b[i],
             )
         assemble_faces(problem, x, pressure, film, gradient, cavitated, coefficients, faces)
-        changed = release_cavitated(faces, cavitated)
+        changed = release_cavitated(faces, cavitated, 0.0 if iteration < PATIENCE else RUPTURE_TOLERANCE)
         if not changed and last < tolerance:
             return h0, iteration, last
         assemble_system(x, deflection, weights, pressure, cavitated, faces, jacobian, residual)

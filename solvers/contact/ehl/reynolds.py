@@ -11,6 +11,9 @@ from solvers.contact.ehl.problem import Problem
 # Columns of the coefficient arrays: value, and derivatives by p, by G = h dp/dx and by h.
 VALUE, BY_P, BY_G, BY_H = 0, 1, 2, 3
 
+PATIENCE = 10  # iterations before the rupture tolerance counts
+RUPTURE_TOLERANCE = 5e-3  # of the flux
+
 
 class FlowCoefficients(NamedTuple):
     """Of the mass flux m = B h - A h^3 dp/dx at each node: ln A and B with their derivatives, (n, 4) each.
@@ -212,11 +215,15 @@ def add_flux_changes(
 
 
 @kernel
-def release_cavitated(faces: FaceFluxes, cavitated: BoolArray) -> bool:
-    """Return broken nodes into which more flows than leaves to the full film; whether there were any."""
+def release_cavitated(faces: FaceFluxes, cavitated: BoolArray, tolerance: float) -> bool:
+    """Return broken nodes into which more flows than leaves to the full film; whether there were any.
+
+    `tolerance` is the imbalance, relative to the flux, that a broken node may keep: without it one node at the
+    rupture can change sides for ever.
+    """
     changed = False
     for i in range(1, cavitated.size - 1):
-        if cavitated[i] and faces.flux[i] - faces.flux[i - 1] < 0.0:
+        if cavitated[i] and faces.flux[i] - faces.flux[i - 1] < -tolerance * abs(faces.flux[i]):
             cavitated[i] = False
             changed = True
     return changed
