@@ -2,8 +2,10 @@
 
 import numpy as np
 
-from solvers.arrays import BoolArray, FloatArray
+from solvers.arrays import FloatArray
 from solvers.compiled import kernel
+from solvers.contact.ehl.column import STRESS_LIMIT
+from solvers.contact.ehl.mesh import Grid
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.reynolds import (
     PATIENCE,
@@ -12,17 +14,17 @@ from solvers.contact.ehl.reynolds import (
     BY_H,
     BY_P,
     VALUE,
-    FaceFluxes,
-    FlowCoefficients,
+    apply_pressure_step,
     assemble_faces,
     assemble_system,
     film_shape,
     pressure_gradients,
     release_cavitated,
 )
+from solvers.contact.ehl.state import State, Work
 from solvers.lubricants import density, log_viscosity, pressure_part
 
-STRESS_LIMIT = 300.0  # of |h dp/dx| / (2 tau0): exp(300)^2 is still a number
+EARLY = 5  # iterations with a tighter clip
 
 
 @kernel
@@ -64,74 +66,48 @@ def uniform_film(problem: Problem, p: float, g: float, h: float, log_a: FloatArr
 
 
 @kernel
-def solve_pressure(
-    problem: Problem,
-    x: FloatArray,
-    deflection: FloatArray,
-    weights: FloatArray,
-    pressure: FloatArray,
-    h0: float,
-    cavitated: BoolArray,
-    stress: FloatArray,
-    coefficients: FlowCoefficients,
-    faces: FaceFluxes,
-    max_iterations: int,
-    tolerance: float,
-) -> tuple[float, int, float]:
-    """Newton for (P, H0) from the pressures given, in place; returns H0, iterations and the last max|dP| (inf: failed).
+def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) -> None:
+    """Film, stress and flow of every column at the inlet temperature."""
+    film_shape(grid, state.pressure, state.separation[0], work.height)
+    pressure_gradients(grid.x, state.pressure, state.cavitated, work.gradient)
+    slope = problem.maximum_pressure / problem.half_width
+    for i in range(grid.x.size):
+        h = work.height[i] * problem.gap_scale
+        p, g = state.pressure[i] * problem.maximum_pressure, h * work.gradient[i] * slope
+        coefficients = work.coefficients
+        work.film.mid_stress[i] = uniform_film(problem, p, g, h, coefficients.log_a[i], coefficients.b[i])
+    assemble_faces(
+        problem, grid.x, state.pressure, work.height, work.gradient, state.cavitated, work.coefficients, work.faces
+    )
+
+
+@kernel
+def solve_isothermal(
+    problem: Problem, grid: Grid, state: State, work: Work, max_iterations: int, tolerance: float
+) -> bool:
+    """Newton for (P, H0) from the pressures given, in place; whether it converged.
 
     Pressure changes are clipped node by node; a node behind the centre whose pressure falls below zero joins the
     broken film, and leaves it when more oil flows in than out.
     """
-    n = x.size
-    film, gradient = np.empty(n), np.empty(n)
-    trial, trial_film = np.empty(n), np.empty(n)
+    n = grid.x.size
     jacobian, residual = np.empty((n + 1, n + 1)), np.empty(n + 1)
-    last = np.inf
     for iteration in range(max_iterations):
-        cavitated[n - 1] = cavitated[n - 2]
-        film_shape(x, deflection, pressure, h0, film)
-        pressure_gradients(x, pressure, cavitated, gradient)
-        slope = problem.maximum_pressure / problem.half_width
-        for i in range(n):
-            h = film[i] * problem.gap_scale
-            stress[i] = uniform_film(
-                problem,
-                pressure[i] * problem.maximum_pressure,
-                h * gradient[i] * slope,
-                h,
-                coefficients.log_a[i],
-                coefficients.b[i],
-            )
-        assemble_faces(problem, x, pressure, film, gradient, cavitated, coefficients, faces)
-        changed = release_cavitated(faces, cavitated, 0.0 if iteration < PATIENCE else RUPTURE_TOLERANCE)
-        if not changed and last < tolerance:
-            return h0, iteration, last
-        assemble_system(x, deflection, weights, pressure, cavitated, faces, jacobian, residual)
+        state.history[0] += 1.0
+        state.cavitated[n - 1] = state.cavitated[n - 2]
+        evaluate_isothermal(problem, grid, state, work)
+        rupture_tolerance = 0.0 if iteration < PATIENCE else RUPTURE_TOLERANCE
+        changed = release_cavitated(work.faces, state.cavitated, rupture_tolerance)
+        assemble_system(grid, state.pressure, state.cavitated, work.faces, jacobian, residual)
         step = np.linalg.solve(jacobian, -residual)
         if not np.all(np.isfinite(step)):
-            return h0, iteration, np.inf
-        clip = 0.3 if iteration < 5 else 0.5
-        last = 0.0
+            return False
+        largest = np.abs(step[:n]).max()
+        state.history[1] = largest
+        clip = 0.3 if iteration < EARLY else 0.5
         for i in range(n):
-            last = max(last, abs(step[i]))
             step[i] = min(max(step[i], -clip), clip)
-        scale = 1.0
-        for _ in range(12):
-            for i in range(n):
-                trial[i] = pressure[i] + scale * step[i]
-                if x[i] > 0.0 and trial[i] < 0.0:
-                    trial[i] = 0.0
-            film_shape(x, deflection, trial, h0 + scale * step[n], trial_film)
-            if trial_film.min() > 0.0:
-                break
-            scale *= 0.5
-        for i in range(1, n - 1):
-            if x[i] > 0.0 and pressure[i] + scale * step[i] < 0.0 and not cavitated[i]:
-                cavitated[i] = True
-                changed = True
-            pressure[i] = trial[i]
-        h0 += scale * step[n]
-        if scale < 1.0 or changed:
-            last = max(last, 1.0)
-    return h0, max_iterations, np.inf
+        taken, joined = apply_pressure_step(grid, state.pressure, state.separation, state.cavitated, step, 1.0)
+        if largest < tolerance and taken == 1.0 and not (changed or joined):
+            return True
+    return False

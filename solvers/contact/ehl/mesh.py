@@ -1,8 +1,8 @@
 """The graded mesh of a contact, with the matrices that depend on it alone."""
 
-from dataclasses import dataclass
 from functools import lru_cache
 from math import log2, sqrt
+from typing import NamedTuple
 
 import numpy as np
 
@@ -10,14 +10,13 @@ from solvers.arrays import FloatArray, frozen
 from solvers.contact.ehl.deflection import deflection_matrix
 from solvers.contact.ehl.heat_matrix import heat_matrix
 
-STARVED_INLET = -4.0  # the shortest inlet
-LONGEST_INLET = -60.0
+SHORTEST_INLET = 4.0
+LONGEST_INLET = 60.0
 CLEARANCE = 40.0  # undeformed gap at the inlet over the central film
 
 
-@dataclass(frozen=True, slots=True)
-class Mesh:
-    """Nodes x (n,) in half widths, deflection and heat matrices (n, n), quadrature weights and cell widths (n,).
+class Grid(NamedTuple):
+    """Nodes x (n,) in half widths, with the matrices (n, n) and quadrature weights (n,) that depend on them alone.
 
     `deflection` is K, `heat` is Wt; the trapezoidal weights of the nodes are also the widths of their cells.
     """
@@ -26,33 +25,30 @@ class Mesh:
     deflection: FloatArray
     heat: FloatArray
     weights: FloatArray
-    inlet_at_cap: bool
 
 
-def mesh_for(gap: float, nodes: int) -> Mesh:
+def grid_for(gap: float, nodes: int) -> Grid:
     """Mesh graded for a film of `gap` (in b^2/R), rounded to a power of sqrt(2) so that few meshes serve all."""
-    return _mesh(round(2.0 * log2(gap)), nodes)
+    return _grid(round(2.0 * log2(gap)), nodes)
+
+
+def inlet_length(gap: float) -> float:
+    """Distance of the inlet from the centre that a film of `gap` needs, in half widths."""
+    return max(SHORTEST_INLET, sqrt(2.0 * CLEARANCE * gap))
 
 
 @lru_cache(maxsize=64)
-def _mesh(half_octaves: int, nodes: int) -> Mesh:
-    gap = 2.0 ** (half_octaves / 2)
-    x = _graded(gap, nodes)
+def _grid(half_octaves: int, nodes: int) -> Grid:
+    x = _graded(2.0 ** (half_octaves / 2), nodes)
     weights = np.zeros(nodes)
     weights[:-1] += 0.5 * np.diff(x)
     weights[1:] += 0.5 * np.diff(x)
-    return Mesh(
-        x=frozen(x),
-        deflection=frozen(deflection_matrix(x)),
-        heat=frozen(heat_matrix(x)),
-        weights=frozen(weights),
-        inlet_at_cap=-sqrt(2.0 * CLEARANCE * gap) < LONGEST_INLET,
-    )
+    return Grid(frozen(x), frozen(deflection_matrix(x)), frozen(heat_matrix(x)), frozen(weights))
 
 
 def _graded(gap: float, nodes: int) -> FloatArray:
     """Nodes that equidistribute 1/spacing between inlet and outlet (n,)."""
-    inlet = min(STARVED_INLET, max(LONGEST_INLET, -sqrt(2.0 * CLEARANCE * gap)))
+    inlet = -min(inlet_length(gap), LONGEST_INLET)
     outlet = max(1.25, 1.0 + 1.2 * gap ** (2 / 3))
     layer = 0.45 * gap ** (2 / 3) + 0.004
     fine = np.linspace(inlet, outlet, 40 * nodes)

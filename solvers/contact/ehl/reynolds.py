@@ -6,6 +6,7 @@ import numpy as np
 
 from solvers.arrays import BoolArray, FloatArray
 from solvers.compiled import kernel
+from solvers.contact.ehl.mesh import Grid
 from solvers.contact.ehl.problem import Problem
 
 # Columns of the coefficient arrays: value, and derivatives by p, by G = h dp/dx and by h.
@@ -13,6 +14,7 @@ VALUE, BY_P, BY_G, BY_H = 0, 1, 2, 3
 
 PATIENCE = 10  # iterations before the rupture tolerance counts
 RUPTURE_TOLERANCE = 5e-3  # of the flux
+HALVINGS = 12
 
 
 class FlowCoefficients(NamedTuple):
@@ -52,13 +54,9 @@ def face_fluxes(nodes: int) -> FaceFluxes:
 
 
 @kernel
-def film_shape(x: FloatArray, deflection: FloatArray, pressure: FloatArray, h0: float, film: FloatArray) -> None:
+def film_shape(grid: Grid, pressure: FloatArray, separation: float, film: FloatArray) -> None:
     """H = H0 + X^2/2 + K P into `film` (Eq. 21)."""
-    for i in range(x.size):
-        total = h0 + 0.5 * x[i] ** 2
-        for j in range(x.size):
-            total += deflection[i, j] * pressure[j]
-        film[i] = total
+    film[:] = np.dot(grid.deflection, pressure) + separation + 0.5 * grid.x**2
 
 
 @kernel
@@ -161,9 +159,7 @@ def assemble_faces(
 
 @kernel
 def assemble_system(
-    x: FloatArray,
-    deflection: FloatArray,
-    weights: FloatArray,
+    grid: Grid,
     pressure: FloatArray,
     cavitated: BoolArray,
     faces: FaceFluxes,
@@ -171,7 +167,8 @@ def assemble_system(
     residual: FloatArray,
 ) -> None:
     """Rows of d(flux)/dx = 0, of P = 0 where the film is broken, and of the load; unknowns P_0..P_n-1, H0."""
-    n = x.size
+    n = grid.x.size
+    deflection, weights = grid.deflection, grid.weights
     jacobian[:, :] = 0.0
     for i in range(n):
         if i == 0 or i == n - 1 or cavitated[i]:
@@ -227,3 +224,37 @@ def release_cavitated(faces: FaceFluxes, cavitated: BoolArray, tolerance: float)
             cavitated[i] = False
             changed = True
     return changed
+
+
+@kernel
+def apply_pressure_step(
+    grid: Grid,
+    pressure: FloatArray,
+    separation: FloatArray,
+    cavitated: BoolArray,
+    step: FloatArray,
+    scale: float,
+) -> tuple[float, bool]:
+    """Move (P, H0) by `scale` times the step (n + 1,), less where the film would close; returns what was taken.
+
+    Nodes behind the centre whose pressure falls below zero join the broken film; whether any did is returned too.
+    """
+    n = grid.x.size
+    trial, film = np.empty(n), np.empty(n)
+    for _ in range(HALVINGS):
+        for i in range(n):
+            trial[i] = pressure[i] + scale * step[i]
+            if grid.x[i] > 0.0 and trial[i] < 0.0:
+                trial[i] = 0.0
+        film_shape(grid, trial, separation[0] + scale * step[n], film)
+        if film.min() > 0.0:
+            break
+        scale *= 0.5
+    joined = False
+    for i in range(1, n - 1):
+        if grid.x[i] > 0.0 and pressure[i] + scale * step[i] < 0.0 and not cavitated[i]:
+            cavitated[i] = True
+            joined = True
+        pressure[i] = trial[i]
+    separation[0] += scale * step[n]
+    return scale, joined
