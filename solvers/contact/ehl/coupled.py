@@ -4,6 +4,7 @@ import numpy as np
 
 from solvers.arrays import BoolArray, FloatArray
 from solvers.compiled import kernel
+from solvers.contact.ehl.dense import dot, factor, substitute
 from solvers.contact.ehl.energy import factor_column, solve_responses
 from solvers.contact.ehl.krylov import combine_basis, extend_basis
 from solvers.contact.ehl.mesh import Grid
@@ -97,21 +98,22 @@ def newton_step(
     """Step (n + 1,) in (P, H0) and (n, k) in T from the linearised equations.
 
     The Jacobian knows how each column responds to its own pressure; what it passes on to the columns downstream, as
-    heat in oil and surfaces, enters through GMRES, preconditioned with the inverse Jacobian.
+    heat in oil and surfaces, enters through GMRES, preconditioned with the Jacobian (overwritten).
     """
     n, nodes = step_t.shape
     given = np.zeros((n, nodes))
     basis, hessenberg = np.zeros((KRYLOV + 1, n + 1)), np.zeros((KRYLOV, KRYLOV))
     rotations, rhs, change = np.zeros((KRYLOV, 2)), np.zeros(KRYLOV + 1), np.zeros(n + 1)
-    inverse = np.linalg.inv(jacobian)
+    pivots = np.empty(n + 1, np.int64)
+    factor(jacobian, pivots)
     temperature_step(problem, grid, work.film, work.heat, given, 1.0, step_t)
     add_temperature_changes(work, cavitated, step_t, given, residual)
-    start = -np.dot(inverse, residual)
-    norm = np.sqrt(np.dot(start, start))
-    step[:] = start
+    step[:] = -residual
+    substitute(jacobian, pivots, step)
+    norm = np.sqrt(dot(step, step))
     if not (np.isfinite(norm) and norm > 0.0):
         return
-    basis[0] = start / norm
+    basis[0] = step / norm
     rhs[0] = norm
     count = 0
     while count < KRYLOV:
@@ -119,7 +121,8 @@ def newton_step(
         temperature_step(problem, grid, work.film, work.heat, given, 0.0, step_t)
         change[:] = 0.0
         add_temperature_changes(work, cavitated, step_t, given, change)
-        basis[count + 1] = basis[count] + np.dot(inverse, change)
+        substitute(jacobian, pivots, change)
+        basis[count + 1] = basis[count] + change
         remaining = extend_basis(basis, hessenberg, rotations, rhs, count)
         count += 1
         if remaining < KRYLOV_TOLERANCE * norm:

@@ -5,6 +5,7 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.contact.ehl.column import STRESS_LIMIT
+from solvers.contact.ehl.dense import solve_dense
 from solvers.contact.ehl.mesh import Grid
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.reynolds import (
@@ -91,7 +92,7 @@ def solve_isothermal(
     broken film, and leaves it when more oil flows in than out.
     """
     n = grid.x.size
-    jacobian, residual = np.empty((n + 1, n + 1)), np.empty(n + 1)
+    jacobian, residual, step = np.empty((n + 1, n + 1)), np.empty(n + 1), np.empty(n + 1)
     for iteration in range(max_iterations):
         state.history[0] += 1.0
         state.cavitated[n - 1] = state.cavitated[n - 2]
@@ -99,7 +100,8 @@ def solve_isothermal(
         rupture_tolerance = 0.0 if iteration < PATIENCE else RUPTURE_TOLERANCE
         changed = release_cavitated(work.faces, state.cavitated, rupture_tolerance)
         assemble_system(grid, state.pressure, state.cavitated, work.faces, jacobian, residual)
-        step = np.linalg.solve(jacobian, -residual)
+        step[:] = -residual
+        solve_dense(jacobian, step)
         if not np.all(np.isfinite(step)):
             return False
         largest = np.abs(step[:n]).max()

@@ -4,6 +4,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
+from solvers.contact.ehl.dense import add_scaled, dot
 
 
 @kernel
@@ -16,9 +17,9 @@ def extend_basis(basis: FloatArray, hessenberg: FloatArray, rotations: FloatArra
     vector = basis[j + 1]
     column = hessenberg[j]
     for i in range(j + 1):
-        column[i] = np.dot(basis[i], vector)
-        vector -= column[i] * basis[i]
-    norm = np.sqrt(np.dot(vector, vector))
+        column[i] = dot(basis[i], vector)
+        add_scaled(-column[i], basis[i], vector)
+    norm = np.sqrt(dot(vector, vector))
     if norm > 0.0:
         vector /= norm
     for i in range(j):
@@ -44,4 +45,4 @@ def combine_basis(
         for i in range(j + 1, count):
             weight -= hessenberg[i, j] * rhs[i]
         rhs[j] = weight / hessenberg[j, j]
-        solution += rhs[j] * basis[j]
+        add_scaled(rhs[j], basis[j], solution)

@@ -6,6 +6,7 @@ import numpy as np
 
 from solvers.arrays import BoolArray, FloatArray
 from solvers.compiled import kernel
+from solvers.contact.ehl.dense import add_scaled, multiply
 from solvers.contact.ehl.mesh import Grid
 from solvers.contact.ehl.problem import Problem
 
@@ -56,7 +57,9 @@ def face_fluxes(nodes: int) -> FaceFluxes:
 @kernel
 def film_shape(grid: Grid, pressure: FloatArray, separation: float, film: FloatArray) -> None:
     """H = H0 + X^2/2 + K P into `film` (Eq. 21)."""
-    film[:] = np.dot(grid.deflection, pressure) + separation + 0.5 * grid.x**2
+    multiply(grid.deflection, pressure, film)
+    for i in range(film.size):
+        film[i] += separation + 0.5 * grid.x[i] ** 2
 
 
 @kernel
@@ -182,8 +185,7 @@ def assemble_system(
                 node = face - 1 + k
                 value = sign * faces.by_film[face, k]
                 if value != 0.0:
-                    for j in range(n):
-                        jacobian[i, j] += value * deflection[node, j]
+                    add_scaled(value, deflection[node], jacobian[i, :n])
                     jacobian[i, n] += value
             for k in range(5):
                 node = face - 2 + k
