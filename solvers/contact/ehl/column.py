@@ -114,17 +114,20 @@ def shear_eyring(problem: Problem, i: int, g: float, h: float, film: Film) -> No
     for j in range(m):
         stress = film.mid_stress[i] + g * ((j + 0.5) / m - 0.5)
         fluidity = film.fluidity[i, j]
-        s = stress / tau0
-        sinh, cosh = 0.5 * (growth - 1.0 / growth), 0.5 * (growth + 1.0 / growth)
+        inverse = 1.0 / growth
+        sinh, cosh = 0.5 * (growth - inverse), 0.5 * (growth + inverse)
         growth *= ratio
-        film.stress[i, j], film.stiffness[i, j] = stress, fluidity * cosh
+        s = stress / tau0
         if abs(s) < 1e-3:
-            film.effective[i, j] = fluidity * (1.0 + s * s / 6.0)
-            film.effective_slope[i, j] = fluidity * s / (3.0 * tau0)
+            effective, slope = 1.0 + s * s / 6.0, s / 3.0
         else:
-            film.effective[i, j] = fluidity * sinh / s
-            film.effective_slope[i, j] = fluidity * (cosh - sinh / s) / stress
-        film.rate[i, j] = stress * film.effective[i, j]
+            over = 1.0 / s
+            effective = sinh * over
+            slope = (cosh - effective) * over
+        film.stress[i, j], film.stiffness[i, j] = stress, fluidity * cosh
+        film.effective[i, j] = fluidity * effective
+        film.effective_slope[i, j] = fluidity * slope / tau0
+        film.rate[i, j] = stress * fluidity * effective
 
 
 @kernel
@@ -175,11 +178,13 @@ def flow(
         f1 += phi * zeta
         n0 += phi * above[j]
         n1 += phi * zeta * above[j]
-    a = f1 * n0 / f0 - n1
-    log_a, b = coefficients.log_a, coefficients.b
-    log_a[i, :] = 0.0
-    b[i, :] = 0.0
-    log_a[i, VALUE], b[i, VALUE] = np.log(a), problem.speed_1 * total + du * n0 / f0
+    lean, mass, drag = f1 / f0, n0 / f0, du / f0
+    a = f1 * mass - n1
+    per_a = 1.0 / (m * a)
+    log_a, b = coefficients.log_a[i], coefficients.b[i]
+    log_a[:] = 0.0
+    b[:] = 0.0
+    log_a[VALUE], b[VALUE] = np.log(a), problem.speed_1 * total + du * mass
     film.log_a_by_temperature[i, :] = 0.0
     film.b_by_temperature[i, :] = 0.0
     heating = -problem.laws.density * problem.laws.thermal_expansion
@@ -187,37 +192,40 @@ def flow(
     film.couette[i, 0], film.poiseuille[i, 0] = 0.0, 0.0
     for j in range(m):
         zeta = (j + 0.5) / m - 0.5
-        phi = film.effective[i, j] / m
+        effective, slope, rho = film.effective[i, j], film.effective_slope[i, j], film.density[i, j]
+        phi = effective / m
         mid0, mid1 = j0 + 0.5 * phi, j1 + 0.5 * phi * zeta
-        by_density_a = (f1 * mid0 / f0 - mid1) / (m * a)
-        by_density_b = (problem.speed_1 + du * mid0 / f0) / m
-        couette = h * film.density[i, j] * by_density_b
-        film.couette[i, j + 1] = film.couette[i, j] + couette
-        film.poiseuille[i, j + 1] = film.poiseuille[i, j] + film.density[i, j] * by_density_a
+        by_density_a = (lean * mid0 - mid1) * per_a
+        by_density_b = (problem.speed_1 + drag * mid0) / m
+        film.couette[i, j + 1] = film.couette[i, j] + h * rho * by_density_b
+        film.poiseuille[i, j + 1] = film.poiseuille[i, j] + rho * by_density_a
         j0 += phi
         j1 += phi * zeta
-        by_phi_a = (zeta * n0 / f0 + f1 * above[j] / f0 - f1 * n0 / (f0 * f0) - zeta * above[j]) / (m * a)
-        by_phi_b = du * (above[j] / f0 - n0 / (f0 * f0)) / m
-        slope = film.effective_slope[i, j]
+        by_phi_a = (zeta * (mass - above[j]) + lean * (above[j] - mass)) * per_a
+        by_phi_b = drag * (above[j] - mass) / m
         through_a += by_phi_a * slope
         through_b += by_phi_b * slope
-        log_a[i, BY_P] += by_phi_a * film.effective[i, j] * film.by_pressure[i, j] + density_slope * by_density_a
-        b[i, BY_P] += by_phi_b * film.effective[i, j] * film.by_pressure[i, j] + density_slope * by_density_b
-        log_a[i, BY_G] += by_phi_a * slope * zeta
-        b[i, BY_G] += by_phi_b * slope * zeta
-        warm = film.effective[i, j] * film.by_temperature[i, j]
-        for k in range(j, j + 2):
-            film.log_a_by_temperature[i, k] += 0.5 * (by_phi_a * warm + heating * by_density_a)
-            film.b_by_temperature[i, k] += 0.5 * (by_phi_b * warm + heating * by_density_b)
+        pressed = effective * film.by_pressure[i, j]
+        log_a[BY_P] += by_phi_a * pressed + density_slope * by_density_a
+        b[BY_P] += by_phi_b * pressed + density_slope * by_density_b
+        log_a[BY_G] += by_phi_a * slope * zeta
+        b[BY_G] += by_phi_b * slope * zeta
+        warm = 0.5 * effective * film.by_temperature[i, j]
+        half_a = by_phi_a * warm + 0.5 * heating * by_density_a
+        half_b = by_phi_b * warm + 0.5 * heating * by_density_b
+        film.log_a_by_temperature[i, j] += half_a
+        film.log_a_by_temperature[i, j + 1] += half_a
+        film.b_by_temperature[i, j] += half_b
+        film.b_by_temperature[i, j + 1] += half_b
     for k in range(m + 1):
         film.log_a_by_temperature[i, k] += through_a * film.mid_by_temperature[i, k]
         film.b_by_temperature[i, k] += through_b * film.mid_by_temperature[i, k]
-    log_a[i, BY_P] += through_a * film.mid_by_p[i]
-    log_a[i, BY_G] += through_a * film.mid_by_g[i]
-    log_a[i, BY_H] = through_a * film.mid_by_h[i]
-    b[i, BY_P] += through_b * film.mid_by_p[i]
-    b[i, BY_G] += through_b * film.mid_by_g[i]
-    b[i, BY_H] = through_b * film.mid_by_h[i]
+    log_a[BY_P] += through_a * film.mid_by_p[i]
+    log_a[BY_G] += through_a * film.mid_by_g[i]
+    log_a[BY_H] = through_a * film.mid_by_h[i]
+    b[BY_P] += through_b * film.mid_by_p[i]
+    b[BY_G] += through_b * film.mid_by_g[i]
+    b[BY_H] = through_b * film.mid_by_h[i]
 
 
 @kernel

@@ -5,7 +5,7 @@ import numpy as np
 from solvers.arrays import BoolArray, FloatArray
 from solvers.compiled import kernel
 from solvers.contact.ehl.dense import dot, factor, substitute
-from solvers.contact.ehl.energy import factor_column, solve_responses
+from solvers.contact.ehl.energy import factor_column
 from solvers.contact.ehl.krylov import combine_basis, extend_basis
 from solvers.contact.ehl.mesh import Grid
 from solvers.contact.ehl.problem import Problem
@@ -38,17 +38,15 @@ FROZEN = 1e4
 @kernel
 def include_temperature(work: Work) -> None:
     """Make the derivatives of A and B total: with the response of temperature."""
-    film, heat, log_a, b = work.film, work.heat, work.coefficients.log_a, work.coefficients.b
-    n, nodes = heat.by_p.shape
+    film, log_a, b = work.film, work.coefficients.log_a, work.coefficients.b
+    n, nodes, count = work.heat.responses.shape
     for i in range(1, n):
+        responses = work.heat.responses[i]
         for k in range(nodes):
             a_slope, b_slope = film.log_a_by_temperature[i, k], film.b_by_temperature[i, k]
-            log_a[i, BY_P] += a_slope * heat.by_p[i, k]
-            log_a[i, BY_G] += a_slope * heat.by_g[i, k]
-            log_a[i, BY_H] += a_slope * heat.by_h[i, k]
-            b[i, BY_P] += b_slope * heat.by_p[i, k]
-            b[i, BY_G] += b_slope * heat.by_g[i, k]
-            b[i, BY_H] += b_slope * heat.by_h[i, k]
+            for c in range(BY_P, count):
+                log_a[i, c] += a_slope * responses[k, c]
+                b[i, c] += b_slope * responses[k, c]
 
 
 @kernel
@@ -80,8 +78,9 @@ def pressure_responses(
         dp = step[i] * problem.maximum_pressure
         dh = (change[i] - 0.5 * grid.x[i] ** 2) * problem.gap_scale
         dg = slope * (slopes[i] * work.height[i] * problem.gap_scale + work.gradient[i] * dh)
+        responses = work.heat.responses[i]
         for k in range(given.shape[1]):
-            given[i, k] = work.heat.by_p[i, k] * dp + work.heat.by_g[i, k] * dg + work.heat.by_h[i, k] * dh
+            given[i, k] = responses[k, BY_P] * dp + responses[k, BY_G] * dg + responses[k, BY_H] * dh
 
 
 @kernel
@@ -98,7 +97,8 @@ def newton_step(
     """Step (n + 1,) in (P, H0) and (n, k) in T from the linearised equations.
 
     The Jacobian knows how each column responds to its own pressure; what it passes on to the columns downstream, as
-    heat in oil and surfaces, enters through GMRES, preconditioned with the Jacobian (overwritten).
+    heat in oil and surfaces, enters through GMRES, preconditioned with the Jacobian (overwritten). It
+    corrects the step of the Jacobian alone, so that the load is met whenever it stops.
     """
     n, nodes = step_t.shape
     given = np.zeros((n, nodes))
@@ -113,20 +113,21 @@ def newton_step(
     norm = np.sqrt(dot(step, step))
     if not (np.isfinite(norm) and norm > 0.0):
         return
-    basis[0] = step / norm
-    rhs[0] = norm
-    count = 0
-    while count < KRYLOV:
-        pressure_responses(problem, grid, work, cavitated, basis[count], given)
+    rest, count = np.inf, -1
+    while count < KRYLOV and rest > KRYLOV_TOLERANCE * norm:
+        pressure_responses(problem, grid, work, cavitated, step if count < 0 else basis[count], given)
         temperature_step(problem, grid, work.film, work.heat, given, 0.0, step_t)
         change[:] = 0.0
         add_temperature_changes(work, cavitated, step_t, given, change)
         substitute(jacobian, pivots, change)
-        basis[count + 1] = basis[count] + change
-        remaining = extend_basis(basis, hessenberg, rotations, rhs, count)
+        if count < 0:
+            rest = np.sqrt(dot(change, change))
+            rhs[0] = rest
+            basis[0] = -change / max(rest, 1e-300)
+        else:
+            basis[count + 1] = basis[count] + change
+            rest = extend_basis(basis, hessenberg, rotations, rhs, count)
         count += 1
-        if remaining < KRYLOV_TOLERANCE * norm:
-            break
     combine_basis(basis, hessenberg, rhs, count, step)
     pressure_responses(problem, grid, work, cavitated, step, given)
     temperature_step(problem, grid, work.film, work.heat, given, 1.0, step_t)
@@ -139,7 +140,6 @@ def linearise(
     """Responses of the columns, and the system for (P, H0) with them."""
     for i in range(1, grid.x.size):
         factor_column(i, work.film, work.heat)
-        solve_responses(i, work.film, work.heat)
     include_temperature(work)
     assemble_faces(
         problem, grid.x, state.pressure, work.height, work.gradient, state.cavitated, work.coefficients, work.faces

@@ -38,8 +38,7 @@ def extend_basis(basis: FloatArray, hessenberg: FloatArray, rotations: FloatArra
 def combine_basis(
     basis: FloatArray, hessenberg: FloatArray, rhs: FloatArray, count: int, solution: FloatArray
 ) -> None:
-    """Least-squares solution from the first `count` basis vectors, into `solution` (n,)."""
-    solution[:] = 0.0
+    """Add the least-squares solution from the first `count` basis vectors to `solution` (n,)."""
     for j in range(count - 1, -1, -1):
         weight = rhs[j]
         for i in range(j + 1, count):

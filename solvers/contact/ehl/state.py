@@ -7,7 +7,7 @@ import numpy as np
 from solvers.arrays import BoolArray, FloatArray
 from solvers.compiled import kernel
 from solvers.contact.ehl.column import Film, evaluate_column, film_arrays, limited_gradient
-from solvers.contact.ehl.energy import Heat, column_balance, heat_arrays, surface_history
+from solvers.contact.ehl.energy import Heat, column_balance, face_edges, heat_arrays, surface_history
 from solvers.contact.ehl.mesh import Grid
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.reynolds import (
@@ -99,6 +99,7 @@ def match_stream(problem: Problem, state: State, work: Work) -> None:
             defect = flux - film.couette[i, last]
             for k in range(last + 1):
                 film.stream[i, k] = film.couette[i, k] + defect * film.poiseuille[i, k]
+    face_edges(film.stream, heat.edges)
 
 
 @kernel

@@ -5,7 +5,8 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.contact.ehl.column import Film, evaluate_column
-from solvers.contact.ehl.energy import Heat, column_balance, factor_column, solve_column, surface_history
+from solvers.contact.ehl.dense import dot
+from solvers.contact.ehl.energy import Heat, column_balance, face_edges, factor_column, solve_column, surface_history
 from solvers.contact.ehl.mesh import Grid
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.reynolds import film_shape
@@ -31,6 +32,7 @@ def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -
     for k in range(nodes):
         zeta = k / (nodes - 1)
         film.stream[:, k] = flux * (u1 * zeta + 0.5 * (u2 - u1) * zeta * zeta) / (0.5 * (u1 + u2))
+    face_edges(film.stream, heat.edges)
     temperature[0] = problem.inlet
     temperature[0, 0], temperature[0, nodes - 1] = problem.bulk_1, problem.bulk_2
     heat.flux_1[0], heat.flux_2[0] = 0.0, 0.0
@@ -60,15 +62,6 @@ def last_reverse(heat: Heat) -> int:
         if heat.from_right[i].max() > 0.0:
             return i
     return 0
-
-
-@kernel
-def _history(surface_heating: float, surface_matrix: FloatArray, flux: FloatArray, i: int) -> float:
-    """Flash temperature [K] at column i from the heat fluxes (n,) of the columns upstream."""
-    total = 0.0
-    for j in range(i):
-        total += surface_matrix[i, j] * flux[j]
-    return surface_heating * total
 
 
 @kernel
@@ -105,8 +98,8 @@ def temperature_step(
     for sweep in range(REVERSE_SWEEPS if reverse > 0 else 1):
         final = sweep == REVERSE_SWEEPS - 1 or reverse == 0
         for i in range(1, n if final else reverse + 1):
-            heat.change_1[i] = _history(problem.surface_heating_1, grid.heat, flux_1, i)
-            heat.change_2[i] = _history(problem.surface_heating_2, grid.heat, flux_2, i)
+            heat.change_1[i] = problem.surface_heating_1 * dot(grid.heat[i, :i], flux_1[:i])
+            heat.change_2[i] = problem.surface_heating_2 * dot(grid.heat[i, :i], flux_2[:i])
             _relax_column(i, film, heat, given, weight, step)
             own_1 = step[i, 0] - heat.change_1[i] + weight * heat.residual[i, 0]
             own_2 = step[i, last] - heat.change_2[i] + weight * heat.residual[i, last]
