@@ -108,4 +108,3 @@ def check(inputs: LineContactInputs) -> None:
         raise InvalidInput(
             "resolution", f"at least {MIN_NODES} nodes along and {MIN_FILM_NODES} across the film are needed", "nodes"
         )
-

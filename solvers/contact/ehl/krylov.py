@@ -35,9 +35,7 @@ def extend_basis(basis: FloatArray, hessenberg: FloatArray, rotations: FloatArra
 
 
 @kernel
-def combine_basis(
-    basis: FloatArray, hessenberg: FloatArray, rhs: FloatArray, count: int, solution: FloatArray
-) -> None:
+def combine_basis(basis: FloatArray, hessenberg: FloatArray, rhs: FloatArray, count: int, solution: FloatArray) -> None:
     """Add the least-squares solution from the first `count` basis vectors to `solution` (n,)."""
     for j in range(count - 1, -1, -1):
         weight = rhs[j]

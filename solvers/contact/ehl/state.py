@@ -73,7 +73,9 @@ def evaluate_flow(problem: Problem, grid: Grid, state: State, work: Work) -> boo
         limited = limited or bounded != g
         p = state.pressure[i] * problem.maximum_pressure
         evaluate_column(problem, i, state.temperature[i], p, bounded, h, work.film, work.coefficients, above)
-    assemble_faces(problem, grid.x, state.pressure, work.height, work.gradient, state.cavitated, work.coefficients, work.faces)
+    assemble_faces(
+        problem, grid.x, state.pressure, work.height, work.gradient, state.cavitated, work.coefficients, work.faces
+    )
     return limited
 
 
