@@ -9,8 +9,8 @@ from solvers.arrays import FloatArray, frozen
 from solvers.gears.pair import GearPair
 from solvers.scuffing.load_balance import LoadBalance
 from solvers.scuffing.path_of_contact import PathOfContact
-from solvers.scuffing.results import Stiffness
-from solvers.scuffing.tooth_stiffness import PairCompliance, single_stiffness
+from solvers.scuffing.results import Stiffness, StiffnessCurves
+from solvers.scuffing.tooth_stiffness import single_stiffness
 from solvers.scuffing.transmission_error import period_mean
 
 CURVE_POINTS = 101
@@ -63,23 +63,21 @@ def mesh_stiffness(balance: LoadBalance, tangential_force: float) -> FloatArray 
 
 def stiffness(path: PathOfContact, balance: LoadBalance, mean_load: float, tangential_force: float) -> Stiffness:
     """Stiffness of one pair along the path, secant at the mean line load [N/m], and of the mesh."""
-    compliance: PairCompliance = balance.mesh.compliance
-    single = single_stiffness(compliance, mean_load)
+    single = single_stiffness(balance.mesh.compliance, mean_load)
     x = np.linspace(0.0, path.length, single.size)
     pitch_x = path.pitch_point - path.start
     curve = np.linspace(0.0, path.length, CURVE_POINTS)
     mesh = mesh_stiffness(balance, tangential_force)
+    standard = standard_stiffness(path)
     return Stiffness(
-        maximum=float(single.max()),
-        maximum_at=float(path.profile_parameter(x[np.argmax(single)])),
+        max=float(single.max()),
+        max_at_gamma=float(path.profile_parameter(x[np.argmax(single)])),
         approach=float(single[0]),
         pitch=float(np.interp(pitch_x, x, single)) if 0.0 <= pitch_x <= path.length else None,
         recess=float(single[-1]),
         mean_mesh=None if mesh is None else period_mean(mesh, balance.rolls.phase),
-        mesh=None if mesh is None else frozen(mesh),
-        standard_single=standard_stiffness(path).single,
-        standard_mesh=standard_stiffness(path).mesh,
+        standard_single=standard.single,
+        standard_mesh=standard.mesh,
         secant_load=mean_load,
-        gamma=frozen(path.profile_parameter(curve)),
-        single=frozen(np.interp(curve, x, single)),
+        curves=StiffnessCurves(frozen(path.profile_parameter(curve)), frozen(np.interp(curve, x, single))),
     )

@@ -5,7 +5,7 @@ import numpy as np
 from solvers.arrays import frozen
 from solvers.contact.hertz import reduced_modulus
 from solvers.gears.pair import gear_pair
-from solvers.scuffing.contact_lines import contact_lengths, roll_positions
+from solvers.scuffing.contact_lines import ContactLengths, contact_lengths, roll_positions
 from solvers.scuffing.contact_slices import Mesh
 from solvers.scuffing.feature_line import feature_line
 from solvers.scuffing.flank import face_load_factor, flank
@@ -16,7 +16,16 @@ from solvers.scuffing.load_balance import LoadBalance, balance_load
 from solvers.scuffing.mesh_stiffness import stiffness
 from solvers.scuffing.modification import gap
 from solvers.scuffing.path_of_contact import PathOfContact, path_of_contact
-from solvers.scuffing.results import ContactLines, Flank, LoadDistribution, LoadOnFlank, Place, Pressure
+from solvers.scuffing.results import (
+    ContactLines,
+    Flank,
+    Geometry,
+    LengthCurves,
+    LoadDistribution,
+    LoadOnFlank,
+    Place,
+    Pressure,
+)
 from solvers.scuffing.tooth_stiffness import pair_compliance
 from solvers.scuffing.transmission_error import transmission_error
 from solvers.scuffing.validity import geometry_notices, load_notices, model_notices
@@ -42,9 +51,10 @@ def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
     modulus = reduced_modulus(pinion, wheel)
     loads = flank(balance, modulus, resolution.profile_points, resolution.face_points)
     return LoadDistribution(
-        path=path,
-        gap=mesh.gap,
-        contact_lines=ContactLines(lengths, frozen(rolls.phase / rolls.phase[-1]), frozen(balance.survey.length)),
+        path_of_contact=path,
+        balance=balance,
+        geometry=_geometry(path),
+        contact_lines=_contact_lines(lengths, balance),
         stiffness=stiffness(path, balance, force / lengths.mean, tangential_force),
         transmission_error=transmission_error(balance),
         load=_load_on_flank(path, balance, loads, inputs.load.pinion_torque, tangential_force),
@@ -54,12 +64,39 @@ def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
             path, balance, inputs.load.pinion_speed, tangential_force, modulus, resolution.feature_points
         ),
         flank=loads,
-        balance=balance,
-        notices=(
+        warnings=(
             *geometry_notices(path, lengths),
             *model_notices(path, inputs.model),
             *load_notices(path, balance),
         ),
+    )
+
+
+def _geometry(path: PathOfContact) -> Geometry:
+    """The mesh in numbers."""
+    pair = path.pair
+    return Geometry(
+        centre_distance=pair.centre_distance,
+        working_pressure_angle=pair.working_pressure_angle,
+        base_helix_angle=pair.base_helix_angle,
+        transverse_base_pitch=pair.transverse_base_pitch,
+        path_of_contact=path.length,
+        transverse_contact_ratio=path.transverse_contact_ratio,
+        overlap_ratio=path.overlap_ratio,
+        total_contact_ratio=path.total_contact_ratio,
+        undercut=pair.pinion.undercut or pair.wheel.undercut,
+    )
+
+
+def _contact_lines(lengths: ContactLengths, balance: LoadBalance) -> ContactLines:
+    """The contact lengths, closed-form extremes and numeric curve."""
+    phase = balance.rolls.phase
+    return ContactLines(
+        min_length=lengths.minimum,
+        max_length=lengths.maximum,
+        mean_length=lengths.mean,
+        length_ratio=lengths.ratio,
+        curves=LengthCurves(frozen(phase / phase[-1]), frozen(balance.survey.length)),
     )
 
 
@@ -73,8 +110,8 @@ def _load_on_flank(
         pinion_torque=torque,
         tangential_force=tangential_force,
         normal_force=balance.force,
-        maximum=0.0 if peak is None else peak.value,
-        maximum_at=_place(path, peak),
+        max_line_load=0.0 if peak is None else peak.value,
+        max_at=_place(path, peak),
         contact_fraction=float(np.trapezoid(loaded, phase) / np.trapezoid(length, phase)),
         face_load_factor=face_load_factor(loads.line_load),
         balance_error=float(balance.residual.max()),

@@ -7,9 +7,7 @@ from dataclasses import dataclass
 
 from solvers.arrays import FloatArray
 from solvers.notices import Notice
-from solvers.scuffing.contact_lines import ContactLengths
 from solvers.scuffing.load_balance import LoadBalance
-from solvers.scuffing.modification import Gap
 from solvers.scuffing.path_of_contact import PathOfContact
 
 
@@ -23,64 +21,100 @@ class Place:
 
 
 @dataclass(frozen=True, slots=True)
-class ContactLines:
-    """Total contact length: extremes in closed form, and over the roll positions (fractions of p_bt) [m]."""
+class Geometry:
+    """The mesh: lengths [m], angles [rad]; undercut is true if either gear is."""
 
-    lengths: ContactLengths
+    centre_distance: float
+    working_pressure_angle: float
+    base_helix_angle: float
+    transverse_base_pitch: float
+    path_of_contact: float
+    transverse_contact_ratio: float
+    overlap_ratio: float
+    total_contact_ratio: float
+    undercut: bool
+
+
+@dataclass(frozen=True, slots=True)
+class LengthCurves:
+    """Total contact length [m] over the roll position, a fraction of the base pitch; spur gears' jumps stand twice."""
+
     roll_position: FloatArray
     length: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
-class Stiffness:
-    """Stiffness per face width [Pa]: of one pair (secant at secant_load [N/m]) over gamma, and of the mesh.
+class ContactLines:
+    """Total length of the contact lines [m], extremes and mean in closed form."""
 
-    `pitch` is None where the path does not hold the pitch point, `mean_mesh` and `mesh` (over the roll positions of
-    the transmission error) without load. `standard_...` is ISO 6336-1.
-    """
+    min_length: float
+    max_length: float
+    mean_length: float
+    length_ratio: float
+    curves: LengthCurves
 
-    maximum: float
-    maximum_at: float
-    approach: float
-    pitch: float | None
-    recess: float
-    mean_mesh: float | None
-    mesh: FloatArray | None
-    standard_single: float
-    standard_mesh: float
-    secant_load: float
+
+@dataclass(frozen=True, slots=True)
+class StiffnessCurves:
+    """Stiffness of one pair over gamma [Pa]."""
+
     gamma: FloatArray
     single: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
-class TransmissionError:
-    """Transmission error along the transverse line of action [m] over one base pitch.
+class Stiffness:
+    """Stiffness per face width [Pa]: of one pair, secant at secant_load [N/m], and of the mesh.
 
-    harmonics: amplitudes 2 |c_k| of the first mesh orders. Spur gears' jumps stand twice in the curves.
+    `pitch` is None where the path does not hold the pitch point, `mean_mesh` without load. `standard_...` is ISO
+    6336-1, method B.
     """
+
+    max: float
+    max_at_gamma: float
+    approach: float
+    pitch: float | None
+    recess: float
+    mean_mesh: float | None
+    standard_single: float
+    standard_mesh: float
+    secant_load: float
+    curves: StiffnessCurves
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorCurves:
+    """Transmission error [m] over the roll position, a fraction of the base pitch; spur gears' jumps stand twice."""
+
+    roll_position: FloatArray
+    error: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class TransmissionError:
+    """Transmission error along the transverse line of action [m]; harmonics are amplitudes 2 |c_k| from order 1."""
 
     peak_to_peak: float
     mean: float
-    minimum: float
-    maximum: float
+    min: float
+    max: float
     harmonics: FloatArray
-    roll_position: FloatArray
-    error: FloatArray
+    curves: ErrorCurves
 
 
 @dataclass(frozen=True, slots=True)
 class LoadOnFlank:
     """Forces [N], torque [N m], largest line load [N/m] and its place; contact_fraction of the flank's contact length.
 
-    pair_share [line, roll position]: force on each line over the force in balance.
+    normal_force is the one in balance, tangential_force always F_bt. pair_share [line, roll position] is the force on
+    each line over the force in balance.
     """
 
     pinion_torque: float
     tangential_force: float
     normal_force: float
-    maximum: float
-    maximum_at: Place | None
+    max_line_load: float
+    max_at: Place | None
     contact_fraction: float
     face_load_factor: float | None
     balance_error: float
@@ -91,8 +125,8 @@ class LoadOnFlank:
 class Pressure:
     """Largest Hertz pressure [Pa] over all roll positions, and its place."""
 
-    maximum: float
-    maximum_at: Place | None
+    max: float
+    max_at: Place | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,10 +171,11 @@ class Flank:
 
 @dataclass(frozen=True, slots=True)
 class LoadDistribution:
-    """How a pair of gears carries its load; `gap` holds the relief lengths in use."""
+    """How a pair of gears carries its load; path_of_contact and balance are what further checks build on."""
 
-    path: PathOfContact
-    gap: Gap
+    path_of_contact: PathOfContact
+    balance: LoadBalance
+    geometry: Geometry
     contact_lines: ContactLines
     stiffness: Stiffness
     transmission_error: TransmissionError
@@ -149,5 +184,4 @@ class LoadDistribution:
     friction_loss: FrictionLoss
     feature_line: FeatureLine
     flank: Flank
-    balance: LoadBalance
-    notices: tuple[Notice, ...]
+    warnings: tuple[Notice, ...]

@@ -1,6 +1,9 @@
-"""Closed-form scuffing check along the feature line: flash temperature, film thickness, safety."""
+"""Scuffing of a loaded pair along the feature line: contact temperature and film thickness against their limits.
 
-from dataclasses import dataclass, field
+The closed forms are Blok's flash temperature (Eq. 25) and Dowson and Higginson's film (Eq. 27).
+"""
+
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 
@@ -13,6 +16,7 @@ from solvers.lubricants import Lubricant
 from solvers.notices import Notice
 from solvers.scuffing.feature_line import feature_line
 from solvers.scuffing.inputs import LoadDistributionInputs
+from solvers.scuffing.model import solve
 from solvers.scuffing.results import FeatureLine, LoadDistribution
 
 
@@ -30,133 +34,173 @@ class Temperatures:
 
 @dataclass(frozen=True, slots=True)
 class ScuffingInputs:
-    """What the check needs beyond the load distribution; `points` along the feature line."""
+    """What scuffing depends on; `path_points` along the feature line."""
 
     distribution: LoadDistributionInputs
     lubricant: Lubricant = field(default_factory=Lubricant)
     temperatures: Temperatures = field(default_factory=Temperatures)
-    points: int = 50
+    path_points: int = 50
+
+
+@dataclass(frozen=True, slots=True)
+class Flash:
+    """Largest flash temperature [K] and where; no place without load."""
+
+    blok_max: float
+    blok_at_psi: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class ContactTemperature:
+    """Largest contact temperature t_B = t_M + t_f [K] (Eq. 16)."""
+
+    blok_max: float
+
+
+@dataclass(frozen=True, slots=True)
+class Film:
+    """Thinnest film [m], where, and against roughness; None where no point is loaded."""
+
+    dowson_higginson_min: float | None
+    min_at_psi: float | None
+    thickness_ratio: float | None
+    thickness_regime: Regime | None
+
+
+@dataclass(frozen=True, slots=True)
+class Safety:
+    """Safety against scuffing (Eq. 26); None where the teeth stay as cool as the oil."""
+
+    blok_factor: float | None
 
 
 @dataclass(frozen=True, slots=True)
 class ScuffingPath:
-    """Along the feature line: Blok's flash temperature [K], minimum film [m] and its ratio to roughness.
+    """Along the feature line: Blok's flash temperature [K], film [m] and its ratio to roughness.
 
-    Film and ratio are NaN where nothing is loaded or nothing moves; the flash temperature is 0 without load.
+    Film and ratio are NaN where nothing is loaded or nothing moves; the flash temperature is 0 there.
     """
 
-    line: FeatureLine
-    flash: FloatArray
-    film: FloatArray
+    psi: FloatArray
+    blok_flash: FloatArray
+    dowson_higginson: FloatArray
     thickness_ratio: FloatArray
 
 
-@dataclass(frozen=True, slots=True)
-class ScuffingCheck:
-    """Largest flash and contact temperature [K], thinnest film [m], each with its psi, and what they mean.
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Scuffing(LoadDistribution):
+    """The load distribution and the scuffing check on it; `safety` is None without a scuffing temperature."""
 
-    Film values are None where no point is loaded; safety (Eq. 26) is None without a scuffing temperature.
-    """
-
-    flash: float
-    flash_at: float | None
-    contact_temperature: float
-    film: float | None
-    film_at: float | None
-    thickness_ratio: float | None
-    thickness_regime: Regime | None
-    safety: float | None
+    flash: Flash
+    contact_temperature: ContactTemperature
+    film: Film
+    safety: Safety | None
     path: ScuffingPath
-    notices: tuple[Notice, ...]
 
 
-def check_scuffing(inputs: ScuffingInputs, distribution: LoadDistribution) -> ScuffingCheck:
-    """The closed-form check on top of a solved load distribution.
+def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
+    """Load distribution and closed-form scuffing check.
 
-    Raises InvalidInput scuffing_temperature if the oil is no cooler than the scuffing temperature.
+    Raises what `model.solve` raises, and InvalidInput scuffing_temperature if the oil is not cooler than that.
     """
-    path = _scuffing_path(inputs, distribution)
-    temperatures = inputs.temperatures
-    hottest = int(np.argmax(path.flash))
-    contact = temperatures.bulk + float(path.flash[hottest])
-    loaded = bool(np.any(np.isfinite(path.film)))
-    thinnest = int(np.nanargmin(path.film)) if loaded else 0
-    ratio = float(path.thickness_ratio[thinnest])
-    return ScuffingCheck(
-        flash=float(path.flash[hottest]),
-        flash_at=float(path.line.psi[hottest]) if path.flash[hottest] > 0.0 else None,
-        contact_temperature=contact,
-        film=float(path.film[thinnest]) if loaded else None,
-        film_at=float(path.line.psi[thinnest]) if loaded else None,
-        thickness_ratio=ratio if loaded else None,
-        thickness_regime=thickness_regime(ratio) if loaded else None,
-        safety=safety_factor(temperatures, contact),
-        path=path,
-        notices=_notices(temperatures, path, contact),
-    )
-
-
-def safety_factor(temperatures: Temperatures, contact_temperature: float) -> float | None:
-    """S = (t_s - t_oil) / (max t_B - t_oil) (Eq. 26); None without t_s or where the teeth stay as cool as the oil."""
-    if temperatures.scuffing is None:
-        return None
-    if temperatures.scuffing <= temperatures.oil:
-        raise InvalidInput(
-            "scuffing_temperature", "the scuffing temperature must lie above the oil temperature", "scuffing"
-        )
-    rise = contact_temperature - temperatures.oil
-    return (temperatures.scuffing - temperatures.oil) / rise if rise > 0.0 else None
-
-
-def _scuffing_path(inputs: ScuffingInputs, distribution: LoadDistribution) -> ScuffingPath:
-    """Flash temperature (Eq. 25) and film (Eqs. 27, 28) along the feature line."""
-    given, lubricant = inputs.distribution, inputs.lubricant
-    pinion, wheel = given.pinion_material, given.wheel_material
-    modulus = reduced_modulus(pinion, wheel)
+    given, temperatures = inputs.distribution, inputs.temperatures
+    distribution = solve(given)
+    modulus = reduced_modulus(given.pinion_material, given.wheel_material)
     line = feature_line(
-        distribution.path,
+        distribution.path_of_contact,
         distribution.balance,
         given.load.pinion_speed,
         distribution.load.tangential_force,
         modulus,
-        inputs.points,
+        inputs.path_points,
     )
-    loaded = (line.line_load > 0.0) & (line.half_width > 0.0)
+    path = _scuffing_path(inputs, line, modulus)
+    hottest = int(np.argmax(path.blok_flash))
+    flash = Flash(
+        blok_max=float(path.blok_flash[hottest]),
+        blok_at_psi=float(path.psi[hottest]) if path.blok_flash[hottest] > 0.0 else None,
+    )
+    contact_temperature = ContactTemperature(blok_max=temperatures.bulk + flash.blok_max)
+    safety = _safety(temperatures, contact_temperature)
+    found = {item.name: getattr(distribution, item.name) for item in fields(distribution)}
+    found["warnings"] += _notices(path, safety)
+    return Scuffing(
+        **found,
+        flash=flash,
+        contact_temperature=contact_temperature,
+        film=_thinnest_film(path),
+        safety=safety,
+        path=path,
+    )
+
+
+def safety_factor(scuffing: float, oil: float, contact: float) -> float | None:
+    """S = (t_s - t_oil) / (max t_B - t_oil) (Eq. 26), temperatures in one unit; None where the rise is not positive."""
+    return (scuffing - oil) / (contact - oil) if contact > oil else None
+
+
+def _safety(temperatures: Temperatures, contact_temperature: ContactTemperature) -> Safety | None:
+    if temperatures.scuffing is None:
+        return None
+    if temperatures.scuffing <= temperatures.oil:
+        raise InvalidInput(
+            "scuffing_temperature",
+            "the scuffing temperature must lie above the oil temperature",
+            "temperatures.scuffing",
+        )
+    return Safety(safety_factor(temperatures.scuffing, temperatures.oil, contact_temperature.blok_max))
+
+
+def _scuffing_path(inputs: ScuffingInputs, line: FeatureLine, modulus: float) -> ScuffingPath:
+    """Flash temperature (Eq. 25) and film (Eqs. 27, 28) along the feature line."""
+    given, lubricant = inputs.distribution, inputs.lubricant
+    pinion, wheel = given.pinion_material, given.wheel_material
+    loaded = (line.line_load > 0.0) & (line.half_width > 0.0) & (line.pinion_speed + line.wheel_speed > 0.0)
     flash, film = np.zeros(line.psi.size), np.full(line.psi.size, np.nan)
-    speed_1, speed_2 = line.pinion_speed[loaded], line.wheel_speed[loaded]
-    if given.load.pinion_speed > 0.0:
-        flash[loaded] = blok_flash_temperature(
-            friction=given.friction_coefficient,
-            line_load=line.line_load[loaded],
-            speed_1=speed_1,
-            speed_2=speed_2,
-            half_width=line.half_width[loaded],
-            solid_1=pinion,
-            solid_2=wheel,
-        )
-        film[loaded] = dowson_higginson_minimum(
-            viscosity=lubricant.viscosity_at(0.0, inputs.temperatures.bulk),
-            pressure_viscosity=lubricant.pressure_viscosity,
-            mean_speed=(speed_1 + speed_2) / 2,
-            radius=line.radius[loaded],
-            line_load=line.line_load[loaded],
-            modulus=modulus,
-        )
+    speed_1, speed_2, load = line.pinion_speed[loaded], line.wheel_speed[loaded], line.line_load[loaded]
+    flash[loaded] = blok_flash_temperature(
+        friction=given.friction_coefficient,
+        line_load=load,
+        speed_1=speed_1,
+        speed_2=speed_2,
+        half_width=line.half_width[loaded],
+        solid_1=pinion,
+        solid_2=wheel,
+    )
+    film[loaded] = dowson_higginson_minimum(
+        viscosity=lubricant.viscosity_at(0.0, inputs.temperatures.bulk),
+        pressure_viscosity=lubricant.pressure_viscosity,
+        mean_speed=(speed_1 + speed_2) / 2,
+        radius=line.radius[loaded],
+        line_load=load,
+        modulus=modulus,
+    )
     ratio = thickness_ratio(film, pinion.roughness, wheel.roughness)
-    return ScuffingPath(line, frozen(flash), frozen(film), frozen(ratio))
+    return ScuffingPath(line.psi, frozen(flash), frozen(film), frozen(ratio))
 
 
-def _notices(temperatures: Temperatures, path: ScuffingPath, contact_temperature: float) -> tuple[Notice, ...]:
-    """Points without a film, and safeties without a meaning."""
+def _thinnest_film(path: ScuffingPath) -> Film:
+    if np.all(np.isnan(path.dowson_higginson)):
+        return Film(None, None, None, None)
+    thinnest = int(np.nanargmin(path.dowson_higginson))
+    ratio = float(path.thickness_ratio[thinnest])
+    return Film(
+        dowson_higginson_min=float(path.dowson_higginson[thinnest]),
+        min_at_psi=float(path.psi[thinnest]),
+        thickness_ratio=ratio,
+        thickness_regime=thickness_regime(ratio),
+    )
+
+
+def _notices(path: ScuffingPath, safety: Safety | None) -> tuple[Notice, ...]:
+    """Points without a film, and a safety without a meaning."""
     notices = []
-    if np.any(np.isnan(path.film)):
+    if np.any(np.isnan(path.dowson_higginson)):
         notices.append(
-            Notice(
-                "no_film", "where nothing is loaded along the feature line there is no film thickness", "helix_slope"
-            )
+            Notice("no_film", "where the feature line is not loaded or does not move there is no film", "modifications")
         )
-    if temperatures.scuffing is not None and contact_temperature <= temperatures.oil:
+    if safety is not None and safety.blok_factor is None:
         notices.append(
-            Notice("no_safety", "the teeth stay as cool as the oil; the safety factor has no meaning", "bulk")
+            Notice("no_safety", "the teeth stay as cool as the oil; the safety factor has no meaning", "temperatures")
         )
     return tuple(notices)

@@ -4,7 +4,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.scuffing.load_balance import LoadBalance
-from solvers.scuffing.results import TransmissionError
+from solvers.scuffing.results import ErrorCurves, TransmissionError
 
 HARMONICS = 5
 
@@ -18,11 +18,10 @@ def transmission_error(balance: LoadBalance) -> TransmissionError:
     return TransmissionError(
         peak_to_peak=float(np.ptp(error)),
         mean=period_mean(error, phase),
-        minimum=float(error.min()),
-        maximum=float(error.max()),
+        min=float(error.min()),
+        max=float(error.max()),
         harmonics=frozen([2 * abs(_fourier(error, phase, order)) for order in range(1, HARMONICS + 1)]),
-        roll_position=frozen(phase / phase[-1]),
-        error=frozen(error),
+        curves=ErrorCurves(frozen(phase / phase[-1]), frozen(error)),
     )
 
 
