@@ -21,7 +21,7 @@ LEAST_LENGTH_RATIO = 0.2
 
 
 def geometry_notices(path: PathOfContact, lengths: ContactLengths) -> list[Notice]:
-    """Undercut, shortened path, thin tips, clamped rack tips, uneven contact length, ranges of the model."""
+    """Undercut, thin tips, shortened path, pitch point outside it, uneven contact length, ranges of the model."""
     notices = _range_notices(path.pair.inputs)
     for gear, name in ((path.pair.pinion, "pinion"), (path.pair.wheel, "wheel")):
         if gear.undercut:
@@ -50,6 +50,10 @@ def geometry_notices(path: PathOfContact, lengths: ContactLengths) -> list[Notic
         )
         for name in path.shortened_by
     ]
+    if not path.start <= path.pitch_point <= path.end:
+        notices.append(
+            Notice("pitch_point_outside", "the path of contact does not hold the pitch point", "profile_shift")
+        )
     if lengths.ratio < LEAST_LENGTH_RATIO:
         notices.append(
             Notice(

@@ -68,10 +68,9 @@ def test_fzg_type_a_pitch_point_lies_in_double_contact() -> None:
     assert pitch_x < path.length - path.plane.base_pitch
     share = line_loads(result.balance, np.array([pitch_x]), np.array([10e-3]))[0] * 20e-3 / result.load.normal_force
     assert 0.4 < share < 0.5
-    single = path.plane.base_pitch - 0.1e-3
-    assert line_loads(result.balance, np.array([single]), np.array([10e-3]))[0] * 20e-3 == pytest.approx(
-        result.load.normal_force, rel=1e-9
-    )
+    alone = np.array([path.plane.base_pitch - 0.1e-3])
+    carried = line_loads(result.balance, alone, np.array([10e-3]))[0] * 20e-3
+    assert carried == pytest.approx(result.load.normal_force, rel=3e-5)  # TE is interpolated between roll positions
 
 
 # ISO/TR 6336-30:2017, example 1, values as quoted in the comments of github.com/gfsReboucas/Drivetrain
