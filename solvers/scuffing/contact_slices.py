@@ -54,14 +54,14 @@ def gather(mesh: Mesh, phase: float, side: float, slices: int, table: FloatArray
 
 
 @kernel
-def load_at(mesh: Mesh, error: float, x: float, y: float) -> float:
-    """Line load w [N/m] at one point of the plane under the approach `error` [m]."""
+def load_at(mesh: Mesh, error: float, x: float, y: float, omega: float) -> tuple[float, float]:
+    """Line load w [N/m] at one point of the plane under the approach `error` [m], and omega, guessed by `omega`."""
     points_per_metre = mesh.compliance.points_per_metre
-    load, _, _ = line_load(
+    load, _, omega = line_load(
         error - gap_at(mesh.gap, x, y),
         tabulated(mesh.compliance.constant, points_per_metre, x),
         mesh.compliance.logarithmic,
         tabulated(mesh.compliance.limit, points_per_metre, x),
-        0.0,
+        omega,
     )
-    return load
+    return load, omega

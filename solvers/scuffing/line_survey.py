@@ -90,7 +90,8 @@ def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Sur
             for end in (low, high):
                 y = min(end, plane.face_width)
                 x = min(max(line - y * plane.tan_base_helix, 0.0), plane.path_length)
-                _note_peaks(mesh, survey, i, load_at(mesh, error, x, y), (x, y))
+                load, _ = load_at(mesh, error, x, y, 0.0)
+                _note_peaks(mesh, survey, i, load, (x, y))
 
 
 def largest(peaks: FloatArray) -> Peak | None:

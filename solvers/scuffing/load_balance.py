@@ -160,9 +160,10 @@ def _error_at(plane: ContactPlane, phase: FloatArray, error: FloatArray, x: floa
 
 @kernel
 def _line_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
-    loads = np.empty(x.size)
+    loads, omega = np.empty(x.size), 0.0
     for i in range(x.size):
-        loads[i] = load_at(mesh, _error_at(mesh.plane, phase, error, x[i], y[i]), x[i], y[i])
+        local = _error_at(mesh.plane, phase, error, x[i], y[i])
+        loads[i], omega = load_at(mesh, local, x[i], y[i], omega)
     return loads
 
 
