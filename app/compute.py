@@ -23,6 +23,7 @@ from app.settings import MEBIBYTE, Settings
 
 T = TypeVar("T")
 KEEP_WARM_S = 120.0  # idle workers are dropped after 300 s
+WORKER_DIED = (BrokenWorkerProcess, ProcessLookupError)  # the latter if it died while it started
 
 logger = logging.getLogger("tribodrive")
 
@@ -43,6 +44,7 @@ class Runner:
         for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"):
             os.environ.setdefault(variable, "1")
         async with anyio.create_task_group() as self._tasks:
+            await self._warm_one()  # alone, so that kernels not yet in the cache are compiled once
             await self._warm()
             self._tasks.start_soon(self._keep_warm)
             yield
@@ -58,7 +60,8 @@ class Runner:
         self._admitted += 1
         QUEUE.set(self._admitted)
         try:
-            return await _unless_disconnected(receive, self._run, function, *args)
+            result: T = await _unless_disconnected(receive, self._run, function, *args)
+            return result
         finally:
             self._admitted -= 1
             QUEUE.set(self._admitted)
@@ -78,7 +81,7 @@ class Runner:
             DEADLINES_MISSED.inc()
             self._replace_worker()
             raise DeadlineExceeded from error
-        except BrokenWorkerProcess as error:
+        except WORKER_DIED as error:
             WORKERS_LOST.inc()
             logger.warning("a worker process was lost")
             self._replace_worker()
@@ -98,7 +101,7 @@ class Runner:
         memory = self._settings.worker_memory_mb * MEBIBYTE
         try:
             await to_process.run_sync(_in_worker, memory, self._warm_up, (), limiter=self._limiter)
-        except BrokenWorkerProcess:
+        except WORKER_DIED:
             logger.warning("a worker process was lost while it warmed up")
 
     async def _keep_warm(self) -> None:

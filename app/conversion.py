@@ -109,7 +109,9 @@ def _displayed_array(values: np.ndarray[Any, Any], unit: Unit | None) -> list[An
     if unit is not None:
         values = (values - unit.offset) / unit.scale
     if values.dtype.kind == "f" and np.isnan(values).any():
-        values = np.where(np.isnan(values), None, values.astype(object))
+        missing = np.isnan(values)
+        values = values.astype(object)
+        values[missing] = None
     return values.tolist()  # type: ignore[no-any-return]
 
 

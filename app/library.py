@@ -29,11 +29,9 @@ class Example(ExampleSummary):
 @lru_cache(maxsize=1)
 def examples() -> dict[str, Example]:
     """Every example by name, in alphabetical order."""
-    paths = sorted(path for path in files("app").joinpath("examples").iterdir() if path.name.endswith(".json"))
-    names = [path.name.removesuffix(".json") for path in paths]
-    return {
-        name: Example(name=name, **json.loads(path.read_text("utf-8"))) for name, path in zip(names, paths, strict=True)
-    }
+    folder = files("app").joinpath("examples")
+    texts = {path.name.removesuffix(".json"): path.read_text("utf-8") for path in folder.iterdir()}
+    return {name: Example(name=name, **json.loads(texts[name])) for name in sorted(texts)}
 
 
 def body_of(endpoint: str) -> Any:

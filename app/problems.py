@@ -87,19 +87,23 @@ class Problem(BaseModel):
     errors: Annotated[list[FieldError] | None, Output("with 422: every field at fault")] = None
 
 
-PROBLEM_RESPONSES: dict[int | str, dict[str, Any]] = {
-    status: {"description": meaning, "content": {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}}
-    for status, meaning in {
-        400: "the request cannot be read",
-        408: "the request body took too long to arrive",
-        413: "the request body is too large",
-        422: "the input cannot be computed; `errors` names the fields",
-        431: "the request headers are too large",
-        500: "something went wrong in the service",
-        503: "too many calculations are waiting, or the calculation was lost with its process",
-        504: "the calculation took too long",
-    }.items()
+MEANINGS = {
+    400: "the request cannot be read",
+    404: "there is nothing of this name",
+    408: "the request body took too long to arrive",
+    413: "the request body is too large",
+    422: "the input cannot be computed; `errors` names the fields",
+    431: "the request headers are too large",
+    500: "something went wrong in the service",
+    503: "too many calculations are waiting, or the calculation was lost with its process",
+    504: "the calculation took too long",
 }
+
+
+def documented(*statuses: int) -> dict[int | str, dict[str, Any]]:
+    """The OpenAPI responses of these statuses."""
+    content = {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
+    return {status: {"description": MEANINGS[status], "content": content} for status in statuses}
 
 
 def install(app: FastAPI) -> None:
@@ -109,13 +113,13 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(HTTPException, _http_exception)
     for kind in PROBLEMS:
         app.add_exception_handler(kind, _known_problem)
-    app.openapi = _documented(app.openapi)  # type: ignore[method-assign]
+    app.openapi = _with_problems(app.openapi)  # type: ignore[method-assign]
 
 
-def _documented(openapi: Callable[[], dict[str, Any]]) -> Callable[[], dict[str, Any]]:
+def _with_problems(openapi: Callable[[], dict[str, Any]]) -> Callable[[], dict[str, Any]]:
     """The OpenAPI document with the problem document in place of FastAPI's own error schema."""
 
-    def with_problems() -> dict[str, Any]:
+    def document_with_problems() -> dict[str, Any]:
         document = openapi()
         schemas = document["components"]["schemas"]
         if "Problem" not in schemas:
@@ -127,7 +131,7 @@ def _documented(openapi: Callable[[], dict[str, Any]]) -> Callable[[], dict[str,
             schemas |= definitions["$defs"]
         return document
 
-    return with_problems
+    return document_with_problems
 
 
 def problem(

@@ -11,3 +11,7 @@ def warm_up() -> None:
         for example in examples().values():
             if example.endpoint == calculation.path:
                 answer(calculation, calculation.request.model_validate(example.request))
+
+
+if __name__ == "__main__":
+    warm_up()

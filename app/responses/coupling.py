@@ -170,8 +170,12 @@ class SleeveOrbit(Group):
 class SleeveInertia(Group):
     """Inertia force of the sleeve mass of one mesh."""
 
-    x_n: Annotated[list[float], Output("force in the pivot direction", None, "Pahl 1978, Fig. 5", detail="curves")]
-    y_n: Annotated[list[float], Output("force along the tilt axis", None, "Pahl 1978, Fig. 5", detail="curves")]
+    x_n: Annotated[
+        list[float] | None, Output("force in the pivot direction", None, "Pahl 1978, Fig. 5", detail="curves")
+    ] = None
+    y_n: Annotated[
+        list[float] | None, Output("force along the tilt axis", None, "Pahl 1978, Fig. 5", detail="curves")
+    ] = None
     harmonics_x_n: Annotated[list[float], Output("amplitudes from order 0 up", None, "Pahl 1978, Fig. 5")]
     harmonics_y_n: Annotated[list[float], Output("amplitudes from order 0 up", None, "Pahl 1978, Fig. 5")]
 

@@ -8,9 +8,9 @@ from app.answers import answer
 from app.calculations import CALCULATIONS, Calculation
 from app.compute import Runner
 from app.library import body_of
-from app.problems import PROBLEM_RESPONSES
+from app.problems import documented
 
-router = APIRouter(responses=PROBLEM_RESPONSES)
+router = APIRouter(responses=documented(400, 408, 413, 422, 431, 500, 503, 504))
 
 
 def _add(calculation: Calculation) -> None:

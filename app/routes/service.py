@@ -9,6 +9,7 @@ from pydantic import BaseModel
 
 from app.compute import Runner
 from app.library import Example, ExampleSummary, examples
+from app.problems import documented
 from app.quantities import Output
 
 router = APIRouter(tags=["service"])
@@ -32,7 +33,7 @@ async def list_examples() -> list[ExampleSummary]:
     return [ExampleSummary.model_validate(example.model_dump(exclude={"request"})) for example in examples().values()]
 
 
-@router.get("/v1/examples/{name}", responses={404: {"description": "there is no such example"}})
+@router.get("/v1/examples/{name}", responses=documented(404, 422))
 async def show_example(name: Annotated[str, Path(description="name of the example", max_length=100)]) -> Example:
     """One example with a ready request body."""
     try:
@@ -47,7 +48,7 @@ async def healthz() -> Health:
     return Health()
 
 
-@router.get("/readyz", responses={503: {"description": "no worker answers"}})
+@router.get("/readyz", responses=documented(503, 504))
 async def readyz(http: Request) -> Health:
     """Whether a worker process computes."""
     runner: Runner = http.app.state.runner
