@@ -8,8 +8,15 @@ from time import perf_counter
 
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.scuffing import solve_load_distribution, solve_scuffing
-from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, Resolution, angular_speed
-from solvers.scuffing.safety import ScuffingInputs
+from solvers.scuffing.inputs import (
+    Load,
+    LoadDistributionInputs,
+    Model,
+    Modifications,
+    Resolution,
+    ScuffingInputs,
+    angular_speed,
+)
 
 REPEATS = 60
 SPEED = angular_speed(2000)

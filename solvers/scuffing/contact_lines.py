@@ -13,6 +13,7 @@ from solvers.scuffing.path_of_contact import ContactPlane, PathOfContact
 
 COINCIDENT = 1e-9  # base pitches; breakpoints nearer than this are one
 LEAST_STEPS = 8  # between two breakpoints, however close
+MOST_LINES = 100  # at once; no gear has a tenth of it
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +36,8 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
     The length over the roll position is the periodised convolution of two rectangles of lengths eps_alpha = n_a + f_a
     and eps_beta = n_b + f_b, so with the unit u = b / (eps_beta cos beta_b)
         L_min = u [n_a eps_beta + n_b f_a + max(0, f_a + f_b - 1)],  L_max = u [n_a eps_beta + n_b f_a + min(f_a, f_b)].
-    Raises InvalidInput no_contact where L_min = 0: no pair carries at some roll positions.
+    Raises InvalidInput: no_contact where L_min = 0 (no pair carries at some roll positions), overlap_range beyond 100
+    lines at once.
     """
     length = path.plane.face_width / path.plane.cos_base_helix
     transverse, overlap = path.transverse_contact_ratio, path.overlap_ratio
@@ -53,6 +55,10 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
             f"no pair of teeth is in contact at some roll positions (transverse contact ratio {transverse:.3f}, "
             f"overlap ratio {overlap:.3f})",
             "addendum",
+        )
+    if path.total_contact_ratio > MOST_LINES:
+        raise InvalidInput(
+            "overlap_range", f"the face is too wide for its helix: more than {MOST_LINES} lines at once", "face_width"
         )
     return ContactLengths(least * length, most * length, transverse * length)
 

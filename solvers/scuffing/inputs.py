@@ -5,6 +5,7 @@ from math import pi
 from typing import Literal
 
 from solvers.gears.inputs import GearPairInputs
+from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 
 
@@ -97,3 +98,25 @@ class LoadDistributionInputs:
     friction_coefficient: float = 0.06
     model: Model = field(default_factory=Model)
     resolution: Resolution = field(default_factory=Resolution)
+
+
+@dataclass(frozen=True, slots=True)
+class Temperatures:
+    """Bulk temperature of the teeth and of the oil they draw in, oil temperature, scuffing temperature [K].
+
+    The scuffing temperature is a property of oil and material that the paper does not give; without it, no safety.
+    """
+
+    bulk: float = 360.0
+    oil: float = 333.15
+    scuffing: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ScuffingInputs:
+    """What scuffing depends on; `path_points` along the feature line."""
+
+    distribution: LoadDistributionInputs
+    lubricant: Lubricant = field(default_factory=Lubricant)
+    temperatures: Temperatures = field(default_factory=Temperatures)
+    path_points: int = 50

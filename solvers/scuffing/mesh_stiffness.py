@@ -14,6 +14,7 @@ from solvers.scuffing.tooth_stiffness import single_stiffness
 from solvers.scuffing.transmission_error import period_mean
 
 CURVE_POINTS = 101
+REFERENCE_LOAD = 100e3  # N/m, for which ISO 6336-1 states c'; stands in where there is no load
 DISC_FACTOR = 1.0  # C_R: solid discs
 MEASURED_FRACTION = 0.8  # C_M
 
@@ -62,8 +63,9 @@ def mesh_stiffness(balance: LoadBalance, tangential_force: float) -> FloatArray 
 
 
 def stiffness(path: PathOfContact, balance: LoadBalance, mean_load: float, tangential_force: float) -> Stiffness:
-    """Stiffness of one pair along the path, secant at the mean line load [N/m], and of the mesh."""
-    single = single_stiffness(balance.mesh.compliance, mean_load)
+    """Stiffness of one pair along the path, secant at the mean line load [N/m] if any, and of the mesh."""
+    secant_load = mean_load if mean_load > 0.0 else REFERENCE_LOAD
+    single = single_stiffness(balance.mesh.compliance, secant_load)
     x = np.linspace(0.0, path.length, single.size)
     pitch_x = path.pitch_point - path.start
     curve = np.linspace(0.0, path.length, CURVE_POINTS)
@@ -78,6 +80,6 @@ def stiffness(path: PathOfContact, balance: LoadBalance, mean_load: float, tange
         mean_mesh=None if mesh is None else period_mean(mesh, balance.rolls.phase),
         standard_single=standard.single,
         standard_mesh=standard.mesh,
-        secant_load=mean_load,
+        secant_load=secant_load,
         curves=StiffnessCurves(frozen(path.profile_parameter(curve)), frozen(np.interp(curve, x, single))),
     )

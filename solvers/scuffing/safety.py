@@ -3,99 +3,21 @@
 The closed forms are Blok's flash temperature (Eq. 25) and Dowson and Higginson's film (Eq. 27).
 """
 
-from dataclasses import dataclass, field, fields
+from dataclasses import fields
 
 import numpy as np
 
-from solvers.arrays import FloatArray, frozen
-from solvers.contact.film import Regime, dowson_higginson_minimum, thickness_ratio, thickness_regime
+from solvers.arrays import frozen
+from solvers.contact.film import dowson_higginson_minimum, thickness_ratio, thickness_regime
 from solvers.contact.flash import blok_flash_temperature
 from solvers.contact.hertz import reduced_modulus
 from solvers.errors import InvalidInput
-from solvers.lubricants import Lubricant
 from solvers.notices import Notice
 from solvers.scuffing.feature_line import feature_line
-from solvers.scuffing.inputs import LoadDistributionInputs
+from solvers.scuffing.inputs import ScuffingInputs, Temperatures
 from solvers.scuffing.model import solve
-from solvers.scuffing.results import FeatureLine, LoadDistribution
-
-
-@dataclass(frozen=True, slots=True)
-class Temperatures:
-    """Bulk temperature of the teeth and of the oil they draw in, oil temperature, scuffing temperature [K].
-
-    The scuffing temperature is a property of oil and material that the paper does not give; without it, no safety.
-    """
-
-    bulk: float = 360.0
-    oil: float = 333.15
-    scuffing: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class ScuffingInputs:
-    """What scuffing depends on; `path_points` along the feature line."""
-
-    distribution: LoadDistributionInputs
-    lubricant: Lubricant = field(default_factory=Lubricant)
-    temperatures: Temperatures = field(default_factory=Temperatures)
-    path_points: int = 50
-
-
-@dataclass(frozen=True, slots=True)
-class Flash:
-    """Largest flash temperature [K] and where; no place without load."""
-
-    blok_max: float
-    blok_at_psi: float | None
-
-
-@dataclass(frozen=True, slots=True)
-class ContactTemperature:
-    """Largest contact temperature t_B = t_M + t_f [K] (Eq. 16)."""
-
-    blok_max: float
-
-
-@dataclass(frozen=True, slots=True)
-class Film:
-    """Thinnest film [m], where, and against roughness; None where no point is loaded."""
-
-    dowson_higginson_min: float | None
-    min_at_psi: float | None
-    thickness_ratio: float | None
-    thickness_regime: Regime | None
-
-
-@dataclass(frozen=True, slots=True)
-class Safety:
-    """Safety against scuffing (Eq. 26); None where the teeth stay as cool as the oil."""
-
-    blok_factor: float | None
-
-
-@dataclass(frozen=True, slots=True)
-class ScuffingPath:
-    """Along the feature line: Blok's flash temperature [K], film [m] and its ratio to roughness.
-
-    Film and ratio are NaN where nothing is loaded or nothing moves; the flash temperature is 0 there.
-    """
-
-    psi: FloatArray
-    blok_flash: FloatArray
-    dowson_higginson: FloatArray
-    thickness_ratio: FloatArray
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Scuffing(LoadDistribution):
-    """The load distribution and the scuffing check on it; `safety` is None without a scuffing temperature."""
-
-    flash: Flash
-    contact_temperature: ContactTemperature
-    film: Film
-    safety: Safety | None
-    path: ScuffingPath
+from solvers.scuffing.results import FeatureLine
+from solvers.scuffing.safety_results import ContactTemperature, Film, Flash, PointStatus, Safety, Scuffing, ScuffingPath
 
 
 def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
@@ -176,12 +98,13 @@ def _scuffing_path(inputs: ScuffingInputs, line: FeatureLine, modulus: float) ->
         modulus=modulus,
     )
     ratio = thickness_ratio(film, pinion.roughness, wheel.roughness)
-    return ScuffingPath(line.psi, frozen(flash), frozen(film), frozen(ratio))
+    status: tuple[PointStatus, ...] = tuple("ok" if point else "unloaded" for point in loaded)
+    return ScuffingPath(line.psi, status, frozen(flash), frozen(film), frozen(ratio))
 
 
 def _thinnest_film(path: ScuffingPath) -> Film:
     if np.all(np.isnan(path.dowson_higginson)):
-        return Film(None, None, None, None)
+        return Film()
     thinnest = int(np.nanargmin(path.dowson_higginson))
     ratio = float(path.thickness_ratio[thinnest])
     return Film(

@@ -18,8 +18,10 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 from solvers.scuffing import solve_load_distribution, solve_scuffing
+from solvers.scuffing.inputs import ScuffingInputs, Temperatures
 from solvers.scuffing.path_of_contact import reduced_radius
-from solvers.scuffing.safety import Scuffing, ScuffingInputs, Temperatures, safety_factor
+from solvers.scuffing.safety import safety_factor
+from solvers.scuffing.safety_results import Scuffing
 from tests.gear_pairs import PAPER_SPEED, paper_gears, paper_pair
 
 STEEL = Solid()

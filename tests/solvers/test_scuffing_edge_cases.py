@@ -9,9 +9,8 @@ import pytest
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.scuffing import solve_load_distribution, solve_scuffing
-from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications
+from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, ScuffingInputs
 from solvers.scuffing.results import LoadDistribution
-from solvers.scuffing.safety import ScuffingInputs
 from tests.gear_pairs import PAPER_LOAD, paper_gears, paper_pair, with_torque
 
 LINEAR = Model(contact="linear")
