@@ -5,7 +5,7 @@ from typing import Annotated
 from app.quantities import Output
 from app.responses.common import Group, Response
 
-XUE = "Xue, Zhang, Wang 2020"
+XUE = "Xue 2020"
 
 
 class HertzContact(Group):
@@ -13,7 +13,7 @@ class HertzContact(Group):
 
     half_width_mm: Annotated[float, Output("half width", "b")]
     max_pressure_mpa: Annotated[
-        float, Output("largest pressure", "p_H", "Xue, Zhang, Wang 2020, Eq. 14 without its π/4", si="maximum_pressure")
+        float, Output("largest pressure", "p_H", f"{XUE}, Eq. 14 without its π/4", si="maximum_pressure")
     ]
 
 
@@ -30,17 +30,17 @@ class ContactNumbers(Group):
 class FilmThickness(Group):
     """Film thickness; null without a solution, but for the formula."""
 
-    central_um: Annotated[float | None, Output("at x = 0", "h_c", "Xue, Zhang, Wang 2020, Eq. 21")]
-    minimum_um: Annotated[float | None, Output("smallest", "h_min", "Xue, Zhang, Wang 2020, Eq. 21")]
+    central_um: Annotated[float | None, Output("at x = 0", "h_c", f"{XUE}, Eq. 21")]
+    minimum_um: Annotated[float | None, Output("smallest", "h_min", f"{XUE}, Eq. 21")]
     dowson_higginson_um: Annotated[
-        float, Output("smallest by formula", "h_min", "Dowson and Higginson; Xue, Zhang, Wang 2020, Eq. 27")
+        float, Output("smallest by formula", "h_min", f"Dowson and Higginson; {XUE}, Eq. 27")
     ]
 
 
 class FilmPressure(Group):
     """Pressure in the film."""
 
-    centre_mpa: Annotated[float, Output("at x = 0", "p(0)", "Xue, Zhang, Wang 2020, Eq. 17")]
+    centre_mpa: Annotated[float, Output("at x = 0", "p(0)", f"{XUE}, Eq. 17")]
     maximum_mpa: Annotated[float, Output("largest; a sharp second maximum depends on the mesh", "p_max", XUE)]
     maximum_at_mm: Annotated[float, Output("where it is largest", "x")]
 
@@ -48,9 +48,9 @@ class FilmPressure(Group):
 class FilmTemperature(Group):
     """Temperatures."""
 
-    film_max_c: Annotated[float, Output("largest in the film", "t_max", "Xue, Zhang, Wang 2020, Eq. 23")]
-    surface_1_max_c: Annotated[float, Output("largest of surface 1", "t_1", "Xue, Zhang, Wang 2020, Eq. 24")]
-    surface_2_max_c: Annotated[float, Output("largest of surface 2", "t_2", "Xue, Zhang, Wang 2020, Eq. 24")]
+    film_max_c: Annotated[float, Output("largest in the film", "t_max", f"{XUE}, Eq. 23")]
+    surface_1_max_c: Annotated[float, Output("largest of surface 1", "t_1", f"{XUE}, Eq. 24")]
+    surface_2_max_c: Annotated[float, Output("largest of surface 2", "t_2", f"{XUE}, Eq. 24")]
     surface_1_flash_k: Annotated[float, Output("flash temperature of surface 1")]
     surface_2_flash_k: Annotated[float, Output("flash temperature of surface 2")]
 

@@ -79,7 +79,7 @@ def viscosities(problem: Problem, i: int, temperature: FloatArray, p: float, fil
 
 @kernel
 def shear_newtonian(problem: Problem, i: int, g: float, h: float, film: Film) -> None:
-    """tau = tau_mid + G (zeta - 1/2), rate = tau/eta, with the sliding speed as its integral."""
+    """Tau = tau_mid + G (zeta - 1/2), rate = tau/eta, with the sliding speed as its integral."""
     m = film.stress.shape[1]
     zeroth, first = 0.0, 0.0
     for j in range(m):
@@ -96,7 +96,7 @@ def shear_newtonian(problem: Problem, i: int, g: float, h: float, film: Film) ->
 
 @kernel
 def shear_eyring(problem: Problem, i: int, g: float, h: float, film: Film) -> None:
-    """rate = (tau0/eta) sinh(tau/tau0) with the sliding speed as its integral: e^a in closed form, tau_mid = tau0 a."""
+    """Rate = (tau0/eta) sinh(tau/tau0) with the sliding speed as its integral: e^a in closed form, tau_mid = tau0 a."""
     m = film.stress.shape[1]
     tau0 = problem.eyring_stress
     ratio = np.exp(g / (m * tau0))

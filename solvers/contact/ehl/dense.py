@@ -28,7 +28,7 @@ def dot(a: FloatArray, b: FloatArray) -> float:
 
 @kernel
 def add_scaled(factor: float, x: FloatArray, y: FloatArray) -> None:
-    """y += factor x, in place."""
+    """Y += factor x, in place."""
     for j in range(x.size):
         y[j] += factor * x[j]
 

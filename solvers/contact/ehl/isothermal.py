@@ -9,11 +9,11 @@ from solvers.contact.ehl.dense import solve_dense
 from solvers.contact.ehl.mesh import Grid
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.reynolds import (
-    PATIENCE,
-    RUPTURE_TOLERANCE,
     BY_G,
     BY_H,
     BY_P,
+    PATIENCE,
+    RUPTURE_TOLERANCE,
     VALUE,
     apply_pressure_step,
     assemble_faces,

@@ -7,7 +7,6 @@ from solvers.contact.ehl.continuation import Attempt
 from solvers.contact.ehl.inputs import LineContactInputs
 from solvers.contact.ehl.isothermal import evaluate_isothermal
 from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.reynolds import VALUE
 from solvers.contact.ehl.results import (
     ContactCurves,
     ContactField,
@@ -16,6 +15,7 @@ from solvers.contact.ehl.results import (
     ContactPressure,
     ContactTemperature,
 )
+from solvers.contact.ehl.reynolds import VALUE
 from solvers.contact.ehl.state import evaluate_state
 
 
