@@ -234,10 +234,9 @@ class RecommendedPoint:
 
 @dataclass(frozen=True, slots=True)
 class CrowningScan:
-    """How crowning trades off, one value a crowning ratio.
+    """How crowning trades off, one value a crowning ratio whose contact can be computed.
 
-    The smallest load capacity coefficient and the largest overlap over the range of misalignment; NaN-free: only
-    crowning ratios that can be computed are listed. `feasible` holds booleans.
+    The smallest load capacity coefficient and the largest overlap over the range of misalignment.
     """
 
     crowning_ratio: FloatArray
