@@ -4,10 +4,10 @@ import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.contact.ehl.continuation import Attempt
+from solvers.contact.ehl.fluxes import VALUE
 from solvers.contact.ehl.inputs import LineContactInputs
 from solvers.contact.ehl.isothermal import evaluate_isothermal
 from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.reynolds import VALUE
 from solvers.contact.ehl.results import (
     ContactCurves,
     ContactField,
