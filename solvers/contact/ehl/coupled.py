@@ -6,21 +6,23 @@ from solvers.arrays import BoolArray, FloatArray
 from solvers.compiled import kernel
 from solvers.contact.ehl.dense import dot, factor, substitute
 from solvers.contact.ehl.energy import factor_column
+from solvers.contact.ehl.fluxes import (
+    BY_G,
+    BY_H,
+    BY_P,
+    add_flux_changes,
+    assemble_faces,
+    film_shape,
+    pressure_gradients,
+)
 from solvers.contact.ehl.krylov import combine_basis, extend_basis
 from solvers.contact.ehl.mesh import Grid
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.reynolds import (
-    BY_G,
-    BY_H,
-    BY_P,
     PATIENCE,
     RUPTURE_TOLERANCE,
-    add_flux_changes,
     apply_pressure_step,
-    assemble_faces,
     assemble_system,
-    film_shape,
-    pressure_gradients,
     release_cavitated,
 )
 from solvers.contact.ehl.state import State, Work, evaluate_state
@@ -157,10 +159,10 @@ def solve_coupled(
     pressure_tolerance: float,
     temperature_tolerance: float,
 ) -> bool:
-    """Simultaneous Newton for (T, P, H0), in place; whether it converged: both steps within tolerance and taken whole,
-    the broken film unchanged, no guard in action.
+    """Simultaneous Newton for (T, P, H0), in place; whether it converged.
 
-    A step that is too long to trust is not taken but repeated with temperatures damped (implicit pseudo-time); the
+    It has when both steps are within tolerance and taken whole, the broken film unchanged and no guard in action. A
+    step that is too long to trust is not taken but repeated with temperatures damped (implicit pseudo-time); the
     damping fades as the steps shrink. Steps that stop shrinking are relaxed.
     """
     n, nodes = state.temperature.shape

@@ -28,7 +28,7 @@ def dot(a: FloatArray, b: FloatArray) -> float:
 
 @kernel
 def add_scaled(factor: float, x: FloatArray, y: FloatArray) -> None:
-    """Y += factor x, in place."""
+    """Add a multiple of x to y, in place."""
     for j in range(x.size):
         y[j] += factor * x[j]
 
@@ -43,26 +43,30 @@ def _subtract_panel(row: FloatArray, first: int, top: FloatArray, target: FloatA
 
 
 @kernel
+def _factor_panel(matrix: FloatArray, pivots: IntArray, start: int, stop: int) -> None:
+    """Eliminate within columns start..stop, exchanging whole rows."""
+    n = pivots.size
+    for k in range(start, stop):
+        pivot = k + np.abs(matrix[k:, k]).argmax()
+        pivots[k] = pivot
+        if pivot != k:
+            for j in range(n):
+                matrix[k, j], matrix[pivot, j] = matrix[pivot, j], matrix[k, j]
+        inverse = 1.0 / matrix[k, k]
+        for i in range(k + 1, n):
+            if matrix[i, k] != 0.0:
+                matrix[i, k] *= inverse
+                for j in range(k + 1, stop):
+                    matrix[i, j] -= matrix[i, k] * matrix[k, j]
+
+
+@kernel
 def factor(matrix: FloatArray, pivots: IntArray) -> None:
     """LU factorisation (n, n) with row pivoting, in place, by panels of four columns; `pivots` (n,)."""
     n = pivots.size
     for start in range(0, n, PANEL):
         stop = min(start + PANEL, n)
-        for k in range(start, stop):
-            pivot = k
-            for i in range(k + 1, n):
-                if abs(matrix[i, k]) > abs(matrix[pivot, k]):
-                    pivot = i
-            pivots[k] = pivot
-            if pivot != k:
-                for j in range(n):
-                    matrix[k, j], matrix[pivot, j] = matrix[pivot, j], matrix[k, j]
-            inverse = 1.0 / matrix[k, k]
-            for i in range(k + 1, n):
-                if matrix[i, k] != 0.0:
-                    matrix[i, k] *= inverse
-                    for j in range(k + 1, stop):
-                        matrix[i, j] -= matrix[i, k] * matrix[k, j]
+        _factor_panel(matrix, pivots, start, stop)
         if stop == n:
             break
         for i in range(start + 1, stop):

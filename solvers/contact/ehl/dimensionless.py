@@ -47,23 +47,23 @@ def groups(inputs: LineContactInputs) -> Groups:
 
 def moes_central_film(m: float, l: float) -> float:
     """Central film thickness (h/R) U^-1/2 of the isothermal, incompressible line contact (Nijenbanning and others)."""
-    return _moes_film(m, l, (3.0 / m, 2.621 * m**-0.2, 1.287 * l ** (2 / 3), 1.311 * m**-0.125 * l**0.75))
+    return _moes_film(l, (3.0 / m, 2.621 * m**-0.2, 1.287 * l ** (2 / 3), 1.311 * m**-0.125 * l**0.75))
 
 
 def moes_minimum_film(m: float, l: float) -> float:
     """Minimum film thickness (h/R) U^-1/2 of the isothermal, incompressible line contact (Nijenbanning and others)."""
-    return _moes_film(m, l, (2.45 / m, 2.05 * m**-0.2, 1.05 * l ** (2 / 3), 0.96 * m**-0.125 * l**0.75))
+    return _moes_film(l, (2.45 / m, 2.05 * m**-0.2, 1.05 * l ** (2 / 3), 0.96 * m**-0.125 * l**0.75))
 
 
-def _moes_film(m: float, l: float, asymptotes: tuple[float, float, float, float]) -> float:
+def _moes_film(l: float, asymptotes: tuple[float, float, float, float]) -> float:
     """Blend of the rigid and elastic, isoviscous and piezoviscous asymptotes (RI, EI, RP, EP)."""
     rigid_isoviscous, elastic_isoviscous, rigid_piezoviscous, elastic_piezoviscous = asymptotes
     s = (7.0 + 8.0 * exp(-2.0 * elastic_isoviscous / rigid_isoviscous)) / 5.0
     isoviscous = rigid_isoviscous ** (7 / 3) + elastic_isoviscous ** (7 / 3)
     if l <= 0.0:
-        return isoviscous ** (3 / 7)
+        return float(isoviscous ** (3 / 7))
     piezoviscous = rigid_piezoviscous**-3.5 + elastic_piezoviscous**-3.5
-    return (isoviscous ** (3 * s / 7) + piezoviscous ** (-2 * s / 7)) ** (1.0 / s)
+    return float((isoviscous ** (3 * s / 7) + piezoviscous ** (-2 * s / 7)) ** (1.0 / s))
 
 
 def moes_gap(contact: Groups) -> float:

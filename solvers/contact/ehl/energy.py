@@ -6,10 +6,10 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.contact.ehl.column import Film
 from solvers.contact.ehl.dense import dot
+from solvers.contact.ehl.fluxes import BY_G, BY_H, BY_P
 from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.reynolds import BY_G, BY_H, BY_P
+from solvers.contact.ehl.shear import Film
 
 HEATING = 0  # the response to the mid-film stress; the others are BY_P, BY_G, BY_H
 
@@ -49,8 +49,9 @@ class Heat(NamedTuple):
 def heat_arrays(nodes: int, film_nodes: int) -> Heat:
     """Room for `nodes` columns."""
     at_nodes = [np.zeros((nodes, film_nodes)) for _ in range(6)]
+    responses, edges = np.zeros((nodes, film_nodes, 4)), np.zeros((nodes, film_nodes + 1))
     columns = [np.zeros(nodes) for _ in range(12)]
-    return Heat(*at_nodes, np.zeros((nodes, film_nodes, 4)), np.zeros((nodes, film_nodes + 1)), *columns)
+    return Heat(*at_nodes, *[responses, edges], *columns)
 
 
 @kernel
@@ -109,7 +110,7 @@ def transport(problem: Problem, i: int, width: float, temperature: FloatArray, h
 
 @kernel
 def dissipation(i: int, h: float, film: Film, heat: Heat) -> None:
-    """Shear heating of column i, each interval's half to each of its nodes, with what temperature and stress do to it."""
+    """Shear heating of column i, half of each interval's to each of its nodes, with its derivatives."""
     m = film.stress.shape[1]
     share = 0.5 * heat.fluid_fraction[i] * h / m
     by_p, by_g, by_h = film.mid_by_p[i], film.mid_by_g[i], film.mid_by_h[i]

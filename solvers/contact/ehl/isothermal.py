@@ -4,24 +4,18 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.contact.ehl.column import STRESS_LIMIT
 from solvers.contact.ehl.dense import solve_dense
+from solvers.contact.ehl.fluxes import BY_G, BY_H, BY_P, VALUE, assemble_faces, film_shape, pressure_gradients
 from solvers.contact.ehl.mesh import Grid
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.reynolds import (
-    BY_G,
-    BY_H,
-    BY_P,
     PATIENCE,
     RUPTURE_TOLERANCE,
-    VALUE,
     apply_pressure_step,
-    assemble_faces,
     assemble_system,
-    film_shape,
-    pressure_gradients,
     release_cavitated,
 )
+from solvers.contact.ehl.shear import STRESS_LIMIT
 from solvers.contact.ehl.state import State, Work
 from solvers.lubricants import density, log_viscosity, pressure_part
 
@@ -46,7 +40,7 @@ def uniform_film(problem: Problem, p: float, g: float, h: float, log_a: FloatArr
     b[VALUE], b[BY_P] = rho * um, rho_slope * um
     log_a[VALUE], log_a[BY_P] = np.log(rho / 12.0) - log_eta, rho_slope / rho - by_p
     if problem.newtonian == 1:
-        return np.exp(log_eta) * du / h
+        return float(np.exp(log_eta) * du / h)
     tau0 = problem.eyring_stress
     s = min(abs(g) / (2.0 * tau0), STRESS_LIMIT)
     if s < 1e-2:
@@ -63,7 +57,7 @@ def uniform_film(problem: Problem, p: float, g: float, h: float, log_a: FloatArr
     log_a[BY_P] += share * by_p
     log_a[BY_H] = -share / h
     log_a[BY_G] = (share * sigma_slope + phi_slope) * np.sign(g) / (2.0 * tau0)
-    return tau0 * np.arcsinh(sinh_a)
+    return float(tau0 * np.arcsinh(sinh_a))
 
 
 @kernel

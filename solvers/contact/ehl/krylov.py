@@ -31,7 +31,7 @@ def extend_basis(basis: FloatArray, hessenberg: FloatArray, rotations: FloatArra
     column[j] = radius
     rhs[j + 1] = -rotations[j, 1] * rhs[j]
     rhs[j] *= rotations[j, 0]
-    return abs(rhs[j + 1])
+    return float(abs(rhs[j + 1]))
 
 
 @kernel

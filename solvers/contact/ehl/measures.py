@@ -4,6 +4,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.contact.ehl.continuation import Attempt
+from solvers.contact.ehl.fluxes import VALUE
 from solvers.contact.ehl.inputs import LineContactInputs
 from solvers.contact.ehl.isothermal import evaluate_isothermal
 from solvers.contact.ehl.problem import Problem
@@ -15,7 +16,6 @@ from solvers.contact.ehl.results import (
     ContactPressure,
     ContactTemperature,
 )
-from solvers.contact.ehl.reynolds import VALUE
 from solvers.contact.ehl.state import evaluate_state
 
 

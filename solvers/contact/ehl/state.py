@@ -6,11 +6,9 @@ import numpy as np
 
 from solvers.arrays import BoolArray, FloatArray
 from solvers.compiled import kernel
-from solvers.contact.ehl.column import Film, evaluate_column, film_arrays, limited_gradient
+from solvers.contact.ehl.column import evaluate_column
 from solvers.contact.ehl.energy import Heat, column_balance, face_edges, heat_arrays, surface_history
-from solvers.contact.ehl.mesh import Grid
-from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.reynolds import (
+from solvers.contact.ehl.fluxes import (
     VALUE,
     FaceFluxes,
     FlowCoefficients,
@@ -20,6 +18,9 @@ from solvers.contact.ehl.reynolds import (
     flow_coefficients,
     pressure_gradients,
 )
+from solvers.contact.ehl.mesh import Grid
+from solvers.contact.ehl.problem import Problem
+from solvers.contact.ehl.shear import Film, film_arrays, limited_gradient
 
 
 class State(NamedTuple):

@@ -4,12 +4,13 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.contact.ehl.column import Film, evaluate_column
+from solvers.contact.ehl.column import evaluate_column
 from solvers.contact.ehl.dense import dot
 from solvers.contact.ehl.energy import Heat, column_balance, face_edges, factor_column, solve_column, surface_history
+from solvers.contact.ehl.fluxes import film_shape
 from solvers.contact.ehl.mesh import Grid
 from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.reynolds import film_shape
+from solvers.contact.ehl.shear import Film
 from solvers.contact.ehl.state import State, Work
 
 LARGEST_STEP = 40.0  # K
