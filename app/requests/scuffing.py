@@ -77,6 +77,26 @@ class FlankModifications(Section):
             le=1000,
         ),
     ] = 0.0
+    in_plane_deviation_um: Annotated[
+        float,
+        Input(
+            "shaft deviation in their plane over the face; adds to the helix slope",
+            "f_Σδ",
+            "ISO/TR 10064-3",
+            ge=-1000,
+            le=1000,
+        ),
+    ] = 0.0
+    out_of_plane_deviation_um: Annotated[
+        float,
+        Input(
+            "shaft deviation out of their plane over the face; adds to the helix slope",
+            "f_Σβ",
+            "ISO/TR 10064-3",
+            ge=-1000,
+            le=1000,
+        ),
+    ] = 0.0
     tip_relief_um: Annotated[float, Input("relief at E: pinion tip plus wheel root", "C_a", XUE, ge=0, le=1000)] = 0.0
     tip_relief_length_mm: Annotated[
         float | None,

@@ -37,7 +37,8 @@ def angular_speed(revolutions_per_minute: float) -> float:
 class Modifications:
     """Gaps [m] along the transverse line of action; positive where material is missing.
 
-    profile_slope opens the gap towards E (pinion tip), helix_slope towards E2 (the end that leaves the mesh last).
+    profile_slope opens the gap towards E (pinion tip), helix_slope towards E2 (the end that leaves the mesh last); so
+    do shaft deviations over the face, in the plane of the shafts and out of it.
     tip_relief acts at E (pinion tip and gear root), root_relief at A; the caller adds the two members. Relief lengths
     run along the line of action, end relief length along the face [m]; None is the default of `modification.gap`.
     """
@@ -46,6 +47,8 @@ class Modifications:
     lead_crowning: float = 0.0
     profile_slope: float = 0.0
     helix_slope: float = 0.0
+    in_plane_deviation: float = 0.0
+    out_of_plane_deviation: float = 0.0
     tip_relief: float = 0.0
     tip_relief_length: float | None = None
     root_relief: float = 0.0

@@ -38,13 +38,14 @@ def gap(modifications: Modifications, path: PathOfContact) -> Gap:
     ratio, width = path.transverse_contact_ratio, path.pair.inputs.face_width
     long_relief = max((ratio - floor(ratio)) * path.pair.transverse_base_pitch, 0.1 * path.length)
     m = modifications
+    shafts = misalignment_slope(m.in_plane_deviation, m.out_of_plane_deviation, path.pair.working_pressure_angle)
     return Gap(
         path.length,
         width,
         m.profile_crowning,
         m.lead_crowning,
         m.profile_slope,
-        m.helix_slope,
+        m.helix_slope + shafts,
         m.tip_relief,
         long_relief if m.tip_relief_length is None else m.tip_relief_length,
         m.root_relief,
@@ -53,6 +54,14 @@ def gap(modifications: Modifications, path: PathOfContact) -> Gap:
         0.1 * width if m.end_relief_length is None else m.end_relief_length,
         float(m.relief_exponent),
     )
+
+
+def misalignment_slope(in_plane: float, out_of_plane: float, working_pressure_angle: float) -> float:
+    """Helix slope [m] of shaft deviations [m] over the face (ISO/TR 10064-3).
+
+    f_Sigma_delta in the plane of the shafts counts by sin alpha_wt, f_Sigma_beta out of it by cos alpha_wt.
+    """
+    return in_plane * sin(working_pressure_angle) + out_of_plane * cos(working_pressure_angle)
 
 
 @kernel
@@ -87,11 +96,3 @@ def _gaps(form: Gap, x: FloatArray, y: FloatArray) -> FloatArray:
 def gaps_at(form: Gap, x: FloatArray, y: FloatArray) -> FloatArray:
     """Delta [m] at points of one shape."""
     return _gaps(form, np.ravel(x), np.ravel(y)).reshape(np.shape(x))
-
-
-def misalignment_slope(in_plane: float, out_of_plane: float, working_pressure_angle: float) -> float:
-    """Helix slope [m] of shaft deviations [m] over the face (ISO/TR 10064-3).
-
-    f_Sigma_delta in the plane of the shafts counts by sin alpha_wt, f_Sigma_beta out of it by cos alpha_wt.
-    """
-    return in_plane * sin(working_pressure_angle) + out_of_plane * cos(working_pressure_angle)

@@ -223,7 +223,7 @@ def test_relief_lengths_are_assumptions_only_where_there_is_relief(post: Post) -
 
     assert "modifications.tip_relief_length_mm" not in assumed("xue-pair-1")
     relieved = assumed("xue-pair-1-modified")
-    assert relieved["modifications.tip_relief_length_mm"] == pytest.approx(0.5914 * 8.9719, rel=1e-3)
+    assert relieved["modifications.tip_relief_length_mm"] == pytest.approx(0.5914 * 8.9721, rel=1e-3)
     assert relieved["modifications.relief_exponent"] == 1
     assert "modifications.root_relief_length_mm" not in relieved
 

@@ -245,6 +245,10 @@ def test_shaft_misalignment_as_a_helix_slope() -> None:
     angle = radians(20)
     assert misalignment_slope(10e-6, 0.0, angle) == pytest.approx(10e-6 * np.sin(angle), rel=1e-12)
     assert misalignment_slope(0.0, 10e-6, angle) == pytest.approx(10e-6 * np.cos(angle), rel=1e-12)
+    path = path_of_contact(gear_pair(paper_gears(1)))
+    tilted = gap(Modifications(helix_slope=1e-6, in_plane_deviation=20e-6, out_of_plane_deviation=-5e-6), path)
+    expected = 1e-6 + misalignment_slope(20e-6, -5e-6, path.pair.working_pressure_angle)
+    assert tilted.helix_slope == pytest.approx(expected, rel=1e-12)
 
 
 def test_profile_shift_counts_normal_modules() -> None:
