@@ -45,9 +45,7 @@ def test_grid_convergence(rheology: str, row: Row, finest: Row) -> None:
         assert value * scale == pytest.approx(reference, abs=abs(reference - limit) + margin)
 
 
-@pytest.mark.parametrize(
-    ("rheology", "x_1", "x_2"), [("newtonian", 0.74, 0.71), ("ree_eyring", 0.82, 0.64)]
-)
+@pytest.mark.parametrize(("rheology", "x_1", "x_2"), [("newtonian", 0.74, 0.71), ("ree_eyring", 0.82, 0.64)])
 def test_hottest_place_of_the_faces(rheology: str, x_1: float, x_2: float) -> None:
     result = point_a(241, rheology)
     assert result.temperature is not None
@@ -85,9 +83,7 @@ def test_hertz_contact() -> None:
     assert result.dimensionless.moes_l == pytest.approx(22.39, abs=0.005)
 
 
-@pytest.mark.parametrize(
-    ("rheology", "reference"), [("ree_eyring", 1.546e9), ("newtonian", 1.5725e9)]
-)
+@pytest.mark.parametrize(("rheology", "reference"), [("ree_eyring", 1.546e9), ("newtonian", 1.5725e9)])
 def test_pressure_at_the_centre(rheology: str, reference: float) -> None:
     result = point_a(121, rheology)
     assert result.pressure is not None
