@@ -15,7 +15,7 @@ PAHL = "Pahl 1978"
 class CouplingDesign(Section):
     """The coupling without its crowning."""
 
-    teeth: Annotated[int, Input("number of teeth", "z", PAHL, ge=6, le=1000)]
+    teeth: Annotated[int, Input("number of teeth", "z", PAHL, ge=6, le=400)]
     module_mm: Annotated[float, Input("module", "m", PAHL, ge=0.1, le=100)]
     pressure_angle_deg: Annotated[
         float, Input("pressure angle", "α", ge=1, lt=45, assumed="the usual rack; the paper gives none")

@@ -9,11 +9,10 @@ from app.conversion import to_si
 from app.quantities import Input
 from app.requests.common import Request, Section
 from app.requests.gears import Gears
-from app.requests.lubricants import XUE, Oil, Surface
+from app.requests.line_contact import FilmModel
+from app.requests.materials import XUE, Oil, Surface
 from solvers.errors import InvalidInput
 from solvers.gears.pair import gear_pair
-from solvers.lubricants import Lubricant
-from solvers.materials import Solid
 from solvers.scuffing import inputs as si
 from solvers.scuffing.modification import gap
 from solvers.scuffing.path_of_contact import path_of_contact
@@ -207,8 +206,8 @@ class LoadDistributionRequest(Request):
             gears=self._pair(),
             load=self.load.load(),
             modifications=si.Modifications(**to_si(self.modifications)),
-            pinion_material=Solid(**to_si(self.materials.pinion)),
-            wheel_material=Solid(**to_si(self.materials.wheel)),
+            pinion_material=self.materials.pinion.solid(),
+            wheel_material=self.materials.wheel.solid(),
             friction_coefficient=self.friction_coefficient,
             model=si.Model(**options),
             resolution=si.Resolution(feature_points=self.model.feature_points),
@@ -245,12 +244,13 @@ class ScuffingTemperatures(Section):
     ] = None
 
 
-class ScuffingModel(LoadDistributionModel):
-    """Choices where the paper leaves room."""
+class ScuffingModel(LoadDistributionModel, FilmModel):
+    """Choices where the paper leaves room, and physics and resolution of the film."""
 
     lubrication: Annotated[
-        Literal["closed_form"], Input("flash temperature by Blok, film by Dowson and Higginson", None, XUE)
-    ] = "closed_form"
+        Literal["thermal_ehl", "closed_form"],
+        Input("film and flash temperature by the thermal EHL solution, or by formulas alone", None, XUE),
+    ] = "thermal_ehl"
     path_points: Annotated[int, Input("points of the check along the feature line", None, XUE, ge=2, le=500)] = 50
 
 
@@ -265,11 +265,16 @@ class ScuffingRequest(LoadDistributionRequest):
         """The solver's inputs."""
         return si.ScuffingInputs(
             distribution=self.distribution(),
-            lubricant=Lubricant(**to_si(self.lubricant)),
+            lubricant=self.lubricant.lubricant(),
             temperatures=si.Temperatures(**to_si(self.temperatures)),
+            lubrication=self.model.lubrication,
+            film=self.model.film(),
             path_points=self.model.path_points,
         )
 
     def unused_defaults(self) -> frozenset[str]:
-        """Lengths and exponent of reliefs that are zero; roughness counts here."""
-        return super().unused_defaults() - {"materials.pinion.roughness_um", "materials.wheel.roughness_um"}
+        """Lengths and exponent of reliefs that are zero, the film's model in closed form; roughness counts here."""
+        unused = super().unused_defaults() - {"materials.pinion.roughness_um", "materials.wheel.roughness_um"}
+        if self.model.lubrication == "closed_form":
+            return unused | {"model.rheology", "model.eyring_stress_mpa"}
+        return unused | self.model.unused_film_defaults("model")

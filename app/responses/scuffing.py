@@ -208,7 +208,10 @@ class ScuffingPathCurves(Group):
     """Along the feature line; what only the thermal EHL solution knows is null in closed form."""
 
     psi: Annotated[Values, Output("fraction of the feature line", "ψ")]
-    status: Annotated[list[Literal["ok", "unloaded"]], Output("whether the point has a contact")]
+    status: Annotated[
+        list[Literal["ok", "ok_with_warnings", "no_solution", "refused", "unloaded"]],
+        Output("outcome at the point; refused: outside the range of the thermal EHL solver"),
+    ]
     blok_flash_k: Annotated[Values, Output("flash temperature by Blok", "t_f", f"{XUE}, Fig. 22")]
     pinion_flash_k: Annotated[Gaps | None, Output("flash temperature of the pinion", "t_f1", f"{XUE}, Fig. 22")]
     wheel_flash_k: Annotated[Gaps | None, Output("flash temperature of the wheel", "t_f2", f"{XUE}, Fig. 22")]

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from math import pi
 from typing import Literal
 
+from solvers.contact import ehl
 from solvers.gears.inputs import GearPairInputs
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
@@ -117,9 +118,15 @@ class Temperatures:
 
 @dataclass(frozen=True, slots=True)
 class ScuffingInputs:
-    """What scuffing depends on; `path_points` along the feature line."""
+    """What scuffing depends on; `path_points` along the feature line.
+
+    lubrication: "thermal_ehl" solves the film under the local load (`film` is its model), "closed_form" leaves it at
+    Blok's and Dowson and Higginson's formulas, which are there in either case.
+    """
 
     distribution: LoadDistributionInputs
     lubricant: Lubricant = field(default_factory=Lubricant)
     temperatures: Temperatures = field(default_factory=Temperatures)
+    lubrication: Literal["thermal_ehl", "closed_form"] = "thermal_ehl"
+    film: ehl.Model = field(default_factory=ehl.Model)
     path_points: int = 50

@@ -7,7 +7,7 @@ from solvers.arrays import FloatArray
 from solvers.contact.film import Regime
 from solvers.scuffing.results import LoadDistribution
 
-PointStatus = Literal["ok", "unloaded"]
+PointStatus = Literal["ok", "ok_with_warnings", "no_solution", "refused", "unloaded"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +51,10 @@ class Safety:
 class ScuffingPath:
     """Along the feature line: Blok's flash temperature [K], film [m] and its ratio to roughness.
 
-    status is "ok" or "unloaded"; where nothing is loaded or nothing moves film and ratio are NaN, the flash
-    temperature is 0. What only the thermal EHL solution knows is None in closed form.
+    Where nothing is loaded or nothing moves the status is "unloaded", film and ratio are NaN and Blok's flash
+    temperature is 0. What only the thermal EHL solution knows is None in closed form and NaN at points it did not
+    solve ("no_solution") or would not take ("refused"). The thickness ratio is that of the thermal film if there is
+    one.
     """
 
     psi: FloatArray
