@@ -30,7 +30,9 @@ MODULUS = hertz.reduced_modulus(STEEL, STEEL)
 
 @cache
 def scuffing(pair: int) -> Scuffing:
-    return solve_scuffing(ScuffingInputs(paper_pair(pair), temperatures=Temperatures(scuffing=433.15)))
+    return solve_scuffing(
+        ScuffingInputs(paper_pair(pair), temperatures=Temperatures(scuffing=433.15), lubrication="closed_form")
+    )
 
 
 def at_start_of_mesh(line_load: float) -> dict[str, float]:
@@ -117,21 +119,27 @@ def test_equation_26_safety_in_either_unit() -> None:
 
 
 def test_safety_needs_a_scuffing_temperature_above_the_oils() -> None:
-    assert solve_scuffing(ScuffingInputs(paper_pair(1))).safety is None
+    assert solve_scuffing(ScuffingInputs(paper_pair(1), lubrication="closed_form")).safety is None
     with pytest.raises(InvalidInput) as refusal:
-        solve_scuffing(ScuffingInputs(paper_pair(1), temperatures=Temperatures(scuffing=320.0)))
+        solve_scuffing(
+            ScuffingInputs(paper_pair(1), temperatures=Temperatures(scuffing=320.0), lubrication="closed_form")
+        )
     assert refusal.value.code == "scuffing_temperature"
 
 
 def test_safety_is_none_with_a_notice_where_the_teeth_stay_cool() -> None:
-    result = solve_scuffing(ScuffingInputs(paper_pair(1), temperatures=Temperatures(bulk=250.0, scuffing=433.15)))
+    result = solve_scuffing(
+        ScuffingInputs(paper_pair(1), temperatures=Temperatures(bulk=250.0, scuffing=433.15), lubrication="closed_form")
+    )
     assert result.safety is not None
     assert result.safety.blok_factor is None
     assert "no_safety" in {notice.code for notice in result.warnings}
 
 
 def test_the_oil_enters_at_bulk_temperature() -> None:
-    cool = solve_scuffing(ScuffingInputs(paper_pair(1), temperatures=Temperatures(bulk=340.0))).path.dowson_higginson
+    cool = solve_scuffing(
+        ScuffingInputs(paper_pair(1), temperatures=Temperatures(bulk=340.0), lubrication="closed_form")
+    ).path.dowson_higginson
     thicker = (Lubricant().viscosity_at(0.0, 340.0) / 0.08) ** 0.7
     assert cool == pytest.approx(thicker * scuffing(1).path.dowson_higginson, rel=1e-12)
 

@@ -159,7 +159,7 @@ def test_undercut_is_a_warning_and_cuts_the_path_at_the_base_circle() -> None:
 
 def test_undercut_leaves_scuffing_finite() -> None:
     gears = GearPairInputs(GearTeeth(10), GearTeeth(60), 3e-3, 20e-3, helix_angle=radians(10), rack_tip_radius=0.38)
-    result = solve_scuffing(ScuffingInputs(LoadDistributionInputs(gears, PAPER_LOAD)))
+    result = solve_scuffing(ScuffingInputs(LoadDistributionInputs(gears, PAPER_LOAD), lubrication="closed_form"))
     assert np.all(np.isfinite(result.path.blok_flash))
     assert result.path.blok_flash[0] == 0.0
     assert np.isnan(result.path.dowson_higginson[0])
@@ -259,7 +259,7 @@ def test_contact_is_lost_over_part_of_the_flank() -> None:
 
 def test_no_film_where_the_feature_line_is_not_loaded() -> None:
     heavy = Modifications(lead_crowning=80e-6)
-    result = solve_scuffing(ScuffingInputs(paper_pair(4, heavy)))
+    result = solve_scuffing(ScuffingInputs(paper_pair(4, heavy), lubrication="closed_form"))
     bare = result.feature_line.line_load[[0, -1]] == 0
     assert np.all(bare)
     assert np.isnan(result.path.dowson_higginson[0])
@@ -294,7 +294,7 @@ def test_the_kinematic_error_is_the_limit_of_a_small_torque() -> None:
 
 def test_scuffing_without_torque_has_neither_flash_nor_film() -> None:
     inputs = with_torque(paper_pair(1), 0.0)
-    result = solve_scuffing(ScuffingInputs(inputs))
+    result = solve_scuffing(ScuffingInputs(inputs, lubrication="closed_form"))
     assert result.flash.blok_max == 0.0
     assert result.flash.blok_at_psi is None
     assert result.film.dowson_higginson_min is None
@@ -303,7 +303,7 @@ def test_scuffing_without_torque_has_neither_flash_nor_film() -> None:
 
 def test_scuffing_at_rest_has_neither_flash_nor_film() -> None:
     inputs = replace(paper_pair(1), load=Load(PAPER_LOAD.pinion_torque, 0.0))
-    result = solve_scuffing(ScuffingInputs(inputs))
+    result = solve_scuffing(ScuffingInputs(inputs, lubrication="closed_form"))
     assert result.flash.blok_max == 0.0
     assert result.film.dowson_higginson_min is None
 
