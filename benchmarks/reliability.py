@@ -32,6 +32,7 @@ MIX = (
     "xue-line-contact",
 )
 CONNECTIONS = 4
+JSON = {"Content-Type": "application/json"}
 SCRIPT = """
 local cases = {}
 %s
@@ -79,7 +80,7 @@ def load_script(address: str) -> str:
     for name in MIX:
         example = examples()[name]
         body = json.dumps({**example.request, "detail": "summary"})
-        answer = httpx.post(address + example.endpoint, content=body, timeout=60).raise_for_status().text
+        answer = httpx.post(address + example.endpoint, content=body, headers=JSON, timeout=60).raise_for_status().text
         lines.append(
             f"table.insert(cases, {{path = {lua(example.endpoint)}, body = {lua(body)}, answer = {lua(answer)}}})"
         )

@@ -12,10 +12,9 @@ from app.requests.gears import Gears
 from app.requests.line_contact import FilmModel
 from app.requests.materials import XUE, Oil, Surface
 from solvers.errors import InvalidInput
-from solvers.gears.pair import gear_pair
 from solvers.scuffing import inputs as si
 from solvers.scuffing.modification import gap
-from solvers.scuffing.path_of_contact import path_of_contact
+from solvers.scuffing.path_of_contact import meshing_path
 
 RELIEFS = ("tip_relief", "root_relief", "end_relief")
 NO_LENGTHS = "the paper gives no relief lengths"
@@ -187,7 +186,7 @@ class LoadDistributionRequest(Request):
     def resolved(self) -> Self:
         """Relief lengths follow from the path of contact, if there is one; the solver refuses the pair otherwise."""
         try:
-            path = path_of_contact(gear_pair(self._pair()))
+            path = meshing_path(self._pair())
         except InvalidInput:
             return self
         form = gap(si.Modifications(**to_si(self.modifications)), path)

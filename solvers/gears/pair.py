@@ -92,17 +92,18 @@ def full_rack_tip_radius(dedendum: float, normal_pressure_angle: float) -> float
     return room * cos(normal_pressure_angle) / (1.0 - sin(normal_pressure_angle))
 
 
-def gear_pair(inputs: GearPairInputs) -> GearPair:
+def gear_pair(inputs: GearPairInputs, *, slack: float = 1e-9) -> GearPair:
     """Geometry of the pair.
 
-    Raises InvalidInput: pointed_rack, no_involute, pointed_tooth, flank_interference (centre distance below the
-    backlash-free one), no_mesh (tip circles apart), no_tip_clearance.
+    `slack` is how far, relatively, a centre distance may lie below the backlash-free one: rounded profile shifts put
+    it there. Raises InvalidInput: pointed_rack, no_involute, pointed_tooth, flank_interference, no_mesh (tip circles
+    apart), no_tip_clearance.
     """
     transverse_module = inputs.normal_module / cos(inputs.helix_angle)
     transverse_pressure_angle = atan(tan(inputs.normal_pressure_angle) / cos(inputs.helix_angle))
     pinion = _gear(inputs, inputs.pinion, "pinion")
     wheel = _gear(inputs, inputs.wheel, "wheel")
-    backlash_free, centre_distance = _centre_distances(inputs, pinion, wheel, transverse_pressure_angle)
+    backlash_free, centre_distance = _centre_distances(inputs, pinion, wheel, transverse_pressure_angle, slack)
     working_pressure_angle = acos((pinion.base_radius + wheel.base_radius) / centre_distance)
     _check_tips(pinion, wheel, centre_distance)
     return GearPair(
@@ -158,7 +159,9 @@ def _gear(inputs: GearPairInputs, teeth: GearTeeth, name: str) -> Gear:
     return gear
 
 
-def _centre_distances(inputs: GearPairInputs, pinion: Gear, wheel: Gear, pressure_angle: float) -> tuple[float, float]:
+def _centre_distances(
+    inputs: GearPairInputs, pinion: Gear, wheel: Gear, pressure_angle: float, slack: float
+) -> tuple[float, float]:
     """Backlash-free and actual centre distance [m]."""
     shifts = inputs.pinion.profile_shift + inputs.wheel.profile_shift
     teeth = pinion.teeth + wheel.teeth
@@ -167,7 +170,7 @@ def _centre_distances(inputs: GearPairInputs, pinion: Gear, wheel: Gear, pressur
         raise InvalidInput("flank_interference", "the sum of profile shifts is too negative to mesh", "profile_shift")
     backlash_free = (pinion.base_radius + wheel.base_radius) / cos(inverse_involute(working_involute))
     centre_distance = backlash_free if inputs.centre_distance is None else inputs.centre_distance
-    if centre_distance < backlash_free * (1 - 1e-9):
+    if centre_distance < backlash_free * (1 - slack):
         raise InvalidInput(
             "flank_interference",
             f"the centre distance is below the backlash-free value of {backlash_free * 1e3:.4f} mm",

@@ -4,7 +4,6 @@ import numpy as np
 
 from solvers.arrays import frozen
 from solvers.contact.hertz import reduced_modulus
-from solvers.gears.pair import gear_pair
 from solvers.scuffing.contact_lines import ContactLengths, contact_lengths, roll_positions
 from solvers.scuffing.contact_slices import Mesh
 from solvers.scuffing.feature_line import feature_line
@@ -15,7 +14,7 @@ from solvers.scuffing.line_survey import Peak, largest
 from solvers.scuffing.load_balance import LoadBalance, balance_load
 from solvers.scuffing.mesh_stiffness import stiffness
 from solvers.scuffing.modification import gap
-from solvers.scuffing.path_of_contact import PathOfContact, path_of_contact
+from solvers.scuffing.path_of_contact import PathOfContact, meshing_path
 from solvers.scuffing.results import (
     ContactLines,
     Flank,
@@ -38,7 +37,7 @@ def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
     exclude each other (`pair_compliance`); NoSolution if the load balance does not converge.
     """
     pinion, wheel, resolution = inputs.pinion_material, inputs.wheel_material, inputs.resolution
-    path = path_of_contact(gear_pair(inputs.gears))
+    path = meshing_path(inputs.gears)
     lengths = contact_lengths(path)
     mesh = Mesh(path.plane, pair_compliance(path, pinion, wheel, inputs.model), gap(inputs.modifications, path))
     rolls = roll_positions(path.plane, resolution.roll_positions)

@@ -8,13 +8,16 @@ from typing import NamedTuple, TypeVar
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.errors import InvalidInput
-from solvers.gears.pair import GearPair
+from solvers.gears.inputs import GearPairInputs
+from solvers.gears.pair import GearPair, gear_pair
 
 Real = TypeVar("Real", float, FloatArray)
 
 # A helix whose overlap is below this is a spur gear: its contact line would enter within rounding of one roll position.
 LEAST_OVERLAP = 1e-9
 LEAST_RADIUS = 1e-6  # normal modules
+# Published pairs print a centre distance and profile shifts rounded to four digits: FZG type A overlaps by 1e-6 of it.
+ROUNDED_SHIFTS = 1e-5
 
 
 class ContactPlane(NamedTuple):
@@ -115,6 +118,14 @@ class PathOfContact:
         s = self.start + x
         wheel_speed = pinion_speed * self.pair.pinion.teeth / self.pair.wheel.teeth
         return pinion_speed * s, wheel_speed * (self.pair.line_of_action - s)
+
+
+def meshing_path(gears: GearPairInputs) -> PathOfContact:
+    """The path of contact of a pair; raises what `gear_pair` and `path_of_contact` raise.
+
+    Backlash does not enter the model, so that a centre distance may be below the backlash-free one by rounding.
+    """
+    return path_of_contact(gear_pair(gears, slack=ROUNDED_SHIFTS))
 
 
 def path_of_contact(pair: GearPair) -> PathOfContact:
