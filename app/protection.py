@@ -1,13 +1,11 @@
 """The outermost layer, pure ASGI: request id, limits on headers and body, security headers, timing, log, metrics."""
 
 import asyncio
-import json
 import logging
 import re
 import time
 from functools import lru_cache
-from typing import Any
-from uuid import uuid4
+from secrets import token_hex
 
 from prometheus_client import Counter, Histogram
 from starlette.exceptions import HTTPException
@@ -30,6 +28,9 @@ SECURITY_HEADERS = (
     (b"cache-control", b"no-store"),
     (b"content-security-policy", CONTENT_POLICY),
 )
+
+# JSON by hand: nothing in it needs escaping, and the encoder would cost a fifth of this layer.
+LOG_LINE = '{"time": %.3f, "request_id": "%s", "method": "%s", "endpoint": "%s", "status": %d, "duration_ms": %.3f}'
 
 access_log = logging.getLogger("tribodrive.access")
 
@@ -106,7 +107,7 @@ class Protection:
 def _request_id(headers: dict[bytes, bytes]) -> str:
     """The client's request id if it is a decent one, else a new one."""
     sent = headers.get(b"x-request-id", b"")
-    return sent.decode() if ACCEPTABLE_ID.fullmatch(sent) else uuid4().hex
+    return sent.decode() if ACCEPTABLE_ID.fullmatch(sent) else token_hex(16)
 
 
 def _record(scope: Scope, status: int, request_id: str, seconds: float) -> None:
@@ -115,15 +116,7 @@ def _record(scope: Scope, status: int, request_id: str, seconds: float) -> None:
     requests, duration = _meters(endpoint, status)
     requests.inc()
     duration.observe(seconds)
-    line: dict[str, Any] = {
-        "time": time.time(),
-        "request_id": request_id,
-        "method": scope["method"],
-        "endpoint": endpoint,
-        "status": status,
-        "duration_ms": round(seconds * 1e3, 3),
-    }
-    access_log.info(json.dumps(line))
+    access_log.info(LOG_LINE, time.time(), request_id, scope["method"], endpoint, status, seconds * 1e3)
 
 
 @lru_cache(maxsize=1024)

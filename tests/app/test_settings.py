@@ -1,0 +1,40 @@
+"""Every limit is one environment variable, and the documentation says so."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from pydantic import ValidationError
+
+from app.settings import Settings
+
+README = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
+
+
+def test_help_and_readme_document_every_setting() -> None:
+    shown = subprocess.run(
+        [sys.executable, "-m", "app", "--help"], check=True, capture_output=True, text=True, env={"COLUMNS": "200"}
+    ).stdout
+    for name, field in Settings.model_fields.items():
+        variable = f"TRIBODRIVE_{name.upper()}"
+        assert variable in shown
+        assert field.description in shown
+        assert f"| `{variable}` | {field.description} |" in README
+
+
+def test_readme_documents_nothing_else() -> None:
+    documented = {word.strip("`|") for word in README.split() if word.startswith("`TRIBODRIVE_")}
+    assert documented == {f"TRIBODRIVE_{name.upper()}" for name in Settings.model_fields}
+
+
+def test_settings_come_from_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TRIBODRIVE_DEADLINE_S", "2.5")
+    assert Settings().deadline_s == 2.5
+
+
+@pytest.mark.parametrize(("variable", "value"), [("WORKERS", "0"), ("PORT", "x"), ("DEADLINE_S", "-1")])
+def test_nonsense_settings_are_refused(monkeypatch: pytest.MonkeyPatch, variable: str, value: str) -> None:
+    monkeypatch.setenv(f"TRIBODRIVE_{variable}", value)
+    with pytest.raises(ValidationError):
+        Settings()
