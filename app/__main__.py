@@ -3,6 +3,7 @@
 import argparse
 import logging
 import sys
+from io import TextIOWrapper
 
 import uvicorn
 
@@ -23,8 +24,9 @@ def main() -> None:
 def serve(factory: str) -> None:
     """Run the application that `factory` ("module:function") creates, with the options it is meant to run with."""
     limits = settings()
-    logging.logThreads = logging.logProcesses = logging.logMultiprocessing = False
-    logging.basicConfig(level=limits.log_level.upper(), format="%(message)s", stream=sys.stdout)
+    assert isinstance(sys.stdout, TextIOWrapper)
+    sys.stdout.reconfigure(line_buffering=True)
+    logging.basicConfig(level=limits.log_level.upper(), format="%(message)s", stream=sys.stderr)
     print(f"tribodrive: docs at http://{limits.host}:{limits.port}/docs", flush=True)  # noqa: T201
     uvicorn.run(
         factory,

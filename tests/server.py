@@ -22,15 +22,18 @@ def free_port() -> int:
 
 
 @contextmanager
-def running_server(command: list[str] | None = None, **settings: object) -> Iterator[tuple[subprocess.Popen[str], str]]:
+def running_server(
+    command: list[str] | None = None, *, log: Path | None = None, **settings: object
+) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """A server process and its address; settings become environment variables."""
     port = free_port()
     environment = {f"TRIBODRIVE_{name.upper()}": str(value) for name, value in settings.items()}
+    output = log.open("w") if log is not None else Path(os.devnull).open("w")
     process = subprocess.Popen(
         command or [sys.executable, "-m", "app"],
         env={**os.environ, **environment, "TRIBODRIVE_PORT": str(port)},
         cwd=Path(__file__).parents[1],
-        stdout=subprocess.DEVNULL,
+        stdout=output,
         text=True,
     )
     try:
@@ -38,6 +41,7 @@ def running_server(command: list[str] | None = None, **settings: object) -> Iter
     finally:
         process.terminate()
         process.wait(40)
+        output.close()
 
 
 def _ready(process: subprocess.Popen[str], address: str) -> str:
