@@ -28,20 +28,19 @@ def running_server(
     """A server process and its address; settings become environment variables."""
     port = free_port()
     environment = {f"TRIBODRIVE_{name.upper()}": str(value) for name, value in settings.items()}
-    output = log.open("w") if log is not None else Path(os.devnull).open("w")
-    process = subprocess.Popen(
-        command or [sys.executable, "-m", "app"],
-        env={**os.environ, **environment, "TRIBODRIVE_PORT": str(port)},
-        cwd=Path(__file__).parents[1],
-        stdout=output,
-        text=True,
-    )
-    try:
-        yield process, _ready(process, f"http://127.0.0.1:{port}")
-    finally:
-        process.terminate()
-        process.wait(40)
-        output.close()
+    with (log or Path(os.devnull)).open("w") as output:
+        process = subprocess.Popen(
+            command or [sys.executable, "-m", "app"],
+            env={**os.environ, **environment, "TRIBODRIVE_PORT": str(port)},
+            cwd=Path(__file__).parents[1],
+            stdout=output,
+            text=True,
+        )
+        try:
+            yield process, _ready(process, f"http://127.0.0.1:{port}")
+        finally:
+            process.terminate()
+            process.wait(40)
 
 
 def _ready(process: subprocess.Popen[str], address: str) -> str:
