@@ -116,31 +116,25 @@ def _book_ends(duct: Duct, cells: Cells, record: Record, low: int, high: int, dt
 
 @kernel
 def _book_cells(gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, dt: float) -> None:
-    """Book what the walls did, and take over the new state."""
+    """Book what the walls did, means (trapezoidal) and extremes, and take over the new state."""
+    old, new, content, loss = cells.state, cells.next_state, cells.content, cells.loss
+    profile, extremes = record.profile, record.extremes
     for i in range(low, high):
-        record.mass[4] += cells.loss[i, 0] * duct.width
-        record.energy[4] += cells.loss[i, 1] * duct.width
-        record.energy[6] += cells.loss[i, 2] * duct.width
-        _follow(gas, cells, record, i, dt)
+        record.mass[4] += loss[i, 0] * duct.width
+        record.energy[4] += loss[i, 1] * duct.width
+        record.energy[6] += loss[i, 2] * duct.width
+        static = 0.5 * (old[i, 2] / old[i, 0] + new[i, 2] / new[i, 0]) / gas.constant
+        dynamic = 0.25 * (old[i, 1] ** 2 + new[i, 1] ** 2) / gas.heat_capacity
+        profile[i, 0] += static * dt
+        profile[i, 1] += (static + dynamic) * dt
+        profile[i, 2] += dt
+        profile[i, 3] = max(profile[i, 3], new[i, 2])
+        extremes[0], extremes[1] = max(extremes[0], new[i, 2]), min(extremes[1], new[i, 2])
+        speed = abs(new[i, 1])
+        extremes[2] = max(extremes[2], speed / np.sqrt(gas.exponent * new[i, 2] / new[i, 0]))
+        extremes[3] = max(extremes[3], speed)
         for k in range(3):
-            cells.content[i, k], cells.state[i, k] = cells.next_content[i, k], cells.next_state[i, k]
-
-
-@kernel
-def _follow(gas: Gas, cells: Cells, record: Record, i: int, dt: float) -> None:
-    """Means over the stroke (trapezoidal) and extremes of one cell."""
-    old, new = cells.state[i], cells.next_state[i]
-    static = 0.5 * (old[2] / old[0] + new[2] / new[0]) / gas.constant
-    dynamic = 0.25 * (old[1] ** 2 + new[1] ** 2) / gas.heat_capacity
-    profile, extremes = record.profile[i], record.extremes
-    profile[0] += static * dt
-    profile[1] += (static + dynamic) * dt
-    profile[2] += dt
-    profile[3] = max(profile[3], new[2])
-    extremes[0], extremes[1] = max(extremes[0], new[2]), min(extremes[1], new[2])
-    speed = abs(new[1])
-    extremes[2] = max(extremes[2], speed / np.sqrt(gas.exponent * new[2] / new[0]))
-    extremes[3] = max(extremes[3], speed)
+            content[i, k], old[i, k] = cells.next_content[i, k], new[i, k]
 
 
 @kernel

@@ -28,7 +28,8 @@ class Cells(NamedTuple):
     `content` per metre (mass, momentum, energy), `state` (density, velocity, pressure); `walls` at the start of the step
     and `next_walls` at its end (area, clearance, transport); `slope` and `half` of the state; `loss` over the step
     (leaked mass, energy lost to the walls, gauge work done by them; per metre); `face_area` and `flux` at the half step;
-    `ends` (2, 3) of the low and the high end: Mach number asked for, Mach number, velocity outwards [m/s].
+    `ends` (2, 3) of the low and the high end: Mach number asked for, Mach number, velocity outwards [m/s]; `leak`
+    (cells,) the latest leakage, a first guess for the next [kg/(s m)].
     """
 
     content: FloatArray
@@ -43,11 +44,12 @@ class Cells(NamedTuple):
     face_area: FloatArray
     flux: FloatArray
     ends: FloatArray
+    leak: FloatArray
 
 
 def empty_cells(cells: int) -> Cells:
     """Arrays for a duct of so many cells."""
-    return Cells(*[np.zeros((cells, 3)) for _ in range(9)], np.zeros(cells + 1), np.zeros((cells + 1, 3)), np.zeros((2, 3)))
+    return Cells(*[np.zeros((cells, 3)) for _ in range(9)], np.zeros(cells + 1), np.zeros((cells + 1, 3)), np.zeros((2, 3)), np.zeros(cells))
 
 
 @kernel
@@ -102,14 +104,13 @@ def _end_slope(nearest: float, next_one: float) -> float:
 
 
 @kernel
-def _cell_walls(duct: Duct, cells: Cells, i: int, fraction: float, dt: float) -> Walls:
+def _walls(duct: Duct, now: FloatArray, after: FloatArray, i: int, fraction: float, dt: float) -> Walls:
     """Walls of cell i after a fraction of the step."""
-    now, after = cells.walls[i], cells.next_walls[i]
     return Walls(
-        now[0] + fraction * (after[0] - now[0]),
-        (after[0] - now[0]) / dt,
-        duct.discharge * (now[1] + fraction * (after[1] - now[1])),
-        duct.speed * (now[2] + fraction * (after[2] - now[2])),
+        now[i, 0] + fraction * (after[i, 0] - now[i, 0]),
+        (after[i, 0] - now[i, 0]) / dt,
+        duct.discharge * (now[i, 1] + fraction * (after[i, 1] - now[i, 1])),
+        duct.speed * (now[i, 2] + fraction * (after[i, 2] - now[i, 2])),
     )
 
 
@@ -117,45 +118,43 @@ def _cell_walls(duct: Duct, cells: Cells, i: int, fraction: float, dt: float) ->
 def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
     """State in the middle of the step, from each cell's own fluxes (Hancock)."""
     g, share = gas.exponent, 0.5 * dt / duct.width
+    w, s, c, area, half = cells.state, cells.slope, cells.content, cells.face_area, cells.half
     for i in range(low, high):
-        w, s, c = cells.state[i], cells.slope[i], cells.content[i]
-        left, right = cells.face_area[i], cells.face_area[i + 1]
-        r_l, u_l, p_l = w[0] - 0.5 * s[0], w[1] - 0.5 * s[1], w[2] - 0.5 * s[2]
-        r_r, u_r, p_r = w[0] + 0.5 * s[0], w[1] + 0.5 * s[1], w[2] + 0.5 * s[2]
-        mass = c[0] - share * (right * r_r * u_r - left * r_l * u_l)
-        force = w[2] * (right - left)
-        momentum = c[1] - share * (right * (r_r * u_r**2 + p_r) - left * (r_l * u_l**2 + p_l) - force)
+        left, right = area[i], area[i + 1]
+        r_l, u_l, p_l = w[i, 0] - 0.5 * s[i, 0], w[i, 1] - 0.5 * s[i, 1], w[i, 2] - 0.5 * s[i, 2]
+        r_r, u_r, p_r = w[i, 0] + 0.5 * s[i, 0], w[i, 1] + 0.5 * s[i, 1], w[i, 2] + 0.5 * s[i, 2]
+        mass = c[i, 0] - share * (right * r_r * u_r - left * r_l * u_l)
+        force = w[i, 2] * (right - left)
+        momentum = c[i, 1] - share * (right * (r_r * u_r**2 + p_r) - left * (r_l * u_l**2 + p_l) - force)
         enthalpy_l = g / (g - 1.0) * p_l + 0.5 * r_l * u_l**2
         enthalpy_r = g / (g - 1.0) * p_r + 0.5 * r_r * u_r**2
-        energy = c[2] - share * (right * u_r * enthalpy_r - left * u_l * enthalpy_l)
-        walls = _cell_walls(duct, cells, i, 0.5, dt)
-        stage = implicit_stage(gas, walls, mass, momentum, energy, 0.5 * dt)
+        energy = c[i, 2] - share * (right * u_r * enthalpy_r - left * u_l * enthalpy_l)
+        walls = _walls(duct, cells.walls, cells.next_walls, i, 0.5, dt)
+        stage = implicit_stage(gas, walls, mass, momentum, energy, 0.5 * dt, cells.leak[i])
         if not stage.fits:
             return False
-        cells.half[i, 0], cells.half[i, 1] = stage.mass / walls.area, stage.momentum / stage.mass
-        cells.half[i, 2] = stage.pressure
+        half[i, 0], half[i, 1], half[i, 2] = stage.mass / walls.area, stage.momentum / stage.mass, stage.pressure
     return True
 
 
 @kernel
-def _edge(cells: Cells, i: int, side: float) -> tuple[float, float, float]:
-    """State at a cell's edge in the middle of the step; that of the cell where the slope leads too far."""
-    w, s = cells.half[i], cells.slope[i]
-    rho, p = w[0] + side * s[0], w[2] + side * s[2]
-    if rho < 0.1 * w[0] or p < 0.1 * w[2]:
-        return w[0], w[1], w[2]
-    return rho, w[1] + side * s[1], p
+def _edge(w: FloatArray, s: FloatArray, i: int, side: float) -> tuple[float, float, float]:
+    """State w at a cell's edge by the slope s; that of the cell itself where the slope leads too far."""
+    rho, p = w[i, 0] + side * s[i, 0], w[i, 2] + side * s[i, 2]
+    if rho < 0.1 * w[i, 0] or p < 0.1 * w[i, 2]:
+        return w[i, 0], w[i, 1], w[i, 2]
+    return rho, w[i, 1] + side * s[i, 1], p
 
 
 @kernel
 def _set_fluxes(gas: Gas, cells: Cells, low: int, high: int) -> None:
     """Fluxes through all faces, times their areas."""
+    half, slope, flux, area = cells.half, cells.slope, cells.flux, cells.face_area
     for i in range(low + 1, high):
-        rho_l, u_l, p_l = _edge(cells, i - 1, 0.5)
-        rho_r, u_r, p_r = _edge(cells, i, -0.5)
-        flux = hllc(gas.exponent, rho_l, u_l, p_l, rho_r, u_r, p_r)
-        for k in range(3):
-            cells.flux[i, k] = cells.face_area[i] * flux[k]
+        rho_l, u_l, p_l = _edge(half, slope, i - 1, 0.5)
+        rho_r, u_r, p_r = _edge(half, slope, i, -0.5)
+        mass, momentum, energy = hllc(gas.exponent, rho_l, u_l, p_l, rho_r, u_r, p_r)
+        flux[i, 0], flux[i, 1], flux[i, 2] = area[i] * mass, area[i] * momentum, area[i] * energy
     _set_end(gas, cells, low, low, 0)
     _set_end(gas, cells, high - 1, high, 1)
 
@@ -163,7 +162,7 @@ def _set_fluxes(gas: Gas, cells: Cells, low: int, high: int) -> None:
 @kernel
 def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
     outward = 2.0 * end - 1.0
-    rho, u, p = _edge(cells, cell, 0.5 * outward)
+    rho, u, p = _edge(cells.half, cells.slope, cell, 0.5 * outward)
     rho_f, v, p_f, mach = reservoir_face(gas, rho, outward * u, p)
     area, g = cells.face_area[face], gas.exponent
     cells.flux[face, 0] = outward * area * rho_f * v
@@ -174,52 +173,45 @@ def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
 
 @kernel
 def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
-    """Content at the end of the step from the fluxes of its middle."""
+    """Content at the end of the step from the fluxes of its middle, leakage and wall work in two implicit stages."""
+    flux, area, c, loss, h = cells.flux, cells.face_area, cells.content, cells.loss, _DIAGONAL * dt
     for i in range(low, high):
-        left, right = cells.flux[i], cells.flux[i + 1]
-        force = cells.half[i, 2] * (cells.face_area[i + 1] - cells.face_area[i])
-        mass = (left[0] - right[0]) / duct.width
-        momentum = (left[1] - right[1] + force) / duct.width
-        energy = (left[2] - right[2]) / duct.width
-        if not _close_cell(gas, duct, cells, i, dt, mass, momentum, energy):
+        mass = (flux[i, 0] - flux[i + 1, 0]) / duct.width
+        force = cells.half[i, 2] * (area[i + 1] - area[i])
+        momentum = (flux[i, 1] - flux[i + 1, 1] + force) / duct.width
+        energy = (flux[i, 2] - flux[i + 1, 2]) / duct.width
+        early, late = dt - h, h
+        walls = _walls(duct, cells.walls, cells.next_walls, i, _DIAGONAL, dt)
+        first = implicit_stage(
+            gas, walls, c[i, 0] + h * mass, c[i, 1] + h * momentum, c[i, 2] + h * energy, h, cells.leak[i]
+        )
+        walls = _walls(duct, cells.walls, cells.next_walls, i, 1.0, dt)
+        full_mass, full_momentum, full_energy = c[i, 0] + dt * mass, c[i, 1] + dt * momentum, c[i, 2] + dt * energy
+        last = implicit_stage(
+            gas,
+            walls,
+            full_mass - early * first.leak,
+            full_momentum - early * first.momentum_rate,
+            full_energy - early * first.energy_rate,
+            late,
+            first.leak,
+        )
+        if not (first.fits and last.fits):  # one stage: first order, hardier
+            early, late = 0.0, dt
+            last = implicit_stage(gas, walls, full_mass, full_momentum, full_energy, dt, cells.leak[i])
+        if not last.fits:
             return False
+        loss[i, 0] = early * first.leak + late * last.leak
+        loss[i, 1] = early * first.energy_rate + late * last.energy_rate
+        gauge = early * (gas.pressure - first.pressure) + late * (gas.pressure - last.pressure)
+        loss[i, 2] = gauge * walls.growth
+        cells.leak[i] = last.leak
+        _store(gas, cells.next_content, cells.next_state, i, last, walls.area)
     return True
 
 
 @kernel
-def _close_cell(
-    gas: Gas, duct: Duct, cells: Cells, i: int, dt: float, mass: float, momentum: float, energy: float
-) -> bool:
-    """Leakage and wall work of a cell that gains mass, momentum and energy at the given rates per metre."""
-    c, h = cells.content[i], _DIAGONAL * dt
-    walls = _cell_walls(duct, cells, i, _DIAGONAL, dt)
-    first = implicit_stage(gas, walls, c[0] + h * mass, c[1] + h * momentum, c[2] + h * energy, h)
-    last_walls = _cell_walls(duct, cells, i, 1.0, dt)
-    early = dt - h
-    last = first
-    if first.fits:
-        last = implicit_stage(
-            gas,
-            last_walls,
-            c[0] + dt * mass - early * first.leak,
-            c[1] + dt * momentum - early * first.momentum_rate,
-            c[2] + dt * energy - early * first.energy_rate,
-            h,
-        )
-    if not last.fits:  # one stage: first order, hardier
-        early, h, first = 0.0, dt, last
-        last = implicit_stage(gas, last_walls, c[0] + dt * mass, c[1] + dt * momentum, c[2] + dt * energy, dt)
-    _store(gas, cells, i, last, last_walls)
-    cells.loss[i, 0] = early * first.leak + h * last.leak
-    cells.loss[i, 1] = early * first.energy_rate + h * last.energy_rate
-    cells.loss[i, 2] = (early * (gas.pressure - first.pressure) + h * (gas.pressure - last.pressure)) * walls.growth
-    return last.fits
-
-
-@kernel
-def _store(gas: Gas, cells: Cells, i: int, stage: Stage, walls: Walls) -> None:
-    content = cells.next_content[i]
-    content[0], content[1], content[2] = stage.mass, stage.momentum, stage.energy
-    cells.next_state[i, 0], cells.next_state[i, 1] = stage.mass / walls.area, stage.momentum / stage.mass
-    inner = stage.energy - 0.5 * stage.momentum**2 / stage.mass
-    cells.next_state[i, 2] = (gas.exponent - 1.0) * inner / walls.area
+def _store(gas: Gas, content: FloatArray, state: FloatArray, i: int, stage: Stage, area: float) -> None:
+    content[i, 0], content[i, 1], content[i, 2] = stage.mass, stage.momentum, stage.energy
+    state[i, 0], state[i, 1] = stage.mass / area, stage.momentum / stage.mass
+    state[i, 2] = (gas.exponent - 1.0) * (stage.energy - 0.5 * stage.momentum**2 / stage.mass) / area

@@ -48,8 +48,8 @@ class Stage(NamedTuple):
 
 
 @kernel
-def implicit_stage(gas: Gas, walls: Walls, mass: float, momentum: float, energy: float, h: float) -> Stage:
-    """Backward Euler stage of length h [s] that starts from an explicit content (mass, momentum, energy)."""
+def implicit_stage(gas: Gas, walls: Walls, mass: float, momentum: float, energy: float, h: float, guess: float) -> Stage:
+    """Backward Euler stage of length h [s] from an explicit content, the leakage from a guess [kg/(s m)]."""
     into = max(-walls.transport, 0.0) * gas.density
     heat = gas.heat_capacity * gas.temperature
     if mass <= 0.0:
@@ -60,9 +60,9 @@ def implicit_stage(gas: Gas, walls: Walls, mass: float, momentum: float, energy:
     if inner <= 0.0 or stiffness <= 0.0:
         return _unphysical()
     if inner > stiffness * gas.pressure:
-        out, inflow = _outflow(gas, walls, filled, inner, h), into
+        out, inflow = _outflow(gas, walls, filled, inner, h, max(guess, 0.0)), into
     else:
-        out, inflow = 0.0, into + _inflow(gas, walls, energy + h * into * heat, momentum, filled, h)
+        out, inflow = 0.0, into + _inflow(gas, walls, energy + h * into * heat, momentum, filled, h, max(-guess, 0.0))
     filled = mass + h * inflow
     velocity = momentum / filled
     carried = max(walls.transport, 0.0) / walls.area
@@ -107,12 +107,12 @@ def _improved(flux: float, squared: float, slope: float) -> float:
 
 
 @kernel
-def _outflow(gas: Gas, walls: Walls, mass: float, inner: float, h: float) -> float:
+def _outflow(gas: Gas, walls: Walls, mass: float, inner: float, h: float, guess: float) -> float:
     """Leakage out of a cell above ambient pressure [kg/(s m)]."""
     g, area = gas.exponent, walls.area
     thinned = 1.0 + h * max(walls.transport, 0.0) / area
     stiffness, gap = _stiffness(gas, walls, h), walls.gap
-    out = 0.0
+    out = min(guess, 0.5 * mass / h)
     for _ in range(_NEWTON_LIMIT):
         content = (mass - h * out) / thinned
         enthalpy = g / (g - 1.0) * area / content
@@ -131,10 +131,10 @@ def _outflow(gas: Gas, walls: Walls, mass: float, inner: float, h: float) -> flo
 
 
 @kernel
-def _inflow(gas: Gas, walls: Walls, energy: float, momentum: float, mass: float, h: float) -> float:
+def _inflow(gas: Gas, walls: Walls, energy: float, momentum: float, mass: float, h: float, guess: float) -> float:
     """Leakage into a cell below ambient pressure [kg/(s m)]."""
     stiffness, gap, heat = _stiffness(gas, walls, h), walls.gap, gas.heat_capacity * gas.temperature
-    inflow = 0.0
+    inflow = guess
     for _ in range(_NEWTON_LIMIT):
         content = mass + h * inflow
         pressure = (energy + h * inflow * heat - 0.5 * momentum**2 / content) / stiffness
