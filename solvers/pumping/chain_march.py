@@ -87,9 +87,7 @@ def _mach(gas: Gas, pockets: Pockets, face: int, low: int, high: int) -> float:
 
 
 @kernel
-def _book(
-    gas: Gas, duct: Duct, pockets: Pockets, record: Record, low: int, high: int, dt: float, taken: int
-) -> None:
+def _book(gas: Gas, duct: Duct, pockets: Pockets, record: Record, low: int, high: int, dt: float, taken: int) -> None:
     """Book all flows, means and extremes, and take over the new state."""
     for end in range(2):
         face, outward = (low, -1.0) if end == 0 else (high, 1.0)

@@ -68,9 +68,7 @@ def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> fl
 
 
 @kernel
-def _fill(
-    gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int, new_high: int, angle: float
-) -> None:
+def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int, new_high: int, angle: float) -> None:
     """Ambient gas at rest in the cells whose stroke begins."""
     for i in range(new_low, new_high):
         if i < low or i >= high:

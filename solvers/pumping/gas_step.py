@@ -49,7 +49,13 @@ class Cells(NamedTuple):
 
 def empty_cells(cells: int) -> Cells:
     """Arrays for a duct of so many cells."""
-    return Cells(*[np.zeros((cells, 3)) for _ in range(9)], np.zeros(cells + 1), np.zeros((cells + 1, 3)), np.zeros((2, 3)), np.zeros(cells))
+    return Cells(
+        *[np.zeros((cells, 3)) for _ in range(9)],
+        np.zeros(cells + 1),
+        np.zeros((cells + 1, 3)),
+        np.zeros((2, 3)),
+        np.zeros(cells),
+    )
 
 
 @kernel

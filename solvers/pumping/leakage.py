@@ -48,7 +48,9 @@ class Stage(NamedTuple):
 
 
 @kernel
-def implicit_stage(gas: Gas, walls: Walls, mass: float, momentum: float, energy: float, h: float, guess: float) -> Stage:
+def implicit_stage(
+    gas: Gas, walls: Walls, mass: float, momentum: float, energy: float, h: float, guess: float
+) -> Stage:
     """Backward Euler stage of length h [s] from an explicit content, the leakage from a guess [kg/(s m)]."""
     into = max(-walls.transport, 0.0) * gas.density
     heat = gas.heat_capacity * gas.temperature

@@ -29,6 +29,8 @@ def pocket_chain(
         isentropic = closure is Closure.ISENTROPIC
         taken = march_chain(gas, duct, empty_pockets(duct.cells), angle, substeps, record, isentropic)
         if taken < 0:
-            raise NoSolution("newton_not_converged", "a time step of the pocket chain did not converge; change the slices")
+            raise NoSolution(
+                "newton_not_converged", "a time step of the pocket chain did not converge; change the slices"
+            )
         marches.append(March(stretch, record, taken))
     return space_flow(gas, angle, marches, conserves_energy=closure is Closure.ENERGY)

@@ -19,9 +19,7 @@ class Pulsation:
     rear: FloatArray
 
 
-def pulsation(
-    meshing_frequency: float, flows: list[tuple[SpaceFlow, float, float]]
-) -> Pulsation:
+def pulsation(meshing_frequency: float, flows: list[tuple[SpaceFlow, float, float]]) -> Pulsation:
     """Superpose the flows of successive spaces: amplitude k is 2 f_m |integral m_dot exp(-2 pi i k f_m t) dt|.
 
     `flows`: of each gear's spaces, with the owner's speed [rad/s] and the share of a mesh period by which they come to the

@@ -94,7 +94,9 @@ def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: b
     tangential = circumferential_backlash(pair, extra_backlash)
     mate_tip = mate.half_tooth_angle(mate.tip_radius) - thinning
     if mate_tip <= 0.0:
-        raise InvalidInput("pointed_tooth", "the backlash leaves the mate's teeth pointed; reduce it", "normal_backlash")
+        raise InvalidInput(
+            "pointed_tooth", "the backlash leaves the mate's teeth pointed; reduce it", "normal_backlash"
+        )
     return ToothSpace(
         root=root_profile(pair.inputs, teeth, owner),
         base_radius=owner.base_radius,
@@ -139,7 +141,9 @@ def check_flanks(pair: GearPair) -> list[Notice]:
 
     Raises InvalidInput: involute_interference, form_diameter.
     """
-    notices = _check_flank(pair, pair.pinion, pair.wheel, "pinion") + _check_flank(pair, pair.wheel, pair.pinion, "wheel")
+    notices = _check_flank(pair, pair.pinion, pair.wheel, "pinion") + _check_flank(
+        pair, pair.wheel, pair.pinion, "wheel"
+    )
     ratio = transverse_contact_ratio(pair)
     if ratio < 1.0:
         message = f"the transverse contact ratio is {ratio:.3f}: below 1 nothing seals the space between two pairs"
