@@ -10,10 +10,13 @@ Exception
 class SolverError(Exception):
     """Base of everything the solvers raise on purpose."""
 
-    def __init__(self, code: str, message: str) -> None:
-        super().__init__(message)
+    def __init__(self, code: str, message: str, *details: object) -> None:
+        super().__init__(code, message, *details)  # all arguments, so that the exception survives pickling
         self.code = code
         self.message = message
+
+    def __str__(self) -> str:
+        return self.message
 
 
 class InvalidInput(SolverError):
@@ -24,7 +27,7 @@ class InvalidInput(SolverError):
     """
 
     def __init__(self, code: str, message: str, field: str | None = None) -> None:
-        super().__init__(code, message)
+        super().__init__(code, message, field)
         self.field = field
 
 
@@ -32,5 +35,5 @@ class NoSolution(SolverError):
     """An iteration that ended without meeting its criteria; `residuals` says by how much."""
 
     def __init__(self, code: str, message: str, residuals: dict[str, float] | None = None) -> None:
-        super().__init__(code, message)
+        super().__init__(code, message, residuals)
         self.residuals = residuals or {}

@@ -1,0 +1,20 @@
+# Two stages: the first installs and compiles the kernels, the second serves without tools, as nobody, on a read-only root.
+FROM python:3.11-slim AS build
+WORKDIR /src
+COPY pyproject.toml constraints.txt README.md ./
+COPY app app
+COPY solvers solvers
+RUN python -m venv /opt/tribodrive && /opt/tribodrive/bin/pip install --no-cache-dir -c constraints.txt .
+WORKDIR /
+RUN NUMBA_CACHE_DIR=/opt/kernels /opt/tribodrive/bin/python -m app.warm_up
+
+FROM python:3.11-slim
+COPY --from=build /opt/tribodrive /opt/tribodrive
+COPY --from=build /opt/kernels /opt/kernels
+USER nobody
+# The kernel cache must be writable for numba to read it; /dev/shm is, even where the root is not.
+ENV PATH=/opt/tribodrive/bin:$PATH PYTHONDONTWRITEBYTECODE=1 NUMBA_CACHE_DIR=/dev/shm/kernels TRIBODRIVE_HOST=0.0.0.0
+WORKDIR /opt/tribodrive
+EXPOSE 8000
+HEALTHCHECK --start-period=60s CMD ["python", "-c", "import httpx; httpx.get('http://127.0.0.1:8000/readyz').raise_for_status()"]
+CMD ["sh", "-c", "cp -r /opt/kernels /dev/shm/kernels && exec python -m app"]

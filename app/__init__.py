@@ -1,0 +1,1 @@
+"""The web service: validates input, converts units, runs the solvers and answers."""

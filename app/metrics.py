@@ -1,0 +1,9 @@
+"""What the service counts, in the Prometheus text format at /metrics."""
+
+from prometheus_client import Counter, Gauge, Histogram
+
+REQUESTS = Counter("tribodrive_requests", "Requests answered", ["endpoint", "status"])
+DURATION = Histogram("tribodrive_request_duration_seconds", "From first byte to last", ["endpoint"])
+QUEUE = Gauge("tribodrive_calculations", "Calculations running or waiting")
+WORKERS_LOST = Counter("tribodrive_workers_lost", "Worker processes that died while they computed")
+DEADLINES_MISSED = Counter("tribodrive_deadlines_missed", "Calculations ended at their deadline")

@@ -1,0 +1,212 @@
+"""Errors as RFC 9457 problem documents. The input is never echoed.
+
+`PROBLEMS` is the one table from exception to status, code and title.
+"""
+
+import logging
+from collections.abc import Callable
+from http import HTTPStatus
+from typing import Annotated, Any, NamedTuple
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
+from pydantic import BaseModel
+from pydantic.json_schema import models_json_schema
+from starlette.exceptions import HTTPException
+
+from app.quantities import Output
+
+MEDIA_TYPE = "application/problem+json"
+LONGEST_POINTER_PART = 100
+
+logger = logging.getLogger("tribodrive")
+
+
+class Unprocessable(Exception):
+    """Input that the schema allows and physics does not; `path` is the dotted request field at fault."""
+
+    def __init__(self, code: str, message: str, path: str | None) -> None:
+        super().__init__(code, message, path)
+        self.code = code
+        self.message = message
+        self.path = path
+
+
+class QueueFull(Exception):
+    """More requests wait than the settings allow."""
+
+
+class DeadlineExceeded(Exception):
+    """The calculation took longer than the settings allow; its worker was ended."""
+
+
+class WorkerLost(Exception):
+    """The worker process died while it computed."""
+
+
+class ClientGone(Exception):
+    """The client closed the connection; its calculation was ended."""
+
+
+class Kind(NamedTuple):
+    """Status, code and title of a problem, and how long to wait before trying again."""
+
+    status: int
+    code: str
+    title: str
+    retry_after_s: int | None = None
+
+
+PROBLEMS: dict[type[Exception], Kind] = {
+    QueueFull: Kind(503, "queue_full", "Too many calculations are waiting; try again later", 1),
+    WorkerLost: Kind(503, "worker_lost", "The calculation was lost with its process; try again", 1),
+    MemoryError: Kind(503, "memory_limit", "The calculation needs more memory than a worker may use; make it smaller"),
+    DeadlineExceeded: Kind(504, "deadline_exceeded", "The calculation took too long; make it smaller"),
+    ClientGone: Kind(499, "client_gone", "The client closed the connection"),
+    Exception: Kind(500, "internal_error", "Something went wrong in the service; the log has the cause"),
+}
+
+
+class FieldError(BaseModel):
+    """What is wrong with one field."""
+
+    pointer: Annotated[str, Output("JSON Pointer into the request; empty: the whole of it")]
+    code: Annotated[str, Output("stable name of the error, meant for programs")]
+    message: Annotated[str, Output("what to change")]
+
+
+class Problem(BaseModel):
+    """An RFC 9457 problem document."""
+
+    type: Annotated[str, Output("URI that names the kind of problem")]
+    title: Annotated[str, Output("the kind of problem in words")]
+    status: Annotated[int, Output("the HTTP status")]
+    detail: Annotated[str, Output("what happened this time")]
+    instance: Annotated[str, Output("the request id, as in the X-Request-ID header and the log")]
+    errors: Annotated[list[FieldError] | None, Output("with 422: every field at fault")] = None
+
+
+MEANINGS = {
+    400: "the request cannot be read",
+    404: "there is nothing of this name",
+    408: "the request body took too long to arrive",
+    413: "the request body is too large",
+    422: "the input cannot be computed; `errors` names the fields",
+    431: "the request headers are too large",
+    500: "something went wrong in the service",
+    503: "too many calculations are waiting, or the calculation was lost with its process",
+    504: "the calculation took too long",
+}
+
+
+def documented(*statuses: int) -> dict[int | str, dict[str, Any]]:
+    """The OpenAPI responses of these statuses."""
+    content = {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
+    return {status: {"description": MEANINGS[status], "content": content} for status in statuses}
+
+
+def install(app: FastAPI) -> None:
+    """Answer every exception with a problem document."""
+    app.add_exception_handler(RequestValidationError, _invalid_request)
+    app.add_exception_handler(Unprocessable, _unprocessable)
+    app.add_exception_handler(HTTPException, _http_exception)
+    for kind in PROBLEMS:
+        app.add_exception_handler(kind, _known_problem)
+    app.openapi = _with_problems(app.openapi)  # type: ignore[method-assign]
+
+
+def _with_problems(openapi: Callable[[], dict[str, Any]]) -> Callable[[], dict[str, Any]]:
+    """The OpenAPI document with the problem document in place of FastAPI's own error schema."""
+
+    def document_with_problems() -> dict[str, Any]:
+        document = openapi()
+        schemas = document["components"]["schemas"]
+        if "Problem" not in schemas:
+            for name in ("HTTPValidationError", "ValidationError"):
+                schemas.pop(name, None)
+            _, definitions = models_json_schema(
+                [(Problem, "serialization")], ref_template="#/components/schemas/{model}"
+            )
+            schemas |= definitions["$defs"]
+        return document
+
+    return document_with_problems
+
+
+def problem(
+    instance: str,
+    status: int,
+    code: str,
+    title: str,
+    *,
+    detail: str | None = None,
+    errors: list[dict[str, str]] | None = None,
+    headers: dict[str, str] | None = None,
+) -> JSONResponse:
+    """A response that carries a problem document."""
+    document: dict[str, Any] = {
+        "type": f"urn:tribodrive:problem:{code}",
+        "title": title,
+        "status": status,
+        "detail": detail or title,
+        "instance": instance,
+    }
+    if errors is not None:
+        document["errors"] = errors
+    return JSONResponse(document, status, headers, media_type=MEDIA_TYPE)
+
+
+def _invalid_request(request: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, RequestValidationError)
+    errors = [
+        {"pointer": _pointer(item["loc"]), "code": item["type"], "message": _message(item)} for item in error.errors()
+    ]
+    return _unprocessable_response(request, "invalid_request", errors)
+
+
+def _unprocessable(request: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, Unprocessable)
+    parts = error.path.split(".") if error.path else ()
+    errors = [{"pointer": _pointer(("body", *parts)), "code": error.code, "message": error.message}]
+    return _unprocessable_response(request, error.code, errors)
+
+
+def _unprocessable_response(request: Request, code: str, errors: list[dict[str, str]]) -> JSONResponse:
+    first = errors[0]
+    detail = f"{first['pointer'] or 'request'}: {first['message']}"
+    return problem(_instance(request), 422, code, "The input cannot be computed", detail=detail, errors=errors)
+
+
+def _pointer(location: tuple[str | int, ...]) -> str:
+    """RFC 6901 pointer of a validation error's location, safe to send whatever the request's keys were."""
+    if location[-1:] and isinstance(location[-1], int) and len(location) == 2:
+        return ""
+    parts = (str(part).encode(errors="replace").decode()[:LONGEST_POINTER_PART] for part in location[1:])
+    return "".join("/" + part.replace("~", "~0").replace("/", "~1") for part in parts)
+
+
+def _message(item: dict[str, Any]) -> str:
+    if item["type"] == "json_invalid":
+        return f"The body is no JSON: {item['ctx']['error']} at position {item['loc'][-1]}"
+    return str(item["msg"])
+
+
+def _http_exception(request: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, HTTPException)
+    phrase = HTTPStatus(error.status_code).phrase
+    code = phrase.lower().replace(" ", "_").replace("-", "_")
+    headers = dict(error.headers) if error.headers else None
+    return problem(_instance(request), error.status_code, code, phrase, detail=str(error.detail), headers=headers)
+
+
+def _known_problem(request: Request, error: Exception) -> JSONResponse:
+    kind = next(PROBLEMS[base] for base in type(error).__mro__ if base in PROBLEMS)
+    if kind.status == HTTPStatus.INTERNAL_SERVER_ERROR:
+        logger.error("request %s failed", _instance(request), exc_info=error)
+    headers = {"Retry-After": str(kind.retry_after_s)} if kind.retry_after_s is not None else None
+    return problem(_instance(request), kind.status, kind.code, kind.title, headers=headers)
+
+
+def _instance(request: Request) -> str:
+    return str(request.state.request_id)

@@ -1,0 +1,39 @@
+"""What every request has in common."""
+
+from typing import Annotated, Any, Self
+
+from pydantic import ConfigDict
+
+from app.quantities import Detail, Documented, Input
+
+
+class Section(Documented):
+    """A part of a request: unknown fields are refused, numbers are numbers, finite and in range."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    def resolved(self) -> Self:
+        """The section with every default that depends on other fields filled in."""
+        sections = {name: value.resolved() for name, value in self if isinstance(value, Section)}
+        return self.model_copy(update=sections) if sections else self
+
+
+class Request(Section):
+    """The body of a calculation."""
+
+    detail: Annotated[
+        Detail,
+        Input("how much to return: scalars, scalars and curves, or also two-dimensional fields"),
+    ] = "curves"
+
+    def inputs(self) -> Any:
+        """The solver's inputs, SI; called on a resolved request."""
+        raise NotImplementedError
+
+    def options(self) -> dict[str, Any]:
+        """The options in force, by their names in the contract."""
+        raise NotImplementedError
+
+    def unused_defaults(self) -> frozenset[str]:
+        """Dotted names of fields or sections that the chosen options leave out of the result."""
+        return frozenset()

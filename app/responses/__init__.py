@@ -1,0 +1,1 @@
+"""What is answered: the results of the HTTP contract, converted from SI."""

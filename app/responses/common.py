@@ -1,0 +1,46 @@
+"""What every response has in common."""
+
+from importlib.metadata import version
+from typing import Annotated, Any, Literal
+
+from pydantic import ConfigDict
+
+from app.quantities import Documented, Output
+
+MODEL_VERSION = version("tribodrive")
+
+
+class Group(Documented):
+    """A part of a response; nothing in it is NaN or infinite."""
+
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+
+class Notice(Group):
+    """A value outside its range of validity, or without meaning."""
+
+    code: Annotated[str, Output("stable name of the warning, meant for programs")]
+    message: Annotated[str, Output("what is out of which range, and what follows")]
+    field: Annotated[str | None, Output("dotted name of the request field it is about")] = None
+
+
+class Assumption(Group):
+    """A default that this result used and that is ours, not the paper's."""
+
+    field: Annotated[str, Output("dotted name of the request field")]
+    value: Annotated[Any, Output("the value used")]
+    reason: Annotated[str, Output("why this value")]
+
+
+class Response(Group):
+    """What every result says about itself."""
+
+    status: Annotated[
+        Literal["ok", "ok_with_warnings", "no_solution"],
+        Output("whether the calculation succeeded; with no_solution, `residuals` says how far it came"),
+    ]
+    warnings: Annotated[list[Notice], Output("limits of validity that this result touches")]
+    assumptions: Annotated[list[Assumption], Output("defaults used that are ours and not the paper's")]
+    model_version: Annotated[str, Output("version of the model that computed this result")]
+    model: Annotated[dict[str, Any], Output("the options in force")]
+    residuals: Annotated[dict[str, float] | None, Output("how far an iteration without a solution came")] = None

@@ -1,0 +1,62 @@
+"""Examples, health, metrics, and the way to the docs page."""
+
+from typing import Annotated, Literal
+
+from fastapi import APIRouter, HTTPException, Path, Request, Response
+from fastapi.responses import RedirectResponse
+from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
+from pydantic import BaseModel
+
+from app.compute import Runner
+from app.library import Example, ExampleSummary, examples
+from app.problems import documented
+from app.quantities import Output
+
+router = APIRouter(tags=["service"])
+
+
+class Health(BaseModel):
+    """That the service lives."""
+
+    status: Annotated[Literal["ok"], Output("always ok: an answer is the message")] = "ok"
+
+
+@router.get("/", include_in_schema=False)
+async def home() -> RedirectResponse:
+    """The docs page."""
+    return RedirectResponse("/docs")
+
+
+@router.get("/v1/examples")
+async def list_examples() -> list[ExampleSummary]:
+    """Every example, without its request."""
+    return [ExampleSummary.model_validate(example.model_dump(exclude={"request"})) for example in examples().values()]
+
+
+@router.get("/v1/examples/{name}", responses=documented(404, 422))
+async def show_example(name: Annotated[str, Path(description="name of the example", max_length=100)]) -> Example:
+    """One example with a ready request body."""
+    try:
+        return examples()[name]
+    except KeyError:
+        raise HTTPException(404, "There is no example of this name; GET /v1/examples lists them") from None
+
+
+@router.get("/healthz")
+async def healthz() -> Health:
+    """Whether the service answers."""
+    return Health()
+
+
+@router.get("/readyz", responses=documented(503, 504))
+async def readyz(http: Request) -> Health:
+    """Whether a worker process computes."""
+    runner: Runner = http.app.state.runner
+    await runner.ping()
+    return Health()
+
+
+@router.get("/metrics", response_class=Response, include_in_schema=False)
+async def metrics() -> Response:
+    """Counters in the Prometheus text format."""
+    return Response(generate_latest(), media_type=CONTENT_TYPE_LATEST)

@@ -1,0 +1,33 @@
+"""Every limit of the service: one environment variable each, `TRIBODRIVE_` and the name in capitals."""
+
+import os
+from functools import lru_cache
+
+from pydantic import Field
+from pydantic_settings import BaseSettings, SettingsConfigDict
+
+MEBIBYTE = 2**20
+
+
+class Settings(BaseSettings):
+    """Limits and addresses; each field's description is its documentation."""
+
+    model_config = SettingsConfigDict(env_prefix="TRIBODRIVE_", frozen=True)
+
+    host: str = Field("127.0.0.1", description="address to listen on")
+    port: int = Field(8000, ge=1, le=65535, description="port to listen on")
+    workers: int = Field(os.cpu_count() or 2, ge=1, le=256, description="worker processes that solve")
+    queue: int = Field(64, ge=0, description="requests that may wait for a worker; one more is answered 503")
+    deadline_s: float = Field(30.0, gt=0, description="longest time for one calculation, waiting included; then 504")
+    worker_memory_mb: int = Field(2048, ge=512, description="memory a worker may allocate, MiB")
+    max_body_bytes: int = Field(MEBIBYTE, ge=1024, description="largest request body; beyond it 413")
+    body_deadline_s: float = Field(10.0, gt=0, description="longest time for a request body to arrive; then 408")
+    max_header_bytes: int = Field(16384, ge=1024, description="largest sum of request headers; beyond it 431")
+    shutdown_s: int = Field(30, ge=0, description="time for requests in flight to finish at shutdown")
+    log_level: str = Field("info", pattern="^(debug|info|warning|error)$", description="least level that is logged")
+
+
+@lru_cache(maxsize=1)
+def settings() -> Settings:
+    """The settings of this process, read from the environment once."""
+    return Settings()

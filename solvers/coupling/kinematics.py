@@ -1,0 +1,161 @@
+"""Motion of the teeth of a tilted hub in the sleeve over one revolution.
+
+Frame: z along the sleeve's axis, y the tilt axis. The tooth angle phi counts from x: a tooth is tilted at 90 and 270
+degrees and pivoted at 0 and 180. To first order in the misalignment every quantity is a harmonic of phi, so a mesh is
+described by the coefficients of sin, cos and of their products; both kinematic models differ in these alone.
+"""
+
+from dataclasses import dataclass
+from math import hypot, pi, tan
+
+import numpy as np
+
+from solvers.arrays import FloatArray, frozen
+from solvers.coupling.inputs import Coupling, KinematicModel, Operation
+from solvers.coupling.results import Geometry, KinematicCurves, Kinematics
+
+CURVE_POINTS = 181
+
+
+@dataclass(frozen=True, slots=True)
+class ToothPositions:
+    """Sine and cosine of tooth angles: one row a rotor angle, one column a tooth (or any other shape)."""
+
+    sine: FloatArray
+    cosine: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class MeshMotion:
+    """One mesh: `side` is +1 where the hub drives the sleeve, -1 where the sleeve drives the hub.
+
+    With s, c = sin(phi), cos(phi): sliding velocity `sliding` s [m/s]; contact position on the hub flank
+    `travel_sin` s + `travel_cos` c [m]; tangential displacement `tilt` s^2 + `mixed` s c + `pivot` c^2 [m].
+    """
+
+    side: int
+    pressure_angle: float
+    speed: float
+    sliding: float
+    travel_sin: float
+    travel_cos: float
+    tilt: float
+    mixed: float
+    pivot: float
+
+
+def tooth_positions(rotor_angles: FloatArray, teeth: int) -> ToothPositions:
+    """Positions phi_i = 2 pi i / teeth + rotor angle, shape (rotor angles, teeth)."""
+    pitch_angles = 2.0 * np.pi / teeth * np.arange(teeth)
+    sin_pitch, cos_pitch = np.sin(pitch_angles), np.cos(pitch_angles)
+    sin_rotor, cos_rotor = np.sin(rotor_angles)[:, None], np.cos(rotor_angles)[:, None]
+    return ToothPositions(
+        sine=sin_rotor * cos_pitch + cos_rotor * sin_pitch, cosine=cos_rotor * cos_pitch - sin_rotor * sin_pitch
+    )
+
+
+def mesh_motion(
+    coupling: Coupling, geometry: Geometry, operation: Operation, model: KinematicModel, *, side: int = 1, tilt: int = 1
+) -> MeshMotion:
+    """Harmonic coefficients of one mesh whose hub is tilted by `tilt` (+1 or -1) times the misalignment.
+
+    With delta the tilt angle and n the flank normal, `spatial` is s_1 = R_e delta n_x and, at side +1,
+    f_t = r_o delta^2/(2 cos alpha) sin(phi - alpha) [eps sin(phi - alpha)/sin alpha + cos phi], exact to first order
+    (confirmed by brute-force involute geometry); side -1 replaces phi by pi - phi in f_t. `tangential` keeps the tilt
+    alone, s_1 = -side R_t delta sin phi and f_t = R_t delta^2/2 sin^2 phi: the paper's words, in which sliding,
+    displacement and reversal peak together.
+    """
+    delta = tilt * operation.misalignment
+    alpha, ratio, radius = coupling.pressure_angle, coupling.crowning_ratio, geometry.pitch_radius
+    pivoting = model == "spatial"
+    pivot_scale = radius * delta**2 / 2.0 * pivoting
+    return MeshMotion(
+        side=side,
+        pressure_angle=alpha,
+        speed=operation.speed,
+        sliding=delta * operation.speed * radius,
+        travel_sin=-side * geometry.tangential_flank_radius * delta,
+        travel_cos=geometry.crowning_radius * delta * pivoting,
+        tilt=geometry.tangential_flank_radius * delta**2 / 2.0,
+        mixed=side * pivot_scale * (1.0 - 2.0 * ratio),
+        pivot=pivot_scale * (ratio - 1.0) * tan(alpha),
+    )
+
+
+def sliding_velocity(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
+    """v_G = delta omega r_o sin phi [m/s], axial, hub relative to sleeve (Fig. 12)."""
+    return mesh.sliding * teeth.sine
+
+
+def relative_velocity(mesh: MeshMotion, teeth: ToothPositions, axial_velocity: float) -> FloatArray:
+    """v_r = v_ax + v_G [m/s], the velocity that decides the direction of friction (Fig. 14)."""
+    return axial_velocity + sliding_velocity(mesh, teeth)
+
+
+def contact_position(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
+    """Axial place s_1 of the contact on the hub flank [m]."""
+    return mesh.travel_sin * teeth.sine + mesh.travel_cos * teeth.cosine
+
+
+def hydrodynamic_velocity(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
+    """v_H [m/s], magnitude of the sum of both surface velocities relative to the contact.
+
+    The contact moves at s_1' on the hub flank and at s_1' + v_G on the sleeve flank. The sum, not the mean, belongs to
+    the constant 2.447 of the load capacity.
+    """
+    contact_velocity = mesh.speed * (mesh.travel_sin * teeth.cosine - mesh.travel_cos * teeth.sine)
+    return np.abs(2.0 * contact_velocity + mesh.sliding * teeth.sine)
+
+
+def tangential_displacement(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
+    """Tangential displacement f_t [m] of hub against sleeve tooth, positive where the tooth bears first."""
+    s, c = teeth.sine, teeth.cosine
+    if mesh.mixed == 0.0 and mesh.pivot == 0.0:
+        return mesh.tilt * (s * s)
+    return mesh.tilt * (s * s) + mesh.mixed * (s * c) + mesh.pivot * (c * c)
+
+
+def max_contact_travel(mesh: MeshMotion) -> float:
+    """s_1max [m]: R_t |delta| or, in space, R_e |delta|."""
+    return hypot(mesh.travel_sin, mesh.travel_cos)
+
+
+def max_hydrodynamic_velocity(mesh: MeshMotion) -> float:
+    """v_Hmax [m/s], the amplitude of a single harmonic."""
+    return hypot(2.0 * mesh.speed * mesh.travel_sin, mesh.sliding - 2.0 * mesh.speed * mesh.travel_cos)
+
+
+def displacement_peak_to_peak(mesh: MeshMotion) -> float:
+    """Largest minus smallest f_t [m]."""
+    return hypot(mesh.tilt - mesh.pivot, mesh.mixed)
+
+
+def kinematics(mesh: MeshMotion) -> Kinematics:
+    """Largest values and curves over one revolution (Fig. 6)."""
+    angle = np.linspace(0.0, 2.0 * pi, CURVE_POINTS)
+    teeth = ToothPositions(sine=np.sin(angle), cosine=np.cos(angle))
+    return Kinematics(
+        max_sliding_velocity=abs(mesh.sliding),
+        max_contact_travel=max_contact_travel(mesh),
+        max_hydrodynamic_velocity=max_hydrodynamic_velocity(mesh),
+        tangential_displacement_peak_to_peak=displacement_peak_to_peak(mesh),
+        curves=KinematicCurves(
+            angle=frozen(angle),
+            sliding_velocity=frozen(sliding_velocity(mesh, teeth)),
+            hydrodynamic_velocity=frozen(hydrodynamic_velocity(mesh, teeth)),
+            tangential_displacement=frozen(tangential_displacement(mesh, teeth)),
+            contact_position=frozen(contact_position(mesh, teeth)),
+        ),
+    )
+
+
+def flank_normals(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
+    """Normals of the loaded flanks over cos(alpha), shape (rotor angles, 2, teeth) for x and y.
+
+    n = side cos(alpha) e_t + sin(alpha) e_r; times the tangential tooth force n/cos(alpha) is the lateral force on the
+    sleeve, whose radial part points outward at both sides.
+    """
+    radial = tan(mesh.pressure_angle)
+    return np.stack(
+        (radial * teeth.cosine - mesh.side * teeth.sine, radial * teeth.sine + mesh.side * teeth.cosine), axis=1
+    )

@@ -1,0 +1,47 @@
+"""Design limits and linear stiffness of the coupling."""
+
+from dataclasses import replace
+from math import cos, sqrt
+
+from solvers.coupling.inputs import Coupling, CouplingInputs
+from solvers.coupling.kinematics import displacement_peak_to_peak, mesh_motion
+from solvers.coupling.results import Geometry, Limits
+
+SLIDING_VELOCITY_LIMIT = 0.12
+"""Steady sliding of gear couplings [m/s], Tribology Handbook B4.6; transients may tilt 1.6 times as far."""
+GRAVITY = 9.80665
+
+
+def allowable_misalignment(speed: float, pitch_radius: float) -> float | None:
+    """Misalignment at the limit of sliding velocity, 0.12/(omega r_o) [rad]; None at rest."""
+    return SLIDING_VELOCITY_LIMIT / (abs(speed) * pitch_radius) if speed != 0.0 else None
+
+
+def sleeve_centring_torque(coupling: Coupling, pitch_radius: float) -> float:
+    """Torque that holds a horizontal sleeve of weight W a mesh with every tooth loaded, 2 W r_o cos(alpha) [N m]."""
+    return 2.0 * coupling.sleeve_mass * GRAVITY * pitch_radius * cos(coupling.pressure_angle)
+
+
+def unloading_misalignment(inputs: CouplingInputs, geometry: Geometry) -> float:
+    """Misalignment [rad] at which the first tooth of a centred sleeve unloads, pitch errors ignored.
+
+    There the peak-to-peak displacement, a square of the misalignment, reaches 2 F_m/c_t with F_m the mean tooth force:
+    delta_L = sqrt(4 F_m/(c_t R_t)) with the tangential kinematics.
+    """
+    coupling, operation = inputs.coupling, inputs.operation
+    mean_force = operation.torque / (geometry.pitch_radius * coupling.teeth)
+    one_radian = mesh_motion(coupling, geometry, replace(operation, misalignment=1.0), inputs.model.kinematics)
+    return sqrt(2.0 * mean_force / coupling.tooth_stiffness / displacement_peak_to_peak(one_radian))
+
+
+def limits(inputs: CouplingInputs, geometry: Geometry) -> Limits:
+    """Limits and the stiffness of one mesh: z c_t r_o^2 in torsion, z c_t/(2 cos^2 alpha) laterally."""
+    coupling, radius = inputs.coupling, geometry.pitch_radius
+    all_teeth = coupling.teeth * coupling.tooth_stiffness
+    return Limits(
+        sliding_velocity_limit=SLIDING_VELOCITY_LIMIT,
+        allowable_misalignment=allowable_misalignment(inputs.operation.speed, radius),
+        sleeve_centring_torque=sleeve_centring_torque(coupling, radius),
+        torsional_stiffness=all_teeth * radius**2,
+        lateral_stiffness=all_teeth / (2.0 * cos(coupling.pressure_angle) ** 2),
+    )

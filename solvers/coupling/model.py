@@ -1,0 +1,72 @@
+"""The gear coupling after Pahl, "The operating characteristics of gear-type couplings"."""
+
+from math import isfinite
+
+from solvers.coupling.averaging import loaded_mesh
+from solvers.coupling.friction import friction_coefficient, friction_regime
+from solvers.coupling.geometry import tooth_geometry
+from solvers.coupling.inputs import CouplingInputs
+from solvers.coupling.kinematics import kinematics, mesh_motion
+from solvers.coupling.limits import limits
+from solvers.coupling.load_distribution import load_distribution
+from solvers.coupling.losses import losses
+from solvers.coupling.lubrication import FilmState, film_state
+from solvers.coupling.notices import contact_notices, load_notices, motion_notices
+from solvers.coupling.results import CouplingResult, Lubrication
+from solvers.coupling.thrust import axial_thrust
+from solvers.coupling.validity import check_contact, check_inputs
+
+
+def solve(inputs: CouplingInputs) -> CouplingResult:
+    """Kinematics, tooth loads, lubrication, friction, axial thrust and losses at one operating point.
+
+    Raises InvalidInput (out_of_range, pitch_errors_length, mixed_law, hertz_pressure, contact_width) and NoSolution
+    (sleeve_balance, sleeve_equilibrium) with residuals.
+    """
+    check_inputs(inputs)
+    geometry = tooth_geometry(inputs.coupling)
+    mesh = mesh_motion(inputs.coupling, geometry, inputs.operation, inputs.model.kinematics)
+    motion = kinematics(mesh)
+    load = load_distribution(inputs, geometry, mesh)
+
+    film = film_state(inputs, geometry, mesh)
+    check_contact(film, geometry)
+    friction = friction_coefficient(
+        inputs.friction, film.overlap, film.load_capacity_coefficient, motion.max_sliding_velocity
+    )
+    lubrication = _lubrication(film, friction)
+
+    loaded = loaded_mesh(inputs, mesh)
+    thrust = axial_thrust(inputs, geometry, loaded, friction)
+    bounds = limits(inputs, geometry)
+    return CouplingResult(
+        geometry=geometry,
+        kinematics=motion,
+        load_distribution=load,
+        lubrication=lubrication,
+        axial_thrust=thrust,
+        losses=losses(inputs, geometry, loaded, friction),
+        limits=bounds,
+        warnings=(
+            *motion_notices(inputs, motion, thrust),
+            *load_notices(inputs, load, thrust, bounds),
+            *contact_notices(inputs, motion, lubrication),
+        ),
+    )
+
+
+def _lubrication(film: FilmState, friction: float) -> Lubrication:
+    """The film with None where a ratio has no meaning."""
+    tr = film.load_capacity_coefficient
+    return Lubrication(
+        max_normal_force=film.max_normal_force,
+        hertz_half_width=film.contact_half_width,
+        hertz_pressure=film.contact_pressure,
+        contact_overlap=film.overlap if isfinite(film.overlap) else None,
+        inlet_ratio=film.inlet_ratio if isfinite(film.inlet_ratio) else None,
+        inlet_factor=film.inlet_factor,
+        hydrodynamic_capacity=film.capacity,
+        load_capacity_coefficient=tr if film.max_normal_force > 0.0 else None,
+        regime=friction_regime(film.overlap, tr),
+        friction_coefficient=friction,
+    )

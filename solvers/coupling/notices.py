@@ -1,0 +1,60 @@
+"""What a result has to say about its own validity: ranges it leaves, values without meaning."""
+
+from collections.abc import Iterator
+
+from solvers.coupling.friction import UNSTABLE_AREA
+from solvers.coupling.inputs import CouplingInputs
+from solvers.coupling.limits import SLIDING_VELOCITY_LIMIT
+from solvers.coupling.results import AxialThrust, Kinematics, Limits, LoadDistribution, Lubrication
+from solvers.notices import Notice
+
+
+def motion_notices(inputs: CouplingInputs, kinematics: Kinematics, thrust: AxialThrust) -> Iterator[Notice]:
+    """Notices about misalignment, speed and sliding."""
+    operation, sliding = inputs.operation, kinematics.max_sliding_velocity
+    if operation.misalignment == 0.0:
+        yield Notice("no_misalignment", "the contact does not travel: no contact overlap, no oil film", "misalignment")
+    if operation.speed == 0.0:
+        yield Notice("not_turning", "the coupling does not turn: no allowable misalignment, no oil film", "speed")
+    if sliding > SLIDING_VELOCITY_LIMIT:
+        message = f"the sliding velocity of {sliding:.3g} m/s exceeds the limit of {SLIDING_VELOCITY_LIMIT} m/s"
+        yield Notice("sliding_velocity", message, "misalignment")
+    if thrust.indeterminate:
+        message = "nothing slides: friction may hold any thrust between the bounds, the middle is reported"
+        yield Notice("friction_indeterminate", message, "axial_velocity")
+    elif thrust.self_induced is not None and sliding == 0.0:
+        message = "nothing slides by itself: the direction of self-induced thrust is open, zero is reported"
+        yield Notice("friction_indeterminate", message, "misalignment")
+
+
+def load_notices(
+    inputs: CouplingInputs, load: LoadDistribution, thrust: AxialThrust, limits: Limits
+) -> Iterator[Notice]:
+    """Notices about torque, friction and the sleeve's place."""
+    torque = inputs.operation.torque
+    if torque == 0.0:
+        yield Notice("no_load", "no torque: no load concentration, load capacity coefficient or thrust limit", "torque")
+    elif thrust.coaxial_limit == 0.0:
+        yield Notice("no_friction", "no friction: the thrust is no fraction of its limit", "coefficient")
+    if torque < limits.sleeve_centring_torque:
+        message = f"below {limits.sleeve_centring_torque:.4g} N m the teeth do not hold a horizontal sleeve centred"
+        yield Notice("sleeve_not_centred", message, "torque")
+    if inputs.model.sleeve == "floating" and 0 < load.loaded_teeth < 3:
+        message = "fewer than three teeth carry: the place of the floating sleeve is not unique"
+        yield Notice("sleeve_position", message, "sleeve")
+
+
+def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication: Lubrication) -> Iterator[Notice]:
+    """Notices about the contact on the face and the oil film."""
+    half_face = inputs.coupling.face_width / 2.0
+    if lubrication.hertz_half_width > half_face:
+        yield Notice("wide_contact", "the contact at rest is wider than the tooth face", "face_width")
+    if kinematics.max_contact_travel + lubrication.hertz_half_width > half_face:
+        reach = kinematics.max_contact_travel + lubrication.hertz_half_width
+        message = f"the contact reaches {reach * 1e3:.3g} mm from the middle of the face, beyond its end"
+        yield Notice("edge_contact", message, "face_width")
+    if lubrication.inlet_ratio is None:
+        yield Notice("infinite_inlet", "the inlet is infinitely long: no inlet ratio", "inlet")
+    if lubrication.regime.area == UNSTABLE_AREA:
+        message = "the friction is unstable here: the paper states no coefficient for area 3.3"
+        yield Notice("unstable_regime", message, "misalignment")

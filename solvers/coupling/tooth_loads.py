@@ -1,0 +1,98 @@
+"""How the teeth of one mesh share the torque, at many rotor angles at once (Figs 3 and 4).
+
+Tooth i carries F_t = c_t max(0, psi + f_t + pitch error - e . n/cos(alpha)) with psi the common rotation as a length
+at the pitch radius and e the sleeve's displacement against the hub.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.arrays import FloatArray, IntArray
+from solvers.coupling.inputs import Coupling
+from solvers.coupling.kinematics import MeshMotion, ToothPositions, flank_normals, tangential_displacement
+from solvers.coupling.tooth_balance import centred_rows, floating_rows
+from solvers.errors import NoSolution
+
+
+@dataclass(frozen=True, slots=True)
+class ToothLoads:
+    """Tooth loads of one mesh, one row a rotor angle.
+
+    `tangential_force` (rows, teeth) [N], `rotation` (rows) and `displacement` (rows, 2) [m]; `iterations` (rows) is
+    negative where the balance of a floating sleeve was not met.
+    """
+
+    tangential_force: FloatArray
+    rotation: FloatArray
+    displacement: FloatArray
+    iterations: IntArray
+
+
+def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
+    """How far each tooth is ahead, f_t + pitch error [m], shape (rows, teeth)."""
+    displacement = tangential_displacement(mesh, teeth)
+    return displacement if coupling.pitch_errors is None else displacement + np.asarray(coupling.pitch_errors)
+
+
+def elastic_rotation(coupling: Coupling, torque: float) -> float:
+    """T/(r_o c_t) [m]: the rotation of a coupling with one tooth, as a length at the pitch radius."""
+    return torque / (coupling.module * coupling.teeth / 2.0 * coupling.tooth_stiffness)
+
+
+def shares(interference: FloatArray, normal: FloatArray, state: FloatArray) -> FloatArray:
+    """Tooth forces (rows, teeth) over T/r_o of a floating sleeve; normal (rows, 2, teeth), state (rows, 3)."""
+    ahead = interference - state[:, 1:2] * normal[:, 0] - state[:, 2:3] * normal[:, 1]
+    return np.maximum(0.0, state[:, :1] + ahead)
+
+
+def centred_loads(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, torque: float) -> ToothLoads:
+    """Loads of a sleeve held centred on the hub: exact for any torque >= 0."""
+    interference = interference_at_rest(coupling, mesh, teeth)
+    rows = interference.shape[0]
+    displacement, iterations = np.zeros((rows, 2)), np.zeros(rows, dtype=np.int64)
+    if torque == 0.0:
+        return ToothLoads(np.zeros_like(interference), -interference.max(axis=1), displacement, iterations)
+    unit = elastic_rotation(coupling, torque)
+    share, rotation = np.empty_like(interference), np.empty(rows)
+    centred_rows(interference / unit, share, rotation)
+    return ToothLoads(unit * coupling.tooth_stiffness * share, unit * rotation, displacement, iterations)
+
+
+def floating_loads(
+    coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, torque: float, force: FloatArray
+) -> ToothLoads:
+    """Loads of a sleeve that finds its own place under an external `force` (rows, 2) [N], for torque > 0.
+
+    Iterations are negative in rows without balance: the force exceeds what the torque's tooth forces can hold.
+    """
+    unit = elastic_rotation(coupling, torque)
+    unit_force = unit * coupling.tooth_stiffness
+    interference = interference_at_rest(coupling, mesh, teeth) / unit
+    normal = flank_normals(mesh, teeth)
+    rows = interference.shape[0]
+    state, iterations = np.zeros((rows, 3)), np.zeros(rows, dtype=np.int64)
+    floating_rows(interference, normal, force / unit_force, state, iterations)
+    share = shares(interference, normal, state)
+    return ToothLoads(unit_force * share, unit * state[:, 0], unit * state[:, 1:], iterations)
+
+
+def mesh_loads(
+    coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, torque: float, *, floating: bool
+) -> ToothLoads:
+    """Loads of one mesh without external force.
+
+    Raises NoSolution `sleeve_balance` if a floating sleeve is not balanced (largest lateral force over T/r_o).
+    """
+    if not floating or torque == 0.0:
+        return centred_loads(coupling, mesh, teeth, torque)
+    loads = floating_loads(coupling, mesh, teeth, torque, np.zeros((teeth.sine.shape[0], 2)))
+    if loads.iterations.min() < 0:
+        lateral = (loads.tangential_force[:, None] * flank_normals(mesh, teeth)).sum(axis=2)
+        residual = float(np.abs(lateral).max() / loads.tangential_force.sum(axis=1).min())
+        raise NoSolution(
+            "sleeve_balance",
+            "the floating sleeve was not balanced; raise the torque or lower the pitch errors",
+            {"lateral_force": residual},
+        )
+    return loads

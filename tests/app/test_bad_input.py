@@ -1,0 +1,116 @@
+"""Bad input is a 422 problem with a pointer, whatever it is; the input is never echoed."""
+
+import copy
+import json
+from collections.abc import Iterator
+from typing import Any
+
+import httpx
+import pytest
+from pydantic import BaseModel
+
+from app.calculations import CALCULATIONS, Calculation
+from app.library import examples
+
+HOSTILE: list[Any] = ["30", True, "x" * 50, None, [], {}, -1e300, 1e300, 10**400]
+
+
+def example_of(calculation: Calculation) -> dict[str, Any]:
+    return next(copy.deepcopy(each.request) for each in examples().values() if each.endpoint == calculation.path)
+
+
+def number_fields(model: type[BaseModel], prefix: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
+    """Paths of every plain number in a request model."""
+    for name, field in model.model_fields.items():
+        if isinstance(field.annotation, type) and issubclass(field.annotation, BaseModel):
+            yield from number_fields(field.annotation, (*prefix, name))
+        elif field.annotation in {int, float, float | None}:
+            yield (*prefix, name)
+
+
+def changed(request: dict[str, Any], path: tuple[str, ...], value: object) -> dict[str, Any]:
+    section = request
+    for name in path[:-1]:
+        section = section.setdefault(name, {})
+    section[path[-1]] = value
+    return request
+
+
+def send(client: httpx.Client, path: str, body: object) -> httpx.Response:
+    """Post with the NaN and Infinity that strict encoders refuse."""
+    return client.post(path, content=json.dumps(body), headers={"Content-Type": "application/json"})
+
+
+def assert_problem(response: httpx.Response, status: int = 422) -> dict[str, Any]:
+    assert response.status_code == status, response.text
+    assert response.headers["content-type"] == "application/problem+json"
+    problem: dict[str, Any] = response.json()
+    assert set(problem) >= {"type", "title", "status", "detail", "instance"}
+    assert problem["instance"] == response.headers["x-request-id"]
+    assert problem["status"] == status
+    return problem
+
+
+def pointers(response: httpx.Response) -> set[str]:
+    return {error["pointer"] for error in assert_problem(response)["errors"]}
+
+
+CASES = [(each, path) for each in CALCULATIONS for path in number_fields(each.request)]
+
+
+@pytest.mark.parametrize(("calculation", "path"), CASES, ids=[f"{each.path}:{'.'.join(path)}" for each, path in CASES])
+def test_number_fields_refuse_what_is_no_number(
+    client: httpx.Client, calculation: Calculation, path: tuple[str, ...]
+) -> None:
+    for value in ("30", True, float("nan"), float("inf"), [1.0], {"a": 1}, 10**400):
+        response = send(client, calculation.path, changed(example_of(calculation), path, value))
+        assert "/" + "/".join(path) in pointers(response), value
+
+
+@pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
+def test_unknown_fields_are_refused_at_every_level(client: httpx.Client, calculation: Calculation) -> None:
+    request = example_of(calculation)
+    sections: list[tuple[str, ...]] = [(), *((name,) for name, value in request.items() if isinstance(value, dict))]
+    for section in sections:
+        response = send(client, calculation.path, changed(example_of(calculation), (*section, "no~such/field"), 1))
+        assert "/" + "/".join((*section, "no~0such~1field")) in pointers(response)
+
+
+@pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
+def test_missing_sections_are_named(client: httpx.Client, calculation: Calculation) -> None:
+    required = {f"/{name}" for name, field in calculation.request.model_fields.items() if field.is_required()}
+    assert pointers(send(client, calculation.path, {})) == required
+
+
+@pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
+@pytest.mark.parametrize("body", [b"", b"{", b"[]", b"null", b"NaN", b'"text"', b"[1,", b"\xff\xfe", b'{"\\ud800": 1}'])
+def test_broken_json(client: httpx.Client, calculation: Calculation, body: bytes) -> None:
+    response = client.post(calculation.path, content=body, headers={"Content-Type": "application/json"})
+    assert_problem(response)
+
+
+@pytest.mark.parametrize("body", [b"[" * 100_000, b"1" * 5_000])
+def test_json_beyond_the_parser(client: httpx.Client, body: bytes) -> None:
+    response = client.post(CALCULATIONS[0].path, content=body, headers={"Content-Type": "application/json"})
+    assert_problem(response, 400)
+
+
+def test_integers_may_be_written_with_a_point(client: httpx.Client) -> None:
+    request = example_of(CALCULATIONS[0])
+    whole = send(client, CALCULATIONS[0].path, changed(request, ("coupling", "teeth"), 52)).json()
+    point = send(client, CALCULATIONS[0].path, changed(request, ("coupling", "teeth"), 52.0)).json()
+    assert whole == point
+
+
+def test_the_input_is_not_echoed(client: httpx.Client) -> None:
+    secret = "do-not-repeat-me"
+    response = send(client, CALCULATIONS[0].path, changed(example_of(CALCULATIONS[0]), ("detail",), secret))
+    assert secret not in response.text
+
+
+@pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
+def test_nothing_gives_500(client: httpx.Client, calculation: Calculation) -> None:
+    for path in number_fields(calculation.request):
+        for value in HOSTILE:
+            response = send(client, calculation.path, changed(example_of(calculation), path, value))
+            assert response.status_code in {200, 422}, (path, value, response.text)

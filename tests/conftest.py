@@ -1,0 +1,28 @@
+"""One running service for all tests that talk to one."""
+
+from collections.abc import Callable, Iterator
+
+import httpx
+import pytest
+
+from tests.server import running_server
+
+
+@pytest.fixture(scope="session")
+def server() -> Iterator[str]:
+    with running_server(log_level="error") as (_, address):
+        yield address
+
+
+@pytest.fixture(scope="session")
+def client(server: str) -> Iterator[httpx.Client]:
+    with httpx.Client(base_url=server, timeout=60) as client:
+        yield client
+
+
+@pytest.fixture(scope="session")
+def post(client: httpx.Client) -> Callable[[str, object], httpx.Response]:
+    def post(path: str, body: object) -> httpx.Response:
+        return client.post(path, json=body)
+
+    return post

@@ -1,0 +1,38 @@
+"""The service with two more endpoints that misbehave on demand, run as `python -m tests.service.faulty_server`."""
+
+import time
+
+import numpy as np
+from fastapi import FastAPI, Request
+
+from app.__main__ import serve
+from app.main import create_app
+
+
+def sleep(seconds: float) -> float:
+    time.sleep(seconds)
+    return seconds
+
+
+def allocate(mebibytes: int) -> int:
+    return int(np.ones(mebibytes * 2**17).size)
+
+
+def create_faulty_app() -> FastAPI:
+    app = create_app()
+
+    @app.post("/sleep/{seconds}")
+    async def _(http: Request, seconds: float) -> float:
+        result: float = await app.state.runner.run(http.receive, sleep, seconds)
+        return result
+
+    @app.post("/allocate/{mebibytes}")
+    async def _(http: Request, mebibytes: int) -> int:
+        result: int = await app.state.runner.run(http.receive, allocate, mebibytes)
+        return result
+
+    return app
+
+
+if __name__ == "__main__":
+    serve("tests.service.faulty_server:create_faulty_app")

@@ -1,0 +1,163 @@
+"""Faults cost only their own request: killed workers, disconnects, deadlines, slow bodies, full queues, shutdown."""
+
+import os
+import random
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import httpx
+import pytest
+
+from app.library import examples
+from tests.server import running_server
+
+pytestmark = pytest.mark.service
+
+FAULTY = [sys.executable, "-m", "tests.service.faulty_server"]
+KILLS = 50
+
+
+@pytest.fixture(scope="module")
+def faulty() -> Iterator[tuple[subprocess.Popen[str], str]]:
+    with running_server(
+        FAULTY, workers=2, queue=2, deadline_s=6, body_deadline_s=1, worker_memory_mb=1024, log_level="error"
+    ) as server:
+        yield server
+
+
+def workers_of(process: subprocess.Popen[str]) -> list[int]:
+    return [int(pid) for pid in Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text("ascii").split()]
+
+
+def calculations_running(address: str) -> float:
+    lines = httpx.get(f"{address}/metrics").text.splitlines()
+    return float(next(line.split()[1] for line in lines if line.startswith("tribodrive_calculations ")))
+
+
+def assert_recovers(address: str, seconds: float = 20.0) -> None:
+    """The service computes again and nothing is left in the queue."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        idle = calculations_running(address) == 0
+        if idle and httpx.post(f"{address}/sleep/0", timeout=20).status_code == 200:
+            return
+        time.sleep(0.1)
+    raise AssertionError("the service did not recover")
+
+
+def test_killed_workers_cost_only_their_own_requests(faulty: tuple[subprocess.Popen[str], str]) -> None:
+    process, address = faulty
+    cases = [examples()[name] for name in sorted(examples()) if examples()[name].endpoint.startswith("/v1/coupling")]
+    references = {
+        case.name: httpx.post(address + case.endpoint, json=case.request, timeout=30).content for case in cases
+    }
+    outcomes: Counter[str] = Counter()
+    done = threading.Event()
+
+    def load() -> None:
+        with httpx.Client(base_url=address, timeout=30) as client:
+            while not done.is_set():
+                case = random.choice(cases)
+                response = client.post(case.endpoint, json=case.request)
+                if response.status_code == 200:
+                    outcomes["right" if response.content == references[case.name] else "wrong"] += 1
+                else:
+                    outcomes[response.json()["type"].rsplit(":", 1)[1]] += 1
+
+    with ThreadPoolExecutor(3) as pool:
+        loads = [pool.submit(load) for _ in range(3)]
+        for _ in range(KILLS):
+            time.sleep(0.3)
+            workers = workers_of(process)
+            if workers:
+                os.kill(random.choice(workers), signal.SIGKILL)
+        done.set()
+        for each in loads:
+            each.result()
+    assert outcomes["right"] > 0
+    assert set(outcomes) <= {"right", "worker_lost"}
+    assert outcomes["worker_lost"] <= KILLS
+    assert_recovers(address)
+
+
+def test_deadline(faulty: tuple[subprocess.Popen[str], str]) -> None:
+    _, address = faulty
+    started = time.monotonic()
+    response = httpx.post(f"{address}/sleep/60", timeout=20)
+    assert response.status_code == 504
+    assert time.monotonic() - started == pytest.approx(6, abs=1)
+    assert_recovers(address)
+
+
+def test_disconnect_ends_the_work(faulty: tuple[subprocess.Popen[str], str]) -> None:
+    _, address = faulty
+    with pytest.raises(httpx.ReadTimeout):
+        httpx.post(f"{address}/sleep/5", timeout=0.5)
+    time.sleep(0.5)
+    assert calculations_running(address) == 0
+    assert_recovers(address)
+
+
+def test_memory_bomb(faulty: tuple[subprocess.Popen[str], str]) -> None:
+    _, address = faulty
+    response = httpx.post(f"{address}/allocate/4096", timeout=20)
+    assert response.status_code == 503
+    assert response.json()["type"].endswith("memory_limit")
+    assert_recovers(address)
+
+
+def test_slow_body(faulty: tuple[subprocess.Popen[str], str]) -> None:
+    _, address = faulty
+    target = urlsplit(address)
+    started = time.monotonic()
+    with socket.create_connection((target.hostname, target.port), timeout=30) as connection:
+        connection.sendall(
+            b"POST /v1/coupling HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{"
+        )
+        answer = connection.recv(65536)
+    assert answer.startswith(b"HTTP/1.1 408")
+    assert time.monotonic() - started == pytest.approx(1.0, abs=0.9)
+
+
+def test_full_queue_and_recovery(faulty: tuple[subprocess.Popen[str], str]) -> None:
+    _, address = faulty
+    with ThreadPoolExecutor(8) as pool:
+        responses = list(pool.map(lambda _: httpx.post(f"{address}/sleep/1.5", timeout=20), range(8)))
+    refused = [response for response in responses if response.status_code == 503]
+    assert len(refused) == 4  # two in the workers, two in the queue
+    assert all(response.headers["retry-after"] for response in refused)
+    assert sum(response.status_code == 200 for response in responses) == 4
+    assert_recovers(address)
+
+
+def test_health_while_all_workers_are_busy(faulty: tuple[subprocess.Popen[str], str]) -> None:
+    _, address = faulty
+    with ThreadPoolExecutor(2) as pool, httpx.Client(base_url=address) as client:
+        busy = [pool.submit(httpx.post, f"{address}/sleep/3", timeout=20) for _ in range(2)]
+        durations = []
+        while not all(each.done() for each in busy):
+            started = time.perf_counter()
+            assert client.get("/healthz").status_code == 200
+            durations.append(time.perf_counter() - started)
+    durations.sort()
+    assert len(durations) > 200
+    assert durations[int(0.99 * len(durations))] < 0.020
+    assert_recovers(address)
+
+
+def test_shutdown_finishes_what_is_in_flight() -> None:
+    with running_server(FAULTY, workers=1, log_level="error") as (process, address), ThreadPoolExecutor(1) as pool:
+        flight = pool.submit(httpx.post, f"{address}/sleep/2", timeout=20)
+        time.sleep(0.7)
+        process.send_signal(signal.SIGTERM)
+        assert flight.result().status_code == 200
+        assert process.wait(20) in {0, -signal.SIGTERM}
