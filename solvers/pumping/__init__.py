@@ -1,8 +1,9 @@
 """Air and mist pumped by meshing teeth: gear pair, tooth space, stroke table, flow, heating and power."""
 
-from solvers.pumping.choking import ChokingSpeeds, choking_speeds
+from solvers.pumping.choking import choking_speeds
 from solvers.pumping.inputs import (
     Ambient,
+    ChokingInputs,
     Closure,
     Flow,
     Gap,
@@ -13,10 +14,11 @@ from solvers.pumping.inputs import (
     Spaces,
 )
 from solvers.pumping.model import solve
-from solvers.pumping.results import PumpingResult
+from solvers.pumping.results import ChokingSpeeds, PumpingResult
 
 __all__ = [
     "Ambient",
+    "ChokingInputs",
     "ChokingSpeeds",
     "Closure",
     "Flow",

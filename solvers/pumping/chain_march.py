@@ -13,7 +13,7 @@ from solvers.pumping.nozzle import Gas, throat_mach
 def march_chain(
     gas: Gas, duct: Duct, pockets: Pockets, angles: FloatArray, substeps: int, record: Record, isentropic: bool
 ) -> int:
-    """March from the first of `angles` [rad] to the last in equal steps; their number, or -1 if one did not converge."""
+    """March over all `angles` [rad] in equal steps; their number, or -1 if one did not converge."""
     turn = (angles[-1] - angles[0]) / ((angles.size - 1) * substeps)
     dt = turn / duct.speed
     low, high, taken = 0, 0, 0
@@ -74,8 +74,9 @@ def _set_walls(duct: Duct, pockets: Pockets, low: int, high: int, angle: float, 
 
 @kernel
 def _temperature(gas: Gas, pockets: Pockets, i: int, when: int) -> float:
-    """Temperature of a pocket [K] from its latest pressure and mass and its area at the start (0) or end (1) of a step."""
-    return pockets.old[i, 0] * pockets.area[i, when] / (pockets.old[i, 1] * gas.constant)
+    """Temperature of a pocket [K] by its area at the start (0) or the end (1) of the step."""
+    temperature: float = pockets.old[i, 0] * pockets.area[i, when] / (pockets.old[i, 1] * gas.constant)
+    return temperature
 
 
 @kernel

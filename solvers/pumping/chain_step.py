@@ -4,8 +4,8 @@
  dE_i/dt = (M h)_{i-1/2} - (M h)_{i+1/2} - (Q h)_i - p dV/dt              energy closure, h = c_p T upstream
  p = p_e (rho/rho_e)^gamma                                                isentropic closure (Eq. 1)
 
-Backward Euler, the wall work with the mean pressure of the step; Newton's method on pressure and mass of all pockets, its
-blocks of two by two eliminated along the chain. All amounts are per metre of face.
+Backward Euler, the wall work with the mean pressure of the step; Newton's method on pressure and mass of all pockets,
+its blocks of two by two eliminated along the chain. All amounts are per metre of face.
 """
 
 from typing import NamedTuple
@@ -26,10 +26,10 @@ _HALVINGS = 12
 class Pockets(NamedTuple):
     """Arrays of a chain.
 
-    `old` and `new` (pockets, 2): pressure [Pa], mass [kg/m]; `area` (pockets, 2) at the start and the end of the step [m^2]
-    and `gap` [m] at its end; `opening` (faces) [m^2]; `flow` (faces, 2) mass and heat towards the high end [kg/s, W],
-    `leak` (pockets, 2) outwards [kg/(s m), W/m]; `residual` (pockets, 2), `lower`, `diagonal`, `upper` (pockets, 2, 2)
-    and `correction` (pockets, 2) of Newton's method, `trial` (pockets, 2) its candidate.
+    `old` and `new` (pockets, 2): pressure [Pa], mass [kg/m]; `area` (pockets, 2) at the start and the end of the step
+    [m^2] and `gap` [m] at its end; `opening` (faces) [m^2]; `flow` (faces, 2) mass and heat towards the high end
+    [kg/s, W], `leak` (pockets, 2) outwards [kg/(s m), W/m]; `residual` (pockets, 2), `lower`, `diagonal`, `upper`
+    (pockets, 2, 2) and `correction` (pockets, 2) of Newton's method, `trial` (pockets, 2) its candidate.
     """
 
     old: FloatArray

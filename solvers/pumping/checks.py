@@ -19,34 +19,41 @@ def check_setup(setup: PumpingSetup) -> list[Notice]:
     """Notices of few teeth and of a helix without slices.
 
     Raises InvalidInput: too_few_teeth, face_width, negative_backlash, isentropic_exponent, discharge_coefficient,
-    too_few_slices, helix_incompressible, grooves_incompressible.
+    too_few_slices, helix_incompressible, grooves_incompressible, slices_incompressible.
     """
-    model, gears = setup.model, setup.gears
     notices = []
-    for gear, name in ((gears.pinion, "pinion"), (gears.wheel, "wheel")):
+    for gear, name in ((setup.gears.pinion, "pinion"), (setup.gears.wheel, "wheel")):
         if gear.teeth < LEAST_TEETH:
             raise InvalidInput("too_few_teeth", f"the {name} needs at least {LEAST_TEETH} teeth", f"{name}.teeth")
         if gear.teeth < FEW_TEETH:
             message = f"the {name} has {gear.teeth} teeth: below {FEW_TEETH} the model was never checked"
             notices.append(Notice("few_teeth", message, f"{name}.teeth"))
-    if gears.face_width <= 0.0:
+    _check_ranges(setup)
+    return notices + _check_slices(setup)
+
+
+def _check_ranges(setup: PumpingSetup) -> None:
+    if setup.gears.face_width <= 0.0:
         raise InvalidInput("face_width", "the face width must be positive", "face_width")
-    if setup.normal_backlash < 0.0:
-        raise InvalidInput("negative_backlash", "the extra backlash must not be negative", "normal_backlash")
+    if setup.normal_backlash < 0.0 or setup.model.minimum_gap < 0.0:
+        raise InvalidInput("negative_backlash", "backlash and gaps must not be negative", "normal_backlash")
     if setup.ambient.isentropic_exponent <= 1.0:
         raise InvalidInput("isentropic_exponent", "the isentropic exponent must exceed 1", "isentropic_exponent")
-    if not 0.0 <= model.discharge_coefficient <= 1.0:
+    if not 0.0 <= setup.model.discharge_coefficient <= 1.0:
         message = "the discharge coefficient must lie between 0 and 1"
         raise InvalidInput("discharge_coefficient", message, "discharge_coefficient")
-    if model.flow is Flow.INCOMPRESSIBLE:
+
+
+def _check_slices(setup: PumpingSetup) -> list[Notice]:
+    flow, slices = setup.model.flow, setup.model.slice_count
+    if flow is Flow.INCOMPRESSIBLE:
         _check_incompressible(setup)
-    least = LEAST_SLICES if model.flow is Flow.GAS_DYNAMICS else 1
-    if model.slice_count < least:
+    least = LEAST_SLICES if flow is Flow.GAS_DYNAMICS else 1
+    if slices < least:
         raise InvalidInput("too_few_slices", f"the flow model needs at least {least} slices", "slices")
-    if model.slice_count == 1 and gears.helix_angle != 0.0:
-        message = "one pocket takes no notice of the helix; 10 slices are usual"
-        notices.append(Notice("single_slice", message, "slices"))
-    return notices
+    if slices == 1 and setup.gears.helix_angle != 0.0:
+        return [Notice("single_slice", "one pocket takes no notice of the helix; 10 slices are usual", "slices")]
+    return []
 
 
 def _check_incompressible(setup: PumpingSetup) -> None:

@@ -1,14 +1,16 @@
 """The speeds at which the radial gaps and the axial exits become sonic."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache
 from math import exp, log, sqrt
 
 from scipy.optimize import brentq
 
 from solvers.errors import InvalidInput
-from solvers.pumping.inputs import Flow, PumpingSetup
+from solvers.notices import Notice
+from solvers.pumping.checks import check_speed
+from solvers.pumping.inputs import ChokingInputs, Flow, rpm
+from solvers.pumping.results import ChokingSpeeds
 from solvers.pumping.spaces import Mesh, Space, flow_at, prepare
 
 _COARSENING = 4  # of the slices while the speeds are bracketed
@@ -19,31 +21,29 @@ _STEPS_DOWN = 24  # factors of sqrt(2) below the search limit
 Excess = Callable[[float], float]
 
 
-@dataclass(frozen=True, slots=True)
-class ChokingSpeeds:
-    """Pinion speeds [rad/s] at which the flow becomes sonic: None beyond the search limit."""
-
-    radial: float | None
-    axial: float | None
-
-
-def choking_speeds(setup: PumpingSetup, search_limit: float) -> ChokingSpeeds:
-    """Lowest speeds, up to `search_limit` [rad/s], that choke the gaps or the exits of any of the spaces asked for.
+def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
+    """Lowest pinion speeds that choke the gaps or the exits of any of the spaces asked for.
 
     Radial gaps choke where the largest pressure reaches the critical ratio, exits where the ambient pressure asks for
-    Mach 1. Raises InvalidInput as `solve` does, and choking_not_modelled.
+    Mach 1. Raises InvalidInput and NoSolution as `solve` does, and choking_not_modelled.
     """
+    setup, limit = inputs.setup, inputs.search_limit
     if setup.model.flow is Flow.INCOMPRESSIBLE:
         raise InvalidInput("choking_not_modelled", "incompressible flow cannot choke", "flow")
     mesh = prepare(setup)
+    check_speed(mesh.pair, mesh.gas, limit)
     slices = setup.model.slice_count
     coarse = max(slices // _COARSENING, 10) if setup.model.flow is Flow.GAS_DYNAMICS else slices
     rough = [_Demand(mesh, space, coarse) for space in mesh.spaces]
     fine = [_Demand(mesh, space, slices) for space in mesh.spaces]
-    return ChokingSpeeds(
-        radial=_lowest([(r.radial, f.radial) for r, f in zip(rough, fine, strict=True)], search_limit),
-        axial=_lowest([(r.axial, f.axial) for r, f in zip(rough, fine, strict=True)], search_limit),
-    )
+    radial = _lowest([(r.radial, f.radial) for r, f in zip(rough, fine, strict=True)], limit)
+    axial = _lowest([(r.axial, f.axial) for r, f in zip(rough, fine, strict=True)], limit)
+    notices = [
+        Notice("beyond_search_limit", f"the {name} stays below sonic flow up to {rpm(limit):.6g} rpm", "search_limit")
+        for name, speed in (("radial gap", radial), ("axial exit", axial))
+        if speed is None
+    ]
+    return ChokingSpeeds(radial, axial, (*mesh.notices, *notices))
 
 
 class _Demand:

@@ -1,4 +1,4 @@
-"""A tooth space between two grooves or faces as a duct: its grid, its moving walls, and what a march through it records."""
+"""A stretch of tooth space as a duct: its grid, its moving walls, and what a march through it records."""
 
 from typing import NamedTuple
 

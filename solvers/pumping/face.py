@@ -24,7 +24,7 @@ class Stretch:
     @property
     def centres(self) -> FloatArray:
         """Positions of the slices' centres [m]."""
-        return self.start + (np.arange(self.cells) + 0.5) * self.width
+        return np.linspace(self.start + 0.5 * self.width, self.start + (self.cells - 0.5) * self.width, self.cells)
 
 
 def stretches(face_width: float, grooves: tuple[Groove, ...], slices: int, least: int) -> list[Stretch]:

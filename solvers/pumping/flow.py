@@ -7,15 +7,14 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.pumping.duct import Record
 from solvers.pumping.face import Stretch
-from solvers.pumping.nozzle import Gas
 
 
 @dataclass(frozen=True, slots=True)
 class ExitMasses:
     """Net mass that leaves one tooth space in a stroke, by exit [kg].
 
-    `reset` is what slices exchange with the ambient when their stroke begins and ends, and with idle neighbours: with it
-    the five sum to nought.
+    `reset` is what slices exchange with the ambient when their stroke begins and ends, and with idle neighbours: with
+    it the five sum to nought.
     """
 
     front: float
@@ -38,10 +37,10 @@ class EndFlow:
 class SpaceFlow:
     """One stroke of one tooth space; a temperature is None where the model has none.
 
-    Fields of shape (angles, positions): `pressure` [Pa], `mach`, `stagnation_temperature` [K] at the owner's `angle` [rad]
-    and `position` [m]. Over the face: stroke means of temperature and stagnation temperature [K], peak pressure [Pa].
-    `exit_demand` is the Mach number that the ambient pressure asks for at the ends, above one where they are choked;
-    `work` [J] is done on the gas above ambient pressure. Errors are relative.
+    Fields of shape (angles, positions): `pressure` [Pa], `mach`, `stagnation_temperature` [K] at the owner's `angle`
+    [rad] and `position` [m]. Over the face: stroke means of temperature and stagnation temperature [K], peak pressure
+    [Pa]. `exit_demand` is the Mach number that the ambient pressure asks for at the ends, above one where they are
+    choked; `work` [J] is done on the gas above ambient pressure. Errors are relative.
     """
 
     angle: FloatArray
@@ -74,7 +73,7 @@ class March:
     steps: int
 
 
-def space_flow(gas: Gas, angle: FloatArray, marches: list[March], *, conserves_energy: bool) -> SpaceFlow:
+def space_flow(angle: FloatArray, marches: list[March], *, conserves_energy: bool) -> SpaceFlow:
     """Join the stretches of a face between its grooves."""
     records = [march.record for march in marches]
     field = np.concatenate([record.field for record in records], axis=1)

@@ -55,7 +55,7 @@ def gas_dynamics(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray,
             reason = "the step limit was reached" if steps == -1 else "no step length gave a physical state"
             raise NoSolution("unphysical_state", f"the gas dynamics failed: {reason}; try fewer slices")
         marches.append(March(stretch, record, steps))
-    return space_flow(gas, angle, marches, conserves_energy=True)
+    return space_flow(angle, marches, conserves_energy=True)
 
 
 def _check_cost(gas: Gas, ducts: list[Duct], angle: FloatArray) -> int:

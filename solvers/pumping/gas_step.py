@@ -4,8 +4,8 @@
  d(A rho u)/dt     + d(A (rho u^2 + p))/dz     = p dA/dz - q u_q
  d(A rho E)/dt     + d(A u (rho E + p))/dz     = -p dA/dt - q h_q
 
-Second order in space and time: limited linear reconstruction and a half-step predictor for the faces; leakage q and wall
-work by a two-stage, L-stable, stiffly accurate Runge-Kutta method around the fluxes of the half step.
+Second order in space and time: limited linear reconstruction and a half-step predictor for the faces; leakage q and
+wall work by a two-stage, L-stable, stiffly accurate Runge-Kutta method around the fluxes of the half step.
 """
 
 from typing import NamedTuple
@@ -25,11 +25,11 @@ _DIAGONAL = 1.0 - np.sqrt(0.5)  # of the two-stage method
 class Cells(NamedTuple):
     """Arrays of a duct, each (cells, 3) or (faces, 3).
 
-    `content` per metre (mass, momentum, energy), `state` (density, velocity, pressure); `walls` at the start of the step
-    and `next_walls` at its end (area, clearance, transport); `slope` and `half` of the state; `loss` over the step
-    (leaked mass, energy lost to the walls, gauge work done by them; per metre); `face_area` and `flux` at the half step;
-    `ends` (2, 3) of the low and the high end: Mach number asked for, Mach number, velocity outwards [m/s]; `leak`
-    (cells,) the latest leakage, a first guess for the next [kg/(s m)].
+    `content` per metre (mass, momentum, energy), `state` (density, velocity, pressure); `walls` at the start of the
+    step and `next_walls` at its end (area, clearance, transport); `slope` and `half` of the state; `loss` over the
+    step (leaked mass, energy lost to the walls, gauge work done by them; per metre); `face_area` and `flux` at the
+    half step; `ends` (2, 3) of the low and the high end: Mach number asked for, Mach number, velocity outwards [m/s];
+    `leak` (cells,) the latest leakage, a first guess for the next [kg/(s m)].
     """
 
     content: FloatArray
@@ -49,13 +49,9 @@ class Cells(NamedTuple):
 
 def empty_cells(cells: int) -> Cells:
     """Arrays for a duct of so many cells."""
-    return Cells(
-        *[np.zeros((cells, 3)) for _ in range(9)],
-        np.zeros(cells + 1),
-        np.zeros((cells + 1, 3)),
-        np.zeros((2, 3)),
-        np.zeros(cells),
-    )
+    wide, faces = (cells, 3), cells + 1
+    shapes = [wide, wide, wide, wide, wide, wide, wide, wide, wide, (faces,), (faces, 3), (2, 3), (cells,)]
+    return Cells(*[np.zeros(shape) for shape in shapes])
 
 
 @kernel

@@ -61,9 +61,10 @@ class Ambient:
 class PumpingModel:
     """The options in force.
 
-    `slices` None is the flow model's own number; `closure` belongs to the pocket chain, `wall_transport` to gas dynamics
-    with contact gaps; `discharge_coefficient` acts on every opening of the pocket chain and of the incompressible model
-    and on the radial gaps of gas dynamics; `minimum_gap` [m] is the least radial clearance of a side.
+    `slices` None is the flow model's own number; `closure` belongs to the pocket chain, `wall_transport` to gas
+    dynamics with contact gaps; `discharge_coefficient` acts on every opening of the pocket chain and of the
+    incompressible model and on the radial gaps of gas dynamics; `minimum_gap` [m] is the least radial clearance of a
+    side.
     """
 
     flow: Flow = Flow.GAS_DYNAMICS
@@ -100,6 +101,14 @@ class PumpingInputs:
 
     setup: PumpingSetup
     pinion_speed: float
+
+
+@dataclass(frozen=True, slots=True)
+class ChokingInputs:
+    """A search for the speeds that choke the flow, up to `search_limit` [rad/s] of the pinion."""
+
+    setup: PumpingSetup
+    search_limit: float
 
 
 def rpm(speed: float) -> float:

@@ -1,9 +1,9 @@
 """What a cell of the duct exchanges with its walls over an implicit stage: leakage, gas on the flanks, wall work.
 
-All amounts are per metre of face. The kinetic energy takes no part: what leaks out leaves with the cell's velocity, what
-leaks in comes from rest. One unknown remains, the flux through the radial gaps; its square is nearly linear in the
-pressure, so Newton's method on the square is safe for any gap and any pressure, however stiff. Whatever flux it ends
-with, the cell's mass, momentum and energy follow from it exactly.
+All amounts are per metre of face. The kinetic energy takes no part: what leaks out leaves with the cell's velocity,
+what leaks in comes from rest. One unknown remains, the flux through the radial gaps; its square is nearly linear in
+the pressure, so Newton's method on the square is safe for any gap and any pressure, however stiff. Whatever flux it
+ends with, the cell's mass, momentum and energy follow from it exactly.
 """
 
 from typing import NamedTuple
@@ -20,8 +20,8 @@ _TOLERANCE = 1e-5  # of the last correction: Newton's next one would be its squa
 class Walls(NamedTuple):
     """The space around a cell at one instant.
 
-    `area` [m^2], `growth` its rate [m^2/s], `gap` clearance times discharge coefficient [m], `transport` area per second
-    that the flanks carry out [m^2/s].
+    `area` [m^2], `growth` its rate [m^2/s], `gap` clearance times discharge coefficient [m], `transport` area per
+    second that the flanks carry out [m^2/s].
     """
 
     area: float
@@ -33,8 +33,8 @@ class Walls(NamedTuple):
 class Stage(NamedTuple):
     """Content after a stage, its pressure, and the rates of loss that led there.
 
-    mass [kg/m], momentum [kg/s], energy [J/m], pressure [Pa]; rates of leakage out and in [kg/(s m)], momentum and energy
-    lost [N/m, W/m]; `fits`: whether the state is physical.
+    mass [kg/m], momentum [kg/s], energy [J/m], pressure [Pa]; rates of leakage out and in [kg/(s m)], momentum and
+    energy lost [N/m, W/m]; `fits`: whether the state is physical.
     """
 
     mass: float
@@ -88,7 +88,7 @@ def implicit_stage(
 
 @kernel
 def _unphysical() -> Stage:
-    return Stage(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, False)  # noqa: FBT003  numba builds tuples by position
+    return Stage(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, False)
 
 
 @kernel
@@ -105,7 +105,8 @@ def _improved(flux: float, squared: float, slope: float) -> float:
     if constant <= 0.0:
         return 0.0
     half = -0.5 * slope
-    return constant / (half + np.sqrt(half**2 + constant))
+    improved: float = constant / (half + np.sqrt(half**2 + constant))
+    return improved
 
 
 @kernel

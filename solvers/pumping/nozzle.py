@@ -1,4 +1,4 @@
-"""Discharge of a perfect gas through an opening (Eq. 7 is its choked limit), and the ambient state it is referred to."""
+"""Discharge of a perfect gas through an opening (Eq. 7 is its choked limit), and the ambient state."""
 
 from math import sqrt
 from typing import NamedTuple
@@ -43,8 +43,8 @@ def gas(ambient: Ambient) -> Gas:
 def flux_squared(gas: Gas, upstream: float, temperature: float, downstream: float) -> tuple[float, float, float]:
     """Square of the mass flux [kg/(s m^2)]^2 from stagnation (upstream, temperature) to a pressure not above it.
 
-    With it the derivatives by the upstream and the downstream pressure. Exact down to any pressure drop; below a drop of
-    nought it goes on linearly, negative.
+    With it the derivatives by the upstream and the downstream pressure. Exact down to any pressure drop; below a drop
+    of nought it goes on linearly, negative.
     """
     g = gas.exponent
     drop = (upstream - downstream) / upstream
@@ -66,7 +66,7 @@ def flux_squared(gas: Gas, upstream: float, temperature: float, downstream: floa
 
 @kernel
 def mass_flux(gas: Gas, upstream: float, temperature: float, downstream: float) -> tuple[float, float, float]:
-    """Mass flux G [kg/(s m^2)] and its derivatives by the upstream and the downstream pressure, at fixed temperature."""
+    """Mass flux G [kg/(s m^2)] and its derivatives by upstream and downstream pressure at fixed temperature."""
     drop = (upstream - downstream) / upstream
     if drop < _LINEAR:
         edge = flux_squared(gas, upstream, temperature, upstream * (1.0 - _LINEAR))[0]
@@ -82,10 +82,12 @@ def throat_mach(gas: Gas, upstream: float, downstream: float) -> float:
     """Mach number in the narrowest section of an opening, one where it is choked."""
     g = gas.exponent
     ratio = min(max(downstream / upstream, gas.critical_ratio), 1.0)
-    return np.sqrt(2.0 / (g - 1.0) * (ratio ** ((1.0 - g) / g) - 1.0))
+    mach: float = np.sqrt(2.0 / (g - 1.0) * (ratio ** ((1.0 - g) / g) - 1.0))
+    return mach
 
 
 def choked_mass_flux(gas: Gas, pressure: float, temperature: float) -> float:
     """Largest mass flux from a stagnation state [kg/(s m^2)], Eq. 7 per area."""
     g, r = gas.exponent, gas.constant
-    return (2 / (g + 1)) ** (1 / (g - 1)) * sqrt(2 * g * r / (g + 1)) * pressure / (r * sqrt(temperature))
+    velocity_factor: float = (2 / (g + 1)) ** (1 / (g - 1)) * sqrt(2 * g * r / (g + 1))
+    return velocity_factor * pressure / (r * sqrt(temperature))

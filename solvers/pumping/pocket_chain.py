@@ -33,4 +33,4 @@ def pocket_chain(
                 "newton_not_converged", "a time step of the pocket chain did not converge; change the slices"
             )
         marches.append(March(stretch, record, taken))
-    return space_flow(gas, angle, marches, conserves_energy=closure is Closure.ENERGY)
+    return space_flow(angle, marches, conserves_energy=closure is Closure.ENERGY)

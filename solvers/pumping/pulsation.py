@@ -15,15 +15,15 @@ class Pulsation:
     """Amplitudes of the mass flow at each end [kg/s] at multiples of the meshing frequency [Hz], all (harmonics,)."""
 
     frequency: FloatArray
-    front: FloatArray
-    rear: FloatArray
+    front_mass_flow: FloatArray
+    rear_mass_flow: FloatArray
 
 
 def pulsation(meshing_frequency: float, flows: list[tuple[SpaceFlow, float, float]]) -> Pulsation:
     """Superpose the flows of successive spaces: amplitude k is 2 f_m |integral m_dot exp(-2 pi i k f_m t) dt|.
 
-    `flows`: of each gear's spaces, with the owner's speed [rad/s] and the share of a mesh period by which they come to the
-    line of centres later than the pinion's.
+    `flows`: of each gear's spaces, with the owner's speed [rad/s] and the share of a mesh period by which they come
+    to the line of centres later than the pinion's.
     """
     orders = np.arange(1, HARMONICS + 1)
     front = np.zeros(HARMONICS, dtype=complex)
@@ -35,6 +35,6 @@ def pulsation(meshing_frequency: float, flows: list[tuple[SpaceFlow, float, floa
         rear += turning @ flow.ends.rear
     return Pulsation(
         frequency=frozen(meshing_frequency * orders),
-        front=frozen(2 * meshing_frequency * np.abs(front)),
-        rear=frozen(2 * meshing_frequency * np.abs(rear)),
+        front_mass_flow=frozen(2 * meshing_frequency * np.abs(front)),
+        rear_mass_flow=frozen(2 * meshing_frequency * np.abs(rear)),
     )

@@ -23,8 +23,29 @@ class MeshGeometry:
 
 
 @dataclass(frozen=True, slots=True)
+class Stroke:
+    """One stroke of a tooth space: angles of its gear from the line of centres [rad], areas [m^2]."""
+
+    start: float
+    contact_start: float
+    contact_end: float
+    end: float
+    max_area: float
+    min_area: float
+    curves: StrokeTable
+
+
+@dataclass(frozen=True, slots=True)
+class Balance:
+    """Relative errors of the books; `energy_error` is None where the model conserves no energy."""
+
+    mass_error: float
+    energy_error: float | None
+
+
+@dataclass(frozen=True, slots=True)
 class FaceProfile:
-    """Over the face, (slices,): stroke means of the rise of stagnation and static temperature [K], peak pressure ratio."""
+    """Over the face, (slices,): stroke means of the rise of stagnation and static temperature [K], peak pressures."""
 
     position: FloatArray
     temperature_rise: FloatArray | None
@@ -34,7 +55,7 @@ class FaceProfile:
 
 @dataclass(frozen=True, slots=True)
 class GasField:
-    """Over angle [rad] and position [m], (angles, slices): pressure ratio, Mach number, stagnation temperature rise [K]."""
+    """The gas over angle [rad] and position [m], (angles, slices); `temperature_rise` [K] of stagnation."""
 
     angle: FloatArray
     position: FloatArray
@@ -45,12 +66,12 @@ class GasField:
 
 @dataclass(frozen=True, slots=True)
 class SpacesResult:
-    """The spaces of one gear: power [W], work per space and stroke [J], `mass_flow` in kg/s, temperatures [K].
+    """The spaces of one gear: power [W], work per space and stroke [J], `mass_flow` [kg/s], temperatures [K].
 
     Pressures are ratios to the ambient one. None where the flow model gives no such value; a notice says so.
     """
 
-    stroke: StrokeTable
+    stroke: Stroke
     peak_pressure_ratio: float
     min_pressure_ratio: float
     peak_axial_mach: float
@@ -62,8 +83,7 @@ class SpacesResult:
     pumping_power: float
     work_per_space: float
     mass_flow: ExitMasses
-    mass_error: float
-    energy_error: float | None
+    balance: Balance
     profile: FaceProfile
     field: GasField
     steps: int
@@ -73,8 +93,8 @@ class SpacesResult:
 class Totals:
     """Power of all spaces asked for [W], meshing frequency [Hz], speed of the meshing point along the face [m/s].
 
-    `axial_meshing_mach` refers it to the ambient speed of sound; both are None for spur gears, whose whole face meshes at
-    once.
+    `axial_meshing_mach` refers it to the ambient speed of sound; both are None for spur gears, whose whole face meshes
+    at once.
     """
 
     pumping_power: float
@@ -94,4 +114,13 @@ class PumpingResult:
     lead_correction: LeadCorrection | None
     pulsation: Pulsation
     slices: int
-    notices: tuple[Notice, ...]
+    warnings: tuple[Notice, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ChokingSpeeds:
+    """Pinion speeds [rad/s] at which the flow becomes sonic: None beyond the search limit."""
+
+    radial_choking_speed: float | None
+    axial_choking_speed: float | None
+    warnings: tuple[Notice, ...]

@@ -50,9 +50,10 @@ def _star_flux(g: float, rho: float, u: float, p: float, s: float, s_m: float) -
 def reservoir_face(gas: Gas, rho: float, v: float, p: float) -> tuple[float, float, float, float]:
     """State of a face that opens into the ambient, and how nearly it is sonic.
 
-    `v` [m/s] is the cell's velocity outwards. Outflow expands to the ambient pressure, at most to Mach 1; inflow starts
-    from ambient gas at rest and meets the outgoing invariant. The last value is the Mach number that the ambient pressure
-    asks for, negative for inflow: above one the face is choked (or the duct supersonic, and the face has its state).
+    `v` [m/s] is the cell's velocity outwards. Outflow expands to the ambient pressure, at most to Mach 1; inflow
+    starts from ambient gas at rest and meets the outgoing invariant. The last value is the Mach number that the
+    ambient pressure asks for, negative for inflow: above one the face is choked (or the duct supersonic, and the face
+    has its state).
     """
     g = gas.exponent
     c = np.sqrt(g * p / rho)

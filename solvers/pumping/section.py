@@ -1,8 +1,8 @@
 """Area of a tooth space between the flanks and its radial clearances at one position, all in closed form.
 
-Normals of an involute are tangents of its base circle, so the foot of a point on a flank needs no search; the areas under
-involutes and circular arcs are elementary. Only a foot on the root fillet is searched for. The right side of a space at
-(angle, mate's angle) is the mirror image of the left side at (-angle, -mate's angle).
+Normals of an involute are tangents of its base circle, so the foot of a point on a flank needs no search; the areas
+under involutes and circular arcs are elementary. Only a foot on the root fillet is searched for. The right side of a
+space at (angle, mate's angle) is the mirror image of the left side at (-angle, -mate's angle).
 """
 
 import numpy as np
@@ -17,7 +17,8 @@ _GOLDEN = 0.6180339887498949
 
 @kernel
 def _involute(roll: float, base: float) -> float:
-    return roll / base - np.arctan(roll / base)
+    angle: float = roll / base - np.arctan(roll / base)
+    return angle
 
 
 @kernel
@@ -29,7 +30,8 @@ def _sector(roll: float, base: float) -> float:
 @kernel
 def _distance_to_fillet(fillet: RackFillet, t: float, radius: float, angle: float) -> float:
     r, psi = fillet_point(fillet, t)
-    return np.sqrt((r - radius) ** 2 + 4.0 * r * radius * np.sin(0.5 * (psi - angle)) ** 2)
+    distance: float = np.sqrt((r - radius) ** 2 + 4.0 * r * radius * np.sin(0.5 * (psi - angle)) ** 2)
+    return distance
 
 
 @kernel
@@ -71,7 +73,7 @@ def _foot_on_flank(space: ToothSpace, radius: float, angle: float) -> tuple[floa
 
 @kernel
 def _nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[float, float, float, float]:
-    """Nearest point of half the space's profile: distance [m], radius [m], half angle [rad], sector area below [m^2]."""
+    """Nearest point of half a space's profile: distance [m], radius [m], half angle [rad], sector below [m^2]."""
     root, base = space.root, space.base_radius
     roll, distance = _foot_on_flank(space, radius, angle)
     r, psi = np.hypot(base, roll), space.base_half_angle + _involute(roll, base)
@@ -157,8 +159,8 @@ def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tup
 def section(space: ToothSpace, angle: float) -> tuple[float, float, float, float]:
     """Area [m^2], left and right clearance [m], gas carried out by the flanks per radian and metre of face [m^2].
 
-    `angle` [rad] of the owner. The flanks of the coast side roll through the section fixed on the line of action: out of
-    the space where the owner drives, into it where the owner is driven.
+    `angle` [rad] of the owner. The flanks of the coast side roll through the section fixed on the line of action: out
+    of the space where the owner drives, into it where the owner is driven.
     """
     mate_angle = angle * space.ratio + space.offset
     left_gap = 0.0 if space.owner_drives else space.backlash_gap

@@ -19,7 +19,7 @@ from solvers.pumping.tooth_space import check_flanks, tooth_space
 
 @dataclass(frozen=True, slots=True)
 class Space:
-    """The spaces of one gear: `speed_ratio` its speed per pinion speed, `lag` of the stroke per metre of face [rad/m]."""
+    """The spaces of one gear: its speed per pinion speed, the lag of the stroke per metre of face [rad/m]."""
 
     of_pinion: bool
     table: StrokeTable

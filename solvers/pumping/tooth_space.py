@@ -1,8 +1,8 @@
 """A tooth space of one gear and the mate's tooth that passes through it, in the transverse plane.
 
-Frame: the owner of the space turns about (0, 0), the mate about (0, a). Angles of the owner count from +y, angles of the
-mate from -y, both towards +x, the direction of motion; the space's centre lies on the line of centres at angle 0. The
-left side leads away from the motion: it is the driving flank where the owner drives.
+Frame: the owner of the space turns about (0, 0), the mate about (0, a). Angles of the owner count from +y, angles of
+the mate from -y, both towards +x, the direction of motion; the space's centre lies on the line of centres at angle 0.
+The left side leads away from the motion: it is the driving flank where the owner drives.
 """
 
 from dataclasses import dataclass
