@@ -51,9 +51,8 @@ def reservoir_face(gas: Gas, rho: float, v: float, p: float) -> tuple[float, flo
     """State of a face that opens into the ambient, and how nearly it is sonic.
 
     `v` [m/s] is the cell's velocity outwards. Outflow expands to the ambient pressure, at most to Mach 1; inflow
-    starts from ambient gas at rest and meets the outgoing invariant. The last value is the Mach number that the
-    ambient pressure asks for, negative for inflow: above one the face is choked (or the duct supersonic, and the face
-    has its state).
+    starts from ambient gas at rest. The last value is the Mach number that the ambient pressure asks for, negative
+    for inflow: above one the face is choked (or the duct supersonic, and the face has its state).
     """
     g = gas.exponent
     c = np.sqrt(g * p / rho)
@@ -63,7 +62,7 @@ def reservoir_face(gas: Gas, rho: float, v: float, p: float) -> tuple[float, flo
     c_f = c * (gas.pressure / p) ** (0.5 * (g - 1.0) / g)
     v_f = invariant - 2.0 * c_f / (g - 1.0)
     if v_f < 0.0:
-        rho_f, v_f, p_f = _inflow(gas, invariant)
+        rho_f, v_f, p_f = _inflow(gas, invariant, c_f)
         return rho_f, v_f, p_f, v_f / np.sqrt(g * p_f / rho_f)
     mach = v_f / c_f
     if mach > 1.0:
@@ -74,14 +73,18 @@ def reservoir_face(gas: Gas, rho: float, v: float, p: float) -> tuple[float, flo
 
 
 @kernel
-def _inflow(gas: Gas, invariant: float) -> tuple[float, float, float]:
-    """Inflow from rest that meets the invariant v + 2c/(g-1): the larger root of a quadratic for c, at most sonic."""
+def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> tuple[float, float, float]:
+    """Inflow from rest that meets the gas of the cell at one pressure and velocity, at most sonic.
+
+    `cell_sound_speed` is that of the cell's gas brought to ambient pressure: where it is hotter than the ambient a
+    contact lies between both, and the invariant v + 2c/(g-1) holds on its far side. The larger root of a quadratic for
+    the ratio of the face's sound speed to the ambient one.
+    """
     g, stagnation = gas.exponent, gas.sound_speed
-    root = (g + 1.0) * stagnation**2 - 0.5 * (g - 1.0) * invariant**2 * (g - 1.0)
-    c = ((g - 1.0) * invariant + np.sqrt(max((g - 1.0) * root, 0.0))) / (g + 1.0)
-    v = invariant - 2.0 * c / (g - 1.0)
-    sonic = stagnation * np.sqrt(2.0 / (g + 1.0))
-    if -v > sonic:
-        c, v = sonic, -sonic
-    rho = gas.density * (c / stagnation) ** (2.0 / (g - 1.0))
+    slope, jet = 2.0 / (g - 1.0) * cell_sound_speed, 2.0 / (g - 1.0) * stagnation**2
+    root = np.sqrt(jet * (slope**2 + jet - invariant**2))
+    ratio = max((slope * invariant + root) / (slope**2 + jet), np.sqrt(2.0 / (g + 1.0)))
+    c = stagnation * ratio
+    v = -np.sqrt(jet * (1.0 - ratio**2))
+    rho = gas.density * ratio ** (2.0 / (g - 1.0))
     return rho, v, rho * c * c / g

@@ -70,5 +70,8 @@ def _check_area(angle: FloatArray, area: FloatArray) -> None:
     wrong = np.concatenate([np.diff(area[: smallest + 1]) > noise, np.diff(area[smallest:]) < -noise])
     if wrong.any():
         where = degrees(angle[int(np.argmax(wrong))])
-        message = f"the area of the tooth space has a second minimum near {where:.3f} deg"
+        message = (
+            f"the area of the tooth space has a second minimum near {where:.3f} deg; the nearest point to a tip corner "
+            "can jump along the root, the contact gap knows no such jump"
+        )
         raise InvalidInput("tooth_space_minima", message, "gears")
