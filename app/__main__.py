@@ -23,6 +23,7 @@ def main() -> None:
 def serve(factory: str) -> None:
     """Run the application that `factory` ("module:function") creates, with the options it is meant to run with."""
     limits = settings()
+    logging.logThreads = logging.logProcesses = logging.logMultiprocessing = False
     logging.basicConfig(level=limits.log_level.upper(), format="%(message)s", stream=sys.stdout)
     print(f"tribodrive: docs at http://{limits.host}:{limits.port}/docs", flush=True)  # noqa: T201
     uvicorn.run(

@@ -27,7 +27,9 @@ def answer(calculation: Calculation, request: Request) -> bytes:
     else:
         warnings = [_notice(request, warning) for warning in result.warnings]
         content = from_si(calculation.response, result, request.detail, skip=frozenset(Response.model_fields))
-        content |= {"status": "ok_with_warnings" if warnings else "ok", "warnings": warnings}
+        unsolved = getattr(result, "status", None) == "no_solution"
+        status = "no_solution" if unsolved else "ok_with_warnings" if warnings else "ok"
+        content |= {"status": status, "warnings": warnings}
     content |= {
         "assumptions": assumptions(request, resolved),
         "model_version": MODEL_VERSION,

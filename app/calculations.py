@@ -6,9 +6,14 @@ from typing import Any
 
 from app.requests.common import Request
 from app.requests.coupling import CouplingRequest, RecommendationRequest
+from app.requests.line_contact import LineContactRequest
+from app.requests.scuffing import LoadDistributionRequest, ScuffingRequest
 from app.responses.common import Response
 from app.responses.coupling import CouplingResponse, RecommendationResponse, SleeveOrbitResponse
-from solvers import coupling
+from app.responses.line_contact import LineContactResponse
+from app.responses.scuffing import LoadDistributionResponse, ScuffingResponse
+from solvers import coupling, scuffing
+from solvers.contact import ehl
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,5 +52,29 @@ CALCULATIONS = (
         request=RecommendationRequest,
         solve=coupling.recommend,
         response=RecommendationResponse,
+    ),
+    Calculation(
+        path="/v1/scuffing/load-distribution",
+        summary="Load, pressure, transmission error and loss of a modified gear pair",
+        source="Xue, Zhang, Wang 2020, section II",
+        request=LoadDistributionRequest,
+        solve=scuffing.solve_load_distribution,
+        response=LoadDistributionResponse,
+    ),
+    Calculation(
+        path="/v1/scuffing",
+        summary="Load distribution, flash temperature, film thickness and safety against scuffing of a gear pair",
+        source="Xue, Zhang, Wang 2020",
+        request=ScuffingRequest,
+        solve=scuffing.solve_scuffing,
+        response=ScuffingResponse,
+    ),
+    Calculation(
+        path="/v1/scuffing/line-contact",
+        summary="Film, pressure, temperature and friction of one thermal elastohydrodynamic line contact",
+        source="Xue, Zhang, Wang 2020, sections III and IV",
+        request=LineContactRequest,
+        solve=ehl.solve,
+        response=LineContactResponse,
     ),
 )

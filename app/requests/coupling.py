@@ -15,14 +15,14 @@ PAHL = "Pahl 1978"
 class CouplingDesign(Section):
     """The coupling without its crowning."""
 
-    teeth: Annotated[int, Input("number of teeth", "z", PAHL, ge=6, le=1000)]
-    module_mm: Annotated[float, Input("module", "m", PAHL, gt=0, le=100)]
+    teeth: Annotated[int, Input("number of teeth", "z", PAHL, ge=6, le=400)]
+    module_mm: Annotated[float, Input("module", "m", PAHL, ge=0.1, le=100)]
     pressure_angle_deg: Annotated[
-        float, Input("pressure angle", "α", gt=0, lt=45, assumed="the usual rack; the paper gives none")
+        float, Input("pressure angle", "α", ge=1, lt=45, assumed="the usual rack; the paper gives none")
     ] = 20.0
     face_width_mm: Annotated[
         float | None,
-        Input("hub tooth face width; null: 8 modules", "b", gt=0, le=2000, assumed="8 modules; the paper gives none"),
+        Input("hub tooth face width; null: 8 modules", "b", ge=0.1, le=2000, assumed="8 modules; the paper gives none"),
     ] = None
     tooth_height_mm: Annotated[
         float | None,
@@ -30,7 +30,7 @@ class CouplingDesign(Section):
             "load-carrying tooth height, the length of the contact line; null: 2 modules",
             "h_trag",
             "Pahl 1978, Fig. 8",
-            gt=0,
+            ge=0.05,
             le=200,
             assumed="2 modules; the paper gives none",
         ),
@@ -41,7 +41,7 @@ class CouplingDesign(Section):
             "distance of the two tooth planes",
             "l_H",
             "Pahl 1978, Fig. 13",
-            gt=0,
+            ge=1,
             le=20000,
             assumed="order of magnitude",
         ),
@@ -51,14 +51,14 @@ class CouplingDesign(Section):
         Input(
             "tangential stiffness of one tooth pair",
             "c_t",
-            gt=0,
+            ge=0.1,
             le=1e5,
             assumed="order of magnitude of ISO 6336-1: 14 N/(mm µm) over 20 mm of effective width",
         ),
     ] = 280.0
     sleeve_mass_kg: Annotated[
         float,
-        Input("mass carried by one mesh, half the sleeve", "m_s", gt=0, le=1e4, assumed="order of magnitude"),
+        Input("mass carried by one mesh, half the sleeve", "m_s", ge=1e-3, le=1e4, assumed="order of magnitude"),
     ] = 4.0
     pitch_errors_um: Annotated[
         list[float] | None,
@@ -67,7 +67,7 @@ class CouplingDesign(Section):
             "pitch errors, one per tooth, positive = early, carries more", "p_i", "Pahl 1978, Fig. 4", ge=-1e4, le=1e4
         ),
     ] = None
-    youngs_modulus_gpa: Annotated[float, Input("Young's modulus of the teeth", "E", gt=0, le=2000, assumed="steel")] = (
+    youngs_modulus_gpa: Annotated[float, Input("Young's modulus of the teeth", "E", ge=1, le=2000, assumed="steel")] = (
         206.0
     )
     poisson_ratio: Annotated[float, Input("Poisson's ratio of the teeth", "ν", ge=0, lt=0.5, assumed="steel")] = 0.3
@@ -121,7 +121,7 @@ class CouplingOperationRange(CouplingLoad):
     misalignment_range_deg: Annotated[
         list[float],
         Field(min_length=2, max_length=2),
-        Input("smallest and largest tilt of hub against sleeve", "δ_HS", PAHL, gt=0, le=6),
+        Input("smallest and largest tilt of hub against sleeve", "δ_HS", PAHL, ge=1e-4, le=6),
     ]
 
 
@@ -129,10 +129,11 @@ class CouplingLubricant(Section):
     """Oil at the teeth."""
 
     viscosity_pa_s: Annotated[
-        float, Input("viscosity at the teeth", "η", "Pahl 1978, Fig. 8", gt=0, le=100, assumed="ISO VG 46 near 50 °C")
+        float,
+        Input("viscosity at the teeth", "η", "Pahl 1978, Fig. 8", ge=1e-5, le=100, assumed="ISO VG 46 near 50 °C"),
     ] = 0.025
     reference_film_um: Annotated[
-        float, Input("film thickness of the load capacity", "h_0", "Pahl 1978, Fig. 8", gt=0, le=1000)
+        float, Input("film thickness of the load capacity", "h_0", "Pahl 1978, Fig. 8", ge=1e-3, le=1000)
     ] = 1.0
 
 
@@ -143,7 +144,7 @@ class MixedFrictionTable(Section):
         list[float], Field(min_length=2, max_length=1000), Input("sliding velocities, rising", "v_G", ge=0, le=1000)
     ]
     coefficient: Annotated[
-        list[float], Field(min_length=2, max_length=1000), Input("friction coefficients", "μ", gt=0, le=2)
+        list[float], Field(min_length=2, max_length=1000), Input("friction coefficients", "μ", ge=1e-4, le=2)
     ]
 
 
@@ -189,7 +190,7 @@ class CouplingModel(Section):
             assumed="the paper does not define the inlet length",
         ),
     ] = "face"
-    inlet_length_mm: Annotated[float | None, Input("inlet length instead of `inlet`", "b_Ix", gt=0, le=2000)] = None
+    inlet_length_mm: Annotated[float | None, Input("inlet length instead of `inlet`", "b_Ix", ge=1e-3, le=2000)] = None
     rotor_angle_deg: Annotated[float, Input("rotor angle of the tooth forces", "θ", ge=-360, le=360)] = 0.0
 
 

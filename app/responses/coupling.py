@@ -140,7 +140,7 @@ class CouplingLimits(Group):
     ]
     allowable_misalignment_deg: Annotated[
         float | None,
-        Output("misalignment at that sliding velocity; null at standstill", "δ", "Tribology Handbook B4.6"),
+        Output("misalignment at that sliding velocity; null where none reaches it", "δ", "Tribology Handbook B4.6"),
     ]
     sleeve_centring_torque_n_m: Annotated[float, Output("torque that keeps a heavy sleeve centred", "T")]
     torsional_stiffness_n_m_per_rad: Annotated[float, Output("of one mesh, all teeth loaded")]

@@ -14,7 +14,7 @@ from solvers.arrays import FloatArray, frozen
 from solvers.coupling.inputs import Coupling, KinematicModel, Operation
 from solvers.coupling.results import Geometry, KinematicCurves, Kinematics
 
-CURVE_POINTS = 181
+_CURVE_ANGLE = frozen(np.linspace(0.0, 2.0 * pi, 181))
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,15 +132,14 @@ def displacement_peak_to_peak(mesh: MeshMotion) -> float:
 
 def kinematics(mesh: MeshMotion) -> Kinematics:
     """Largest values and curves over one revolution (Fig. 6)."""
-    angle = np.linspace(0.0, 2.0 * pi, CURVE_POINTS)
-    teeth = ToothPositions(sine=np.sin(angle), cosine=np.cos(angle))
+    teeth = ToothPositions(sine=np.sin(_CURVE_ANGLE), cosine=np.cos(_CURVE_ANGLE))
     return Kinematics(
         max_sliding_velocity=abs(mesh.sliding),
         max_contact_travel=max_contact_travel(mesh),
         max_hydrodynamic_velocity=max_hydrodynamic_velocity(mesh),
         tangential_displacement_peak_to_peak=displacement_peak_to_peak(mesh),
         curves=KinematicCurves(
-            angle=frozen(angle),
+            angle=_CURVE_ANGLE,
             sliding_velocity=frozen(sliding_velocity(mesh, teeth)),
             hydrodynamic_velocity=frozen(hydrodynamic_velocity(mesh, teeth)),
             tangential_displacement=frozen(tangential_displacement(mesh, teeth)),

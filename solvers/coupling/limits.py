@@ -1,7 +1,7 @@
 """Design limits and linear stiffness of the coupling."""
 
 from dataclasses import replace
-from math import cos, sqrt
+from math import cos, pi, sqrt
 
 from solvers.coupling.inputs import Coupling, CouplingInputs
 from solvers.coupling.kinematics import displacement_peak_to_peak, mesh_motion
@@ -13,8 +13,9 @@ GRAVITY = 9.80665
 
 
 def allowable_misalignment(speed: float, pitch_radius: float) -> float | None:
-    """Misalignment at the limit of sliding velocity, 0.12/(omega r_o) [rad]; None at rest."""
-    return SLIDING_VELOCITY_LIMIT / (abs(speed) * pitch_radius) if speed != 0.0 else None
+    """Misalignment at the limit of sliding velocity, 0.12/(omega r_o) [rad]; None where no angle reaches it."""
+    rolling = abs(speed) * pitch_radius
+    return SLIDING_VELOCITY_LIMIT / rolling if pi / 2 * rolling > SLIDING_VELOCITY_LIMIT else None
 
 
 def sleeve_centring_torque(coupling: Coupling, pitch_radius: float) -> float:

@@ -16,8 +16,7 @@ from solvers.errors import InvalidInput, NoSolution
 MAX_SWEEPS = 50
 REPEAT_TOLERANCE = 1e-12
 HIGHEST_ORDER = 12
-_MIN_POSITIONS = 96
-_MIN_PER_PITCH = 4
+_MIN_POSITIONS = 208
 
 
 def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
@@ -36,8 +35,7 @@ def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
         raise InvalidInput("torque_too_low", "without torque nothing centres the sleeve", "torque")
     geometry = tooth_geometry(coupling)
     mesh = mesh_motion(coupling, geometry, operation, inputs.model.kinematics)
-    per_pitch = max(_MIN_PER_PITCH, ceil(_MIN_POSITIONS / coupling.teeth))
-    positions = per_pitch * coupling.teeth
+    positions = ceil(_MIN_POSITIONS / coupling.teeth) * coupling.teeth
     angles = np.linspace(0.0, 2.0 * pi, positions, endpoint=False)
     teeth = tooth_positions(angles, coupling.teeth)
     holding_force = operation.torque / (geometry.pitch_radius * cos(coupling.pressure_angle))

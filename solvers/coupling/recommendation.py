@@ -7,6 +7,7 @@ solved for, and the load capacity is maximised between them.
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from math import exp, log
 
@@ -55,21 +56,21 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
     scan = _scan(state)
     sliding = _sliding_notices(inputs)
     if inputs.min_misalignment == inputs.max_misalignment and sliding:
-        return _infeasible("sliding_velocity", scan, sliding)
+        nowhere = replace(scan, feasible=(False,) * len(scan.feasible))
+        return _infeasible("sliding_velocity", nowhere, sliding)
     low, high, failed = crowning_window(state)
     if failed is not None:
         return _infeasible(failed, scan, sliding)
     ratio = _best_ratio(state, low, high)
-    ends = [
-        _point(at_misalignment(inputs, ratio, delta)) for delta in (inputs.min_misalignment, inputs.max_misalignment)
-    ]
+    at_min = _point(at_misalignment(inputs, ratio, inputs.min_misalignment))
+    at_max = _point(at_misalignment(inputs, ratio, inputs.max_misalignment))
     return Recommendation(
         feasible=True,
         crowning_ratio=ratio,
         min_load_capacity_coefficient=state(ratio).load_capacity_coefficient,
         failed_constraint=None,
-        at_min=ends[0],
-        at_max=ends[1],
+        at_min=at_min,
+        at_max=at_max,
         scan=scan,
         warnings=sliding,
     )

@@ -160,7 +160,7 @@ class Losses:
 class Limits:
     """Design limits and linear stiffness with every tooth loaded [m/s, rad, N m, N m/rad, N/m].
 
-    `allowable_misalignment` None: the coupling does not turn.
+    `allowable_misalignment` None: the coupling turns too slowly to reach the limit, or not at all.
     """
 
     sliding_velocity_limit: float
@@ -234,10 +234,9 @@ class RecommendedPoint:
 
 @dataclass(frozen=True, slots=True)
 class CrowningScan:
-    """How crowning trades off, one value a crowning ratio.
+    """How crowning trades off, one value a crowning ratio whose contact can be computed.
 
-    The smallest load capacity coefficient and the largest overlap over the range of misalignment; NaN-free: only
-    crowning ratios that can be computed are listed. `feasible` holds booleans.
+    The smallest load capacity coefficient and the largest overlap over the range of misalignment.
     """
 
     crowning_ratio: FloatArray

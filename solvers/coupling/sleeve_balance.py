@@ -11,7 +11,9 @@ from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.coupling.tooth_balance import float_sleeve, solve_symmetric
 
-MAX_ITERATIONS = 60
+MAX_ITERATIONS = 150
+SUBSTITUTIONS = 5
+SHORTEST_STEP = 1.0 / 64.0
 FORCE_TOLERANCE = 1e-9
 
 
@@ -49,6 +51,36 @@ def add_friction_moment(
 
 
 @kernel
+def unbalanced_force(
+    interference: FloatArray,
+    normal: FloatArray,
+    arm: FloatArray,
+    lever: float,
+    force: FloatArray,
+    state: FloatArray,
+    gap: FloatArray,
+    slope: FloatArray,
+) -> float:
+    """Phi(g) - g into `gap` (2), g - Phi(g) differentiated by g into `slope` (2, 2); returns |gap|.
+
+    Balances both meshes under the force g and its opposite, from and into `state` (2, 3); inf where one cannot hold it.
+    """
+    system = np.empty((3, 4))
+    gap[:] = 0.0
+    slope[:, :] = 0.0
+    for mesh in range(2):
+        sense = 1.0 - 2.0 * mesh
+        if float_sleeve(interference[mesh], normal[mesh], sense * force, state[mesh], system) < 0:
+            return np.inf
+        add_friction_moment(interference[mesh], normal[mesh], arm[mesh], state[mesh], system, sense, gap, slope)
+    gap[:] = lever * gap - force
+    slope *= -lever
+    slope[0, 0] += 1.0
+    slope[1, 1] += 1.0
+    return hypot(gap[0], gap[1])
+
+
+@kernel
 def balance_sleeve(
     interference: FloatArray,
     normal: FloatArray,
@@ -60,37 +92,37 @@ def balance_sleeve(
 ) -> float:
     """Solve Phi(g) = g at one rotor angle from and into `force` g (2) and `state` (2, 3); returns |Phi(g) - g|.
 
-    interference (2, teeth), normal and arm (2, 2, teeth); `lever` is (mu/cos alpha)(r_o/l_H). Newton's method; plain
-    and damped substitution where the slope is singular or the residual does not fall. The residual is inf where a
-    mesh cannot hold the force.
+    interference (2, teeth), normal and arm (2, 2, teeth); `lever` is (mu/cos alpha)(r_o/l_H). Newton's method with
+    steps shortened until the residual falls; some damped substitutions where that fails, for Phi is piecewise linear
+    (teeth come under load) and Newton may cycle between its pieces.
     """
-    system, moment, slope = np.empty((3, 4)), np.empty(2), np.empty((2, 2))
-    residual, previous, damping = np.inf, np.inf, 1.0
+    gap, step, accepted, slope = np.empty(2), np.zeros(2), np.zeros(2), np.empty((2, 2))
+    accepted_residual, length, substitutions = np.inf, 1.0, 0
     for _ in range(MAX_ITERATIONS):
-        moment[:] = 0.0
-        slope[:, :] = 0.0
-        for mesh in range(2):
-            sense = 1.0 - 2.0 * mesh
-            if float_sleeve(interference[mesh], normal[mesh], sense * force, state[mesh], system) < 0:
-                return np.inf
-            add_friction_moment(interference[mesh], normal[mesh], arm[mesh], state[mesh], system, sense, moment, slope)
-        gap_x, gap_y = lever * moment[0] - force[0], lever * moment[1] - force[1]
-        residual = hypot(gap_x, gap_y)
-        if residual < FORCE_TOLERANCE:
-            break
-        damping = 0.5 * damping if residual > 0.9 * previous else min(1.0, 2.0 * damping)
-        previous = residual
-        a, b = 1.0 - lever * slope[0, 0], -lever * slope[0, 1]
-        c, d = -lever * slope[1, 0], 1.0 - lever * slope[1, 1]
-        determinant = a * d - b * c
-        if abs(determinant) > 1e-6 and damping > 0.2:
-            gap_x, gap_y = (d * gap_x - b * gap_y) / determinant, (a * gap_y - c * gap_x) / determinant
-        force[0] += damping * gap_x
-        force[1] += damping * gap_y
+        residual = unbalanced_force(interference, normal, arm, lever, force, state, gap, slope)
+        if residual < FORCE_TOLERANCE or residual == np.inf:
+            return residual
+        if substitutions > 0 or residual <= (1.0 - 0.1 * length) * accepted_residual:
+            length = 1.0
+        else:
+            length *= 0.5
+            if length < SHORTEST_STEP:
+                substitutions = SUBSTITUTIONS
+        if length == 1.0 or substitutions > 0:
+            accepted[:], accepted_residual = force, residual
+            determinant = slope[0, 0] * slope[1, 1] - slope[0, 1] * slope[1, 0]
+            if substitutions > 0 or abs(determinant) < 1e-6:
+                substitutions = max(0, substitutions - 1)
+                length = 0.5
+                step[:] = gap
+            else:
+                step[0] = (slope[1, 1] * gap[0] - slope[0, 1] * gap[1]) / determinant
+                step[1] = (slope[0, 0] * gap[1] - slope[1, 0] * gap[0]) / determinant
+        force[:] = accepted + length * step
         size = hypot(force[0], force[1])
         if size > force_limit:
             force *= force_limit / size
-    return residual
+    return accepted_residual
 
 
 @kernel
@@ -101,18 +133,22 @@ def balance_rows(
     lever: float,
     force_limit: float,
     state: FloatArray,
-    residual: FloatArray,
-) -> None:
-    """Balance the sleeve at every rotor angle, each started from the one before, then from rest if that fails."""
+) -> float:
+    """Balance the sleeve at every rotor angle, each started from the one before, then from rest if that fails.
+
+    Returns the largest residual, that of the first angle without balance if there is one: no later angle is tried.
+    """
     force = np.zeros(2)
+    largest = 0.0
     for row in range(interference.shape[0]):
         if row > 0:
             state[row] = state[row - 1]
-        for _ in range(2):
-            residual[row] = balance_sleeve(
-                interference[row], normal[row], arm[row], lever, force_limit, force, state[row]
-            )
-            if residual[row] < FORCE_TOLERANCE:
-                break
+        residual = balance_sleeve(interference[row], normal[row], arm[row], lever, force_limit, force, state[row])
+        if residual >= FORCE_TOLERANCE:
             force[:] = 0.0
             state[row] = 0.0
+            residual = balance_sleeve(interference[row], normal[row], arm[row], lever, force_limit, force, state[row])
+        largest = max(largest, residual)
+        if residual >= FORCE_TOLERANCE:
+            break
+    return largest

@@ -49,7 +49,8 @@ def sleeve_equilibrium(
     """Thrust and overturning moment of two meshes, the shafts moving apart at `axial_velocity` [m/s] per mesh.
 
     Without any sliding (no axial velocity, and no misalignment or no speed) the direction of friction is open: the
-    result is zero. Raises NoSolution `sleeve_equilibrium` where the tooth forces cannot hold the moment of friction.
+    result is zero. Raises NoSolution `sleeve_equilibrium` where the tooth forces cannot hold the moment of friction; an
+    equilibrium exists at any rate while mu d_o/l_H < cos(pi/z) (Brouwer: Phi maps the forces the teeth hold into them).
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     meshes = two_meshes(inputs, geometry)
@@ -79,7 +80,10 @@ def _tooth_forces(
     direction: FloatArray,
     friction: float,
 ) -> FloatArray:
-    """Tangential tooth forces [N], shape (rotor angles, mesh, teeth), as the direction of friction."""
+    """Tangential tooth forces [N], shape (rotor angles, mesh, teeth), as the direction of friction.
+
+    The residual of a NoSolution is the unbalanced lateral force over T/r_o, at most 1.
+    """
     coupling, teeth = inputs.coupling, samples.teeth
     unit, cosine = elastic_rotation(coupling, inputs.operation.torque), cos(coupling.pressure_angle)
     interference = np.stack([interference_at_rest(coupling, mesh, teeth) / unit for mesh in meshes], axis=1)
@@ -88,21 +92,14 @@ def _tooth_forces(
     lever = friction / cosine * geometry.pitch_radius / coupling.hub_distance
     # The largest lateral force that the normals of z teeth, a regular polygon, hold at every rotor angle.
     force_limit = _LIMIT_MARGIN * cos(pi / coupling.teeth) / cosine
-    rows = direction.shape[0]
-    state, residual = np.zeros((rows, 2, 3)), np.empty(rows)
-    balance_rows(interference, normal, arm, lever, force_limit, state, residual)
-    _check(residual)
-    share = [shares(interference[:, mesh], normal[:, mesh], state[:, mesh]) for mesh in (0, 1)]
-    return unit * coupling.tooth_stiffness * np.stack(share, axis=1)
-
-
-def _check(residual: FloatArray) -> None:
-    """Raise NoSolution unless every rotor angle is balanced; residuals are lateral forces over T/r_o, at most 1."""
-    unbalanced = residual >= FORCE_TOLERANCE
-    if unbalanced.any():
+    state = np.zeros((direction.shape[0], 2, 3))
+    residual = balance_rows(interference, normal, arm, lever, force_limit, state)
+    if residual >= FORCE_TOLERANCE:
         raise NoSolution(
             "sleeve_equilibrium",
             "the tooth forces cannot hold the overturning moment of friction on the sleeve; "
             "lengthen the hub distance or lower the friction",
-            {"unbalanced_share": float(unbalanced.mean()), "lateral_force": float(np.minimum(residual, 1.0).max())},
+            {"lateral_force": min(residual, 1.0)},
         )
+    share = [shares(interference[:, mesh], normal[:, mesh], state[:, mesh]) for mesh in (0, 1)]
+    return unit * coupling.tooth_stiffness * np.stack(share, axis=1)

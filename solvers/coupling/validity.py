@@ -9,6 +9,7 @@ from solvers.coupling.results import Geometry
 from solvers.errors import InvalidInput
 
 MAX_MISALIGNMENT = radians(6.0)
+LEAST_TORQUE = 1e-6
 MAX_CONTACT_PRESSURE = 2e9
 MAX_CONTACT_WIDTH = 0.1
 """Half contact width over flank radius beyond which a cylinder is no half space."""
@@ -54,6 +55,8 @@ def check_inputs(inputs: CouplingInputs) -> None:
         raise InvalidInput(
             "out_of_range", "the theory is one of small angles; keep the misalignment within 6 degrees", "misalignment"
         )
+    if 0.0 < inputs.operation.torque < LEAST_TORQUE:
+        raise InvalidInput("out_of_range", f"a torque below {LEAST_TORQUE:g} N m is none; give 0 or more", "torque")
     _check_pitch_errors(inputs)
     if isinstance(inputs.friction.mixed_law, MixedFrictionTable):
         _check_mixed_law(inputs.friction.mixed_law)

@@ -1,0 +1,111 @@
+"""One lubricated line contact: request of /v1/scuffing/line-contact."""
+
+from dataclasses import replace
+from typing import Annotated, Any, Literal
+
+from app.conversion import to_si
+from app.quantities import Input
+from app.requests.common import Request, Section
+from app.requests.materials import XUE, Oil, Surface
+from solvers.contact import ehl
+
+BULK = "360 K, the paper's bulk temperature"
+
+
+class LineContact(Section):
+    """Load, curvature and speeds."""
+
+    line_load_n_per_mm: Annotated[float, Input("load per length of contact", "w", XUE, gt=0, le=1e5)]
+    radius_mm: Annotated[float, Input("reduced radius of curvature, 1/R = 1/R_1 + 1/R_2", "R", XUE, ge=0.01, le=1e4)]
+    speed_1_m_per_s: Annotated[
+        float, Input("speed of surface 1 through the contact", "u_1", f"{XUE}, Eq. 18", ge=-300, le=300)
+    ]
+    speed_2_m_per_s: Annotated[
+        float, Input("speed of surface 2 through the contact", "u_2", f"{XUE}, Eq. 18", ge=-300, le=300)
+    ]
+
+
+class LineContactTemperatures(Section):
+    """Temperatures far from the contact."""
+
+    surface_1_c: Annotated[float, Input("bulk temperature of surface 1", "t_b1", XUE, ge=-50, le=400, assumed=BULK)] = (
+        86.85
+    )
+    surface_2_c: Annotated[float, Input("bulk temperature of surface 2", "t_b2", XUE, ge=-50, le=400, assumed=BULK)] = (
+        86.85
+    )
+    inlet_c: Annotated[
+        float, Input("temperature of the oil at the inlet", "t_in", XUE, ge=-50, le=400, assumed=BULK)
+    ] = 86.85
+
+
+class FilmModel(Section):
+    """Physics and resolution of the film."""
+
+    rheology: Annotated[
+        Literal["ree_eyring", "newtonian"],
+        Input(
+            "how shear stress depends on shear rate",
+            None,
+            XUE,
+            assumed="the paper's film is Newtonian, whose friction is not physical near pure rolling",
+        ),
+    ] = "ree_eyring"
+    eyring_stress_mpa: Annotated[
+        float, Input("Eyring stress", "τ_0", ge=1, le=50, assumed="middle of the usual 3 to 12 MPa of gear oils")
+    ] = 5.0
+    nodes: Annotated[int, Input("nodes along the contact", "N", ge=61, le=481)] = 121
+    film_nodes: Annotated[int, Input("nodes across the film", "n_z", ge=7, le=61)] = 21
+
+    def film(self) -> ehl.Model:
+        """The solver's model of a film that heats up."""
+        return ehl.Model(
+            rheology=self.rheology,
+            eyring_stress=to_si(self)["eyring_stress"],
+            nodes=self.nodes,
+            film_nodes=self.film_nodes,
+        )
+
+    def unused_film_defaults(self, section: str) -> frozenset[str]:
+        """A Newtonian film has no Eyring stress."""
+        return frozenset({f"{section}.eyring_stress_mpa"} if self.rheology == "newtonian" else ())
+
+
+class LineContactModel(FilmModel):
+    """Physics and resolution of the contact."""
+
+    thermal: Annotated[bool, Input("whether the film heats up", None, XUE)] = True
+
+
+class LineContactRequest(Request):
+    """One lubricated line contact."""
+
+    contact: Annotated[LineContact, Input("load, curvature and speeds")]
+    surface_1: Annotated[Surface, Input("material of surface 1")] = Surface()
+    surface_2: Annotated[Surface, Input("material of surface 2")] = Surface()
+    lubricant: Annotated[Oil, Input("the oil")] = Oil()
+    temperatures: Annotated[LineContactTemperatures, Input("temperatures far from the contact")] = (
+        LineContactTemperatures()
+    )
+    model: Annotated[LineContactModel, Input("physics and resolution")] = LineContactModel()
+
+    def options(self) -> dict[str, Any]:
+        """The model section and the laws of the oil."""
+        laws = self.lubricant.model_dump(include={"pressure_viscosity_law", "compressible"})
+        return self.model.model_dump() | laws
+
+    def unused_defaults(self) -> frozenset[str]:
+        """What `FilmModel` leaves out; an isothermal film does not know the temperatures of the surfaces."""
+        unused = self.model.unused_film_defaults("model")
+        return unused if self.model.thermal else unused | {"temperatures.surface_1_c", "temperatures.surface_2_c"}
+
+    def inputs(self) -> ehl.LineContactInputs:
+        """The solver's inputs."""
+        return ehl.LineContactInputs(
+            contact=ehl.Contact(**to_si(self.contact)),
+            surface_1=self.surface_1.solid(),
+            surface_2=self.surface_2.solid(),
+            lubricant=self.lubricant.lubricant(),
+            temperatures=ehl.Temperatures(**to_si(self.temperatures)),
+            model=replace(self.model.film(), thermal=self.model.thermal),
+        )

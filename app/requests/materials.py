@@ -1,0 +1,64 @@
+"""Solids and lubricants, shared by everything that touches."""
+
+from typing import Annotated, Literal
+
+from app.conversion import to_si
+from app.quantities import Input
+from app.requests.common import Section
+from solvers.lubricants import Lubricant
+from solvers.materials import Solid
+
+XUE = "Xue 2020"
+TABLE = f"{XUE}, Table 2"
+
+
+class Surface(Section):
+    """The solid under one surface; steel unless told otherwise."""
+
+    youngs_modulus_gpa: Annotated[float, Input("Young's modulus", "E", TABLE, ge=1, le=2000)] = 206.0
+    poisson_ratio: Annotated[float, Input("Poisson's ratio", "ν", TABLE, ge=0, lt=0.5)] = 0.3
+    density_kg_per_m3: Annotated[float, Input("density", "ρ", TABLE, ge=100, le=30000)] = 7850.0
+    specific_heat_j_per_kg_k: Annotated[float, Input("specific heat", "c", TABLE, ge=10, le=10000)] = 470.0
+    thermal_conductivity_w_per_m_k: Annotated[float, Input("thermal conductivity", "λ", TABLE, ge=0.1, le=2000)] = 46.0
+
+    def solid(self) -> Solid:
+        """The solver's solid."""
+        return Solid(**to_si(self))
+
+
+class Oil(Section):
+    """The oil; the defaults are the paper's, at 360 K."""
+
+    viscosity_pa_s: Annotated[
+        float, Input("viscosity at the reference temperature and no pressure", "η_0", TABLE, gt=0, le=100)
+    ] = 0.08
+    reference_temperature_c: Annotated[
+        float,
+        Input(
+            "temperature of viscosity and density",
+            "t_0",
+            f"{XUE}, Eq. 20",
+            ge=-50,
+            le=300,
+            assumed="360 K: the only temperature at which the paper's viscosity gives its film thickness",
+        ),
+    ] = 86.85
+    pressure_viscosity_per_gpa: Annotated[float, Input("pressure-viscosity coefficient", "α", TABLE, ge=1, le=60)] = (
+        21.9
+    )
+    temperature_viscosity_per_k: Annotated[
+        float, Input("temperature-viscosity coefficient", "β", TABLE, ge=0, le=0.2)
+    ] = 0.042
+    density_kg_per_m3: Annotated[float, Input("density", "ρ_0", TABLE, ge=100, le=5000)] = 870.0
+    specific_heat_j_per_kg_k: Annotated[float, Input("specific heat", "c", TABLE, ge=100, le=10000)] = 2000.0
+    thermal_conductivity_w_per_m_k: Annotated[float, Input("thermal conductivity", "λ", TABLE, ge=0.01, le=10)] = 0.14
+    pressure_viscosity_law: Annotated[
+        Literal["roelands", "barus"], Input("how viscosity depends on pressure and temperature", None, TABLE)
+    ] = "roelands"
+    compressible: Annotated[
+        bool, Input("whether density follows pressure and temperature (Dowson and Higginson)", None, TABLE)
+    ] = True
+
+    def lubricant(self) -> Lubricant:
+        """The solver's lubricant."""
+        return Lubricant(**to_si(self))

@@ -1,0 +1,120 @@
+"""Requests per second and 99th percentile of the service beside an empty typed endpoint. Needs wrk.
+
+python benchmarks/service.py
+"""
+
+import argparse
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import httpx
+from fastapi import FastAPI
+
+from app.__main__ import serve
+from app.library import examples
+from app.main import create_app
+from app.requests.coupling import CouplingRequest
+from app.routes.service import Health
+
+PORT = 8765
+ADDRESS = f"http://127.0.0.1:{PORT}"
+EXAMPLE = {**examples()["pahl-axial-displacement"].request, "detail": "summary"}
+
+
+def with_empty_endpoint(app: FastAPI) -> FastAPI:
+    """The application with an endpoint that validates a coupling and does nothing."""
+
+    @app.post("/empty")
+    async def empty(_body: CouplingRequest) -> Health:
+        return Health()
+
+    return app
+
+
+def bare() -> FastAPI:
+    """FastAPI and nothing of ours around it."""
+    app = with_empty_endpoint(FastAPI())
+
+    @app.get("/readyz")
+    async def ready() -> Health:
+        return Health()
+
+    return app
+
+
+def ours() -> FastAPI:
+    """The service and the same empty endpoint."""
+    return with_empty_endpoint(create_app())
+
+
+@contextmanager
+def served(factory: str) -> Iterator[None]:
+    """A server process of one of the applications above."""
+    environment = {**os.environ, "TRIBODRIVE_PORT": str(PORT)}
+    command = [sys.executable, __file__, "--serve", factory]
+    process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL)
+    try:
+        for _ in range(600):
+            try:
+                if httpx.get(f"{ADDRESS}/readyz", timeout=60).is_success:
+                    break
+            except httpx.TransportError:
+                time.sleep(0.1)
+        yield
+    finally:
+        process.terminate()
+        process.wait()
+
+
+def load(path: str, body: object | None, seconds: int, connections: int = 8) -> tuple[float, float]:
+    """Requests per second and 99th percentile [ms] under wrk."""
+    with tempfile.NamedTemporaryFile("w", suffix=".lua") as script:
+        if body is not None:
+            content = json.dumps(json.dumps(body))
+            script.write('wrk.method = "POST"\nwrk.headers["Content-Type"] = "application/json"\n')
+            script.write(f"wrk.body = {content}\n")
+            script.flush()
+        command = ["wrk", "-t1", f"-c{connections}", f"-d{seconds}s", "--latency", "-s", script.name, ADDRESS + path]
+        report = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    if "Non-2xx" in report:
+        raise RuntimeError(report)
+    rate = re.search(r"Requests/sec:\s+([\d.]+)", report)
+    percentile = re.search(r"99%\s+([\d.]+)(us|ms|s)", report)
+    assert rate is not None
+    assert percentile is not None
+    return float(rate[1]), float(percentile[1]) * {"us": 1e-3, "ms": 1.0, "s": 1e3}[percentile[2]]
+
+
+def main(seconds: int) -> None:
+    """Measure and print the table."""
+    rows = []
+    with served("bare"):
+        rows.append(("empty typed endpoint, bare FastAPI", *load("/empty", EXAMPLE, seconds)))
+    with served("ours"):
+        rows.append(("empty typed endpoint, this service", *load("/empty", EXAMPLE, seconds)))
+        rows.append(("/healthz", *load("/healthz", None, seconds)))
+        rows.append(("/v1/coupling, summary (target 500/s)", *load("/v1/coupling", EXAMPLE, seconds)))
+    print(f"{'endpoint':<40}{'requests/s':>12}{'p99 ms':>10}")
+    for name, rate, percentile in rows:
+        print(f"{name:<40}{rate:>12.0f}{percentile:>10.1f}")
+    print(f"middleware and logging cost {1 - rows[1][1] / rows[0][1]:.0%} of the bare application (target 25 %)")
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--serve", choices=["bare", "ours"], help="serve instead of measuring")
+    parser.add_argument("--seconds", type=int, default=8)
+    arguments = parser.parse_args()
+    if arguments.serve:
+        sys.path.insert(0, str(Path(__file__).parent))
+        serve(f"service:{arguments.serve}")
+    else:
+        main(arguments.seconds)

@@ -1,0 +1,223 @@
+"""From nothing to a converged contact: nested meshes, and what is tried in turn when that fails."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import sqrt
+from typing import Literal
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.contact.ehl.coupled import solve_coupled
+from solvers.contact.ehl.isothermal import solve_isothermal
+from solvers.contact.ehl.mesh import Grid, grid_for
+from solvers.contact.ehl.problem import Problem
+from solvers.contact.ehl.state import State, Work, work_arrays
+from solvers.contact.ehl.temperature import march_temperatures
+
+Stage = Literal["isothermal", "coupling"]
+
+COARSEST = 61
+STEPS_A_SOLVE = 60
+STEPS_IN_ALL = 900.0  # in Newton steps at 121 x 21 nodes, about a second and a half
+TIGHT = (1e-5, 0.01)  # of P and of temperature [K]
+LOOSE = (1e-3, 1.0)
+SPEED_STEPS = (1 / 27, 1 / 9, 1 / 3)
+SOFT_STRESSES = tuple(5e6 * 2.0**k for k in range(10))  # Pa
+
+
+@dataclass(frozen=True, slots=True)
+class Resolution:
+    """What meshes to use: graded for a film of `gap` (in b^2/R), `nodes` along, `film_nodes` across it."""
+
+    gap: float
+    nodes: int
+    film_nodes: int
+    thermal: bool
+
+
+@dataclass(slots=True)
+class Attempt:
+    """A state on its mesh and how far it got; `eyring_stress` [Pa] is None unless continuation stopped there."""
+
+    grid: Grid
+    state: State
+    work: Work
+    converged: bool
+    stage: Stage
+    eyring_stress: float | None = None
+
+
+@dataclass(slots=True)
+class Budget:
+    """Newton steps left, in units of a step at 121 x 21 nodes; it bounds every solve."""
+
+    remaining: float = STEPS_IN_ALL
+    spent: int = 0
+
+    def steps(self, resolution: Resolution, nodes: int) -> int:
+        """Steps affordable at `nodes` nodes, at most those of one solve."""
+        return min(STEPS_A_SOLVE, int(self.remaining / _price(resolution, nodes)))
+
+    def charge(self, resolution: Resolution, nodes: int, steps: int) -> None:
+        """Pay for steps taken."""
+        self.remaining -= steps * _price(resolution, nodes)
+        self.spent += steps
+
+
+def _price(resolution: Resolution, nodes: int) -> float:
+    relative = nodes / 121
+    return (relative**2) * resolution.film_nodes / 21 if resolution.thermal else 0.3 * relative**2
+
+
+def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
+    """Solve from the Hertz pressure; the last of several attempts that fail in turn, or the first that succeeds."""
+    attempt: Attempt | None = None
+    for attempt in _attempts(problem, resolution, budget):
+        if attempt.converged or budget.steps(resolution, resolution.nodes) < 1:
+            break
+    assert attempt is not None
+    return attempt
+
+
+def solve_from(problem: Problem, resolution: Resolution, grid: Grid, guess: State, budget: Budget) -> Attempt:
+    """Solve on `grid` from the state given, which is changed."""
+    return _polish(problem, resolution, grid, guess, TIGHT, budget)
+
+
+def _attempts(problem: Problem, resolution: Resolution, budget: Budget) -> Iterator[Attempt]:
+    """Ways to a solution, cheapest first."""
+    coarse = _start(problem, resolution, budget)
+    yield _climb(problem, resolution, coarse, _levels(resolution.nodes, 2.0), budget)
+    yield _climb(problem, resolution, _start(problem, resolution, budget), _levels(resolution.nodes, 1.25), budget)
+    if resolution.thermal:
+        yield _from_soft_film(problem, resolution, budget)
+    yield _from_slow_film(problem, resolution, budget)
+    yield _climb(problem, resolution, _start(problem, resolution, budget), _levels(resolution.nodes, 1.1), budget)
+
+
+def _levels(nodes: int, ratio: float) -> list[int]:
+    """Numbers of nodes from the coarsest mesh up, each at most `ratio` (about) finer than the last."""
+    levels = [min(COARSEST, nodes)]
+    while levels[-1] < nodes:
+        finer = round((levels[-1] - 1) * ratio / 2) * 2 + 1
+        levels.append(nodes if finer > 0.85 * nodes else finer)
+    return levels
+
+
+def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
+    """Isothermal solution on the coarsest mesh and one march of temperatures at it."""
+    grid = grid_for(resolution.gap, min(COARSEST, resolution.nodes))
+    work = work_arrays(grid.x.size, resolution.film_nodes)
+    state = _dry_state(grid, resolution)
+    steps = budget.steps(resolution, grid.x.size)
+    tolerance = LOOSE[0] if resolution.thermal else TIGHT[0] * 1e-2
+    converged = bool(solve_isothermal(problem, grid, state, work, steps, tolerance))
+    budget.charge(resolution, grid.x.size, int(state.history[0]))
+    if resolution.thermal:
+        march_temperatures(problem, grid, state, work)
+    return Attempt(grid, state, work, converged=converged, stage="isothermal")
+
+
+def _dry_state(grid: Grid, resolution: Resolution) -> State:
+    """Hertz pressure, scaled to carry the load on this mesh, over a film of the expected thickness."""
+    pressure = np.sqrt(np.maximum(1.0 - grid.x**2, 0.0))
+    pressure *= 0.5 * np.pi / float(grid.weights @ pressure)
+    centre = int(np.abs(grid.x).argmin())
+    return State(
+        pressure=pressure,
+        separation=np.array([resolution.gap - float(grid.deflection[centre] @ pressure)]),
+        temperature=np.zeros((grid.x.size, resolution.film_nodes)),
+        cavitated=grid.x > 1.0,
+        history=np.zeros(3),
+    )
+
+
+def _climb(problem: Problem, resolution: Resolution, start: Attempt, levels: Sequence[int], budget: Budget) -> Attempt:
+    """Solve on each mesh from the one before; coarse meshes need not converge, only get near."""
+    attempt = start
+    if not resolution.thermal and len(levels) == 1:
+        return attempt
+    for nodes in levels:
+        grid = grid_for(resolution.gap, nodes)
+        same = nodes == attempt.grid.x.size
+        if same and not resolution.thermal:
+            continue
+        state = attempt.state if same else interpolate(attempt.state, attempt.grid.x, grid.x)
+        tolerances = TIGHT if nodes == levels[-1] else LOOSE
+        attempt = _polish(problem, resolution, grid, state, tolerances, budget)
+        if not np.all(np.isfinite(attempt.state.pressure)):
+            break
+    return attempt
+
+
+def _polish(
+    problem: Problem,
+    resolution: Resolution,
+    grid: Grid,
+    state: State,
+    tolerances: tuple[float, float],
+    budget: Budget,
+) -> Attempt:
+    """Newton on one mesh."""
+    work = work_arrays(grid.x.size, resolution.film_nodes)
+    steps = budget.steps(resolution, grid.x.size)
+    state.history[0] = 0.0
+    if resolution.thermal:
+        converged = bool(solve_coupled(problem, grid, state, work, steps, tolerances[0], tolerances[1]))
+    else:
+        converged = bool(solve_isothermal(problem, grid, state, work, steps, tolerances[0] * 1e-2))
+    budget.charge(resolution, grid.x.size, int(state.history[0]))
+    stage: Stage = "coupling" if resolution.thermal else "isothermal"
+    return Attempt(grid, state, work, converged=converged, stage=stage)
+
+
+def interpolate(state: State, x: FloatArray, onto: FloatArray) -> State:
+    """The state on another mesh, linear between nodes."""
+    pressure = np.interp(onto, x, state.pressure)
+    columns = [np.interp(onto, x, state.temperature[:, k]) for k in range(state.temperature.shape[1])]
+    return State(
+        pressure=pressure,
+        separation=state.separation.copy(),
+        temperature=np.ascontiguousarray(np.stack(columns, axis=1)),
+        cavitated=(pressure <= 0.0) & (onto > 0.0),
+        history=np.zeros(3),
+    )
+
+
+def _from_slow_film(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
+    """Both speeds raised in steps on the coarsest mesh: thin films settle easily."""
+    attempt: Attempt | None = None
+    for factor in (*SPEED_STEPS, 1.0):
+        slower = problem._replace(
+            speed_1=problem.speed_1 * factor,
+            speed_2=problem.speed_2 * factor,
+            flux_scale=problem.flux_scale * factor,
+            surface_heating_1=problem.surface_heating_1 / sqrt(factor),
+            surface_heating_2=problem.surface_heating_2 / sqrt(factor),
+        )
+        if attempt is None:
+            attempt = _start(slower, resolution, budget)
+        attempt = _polish(slower, resolution, attempt.grid, attempt.state, LOOSE, budget)
+    assert attempt is not None
+    return _climb(problem, resolution, attempt, _levels(resolution.nodes, 1.25), budget)
+
+
+def _from_soft_film(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
+    """Shear stiffened in steps on the coarsest mesh, from a small Eyring stress to the one asked for."""
+    attempt: Attempt | None = None
+    reached = 0.0
+    for stress in SOFT_STRESSES:
+        if problem.newtonian == 0 and stress >= problem.eyring_stress:
+            break
+        softer = problem._replace(newtonian=0, eyring_stress=stress)
+        if attempt is None:
+            attempt = _start(softer, resolution, budget)
+        attempt = _polish(softer, resolution, attempt.grid, attempt.state, LOOSE, budget)
+        if not attempt.converged:
+            attempt.eyring_stress = reached
+            return attempt
+        reached = stress
+    if attempt is None:
+        attempt = _start(problem, resolution, budget)
+    return _climb(problem, resolution, attempt, _levels(resolution.nodes, 1.25), budget)

@@ -1,0 +1,83 @@
+"""Dimensionless groups of a line contact and the published film formulas in them."""
+
+from dataclasses import dataclass
+from math import exp, pi, sqrt
+
+from solvers.contact import hertz
+from solvers.contact.ehl.inputs import LineContactInputs
+
+
+@dataclass(frozen=True, slots=True)
+class Groups:
+    """Hertz contact and similarity parameters; viscosity is that of the oil at the inlet, at zero pressure.
+
+    Units: reduced_modulus, maximum_pressure [Pa], half_width, gap_scale (b^2/R) [m], viscosity [Pa s]; moes_m
+    (load), moes_l (lubricant), speed_parameter U = eta (u1 + u2)/(E' R) [-].
+    """
+
+    reduced_modulus: float
+    half_width: float
+    maximum_pressure: float
+    gap_scale: float
+    viscosity: float
+    speed_parameter: float
+    moes_m: float
+    moes_l: float
+
+
+def groups(inputs: LineContactInputs) -> Groups:
+    """Hertz contact and Moes parameters M = W U^-1/2, L = alpha E' U^1/4."""
+    contact, lubricant = inputs.contact, inputs.lubricant
+    modulus = hertz.reduced_modulus(inputs.surface_1, inputs.surface_2)
+    half_width = hertz.half_width(contact.line_load, contact.radius, modulus)
+    viscosity = lubricant.viscosity_at(0.0, inputs.temperatures.inlet)
+    speed_parameter = viscosity * 2.0 * contact.entrainment_speed / (modulus * contact.radius)
+    load_parameter = contact.line_load / (modulus * contact.radius)
+    return Groups(
+        reduced_modulus=modulus,
+        half_width=float(half_width),
+        maximum_pressure=float(hertz.maximum_pressure(contact.line_load, contact.radius, modulus)),
+        gap_scale=float(half_width**2 / contact.radius),
+        viscosity=viscosity,
+        speed_parameter=speed_parameter,
+        moes_m=load_parameter / sqrt(speed_parameter),
+        moes_l=lubricant.pressure_viscosity * modulus * speed_parameter**0.25,
+    )
+
+
+def moes_central_film(m: float, l: float) -> float:
+    """Central film thickness (h/R) U^-1/2 of the isothermal, incompressible line contact (Nijenbanning and others)."""
+    return _moes_film(l, (3.0 / m, 2.621 * m**-0.2, 1.287 * l ** (2 / 3), 1.311 * m**-0.125 * l**0.75))
+
+
+def moes_minimum_film(m: float, l: float) -> float:
+    """Minimum film thickness (h/R) U^-1/2 of the isothermal, incompressible line contact (Nijenbanning and others)."""
+    return _moes_film(l, (2.45 / m, 2.05 * m**-0.2, 1.05 * l ** (2 / 3), 0.96 * m**-0.125 * l**0.75))
+
+
+def _moes_film(l: float, asymptotes: tuple[float, float, float, float]) -> float:
+    """Blend of the rigid and elastic, isoviscous and piezoviscous asymptotes (RI, EI, RP, EP)."""
+    rigid_isoviscous, elastic_isoviscous, rigid_piezoviscous, elastic_piezoviscous = asymptotes
+    s = (7.0 + 8.0 * exp(-2.0 * elastic_isoviscous / rigid_isoviscous)) / 5.0
+    isoviscous = rigid_isoviscous ** (7 / 3) + elastic_isoviscous ** (7 / 3)
+    if l <= 0.0:
+        return float(isoviscous ** (3 / 7))
+    piezoviscous = rigid_piezoviscous**-3.5 + elastic_piezoviscous**-3.5
+    return float((isoviscous ** (3 * s / 7) + piezoviscous ** (-2 * s / 7)) ** (1.0 / s))
+
+
+def moes_gap(contact: Groups) -> float:
+    """The Moes central film thickness in units of b^2/R: what the mesh is graded by."""
+    return moes_central_film(contact.moes_m, contact.moes_l) * pi / (8.0 * contact.moes_m)
+
+
+def dowson_higginson_film(inputs: LineContactInputs) -> float:
+    """Minimum film thickness [m] of Dowson and Higginson (Eq. 27), the viscosity taken at the inlet temperature."""
+    contact, scales = inputs.contact, groups(inputs)
+    return float(
+        2.65
+        * inputs.lubricant.pressure_viscosity**0.54
+        * (scales.viscosity * contact.entrainment_speed) ** 0.7
+        * contact.radius**0.43
+        / (scales.reduced_modulus**0.03 * contact.line_load**0.13)
+    )

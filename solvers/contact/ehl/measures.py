@@ -1,0 +1,164 @@
+"""The quantities an engineer reads off a converged state."""
+
+import numpy as np
+
+from solvers.arrays import FloatArray, frozen
+from solvers.contact.ehl.continuation import Attempt
+from solvers.contact.ehl.fluxes import VALUE
+from solvers.contact.ehl.inputs import LineContactInputs
+from solvers.contact.ehl.isothermal import evaluate_isothermal
+from solvers.contact.ehl.problem import Problem
+from solvers.contact.ehl.results import (
+    ContactCurves,
+    ContactField,
+    ContactFriction,
+    ContactHeat,
+    ContactPressure,
+    ContactTemperature,
+)
+from solvers.contact.ehl.state import evaluate_state
+
+
+def settle(problem: Problem, attempt: Attempt, thermal: bool) -> None:
+    """Evaluate the last state once more, so that everything read below belongs to it."""
+    attempt.state.cavitated[-1] = attempt.state.cavitated[-2]
+    if thermal:
+        evaluate_state(problem, attempt.grid, attempt.state, attempt.work, 0.0)
+        return
+    work = attempt.work
+    evaluate_isothermal(problem, attempt.grid, attempt.state, work)
+    flux = work.faces.flux[attempt.state.pressure.argmax()] * problem.flux_scale
+    drag = work.coefficients.b[:, VALUE] * work.height * problem.gap_scale
+    work.heat.fluid_fraction[:] = np.where(attempt.state.cavitated, np.minimum(flux / drag, 1.0), 1.0)
+
+
+def load_error(attempt: Attempt) -> float:
+    """Relative difference between the integral of pressure and the load."""
+    return abs(float(attempt.grid.weights @ attempt.state.pressure) / (0.5 * np.pi) - 1.0)
+
+
+def film_heights(problem: Problem, attempt: Attempt) -> FloatArray:
+    """Film thickness at the nodes (n,) [m]."""
+    return attempt.work.height * problem.gap_scale
+
+
+def at_centre(attempt: Attempt, values: FloatArray) -> float:
+    """Value at x = 0, linear between nodes."""
+    return float(np.interp(0.0, attempt.grid.x, values))
+
+
+def pressure(problem: Problem, attempt: Attempt) -> ContactPressure:
+    """Centre, maximum and second maximum of pressure."""
+    x, p = attempt.grid.x, attempt.state.pressure
+    peak = int(p.argmax())
+    inner = np.flatnonzero((p[1:-1] > p[:-2]) & (p[1:-1] >= p[2:])) + 1
+    others = inner[(x[inner] > PEAK_ZONE) & (p[inner] > 0.0)]
+    second = int(others[p[others].argmax()]) if others.size else None
+    return ContactPressure(
+        centre=at_centre(attempt, p) * problem.maximum_pressure,
+        maximum=float(p[peak]) * problem.maximum_pressure,
+        maximum_at=float(x[peak]) * problem.half_width,
+        second_maximum=None if second is None else float(p[second]) * problem.maximum_pressure,
+        second_maximum_at=None if second is None else float(x[second]) * problem.half_width,
+    )
+
+
+PEAK_ZONE = 0.1  # half widths behind the centre: what lies before is the Hertz maximum
+
+
+def temperature(problem: Problem, attempt: Attempt) -> ContactTemperature:
+    """Maxima of temperature in the film and on the faces."""
+    t, x = attempt.state.temperature, attempt.grid.x * problem.half_width
+    film, mid = t.max(axis=1), mid_film(t)
+    first, second = t[:, 0], t[:, -1]
+    return ContactTemperature(
+        film_max=float(film.max()),
+        film_max_at=float(x[film.argmax()]),
+        mid_film_max=float(mid.max()),
+        mid_film_max_at=float(x[mid.argmax()]),
+        surface_1_max=float(first.max()),
+        surface_1_max_at=float(x[first.argmax()]),
+        surface_2_max=float(second.max()),
+        surface_2_max_at=float(x[second.argmax()]),
+        surface_1_flash=float(first.max()) - problem.bulk_1,
+        surface_2_flash=float(second.max()) - problem.bulk_2,
+    )
+
+
+def mid_film(t: FloatArray) -> FloatArray:
+    """Temperature half way between the surfaces (n,), of columns (n, k)."""
+    middle = (t.shape[1] - 1) // 2
+    return np.asarray(0.5 * (t[:, middle] + t[:, t.shape[1] // 2]))
+
+
+def friction(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> ContactFriction:
+    """Traction of the film: mid-film stress, and that on each face, from which it differs by half of h dp/dx."""
+    grid, work, contact = attempt.grid, attempt.work, inputs.contact
+    p = attempt.state.pressure * problem.maximum_pressure
+    gradient = work.height * problem.gap_scale * work.gradient * problem.maximum_pressure / problem.half_width
+    stress = work.film.mid_stress
+    share = grid.weights * work.heat.fluid_fraction * problem.half_width / contact.line_load
+    middle, first, second = (abs(float(share @ s)) for s in (stress, stress - 0.5 * gradient, stress + 0.5 * gradient))
+    loaded = p > 0.1 * problem.maximum_pressure
+    return ContactFriction(
+        coefficient=middle,
+        coefficient_1=first,
+        coefficient_2=second,
+        power=middle * contact.line_load * abs(contact.speed_1 - contact.speed_2),
+        max_shear_stress=float((np.abs(stress) + 0.5 * np.abs(gradient)).max()),
+        max_pressure_stress=float(np.abs(gradient).max()),
+        traction_ratio=float((np.abs(stress[loaded]) / p[loaded]).max()),
+    )
+
+
+def heat(problem: Problem, attempt: Attempt) -> ContactHeat:
+    """The heat balance of all columns but the first, whose temperatures are given."""
+    heats, t = attempt.work.heat, attempt.state.temperature
+    width = attempt.grid.weights[1:] * problem.half_width
+    generated = float(width @ heats.generated[1:])
+    compression = float(width @ heats.compression[1:])
+    to_surfaces = [float(width @ flux[1:]) for flux in (heats.flux_1, heats.flux_2)]
+    inlet = np.diff(_layer_edges(0.5 * (attempt.work.film.stream[0] + attempt.work.film.stream[1])))
+    outlet = np.diff(_layer_edges(attempt.work.film.stream[-1]))
+    entering = np.where(inlet > 0.0, t[0], t[1])
+    convected = problem.specific_heat * float(outlet @ t[-1] - inlet @ entering)
+    defect = generated + compression - sum(to_surfaces) - convected
+    return ContactHeat(
+        generated=generated,
+        compression=compression,
+        to_surface_1=to_surfaces[0],
+        to_surface_2=to_surfaces[1],
+        convected=convected,
+        balance_error=abs(defect) / max(generated + abs(convected), 1e-300),
+    )
+
+
+def _layer_edges(stream: FloatArray) -> FloatArray:
+    """Stream function between the cells of the nodes across the film (k + 1,)."""
+    return np.concatenate([stream[:1], 0.5 * (stream[1:] + stream[:-1]), stream[-1:]])
+
+
+def curves(problem: Problem, attempt: Attempt, thermal: bool) -> ContactCurves:
+    """Everything along the contact."""
+    x, t = attempt.grid.x, attempt.state.temperature
+    return ContactCurves(
+        x=frozen(x * problem.half_width),
+        pressure=frozen(attempt.state.pressure * problem.maximum_pressure),
+        hertz_pressure=frozen(np.sqrt(np.maximum(1.0 - x**2, 0.0)) * problem.maximum_pressure),
+        film=frozen(film_heights(problem, attempt)),
+        shear_stress=frozen(attempt.work.film.mid_stress * attempt.work.heat.fluid_fraction),
+        fluid_fraction=frozen(attempt.work.heat.fluid_fraction),
+        mid_film_temperature=frozen(mid_film(t)) if thermal else None,
+        surface_1_temperature=frozen(t[:, 0].copy()) if thermal else None,
+        surface_2_temperature=frozen(t[:, -1].copy()) if thermal else None,
+    )
+
+
+def field(problem: Problem, attempt: Attempt) -> ContactField:
+    """Temperatures across the film."""
+    t = attempt.state.temperature
+    return ContactField(
+        x=frozen(attempt.grid.x * problem.half_width),
+        film_fraction=frozen(np.linspace(0.0, 1.0, t.shape[1])),
+        temperature=frozen(t),
+    )

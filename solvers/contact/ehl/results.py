@@ -1,0 +1,157 @@
+"""What a solved line contact is, in SI units."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from solvers.arrays import FloatArray
+from solvers.notices import Notice
+
+Status = Literal["ok", "ok_with_warnings", "no_solution"]
+
+
+@dataclass(frozen=True, slots=True)
+class HertzContact:
+    """Dry contact: half_width [m], maximum_pressure [Pa]."""
+
+    half_width: float
+    maximum_pressure: float
+
+
+@dataclass(frozen=True, slots=True)
+class Dimensionless:
+    """Moes' load and lubricant parameters, slide-roll ratio (u1 - u2)/um, Peclet numbers u b rho c/(2 lambda)."""
+
+    moes_m: float
+    moes_l: float
+    slide_roll_ratio: float
+    peclet_1: float
+    peclet_2: float
+
+
+@dataclass(frozen=True, slots=True)
+class FilmThickness:
+    """Film at x = 0, smallest film and where, and the formula of Dowson and Higginson (minimum) [m]."""
+
+    central: float | None
+    minimum: float | None
+    minimum_at: float | None
+    dowson_higginson: float
+
+
+@dataclass(frozen=True, slots=True)
+class ContactPressure:
+    """Pressure at x = 0 and its largest value [Pa], its position [m]; the second maximum, if there is one.
+
+    The height of a sharp second maximum depends on the mesh.
+    """
+
+    centre: float
+    maximum: float
+    maximum_at: float
+    second_maximum: float | None
+    second_maximum_at: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class ContactTemperature:
+    """Largest temperatures [K] of film, mid-film and surfaces, positions [m], flash temperatures over bulk [K]."""
+
+    film_max: float
+    film_max_at: float
+    mid_film_max: float
+    mid_film_max_at: float
+    surface_1_max: float
+    surface_1_max_at: float
+    surface_2_max: float
+    surface_2_max_at: float
+    surface_1_flash: float
+    surface_2_flash: float
+
+
+@dataclass(frozen=True, slots=True)
+class ContactFriction:
+    """Coefficient from the mid-film stress and those of the two faces [-], magnitudes; power mu w |du| [W/m].
+
+    max_shear_stress and max_pressure_stress (|h dp/dx|) [Pa]; traction_ratio is the largest tau/p where p > p_H/10.
+    """
+
+    coefficient: float
+    coefficient_1: float
+    coefficient_2: float
+    power: float
+    max_shear_stress: float
+    max_pressure_stress: float
+    traction_ratio: float
+
+
+@dataclass(frozen=True, slots=True)
+class ContactHeat:
+    """Heat per length of contact [W/m]; into the surfaces and convected out positive.
+
+    balance_error is relative to generated plus absolute convected heat.
+    """
+
+    generated: float
+    compression: float
+    to_surface_1: float
+    to_surface_2: float
+    convected: float
+    balance_error: float
+
+
+@dataclass(frozen=True, slots=True)
+class Convergence:
+    """Newton steps in all, last changes of P and of temperature [K], load error (relative), nodes of the last mesh.
+
+    `stage` is where it ended; `eyring_stress` [Pa] what continuation reached, where it was tried and failed.
+    """
+
+    iterations: int
+    pressure_change: float
+    temperature_change: float | None
+    load_error: float
+    nodes: int
+    stage: Literal["isothermal", "coupling", "heat_balance"]
+    eyring_stress: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class ContactCurves:
+    """Along the contact, (n,): x [m], pressures [Pa], film [m], temperatures [K] (None if isothermal)."""
+
+    x: FloatArray
+    pressure: FloatArray
+    hertz_pressure: FloatArray
+    film: FloatArray
+    shear_stress: FloatArray
+    fluid_fraction: FloatArray
+    mid_film_temperature: FloatArray | None
+    surface_1_temperature: FloatArray | None
+    surface_2_temperature: FloatArray | None
+
+
+@dataclass(frozen=True, slots=True)
+class ContactField:
+    """Temperature (n, k) [K] over x (n,) [m] and height over film thickness (k,)."""
+
+    x: FloatArray
+    film_fraction: FloatArray
+    temperature: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class LineContactResult:
+    """A lubricated line contact; what was not solved is None, and then status is no_solution."""
+
+    status: Status
+    hertz: HertzContact
+    dimensionless: Dimensionless
+    film: FilmThickness
+    pressure: ContactPressure | None
+    temperature: ContactTemperature | None
+    friction: ContactFriction | None
+    heat: ContactHeat | None
+    convergence: Convergence
+    curves: ContactCurves | None
+    field: ContactField | None
+    warnings: tuple[Notice, ...]

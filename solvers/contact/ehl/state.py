@@ -1,0 +1,127 @@
+"""The unknowns of a contact, the arrays a solution works in, and the evaluation of one state."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from solvers.arrays import BoolArray, FloatArray
+from solvers.compiled import kernel
+from solvers.contact.ehl.column import evaluate_column
+from solvers.contact.ehl.energy import Heat, column_balance, face_edges, heat_arrays, surface_history
+from solvers.contact.ehl.fluxes import (
+    VALUE,
+    FaceFluxes,
+    FlowCoefficients,
+    assemble_faces,
+    face_fluxes,
+    film_shape,
+    flow_coefficients,
+    pressure_gradients,
+)
+from solvers.contact.ehl.mesh import Grid
+from solvers.contact.ehl.problem import Problem
+from solvers.contact.ehl.shear import Film, film_arrays, limited_gradient
+
+
+class State(NamedTuple):
+    """Unknowns at n nodes along and k across: pressure/p_H (n,), rigid separation H0 (1,), temperature (n, k) [K].
+
+    `cavitated` (n,) marks the nodes of broken film; `history` (3,) keeps iterations, last max|dP| and max|dT| [K].
+    """
+
+    pressure: FloatArray
+    separation: FloatArray
+    temperature: FloatArray
+    cavitated: BoolArray
+    history: FloatArray
+
+
+class Work(NamedTuple):
+    """What a state implies: film H and dP/dX (n,), flow, film and heat of every column."""
+
+    height: FloatArray
+    gradient: FloatArray
+    coefficients: FlowCoefficients
+    faces: FaceFluxes
+    film: Film
+    heat: Heat
+
+
+def work_arrays(nodes: int, film_nodes: int) -> Work:
+    """Room for one evaluation."""
+    return Work(
+        np.zeros(nodes),
+        np.zeros(nodes),
+        flow_coefficients(nodes),
+        face_fluxes(nodes),
+        film_arrays(nodes, film_nodes),
+        heat_arrays(nodes, film_nodes),
+    )
+
+
+@kernel
+def evaluate_flow(problem: Problem, grid: Grid, state: State, work: Work) -> bool:
+    """Film, stress and flow of every column; whether the guard on the pressure gradient acted."""
+    film_shape(grid, state.pressure, state.separation[0], work.height)
+    pressure_gradients(grid.x, state.pressure, state.cavitated, work.gradient)
+    above = np.empty(work.film.stress.shape[1])
+    slope = problem.maximum_pressure / problem.half_width
+    limited = False
+    for i in range(grid.x.size):
+        h = work.height[i] * problem.gap_scale
+        g = h * work.gradient[i] * slope
+        bounded = limited_gradient(problem, g)
+        limited = limited or bounded != g
+        p = state.pressure[i] * problem.maximum_pressure
+        evaluate_column(problem, i, state.temperature[i], p, bounded, h, work.film, work.coefficients, above)
+    assemble_faces(
+        problem, grid.x, state.pressure, work.height, work.gradient, state.cavitated, work.coefficients, work.faces
+    )
+    return limited
+
+
+@kernel
+def match_stream(problem: Problem, state: State, work: Work) -> None:
+    """Make every column carry the same mass, and give the broken film its fluid fraction.
+
+    The flux is taken where the pressure is largest, since there it does not depend on the pressure gradient. A full
+    column makes up for what the surfaces do not drag with the profile of pressure flow; a broken one keeps the
+    profile of the last full one in a fraction of the gap. So convection conserves mass on the way to the solution,
+    too.
+    """
+    film, heat = work.film, work.heat
+    flux = work.faces.flux[state.pressure.argmax()] * problem.flux_scale
+    last = film.stream.shape[1] - 1
+    for i in range(state.pressure.size):
+        heat.fluid_fraction[i] = 1.0
+        if state.cavitated[i]:
+            drag = work.coefficients.b[i, VALUE] * work.height[i] * problem.gap_scale
+            heat.fluid_fraction[i] = min(flux / drag, 1.0)
+            film.stream[i] = film.stream[i - 1]
+        else:
+            defect = flux - film.couette[i, last]
+            for k in range(last + 1):
+                film.stream[i, k] = film.couette[i, k] + defect * film.poiseuille[i, k]
+    face_edges(film.stream, heat.edges)
+
+
+@kernel
+def balance_columns(problem: Problem, grid: Grid, state: State, work: Work, damping: float) -> None:
+    """Heat balance of every column at the present temperatures; `damping` see column_balance."""
+    slope = problem.maximum_pressure / problem.half_width
+    work.heat.flux_1[0], work.heat.flux_2[0] = 0.0, 0.0
+    for i in range(1, grid.x.size):
+        h = work.height[i] * problem.gap_scale
+        g = limited_gradient(problem, h * work.gradient[i] * slope)
+        width = grid.weights[i] * problem.half_width
+        surface_history(problem, i, grid.heat, work.heat)
+        column_balance(problem, i, width, state.temperature, g, h, damping, work.film, work.heat)
+
+
+@kernel
+def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work, damping: float) -> bool:
+    """All of the above; whether the guard on the pressure gradient acted."""
+    limited = evaluate_flow(problem, grid, state, work)
+    match_stream(problem, state, work)
+    balance_columns(problem, grid, state, work, damping)
+    return limited

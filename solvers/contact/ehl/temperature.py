@@ -1,0 +1,120 @@
+"""Marching temperatures along the flow: the first guess, and the linear step inside Newton's method."""
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.compiled import kernel
+from solvers.contact.ehl.column import evaluate_column
+from solvers.contact.ehl.dense import dot
+from solvers.contact.ehl.energy import Heat, column_balance, face_edges, factor_column, solve_column, surface_history
+from solvers.contact.ehl.fluxes import film_shape
+from solvers.contact.ehl.mesh import Grid
+from solvers.contact.ehl.problem import Problem
+from solvers.contact.ehl.shear import Film
+from solvers.contact.ehl.state import State, Work
+
+LARGEST_STEP = 40.0  # K
+COLUMN_ITERATIONS = 60
+REVERSE_SWEEPS = 3
+
+
+@kernel
+def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -> None:
+    """First temperatures at given pressures: columns without pressure gradient in one Couette flow, solved in turn.
+
+    Each starts from the one before it, so that they stay on the branch that the inlet is on.
+    """
+    film, heat, temperature = work.film, work.heat, state.temperature
+    n, nodes = temperature.shape
+    above, step = np.empty(nodes - 1), np.zeros((n, nodes))
+    film_shape(grid, state.pressure, state.separation[0], work.height)
+    u1, u2 = problem.speed_1, problem.speed_2
+    flux = problem.laws.density * 0.5 * (u1 + u2) * work.height[np.abs(grid.x).argmin()] * problem.gap_scale
+    for k in range(nodes):
+        zeta = k / (nodes - 1)
+        film.stream[:, k] = flux * (u1 * zeta + 0.5 * (u2 - u1) * zeta * zeta) / (0.5 * (u1 + u2))
+    face_edges(film.stream, heat.edges)
+    temperature[0] = problem.inlet
+    temperature[0, 0], temperature[0, nodes - 1] = problem.bulk_1, problem.bulk_2
+    heat.flux_1[0], heat.flux_2[0] = 0.0, 0.0
+    heat.fluid_fraction[:] = 1.0
+    for i in range(1, n):
+        h = work.height[i] * problem.gap_scale
+        p = max(state.pressure[i], 0.0) * problem.maximum_pressure
+        temperature[i] = temperature[i - 1]
+        surface_history(problem, i, grid.heat, heat)
+        for _ in range(COLUMN_ITERATIONS):
+            evaluate_column(problem, i, temperature[i], p, 0.0, h, film, work.coefficients, above)
+            width = grid.weights[i] * problem.half_width
+            column_balance(problem, i, width, temperature, 0.0, h, 0.0, film, heat)
+            factor_column(i, film, heat)
+            step[i] = -heat.residual[i]
+            solve_column(i, film, heat, step)
+            largest = np.abs(step[i]).max()
+            temperature[i] += min(1.0, LARGEST_STEP / max(largest, LARGEST_STEP)) * step[i]
+            if largest < 0.1:
+                break
+
+
+@kernel
+def last_reverse(heat: Heat) -> int:
+    """The last column into which oil flows from the right; 0: none."""
+    for i in range(heat.from_right.shape[0] - 2, 0, -1):
+        if heat.from_right[i].max() > 0.0:
+            return i
+    return 0
+
+
+@kernel
+def _relax_column(i: int, film: Film, heat: Heat, given: FloatArray, weight: float, step: FloatArray) -> None:
+    """Temperature step of column i from those of its neighbours and of the surfaces upstream; `given` is added."""
+    n, m = step.shape[0], step.shape[1] - 1
+    for k in range(m + 1):
+        inflow = heat.from_left[i, k] * step[i - 1, k]
+        if i + 1 < n:
+            inflow += heat.from_right[i, k] * step[i + 1, k]
+        if k == 0:
+            inflow = inflow * heat.gain_1[i] + heat.change_1[i]
+        elif k == m:
+            inflow = inflow * heat.gain_2[i] + heat.change_2[i]
+        step[i, k] = inflow - weight * heat.residual[i, k]
+    solve_column(i, film, heat, step)
+    for k in range(m + 1):
+        step[i, k] += given[i, k]
+
+
+@kernel
+def temperature_step(
+    problem: Problem, grid: Grid, film: Film, heat: Heat, given: FloatArray, weight: float, step: FloatArray
+) -> None:
+    """Solve the linearised heat balance of all columns for `step` (n, k), with the responses `given` to pressure.
+
+    A march along the flow; columns with reverse flow are swept backward in between, their right neighbours lagging.
+    The residual counts with `weight`: 1 for a Newton step, 0 for the derivative alone.
+    """
+    n, last = step.shape[0], step.shape[1] - 1
+    flux_1, flux_2 = np.zeros(n), np.zeros(n)
+    reverse = last_reverse(heat)
+    step[:, :] = 0.0
+    for sweep in range(REVERSE_SWEEPS if reverse > 0 else 1):
+        final = sweep == REVERSE_SWEEPS - 1 or reverse == 0
+        for i in range(1, n if final else reverse + 1):
+            heat.change_1[i] = problem.surface_heating_1 * dot(grid.heat[i, :i], flux_1[:i])
+            heat.change_2[i] = problem.surface_heating_2 * dot(grid.heat[i, :i], flux_2[:i])
+            _relax_column(i, film, heat, given, weight, step)
+            own_1 = step[i, 0] - heat.change_1[i] + weight * heat.residual[i, 0]
+            own_2 = step[i, last] - heat.change_2[i] + weight * heat.residual[i, last]
+            flux_1[i], flux_2[i] = own_1 / heat.gain_1[i], own_2 / heat.gain_2[i]
+        if not final:
+            for i in range(reverse - 1, 0, -1):
+                _relax_column(i, film, heat, given, weight, step)
+
+
+@kernel
+def inlet_step(problem: Problem, film: Film, temperature: FloatArray, step: FloatArray) -> None:
+    """First column of `step`: oil enters at the inlet temperature, and leaves at that of the column behind it."""
+    for k in range(1, step.shape[1] - 1):
+        if film.stream[0, k + 1] < film.stream[0, k - 1]:
+            step[0, k] = temperature[1, k] + step[1, k] - temperature[0, k]
+        else:
+            step[0, k] = problem.inlet - temperature[0, k]

@@ -1,0 +1,131 @@
+"""Lubricants, and the laws by which pressure and temperature change their viscosity and density."""
+
+from dataclasses import dataclass
+from math import log
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from solvers.compiled import kernel
+
+ROELANDS_PRESSURE = 5.1e-9  # 1/Pa
+ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the viscosity 6.31e-5 Pa s at the pole
+ROELANDS_POLE_TEMPERATURE = 138.0  # K
+
+
+@dataclass(frozen=True, slots=True)
+class Lubricant:
+    """A lubricating oil; the default is the oil of Xue, Zhang and Wang (second Table 2), its values at 360 K.
+
+    Units: viscosity, at reference_temperature and zero pressure [Pa s], reference_temperature [K],
+    pressure_viscosity (Barus coefficient) [1/Pa], temperature_viscosity (Reynolds coefficient) [1/K],
+    density, at reference_temperature [kg/m^3], specific_heat [J/(kg K)], thermal_conductivity [W/(m K)].
+    An incompressible oil keeps its density at every pressure and temperature.
+    """
+
+    viscosity: float = 0.08
+    reference_temperature: float = 360.0
+    pressure_viscosity: float = 21.9e-9
+    temperature_viscosity: float = 0.042
+    density: float = 870.0
+    specific_heat: float = 2000.0
+    thermal_conductivity: float = 0.14
+    pressure_viscosity_law: Literal["roelands", "barus"] = "roelands"
+    compressible: bool = True
+
+    @property
+    def laws(self) -> "FluidLaws":
+        """The constants of the laws, as the compiled functions take them."""
+        a1 = log(self.viscosity) + ROELANDS_LOG_VISCOSITY
+        return FluidLaws(
+            log_viscosity=log(self.viscosity),
+            reference_temperature=float(self.reference_temperature),
+            pressure_viscosity=float(self.pressure_viscosity),
+            temperature_viscosity=float(self.temperature_viscosity),
+            a1=a1,
+            pressure_exponent=self.pressure_viscosity / (ROELANDS_PRESSURE * a1) if a1 > 0.0 else 0.0,
+            temperature_exponent=(
+                self.temperature_viscosity * (self.reference_temperature - ROELANDS_POLE_TEMPERATURE) / a1
+                if a1 > 0.0
+                else 0.0
+            ),
+            roelands=int(self.pressure_viscosity_law == "roelands"),
+            density=float(self.density),
+            pressure_density=0.6e-9 * self.compressible,
+            thermal_expansion=0.00065 * self.compressible,
+        )
+
+    def viscosity_at(self, pressure: float, temperature: float) -> float:
+        """Viscosity [Pa s] at pressure [Pa] and temperature [K]."""
+        laws = self.laws
+        return float(np.exp(log_viscosity(laws, pressure_part(laws, pressure)[0], temperature)[0]))
+
+    def density_at(self, pressure: float, temperature: float) -> float:
+        """Density [kg/m^3] at pressure [Pa] and temperature [K]."""
+        return float(density(self.laws, pressure, temperature)[0])
+
+
+class FluidLaws(NamedTuple):
+    """Constants of the viscosity and density laws; the symbols are those of the functions below."""
+
+    log_viscosity: float
+    reference_temperature: float
+    pressure_viscosity: float
+    temperature_viscosity: float
+    a1: float
+    pressure_exponent: float
+    temperature_exponent: float
+    roelands: int
+    density: float
+    pressure_density: float
+    thermal_expansion: float
+
+
+@kernel
+def pressure_part(laws: FluidLaws, pressure: float) -> tuple[float, float]:
+    """What pressure [Pa] contributes to the logarithm of viscosity, and its derivative [1/Pa].
+
+    Roelands: A1 (1 + 5.1e-9 p)^Z with Z = alpha / (5.1e-9 A1), A1 = ln eta0 + 9.67 (Eq. 20); Barus: alpha p.
+    Suction counts as no pressure: it occurs on the way to a solution only.
+    """
+    p = max(pressure, 0.0)
+    if laws.roelands == 1:
+        base = 1.0 + ROELANDS_PRESSURE * p
+        value = laws.a1 * base**laws.pressure_exponent
+        slope = value * laws.pressure_exponent * ROELANDS_PRESSURE / base
+    else:
+        value = laws.pressure_viscosity * p
+        slope = laws.pressure_viscosity
+    if pressure < 0.0:
+        slope = 0.0
+    return value, slope
+
+
+@kernel
+def log_viscosity(laws: FluidLaws, pressure_term: float, temperature: float) -> tuple[float, float, float]:
+    """ln(eta / Pa s), its derivative by the pressure term of `pressure_part` and by temperature [1/K].
+
+    Roelands (Eq. 20): A1 {-1 + (1 + 5.1e-9 p)^Z [(t - 138)/(t0 - 138)]^-S0} with S0 = beta (t0 - 138)/A1. The paper
+    prints S0 = beta/(A1 (t0 - 138)), which is no number and would leave the viscosity independent of temperature;
+    only the form here has -d ln eta/dt = beta at t0. Barus and Reynolds: alpha p - beta (t - t0).
+    """
+    if laws.roelands == 1:
+        above_pole = temperature - ROELANDS_POLE_TEMPERATURE
+        ratio = above_pole / (laws.reference_temperature - ROELANDS_POLE_TEMPERATURE)
+        factor = np.exp(-laws.temperature_exponent * np.log(ratio))
+        part = pressure_term * factor
+        return laws.log_viscosity - laws.a1 + part, factor, -laws.temperature_exponent * part / above_pole
+    heating = temperature - laws.reference_temperature
+    value = laws.log_viscosity + pressure_term - laws.temperature_viscosity * heating
+    return value, 1.0, -laws.temperature_viscosity
+
+
+@kernel
+def density(laws: FluidLaws, pressure: float, temperature: float) -> tuple[float, float, float]:
+    """Density [kg/m^3], its derivatives by pressure and temperature (Dowson and Higginson, Eq. 19)."""
+    p = max(pressure, 0.0)
+    base = 1.0 + 1.7e-9 * p
+    heating = temperature - laws.reference_temperature
+    value = laws.density * (1.0 + laws.pressure_density * p / base - laws.thermal_expansion * heating)
+    slope = laws.density * laws.pressure_density / base**2 if pressure > 0.0 else 0.0
+    return value, slope, -laws.density * laws.thermal_expansion

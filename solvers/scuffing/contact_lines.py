@@ -1,0 +1,130 @@
+"""Contact lines in the plane of action: their total length, and the roll positions at which they are looked at."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+from math import ceil, floor
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.compiled import kernel
+from solvers.errors import InvalidInput
+from solvers.scuffing.path_of_contact import ContactPlane, PathOfContact
+
+COINCIDENT = 1e-9  # base pitches; breakpoints nearer than this are one
+LEAST_STEPS = 8  # between two breakpoints, however close
+MOST_LINES = 100  # at once; no gear has a tenth of it
+
+
+@dataclass(frozen=True, slots=True)
+class ContactLengths:
+    """Smallest, largest and mean total length of the contact lines [m]."""
+
+    minimum: float
+    maximum: float
+    mean: float
+
+    @property
+    def ratio(self) -> float:
+        """L_min / L_max."""
+        return self.minimum / self.maximum
+
+
+def contact_lengths(path: PathOfContact) -> ContactLengths:
+    """Total contact length in closed form; stands for the paper's lost Eq. 4 (its case L = eps_alpha b / cos beta_b).
+
+    The length over the roll position is the periodised convolution of two rectangles of lengths eps_alpha = n_a + f_a
+    and eps_beta = n_b + f_b, so with the unit u = b / (eps_beta cos beta_b)
+        L_min = u [n_a eps_beta + n_b f_a + max(0, f_a + f_b - 1)],  L_max = u [n_a eps_beta + n_b f_a + min(f_a, f_b)].
+    Raises InvalidInput: no_contact where L_min = 0 (no pair carries at some roll positions), overlap_range beyond 100
+    lines at once.
+    """
+    length = path.plane.face_width / path.plane.cos_base_helix
+    transverse, overlap = path.transverse_contact_ratio, path.overlap_ratio
+    whole, part = floor(transverse), transverse - floor(transverse)
+    if overlap == 0.0:
+        least, most = float(whole), float(ceil(transverse))
+    else:
+        wide, narrow = floor(overlap), overlap - floor(overlap)
+        common = whole + wide * part / overlap
+        least = common + max(0.0, part + narrow - 1.0) / overlap
+        most = common + min(part, narrow) / overlap
+    if least <= 0.0:
+        raise InvalidInput(
+            "no_contact",
+            f"no pair of teeth is in contact at some roll positions (transverse contact ratio {transverse:.3f}, "
+            f"overlap ratio {overlap:.3f})",
+            "addendum",
+        )
+    if path.total_contact_ratio > MOST_LINES:
+        raise InvalidInput(
+            "overlap_range", f"the face is too wide for its helix: more than {MOST_LINES} lines at once", "face_width"
+        )
+    return ContactLengths(least * length, most * length, transverse * length)
+
+
+@dataclass(frozen=True, slots=True)
+class RollPositions:
+    """Roll positions in one base pitch [m], ascending, breakpoints of the contact length included.
+
+    `side` is 0, except for spur gears, where the length jumps: each breakpoint then appears twice, as the limit from
+    below (-1) and from above (+1).
+    """
+
+    phase: FloatArray
+    side: FloatArray
+
+
+def roll_positions(plane: ContactPlane, count: int) -> RollPositions:
+    """At least `count` roll positions, equidistant between the breakpoints {0, g, b tan, g + b tan} mod p."""
+    pitch, overlap = plane.base_pitch, plane.face_width * plane.tan_base_helix
+    corners = np.array([0.0, plane.path_length, overlap, plane.path_length + overlap])
+    breakpoints = np.unique(np.append(corners % pitch, pitch))
+    breakpoints = breakpoints[np.append(np.diff(breakpoints) > COINCIDENT * pitch, True)]
+    breakpoints[0] = 0.0
+    phases, sides = [], []
+    for start, end in pairwise(breakpoints):
+        steps = max(LEAST_STEPS, ceil(count * (end - start) / pitch))
+        phases.append(np.linspace(start, end, steps + 1))
+        sides.append(np.concatenate(([1.0], np.zeros(steps - 1), [-1.0])))
+    if plane.tan_base_helix > 0.0:
+        phases = [part[:-1] for part in phases[:-1]] + phases[-1:]
+        return RollPositions(np.concatenate(phases), np.zeros(sum(part.size for part in phases)))
+    return RollPositions(np.concatenate(phases), np.concatenate(sides))
+
+
+@kernel
+def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, float]:
+    """First and last y [m] of the contact line x = phase - y tan beta_b; equal where there is none.
+
+    A spur line at the end of the path counts as in contact on the `side` that lies inside.
+    """
+    if plane.tan_base_helix == 0.0:
+        nudged = phase + side * COINCIDENT * plane.base_pitch
+        if 0.0 <= nudged <= plane.path_length:
+            return 0.0, plane.face_width
+        return 0.0, 0.0
+    low = max(0.0, (phase - plane.path_length) / plane.tan_base_helix)
+    high = min(plane.face_width, phase / plane.tan_base_helix)
+    return low, max(low, high)
+
+
+@kernel
+def line_count(plane: ContactPlane) -> int:
+    """Most lines that can touch the rectangle at once."""
+    return int((plane.path_length + plane.face_width * plane.tan_base_helix) / plane.base_pitch) + 2
+
+
+@kernel
+def _total_lengths(plane: ContactPlane, phase: FloatArray, side: FloatArray) -> FloatArray:
+    lengths = np.zeros(phase.size)
+    for i in range(phase.size):
+        for j in range(line_count(plane)):
+            low, high = line_ends(plane, phase[i] + j * plane.base_pitch, side[i])
+            lengths[i] += (high - low) / plane.cos_base_helix
+    return lengths
+
+
+def total_lengths(plane: ContactPlane, rolls: RollPositions) -> FloatArray:
+    """Total contact length [m] at each roll position."""
+    return _total_lengths(plane, rolls.phase, rolls.side)

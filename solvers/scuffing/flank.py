@@ -1,0 +1,47 @@
+"""Modification, line load and pressure over the flank, and how the face shares the load."""
+
+import numpy as np
+
+from solvers.arrays import FloatArray, frozen
+from solvers.contact import hertz
+from solvers.scuffing.load_balance import LoadBalance, line_loads
+from solvers.scuffing.modification import gaps_at
+from solvers.scuffing.path_of_contact import reduced_radius
+from solvers.scuffing.results import Flank
+
+
+def flank(balance: LoadBalance, modulus: float, profile_points: int, face_points: int) -> Flank:
+    """Maps [profile, face] from A to E and from the end that meshes first; modulus E' [Pa]."""
+    plane = balance.mesh.plane
+    profile, face = np.linspace(0.0, 1.0, profile_points), np.linspace(0.0, 1.0, face_points)
+    x, y = np.meshgrid(profile * plane.path_length, face * plane.face_width, indexing="ij")
+    load = line_loads(balance, x, y)
+    return Flank(
+        profile_fraction=frozen(profile),
+        face_fraction=frozen(face),
+        modification=frozen(gaps_at(balance.mesh.gap, x, y)),
+        line_load=frozen(load),
+        pressure=frozen(contact_pressure(balance, x, load, modulus)),
+    )
+
+
+def contact_pressure(balance: LoadBalance, x: FloatArray, load: FloatArray, modulus: float) -> FloatArray:
+    """Hertz pressure p_H [Pa] at x [m] under w [N/m].
+
+    0 without load; NaN where the reduced radius vanishes (a path that reaches a base circle), which has no pressure.
+    Eq. 14 prints pi/4 of it, the mean pressure, and calls it the maximum.
+    """
+    radius = reduced_radius(balance.mesh.plane, x)
+    defined = radius >= balance.mesh.plane.least_radius
+    pressure = hertz.maximum_pressure(load, np.where(defined, radius, 1.0), modulus)
+    return np.where(defined, pressure, np.nan)
+
+
+def face_load_factor(load: FloatArray) -> float | None:
+    """K_H_beta = largest over mean of q(y) = int w dx / p_bt (the idea of ISO 6336-1, annex E).
+
+    `load` is the map [profile, face] of w; None without load.
+    """
+    shares = np.trapezoid(load, axis=0)
+    mean = np.trapezoid(shares) / (shares.size - 1)
+    return float(shares.max() / mean) if mean > 0.0 else None

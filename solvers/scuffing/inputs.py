@@ -1,0 +1,129 @@
+"""What a load distribution is computed from."""
+
+from dataclasses import dataclass, field
+from math import pi
+from typing import Literal
+
+from solvers.contact import ehl
+from solvers.gears.inputs import GearPairInputs
+from solvers.lubricants import Lubricant
+from solvers.materials import Solid
+
+
+@dataclass(frozen=True, slots=True)
+class Load:
+    """Torque [N m] and speed [rad/s] of the driving pinion."""
+
+    pinion_torque: float
+    pinion_speed: float
+
+    @property
+    def power(self) -> float:
+        """Transmitted power [W]."""
+        return self.pinion_torque * self.pinion_speed
+
+
+def torque_from_power(power: float, pinion_speed: float) -> float:
+    """Torque [N m] of a power [W] at a speed [rad/s]; the paper's 9549 P/n."""
+    return power / pinion_speed
+
+
+def angular_speed(revolutions_per_minute: float) -> float:
+    """Angular speed [rad/s]."""
+    return revolutions_per_minute * pi / 30
+
+
+@dataclass(frozen=True, slots=True)
+class Modifications:
+    """Gaps [m] along the transverse line of action; positive where material is missing.
+
+    profile_slope opens the gap towards E (pinion tip), helix_slope towards E2 (the end that leaves the mesh last).
+    tip_relief acts at E (pinion tip and gear root), root_relief at A; the caller adds the two members. Relief lengths
+    run along the line of action, end relief length along the face [m]; None is the default of `modification.gap`.
+    """
+
+    profile_crowning: float = 0.0
+    lead_crowning: float = 0.0
+    profile_slope: float = 0.0
+    helix_slope: float = 0.0
+    tip_relief: float = 0.0
+    tip_relief_length: float | None = None
+    root_relief: float = 0.0
+    root_relief_length: float | None = None
+    end_relief: float = 0.0
+    end_relief_length: float | None = None
+    relief_exponent: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """Physics in force.
+
+    tooth_stiffness: "ishikawa", or "parabola" through Ishikawa's maximum with `parabola_end_ratio` at A and E, which
+    is calibrated to the paper's load maxima. contact: "hertzian" half-spaces (Weber, Johnson) or the paper's "linear"
+    term. section: where the tooth is cut for its compliance. load_convention: "exact" puts F_bn into the balance,
+    "paper" (Eq. 1) F_bt.
+    """
+
+    tooth_stiffness: Literal["ishikawa", "parabola"] = "ishikawa"
+    parabola_end_ratio: float = 0.757
+    contact: Literal["hertzian", "linear"] = "hertzian"
+    section: Literal["normal", "transverse"] = "normal"
+    load_convention: Literal["exact", "paper"] = "exact"
+
+
+@dataclass(frozen=True, slots=True)
+class Resolution:
+    """Points of the numerical solution and of its output.
+
+    roll_positions in one base pitch, slices of each contact line, points of the flank map along the profile and along
+    the face, points of the feature line.
+    """
+
+    roll_positions: int = 200
+    slices: int = 100
+    profile_points: int = 201
+    face_points: int = 101
+    feature_points: int = 51
+
+
+@dataclass(frozen=True, slots=True)
+class LoadDistributionInputs:
+    """A loaded pair of modified, misaligned gears."""
+
+    gears: GearPairInputs
+    load: Load
+    modifications: Modifications = field(default_factory=Modifications)
+    pinion_material: Solid = field(default_factory=Solid)
+    wheel_material: Solid = field(default_factory=Solid)
+    friction_coefficient: float = 0.06
+    model: Model = field(default_factory=Model)
+    resolution: Resolution = field(default_factory=Resolution)
+
+
+@dataclass(frozen=True, slots=True)
+class Temperatures:
+    """Bulk temperature of the teeth and of the oil they draw in, oil temperature, scuffing temperature [K].
+
+    The scuffing temperature is a property of oil and material that the paper does not give; without it, no safety.
+    """
+
+    bulk: float = 360.0
+    oil: float = 333.15
+    scuffing: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ScuffingInputs:
+    """What scuffing depends on; `path_points` along the feature line.
+
+    lubrication: "thermal_ehl" solves the film under the local load (`film` is its model), "closed_form" leaves it at
+    Blok's and Dowson and Higginson's formulas, which are there in either case.
+    """
+
+    distribution: LoadDistributionInputs
+    lubricant: Lubricant = field(default_factory=Lubricant)
+    temperatures: Temperatures = field(default_factory=Temperatures)
+    lubrication: Literal["thermal_ehl", "closed_form"] = "thermal_ehl"
+    film: ehl.Model = field(default_factory=ehl.Model)
+    path_points: int = 50

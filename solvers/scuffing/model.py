@@ -1,0 +1,133 @@
+"""The load distribution of a helical or spur gear pair with modification and misalignment."""
+
+import numpy as np
+
+from solvers.arrays import frozen
+from solvers.contact.hertz import reduced_modulus
+from solvers.gears.pair import gear_pair
+from solvers.scuffing.contact_lines import ContactLengths, contact_lengths, roll_positions
+from solvers.scuffing.contact_slices import Mesh
+from solvers.scuffing.feature_line import feature_line
+from solvers.scuffing.flank import face_load_factor, flank
+from solvers.scuffing.friction_loss import friction_loss
+from solvers.scuffing.inputs import LoadDistributionInputs
+from solvers.scuffing.line_survey import Peak, largest
+from solvers.scuffing.load_balance import LoadBalance, balance_load
+from solvers.scuffing.mesh_stiffness import stiffness
+from solvers.scuffing.modification import gap
+from solvers.scuffing.path_of_contact import PathOfContact, path_of_contact
+from solvers.scuffing.results import (
+    ContactLines,
+    Flank,
+    Geometry,
+    LengthCurves,
+    LoadDistribution,
+    LoadOnFlank,
+    Place,
+    Pressure,
+)
+from solvers.scuffing.tooth_stiffness import pair_compliance
+from solvers.scuffing.transmission_error import transmission_error
+from solvers.scuffing.validity import geometry_notices, load_notices, model_notices
+
+
+def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
+    """Load, pressure, transmission error and loss over the plane of action.
+
+    Raises InvalidInput where the pair cannot mesh (see `gear_pair`, `path_of_contact`, `contact_lengths`) or options
+    exclude each other (`pair_compliance`); NoSolution if the load balance does not converge.
+    """
+    pinion, wheel, resolution = inputs.pinion_material, inputs.wheel_material, inputs.resolution
+    path = path_of_contact(gear_pair(inputs.gears))
+    lengths = contact_lengths(path)
+    mesh = Mesh(path.plane, pair_compliance(path, pinion, wheel, inputs.model), gap(inputs.modifications, path))
+    rolls = roll_positions(path.plane, resolution.roll_positions)
+
+    tangential_force = inputs.load.pinion_torque / path.pair.pinion.base_radius
+    normal_force = tangential_force / path.plane.cos_base_helix
+    force = normal_force if inputs.model.load_convention == "exact" else tangential_force
+    balance = balance_load(mesh, rolls, force, resolution.slices)
+
+    modulus = reduced_modulus(pinion, wheel)
+    loads = flank(balance, modulus, resolution.profile_points, resolution.face_points)
+    return LoadDistribution(
+        path_of_contact=path,
+        balance=balance,
+        geometry=_geometry(path),
+        contact_lines=_contact_lines(lengths, balance),
+        stiffness=stiffness(path, balance, force / lengths.mean, tangential_force),
+        transmission_error=transmission_error(balance),
+        load=_load_on_flank(path, balance, loads, inputs.load.pinion_torque, tangential_force),
+        pressure=_pressure(path, balance, modulus),
+        friction_loss=friction_loss(path, balance, inputs.load, inputs.friction_coefficient),
+        feature_line=feature_line(
+            path, balance, inputs.load.pinion_speed, tangential_force, modulus, resolution.feature_points
+        ),
+        flank=loads,
+        warnings=(
+            *geometry_notices(path, lengths),
+            *model_notices(path, inputs.model),
+            *load_notices(path, balance),
+        ),
+    )
+
+
+def _geometry(path: PathOfContact) -> Geometry:
+    """The mesh in numbers."""
+    pair = path.pair
+    return Geometry(
+        centre_distance=pair.centre_distance,
+        working_pressure_angle=pair.working_pressure_angle,
+        base_helix_angle=pair.base_helix_angle,
+        transverse_base_pitch=pair.transverse_base_pitch,
+        path_of_contact=path.length,
+        transverse_contact_ratio=path.transverse_contact_ratio,
+        overlap_ratio=path.overlap_ratio,
+        total_contact_ratio=path.total_contact_ratio,
+        undercut=pair.pinion.undercut or pair.wheel.undercut,
+    )
+
+
+def _contact_lines(lengths: ContactLengths, balance: LoadBalance) -> ContactLines:
+    """The contact lengths, closed-form extremes and numeric curve."""
+    phase = balance.rolls.phase
+    return ContactLines(
+        min_length=lengths.minimum,
+        max_length=lengths.maximum,
+        mean_length=lengths.mean,
+        length_ratio=lengths.ratio,
+        curves=LengthCurves(frozen(phase / phase[-1]), frozen(balance.survey.length)),
+    )
+
+
+def _load_on_flank(
+    path: PathOfContact, balance: LoadBalance, loads: Flank, torque: float, tangential_force: float
+) -> LoadOnFlank:
+    """Forces, the largest line load over all roll positions and how much of the flank is loaded."""
+    peak = largest(balance.survey.peak_load)
+    phase, loaded, length = balance.rolls.phase, balance.survey.loaded_length, balance.survey.length
+    return LoadOnFlank(
+        pinion_torque=torque,
+        tangential_force=tangential_force,
+        normal_force=balance.force,
+        max_line_load=0.0 if peak is None else peak.value,
+        max_at=_place(path, peak),
+        contact_fraction=float(np.trapezoid(loaded, phase) / np.trapezoid(length, phase)),
+        face_load_factor=face_load_factor(loads.line_load),
+        balance_error=float(balance.residual.max()),
+        pair_share=frozen(balance.survey.line_forces.T / balance.force) if balance.force > 0.0 else None,
+    )
+
+
+def _pressure(path: PathOfContact, balance: LoadBalance, modulus: float) -> Pressure:
+    """Largest p_H = sqrt(E' w / (2 pi R_n)) over all roll positions."""
+    peak = largest(balance.survey.peak_pressure)
+    maximum = 0.0 if peak is None else float(np.sqrt(modulus * peak.value / (2 * np.pi)))
+    return Pressure(maximum, _place(path, peak))
+
+
+def _place(path: PathOfContact, peak: Peak | None) -> Place | None:
+    """A peak's place on the flank."""
+    if peak is None:
+        return None
+    return Place(float(path.profile_parameter(peak.x)), peak.x / path.length, peak.y / path.plane.face_width)

@@ -1,0 +1,97 @@
+"""Modification and misalignment as one gap over the plane of action."""
+
+from math import cos, floor, sin
+from typing import NamedTuple
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.compiled import kernel
+from solvers.scuffing.inputs import Modifications
+from solvers.scuffing.path_of_contact import PathOfContact
+
+
+class Gap(NamedTuple):
+    """Gap Delta(x, y) along the transverse line of action; amplitudes and lengths [m], all lengths resolved."""
+
+    path_length: float
+    face_width: float
+    profile_crowning: float
+    lead_crowning: float
+    profile_slope: float
+    helix_slope: float
+    tip_relief: float
+    tip_relief_length: float
+    root_relief: float
+    root_relief_length: float
+    end_relief: float
+    end_relief_length: float
+    exponent: float
+
+
+def gap(modifications: Modifications, path: PathOfContact) -> Gap:
+    """The gap with its relief lengths.
+
+    The paper gives none. Defaults: tip and root relief reach (eps_alpha - n) p_bt, for 1 < eps_alpha < 2 the long
+    relief to D and B, but at least a tenth of the path; end relief a tenth of the face.
+    """
+    ratio, width = path.transverse_contact_ratio, path.pair.inputs.face_width
+    long_relief = max((ratio - floor(ratio)) * path.pair.transverse_base_pitch, 0.1 * path.length)
+    m = modifications
+    return Gap(
+        path.length,
+        width,
+        m.profile_crowning,
+        m.lead_crowning,
+        m.profile_slope,
+        m.helix_slope,
+        m.tip_relief,
+        long_relief if m.tip_relief_length is None else m.tip_relief_length,
+        m.root_relief,
+        long_relief if m.root_relief_length is None else m.root_relief_length,
+        m.end_relief,
+        0.1 * width if m.end_relief_length is None else m.end_relief_length,
+        float(m.relief_exponent),
+    )
+
+
+@kernel
+def _relief(amplitude: float, length: float, distance: float, exponent: float) -> float:
+    """Amplitude (1 - distance / length)_+^exponent."""
+    if amplitude == 0.0 or distance >= length:
+        return 0.0
+    rest = 1.0 - distance / length
+    return amplitude * rest if exponent == 1.0 else amplitude * rest**exponent
+
+
+@kernel
+def gap_at(form: Gap, x: float, y: float) -> float:
+    """Delta [m] at distance x [m] from A and y [m] from the end that meshes first; positive: material missing."""
+    xi = x / form.path_length - 0.5
+    eta = y / form.face_width - 0.5
+    value = 4.0 * form.profile_crowning * xi * xi + 4.0 * form.lead_crowning * eta * eta
+    value += form.profile_slope * xi + form.helix_slope * eta
+    value += _relief(form.tip_relief, form.tip_relief_length, form.path_length - x, form.exponent)
+    value += _relief(form.root_relief, form.root_relief_length, x, form.exponent)
+    return value + _relief(form.end_relief, form.end_relief_length, min(y, form.face_width - y), form.exponent)
+
+
+@kernel
+def _gaps(form: Gap, x: FloatArray, y: FloatArray) -> FloatArray:
+    gaps = np.empty(x.size)
+    for i in range(x.size):
+        gaps[i] = gap_at(form, x[i], y[i])
+    return gaps
+
+
+def gaps_at(form: Gap, x: FloatArray, y: FloatArray) -> FloatArray:
+    """Delta [m] at points of one shape."""
+    return _gaps(form, np.ravel(x), np.ravel(y)).reshape(np.shape(x))
+
+
+def misalignment_slope(in_plane: float, out_of_plane: float, working_pressure_angle: float) -> float:
+    """Helix slope [m] of shaft deviations [m] over the face (ISO/TR 10064-3).
+
+    f_Sigma_delta in the plane of the shafts counts by sin alpha_wt, f_Sigma_beta out of it by cos alpha_wt.
+    """
+    return in_plane * sin(working_pressure_angle) + out_of_plane * cos(working_pressure_angle)

@@ -1,0 +1,83 @@
+"""What the scuffing check adds to a load distribution; SI units, read-only arrays, temperatures in kelvin."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from solvers.arrays import FloatArray
+from solvers.contact.film import Regime
+from solvers.scuffing.results import LoadDistribution
+
+PointStatus = Literal["ok", "ok_with_warnings", "no_solution", "refused", "unloaded"]
+
+
+@dataclass(frozen=True, slots=True)
+class Flash:
+    """Largest flash temperature [K] and where; no place without load, no thermal EHL value in closed form."""
+
+    blok_max: float
+    blok_at_psi: float | None
+    thermal_ehl_max: float | None = None
+    thermal_ehl_at_psi: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ContactTemperature:
+    """Largest contact temperature t_B = t_M + t_f [K] (Eq. 16)."""
+
+    blok_max: float
+    thermal_ehl_max: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Film:
+    """Thinnest film [m], where, and against roughness; None where no point is loaded."""
+
+    dowson_higginson_min: float | None = None
+    min_at_psi: float | None = None
+    thickness_ratio: float | None = None
+    thickness_regime: Regime | None = None
+    thermal_ehl_min: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Safety:
+    """Safety against scuffing (Eq. 26); None where the teeth stay as cool as the oil."""
+
+    blok_factor: float | None
+    thermal_ehl_factor: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ScuffingPath:
+    """Along the feature line: Blok's flash temperature [K], film [m] and its ratio to roughness.
+
+    Where nothing is loaded or nothing moves the status is "unloaded", film and ratio are NaN and Blok's flash
+    temperature is 0. What only the thermal EHL solution knows is None in closed form and NaN at points it did not
+    solve ("no_solution") or would not take ("refused"). The thickness ratio is that of the thermal film if there is
+    one.
+    """
+
+    psi: FloatArray
+    status: tuple[PointStatus, ...]
+    blok_flash: FloatArray
+    dowson_higginson: FloatArray
+    thickness_ratio: FloatArray
+    pinion_flash: FloatArray | None = None
+    wheel_flash: FloatArray | None = None
+    minimum_film: FloatArray | None = None
+    central_film: FloatArray | None = None
+    max_pressure: FloatArray | None = None
+    friction_coefficient: FloatArray | None = None
+    film_max_temperature: FloatArray | None = None
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Scuffing(LoadDistribution):
+    """The load distribution and the scuffing check on it; `safety` is None without a scuffing temperature."""
+
+    flash: Flash
+    contact_temperature: ContactTemperature
+    film: Film
+    safety: Safety | None
+    path: ScuffingPath
+    unsolved_points: int = 0

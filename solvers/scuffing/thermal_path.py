@@ -1,0 +1,115 @@
+"""The thermal EHL solution along the feature line: film, flash temperatures and friction under the local load."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.arrays import BoolArray, FloatArray, frozen
+from solvers.contact import ehl
+from solvers.errors import InvalidInput
+from solvers.notices import Notice
+from solvers.scuffing.inputs import ScuffingInputs
+from solvers.scuffing.results import FeatureLine
+from solvers.scuffing.safety_results import PointStatus
+
+
+@dataclass(frozen=True, slots=True)
+class ThermalPath:
+    """Point by point: status, flash temperatures of both flanks [K], films [m], pressure [Pa], friction, film [K].
+
+    What was not solved is NaN.
+    """
+
+    status: tuple[PointStatus, ...]
+    warnings: tuple[Notice, ...]
+    pinion_flash: FloatArray
+    wheel_flash: FloatArray
+    minimum_film: FloatArray
+    central_film: FloatArray
+    max_pressure: FloatArray
+    friction_coefficient: FloatArray
+    film_max_temperature: FloatArray
+
+
+def thermal_path(inputs: ScuffingInputs, line: FeatureLine, loaded: BoolArray) -> ThermalPath:
+    """Solve every loaded point of the feature line, each from its neighbour; oil enters at bulk temperature.
+
+    A point outside the range of the solver is "refused", one without convergence "no_solution"; neither stops the
+    others. Raises the solver's InvalidInput where it refuses every point.
+    """
+    contacts = {point: _contact(inputs, line, point) for point in np.flatnonzero(loaded).tolist()}
+    refusals = {point: refusal for point, contact in contacts.items() if (refusal := _refusal(contact)) is not None}
+    if refusals and len(refusals) == len(contacts):
+        raise next(iter(refusals.values()))
+    solvable = [point for point in contacts if point not in refusals]
+    results = dict(zip(solvable, ehl.solve_path([contacts[point] for point in solvable]), strict=True))
+    status: list[PointStatus] = ["unloaded"] * line.psi.size
+    values = np.full((7, line.psi.size), np.nan)
+    for point in refusals:
+        status[point] = "refused"
+    for point, result in results.items():
+        status[point] = result.status
+        if result.status != "no_solution":
+            values[:, point] = _values(result)
+    warnings = _notices(list(results.values()), list(refusals.values()))
+    return ThermalPath(tuple(status), warnings, *(frozen(row) for row in values))
+
+
+def _contact(inputs: ScuffingInputs, line: FeatureLine, point: int) -> ehl.LineContactInputs:
+    given, bulk = inputs.distribution, inputs.temperatures.bulk
+    return ehl.LineContactInputs(
+        contact=ehl.Contact(
+            line_load=float(line.line_load[point]),
+            radius=float(line.radius[point]),
+            speed_1=float(line.pinion_speed[point]),
+            speed_2=float(line.wheel_speed[point]),
+        ),
+        surface_1=given.pinion_material,
+        surface_2=given.wheel_material,
+        lubricant=inputs.lubricant,
+        temperatures=ehl.Temperatures(surface_1=bulk, surface_2=bulk, inlet=bulk),
+        model=inputs.film,
+    )
+
+
+def _refusal(contact: ehl.LineContactInputs) -> InvalidInput | None:
+    """Why the solver will not take a contact, if it will not."""
+    try:
+        ehl.check(contact)
+    except InvalidInput as refusal:
+        return refusal
+    return None
+
+
+def _values(result: ehl.LineContactResult) -> tuple[float | None, ...]:
+    """The rows of a path, in the order of `ThermalPath`."""
+    assert result.temperature is not None
+    assert result.pressure is not None
+    assert result.friction is not None
+    return (
+        result.temperature.surface_1_flash,
+        result.temperature.surface_2_flash,
+        result.film.minimum,
+        result.film.central,
+        result.pressure.maximum,
+        result.friction.coefficient,
+        result.temperature.film_max,
+    )
+
+
+def _notices(results: Sequence[ehl.LineContactResult], refusals: Sequence[InvalidInput]) -> tuple[Notice, ...]:
+    """Every limit of validity once, with the number of points it concerns."""
+    points: dict[str, int] = {}
+    first: dict[str, Notice] = {}
+    notices = [notice for result in results for notice in result.warnings]
+    notices += [Notice(refusal.code, refusal.message) for refusal in refusals]
+    unsolved = sum(result.status == "no_solution" for result in results)
+    notices += [Notice("unsolved_points", "the thermal EHL solution did not converge", "nodes")] * unsolved
+    for notice in notices:
+        points[notice.code] = points.get(notice.code, 0) + 1
+        first.setdefault(notice.code, notice)
+    return tuple(
+        Notice(code, f"at {points[code]} of {len(results) + len(refusals)} points: {notice.message}")
+        for code, notice in first.items()
+    )

@@ -1,0 +1,252 @@
+"""The contract of /v1/scuffing/load-distribution and /v1/scuffing."""
+
+import copy
+from collections.abc import Callable
+from typing import Any
+
+import httpx
+import pytest
+
+from app.library import examples
+
+Post = Callable[[str, object], httpx.Response]
+DISTRIBUTION, SCUFFING = "/v1/scuffing/load-distribution", "/v1/scuffing"
+
+SECTIONS = {
+    "geometry": {
+        "centre_distance_mm",
+        "working_pressure_angle_deg",
+        "base_helix_angle_deg",
+        "transverse_base_pitch_mm",
+        "path_of_contact_mm",
+        "transverse_contact_ratio",
+        "overlap_ratio",
+        "total_contact_ratio",
+        "undercut",
+    },
+    "contact_lines": {"min_length_mm", "max_length_mm", "mean_length_mm", "length_ratio", "curves"},
+    "stiffness": {
+        "max_n_per_mm_um",
+        "approach_n_per_mm_um",
+        "pitch_n_per_mm_um",
+        "recess_n_per_mm_um",
+        "mean_mesh_n_per_mm_um",
+        "curves",
+    },
+    "transmission_error": {"peak_to_peak_um", "mean_um", "min_um", "max_um", "harmonics_um", "curves"},
+    "load": {
+        "pinion_torque_n_m",
+        "normal_force_n",
+        "max_line_load_n_per_mm",
+        "max_at",
+        "contact_fraction",
+        "face_load_factor",
+        "balance_error",
+    },
+    "pressure": {"max_mpa", "max_at"},
+    "friction_loss": {"loss_factor", "power_w"},
+    "feature_line": {
+        "psi",
+        "gamma",
+        "line_load_n_per_mm",
+        "pressure_mpa",
+        "half_width_mm",
+        "radius_mm",
+        "pinion_speed_m_per_s",
+        "wheel_speed_m_per_s",
+        "sliding_m_per_s",
+        "iso_load_sharing",
+        "load_sharing",
+    },
+    "flank": {"profile_fraction", "face_fraction", "modification_um", "line_load_n_per_mm", "pressure_mpa"},
+}
+SCUFFING_SECTIONS = {
+    "flash": {"blok_max_k", "blok_at_psi", "thermal_ehl_max_k", "thermal_ehl_at_psi"},
+    "contact_temperature": {"blok_max_c", "thermal_ehl_max_c"},
+    "film": {"dowson_higginson_min_um", "thermal_ehl_min_um", "min_at_psi", "thickness_ratio", "thickness_regime"},
+    "safety": {"blok_factor", "thermal_ehl_factor"},
+    "path": {
+        "psi",
+        "status",
+        "blok_flash_k",
+        "pinion_flash_k",
+        "wheel_flash_k",
+        "dowson_higginson_um",
+        "minimum_film_um",
+        "central_film_um",
+        "max_pressure_mpa",
+        "friction_coefficient",
+        "film_max_temperature_c",
+        "thickness_ratio",
+    },
+}
+
+
+def request(name: str = "xue-pair-1", **changes: dict[str, Any]) -> dict[str, Any]:
+    """An example with some fields of its sections changed."""
+    body = copy.deepcopy(examples()[name].request)
+    for section, values in changes.items():
+        body[section] = {**body.get(section, {}), **values}
+    return body
+
+
+def error(response: httpx.Response) -> tuple[str, str]:
+    assert response.status_code == 422, response.text
+    (only,) = response.json()["errors"]
+    return only["code"], only["pointer"]
+
+
+def test_every_field_of_the_contract_is_there(post: Post) -> None:
+    for path, name, sections in (
+        (DISTRIBUTION, "xue-pair-1", SECTIONS),
+        (SCUFFING, "xue-pair-1-scuffing", SECTIONS | SCUFFING_SECTIONS),
+    ):
+        result = post(path, {**request(name), "detail": "fields"}).json()
+        for section, fields in sections.items():
+            assert fields <= set(result[section]), section
+    assert result["unsolved_points"] == 0
+
+
+def test_arrays_of_a_group_have_one_length(post: Post) -> None:
+    result = post(DISTRIBUTION, {**request(model={"feature_points": 31}), "detail": "fields"}).json()
+    assert {len(values) for values in result["feature_line"].values()} == {31}
+    for section in ("contact_lines", "stiffness", "transmission_error"):
+        assert len({len(values) for values in result[section]["curves"].values()}) == 1
+    flank = result["flank"]
+    for name in ("modification_um", "line_load_n_per_mm", "pressure_mpa"):
+        assert len(flank[name]) == len(flank["profile_fraction"])
+        assert {len(row) for row in flank[name]} == {len(flank["face_fraction"])}
+
+
+def test_numbers_arrive_in_the_units_of_their_names(post: Post) -> None:
+    result = post(DISTRIBUTION, {**request(), "detail": "curves"}).json()
+    assert result["geometry"]["transverse_contact_ratio"] == pytest.approx(1.5914, abs=6e-5)
+    assert result["contact_lines"]["min_length_mm"] == pytest.approx(20.2608, abs=1e-4)
+    assert result["transmission_error"]["peak_to_peak_um"] == pytest.approx(8.80, rel=6e-3)
+    assert result["load"]["pinion_torque_n_m"] == pytest.approx(238.732, abs=1e-3)
+    assert result["load"]["max_line_load_n_per_mm"] == pytest.approx(368.0, rel=1e-3)
+    assert result["pressure"]["max_mpa"] == pytest.approx(1395, rel=1e-3)
+    assert result["friction_loss"]["power_w"] == pytest.approx(500, rel=2e-3)
+    assert result["feature_line"]["pinion_speed_m_per_s"][0] == pytest.approx(1.018, abs=1e-3)
+    assert result["feature_line"]["radius_mm"][0] == pytest.approx(4.067, abs=1e-3)
+    assert result["stiffness"]["max_n_per_mm_um"] == pytest.approx(15.49, rel=6e-3)
+
+
+def test_scuffing_arrives_in_the_units_of_its_names(post: Post) -> None:
+    result = post(SCUFFING, request("xue-pair-1-scuffing")).json()
+    assert result["flash"]["blok_max_k"] == pytest.approx(71.5, abs=0.1)
+    assert result["flash"]["blok_at_psi"] == 0.0
+    assert result["contact_temperature"]["blok_max_c"] == pytest.approx(86.85 + 71.5, abs=0.1)
+    assert result["film"]["dowson_higginson_min_um"] == pytest.approx(0.5235, abs=2e-4)
+    assert result["film"]["thickness_ratio"] == pytest.approx(0.5235 / (0.4 * 2**0.5), abs=1e-3)
+    assert result["film"]["thickness_regime"] == "boundary"
+    assert result["safety"]["blok_factor"] == pytest.approx(100 / (26.85 + 71.5), rel=2e-3)
+    assert result["flash"]["thermal_ehl_max_k"] is None
+    assert result["path"]["pinion_flash_k"] is None
+    assert len(result["path"]["psi"]) == 50
+
+
+def test_safety_is_null_without_a_scuffing_temperature(post: Post) -> None:
+    body = request("xue-pair-1-scuffing")
+    body["temperatures"].pop("scuffing_c")
+    assert post(SCUFFING, body).json()["safety"] is None
+
+
+def test_power_and_torque_are_two_ways_to_say_one_thing(post: Post) -> None:
+    by_power = post(DISTRIBUTION, request()).json()
+    body = request()
+    body["load"] = {"pinion_torque_n_m": by_power["load"]["pinion_torque_n_m"], "pinion_speed_rpm": 2000}
+    by_torque = post(DISTRIBUTION, body).json()
+    assert by_torque["pressure"]["max_mpa"] == pytest.approx(by_power["pressure"]["max_mpa"], rel=1e-12)
+
+
+@pytest.mark.parametrize("load", [{}, {"power_kw": 50, "pinion_torque_n_m": 200}])
+def test_exactly_one_of_torque_and_power_is_given(post: Post, load: dict[str, float]) -> None:
+    body = request()
+    body["load"] = {"pinion_speed_rpm": 2000, **load}
+    assert error(post(DISTRIBUTION, body)) == ("torque_or_power", "/load")
+
+
+@pytest.mark.parametrize(
+    ("gears", "expected"),
+    [
+        ({"centre_distance_mm": 80}, ("flank_interference", "/gears/centre_distance_mm")),
+        ({"centre_distance_mm": 95}, ("no_mesh", "/gears/centre_distance_mm")),
+        ({"pinion": {"teeth": 12, "profile_shift": 0.9}}, ("pointed_tooth", "/gears/pinion/addendum")),
+        ({"pinion": {"teeth": 23, "dedendum": 0.95}}, ("no_tip_clearance", "/gears/pinion/dedendum")),
+        (
+            {
+                "helix_angle_deg": 0,
+                "pinion": {"teeth": 23, "addendum": 0.5},
+                "wheel": {"teeth": 30, "addendum": 0.5},
+            },
+            ("no_contact", "/gears/pinion/addendum"),
+        ),
+        ({"module_mm": 0.03, "helix_angle_deg": 30}, ("overlap_range", "/gears/face_width_mm")),
+    ],
+)
+def test_impossible_gears_are_named(post: Post, gears: dict[str, Any], expected: tuple[str, str]) -> None:
+    assert error(post(DISTRIBUTION, request(gears=gears))) == expected
+
+
+def test_the_parabola_refuses_half_space_contact(post: Post) -> None:
+    body = request(model={"tooth_stiffness": "parabola", "contact": "hertzian"})
+    assert error(post(DISTRIBUTION, body)) == ("contact_law", "/model/contact")
+
+
+def test_a_scuffing_temperature_below_the_oils_is_refused(post: Post) -> None:
+    body = request("xue-pair-1-scuffing", temperatures={"scuffing_c": 50})
+    assert error(post(SCUFFING, body)) == ("scuffing_temperature", "/temperatures/scuffing_c")
+
+
+def test_pressure_is_null_where_the_path_reaches_a_base_circle(post: Post) -> None:
+    body = request(gears={"pinion": {"teeth": 10}, "wheel": {"teeth": 60}})
+    result = post(DISTRIBUTION, {**body, "detail": "fields"}).json()
+    assert result["geometry"]["undercut"] is True
+    assert result["feature_line"]["pressure_mpa"][0] is None
+    assert set(result["flank"]["pressure_mpa"][0]) == {None}
+    assert {"undercut", "pressure_undefined"} <= {warning["code"] for warning in result["warnings"]}
+
+
+def test_without_load_what_has_no_meaning_is_null(post: Post) -> None:
+    result = post(DISTRIBUTION, request(load={"power_kw": 0})).json()
+    assert result["load"]["max_at"] is None
+    assert result["stiffness"]["mean_mesh_n_per_mm_um"] is None
+    assert result["friction_loss"]["loss_factor"] is None
+    assert result["feature_line"]["load_sharing"] is None
+    assert "no_load" in {warning["code"] for warning in result["warnings"]}
+
+
+def test_relief_lengths_are_assumptions_only_where_there_is_relief(post: Post) -> None:
+    def assumed(name: str) -> dict[str, Any]:
+        return {each["field"]: each["value"] for each in post(DISTRIBUTION, request(name)).json()["assumptions"]}
+
+    assert "modifications.tip_relief_length_mm" not in assumed("xue-pair-1")
+    relieved = assumed("xue-pair-1-modified")
+    assert relieved["modifications.tip_relief_length_mm"] == pytest.approx(0.5914 * 8.8785, rel=1e-2)
+    assert relieved["modifications.relief_exponent"] == 1
+    assert "modifications.root_relief_length_mm" not in relieved
+
+
+def test_our_choices_are_assumptions_until_they_are_made(post: Post) -> None:
+    body = request()
+    body.pop("model")
+    assumed = {each["field"] for each in post(DISTRIBUTION, body).json()["assumptions"]}
+    assert {"model.contact", "model.section"} <= assumed
+    chosen = {each["field"] for each in post(DISTRIBUTION, request()).json()["assumptions"]}
+    assert not {"model.contact", "model.section"} & chosen
+
+
+def test_a_rack_in_the_transverse_plane_is_the_same_gear(post: Post) -> None:
+    normal = post(DISTRIBUTION, request()).json()
+    # 3 mm / cos(9.8 deg); atan(tan(20 deg) / cos(9.8 deg))
+    transverse = {"module_plane": "transverse", "module_mm": 3.04442552, "pressure_angle_deg": 20.27239}
+    same = post(DISTRIBUTION, request(gears=transverse)).json()
+    assert same["geometry"]["centre_distance_mm"] == pytest.approx(normal["geometry"]["centre_distance_mm"], rel=1e-6)
+    assert same["pressure"]["max_mpa"] == pytest.approx(normal["pressure"]["max_mpa"], rel=1e-4)
+
+
+def test_examples_cover_the_papers_cases() -> None:
+    names = set(examples())
+    assert {f"xue-pair-{pair}{suffix}" for pair in (1, 2, 3, 4) for suffix in ("", "-modified")} <= names
+    assert {f"xue-pair-4-helix-slope-{slope}" for slope in (10, 20, 40)} <= names

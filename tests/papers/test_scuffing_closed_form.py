@@ -1,0 +1,174 @@
+"""Statements of Xue, Zhang and Wang (GJRE-A 20(1), 2020), section IV, on Blok's flash temperature and film thickness.
+
+References: an independent calculation with linear contact and transverse sections, as in the load distribution's tests.
+"""
+
+from dataclasses import replace
+from functools import cache
+from math import cos
+
+import numpy as np
+import pytest
+
+from solvers.contact import hertz
+from solvers.contact.film import dowson_higginson_minimum, thickness_ratio, thickness_regime
+from solvers.contact.flash import blok_flash_temperature
+from solvers.errors import InvalidInput
+from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.lubricants import Lubricant
+from solvers.materials import Solid
+from solvers.scuffing import solve_load_distribution, solve_scuffing
+from solvers.scuffing.inputs import ScuffingInputs, Temperatures
+from solvers.scuffing.path_of_contact import reduced_radius
+from solvers.scuffing.safety import safety_factor
+from solvers.scuffing.safety_results import Scuffing
+from tests.gear_pairs import PAPER_SPEED, paper_gears, paper_pair
+
+STEEL = Solid()
+MODULUS = hertz.reduced_modulus(STEEL, STEEL)
+
+
+@cache
+def scuffing(pair: int) -> Scuffing:
+    return solve_scuffing(ScuffingInputs(paper_pair(pair), temperatures=Temperatures(scuffing=433.15)))
+
+
+def at_start_of_mesh(line_load: float) -> dict[str, float]:
+    """The contact at A1 of pair 1 under a line load [N/m]."""
+    path = scuffing(1).path_of_contact
+    speed_1, speed_2 = path.surface_speeds(0.0, PAPER_SPEED)
+    radius = float(reduced_radius(path.plane, 0.0))
+    return {"line_load": line_load, "speed_1": speed_1, "speed_2": speed_2, "radius": radius}
+
+
+def blok(contact: dict[str, float], friction: float = 0.06) -> float:
+    return float(
+        blok_flash_temperature(
+            friction=friction,
+            line_load=contact["line_load"],
+            speed_1=contact["speed_1"],
+            speed_2=contact["speed_2"],
+            half_width=hertz.half_width(contact["line_load"], contact["radius"], MODULUS),
+            solid_1=STEEL,
+            solid_2=STEEL,
+        )
+    )
+
+
+def test_contact_at_the_start_of_mesh_of_pair_1() -> None:
+    contact = at_start_of_mesh(273e3)
+    assert contact["radius"] * 1e3 == pytest.approx(4.0666, abs=1e-4)
+    assert contact["speed_1"] == pytest.approx(1.018, abs=1e-3)
+    assert contact["speed_2"] == pytest.approx(3.708, abs=1e-3)
+
+
+def test_fig_22_flash_temperature_is_highest_in_the_dedendum_of_the_pinion() -> None:
+    result = scuffing(1)
+    assert result.flash.blok_at_psi == 0.0
+    assert result.flash.blok_max == pytest.approx(71.5, abs=0.1)
+    assert result.path.blok_flash[-1] == pytest.approx(55.7, abs=0.1)
+
+
+@pytest.mark.parametrize("pair", [1, 2, 3, 4])
+def test_fig_22_the_dedendum_is_hottest_and_the_pitch_point_cold_in_every_pair(pair: int) -> None:
+    result = scuffing(pair)
+    assert result.flash.blok_at_psi == 0.0
+    assert result.path.blok_flash.min() < 0.05 * result.flash.blok_max
+
+
+def test_fig_22_flash_temperature_at_the_printed_line_load() -> None:
+    assert blok(at_start_of_mesh(273e3)) == pytest.approx(85.7, abs=0.05)
+
+
+def test_fig_23_film_is_thinnest_in_the_dedendum_of_the_pinion() -> None:
+    result = scuffing(1).film
+    assert result.min_at_psi == 0.0
+    assert result.dowson_higginson_min is not None
+    assert result.dowson_higginson_min * 1e6 == pytest.approx(0.5235, abs=2e-4)
+    assert result.dowson_higginson_min > 0.42e-6  # the paper's thermal EHL film
+
+
+def test_fig_23_film_at_the_printed_line_load() -> None:
+    contact, oil = at_start_of_mesh(273e3), Lubricant()
+    film = dowson_higginson_minimum(
+        viscosity=oil.viscosity,
+        pressure_viscosity=oil.pressure_viscosity,
+        mean_speed=(contact["speed_1"] + contact["speed_2"]) / 2,
+        radius=contact["radius"],
+        line_load=contact["line_load"],
+        modulus=MODULUS,
+    )
+    assert film * 1e6 == pytest.approx(0.507, abs=5e-4)
+
+
+@pytest.mark.parametrize(("ratio", "regime"), [(0.9, "boundary"), (1.0, "mixed"), (4.0, "mixed"), (4.1, "full_film")])
+def test_equation_28_regimes(ratio: float, regime: str) -> None:
+    assert thickness_regime(ratio) == regime
+    assert thickness_ratio(ratio * 0.5e-6, 0.3e-6, 0.4e-6) == pytest.approx(ratio, rel=1e-12)
+
+
+def test_equation_26_safety_in_either_unit() -> None:
+    assert safety_factor(433.15, 333.15, 383.15) == pytest.approx(2.0, rel=1e-12)
+    assert safety_factor(160.0, 60.0, 110.0) == pytest.approx(2.0, rel=1e-12)
+    result = scuffing(1)
+    assert result.safety is not None
+    assert result.contact_temperature.blok_max == pytest.approx(360 + result.flash.blok_max, rel=1e-12)
+    assert result.safety.blok_factor == pytest.approx(100 / (result.contact_temperature.blok_max - 333.15), rel=1e-9)
+
+
+def test_safety_needs_a_scuffing_temperature_above_the_oils() -> None:
+    assert solve_scuffing(ScuffingInputs(paper_pair(1))).safety is None
+    with pytest.raises(InvalidInput) as refusal:
+        solve_scuffing(ScuffingInputs(paper_pair(1), temperatures=Temperatures(scuffing=320.0)))
+    assert refusal.value.code == "scuffing_temperature"
+
+
+def test_safety_is_none_with_a_notice_where_the_teeth_stay_cool() -> None:
+    result = solve_scuffing(ScuffingInputs(paper_pair(1), temperatures=Temperatures(bulk=250.0, scuffing=433.15)))
+    assert result.safety is not None
+    assert result.safety.blok_factor is None
+    assert "no_safety" in {notice.code for notice in result.warnings}
+
+
+def test_the_oil_enters_at_bulk_temperature() -> None:
+    cool = solve_scuffing(ScuffingInputs(paper_pair(1), temperatures=Temperatures(bulk=340.0))).path.dowson_higginson
+    thicker = (Lubricant().viscosity_at(0.0, 340.0) / 0.08) ** 0.7
+    assert cool == pytest.approx(thicker * scuffing(1).path.dowson_higginson, rel=1e-12)
+
+
+# ISO/TR 13989-1, flash temperature of one point with the load and the thermo-elastic and geometry factors
+
+
+def iso_flash(gears: GearPairInputs, scale: float) -> tuple[float, float]:
+    """Blok's formula and ISO's at one point of the path; ISO's mu X_M X_G (w cos a_wt)^(3/4) v^(1/2) / a^(1/4)."""
+    result = solve_load_distribution(replace(paper_pair(1), gears=gears))
+    path, pair = result.path_of_contact, result.path_of_contact.pair
+    x = scale * path.length
+    gamma, u = float(path.profile_parameter(x)), gears.wheel.teeth / gears.pinion.teeth
+    load = 200e3
+    speed_1, speed_2 = path.surface_speeds(x, PAPER_SPEED)
+    own = blok(
+        {"line_load": load, "speed_1": speed_1, "speed_2": speed_2, "radius": float(reduced_radius(path.plane, x))}
+    )
+    effusivity = np.sqrt(46 * 7850 * 470) * 1e-3  # N/(mm^0.5 m^0.5 s^0.5 K)
+    x_m = 50 * 13.8 / effusivity
+    angle, helix = pair.working_pressure_angle, pair.base_helix_angle
+    x_ab = 1.22 * np.sin(angle) ** 0.25 * cos(helix) ** 0.25 * np.cos(angle) ** -0.75
+    slip = np.sqrt(1 + u) * abs(np.sqrt(1 + gamma) - np.sqrt(1 - gamma / u))
+    x_g = 0.51 * x_ab * slip / ((1 + gamma) * (u - gamma)) ** 0.25
+    velocity = PAPER_SPEED * pair.pinion_working_radius
+    working = load * 1e-3 * np.cos(angle)
+    return own, 0.06 * x_m * x_g * working**0.75 * velocity**0.5 / (pair.centre_distance * 1e3) ** 0.25
+
+
+SHIFTED = GearPairInputs(
+    GearTeeth(17, 0.4), GearTeeth(41, 0.2), 4e-3, 30e-3, helix_angle=np.radians(15.0), rack_tip_radius=0.38
+)
+
+
+@pytest.mark.parametrize("gears", [*(paper_gears(pair) for pair in (1, 2, 3, 4)), SHIFTED])
+@pytest.mark.parametrize("place", [0.0, 0.2, 0.9, 1.0])
+def test_flash_temperature_agrees_with_the_form_of_iso_tr_13989_1(gears: GearPairInputs, place: float) -> None:
+    # Both are Blok's formula; they differ by the rounded constants 50, 13.8, 0.51, 1.22 and by E and nu inside X_M.
+    own, standard = iso_flash(gears, place)
+    assert own == pytest.approx(standard, rel=1.5e-3)

@@ -1,0 +1,259 @@
+"""Published gear examples and what measurements and theory fix about load distribution and transmission error."""
+
+from dataclasses import replace
+from functools import cache
+from math import cos, pi, radians, sin
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from solvers.contact import hertz
+from solvers.errors import InvalidInput
+from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.pair import gear_pair
+from solvers.materials import Solid
+from solvers.scuffing import solve_load_distribution
+from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, Resolution, angular_speed
+from solvers.scuffing.load_balance import line_loads
+from solvers.scuffing.mesh_stiffness import standard_stiffness
+from solvers.scuffing.path_of_contact import path_of_contact, reduced_radius
+from solvers.scuffing.tooth_stiffness import linear_contact_compliance
+from tests.gear_pairs import PAPER_LOAD, paper_pair, with_torque
+
+STEEL = Solid()
+MODULUS = hertz.reduced_modulus(STEEL, STEEL)
+UNIFORM = Model(tooth_stiffness="parabola", parabola_end_ratio=1.0, contact="linear")
+
+# FZG test gears type A (ISO 14635-1): tip diameters 88.8 and 112.5 mm, centre distance 91.5 mm, which its rounded
+# shifts make 91.50008 mm without backlash.
+FZG_A = GearPairInputs(
+    GearTeeth(16, 0.8532, addendum=88.8 / 9 - 8 - 0.8532),
+    GearTeeth(24, -0.5, addendum=112.5 / 9 - 12 + 0.5),
+    4.5e-3,
+    20e-3,
+    rack_tip_radius=0.38,
+)
+STAGES = (
+    (3.3, 144.8),
+    (13.7, 295.0),
+    (35.25, 473.2),
+    (60.75, 621.2),
+    (94.1, 773.2),
+    (135.3, 927.1),
+    (183.35, 1079.3),
+    (239.25, 1232.9),
+    (302.0, 1385.1),
+    (372.6, 1538.5),
+    (450.1, 1691.0),
+    (534.5, 1842.7),
+)
+
+
+@pytest.mark.parametrize(("torque", "pressure"), STAGES)
+def test_fzg_type_a_load_stages(torque: float, pressure: float) -> None:
+    """Hertz pressure at the pitch point with one pair carrying all, as the stages are defined."""
+    result = solve_load_distribution(LoadDistributionInputs(FZG_A, Load(torque, angular_speed(2250))))
+    path = result.path_of_contact
+    radius = float(reduced_radius(path.plane, path.pitch_point - path.start))
+    found = hertz.maximum_pressure(result.load.normal_force / 20e-3, radius, MODULUS)
+    assert found * 1e-6 == pytest.approx(pressure, rel=3e-3)
+
+
+def test_fzg_type_a_pitch_point_lies_in_double_contact() -> None:
+    """The nominal pressure is not the one in the mesh: the path begins just ahead of C, and a second pair helps."""
+    result = solve_load_distribution(LoadDistributionInputs(FZG_A, Load(302.0, angular_speed(2250))))
+    path = result.path_of_contact
+    pitch_x = path.pitch_point - path.start
+    assert pitch_x < path.length - path.plane.base_pitch
+    share = line_loads(result.balance, np.array([pitch_x]), np.array([10e-3]))[0] * 20e-3 / result.load.normal_force
+    assert 0.4 < share < 0.5
+    alone = np.array([path.plane.base_pitch - 0.1e-3])
+    carried = line_loads(result.balance, alone, np.array([10e-3]))[0] * 20e-3
+    assert carried == pytest.approx(result.load.normal_force, rel=3e-5)  # TE is interpolated between roll positions
+
+
+# ISO/TR 6336-30:2017, example 1, values as quoted in the comments of github.com/gfsReboucas/Drivetrain
+ISO_30_1 = GearPairInputs(
+    GearTeeth(17, 0.145, dedendum=1.4),
+    GearTeeth(103, 0.0, dedendum=1.4),
+    8e-3,
+    100e-3,
+    helix_angle=radians(15.8),
+    centre_distance=500e-3,
+    rack_tip_radius=0.38,
+)
+
+
+def test_iso_tr_6336_30_example_1_tangential_force() -> None:
+    radius = gear_pair(ISO_30_1).pinion.reference_radius
+    assert 9000 / radius == pytest.approx(127352, abs=0.5)
+
+
+def test_iso_tr_6336_30_example_1_stiffness() -> None:
+    stiffness = standard_stiffness(path_of_contact(gear_pair(ISO_30_1)))
+    assert stiffness.theoretical * 1e-9 == pytest.approx(17.85584, abs=6e-6)
+    assert stiffness.single * 1e-9 == pytest.approx(12.37047, abs=6e-6)
+    # The standard rounds the contact ratio: 17.46485 and 14.84512 there.
+    assert stiffness.mesh * 1e-9 == pytest.approx(17.46719, abs=6e-6)
+    assert stiffness.mesh * 1e-9 == pytest.approx(17.46485, rel=2e-4)
+    assert stiffness.mesh_bending * 1e-9 == pytest.approx(14.84512, rel=2e-4)
+
+
+def test_iso_tr_6336_30_example_1_contact_stress() -> None:
+    """sigma_H0 / Z_beta is the Hertz pressure at C under F_bt / (b eps_alpha)."""
+    pair = gear_pair(ISO_30_1)
+    path = path_of_contact(pair)
+    load = 9000 / pair.pinion.base_radius / (0.1 * path.transverse_contact_ratio)
+    radius = float(reduced_radius(path.plane, path.pitch_point - path.start))
+    pressure = hertz.maximum_pressure(load, radius, MODULUS) * 1e-6
+    assert pressure == pytest.approx(1183.47, abs=0.06)
+    assert pressure == pytest.approx(1206.58 / 1.01944, rel=1.5e-4)
+
+
+def straight_mismatch(torque_factor: float) -> float:
+    """K_H_beta of a spur pair with uniform stiffness and the mismatch of the standard's example, load scaled."""
+    gears = replace(ISO_30_1, helix_angle=0.0, centre_distance=None)
+    path = path_of_contact(gear_pair(gears))
+    inputs = LoadDistributionInputs(gears, Load(1.0, 100.0), model=UNIFORM)
+    mesh = solve_load_distribution(inputs).stiffness.max * path.transverse_contact_ratio
+    slope = 27.5e-6 * 14.845e9 / mesh
+    torque = 1277.3e3 * 0.1 * path.pair.pinion.base_radius * torque_factor
+    tilted = replace(inputs, load=Load(torque, 100.0), modifications=Modifications(helix_slope=slope))
+    factor = solve_load_distribution(tilted).load.face_load_factor
+    assert factor is not None
+    return factor
+
+
+def test_iso_face_load_factor_of_a_straight_mismatch() -> None:
+    """1 + F c_gamma b / (2 F_m) with 27.5 um, 14.845 N/(mm um), 1277.3 N/mm."""
+    # The flank map of 200 steps smears the two jumps of a spur gear's load over one step each.
+    assert straight_mismatch(1.0) == pytest.approx(1 + 27.5 * 14.845 / (2 * 1277.3), abs=2e-4)
+    assert straight_mismatch(1.0) == pytest.approx(1.160, abs=5e-4)
+
+
+def test_iso_face_load_factor_falls_as_the_inverse_of_torque_above_lift_off() -> None:
+    assert straight_mismatch(2.0) - 1 == pytest.approx((straight_mismatch(1.0) - 1) / 2, rel=1e-9)
+    # Lift-off begins at 2 for one pair; where two share, their half of the load lifts off sooner.
+    assert straight_mismatch(0.05) > 2
+
+
+# Other implementations
+
+
+def test_din_3990_example_geometry() -> None:
+    """github.com/hanslhansl/din3990, tests: 19/104, module 4, shifts 0.5/0.15."""
+    gears = GearPairInputs(GearTeeth(19, 0.5), GearTeeth(104, 0.15), 4e-3, 48.64e-3)
+    path = path_of_contact(gear_pair(gears))
+    assert path.pair.centre_distance * 1e3 == pytest.approx(248.506843355171, rel=1e-12)
+    assert np.degrees(path.pair.working_pressure_angle) == pytest.approx(21.531902292465457, rel=1e-11)
+    assert path.transverse_contact_ratio == pytest.approx(1.5363235945832296, rel=1e-11)
+
+
+def test_ross_contact_ratio_and_hertz_stiffness() -> None:
+    """github.com/petrobras/ross, tests: 62/62, module 2, width 20 mm; k_H = pi E b/[4 (1 - nu^2)] = 3.5558686e9."""
+    path = path_of_contact(gear_pair(GearPairInputs(GearTeeth(62), GearTeeth(62), 2e-3, 20e-3)))
+    assert path.transverse_contact_ratio == pytest.approx(1.7897798668330458, rel=1e-11)
+    assert 20e-3 / linear_contact_compliance(STEEL, STEEL) == pytest.approx(3555868607.9093266, rel=1e-3)
+
+
+GEARPIE = {
+    "C14": GearPairInputs(GearTeeth(16, 0.1817), GearTeeth(24, 0.1715), 4.5e-3, 14e-3, rack_tip_radius=0.38),
+    "H501": GearPairInputs(
+        GearTeeth(20, 0.1809), GearTeeth(30, 0.0891), 3.5e-3, 23e-3, helix_angle=radians(15), rack_tip_radius=0.38
+    ),
+    "H701": GearPairInputs(
+        GearTeeth(28, 0.2290), GearTeeth(42, 0.1489), 2.5e-3, 17e-3, helix_angle=radians(15), rack_tip_radius=0.38
+    ),
+}
+
+
+@pytest.mark.parametrize(("name", "published"), [("C14", 0.1986), ("H501", 0.1890), ("H701", 0.1425)])
+def test_gearpie_loss_factor_of_rigid_teeth(name: str, published: float) -> None:
+    """github.com/cfernandesFEUP/GEARpie shares the load by contact length, as uniform stiffness does."""
+    result = solve_load_distribution(LoadDistributionInputs(GEARPIE[name], PAPER_LOAD, model=UNIFORM))
+    assert result.friction_loss.loss_factor == pytest.approx(published, abs=6e-5)
+
+
+def test_gearpie_loss_factor_of_the_spur_pair_is_ohlendorfs() -> None:
+    """H_V = pi (u + 1)/(z_1 u) (1 - eps_alpha + eps_1^2 + eps_2^2), exact for equal shares."""
+    result = solve_load_distribution(LoadDistributionInputs(GEARPIE["C14"], PAPER_LOAD, model=UNIFORM))
+    path = result.path_of_contact
+    pitch = path.plane.base_pitch
+    recess, approach = (path.end - path.pitch_point) / pitch, (path.pitch_point - path.start) / pitch
+    ohlendorf = pi * (1.5 + 1) / (16 * 1.5) * (1 - path.transverse_contact_ratio + recess**2 + approach**2)
+    # What is left is one trapezium over the kink at the pitch point.
+    assert result.friction_loss.loss_factor == pytest.approx(ohlendorf, rel=5e-5)
+
+
+def test_gearpie_single_stiffness_of_the_spur_pair() -> None:
+    """C14: 16.35 N/(mm um) without Hertz, 15.60 with, of another tooth model; ours with linear contact lies near."""
+    stiff = solve_load_distribution(LoadDistributionInputs(GEARPIE["C14"], PAPER_LOAD, model=Model(contact="linear")))
+    soft = solve_load_distribution(LoadDistributionInputs(GEARPIE["C14"], PAPER_LOAD))
+    assert stiff.stiffness.max * 1e-9 == pytest.approx(15.60, rel=0.06)
+    assert soft.stiffness.max < stiff.stiffness.max
+
+
+def test_gearpie_h951_has_no_tip_clearance() -> None:
+    """Its shifts 1.6915/2.0003 at the backlash-free centre distance leave -0.58 mm without tip shortening."""
+    gears = GearPairInputs(
+        GearTeeth(38, 1.6915), GearTeeth(57, 2.0003), 1.75e-3, 21.2418e-3, helix_angle=radians(15), rack_tip_radius=0.38
+    )
+    with pytest.raises(InvalidInput) as refusal:
+        solve_load_distribution(LoadDistributionInputs(gears, PAPER_LOAD))
+    assert refusal.value.code == "no_tip_clearance"
+    assert "0.58" in refusal.value.message
+
+
+# Directions of the transmission error
+
+
+@cache
+def variation(overlap: float) -> float:
+    """Peak to peak of the transmission error of pair 1 with uniform stiffness, the width set to the overlap ratio."""
+    inputs = paper_pair(1, model=UNIFORM)
+    width = overlap * pi * 3e-3 / sin(radians(9.8))
+    scaled = with_torque(inputs, inputs.load.pinion_torque * width / 20e-3)
+    result = solve_load_distribution(
+        replace(
+            scaled,
+            gears=replace(inputs.gears, face_width=width),
+            resolution=Resolution(profile_points=11, face_points=11),
+        )
+    )
+    return result.transmission_error.peak_to_peak / result.transmission_error.mean
+
+
+@pytest.mark.parametrize("overlap", [1.0, 2.0])
+def test_transmission_error_is_constant_for_an_integer_overlap_ratio(overlap: float) -> None:
+    assert variation(overlap) < 1e-9
+
+
+def test_transmission_error_is_constant_for_an_integer_transverse_contact_ratio() -> None:
+    inputs = paper_pair(1, model=UNIFORM)
+
+    def taller(addendum: float) -> GearPairInputs:
+        teeth = {"addendum": addendum, "dedendum": addendum + 0.25}
+        return replace(inputs.gears, pinion=GearTeeth(23, **teeth), wheel=GearTeeth(30, **teeth), rack_tip_radius=0.2)
+
+    def excess(addendum: float) -> float:
+        return path_of_contact(gear_pair(taller(addendum))).transverse_contact_ratio - 2
+
+    addendum = brentq(excess, 1.0, 1.5, xtol=1e-15)
+    error = solve_load_distribution(replace(inputs, gears=taller(addendum))).transmission_error
+    assert error.peak_to_peak / error.mean < 1e-9
+
+
+def test_transmission_error_peaks_near_overlap_ratios_of_one_half_and_three_halves() -> None:
+    for peak, lower, upper in ((0.5, 0.05, 0.95), (1.5, 1.05, 1.95)):
+        scan = np.linspace(lower, upper, 37)
+        values = [variation(float(overlap)) for overlap in scan]
+        # Between the fractions f_alpha = 0.59 and 1 - f_alpha the spread of the length has a plateau around the peak.
+        assert scan[int(np.argmax(values))] == pytest.approx(peak, abs=0.11)
+    assert variation(1.5) < 0.5 * variation(0.5)
+
+
+def test_normal_force_is_larger_than_the_tangential_by_the_base_helix() -> None:
+    load = solve_load_distribution(paper_pair(3)).load
+    base_helix = np.arcsin(np.sin(radians(20.2)) * np.cos(radians(20)))
+    assert load.normal_force * cos(base_helix) == pytest.approx(load.tangential_force, rel=1e-12)

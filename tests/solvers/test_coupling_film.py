@@ -1,0 +1,143 @@
+"""Inlet factor and friction law against direct integration, limits and continuity."""
+
+from dataclasses import replace
+from math import exp, inf, radians
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
+from solvers.coupling import solve
+from solvers.coupling.friction import friction_regime, mixed_friction, regime_friction
+from solvers.coupling.inputs import InletModel, MixedFrictionCurve, ModelOptions
+from solvers.coupling.lubrication import UNBOUNDED_LOAD, inlet_factor
+from tests.couplings import pahl_coupling
+
+
+def integrated_load(inlet: float) -> float:
+    """W from dp/dX = (H - H_m)/H^3, H = 1 + X^2, p = 0 at -inlet and p = dp/dX = 0 at the exit: W = -int X dp."""
+
+    def pressure_at_exit(exit_place: float) -> float:
+        film = 1.0 + exit_place**2
+        return quad(lambda x: (1 + x * x - film) / (1 + x * x) ** 3, -inlet, exit_place, epsabs=1e-14)[0]
+
+    exit_place = brentq(pressure_at_exit, 1e-9, min(inlet, 1.0) * (1 - 1e-9), xtol=1e-15)
+    film = 1.0 + exit_place**2
+    return -quad(lambda x: x * (1 + x * x - film) / (1 + x * x) ** 3, -inlet, exit_place, epsabs=1e-15)[0]
+
+
+@pytest.mark.parametrize("inlet", [0.3, 1.0, 1.7, 3.0, 10.0])
+def test_inlet_factor_equals_direct_integration(inlet: float) -> None:
+    assert inlet_factor(inlet) * UNBOUNDED_LOAD == pytest.approx(integrated_load(inlet), rel=1e-6)
+
+
+def test_half_the_capacity_at_1_7016() -> None:
+    assert inlet_factor(1.7016) == pytest.approx(0.5, abs=1e-4)
+
+
+def test_inlet_factor_limits() -> None:
+    assert inlet_factor(0.0) == 0.0
+    assert inlet_factor(inf) == 1.0
+    assert inlet_factor(1e4) == pytest.approx(1.0, abs=1e-6)
+    # The series is the leading term: its relative error at 0.02 is of the order of B^2 = 4e-4.
+    assert inlet_factor(0.01999999) == pytest.approx(inlet_factor(0.02000001), rel=2e-3)
+
+
+@given(st.floats(0.0, 100.0), st.floats(1e-3, 1.0))
+def test_inlet_factor_rises_with_the_inlet(inlet: float, step: float) -> None:
+    assert 0.0 <= inlet_factor(inlet) <= inlet_factor(inlet + step) + 1e-12 <= 1.0 + 1e-12
+
+
+@pytest.mark.parametrize("inlet", ["face", "travel", "infinite"])
+def test_inlet_models(inlet: InletModel) -> None:
+    film = solve(pahl_coupling(0.3, crowning_ratio=4.0, model=ModelOptions(inlet=inlet))).lubrication
+    result = solve(pahl_coupling(0.3, crowning_ratio=4.0))
+    travel, radius = result.kinematics.max_contact_travel, result.geometry.normal_flank_radius
+    length = {"face": 12e-3 - travel, "travel": travel, "infinite": None}[inlet]
+    expected = None if length is None else length / np.sqrt(2 * radius * 1e-6)
+    assert film.inlet_ratio == (None if expected is None else pytest.approx(expected, rel=1e-12))
+    given_length = ModelOptions(inlet=inlet, inlet_length=5e-3)
+    own = solve(pahl_coupling(0.3, crowning_ratio=4.0, model=given_length)).lubrication
+    assert own.inlet_ratio == pytest.approx(5e-3 / np.sqrt(2 * radius * 1e-6), rel=1e-12)
+
+
+def test_no_face_left_leaves_no_film() -> None:
+    result = solve(pahl_coupling(1.5, crowning_ratio=4.0))
+    assert result.kinematics.max_contact_travel > 12e-3
+    assert result.lubrication.hydrodynamic_capacity == 0.0
+    assert result.lubrication.load_capacity_coefficient == 0.0
+    assert "edge_contact" in [notice.code for notice in result.warnings]
+
+
+def test_capacity_is_proportional_to_viscosity_and_inverse_to_the_film() -> None:
+    base = pahl_coupling(0.2, model=ModelOptions(inlet="infinite"))
+    capacity = solve(base).lubrication.hydrodynamic_capacity
+    thick = replace(base, lubricant=replace(base.lubricant, viscosity=0.1))
+    thin = replace(base, lubricant=replace(base.lubricant, reference_film=0.5e-6))
+    assert solve(thick).lubrication.hydrodynamic_capacity == pytest.approx(4 * capacity, rel=1e-12)
+    assert solve(thin).lubrication.hydrodynamic_capacity == pytest.approx(2 * capacity, rel=1e-12)
+
+
+def test_film_at_the_reversal_uses_the_velocity_there() -> None:
+    largest = solve(pahl_coupling(0.2)).lubrication.hydrodynamic_capacity
+    reversal = solve(pahl_coupling(0.2, model=ModelOptions(film_angle=radians(90.0)))).lubrication.hydrodynamic_capacity
+    assert reversal / largest == pytest.approx(0.179, abs=5e-4)
+
+
+def test_hertz_contact_of_the_highest_loaded_tooth() -> None:
+    result = solve(pahl_coupling(0.4))
+    film, radius = result.lubrication, result.geometry.normal_flank_radius
+    half_width = np.sqrt(8 * film.max_normal_force * radius * (1 - 0.09) / (np.pi * 206e9 * 6e-3))
+    assert film.hertz_half_width == pytest.approx(half_width, rel=1e-12)
+    assert film.hertz_pressure == pytest.approx(2 * film.max_normal_force / (np.pi * half_width * 6e-3), rel=1e-12)
+    assert film.contact_overlap == pytest.approx(half_width / result.kinematics.max_contact_travel, rel=1e-12)
+
+
+def test_lubrication_belongs_to_the_tilt_position_whatever_the_rotor_angle() -> None:
+    films = [
+        solve(pahl_coupling(0.8, teeth=51, model=ModelOptions(rotor_angle=angle))).lubrication.max_normal_force
+        for angle in (0.0, 0.02, 0.05)
+    ]
+    assert films == [films[0]] * 3
+
+
+@given(
+    overlap=st.floats(0.01, 20.0),
+    capacity=st.floats(1e-3, 20.0),
+    mixed=st.floats(0.05, 0.1),
+    step=st.floats(-1e-7, 1e-7),
+)
+def test_friction_is_continuous(overlap: float, capacity: float, mixed: float, step: float) -> None:
+    here = regime_friction(overlap, capacity, mixed)
+    for near in (
+        regime_friction(overlap * (1 + step), capacity, mixed),
+        regime_friction(overlap, capacity * (1 + step), mixed),
+    ):
+        assert near == pytest.approx(here, rel=1e-5)
+
+
+@pytest.mark.parametrize("overlap", [1.0, 2.0])
+@pytest.mark.parametrize("capacity", [0.0, 0.1, 0.2, 0.5, 0.8, 1.6, 5.0])
+def test_friction_is_continuous_across_the_overlap_boundaries(overlap: float, capacity: float) -> None:
+    below, above = (regime_friction(overlap * exp(step), capacity, 0.07) for step in (-1e-9, 1e-9))
+    assert below == pytest.approx(above, rel=1e-7)
+
+
+def test_mixed_friction_is_continuous_and_lowest_at_its_velocity() -> None:
+    law = MixedFrictionCurve()
+    assert mixed_friction(law, 0.0) == law.highest
+    assert mixed_friction(law, law.velocity) == law.lowest
+    assert mixed_friction(law, law.velocity * (1 + 1e-9)) == pytest.approx(law.lowest, rel=1e-9)
+    assert mixed_friction(law, 100.0) == law.highest
+
+
+@pytest.mark.parametrize(
+    ("overlap", "capacity", "distance"),
+    [(0.5, 0.2, 0.0), (3.0, 0.4, np.log(1.5)), (inf, 0.0, None), (inf, 0.4, np.log(2.0)), (1.1, inf, np.log(1.1))],
+)
+def test_distance_to_the_nearest_boundary(overlap: float, capacity: float, distance: float | None) -> None:
+    expected = None if distance is None else pytest.approx(distance, abs=1e-12)
+    assert friction_regime(overlap, capacity).distance_to_boundary == expected

@@ -1,0 +1,88 @@
+"""Orbit of the floating sleeve: equation of motion, symmetry, refusals."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solvers.coupling import solve, solve_orbit
+from solvers.coupling.geometry import tooth_geometry
+from solvers.coupling.kinematics import flank_normals, mesh_motion, tooth_positions
+from solvers.coupling.tooth_loads import floating_loads
+from solvers.errors import InvalidInput, NoSolution
+from tests.couplings import TEETH, harmonic_pitch_errors, pahl_coupling, random_pitch_errors
+
+ERRORS = harmonic_pitch_errors((1, 2e-6, 0.0), (3, 2e-6, 0.7))
+
+
+def test_orbit_obeys_newtons_law() -> None:
+    inputs = pahl_coupling(0.5, speed=1000.0, pitch_errors=ERRORS)
+    result = solve_orbit(inputs)
+    mesh = mesh_motion(inputs.coupling, tooth_geometry(inputs.coupling), inputs.operation, "tangential")
+    teeth = tooth_positions(np.array(result.orbit.rotor_angle), TEETH)
+    force = np.stack((result.inertia_force.x, result.inertia_force.y), axis=1)
+    loads = floating_loads(inputs.coupling, mesh, teeth, 3000.0, force)
+    lateral = (loads.tangential_force[:, None] * flank_normals(mesh, teeth)).sum(axis=2)
+    assert lateral == pytest.approx(-force, abs=1e-4)
+    # The path the teeth give is the path whose second derivative is the force: orders up to 12 of m omega^2 k^2 c_k.
+    spectrum = np.fft.rfft(loads.displacement, axis=0)[:13] / len(loads.displacement)
+    expected = 4.0 * 1000.0**2 * np.arange(13)[:, None] ** 2 * spectrum
+    assert np.fft.rfft(force, axis=0)[:13] / len(force) == pytest.approx(expected, abs=1e-3)
+
+
+def test_harmonics_are_amplitudes() -> None:
+    result = solve_orbit(pahl_coupling(0.5, speed=1000.0, pitch_errors=ERRORS))
+    angle, force = result.orbit.rotor_angle, result.inertia_force
+    for order in (1, 3, 5):
+        cosine, sine = (2 * np.mean(force.y * wave(order * angle)) for wave in (np.cos, np.sin))
+        assert force.harmonics_y[order] == pytest.approx(np.hypot(cosine, sine), rel=1e-12)
+    assert force.harmonics_x[0] == pytest.approx(abs(np.mean(force.x)), abs=1e-12)
+    assert len(force.harmonics_x) == len(force.harmonics_y) == 13
+
+
+@pytest.mark.parametrize("misalignment", [0.1, 1.0])
+def test_perfect_teeth_leave_the_sleeve_centred(misalignment: float) -> None:
+    result = solve_orbit(pahl_coupling(misalignment, speed=1000.0))
+    assert result.max_displacement < 1e-12
+
+
+def test_slow_orbit_is_the_static_place_of_the_sleeve() -> None:
+    inputs = pahl_coupling(0.3, speed=1e-3, pitch_errors=ERRORS)
+    result = solve_orbit(inputs)
+    assert result.sweeps == 2
+    quarter = len(result.orbit.rotor_angle) // 4
+    turned = replace(
+        inputs, model=replace(inputs.model, sleeve="floating", rotor_angle=result.orbit.rotor_angle[quarter])
+    )
+    place = solve(turned).load_distribution.sleeve_displacement
+    assert (result.orbit.x[quarter], result.orbit.y[quarter]) == pytest.approx(place, abs=1e-13)
+    assert result.max_displacement == pytest.approx(np.hypot(result.orbit.x, result.orbit.y).max(), rel=1e-12)
+
+
+@settings(max_examples=40)
+@given(st.floats(0.0, 1.0), st.floats(1.0, 1200.0), st.integers(0, 1000))
+def test_orbit_converges_within_the_sweeps_of_ordinary_couplings(misalignment: float, speed: float, seed: int) -> None:
+    result = solve_orbit(pahl_coupling(misalignment, speed=speed, pitch_errors=random_pitch_errors(seed)))
+    assert result.change < 1e-12
+    assert result.sweeps <= 50
+
+
+def test_force_grows_with_the_square_of_speed_while_small() -> None:
+    slow, fast = (solve_orbit(pahl_coupling(0.1, speed=speed, pitch_errors=ERRORS)) for speed in (10.0, 20.0))
+    assert fast.inertia_force.harmonics_y[1] == pytest.approx(4 * slow.inertia_force.harmonics_y[1], rel=1e-5)
+
+
+@pytest.mark.parametrize("torque", [0.0, 1.0])
+def test_low_torque_cannot_centre_the_sleeve(torque: float) -> None:
+    with pytest.raises(InvalidInput) as caught:
+        solve_orbit(pahl_coupling(0.1, torque=torque, speed=2000.0, pitch_errors=ERRORS))
+    assert (caught.value.code, caught.value.field) == ("torque_too_low", "torque")
+
+
+def test_inertia_beyond_the_mesh_stiffness_has_no_solution() -> None:
+    with pytest.raises(NoSolution) as caught:
+        solve_orbit(pahl_coupling(0.1, speed=12000.0, torque=1e6, tooth_height=1.0, pitch_errors=ERRORS))
+    assert caught.value.code == "sleeve_orbit"
+    assert caught.value.residuals["change"] > 1e-12

@@ -1,0 +1,163 @@
+"""Tooth loads against closed forms, equilibrium and energy."""
+
+from math import cos, pi, sin, sqrt
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from scipy.optimize import brentq, minimize
+
+from solvers.coupling import solve
+from solvers.coupling.geometry import tooth_geometry
+from solvers.coupling.inputs import CouplingInputs, ModelOptions
+from solvers.coupling.kinematics import MeshMotion, flank_normals, mesh_motion, tooth_positions
+from solvers.coupling.tooth_balance import common_rotation
+from solvers.coupling.tooth_loads import ToothLoads, floating_loads
+from tests.couplings import PITCH_RADIUS, TEETH, harmonic_pitch_errors, pahl_coupling, random_pitch_errors
+
+COSINE = cos(np.radians(20.0))
+STIFFNESS = 2.8e8
+
+
+def mesh_of(inputs: CouplingInputs) -> MeshMotion:
+    geometry = tooth_geometry(inputs.coupling)
+    return mesh_motion(inputs.coupling, geometry, inputs.operation, inputs.model.kinematics)
+
+
+def floating(inputs: CouplingInputs, force: tuple[float, float], angle: float = 0.3) -> tuple[ToothLoads, np.ndarray]:
+    """Loads at one rotor angle, and the lateral force of the teeth."""
+    mesh, teeth = mesh_of(inputs), tooth_positions(np.array([angle]), TEETH)
+    loads = floating_loads(inputs.coupling, mesh, teeth, inputs.operation.torque, np.array([force]))
+    return loads, (loads.tangential_force[:, None] * flank_normals(mesh, teeth)).sum(axis=2)[0]
+
+
+@given(arrays(float, st.integers(1, 80), elements=st.floats(-1e4, 1e4)))
+def test_common_rotation_equals_the_sorted_closed_form(interference: np.ndarray) -> None:
+    falling = np.sort(interference)[::-1]
+    candidates = (1.0 - np.cumsum(falling)) / np.arange(1, falling.size + 1)
+    last = np.flatnonzero(candidates + falling > 0.0).max()
+    assert common_rotation(interference) == pytest.approx(candidates[last], rel=1e-9, abs=1e-9)
+
+
+@given(arrays(float, st.integers(1, 80), elements=st.floats(-1e4, 1e4)))
+def test_shares_of_a_centred_sleeve_add_up_to_the_torque(interference: np.ndarray) -> None:
+    share = np.maximum(0.0, common_rotation(interference) + interference)
+    assert share.sum() == pytest.approx(1.0, abs=1e-9)
+
+
+def test_largest_force_while_all_teeth_carry() -> None:
+    # F_max = F_m + c_t R_t delta^2/4: exact for a tooth in the tilt position and z a multiple of 4.
+    load = solve(pahl_coupling(0.2)).load_distribution
+    flank_radius = PITCH_RADIUS / np.tan(np.radians(20.0))
+    expected = 3000 / (PITCH_RADIUS * TEETH) + STIFFNESS * flank_radius * np.radians(0.2) ** 2 / 4
+    assert load.max_tangential_force == pytest.approx(expected, rel=1e-12)
+    assert load.unloading_misalignment == pytest.approx(
+        sqrt(4 * load.mean_tangential_force / (STIFFNESS * flank_radius)), rel=1e-12
+    )
+
+
+def test_teeth_unload_exactly_beyond_the_unloading_misalignment() -> None:
+    limit = np.degrees(solve(pahl_coupling(0.2)).load_distribution.unloading_misalignment)
+    assert solve(pahl_coupling(0.999 * limit)).load_distribution.loaded_teeth == TEETH
+    assert solve(pahl_coupling(1.001 * limit)).load_distribution.loaded_teeth < TEETH
+
+
+@pytest.mark.parametrize("misalignment", [0.6, 1.0, 2.0])
+def test_many_teeth_approach_the_continuous_half_zone(misalignment: float) -> None:
+    teeth = 4000
+    flank_radius = PITCH_RADIUS / np.tan(np.radians(20.0))
+    inputs = pahl_coupling(
+        misalignment, teeth=teeth, module=2 * PITCH_RADIUS / teeth, tooth_stiffness=STIFFNESS * TEETH / teeth
+    )
+    amplitude = STIFFNESS * TEETH / teeth * flank_radius * np.radians(misalignment) ** 2 / 4
+    zone = brentq(
+        lambda w: teeth / pi * PITCH_RADIUS * amplitude * (sin(2 * w) - 2 * w * cos(2 * w)) - 3000, 1e-3, pi / 2
+    )
+    load = solve(inputs).load_distribution
+    assert load.loaded_teeth == pytest.approx(teeth * 2 * zone / pi, abs=4)
+    assert load.max_tangential_force == pytest.approx(2 * amplitude * sin(zone) ** 2, rel=1e-5)
+
+
+@given(
+    misalignment=st.floats(0.0, 3.0),
+    size=st.floats(0.0, 0.9),
+    direction=st.floats(0.0, 2 * pi),
+    seed=st.integers(0, 100),
+    spatial=st.booleans(),
+)
+def test_floating_sleeve_is_in_equilibrium(
+    misalignment: float, size: float, direction: float, seed: int, spatial: bool
+) -> None:
+    options = ModelOptions(kinematics="spatial" if spatial else "tangential")
+    inputs = pahl_coupling(misalignment, pitch_errors=random_pitch_errors(seed), model=options)
+    limit = 3000 / (PITCH_RADIUS * COSINE)
+    force = (size * limit * cos(direction), size * limit * sin(direction))
+    loads, lateral = floating(inputs, force)
+    assert loads.iterations[0] > 0
+    assert loads.tangential_force.min() >= 0.0
+    assert loads.tangential_force.sum() * PITCH_RADIUS == pytest.approx(3000.0, rel=1e-9)
+    assert lateral == pytest.approx([-force[0], -force[1]], abs=1e-8 * limit)
+
+
+def test_floating_sleeve_minimises_the_energy() -> None:
+    inputs = pahl_coupling(0.7, pitch_errors=random_pitch_errors(7))
+    mesh, teeth = mesh_of(inputs), tooth_positions(np.array([0.3]), TEETH)
+    normal = flank_normals(mesh, teeth)[0]
+    unit = 3000 / (PITCH_RADIUS * STIFFNESS)
+    ahead = (mesh.tilt * teeth.sine[0] ** 2 + np.array(inputs.coupling.pitch_errors)) / unit
+
+    def energy(state: np.ndarray) -> float:
+        u = state[0] + ahead - state[1:] @ normal
+        return float(0.5 * (np.maximum(u, 0.0) ** 2).sum() - state[0] - 0.2 * state[1] + 0.1 * state[2])
+
+    found = minimize(
+        energy, np.zeros(3), method="Nelder-Mead", options={"xatol": 1e-10, "fatol": 1e-14, "maxiter": 5000}
+    )
+    loads, _ = floating(inputs, (0.2 * unit * STIFFNESS, -0.1 * unit * STIFFNESS))
+    state = np.array([loads.rotation[0], *loads.displacement[0]]) / unit
+    assert energy(state) <= found.fun + 1e-12
+    assert state == pytest.approx(found.x, abs=1e-5)
+
+
+def test_lateral_stiffness_of_the_loaded_mesh() -> None:
+    inputs = pahl_coupling(0.0)
+    loads, _ = floating(inputs, (100.0, 0.0))
+    stiffness = solve(inputs).limits.lateral_stiffness
+    assert loads.displacement[0] == pytest.approx([100.0 / stiffness, 0.0], rel=1e-9, abs=1e-18)
+    assert stiffness == pytest.approx(TEETH * STIFFNESS / (2 * COSINE**2), rel=1e-12)
+
+
+def test_torsional_stiffness_of_the_loaded_mesh() -> None:
+    load = solve(pahl_coupling(0.0)).load_distribution
+    stiffness = solve(pahl_coupling(0.0)).limits.torsional_stiffness
+    assert 3000.0 / (load.rotation / PITCH_RADIUS) == pytest.approx(stiffness, rel=1e-12)
+
+
+def test_sleeve_weight_is_held_by_loaded_teeth_from_the_centring_torque_on() -> None:
+    # Lateral force W with every tooth loaded: the least loaded one is F_m - 2 W cos(alpha)/z = 0 at that torque.
+    torque = solve(pahl_coupling(0.0)).limits.sleeve_centring_torque
+    weight = 4.0 * 9.80665
+    above, _ = floating(pahl_coupling(0.0, torque=1.001 * torque), (0.0, -weight), angle=0.0)
+    below, _ = floating(pahl_coupling(0.0, torque=0.95 * torque), (0.0, -weight), angle=0.0)
+    assert above.tangential_force.min() > 0.0
+    assert below.tangential_force.min() == 0.0
+
+
+def test_force_beyond_the_torque_has_no_balance() -> None:
+    limit = 3000 / (PITCH_RADIUS * COSINE)
+    loads, _ = floating(pahl_coupling(0.1), (1.01 * limit, 0.0))
+    assert loads.iterations[0] < 0
+
+
+def test_two_wave_pitch_errors_are_carried_and_eccentricity_is_floated_away() -> None:
+    # An eccentric pitch circle (one wave) is what a floating sleeve follows; two waves it cannot.
+    eccentric, oval = harmonic_pitch_errors((1, 2e-6, 0.4)), harmonic_pitch_errors((2, 2e-6, 0.4))
+    options = ModelOptions(sleeve="floating")
+    floated = solve(pahl_coupling(0.0, pitch_errors=eccentric, model=options)).load_distribution
+    assert floated.load_concentration == pytest.approx(1.0, rel=1e-9)
+    assert np.hypot(*floated.sleeve_displacement) == pytest.approx(2e-6 * COSINE, rel=1e-9)
+    carried = solve(pahl_coupling(0.0, pitch_errors=oval, model=options)).load_distribution
+    assert carried.load_concentration is not None
+    assert carried.load_concentration > 1.5

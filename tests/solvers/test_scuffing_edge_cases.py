@@ -1,0 +1,351 @@
+"""Edge cases of the load distribution: what is refused, what is warned about, what degenerates gracefully."""
+
+from dataclasses import replace
+from math import radians
+
+import numpy as np
+import pytest
+
+from solvers.errors import InvalidInput
+from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.scuffing import solve_load_distribution, solve_scuffing
+from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, ScuffingInputs
+from solvers.scuffing.results import LoadDistribution
+from tests.gear_pairs import PAPER_LOAD, paper_gears, paper_pair, with_torque
+
+LINEAR = Model(contact="linear")
+
+
+def solve_gears(
+    gears: GearPairInputs, modifications: Modifications | None = None, model: Model | None = None
+) -> LoadDistribution:
+    return solve_load_distribution(
+        LoadDistributionInputs(gears, PAPER_LOAD, modifications or Modifications(), model=model or Model())
+    )
+
+
+def codes(result: LoadDistribution) -> set[str]:
+    return {notice.code for notice in result.warnings}
+
+
+def refusal(gears: GearPairInputs) -> InvalidInput:
+    with pytest.raises(InvalidInput) as caught:
+        solve_gears(gears)
+    return caught.value
+
+
+def spur(width: float = 20e-3) -> GearPairInputs:
+    return replace(paper_gears(1), helix_angle=0.0, face_width=width)
+
+
+def everything_finite(result: LoadDistribution) -> bool:
+    line, flank = result.feature_line, result.flank
+    arrays = [line.line_load, line.half_width, line.radius, line.sliding, flank.line_load, flank.modification]
+    return all(np.all(np.isfinite(array)) for array in (*arrays, result.transmission_error.curves.error))
+
+
+# Spur gears
+
+
+def test_spur_gears_jump_between_one_and_two_pairs() -> None:
+    result = solve_gears(spur(), model=LINEAR)
+    lengths = np.unique(result.contact_lines.curves.length.round(12))
+    assert lengths == pytest.approx([20e-3, 40e-3], rel=1e-12)
+    assert result.contact_lines.min_length == pytest.approx(20e-3, rel=1e-12)
+    assert result.contact_lines.max_length == pytest.approx(40e-3, rel=1e-12)
+    assert result.load.max_line_load == pytest.approx(result.load.normal_force / 20e-3, rel=1e-9)
+
+
+def test_spur_gears_keep_both_limits_of_a_jump() -> None:
+    result = solve_gears(spur(), model=LINEAR)
+    curves, geometry = result.transmission_error.curves, result.geometry
+    jump = geometry.transverse_contact_ratio % 1
+    both = curves.error[np.isclose(curves.roll_position, jump, atol=1e-12)]
+    assert both.size == 2
+    assert both[1] > 1.5 * both[0]
+    assert curves.error[0] == pytest.approx(curves.error.min(), rel=0.2)  # the new pair has come in
+    assert curves.error[-1] > 1.5 * curves.error[0]  # and has not yet, one limit earlier
+
+
+@pytest.mark.parametrize("model", [LINEAR, Model()])
+def test_spur_gears_are_the_limit_of_a_small_helix(model: Model) -> None:
+    straight = solve_gears(spur(), model=model)
+    slight = solve_gears(replace(spur(), helix_angle=radians(0.01)), model=model)
+    for name in ("peak_to_peak", "min", "max", "mean"):
+        expected = getattr(straight.transmission_error, name)
+        # The entry of a line takes 0.04 % of a pitch: that much of the mean moves.
+        assert getattr(slight.transmission_error, name) == pytest.approx(expected, rel=1e-3)
+    assert slight.transmission_error.harmonics == pytest.approx(straight.transmission_error.harmonics, rel=0.01)
+    assert slight.load.max_line_load == pytest.approx(straight.load.max_line_load, rel=1e-3)
+    middle = slice(5, -5)
+    assert slight.flank.pressure[middle, 50] == pytest.approx(straight.flank.pressure[middle, 50], rel=0.02)
+    # A line of no length that enters at A1 meets the approach of the one pair before it: no limit of a spur gear,
+    # whose whole flank enters at once.
+    assert slight.pressure.max_at is not None
+    assert slight.pressure.max_at.profile_fraction == 0.0
+    assert slight.pressure.max > straight.pressure.max
+
+
+def test_a_helix_below_rounding_is_a_spur_gear() -> None:
+    straight, hair = solve_gears(spur()), solve_gears(replace(spur(), helix_angle=1e-12))
+    assert hair.geometry.overlap_ratio == 0.0
+    assert hair.transmission_error.peak_to_peak == pytest.approx(straight.transmission_error.peak_to_peak, rel=1e-9)
+
+
+def test_the_ends_of_the_path_of_a_spur_gear_carry_their_share() -> None:
+    result = solve_gears(spur(), model=LINEAR)
+    ends = result.flank.line_load[[0, -1]]
+    assert np.all(ends < 0.7 * result.load.max_line_load)
+    assert np.all(ends > 0.2 * result.load.max_line_load)
+
+
+# Contact ratios
+
+
+def test_a_contact_ratio_below_1_needs_overlap() -> None:
+    stub = {"addendum": 0.5, "dedendum": 1.0}
+    gears = replace(paper_gears(4), pinion=GearTeeth(23, **stub), wheel=GearTeeth(30, **stub))
+    result = solve_gears(gears)
+    assert result.geometry.transverse_contact_ratio < 1
+    assert result.contact_lines.min_length > 0
+    assert result.feature_line.iso_load_sharing is None
+    assert refusal(replace(gears, helix_angle=0.0)).code == "no_contact"
+    assert refusal(replace(gears, face_width=3e-3)).code == "no_contact"
+
+
+@pytest.mark.parametrize("helix", [0.0, 20.2])
+def test_a_contact_ratio_above_2_is_nothing_special(helix: float) -> None:
+    tall = {"addendum": 1.35, "dedendum": 1.6}
+    gears = replace(
+        paper_gears(3),
+        helix_angle=radians(helix),
+        pinion=GearTeeth(40, **tall),
+        wheel=GearTeeth(50, **tall),
+        rack_tip_radius=0.2,
+    )
+    result = solve_gears(gears)
+    assert 2 < result.geometry.transverse_contact_ratio < 3
+    assert result.contact_lines.min_length > 1.9 * 20e-3
+    assert (result.feature_line.iso_load_sharing is None) == (helix == 0.0)
+
+
+def test_a_short_smallest_contact_length_is_warned_about() -> None:
+    # eps_alpha + eps_beta just above 1 with eps_alpha below 1: hardly any line at some roll positions.
+    stub = {"addendum": 0.5, "dedendum": 1.0}
+    gears = replace(paper_gears(4), pinion=GearTeeth(23, **stub), wheel=GearTeeth(30, **stub))
+    wide = solve_gears(gears).geometry
+    overlap = 1.03 - wide.transverse_contact_ratio
+    result = solve_gears(replace(gears, face_width=gears.face_width * overlap / wide.overlap_ratio))
+    assert result.geometry.total_contact_ratio == pytest.approx(1.03, rel=1e-12)
+    assert "uneven_contact_length" in codes(result)
+    assert result.load.balance_error < 1e-12
+
+
+# Teeth
+
+
+def test_undercut_is_a_warning_and_cuts_the_path_at_the_base_circle() -> None:
+    gears = GearPairInputs(GearTeeth(10), GearTeeth(60), 3e-3, 20e-3, rack_tip_radius=0.38)
+    result = solve_gears(gears)
+    assert result.geometry.undercut
+    assert {"undercut", "path_shortened", "pressure_undefined"} <= codes(result)
+    assert result.path_of_contact.start == 0.0
+    assert np.all(np.isnan(result.flank.pressure[0]))
+    assert np.all(np.isfinite(result.flank.pressure[1:]))
+    assert np.isnan(result.feature_line.pressure[0])
+    assert np.isfinite(result.pressure.max)
+    assert everything_finite(result)
+
+
+def test_undercut_leaves_scuffing_finite() -> None:
+    gears = GearPairInputs(GearTeeth(10), GearTeeth(60), 3e-3, 20e-3, helix_angle=radians(10), rack_tip_radius=0.38)
+    result = solve_scuffing(ScuffingInputs(LoadDistributionInputs(gears, PAPER_LOAD)))
+    assert np.all(np.isfinite(result.path.blok_flash))
+    assert result.path.blok_flash[0] == 0.0
+    assert np.isnan(result.path.dowson_higginson[0])
+    assert result.film.dowson_higginson_min is not None
+    assert "no_film" in {notice.code for notice in result.warnings}
+
+
+def test_a_path_shortened_by_the_fillet_is_a_warning() -> None:
+    # The wheel's tip reaches 1.4 modules deep, the straight flank of the pinion's rack 1.21.
+    gears = GearPairInputs(
+        GearTeeth(30, dedendum=1.45), GearTeeth(100, addendum=1.4), 3e-3, 20e-3, rack_tip_radius=0.36
+    )
+    result = solve_gears(gears)
+    path = result.path_of_contact
+    assert "path_shortened" in codes(result)
+    assert path.shortened_by == ("pinion",)
+    assert path.start == pytest.approx(path.pair.pinion.form_roll_length, rel=1e-12)
+    assert path.start > path.pair.line_of_action - path.pair.wheel.tip_roll_length
+
+
+def test_a_rack_tip_radius_beyond_the_rack_is_held_with_a_warning() -> None:
+    gears = replace(paper_gears(1), normal_pressure_angle=radians(25))
+    held, exact = solve_gears(gears), solve_gears(replace(gears, rack_tip_radius=0.31788))
+    assert "rack_tip_radius" in codes(held)
+    assert "rack_tip_radius" not in codes(exact)
+    assert held.transmission_error.mean == pytest.approx(exact.transmission_error.mean, rel=1e-5)
+
+
+def test_a_centre_distance_below_the_backlash_free_one_is_refused() -> None:
+    error = refusal(replace(paper_gears(1), centre_distance=80e-3))
+    assert (error.code, error.field) == ("flank_interference", "centre_distance")
+
+
+def test_no_tip_clearance_is_refused() -> None:
+    gears = replace(paper_gears(1), pinion=GearTeeth(23, dedendum=0.95))
+    error = refusal(gears)
+    assert (error.code, error.field) == ("no_tip_clearance", "pinion.dedendum")
+
+
+def test_pointed_teeth_are_refused() -> None:
+    error = refusal(replace(paper_gears(1), pinion=GearTeeth(12, 0.9)))
+    assert (error.code, error.field) == ("pointed_tooth", "pinion.addendum")
+
+
+def test_thin_tips_are_a_warning() -> None:
+    assert "thin_tip" in codes(solve_gears(replace(paper_gears(1), pinion=GearTeeth(14, 0.75))))
+
+
+def test_tips_that_do_not_overlap_are_refused() -> None:
+    assert refusal(replace(paper_gears(1), centre_distance=95e-3)).code == "no_mesh"
+
+
+def test_a_fillet_that_reaches_its_own_tip_is_refused() -> None:
+    gears = replace(paper_gears(1), pinion=GearTeeth(60, addendum=-1.15), wheel=GearTeeth(60, addendum=1.2))
+    assert refusal(replace(gears, rack_tip_radius=0.0)).code in {"form_diameter", "no_mesh"}
+
+
+def test_teeth_no_narrower_at_the_tip_than_at_the_root_count_as_rectangles() -> None:
+    # An undercut tooth with hardly any involute left: its width at the form circle is below the one at the tip.
+    gears = GearPairInputs(
+        GearTeeth(9, -0.3, addendum=0.2), GearTeeth(60, 0.3), 3e-3, 60e-3, helix_angle=radians(20), rack_tip_radius=0.2
+    )
+    result = solve_gears(gears, model=Model(section="transverse"))
+    assert everything_finite(result)
+    assert np.all(result.stiffness.curves.single > 0)
+
+
+def test_a_larger_centre_distance_brings_backlash_and_a_shorter_path() -> None:
+    near, far = solve_gears(paper_gears(1)), solve_gears(replace(paper_gears(1), centre_distance=81.5e-3))
+    assert far.geometry.working_pressure_angle > near.geometry.working_pressure_angle
+    assert far.geometry.transverse_contact_ratio < near.geometry.transverse_contact_ratio
+
+
+def test_the_pitch_point_may_lie_outside_the_path() -> None:
+    pinion = GearTeeth(23, 1.0, dedendum=1.4)
+    wheel = GearTeeth(30, -1.0, addendum=0.9, dedendum=1.3)
+    result = solve_gears(replace(paper_gears(1), pinion=pinion, wheel=wheel))
+    assert result.path_of_contact.start > result.path_of_contact.pitch_point
+    assert result.stiffness.pitch is None
+    assert "pitch_point_outside" in codes(result)
+    assert result.friction_loss.loss_factor is not None
+
+
+# Loads
+
+
+def test_contact_is_lost_over_part_of_the_flank() -> None:
+    result = solve_load_distribution(paper_pair(4, Modifications(lead_crowning=80e-6, helix_slope=60e-6)))
+    loads = result.flank.line_load
+    assert 0.05 < result.load.contact_fraction < 0.8
+    assert np.all(loads >= 0)
+    assert np.any(loads == 0)
+    assert np.all(result.flank.pressure[loads == 0] == 0)
+    assert result.load.balance_error < 1e-12
+    assert everything_finite(result)
+
+
+def test_no_film_where_the_feature_line_is_not_loaded() -> None:
+    heavy = Modifications(lead_crowning=80e-6)
+    result = solve_scuffing(ScuffingInputs(paper_pair(4, heavy)))
+    bare = result.feature_line.line_load[[0, -1]] == 0
+    assert np.all(bare)
+    assert np.isnan(result.path.dowson_higginson[0])
+    assert result.path.blok_flash[0] == 0.0
+    assert result.film.dowson_higginson_min is not None
+
+
+@pytest.mark.parametrize("model", [LINEAR, Model()])
+def test_without_torque_the_transmission_error_is_kinematic(model: Model) -> None:
+    shape = Modifications(profile_crowning=10e-6, helix_slope=8e-6, end_relief=5e-6)
+    result = solve_load_distribution(with_torque(paper_pair(3, shape, model), 0.0))
+    assert "no_load" in codes(result)
+    assert result.transmission_error.curves.error == pytest.approx(result.balance.unloaded_error, abs=0.0)
+    assert result.load.max_line_load == 0.0
+    assert result.load.max_at is None
+    assert result.load.contact_fraction == 0.0
+    assert result.load.face_load_factor is None
+    assert result.stiffness.mean_mesh is None
+    assert result.friction_loss.loss_factor is None
+    assert result.friction_loss.power == 0.0
+    assert result.feature_line.load_sharing is None
+    assert not np.any(result.flank.line_load)
+
+
+def test_the_kinematic_error_is_the_limit_of_a_small_torque() -> None:
+    shape = Modifications(profile_crowning=10e-6, lead_crowning=10e-6, tip_relief=5e-6)
+    none = solve_load_distribution(with_torque(paper_pair(3, shape, LINEAR), 0.0)).transmission_error.curves.error
+    little = solve_load_distribution(with_torque(paper_pair(3, shape, LINEAR), 1e-4)).transmission_error.curves.error
+    assert little == pytest.approx(none, abs=0.02e-6)
+    assert np.all(little > none - 0.01e-6)
+
+
+def test_scuffing_without_torque_has_neither_flash_nor_film() -> None:
+    inputs = with_torque(paper_pair(1), 0.0)
+    result = solve_scuffing(ScuffingInputs(inputs))
+    assert result.flash.blok_max == 0.0
+    assert result.flash.blok_at_psi is None
+    assert result.film.dowson_higginson_min is None
+    assert result.film.thickness_regime is None
+
+
+def test_scuffing_at_rest_has_neither_flash_nor_film() -> None:
+    inputs = replace(paper_pair(1), load=Load(PAPER_LOAD.pinion_torque, 0.0))
+    result = solve_scuffing(ScuffingInputs(inputs))
+    assert result.flash.blok_max == 0.0
+    assert result.film.dowson_higginson_min is None
+
+
+def test_negative_transmission_error_is_legal() -> None:
+    # Helix slope is centred: at little load one end meets ahead of the nominal position. The paper's Eq. 10 never
+    # converges here.
+    tenth = PAPER_LOAD.pinion_torque / 10
+    result = solve_load_distribution(with_torque(paper_pair(4, Modifications(helix_slope=40e-6)), tenth))
+    assert result.transmission_error.min < 0
+    assert result.load.balance_error < 1e-12
+
+
+def test_extreme_loads_stay_within_the_half_space_limit() -> None:
+    result = solve_load_distribution(with_torque(paper_pair(1, model=Model()), 2e5))
+    assert "half_space" in codes(result)
+    assert result.load.balance_error < 1e-10
+    assert everything_finite(result)
+
+
+def test_the_parabola_refuses_half_space_contact() -> None:
+    with pytest.raises(InvalidInput) as caught:
+        solve_load_distribution(paper_pair(1, model=Model(tooth_stiffness="parabola")))
+    assert (caught.value.code, caught.value.field) == ("contact_law", "contact")
+
+
+@pytest.mark.parametrize(
+    ("gears", "code"),
+    [
+        (replace(paper_gears(1), pinion=GearTeeth(7, 0.3), wheel=GearTeeth(60)), "teeth_range"),
+        (replace(paper_gears(1), normal_pressure_angle=radians(14.0)), "pressure_angle_range"),
+        (replace(paper_gears(1), helix_angle=radians(46.0)), "helix_angle_range"),
+    ],
+)
+def test_ranges_of_the_model_are_warned_about(gears: GearPairInputs, code: str) -> None:
+    assert code in codes(solve_gears(gears))
+
+
+def test_default_reliefs_reach_to_the_single_contact_and_have_a_floor() -> None:
+    result = solve_load_distribution(paper_pair(1))
+    gap, geometry = result.balance.mesh.gap, result.geometry
+    long_relief = (geometry.transverse_contact_ratio - 1) * geometry.transverse_base_pitch
+    assert gap.tip_relief_length == pytest.approx(long_relief, rel=1e-12)
+    assert gap.root_relief_length == pytest.approx(long_relief, rel=1e-12)
+    assert gap.end_relief_length == pytest.approx(2e-3, rel=1e-12)

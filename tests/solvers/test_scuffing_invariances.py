@@ -1,0 +1,253 @@
+"""Laws that hold for every valid pair: balance, contact lengths, scaling, reversal, minimum energy; hypothesis."""
+
+from dataclasses import replace
+from math import radians
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+
+from solvers.errors import InvalidInput
+from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.pair import gear_pair
+from solvers.materials import Solid
+from solvers.scuffing import solve_load_distribution
+from solvers.scuffing.contact_lines import contact_lengths, roll_positions, total_lengths
+from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, Resolution
+from solvers.scuffing.modification import gap, gaps_at
+from solvers.scuffing.path_of_contact import PathOfContact, path_of_contact
+from solvers.scuffing.results import LoadDistribution
+
+EXAMPLES = settings(
+    max_examples=200, deadline=None, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow]
+)
+COARSE = Resolution(roll_positions=40, slices=25, profile_points=21, face_points=11, feature_points=11)
+MODELS = st.sampled_from(
+    [
+        Model(contact=contact, section=section)  # type: ignore[arg-type]
+        for contact in ("linear", "hertzian")
+        for section in ("normal", "transverse")
+    ]
+)
+
+
+@st.composite
+def gears(draw: st.DrawFn) -> GearPairInputs:
+    """A valid pair: spur or helical, shifted or not, stubbed or not."""
+    helix = draw(st.one_of(st.just(0.0), st.floats(0.1, 35.0)))
+    addendum = draw(st.floats(0.8, 1.0))
+    pinion, wheel = (
+        GearTeeth(draw(st.integers(*teeth)), draw(st.floats(-0.2, 0.4)), addendum) for teeth in ((17, 50), (20, 90))
+    )
+    inputs = GearPairInputs(
+        pinion,
+        wheel,
+        normal_module=draw(st.floats(1e-3, 10e-3)),
+        face_width=1.0,
+        normal_pressure_angle=radians(draw(st.floats(17.5, 24.0))),
+        helix_angle=radians(helix),
+        rack_tip_radius=0.25,
+    )
+    return replace(inputs, face_width=inputs.normal_module * draw(st.floats(3.0, 25.0)))
+
+
+@st.composite
+def designs(draw: st.DrawFn) -> LoadDistributionInputs:
+    """A loaded, modified, misaligned pair; modifications up to several times the approach."""
+    inputs = draw(gears())
+    amplitude = inputs.normal_module * draw(st.floats(0.0, 0.01))
+    shape = {
+        name: amplitude * draw(st.floats(0.0, 1.0))
+        for name in ("profile_crowning", "lead_crowning", "tip_relief", "root_relief", "end_relief")
+    }
+    slopes = {name: amplitude * draw(st.floats(-1.0, 1.0)) for name in ("profile_slope", "helix_slope")}
+    # Up to about 500 N per mm of face and 3 mm of module: stress of the same order for every size.
+    stress = draw(st.floats(1e6, 1.5e8))
+    torque = stress * inputs.face_width * inputs.normal_module * inputs.pinion.teeth * inputs.normal_module / 2
+    return LoadDistributionInputs(
+        gears=inputs,
+        load=Load(torque, 200.0),
+        modifications=Modifications(**shape, **slopes, relief_exponent=draw(st.sampled_from([1.0, 2.0, 1.5]))),
+        model=draw(MODELS),
+        resolution=COARSE,
+    )
+
+
+def path_of(inputs: GearPairInputs) -> PathOfContact:
+    try:
+        path = path_of_contact(gear_pair(inputs))
+        contact_lengths(path)
+    except InvalidInput:
+        assume(False)
+    return path
+
+
+def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
+    path_of(inputs.gears)
+    return solve_load_distribution(inputs)
+
+
+@EXAMPLES
+@given(designs())
+def test_the_load_is_balanced(inputs: LoadDistributionInputs) -> None:
+    result = solve(inputs)
+    assert result.load.balance_error < 1e-12
+    assert result.load.pair_share is not None
+    assert result.load.pair_share.sum(axis=0) == pytest.approx(1.0, rel=1e-12)
+    assert np.all(result.flank.line_load >= 0)
+    assert np.all(result.flank.line_load <= result.load.max_line_load * 1.2)
+    assert 0 < result.load.contact_fraction <= 1 + 1e-12
+
+
+@EXAMPLES
+@given(gears())
+def test_contact_lengths_agree_with_their_closed_forms(inputs: GearPairInputs) -> None:
+    path = path_of(inputs)
+    lengths, rolls = contact_lengths(path), roll_positions(path.plane, 40)
+    found = total_lengths(path.plane, rolls)
+    scale = lengths.maximum
+    assert found.min() == pytest.approx(lengths.minimum, abs=1e-9 * scale)
+    assert found.max() == pytest.approx(lengths.maximum, abs=1e-9 * scale)
+    # Linear between its breakpoints, so the trapezia are exact.
+    assert np.trapezoid(found, rolls.phase) / rolls.phase[-1] == pytest.approx(lengths.mean, abs=1e-8 * scale)
+
+
+@EXAMPLES
+@given(designs(), st.floats(0.1, 10.0))
+def test_gears_of_another_size_under_the_same_stress_deform_alike(inputs: LoadDistributionInputs, size: float) -> None:
+    gears, shape = inputs.gears, inputs.modifications
+    lengths = (
+        "profile_crowning",
+        "lead_crowning",
+        "profile_slope",
+        "helix_slope",
+        "tip_relief",
+        "root_relief",
+        "end_relief",
+    )
+    scaled = replace(
+        inputs,
+        gears=replace(gears, normal_module=gears.normal_module * size, face_width=gears.face_width * size),
+        load=replace(inputs.load, pinion_torque=inputs.load.pinion_torque * size**3),
+        modifications=replace(shape, **{name: getattr(shape, name) * size for name in lengths}),
+    )
+    one, other = solve(inputs), solve(scaled)
+    # A roll position more or less in an interval is a matter of rounding; the shared ones are what is compared.
+    assume(one.transmission_error.curves.error.size == other.transmission_error.curves.error.size)
+    assert other.transmission_error.curves.error == pytest.approx(one.transmission_error.curves.error * size, rel=1e-8)
+    assert other.load.max_line_load == pytest.approx(one.load.max_line_load * size, rel=1e-7)
+    assert other.pressure.max == pytest.approx(one.pressure.max, rel=1e-7)
+    if one.friction_loss.loss_factor is not None:
+        assert other.friction_loss.loss_factor == pytest.approx(one.friction_loss.loss_factor, rel=1e-7)
+
+
+@EXAMPLES
+@given(designs())
+def test_exchanging_driver_and_driven_mirrors_everything(inputs: LoadDistributionInputs) -> None:
+    gears, shape = inputs.gears, inputs.modifications
+    ratio = gears.wheel.teeth / gears.pinion.teeth
+    reversed_drive = replace(
+        inputs,
+        gears=replace(gears, pinion=gears.wheel, wheel=gears.pinion),
+        load=Load(inputs.load.pinion_torque * ratio, inputs.load.pinion_speed / ratio),
+        modifications=replace(
+            shape,
+            tip_relief=shape.root_relief,
+            root_relief=shape.tip_relief,
+            profile_slope=-shape.profile_slope,
+            helix_slope=-shape.helix_slope,
+        ),
+    )
+    one, other = solve(inputs), solve(reversed_drive)
+    assume(one.transmission_error.curves.error.size == other.transmission_error.curves.error.size)
+    scale = max(one.load.max_line_load, 1.0)
+    error = one.transmission_error
+    assert other.transmission_error.min == pytest.approx(error.min, rel=1e-7, abs=1e-7 * abs(error.max))
+    assert other.transmission_error.max == pytest.approx(error.max, rel=1e-7)
+    assert other.transmission_error.mean == pytest.approx(error.mean, rel=1e-7, abs=1e-7 * abs(error.max))
+    assert other.load.max_line_load == pytest.approx(one.load.max_line_load, rel=1e-6)
+    assert other.friction_loss.power == pytest.approx(one.friction_loss.power, rel=1e-6)
+    inner = slice(1, -1)  # a spur gear's jump may meet the map's first or last row from the other side
+    mirrored = other.flank.line_load[::-1, ::-1]
+    assert mirrored[inner] == pytest.approx(one.flank.line_load[inner], abs=1e-6 * scale)
+
+
+@EXAMPLES
+@given(gears(), st.floats(1.0, 1e4), MODELS)
+def test_unmodified_teeth_share_as_minimum_elastic_energy_does(
+    inputs: GearPairInputs, torque: float, model: Model
+) -> None:
+    """Pedrero: w proportional to the stiffness v of the point, F v / int v dl; both follow from one multiplier."""
+    linear = replace(model, contact="linear")
+    result = solve(LoadDistributionInputs(inputs, Load(torque, 100.0), model=linear, resolution=COARSE))
+    plane, table = result.path_of_contact.plane, result.balance.mesh.compliance.constant
+    phase = result.balance.rolls.phase[2]  # inside the first interval: no line begins or ends here
+    slices = []
+    for j in range(40):
+        line = phase + j * plane.base_pitch
+        low, high = 0.0, plane.face_width if line <= plane.path_length else 0.0
+        if plane.tan_base_helix > 0:
+            low = max(0.0, (line - plane.path_length) / plane.tan_base_helix)
+            high = min(plane.face_width, line / plane.tan_base_helix)
+        if high > low:
+            y = low + (np.arange(COARSE.slices) + 0.5) * (high - low) / COARSE.slices
+            x = np.linspace(0, plane.path_length, table.size)
+            v = 1 / np.interp(line - y * plane.tan_base_helix, x, table)
+            slices.append((v, np.full_like(v, (high - low) / COARSE.slices / plane.cos_base_helix)))
+    v, length = (np.concatenate(part) for part in zip(*slices, strict=True))
+    pedrero = result.load.normal_force * v / np.sum(v * length)
+    assert v * result.transmission_error.curves.error[2] == pytest.approx(pedrero, rel=1e-11)
+
+
+@EXAMPLES
+@given(designs())
+def test_more_torque_presses_every_point_harder(inputs: LoadDistributionInputs) -> None:
+    heavier = replace(inputs, load=replace(inputs.load, pinion_torque=inputs.load.pinion_torque * 1.5))
+    one, other = solve(inputs), solve(heavier)
+    slack = 1e-9 * other.load.max_line_load
+    assert np.all(other.transmission_error.curves.error > one.transmission_error.curves.error)
+    assert np.all(other.flank.line_load >= one.flank.line_load - slack)
+    assert other.load.contact_fraction >= one.load.contact_fraction - 1e-12
+
+
+@EXAMPLES
+@given(designs())
+def test_the_gap_is_linear_in_its_amplitudes(inputs: LoadDistributionInputs) -> None:
+    path = path_of(inputs.gears)
+    x, y = np.meshgrid(np.linspace(0, path.length, 7), np.linspace(0, inputs.gears.face_width, 5))
+    single = gaps_at(gap(inputs.modifications, path), x, y)
+    double = replace(
+        inputs.modifications,
+        **{
+            name: 2 * getattr(inputs.modifications, name)
+            for name in (
+                "profile_crowning",
+                "lead_crowning",
+                "profile_slope",
+                "helix_slope",
+                "tip_relief",
+                "root_relief",
+                "end_relief",
+            )
+        },
+    )
+    assert gaps_at(gap(double, path), x, y) == pytest.approx(2 * single, rel=1e-12, abs=1e-18)
+
+
+@EXAMPLES
+@given(designs(), st.floats(0.5, 2.0))
+def test_line_loads_scale_with_elasticity_as_they_do_with_torque(inputs: LoadDistributionInputs, factor: float) -> None:
+    """E and torque by one factor leave every deflection as it was."""
+    stiffer = Solid(youngs_modulus=206e9 * factor)
+    scaled = replace(
+        inputs,
+        pinion_material=stiffer,
+        wheel_material=stiffer,
+        load=replace(inputs.load, pinion_torque=inputs.load.pinion_torque * factor),
+    )
+    one, other = solve(inputs), solve(scaled)
+    assert other.transmission_error.curves.error == pytest.approx(one.transmission_error.curves.error, rel=1e-9)
+    assert other.flank.line_load == pytest.approx(
+        one.flank.line_load * factor, rel=1e-7, abs=1e-9 * other.load.max_line_load
+    )

@@ -1,0 +1,264 @@
+"""The load distribution's numerics against independent quadrature, exact roots and their own refinement."""
+
+from dataclasses import replace
+from functools import cache
+from math import radians
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
+from solvers.contact.hertz import half_width, reduced_modulus
+from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.pair import gear_pair
+from solvers.materials import Solid
+from solvers.scuffing import solve_load_distribution
+from solvers.scuffing.inputs import Model, Modifications, Resolution
+from solvers.scuffing.modification import gap, gaps_at, misalignment_slope
+from solvers.scuffing.path_of_contact import path_of_contact, reduced_radius
+from solvers.scuffing.tooth_compliance import bending_compliance, load_points, root_rotation, section_gear, tooth_shape
+from solvers.scuffing.tooth_stiffness import line_load, pair_compliance, single_stiffness
+from tests.gear_pairs import PAPER_MODIFICATIONS, paper_gears, paper_pair
+
+STEEL = Solid()
+
+
+# Tooth compliance
+
+
+@pytest.mark.parametrize("place", [0.0, 0.3, 0.7, 1.0])
+@pytest.mark.parametrize("section", ["normal", "transverse"])
+def test_bending_and_shear_are_the_beams_integrals(place: float, section: str) -> None:
+    pair = gear_pair(paper_gears(3))
+    gear = section_gear(pair, pair.pinion, pair.inputs.pinion, section)  # type: ignore[arg-type]
+    shape = tooth_shape(gear)
+    radius = gear.form_radius + place * (gear.tip_radius - gear.form_radius)
+    points = load_points(gear, np.array([radius]))
+    h_x, cosine = float(points.height[0]), float(np.cos(points.angle[0]))
+    taper = (shape.root_width - shape.tip_width) / (shape.height - shape.rectangle_height)
+
+    def width(z: float) -> float:
+        return shape.root_width - taper * max(z - shape.rectangle_height, 0.0)
+
+    bending = quad(
+        lambda z: 12 * (h_x - z) ** 2 / width(z) ** 3, 0, h_x, points=[shape.rectangle_height], epsrel=1e-12
+    )[0]
+    shear = quad(lambda z: 2 * (1 + 0.3) / width(z), 0, h_x, points=[shape.rectangle_height], epsrel=1e-12)[0]
+    beam = cosine**2 * (bending + shear) / 206e9
+    found = bending_compliance(shape, points, STEEL) - root_rotation(shape, points, STEEL)
+    assert found[0] == pytest.approx(beam, rel=1e-9)
+
+
+def test_loads_within_the_rectangle_bend_the_rectangle_only() -> None:
+    pair = gear_pair(paper_gears(1))
+    shape = tooth_shape(pair.pinion)
+    points = load_points(pair.pinion, np.array([pair.pinion.form_radius]))
+    low = replace(points, height=np.array([0.5 * shape.rectangle_height]))
+    h_x, cosine = float(low.height[0]), float(np.cos(low.angle[0]))
+    bending = 12 * h_x**3 / 3 / shape.root_width**3
+    shear = 2 * 1.3 * h_x / shape.root_width
+    found = bending_compliance(shape, low, STEEL) - root_rotation(shape, low, STEEL)
+    assert found[0] == pytest.approx(cosine**2 * (bending + shear) / 206e9, rel=1e-12)
+
+
+def test_the_virtual_gear_of_a_spur_gear_is_the_gear() -> None:
+    pair = gear_pair(replace(paper_gears(1), helix_angle=0.0))
+    virtual = section_gear(pair, pair.pinion, pair.inputs.pinion, "normal")
+    for name in (
+        "reference_radius",
+        "base_radius",
+        "tip_radius",
+        "root_radius",
+        "reference_half_angle",
+        "form_roll_length",
+    ):
+        assert getattr(virtual, name) == pytest.approx(getattr(pair.pinion, name), rel=1e-13)
+
+
+# Contact
+
+
+def half_space_approach(load: float, x: float, section: str) -> float:
+    """Approach along the transverse line of action, term by term from the half-space formula."""
+    pair = gear_pair(paper_gears(3))
+    path = path_of_contact(pair)
+    inclination = path.plane.cos_base_helix
+    modulus = reduced_modulus(STEEL, STEEL)
+    contact_width = half_width(load, float(reduced_radius(path.plane, x)), modulus)
+    total = 0.0
+    for gear, teeth, roll in (
+        (pair.pinion, pair.inputs.pinion, path.start + x),
+        (pair.wheel, pair.inputs.wheel, pair.line_of_action - path.start - x),
+    ):
+        radius = np.array([np.hypot(gear.base_radius, roll)])
+        cut = section_gear(pair, gear, teeth, section)  # type: ignore[arg-type]
+        points = load_points(cut, cut.reference_radius + radius - gear.reference_radius)
+        bending = float(bending_compliance(tooth_shape(cut), points, STEEL)[0]) * load
+        depth = float(load_points(gear, radius).depth[0])
+        flattening = load * (1 - 0.3**2) / (np.pi * 206e9) * (2 * np.log(2 * depth / contact_width) - 0.3 / 0.7)
+        total += (bending / inclination if section == "normal" else bending) + flattening / inclination
+    return total
+
+
+@pytest.mark.parametrize("load", [1e2, 1e4, 3e5, 2e6])
+@pytest.mark.parametrize("section", ["normal", "transverse"])
+def test_line_load_inverts_the_half_space(load: float, section: str) -> None:
+    path = path_of_contact(gear_pair(paper_gears(3)))
+    model = Model(section=section)  # type: ignore[arg-type]
+    table = pair_compliance(path, STEEL, STEEL, model)
+    node = 300
+    approach = half_space_approach(load, node / table.points_per_metre, section)
+    found, slope, omega = line_load(approach, table.constant[node], table.logarithmic, table.limit[node], 0.0)
+    assert found == pytest.approx(load, rel=1e-11)
+    step = 1e-6 * approach
+    ahead, _, _ = line_load(approach + step, table.constant[node], table.logarithmic, table.limit[node], 1.1 * omega)
+    assert (ahead - found) / step == pytest.approx(slope, rel=1e-5)
+    assert single_stiffness(table, load)[node] == pytest.approx(load / approach, rel=1e-11)
+
+
+def test_line_load_is_continuous_and_rising_across_the_half_space_limit() -> None:
+    table = pair_compliance(path_of_contact(gear_pair(paper_gears(1))), STEEL, STEEL, Model())
+    limit = table.limit[400]
+    approaches = limit * np.linspace(0.5, 2.0, 301)
+    loads = np.array([line_load(a, table.constant[400], table.logarithmic, limit, 0.0)[0] for a in approaches])
+    assert np.all(np.diff(loads) > 0)
+    assert np.max(np.diff(loads)) < 1.5 * np.min(np.diff(loads))
+
+
+def test_half_space_contact_is_several_times_softer_than_the_printed_term() -> None:
+    path = path_of_contact(gear_pair(paper_gears(1)))
+    soft = 1 / single_stiffness(pair_compliance(path, STEEL, STEEL, Model(section="transverse")), 300e3)
+    stiff = pair_compliance(path, STEEL, STEEL, Model(section="transverse", contact="linear")).constant
+    printed = 4 * (1 - 0.3**2) / (np.pi * 206e9) / path.plane.cos_base_helix
+    assert np.median((soft - stiff + printed) / printed) == pytest.approx(3.5, abs=0.25)
+
+
+# Load balance
+
+
+@pytest.mark.parametrize("pair", [1, 4])
+def test_the_linear_balance_is_the_exact_root_by_sorting(pair: int) -> None:
+    """Sort the gaps, accumulate stiffness and moment; the first TE below the next gap is the root."""
+    shape = replace(PAPER_MODIFICATIONS, helix_slope=40e-6)
+    result = solve_load_distribution(paper_pair(pair, shape))
+    plane, mesh = result.path_of_contact.plane, result.balance.mesh
+    table = np.linspace(0, plane.path_length, mesh.compliance.constant.size)
+    for i in range(3, result.balance.rolls.phase.size, 17):
+        x, y, length = [], [], []
+        for j in range(6):
+            line = result.balance.rolls.phase[i] + j * plane.base_pitch
+            low = max(0.0, (line - plane.path_length) / plane.tan_base_helix)
+            high = min(plane.face_width, line / plane.tan_base_helix)
+            if high > low:
+                middles = low + (np.arange(100) + 0.5) * (high - low) / 100
+                x.append(line - middles * plane.tan_base_helix)
+                y.append(middles)
+                length.append(np.full(100, (high - low) / 100 / plane.cos_base_helix))
+        xs, ys, ls = (np.concatenate(part) for part in (x, y, length))
+        gaps = gaps_at(mesh.gap, xs, ys)
+        order = np.argsort(gaps)
+        weight = (ls / np.interp(xs, table, mesh.compliance.constant))[order]
+        roots = (result.load.normal_force + np.cumsum(weight * gaps[order])) / np.cumsum(weight)
+        first = np.argmax(roots <= np.append(gaps[order][1:], np.inf))
+        assert result.transmission_error.curves.error[i] == pytest.approx(roots[first], rel=1e-12)
+
+
+@pytest.mark.parametrize("model", [Model(contact="linear"), Model()])
+def test_newton_needs_few_steps(model: Model) -> None:
+    shape = replace(PAPER_MODIFICATIONS, helix_slope=40e-6)
+    steps = solve_load_distribution(paper_pair(4, shape, model)).balance.steps
+    assert steps.max() <= 6
+
+
+@cache
+def peak_to_peak(slices: int) -> float:
+    inputs = replace(paper_pair(1, Modifications(profile_crowning=10e-6, lead_crowning=10e-6), Model(contact="linear")))
+    resolution = Resolution(roll_positions=200, slices=slices, profile_points=5, face_points=5)
+    return solve_load_distribution(replace(inputs, resolution=resolution)).transmission_error.peak_to_peak
+
+
+def test_slices_converge_with_order_2() -> None:
+    errors = [abs(peak_to_peak(slices) - peak_to_peak(1600)) for slices in (25, 50, 100)]
+    orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
+    assert orders == pytest.approx(2.0, abs=0.3)
+    assert errors[-1] < 0.0005e-6
+
+
+def test_roll_positions_resolve_the_error() -> None:
+    def spread(count: int) -> float:
+        resolution = Resolution(roll_positions=count, profile_points=5, face_points=5)
+        return solve_load_distribution(
+            replace(paper_pair(4, PAPER_MODIFICATIONS), resolution=resolution)
+        ).transmission_error.peak_to_peak
+
+    assert spread(200) == pytest.approx(spread(1600), abs=0.0005e-6)
+
+
+def test_the_map_meets_the_lines_it_was_made_from() -> None:
+    inputs = replace(paper_pair(2), resolution=Resolution(profile_points=401, face_points=201))
+    result = solve_load_distribution(inputs)
+    assert result.flank.line_load.max() == pytest.approx(result.load.max_line_load, rel=1e-4)
+    assert np.nanmax(result.flank.pressure) == pytest.approx(result.pressure.max, rel=1e-4)
+
+
+def test_harmonics_rebuild_the_error() -> None:
+    result = solve_load_distribution(paper_pair(3, PAPER_MODIFICATIONS)).transmission_error
+    phase, error = result.curves.roll_position, result.curves.error
+    even = np.interp(np.arange(4096) / 4096, phase, error)
+    amplitudes = 2 * np.abs(np.fft.rfft(even))[1:6] / 4096
+    # Trapezia of 200 steps know the fifth order to (2 pi 5 / 200)^2 / 12 = 0.2 %.
+    assert result.harmonics == pytest.approx(amplitudes, rel=2.5e-3)
+
+
+# Modification
+
+
+def test_reliefs_act_where_they_are_named() -> None:
+    path = path_of_contact(gear_pair(paper_gears(1)))
+    g, b = path.length, 20e-3
+    points = {"A": (0.0, b / 2), "E": (g, b / 2), "middle": (g / 2, b / 2), "start": (g / 2, 0.0), "end": (g / 2, b)}
+    x, y = (np.array([point[axis] for point in points.values()]) for axis in (0, 1))
+
+    def form(**amplitudes: float) -> dict[str, float]:
+        found = gaps_at(gap(Modifications(**amplitudes), path), x, y)
+        return dict(zip(points, found * 1e6, strict=True))
+
+    assert form(tip_relief=5e-6) == pytest.approx({"A": 0, "E": 5, "middle": 0, "start": 0, "end": 0})
+    assert form(root_relief=5e-6) == pytest.approx({"A": 5, "E": 0, "middle": 0, "start": 0, "end": 0})
+    assert form(end_relief=5e-6) == pytest.approx({"A": 0, "E": 0, "middle": 0, "start": 5, "end": 5})
+    assert form(profile_crowning=4e-6) == pytest.approx({"A": 4, "E": 4, "middle": 0, "start": 0, "end": 0})
+    assert form(lead_crowning=4e-6) == pytest.approx({"A": 0, "E": 0, "middle": 0, "start": 4, "end": 4})
+    assert form(profile_slope=6e-6) == pytest.approx({"A": -3, "E": 3, "middle": 0, "start": 0, "end": 0})
+    assert form(helix_slope=6e-6) == pytest.approx({"A": 0, "E": 0, "middle": 0, "start": -3, "end": 3})
+
+
+@pytest.mark.parametrize(("exponent", "half"), [(1.0, 2.5), (2.0, 1.25), (1.5, 5 * 0.5**1.5)])
+def test_relief_exponents(exponent: float, half: float) -> None:
+    path = path_of_contact(gear_pair(paper_gears(1)))
+    form = gap(Modifications(tip_relief=5e-6, tip_relief_length=4e-3, relief_exponent=exponent), path)
+    found = gaps_at(form, np.array([path.length - 2e-3]), np.array([0.0]))
+    assert found[0] * 1e6 == pytest.approx(half, rel=1e-12)
+
+
+def test_shaft_misalignment_as_a_helix_slope() -> None:
+    angle = radians(20)
+    assert misalignment_slope(10e-6, 0.0, angle) == pytest.approx(10e-6 * np.sin(angle), rel=1e-12)
+    assert misalignment_slope(0.0, 10e-6, angle) == pytest.approx(10e-6 * np.cos(angle), rel=1e-12)
+
+
+def test_profile_shift_counts_normal_modules() -> None:
+    gears = GearPairInputs(
+        GearTeeth(23, 0.3), GearTeeth(30), 3e-3, 20e-3, helix_angle=radians(20.2), rack_tip_radius=0.38
+    )
+    pinion = gear_pair(gears).pinion
+    assert pinion.tip_radius - pinion.reference_radius == pytest.approx(1.3 * 3e-3, rel=1e-12)
+
+
+def test_working_pressure_angle_solves_the_involute_equation() -> None:
+    gears = replace(paper_gears(3), pinion=GearTeeth(23, 0.4), wheel=GearTeeth(30, 0.3))
+    pair = gear_pair(gears)
+    target = (
+        np.tan(pair.transverse_pressure_angle) - pair.transverse_pressure_angle + 2 * 0.7 * np.tan(radians(20)) / 53
+    )
+    assert pair.working_pressure_angle == pytest.approx(brentq(lambda a: np.tan(a) - a - target, 0.1, 1.0), rel=1e-10)
