@@ -41,16 +41,18 @@ def duct(table: StrokeTable, stretch: Stretch, lag: float, speed: float, dischar
     )
 
 
-def gas_dynamics(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray, *, order: int = 2) -> SpaceFlow:
-    """March every stretch of a tooth space through its stroke; `order` 1 is Godunov's first-order scheme.
+def gas_dynamics(
+    gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray, *, cell_step_limit: int = CELL_STEP_LIMIT
+) -> SpaceFlow:
+    """March every stretch of a tooth space through its stroke.
 
     Raises InvalidInput: too_many_steps (speed too low for so many slices); NoSolution: unphysical_state.
     """
-    budget = _check_cost(gas, [part for _, part in ducts], angle)
+    budget = _check_cost(gas, [part for _, part in ducts], angle, cell_step_limit)
     marches = []
     for stretch, part in ducts:
         record = empty_record(gas, angle.size, part.cells, budget)
-        steps = march(gas, part, empty_cells(part.cells), angle, record, order)
+        steps = march(gas, part, empty_cells(part.cells), angle, record, 2)
         if steps < 0:
             reason = "the step limit was reached" if steps == -1 else "no step length gave a physical state"
             raise NoSolution("unphysical_state", f"the gas dynamics failed: {reason}; try fewer slices")
@@ -58,13 +60,13 @@ def gas_dynamics(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray,
     return space_flow(angle, marches, conserves_energy=True)
 
 
-def _check_cost(gas: Gas, ducts: list[Duct], angle: FloatArray) -> int:
+def _check_cost(gas: Gas, ducts: list[Duct], angle: FloatArray, limit: int) -> int:
     """Most steps a march may take; refuses what would take too long, naming what would fit."""
     turn = float(angle[-1] - angle[0])
     steps = [turn / duct.speed * gas.sound_speed / (COURANT * duct.width) for duct in ducts]
     cost = sum(duct.cells * count for duct, count in zip(ducts, steps, strict=True))
-    if cost > CELL_STEP_LIMIT:
-        excess = cost / CELL_STEP_LIMIT
+    if cost > limit:
+        excess = cost / limit
         cells = sum(duct.cells for duct in ducts)
         message = (
             f"{cells} slices need too many steps at this speed: use at least {rpm(ducts[0].speed) * excess:.3g} rpm of "

@@ -118,9 +118,19 @@ class PumpingResult:
 
 
 @dataclass(frozen=True, slots=True)
+class ChokingCurves:
+    """Coarse scan, (speeds,): peak pressure ratio and Mach number asked for at the ends over pinion speed [rad/s]."""
+
+    pinion_speed: FloatArray
+    peak_pressure_ratio: FloatArray
+    exit_mach: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
 class ChokingSpeeds:
     """Pinion speeds [rad/s] at which the flow becomes sonic: None beyond the search limit."""
 
     radial_choking_speed: float | None
     axial_choking_speed: float | None
+    curves: ChokingCurves
     warnings: tuple[Notice, ...]

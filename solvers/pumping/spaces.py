@@ -8,7 +8,7 @@ from solvers.notices import Notice
 from solvers.pumping.checks import check_setup
 from solvers.pumping.face import Stretch, stretches
 from solvers.pumping.flow import SpaceFlow
-from solvers.pumping.gas_dynamics import LEAST_SLICES, duct, gas_dynamics, sample_angles
+from solvers.pumping.gas_dynamics import CELL_STEP_LIMIT, LEAST_SLICES, duct, gas_dynamics, sample_angles
 from solvers.pumping.incompressible import incompressible
 from solvers.pumping.inputs import Flow, PumpingSetup, Spaces
 from solvers.pumping.nozzle import Gas, gas
@@ -73,7 +73,9 @@ def face_stretches(setup: PumpingSetup, slices: int) -> list[Stretch]:
     return stretches(setup.gears.face_width, setup.grooves, slices, least)
 
 
-def flow_at(mesh: Mesh, space: Space, pinion_speed: float, slices: int) -> SpaceFlow:
+def flow_at(
+    mesh: Mesh, space: Space, pinion_speed: float, slices: int, *, cell_step_limit: int = CELL_STEP_LIMIT
+) -> SpaceFlow:
     """One stroke of the spaces of one gear at a pinion speed [rad/s].
 
     Raises InvalidInput: too_many_steps; NoSolution: unphysical_state, newton_not_converged.
@@ -90,4 +92,4 @@ def flow_at(mesh: Mesh, space: Space, pinion_speed: float, slices: int) -> Space
     angle = sample_angles(space.table, space.lag, width)
     if model.flow is Flow.POCKET_CHAIN:
         return pocket_chain(mesh.gas, ducts, angle, model.closure)
-    return gas_dynamics(mesh.gas, ducts, angle)
+    return gas_dynamics(mesh.gas, ducts, angle, cell_step_limit=cell_step_limit)

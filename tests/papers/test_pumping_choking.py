@@ -6,7 +6,7 @@ import pytest
 
 from solvers.gears.inputs import GearPairInputs
 from solvers.pumping import ChokingInputs, ChokingSpeeds, PumpingModel, PumpingSetup, choking_speeds
-from tests.papers.milian import CASE_1, CASE_2, PRINTED, SPEED_1, SPEED_2, TIP
+from tests.milian import CASE_1, CASE_2, PRINTED, SPEED_1, SPEED_2, TIP
 
 
 def search(gears: GearPairInputs, backlash: float, model: PumpingModel, limit: float = 60000) -> ChokingSpeeds:

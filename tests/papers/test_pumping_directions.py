@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from solvers.pumping import Ambient, PumpingInputs, PumpingModel, PumpingSetup, solve
-from tests.papers.milian import CASE_1, CASE_2, CHAIN, PRINTED, SPEED_1, SPEED_2, TABLE_1, pinion, run
+from tests.milian import CASE_1, CASE_2, CHAIN, PRINTED, SPEED_1, SPEED_2, TABLE_1, pinion, run
 
 
 @pytest.mark.parametrize(("gears", "speed"), [(CASE_1, SPEED_1), (CASE_2, SPEED_2), (TABLE_1, 9000.0)])

@@ -14,7 +14,7 @@ from solvers.gears.inputs import GearPairInputs
 from solvers.materials import Solid
 from solvers.pumping import Ambient, PumpingInputs, PumpingModel, PumpingSetup, solve
 from solvers.pumping.nozzle import choked_mass_flux, gas, mass_flux
-from tests.papers.milian import (
+from tests.milian import (
     CASE_1,
     CASE_2,
     CHAIN,

@@ -12,7 +12,7 @@ from solvers.pumping.inputs import Gap
 from solvers.pumping.section import section
 from solvers.pumping.stroke import StrokeTable, stroke_table
 from solvers.pumping.tooth_space import circumferential_backlash, normal_backlash, tooth_space
-from tests.papers.milian import CASE_1, CASE_2, TABLE_1, TIP, pinion, run
+from tests.milian import CASE_1, CASE_2, TABLE_1, TIP, pinion, run
 
 
 @pytest.fixture(scope="module")

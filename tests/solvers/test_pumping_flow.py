@@ -34,8 +34,8 @@ from solvers.pumping.leakage import Walls, implicit_stage
 from solvers.pumping.nozzle import Gas, flux_squared, gas, mass_flux
 from solvers.pumping.riemann import hllc, reservoir_face
 from solvers.pumping.tooth_space import stroke_limits, tooth_space
-from tests.papers.milian import CASE_1, CHAIN, GROOVE, PRINTED, TABLE_1, pinion, run
-from tests.solvers.gear_pairs import setups
+from tests.meshing_pairs import setups
+from tests.milian import CASE_1, CHAIN, GROOVE, PRINTED, TABLE_1, pinion, run
 
 AIR = gas(Ambient())
 RANDOM = settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])

@@ -16,8 +16,8 @@ from solvers.pumping.inputs import Gap, PumpingSetup
 from solvers.pumping.section import section
 from solvers.pumping.stroke import stroke_table
 from solvers.pumping.tooth_space import ToothSpace, stroke_limits, tooth_space
-from tests.papers.milian import CASE_1, CASE_2, TABLE_1
-from tests.solvers.gear_pairs import setups
+from tests.meshing_pairs import setups
+from tests.milian import CASE_1, CASE_2, TABLE_1
 
 RANDOM = settings(max_examples=120, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
 

@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from functools import partial
 from math import pi
 
 import pytest
@@ -21,10 +22,11 @@ from solvers.pumping import (
     PumpingSetup,
     Spaces,
     choking_speeds,
-    gas_dynamics,
     solve,
 )
-from tests.papers.milian import CASE_1, TABLE_1
+from solvers.pumping import model as pumping_model
+from solvers.pumping.spaces import flow_at
+from tests.milian import CASE_1, TABLE_1
 
 PLAIN = PumpingSetup(CASE_1, model=PumpingModel(slices=20, spaces=Spaces.PINION))
 
@@ -127,7 +129,7 @@ def test_no_speed(speed: float) -> None:
 
 
 def test_slow_speed_is_refused_with_what_would_fit(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(gas_dynamics, "CELL_STEP_LIMIT", 30_000)
+    monkeypatch.setattr(pumping_model, "flow_at", partial(flow_at, cell_step_limit=30_000))
     setup = replace(PLAIN, model=PumpingModel(spaces=Spaces.PINION))
     with pytest.raises(InvalidInput) as refusal:
         solved(setup, 2000.0)
