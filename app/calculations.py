@@ -7,12 +7,14 @@ from typing import Any
 from app.requests.common import Request
 from app.requests.coupling import CouplingRequest, RecommendationRequest
 from app.requests.line_contact import LineContactRequest
+from app.requests.pumping import ChokingSpeedRequest, PumpingRequest
 from app.requests.scuffing import LoadDistributionRequest, ScuffingRequest
 from app.responses.common import Response
 from app.responses.coupling import CouplingResponse, RecommendationResponse, SleeveOrbitResponse
 from app.responses.line_contact import LineContactResponse
+from app.responses.pumping import ChokingSpeedResponse, PumpingResponse
 from app.responses.scuffing import LoadDistributionResponse, ScuffingResponse
-from solvers import coupling, scuffing
+from solvers import coupling, pumping, scuffing
 from solvers.contact import ehl
 
 
@@ -52,6 +54,22 @@ CALCULATIONS = (
         request=RecommendationRequest,
         solve=coupling.recommend,
         response=RecommendationResponse,
+    ),
+    Calculation(
+        path="/v1/pumping",
+        summary="Air and mist pumped between the teeth: pressure, heating, power, mass flow, lead correction",
+        source="Milian, Distretti, Leoni, Velex 2004",
+        request=PumpingRequest,
+        solve=pumping.solve,
+        response=PumpingResponse,
+    ),
+    Calculation(
+        path="/v1/pumping/choking-speed",
+        summary="Speeds at which the flow out of the tooth spaces becomes sonic",
+        source="Milian, Distretti, Leoni, Velex 2004, Eq. 7",
+        request=ChokingSpeedRequest,
+        solve=pumping.choking_speeds,
+        response=ChokingSpeedResponse,
     ),
     Calculation(
         path="/v1/scuffing/load-distribution",

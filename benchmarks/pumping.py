@@ -1,0 +1,127 @@
+"""Times pumping on one core: geometry table, flow models, choking search, and the compiled gas step against numpy.
+
+Run from the project's root: python -m benchmarks.pumping. Kernels are warm; the best of several repeats counts.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from math import pi, radians
+from time import perf_counter
+
+import numpy as np
+
+from benchmarks.pumping_numpy import numpy_step
+from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.pair import gear_pair
+from solvers.pumping import (
+    ChokingInputs,
+    Flow,
+    Gap,
+    PumpingInputs,
+    PumpingModel,
+    PumpingSetup,
+    Spaces,
+    choking_speeds,
+    solve,
+)
+from solvers.pumping.duct import active_range, empty_record
+from solvers.pumping.gas_dynamics import duct
+from solvers.pumping.gas_march import march
+from solvers.pumping.gas_step import Cells, empty_cells, set_walls, step
+from solvers.pumping.spaces import face_stretches, prepare
+from solvers.pumping.stroke import stroke_table
+from solvers.pumping.tooth_space import tooth_space
+
+CASE_1 = GearPairInputs(
+    GearTeeth(47, 0.16, 0.9919, 1.47921),
+    GearTeeth(117, 0.05, 0.9925, 1.47885),
+    7e-3,
+    0.2,
+    radians(20),
+    radians(12.75),
+    0.590,
+)
+CASE_2 = GearPairInputs(
+    GearTeeth(52, 0.198, 0.9891, 1.47469),
+    GearTeeth(79, 0.21, 0.9894, 1.47507),
+    6.8e-3,
+    0.2,
+    radians(22.5),
+    radians(10),
+    0.455,
+)
+ONE_SET = PumpingModel(spaces=Spaces.PINION)
+SPEED = 9267 * pi / 30
+
+
+def best(task: Callable[[], object], repeats: int = 7) -> float:
+    """Shortest time of a task [s], after one run to warm up."""
+    task()
+    times = []
+    for _ in range(repeats):
+        start = perf_counter()
+        task()
+        times.append(perf_counter() - start)
+    return min(times)
+
+
+def operating_point(gears: GearPairInputs, rpm: float, model: PumpingModel) -> Callable[[], object]:
+    """A solution of one set of spaces."""
+    inputs = PumpingInputs(PumpingSetup(gears, model=model), rpm * pi / 30)
+    return lambda: solve(inputs)
+
+
+def mid_stroke() -> tuple[Callable[[], object], Callable[[], object], float]:
+    """One gas step of case 1 with all 100 slices active, compiled and in numpy, and their largest difference."""
+    mesh = prepare(PumpingSetup(CASE_1, model=ONE_SET))
+    space = mesh.spaces[0]
+    stretch = face_stretches(mesh.setup, 100)[0]
+    part = duct(space.table, stretch, space.lag, SPEED, 1.0, transport=True)
+    full = np.linspace(space.table.limits.start, space.lag * stretch.centres[-1] + 0.3 * space.table.limits.start, 81)
+    cells = empty_cells(100)
+    march(mesh.gas, part, cells, full, empty_record(mesh.gas, full.size, 100, 4000), 2)
+    turn = 1e-6 * SPEED
+    assert active_range(part, full[-1] + 0.5 * turn) == (0, 100)
+    set_walls(part, cells, 0, 100, full[-1], turn)
+    other = Cells(*[array.copy() for array in cells])
+
+    def compiled() -> object:
+        return step(mesh.gas, part, cells, 0, 100, 1e-6, 2)
+
+    def vectorised() -> object:
+        return numpy_step(mesh.gas, part, other, 1e-6)
+
+    compiled()
+    vectorised()
+    scale = np.abs(cells.next_state).max(axis=0)
+    return compiled, vectorised, float((np.abs(cells.next_state - other.next_state) / scale).max())
+
+
+def main() -> None:
+    """Print the table."""
+    pair = gear_pair(CASE_1)
+    space = tooth_space(pair, 0.3e-3, Gap.CONTACT, of_pinion=True)
+    chain = replace(ONE_SET, flow=Flow.POCKET_CHAIN)
+    search = ChokingInputs(PumpingSetup(CASE_1, model=ONE_SET), 60000 * pi / 30)
+    both = ChokingInputs(PumpingSetup(CASE_1), 60000 * pi / 30)
+    rows = [
+        ("geometry table of one gear, 361 positions", best(lambda: stroke_table(space)), 30.0),
+        ("gas dynamics, 100 cells, case 1, 9267 rpm", best(operating_point(CASE_1, 9267, ONE_SET)), 50.0),
+        ("gas dynamics, 100 cells, case 2, 8962 rpm", best(operating_point(CASE_2, 8962, ONE_SET)), 50.0),
+        ("pocket chain, 10 pockets, case 1", best(operating_point(CASE_1, 9267, chain)), 40.0),
+        ("choking speeds, one set of spaces", best(lambda: choking_speeds(search), 3), 1000.0),
+        ("choking speeds, both sets", best(lambda: choking_speeds(both), 3), 1000.0),
+    ]
+    print(f"{'figure':45} {'measured':>12} {'target':>12}")
+    for name, seconds, target in rows:
+        print(f"{name:45} {1e3 * seconds:9.2f} ms {target:9.0f} ms")
+    compiled, vectorised, difference = mid_stroke()
+    fast, slow = best(compiled, 200), best(vectorised, 50)
+    print(
+        f"one gas step of 100 cells: compiled {1e6 * fast:.0f} us, numpy {1e6 * slow:.0f} us, ratio {slow / fast:.1f}"
+    )
+    print(f"largest difference of the two states: {difference:.1e}")
+
+
+if __name__ == "__main__":
+    main()

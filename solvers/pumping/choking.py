@@ -1,0 +1,122 @@
+"""The speeds at which the radial gaps and the axial exits become sonic."""
+
+from collections.abc import Callable
+from itertools import pairwise
+from math import exp, log, sqrt
+
+from scipy.optimize import brentq
+
+from solvers.arrays import frozen
+from solvers.errors import InvalidInput
+from solvers.notices import Notice
+from solvers.pumping.checks import check_speed
+from solvers.pumping.gas_dynamics import CELL_STEP_LIMIT
+from solvers.pumping.inputs import ChokingInputs, Flow, rpm
+from solvers.pumping.results import ChokingCurves, ChokingSpeeds
+from solvers.pumping.spaces import Mesh, Space, flow_at, prepare
+
+_COARSENING = 4  # of the slices while the speeds are bracketed
+_BRACKET = log(1.1)  # around the coarse speed, logarithmic as all speeds here
+_ACCURACY = 1e-4
+_STEP_DOWN, _STEPS_DOWN = log(sqrt(2.0)), 24
+_SOLVES = 8  # that together may cost as much as the dearest single one
+
+Excess = Callable[[float], float]
+
+
+def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
+    """Lowest pinion speeds that choke the gaps or the exits of any of the spaces asked for.
+
+    Radial gaps choke where the largest pressure reaches the critical ratio, exits where the ambient pressure asks for
+    Mach 1. Raises InvalidInput and NoSolution as `solve` does, and choking_not_modelled.
+    """
+    setup, top = inputs.setup, log(inputs.search_limit)
+    if setup.model.flow is Flow.INCOMPRESSIBLE:
+        raise InvalidInput("choking_not_modelled", "incompressible flow cannot choke", "flow")
+    mesh = prepare(setup)
+    check_speed(mesh.pair, mesh.gas, inputs.search_limit)
+    slices = setup.model.slice_count
+    coarse = max(slices // _COARSENING, 10) if setup.model.flow is Flow.GAS_DYNAMICS else slices
+    rough = [_Demand(mesh, space, coarse) for space in mesh.spaces]
+    fine = [_Demand(mesh, space, slices) for space in mesh.spaces]
+    scan = _scan(rough, top)
+    radial = _lowest([(r.radial, f.radial) for r, f in zip(rough, fine, strict=True)], scan)
+    axial = _lowest([(r.axial, f.axial) for r, f in zip(rough, fine, strict=True)], scan)
+    notices = [
+        Notice(
+            "beyond_search_limit", f"the {name} stays below sonic flow up to {rpm(exp(top)):.6g} rpm", "search_limit"
+        )
+        for name, speed in (("radial gap", radial), ("axial exit", axial))
+        if speed is None
+    ]
+    return ChokingSpeeds(radial, axial, _curves(mesh, rough, scan), (*mesh.notices, *notices))
+
+
+class _Demand:
+    """By how much, in logarithms, a space at a logarithmic speed exceeds what chokes it; each speed is solved once."""
+
+    def __init__(self, mesh: Mesh, space: Space, slices: int) -> None:
+        self._mesh, self._space, self._slices = mesh, space, slices
+        self._known: dict[float, tuple[float, float]] = {}
+
+    def radial(self, log_speed: float) -> float:
+        return self._solved(log_speed)[0]
+
+    def axial(self, log_speed: float) -> float:
+        return self._solved(log_speed)[1]
+
+    def _solved(self, log_speed: float) -> tuple[float, float]:
+        if log_speed not in self._known:
+            gas, limit = self._mesh.gas, CELL_STEP_LIMIT // _SOLVES
+            flow = flow_at(self._mesh, self._space, exp(log_speed), self._slices, cell_step_limit=limit)
+            pressure = flow.largest_pressure * gas.critical_ratio / gas.pressure
+            self._known[log_speed] = log(pressure), log(max(flow.exit_demand, 1e-12))
+        return self._known[log_speed]
+
+
+def _scan(demands: list[_Demand], top: float) -> list[float]:
+    """Speeds from the search limit down to where nothing chokes, in ascending order."""
+    speeds = [top]
+    while len(speeds) <= _STEPS_DOWN and any(max(d.radial(speeds[-1]), d.axial(speeds[-1])) >= 0.0 for d in demands):
+        speeds.append(speeds[-1] - _STEP_DOWN)
+    return speeds[::-1]
+
+
+def _lowest(demands: list[tuple[Excess, Excess]], scan: list[float]) -> float | None:
+    """Lowest speed at which one of the demands is met: bracketed on the coarse grid, found on the fine one."""
+    roots = [(root, fine) for rough, fine in demands if (root := _coarse_root(rough, scan)) is not None]
+    if not roots:
+        return None
+    root, fine = min(roots, key=lambda pair: pair[0])
+    return _refined(fine, root, scan[-1])
+
+
+def _coarse_root(excess: Excess, scan: list[float]) -> float | None:
+    if excess(scan[0]) >= 0.0:
+        return scan[0]
+    for low, high in pairwise(scan):
+        if excess(high) >= 0.0:
+            return float(brentq(excess, low, high, xtol=1e-2))
+    return None
+
+
+def _refined(excess: Excess, root: float, top: float) -> float | None:
+    low, high = root - _BRACKET, min(root + _BRACKET, top)
+    while excess(low) >= 0.0:
+        low, high = low - _BRACKET, low
+    while excess(high) < 0.0:
+        if high >= top:
+            return None
+        low, high = high, min(high + _BRACKET, top)
+    return exp(brentq(excess, low, high, xtol=_ACCURACY))
+
+
+def _curves(mesh: Mesh, demands: list[_Demand], scan: list[float]) -> ChokingCurves:
+    """What the coarse scan saw: the largest over the spaces."""
+    return ChokingCurves(
+        pinion_speed=frozen([exp(speed) for speed in scan]),
+        peak_pressure_ratio=frozen(
+            [exp(max(d.radial(speed) for d in demands)) / mesh.gas.critical_ratio for speed in scan]
+        ),
+        exit_mach=frozen([exp(max(d.axial(speed) for d in demands)) for speed in scan]),
+    )

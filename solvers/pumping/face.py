@@ -1,0 +1,54 @@
+"""The face width between its grooves: stretches of tooth space that end in the ambient, cut into slices."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.errors import InvalidInput
+from solvers.pumping.inputs import Groove
+
+_SLIVER = 1e-9  # share of the face width below which nothing is left between two grooves
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """A part of the face, `start` to `start + cells * width` [m], and whether its ends are the face's own."""
+
+    start: float
+    width: float
+    cells: int
+    opens_front: bool
+    opens_rear: bool
+
+    @property
+    def centres(self) -> FloatArray:
+        """Positions of the slices' centres [m]."""
+        return np.linspace(self.start + 0.5 * self.width, self.start + (self.cells - 0.5) * self.width, self.cells)
+
+
+def stretches(face_width: float, grooves: tuple[Groove, ...], slices: int, least: int) -> list[Stretch]:
+    """Stretches of a face cut into about `slices` slices of nearly equal width, at least `least` in each stretch.
+
+    A groove is as wide as it is: slices never overlap it. Raises InvalidInput: groove_outside, groove_overlap.
+    """
+    edges = [0.0]
+    for k, groove in sorted(enumerate(grooves), key=lambda pair: pair[1].position):
+        low, high = groove.position - groove.width / 2, groove.position + groove.width / 2
+        tolerance = _SLIVER * face_width
+        if low < -tolerance or high > face_width + tolerance or groove.width >= face_width:
+            message = f"the groove from {1e3 * low:.3f} to {1e3 * high:.3f} mm does not lie within the face"
+            raise InvalidInput("groove_outside", message, f"grooves.{k}.position")
+        if low < edges[-1] - tolerance and len(edges) > 1:
+            message = f"the groove at {1e3 * groove.position:.3f} mm overlaps its neighbour"
+            raise InvalidInput("groove_overlap", message, f"grooves.{k}.position")
+        edges += [low, high]
+    edges.append(face_width)
+    parts = []
+    for low, high in zip(edges[::2], edges[1::2], strict=True):
+        if high - low > _SLIVER * face_width:
+            cells = max(round(slices * (high - low) / face_width), least)
+            parts.append(Stretch(low, (high - low) / cells, cells, low == 0.0, high == face_width))
+    if not parts:
+        raise InvalidInput("groove_outside", "the grooves leave nothing of the face", "grooves")
+    return parts

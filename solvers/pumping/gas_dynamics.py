@@ -1,0 +1,76 @@
+"""Quasi-one-dimensional gas dynamics of a tooth space: the grid-convergent flow model."""
+
+from math import ceil, sqrt
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.errors import InvalidInput, NoSolution
+from solvers.pumping.duct import Duct, empty_record
+from solvers.pumping.face import Stretch
+from solvers.pumping.flow import March, SpaceFlow, space_flow
+from solvers.pumping.gas_march import COURANT, march
+from solvers.pumping.gas_step import empty_cells
+from solvers.pumping.inputs import rpm
+from solvers.pumping.nozzle import Gas
+from solvers.pumping.stroke import StrokeTable
+
+LEAST_SLICES = 4
+CELL_STEP_LIMIT = 10_000_000  # some ten seconds
+_HASTE = 2.5  # steps may be this much shorter than sound at rest asks for
+_ANGLES = 201
+
+
+def sample_angles(table: StrokeTable, lag: float, face_width: float) -> FloatArray:
+    """Angles of the owner [rad] from the first slice's entry to the last one's exit, where fields are recorded."""
+    return np.linspace(table.limits.start, table.limits.end + lag * face_width, _ANGLES)
+
+
+def duct(table: StrokeTable, stretch: Stretch, lag: float, speed: float, discharge: float, *, transport: bool) -> Duct:
+    """A stretch of tooth space at a speed of its owner [rad/s]; `lag` of the stroke per metre of face [rad/m]."""
+    return Duct(
+        start=stretch.start,
+        width=stretch.width,
+        cells=stretch.cells,
+        lag=lag,
+        speed=speed,
+        first_angle=table.limits.start,
+        angle_step=(table.limits.end - table.limits.start) / (table.angle.size - 1),
+        table=table.columns(wall_transport=transport),
+        discharge=discharge,
+    )
+
+
+def gas_dynamics(
+    gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray, *, cell_step_limit: int = CELL_STEP_LIMIT
+) -> SpaceFlow:
+    """March every stretch of a tooth space through its stroke.
+
+    Raises InvalidInput: too_many_steps (speed too low for so many slices); NoSolution: unphysical_state.
+    """
+    budget = _check_cost(gas, [part for _, part in ducts], angle, cell_step_limit)
+    marches = []
+    for stretch, part in ducts:
+        record = empty_record(gas, angle.size, part.cells, budget)
+        steps = march(gas, part, empty_cells(part.cells), angle, record, 2)
+        if steps < 0:
+            reason = "the step limit was reached" if steps == -1 else "no step length gave a physical state"
+            raise NoSolution("unphysical_state", f"the gas dynamics failed: {reason}; try fewer slices")
+        marches.append(March(stretch, record, steps))
+    return space_flow(angle, marches, conserves_energy=True)
+
+
+def _check_cost(gas: Gas, ducts: list[Duct], angle: FloatArray, limit: int) -> int:
+    """Most steps a march may take; refuses what would take too long, naming what would fit."""
+    turn = float(angle[-1] - angle[0])
+    steps = [turn / duct.speed * gas.sound_speed / (COURANT * duct.width) for duct in ducts]
+    cost = sum(duct.cells * count for duct, count in zip(ducts, steps, strict=True))
+    if cost > limit:
+        excess = cost / limit
+        cells = sum(duct.cells for duct in ducts)
+        message = (
+            f"{cells} slices need too many steps at this speed: use at least {rpm(ducts[0].speed) * excess:.3g} rpm of "
+            f"the gear, or at most {int(cells / sqrt(excess))} slices, or the pocket chain"
+        )
+        raise InvalidInput("too_many_steps", message, "pinion_speed")
+    return ceil(_HASTE * max(steps)) + 8 * angle.size

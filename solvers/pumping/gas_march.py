@@ -1,0 +1,145 @@
+"""The march of a duct through its strokes: steps, slices that come and go, and the books."""
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.compiled import kernel
+from solvers.pumping.duct import Duct, Record, active_range, wall_values
+from solvers.pumping.gas_step import Cells, set_walls, step
+from solvers.pumping.nozzle import Gas
+
+COURANT = 0.7
+_RETRIES = 12
+
+
+@kernel
+def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record, order: int) -> int:
+    """March from the first of `angles` [rad] to the last, landing on each; the number of steps, negative if it failed.
+
+    Fails with -1 where the record has no room for more steps, with -2 where no step length gives a physical state.
+    """
+    angle, taken, low, high = angles[0], 0, 0, 0
+    for k in range(1, angles.size):
+        pieces = 1.0
+        while pieces > 0.0:
+            pieces = np.ceil((angles[k] - angle) / _longest_turn(gas, duct, cells, low, high))
+            turn = (angles[k] - angle) / pieces
+            done = False
+            for retry in range(_RETRIES):
+                new_low, new_high = active_range(duct, angle + 0.5 * turn)
+                if new_high == new_low:
+                    done = True
+                    break
+                _fill(gas, duct, cells, low, high, new_low, new_high, angle)
+                set_walls(duct, cells, new_low, new_high, angle, turn)
+                dt = turn / duct.speed
+                done = step(gas, duct, cells, new_low, new_high, dt, order if retry == 0 else 1)
+                if done:
+                    break
+                turn, pieces = 0.5 * turn, 2.0 * pieces
+            if not done:
+                return -2
+            if taken == record.ends.shape[0]:
+                return -1
+            _empty(duct, cells, record, low, high, new_low, new_high)
+            _enter(duct, cells, record, low, high, new_low, new_high)
+            low, high = new_low, new_high
+            if high > low:
+                record.ends[taken, 0] = (angle + 0.5 * turn - angles[0]) / duct.speed
+                _book_ends(duct, cells, record, low, high, dt, taken)
+                _book_cells(gas, duct, cells, record, low, high, dt)
+                taken += 1
+            angle += turn
+            if pieces <= 1.0:
+                angle, pieces = angles[k], 0.0
+        _sample(gas, cells, record, low, high, k)
+    _empty(duct, cells, record, low, high, 0, 0)
+    return taken
+
+
+@kernel
+def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> float:
+    """Turn of the owner [rad] in which no wave crosses more than the Courant number's share of a cell."""
+    fastest = gas.sound_speed
+    for i in range(low, high):
+        w = cells.state[i]
+        fastest = max(fastest, abs(w[1]) + np.sqrt(gas.exponent * w[2] / w[0]))
+    return COURANT * duct.width / fastest * duct.speed
+
+
+@kernel
+def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int, new_high: int, angle: float) -> None:
+    """Ambient gas at rest in the cells whose stroke begins."""
+    for i in range(new_low, new_high):
+        if i < low or i >= high:
+            area = wall_values(duct, duct.start + (i + 0.5) * duct.width, angle)[0]
+            cells.content[i, 0], cells.content[i, 1] = gas.density * area, 0.0
+            cells.content[i, 2] = gas.pressure * area / (gas.exponent - 1.0)
+            cells.state[i, 0], cells.state[i, 1], cells.state[i, 2] = gas.density, 0.0, gas.pressure
+
+
+@kernel
+def _empty(duct: Duct, cells: Cells, record: Record, low: int, high: int, new_low: int, new_high: int) -> None:
+    """Give the content of cells whose stroke is over back to the surroundings."""
+    for i in range(low, high):
+        if i < new_low or i >= new_high:
+            record.mass[1] += cells.content[i, 0] * duct.width
+            record.energy[1] += cells.content[i, 2] * duct.width
+
+
+@kernel
+def _enter(duct: Duct, cells: Cells, record: Record, low: int, high: int, new_low: int, new_high: int) -> None:
+    """Book the content of cells whose stroke begins."""
+    for i in range(new_low, new_high):
+        if i < low or i >= high:
+            record.mass[0] += cells.content[i, 0] * duct.width
+            record.energy[0] += cells.content[i, 2] * duct.width
+
+
+@kernel
+def _book_ends(duct: Duct, cells: Cells, record: Record, low: int, high: int, dt: float, taken: int) -> None:
+    """Book what left through both ends of the active cells: ends of the duct, or borders to idle slices."""
+    for end in range(2):
+        face, outward = (low, -1.0) if end == 0 else (high, 1.0)
+        open_end = (low == 0) if end == 0 else (high == duct.cells)
+        entry = 2 + end if open_end else 5
+        record.mass[entry] += outward * cells.flux[face, 0] * dt
+        record.energy[entry] += outward * cells.flux[face, 2] * dt
+        if open_end:
+            record.ends[taken, 1 + end] = outward * cells.flux[face, 0] * dt
+            record.extremes[2] = max(record.extremes[2], cells.ends[end, 1])
+            record.extremes[3] = max(record.extremes[3], abs(cells.ends[end, 2]))
+            record.extremes[4] = max(record.extremes[4], cells.ends[end, 0])
+
+
+@kernel
+def _book_cells(gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, dt: float) -> None:
+    """Book what the walls did, means (trapezoidal) and extremes, and take over the new state."""
+    old, new, content, loss = cells.state, cells.next_state, cells.content, cells.loss
+    profile, extremes = record.profile, record.extremes
+    for i in range(low, high):
+        record.mass[4] += loss[i, 0] * duct.width
+        record.energy[4] += loss[i, 1] * duct.width
+        record.energy[6] += loss[i, 2] * duct.width
+        static = 0.5 * (old[i, 2] / old[i, 0] + new[i, 2] / new[i, 0]) / gas.constant
+        dynamic = 0.25 * (old[i, 1] ** 2 + new[i, 1] ** 2) / gas.heat_capacity
+        profile[i, 0] += static * dt
+        profile[i, 1] += (static + dynamic) * dt
+        profile[i, 2] += dt
+        profile[i, 3] = max(profile[i, 3], new[i, 2])
+        extremes[0], extremes[1] = max(extremes[0], new[i, 2]), min(extremes[1], new[i, 2])
+        speed = abs(new[i, 1])
+        extremes[2] = max(extremes[2], speed / np.sqrt(gas.exponent * new[i, 2] / new[i, 0]))
+        extremes[3] = max(extremes[3], speed)
+        for k in range(3):
+            content[i, k], old[i, k] = cells.next_content[i, k], new[i, k]
+
+
+@kernel
+def _sample(gas: Gas, cells: Cells, record: Record, low: int, high: int, k: int) -> None:
+    """Field of the active cells at a recorded angle."""
+    for i in range(low, high):
+        rho, u, p = cells.state[i]
+        record.field[k, i, 0] = p
+        record.field[k, i, 1] = abs(u) / np.sqrt(gas.exponent * p / rho)
+        record.field[k, i, 2] = p / (rho * gas.constant) + 0.5 * u * u / gas.heat_capacity

@@ -1,0 +1,53 @@
+"""Incompressible flow out of a single spur tooth space (Rosen's theory): a check at low speed, not its limit."""
+
+import numpy as np
+
+from solvers.arrays import frozen
+from solvers.pumping.flow import EndFlow, ExitMasses, SpaceFlow
+from solvers.pumping.nozzle import Gas
+from solvers.pumping.stroke import StrokeTable
+
+
+def incompressible(gas: Gas, table: StrokeTable, face_width: float, speed: float, discharge: float) -> SpaceFlow:
+    """Every opening passes the same velocity U = -(dV/dt) / [C_d (2 S + L b)], and p - p_e = rho U |U| / 2.
+
+    The middle of each table interval counts. Temperatures are None: what heats the gas is the work, in no place.
+    """
+    time = (table.angle - table.angle[0]) / speed
+    step = np.diff(time)
+    area = 0.5 * (table.area[1:] + table.area[:-1])
+    clearance = table.clearance_left + table.clearance_right
+    gap = 0.5 * (clearance[1:] + clearance[:-1]) * face_width
+    displaced = -np.diff(table.area) * face_width
+    velocity = displaced / step / (discharge * (2 * area + gap))
+    gauge = 0.5 * gas.density * velocity * np.abs(velocity)
+    pressure = gas.pressure + gauge
+    out = gas.density * velocity * discharge * step
+    front, radial = out * area, out * gap
+    return SpaceFlow(
+        angle=frozen(0.5 * (table.angle[1:] + table.angle[:-1])),
+        position=frozen([0.5 * face_width]),
+        pressure=frozen(pressure[:, None]),
+        mach=frozen(np.abs(velocity)[:, None] / gas.sound_speed),
+        stagnation_temperature=None,
+        mean_temperature=None,
+        mean_stagnation_temperature=None,
+        peak_pressure=frozen([max(pressure.max(), gas.pressure)]),
+        largest_pressure=float(max(pressure.max(), gas.pressure)),
+        smallest_pressure=float(min(pressure.min(), gas.pressure)),
+        largest_mach=float(np.abs(velocity).max() / gas.sound_speed),
+        largest_velocity=float(np.abs(velocity).max()),
+        exit_demand=float(velocity.max() / gas.sound_speed),
+        work=float((gauge * displaced).sum()),
+        masses=ExitMasses(
+            front=float(front.sum()),
+            rear=float(front.sum()),
+            radial=float(radial.sum()),
+            grooves=0.0,
+            reset=float(gas.density * face_width * (table.area[-1] - table.area[0])),
+        ),
+        mass_error=float(abs(out @ (2 * area + gap) - gas.density * displaced.sum()) / (gas.density * table.area[0])),
+        energy_error=None,
+        ends=EndFlow(frozen(0.5 * (time[1:] + time[:-1])), frozen(front), frozen(front)),
+        steps=step.size,
+    )

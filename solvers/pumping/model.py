@@ -1,0 +1,168 @@
+"""Air and mist pumped by the teeth of high-speed gears (Milian, Distretti, Leoni, Velex, Gear Technology 2004)."""
+
+from math import pi, tan
+
+import numpy as np
+
+from solvers.arrays import FloatArray, frozen
+from solvers.notices import Notice
+from solvers.pumping.checks import check_speed
+from solvers.pumping.flow import ExitMasses, SpaceFlow
+from solvers.pumping.inputs import PumpingInputs
+from solvers.pumping.lead_correction import LeadCorrection, lead_correction
+from solvers.pumping.nozzle import Gas
+from solvers.pumping.pulsation import Pulsation, pulsation
+from solvers.pumping.results import (
+    Balance,
+    FaceProfile,
+    GasField,
+    MeshGeometry,
+    PumpingResult,
+    SpacesResult,
+    Stroke,
+    Totals,
+)
+from solvers.pumping.spaces import Mesh, Space, face_stretches, flow_at, prepare
+from solvers.pumping.stroke import StrokeTable
+from solvers.pumping.tooth_space import normal_backlash, transverse_contact_ratio
+
+
+def solve(inputs: PumpingInputs) -> PumpingResult:
+    """Flow through the tooth spaces of a pair at one speed, what it costs and what it heats.
+
+    Raises InvalidInput (codes of `spaces.prepare`; speed_not_positive, too_many_steps) and NoSolution
+    (unphysical_state, newton_not_converged).
+    """
+    mesh = prepare(inputs.setup)
+    speed, slices = inputs.pinion_speed, inputs.setup.model.slice_count
+    speed_notices = check_speed(mesh.pair, mesh.gas, speed)
+    frequency = mesh.pair.pinion.teeth * speed / (2 * pi)
+
+    flows = [flow_at(mesh, space, speed, slices) for space in mesh.spaces]
+    results = [_spaces_result(mesh.gas, space, flow, frequency) for space, flow in zip(mesh.spaces, flows, strict=True)]
+    of_gear = {space.of_pinion: result for space, result in zip(mesh.spaces, results, strict=True)}
+    correction = _pinion_correction(mesh, of_gear.get(True))
+    total = _totals(mesh, speed, frequency, sum(result.pumping_power for result in results))
+    return PumpingResult(
+        geometry=_geometry(mesh),
+        pinion_spaces=of_gear.get(True),
+        wheel_spaces=of_gear.get(False),
+        total=total,
+        lead_correction=correction,
+        pulsation=_pulsation(mesh, flows, speed, frequency),
+        slices=sum(part.cells for part in face_stretches(inputs.setup, slices)),
+        warnings=(*mesh.notices, *speed_notices, *_missing(results[0], total, correction)),
+    )
+
+
+def _geometry(mesh: Mesh) -> MeshGeometry:
+    pair = mesh.pair
+    return MeshGeometry(
+        centre_distance=pair.centre_distance,
+        backlash_free_centre_distance=pair.backlash_free_centre_distance,
+        working_pressure_angle=pair.working_pressure_angle,
+        transverse_contact_ratio=transverse_contact_ratio(pair),
+        normal_backlash=normal_backlash(pair, mesh.setup.normal_backlash),
+        undercut=pair.pinion.undercut or pair.wheel.undercut,
+    )
+
+
+def _spaces_result(gas: Gas, space: Space, flow: SpaceFlow, frequency: float) -> SpacesResult:
+    """Ratios to the ambient state, and rates of one stroke per mesh period."""
+    profile = FaceProfile(
+        position=flow.position,
+        temperature_rise=_rise(gas, flow.mean_stagnation_temperature),
+        static_temperature_rise=_rise(gas, flow.mean_temperature),
+        peak_pressure_ratio=frozen(flow.peak_pressure / gas.pressure),
+    )
+    rise = profile.temperature_rise
+    return SpacesResult(
+        stroke=_stroke(space.table),
+        peak_pressure_ratio=flow.largest_pressure / gas.pressure,
+        min_pressure_ratio=flow.smallest_pressure / gas.pressure,
+        peak_axial_mach=flow.largest_mach,
+        peak_axial_velocity=flow.largest_velocity,
+        radial_choked=flow.largest_pressure * gas.critical_ratio > gas.pressure,
+        axial_choked=flow.exit_demand > 1.0,
+        max_temperature_rise=None if rise is None else float(rise.max()),
+        hottest_position=None if rise is None else float(flow.position[int(np.argmax(rise))]),
+        pumping_power=frequency * flow.work,
+        work_per_space=flow.work,
+        mass_flow=_rates(flow.masses, frequency),
+        balance=Balance(flow.mass_error, flow.energy_error),
+        profile=profile,
+        field=GasField(
+            angle=flow.angle,
+            position=flow.position,
+            pressure_ratio=frozen(flow.pressure / gas.pressure),
+            axial_mach=flow.mach,
+            temperature_rise=_rise(gas, flow.stagnation_temperature),
+        ),
+        steps=flow.steps,
+    )
+
+
+def _rise(gas: Gas, temperature: FloatArray | None) -> FloatArray | None:
+    return None if temperature is None else frozen(temperature - gas.temperature)
+
+
+def _rates(masses: ExitMasses, frequency: float) -> ExitMasses:
+    """Mass flows [kg/s] of strokes that follow one another at the meshing frequency."""
+    return ExitMasses(
+        front=frequency * masses.front,
+        rear=frequency * masses.rear,
+        radial=frequency * masses.radial,
+        grooves=frequency * masses.grooves,
+        reset=frequency * masses.reset,
+    )
+
+
+def _stroke(table: StrokeTable) -> Stroke:
+    limits = table.limits
+    return Stroke(
+        start=limits.start,
+        contact_start=limits.contact_start,
+        contact_end=limits.contact_end,
+        end=limits.end,
+        max_area=float(table.area.max()),
+        min_area=float(table.area.min()),
+        curves=table,
+    )
+
+
+def _totals(mesh: Mesh, speed: float, frequency: float, power: float) -> Totals:
+    helix = abs(mesh.setup.gears.helix_angle)
+    if helix == 0.0:
+        return Totals(power, frequency, None, None)
+    axial = speed * mesh.pair.pinion.reference_radius / tan(helix)
+    return Totals(power, frequency, axial, axial / mesh.gas.sound_speed)
+
+
+def _pinion_correction(mesh: Mesh, result: SpacesResult | None) -> LeadCorrection | None:
+    if result is None or result.profile.temperature_rise is None:
+        return None
+    return lead_correction(mesh.pair, result.profile.position, result.profile.temperature_rise)
+
+
+def _pulsation(mesh: Mesh, flows: list[SpaceFlow], speed: float, frequency: float) -> Pulsation:
+    """A space of the wheel is on the line of centres half a mesh period after one of the pinion."""
+    delays = [0.0 if space.of_pinion else 0.5 for space in mesh.spaces]
+    speeds = [speed * space.speed_ratio for space in mesh.spaces]
+    return pulsation(frequency, list(zip(flows, speeds, delays, strict=True)))
+
+
+def _missing(result: SpacesResult, total: Totals, correction: LeadCorrection | None) -> list[Notice]:
+    """Notices of values that the options leave without a meaning."""
+    notices = []
+    if total.axial_meshing_speed is None:
+        message = "a spur gear meshes over its whole face at once: the meshing point has no speed along it"
+        notices.append(Notice("spur_gear", message, "helix_angle"))
+    if result.max_temperature_rise is None:
+        notices.append(Notice("no_temperature", "an incompressible gas has no temperature rise of its own", "flow"))
+    elif result.balance.energy_error is None:
+        message = "the isentropic closure conserves no energy: its temperatures are low by a factor of about two"
+        notices.append(Notice("no_energy_balance", message, "closure"))
+    if correction is None:
+        message = "a lead correction needs the temperatures of the pinion's spaces"
+        notices.append(Notice("no_lead_correction", message, "spaces"))
+    return notices

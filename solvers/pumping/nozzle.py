@@ -1,0 +1,93 @@
+"""Discharge of a perfect gas through an opening (Eq. 7 is its choked limit), and the ambient state."""
+
+from math import sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from solvers.compiled import kernel
+from solvers.pumping.inputs import MOLAR_GAS_CONSTANT, Ambient
+
+_LINEAR = 1e-7  # relative pressure drop below which the flux is continued linearly, for a finite Jacobian
+
+
+class Gas(NamedTuple):
+    """The perfect gas and its ambient state, SI."""
+
+    exponent: float
+    constant: float
+    heat_capacity: float
+    pressure: float
+    temperature: float
+    density: float
+    sound_speed: float
+    critical_ratio: float
+
+
+def gas(ambient: Ambient) -> Gas:
+    """The gas of an ambient state."""
+    exponent, constant = ambient.isentropic_exponent, MOLAR_GAS_CONSTANT / ambient.molar_mass
+    return Gas(
+        exponent=exponent,
+        constant=constant,
+        heat_capacity=constant * exponent / (exponent - 1.0),
+        pressure=ambient.pressure,
+        temperature=ambient.temperature,
+        density=ambient.pressure / (constant * ambient.temperature),
+        sound_speed=sqrt(exponent * constant * ambient.temperature),
+        critical_ratio=(2.0 / (exponent + 1.0)) ** (exponent / (exponent - 1.0)),
+    )
+
+
+@kernel
+def flux_squared(gas: Gas, upstream: float, temperature: float, downstream: float) -> tuple[float, float, float]:
+    """Square of the mass flux [kg/(s m^2)]^2 from stagnation (upstream, temperature) to a pressure not above it.
+
+    With it the derivatives by the upstream and the downstream pressure. Exact down to any pressure drop; below a drop
+    of nought it goes on linearly, negative.
+    """
+    g = gas.exponent
+    drop = (upstream - downstream) / upstream
+    if drop <= 0.0:
+        slope = 2.0 * upstream / (gas.constant * temperature)
+        return slope * (upstream - downstream), slope, -slope
+    scale = 2.0 * g / ((g - 1.0) * gas.constant * temperature) * upstream
+    if drop >= 1.0 - gas.critical_ratio:
+        x = gas.critical_ratio
+        y = x ** (1.0 / g)
+        choked = scale * upstream * y * (y - x)
+        return choked, 2.0 * choked / upstream, 0.0
+    grown = np.expm1(np.log1p(-drop) / g)
+    y, x = 1.0 + grown, 1.0 - drop
+    by_upstream = scale * (1.0 - 1.0 / g) * y * (2.0 * y - x)
+    by_downstream = scale * y / x * (2.0 * y / g - (1.0 + 1.0 / g) * x)
+    return scale * upstream * y * (grown + drop), by_upstream, by_downstream
+
+
+@kernel
+def mass_flux(gas: Gas, upstream: float, temperature: float, downstream: float) -> tuple[float, float, float]:
+    """Mass flux G [kg/(s m^2)] and its derivatives by upstream and downstream pressure at fixed temperature."""
+    drop = (upstream - downstream) / upstream
+    if drop < _LINEAR:
+        edge = flux_squared(gas, upstream, temperature, upstream * (1.0 - _LINEAR))[0]
+        slope = np.sqrt(edge) / (_LINEAR * upstream)
+        return slope * (upstream - downstream), slope, -slope
+    squared, by_upstream, by_downstream = flux_squared(gas, upstream, temperature, downstream)
+    flux = np.sqrt(squared)
+    return flux, 0.5 * by_upstream / flux, 0.5 * by_downstream / flux
+
+
+@kernel
+def throat_mach(gas: Gas, upstream: float, downstream: float) -> float:
+    """Mach number in the narrowest section of an opening, one where it is choked."""
+    g = gas.exponent
+    ratio = min(max(downstream / upstream, gas.critical_ratio), 1.0)
+    mach: float = np.sqrt(2.0 / (g - 1.0) * (ratio ** ((1.0 - g) / g) - 1.0))
+    return mach
+
+
+def choked_mass_flux(gas: Gas, pressure: float, temperature: float) -> float:
+    """Largest mass flux from a stagnation state [kg/(s m^2)], Eq. 7 per area."""
+    g, r = gas.exponent, gas.constant
+    velocity_factor: float = (2 / (g + 1)) ** (1 / (g - 1)) * sqrt(2 * g * r / (g + 1))
+    return velocity_factor * pressure / (r * sqrt(temperature))

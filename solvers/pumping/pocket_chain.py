@@ -1,0 +1,36 @@
+"""The paper's chain of pockets (Eqs. 2-7). Its pressures depend on the number of pockets, which is a model constant."""
+
+from math import ceil
+
+from solvers.arrays import FloatArray
+from solvers.errors import NoSolution
+from solvers.pumping.chain_march import march_chain
+from solvers.pumping.chain_step import empty_pockets
+from solvers.pumping.duct import Duct, empty_record
+from solvers.pumping.face import Stretch
+from solvers.pumping.flow import March, SpaceFlow, space_flow
+from solvers.pumping.inputs import Closure
+from solvers.pumping.nozzle import Gas
+
+STEPS = 2000
+
+
+def pocket_chain(
+    gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray, closure: Closure, *, steps: int = STEPS
+) -> SpaceFlow:
+    """March every stretch of a tooth space through its stroke in at least `steps` steps.
+
+    Raises NoSolution: newton_not_converged.
+    """
+    substeps = ceil(steps / (angle.size - 1))
+    marches = []
+    for stretch, duct in ducts:
+        record = empty_record(gas, angle.size, duct.cells, substeps * (angle.size - 1))
+        isentropic = closure is Closure.ISENTROPIC
+        taken = march_chain(gas, duct, empty_pockets(duct.cells), angle, substeps, record, isentropic)
+        if taken < 0:
+            raise NoSolution(
+                "newton_not_converged", "a time step of the pocket chain did not converge; change the slices"
+            )
+        marches.append(March(stretch, record, taken))
+    return space_flow(angle, marches, conserves_energy=closure is Closure.ENERGY)

@@ -1,0 +1,40 @@
+"""Pulsating mass flow out of the ends of the face at the meshing frequency and its multiples."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.arrays import FloatArray, frozen
+from solvers.pumping.flow import SpaceFlow
+
+HARMONICS = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Pulsation:
+    """Amplitudes of the mass flow at each end [kg/s] at multiples of the meshing frequency [Hz], all (harmonics,)."""
+
+    frequency: FloatArray
+    front_mass_flow: FloatArray
+    rear_mass_flow: FloatArray
+
+
+def pulsation(meshing_frequency: float, flows: list[tuple[SpaceFlow, float, float]]) -> Pulsation:
+    """Superpose the flows of successive spaces: amplitude k is 2 f_m |integral m_dot exp(-2 pi i k f_m t) dt|.
+
+    `flows`: of each gear's spaces, with the owner's speed [rad/s] and the share of a mesh period by which they come
+    to the line of centres later than the pinion's.
+    """
+    orders = np.arange(1, HARMONICS + 1)
+    front = np.zeros(HARMONICS, dtype=complex)
+    rear = np.zeros(HARMONICS, dtype=complex)
+    for flow, speed, delay in flows:
+        time = flow.ends.time + flow.angle[0] / speed + delay / meshing_frequency
+        turning = np.exp(-2j * np.pi * meshing_frequency * orders[:, None] * time)
+        front += turning @ flow.ends.front
+        rear += turning @ flow.ends.rear
+    return Pulsation(
+        frequency=frozen(meshing_frequency * orders),
+        front_mass_flow=frozen(2 * meshing_frequency * np.abs(front)),
+        rear_mass_flow=frozen(2 * meshing_frequency * np.abs(rear)),
+    )

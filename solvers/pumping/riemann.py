@@ -1,0 +1,90 @@
+"""Fluxes through the faces of a duct: between two cells (HLLC) and into surroundings at rest (reservoir face).
+
+A state is (density [kg/m^3], velocity [m/s], pressure [Pa]); a flux is (mass, momentum, energy) per area and second.
+"""
+
+import numpy as np
+
+from solvers.compiled import kernel
+from solvers.pumping.nozzle import Gas
+
+
+@kernel
+def _flux(g: float, rho: float, u: float, p: float) -> tuple[float, float, float]:
+    return rho * u, rho * u * u + p, u * (g / (g - 1.0) * p + 0.5 * rho * u * u)
+
+
+@kernel
+def hllc(
+    g: float, rho_l: float, u_l: float, p_l: float, rho_r: float, u_r: float, p_r: float
+) -> tuple[float, float, float]:
+    """HLLC flux with Einfeldt's wave speeds (Toro, Riemann Solvers and Numerical Methods, 2009, section 10.4-10.6)."""
+    c_l, c_r = np.sqrt(g * p_l / rho_l), np.sqrt(g * p_r / rho_r)
+    w_l, w_r = np.sqrt(rho_l), np.sqrt(rho_r)
+    mean_u = (w_l * u_l + w_r * u_r) / (w_l + w_r)
+    spread = 0.5 * w_l * w_r / (w_l + w_r) ** 2 * (u_r - u_l) ** 2
+    mean_c = np.sqrt((w_l * c_l * c_l + w_r * c_r * c_r) / (w_l + w_r) + spread)
+    s_l, s_r = min(u_l - c_l, mean_u - mean_c), max(u_r + c_r, mean_u + mean_c)
+    if s_l >= 0.0:
+        return _flux(g, rho_l, u_l, p_l)
+    if s_r <= 0.0:
+        return _flux(g, rho_r, u_r, p_r)
+    m_l, m_r = rho_l * (s_l - u_l), rho_r * (s_r - u_r)
+    s_m = (p_r - p_l + u_l * m_l - u_r * m_r) / (m_l - m_r)
+    if s_m >= 0.0:
+        return _star_flux(g, rho_l, u_l, p_l, s_l, s_m)
+    return _star_flux(g, rho_r, u_r, p_r, s_r, s_m)
+
+
+@kernel
+def _star_flux(g: float, rho: float, u: float, p: float, s: float, s_m: float) -> tuple[float, float, float]:
+    """Flux of the state between the outer wave s and the contact s_m."""
+    mass, momentum, energy = _flux(g, rho, u, p)
+    total = p / (g - 1.0) + 0.5 * rho * u * u
+    star = rho * (s - u) / (s - s_m)
+    star_total = star * (total / rho + (s_m - u) * (s_m + p / (rho * (s - u))))
+    return mass + s * (star - rho), momentum + s * (star * s_m - rho * u), energy + s * (star_total - total)
+
+
+@kernel
+def reservoir_face(gas: Gas, rho: float, v: float, p: float) -> tuple[float, float, float, float]:
+    """State of a face that opens into the ambient, and how nearly it is sonic.
+
+    `v` [m/s] is the cell's velocity outwards. Outflow expands to the ambient pressure, at most to Mach 1; inflow
+    starts from ambient gas at rest. The last value is the Mach number that the ambient pressure asks for, negative
+    for inflow: above one the face is choked (or the duct supersonic, and the face has its state).
+    """
+    g = gas.exponent
+    c = np.sqrt(g * p / rho)
+    if v >= c:
+        return rho, v, p, v / c
+    invariant = v + 2.0 * c / (g - 1.0)
+    c_f = c * (gas.pressure / p) ** (0.5 * (g - 1.0) / g)
+    v_f = invariant - 2.0 * c_f / (g - 1.0)
+    if v_f < 0.0:
+        rho_f, v_f, p_f = _inflow(gas, invariant, c_f)
+        return rho_f, v_f, p_f, v_f / np.sqrt(g * p_f / rho_f)
+    mach = v_f / c_f
+    if mach > 1.0:
+        c_f = (g - 1.0) / (g + 1.0) * invariant
+        v_f = c_f
+    rho_f = rho * (c_f / c) ** (2.0 / (g - 1.0))
+    return rho_f, v_f, rho_f * c_f * c_f / g, mach
+
+
+@kernel
+def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> tuple[float, float, float]:
+    """Inflow from rest that meets the gas of the cell at one pressure and velocity, at most sonic.
+
+    `cell_sound_speed` is that of the cell's gas brought to ambient pressure: where it is hotter than the ambient a
+    contact lies between both, and the invariant v + 2c/(g-1) holds on its far side. The larger root of a quadratic for
+    the ratio of the face's sound speed to the ambient one.
+    """
+    g, stagnation = gas.exponent, gas.sound_speed
+    slope, jet = 2.0 / (g - 1.0) * cell_sound_speed, 2.0 / (g - 1.0) * stagnation**2
+    root = np.sqrt(jet * (slope**2 + jet - invariant**2))
+    ratio = max((slope * invariant + root) / (slope**2 + jet), np.sqrt(2.0 / (g + 1.0)))
+    c = stagnation * ratio
+    v = -np.sqrt(jet * (1.0 - ratio**2))
+    rho = gas.density * ratio ** (2.0 / (g - 1.0))
+    return rho, v, rho * c * c / g

@@ -1,0 +1,77 @@
+"""Areas and clearances of a tooth space tabulated over one stroke, the table that all slices share."""
+
+from dataclasses import dataclass
+from math import degrees
+
+import numpy as np
+
+from solvers.arrays import FloatArray, frozen
+from solvers.compiled import kernel
+from solvers.errors import InvalidInput
+from solvers.pumping.section import section
+from solvers.pumping.tooth_space import StrokeLimits, ToothSpace, stroke_limits
+
+POSITIONS = 361
+
+
+@dataclass(frozen=True, slots=True)
+class StrokeTable:
+    """One stroke of a tooth space, of shape (positions,) at equal steps of the owner's angle [rad].
+
+    `area` [m^2]; `clearance_left`, `clearance_right` [m]; `wall_transport`: area per radian that the flanks roll out of
+    the space through its narrowest sections [m^2].
+    """
+
+    limits: StrokeLimits
+    angle: FloatArray
+    area: FloatArray
+    clearance_left: FloatArray
+    clearance_right: FloatArray
+    wall_transport: FloatArray
+
+    def columns(self, *, wall_transport: bool) -> FloatArray:
+        """Area, total clearance and wall transport (nought unless asked for) for the flow kernels, (positions, 3)."""
+        transport = self.wall_transport if wall_transport else np.zeros_like(self.wall_transport)
+        return np.column_stack([self.area, self.clearance_left + self.clearance_right, transport])
+
+
+def stroke_table(space: ToothSpace, *, minimum_gap: float = 0.0, positions: int = POSITIONS) -> StrokeTable:
+    """Tabulate the space over its stroke.
+
+    Raises InvalidInput: tooth_space_closed (no area left), tooth_space_minima (area with more than one minimum).
+    """
+    limits = stroke_limits(space)
+    angle = np.linspace(limits.start, limits.end, positions)
+    values = np.empty((positions, 4))
+    _tabulate(space, angle, values)
+    _check_area(angle, values[:, 0])
+    return StrokeTable(
+        limits=limits,
+        angle=frozen(angle),
+        area=frozen(values[:, 0].copy()),
+        clearance_left=frozen(np.maximum(values[:, 1], minimum_gap)),
+        clearance_right=frozen(np.maximum(values[:, 2], minimum_gap)),
+        wall_transport=frozen(values[:, 3].copy()),
+    )
+
+
+@kernel
+def _tabulate(space: ToothSpace, angle: FloatArray, values: FloatArray) -> None:
+    for i in range(angle.size):
+        values[i, 0], values[i, 1], values[i, 2], values[i, 3] = section(space, angle[i])
+
+
+def _check_area(angle: FloatArray, area: FloatArray) -> None:
+    smallest = int(np.argmin(area))
+    if area[smallest] <= 0.0:
+        message = f"the mate's tooth fills the tooth space at {degrees(angle[smallest]):.3f} deg"
+        raise InvalidInput("tooth_space_closed", message, "gears")
+    noise = 1e-12 * area.max()
+    wrong = np.concatenate([np.diff(area[: smallest + 1]) > noise, np.diff(area[smallest:]) < -noise])
+    if wrong.any():
+        where = degrees(angle[int(np.argmax(wrong))])
+        message = (
+            f"the area of the tooth space has a second minimum near {where:.3f} deg; the nearest point to a tip corner "
+            "can jump along the root, the contact gap knows no such jump"
+        )
+        raise InvalidInput("tooth_space_minima", message, "gears")

@@ -1,0 +1,170 @@
+"""A tooth space of one gear and the mate's tooth that passes through it, in the transverse plane.
+
+Frame: the owner of the space turns about (0, 0), the mate about (0, a). Angles of the owner count from +y, angles of
+the mate from -y, both towards +x, the direction of motion; the space's centre lies on the line of centres at angle 0.
+The left side leads away from the motion: it is the driving flank where the owner drives.
+"""
+
+from dataclasses import dataclass
+from math import acos, cos, hypot, pi, sin
+from typing import NamedTuple
+
+from solvers.errors import InvalidInput
+from solvers.gears.fillet import RootProfile, root_profile
+from solvers.gears.pair import Gear, GearPair
+from solvers.notices import Notice
+from solvers.pumping.inputs import Gap
+
+
+class ToothSpace(NamedTuple):
+    """Shape and motion of a space and its mate's tooth; lengths [m], angles [rad].
+
+    Flanks are given by their base radius, the half angle at the base circle and the roll length at the tip.
+    `ratio`: mate's angle per angle of the owner; `offset`: the mate's angle when the space is on the line of centres;
+    `backlash_gap`: distance of the coast flanks along the line of action.
+    """
+
+    root: RootProfile
+    base_radius: float
+    base_half_angle: float
+    tip_roll: float
+    tip_radius: float
+    tip_half_angle: float
+    pitch_roll: float
+    pitch_half_angle: float
+    mate_base_radius: float
+    mate_base_half_angle: float
+    mate_tip_roll: float
+    mate_tip_radius: float
+    mate_tip_half_angle: float
+    centre_distance: float
+    line_of_action: float
+    ratio: float
+    offset: float
+    backlash_gap: float
+    owner_drives: bool
+    contact_gap: bool
+
+
+@dataclass(frozen=True, slots=True)
+class StrokeLimits:
+    """Angles of the owner [rad] between which the mate's tooth is in the space, and its driving flank in contact."""
+
+    start: float
+    contact_start: float
+    contact_end: float
+    end: float
+
+
+def circumferential_backlash(pair: GearPair, normal_backlash: float) -> float:
+    """Backlash j_t on the working circles [m]: that of the centre distance and that of the thinned tooth."""
+    radius_1, radius_2 = pair.pinion_working_radius, pair.wheel_working_radius
+    thickness_1 = 2 * radius_1 * pair.pinion.half_tooth_angle(radius_1)
+    thickness_2 = 2 * radius_2 * pair.wheel.half_tooth_angle(radius_2)
+    return 2 * pi * radius_1 / pair.pinion.teeth - thickness_1 - thickness_2 + _thinning(pair, normal_backlash)
+
+
+def normal_backlash(pair: GearPair, extra: float) -> float:
+    """Backlash along the normal of the flanks [m]."""
+    tangential = circumferential_backlash(pair, extra)
+    return tangential * cos(pair.working_pressure_angle) * cos(pair.base_helix_angle)
+
+
+def _thinning(pair: GearPair, normal_backlash: float) -> float:
+    """What the mate's tooth loses on its working circle [m]."""
+    return normal_backlash / (cos(pair.base_helix_angle) * cos(pair.working_pressure_angle))
+
+
+def transverse_contact_ratio(pair: GearPair) -> float:
+    """Path of contact over base pitch."""
+    path = pair.pinion.tip_roll_length + pair.wheel.tip_roll_length - pair.line_of_action
+    return path / pair.transverse_base_pitch
+
+
+def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: bool) -> ToothSpace:
+    """The pinion's or the wheel's space with the other gear's tooth, thinned by the extra backlash, in it.
+
+    Raises InvalidInput: pointed_tooth.
+    """
+    owner, mate = (pair.pinion, pair.wheel) if of_pinion else (pair.wheel, pair.pinion)
+    teeth = pair.inputs.pinion if of_pinion else pair.inputs.wheel
+    cos_working = cos(pair.working_pressure_angle)
+    pitch_radius, mate_pitch_radius = owner.base_radius / cos_working, mate.base_radius / cos_working
+    thinning = _thinning(pair, extra_backlash) / (2 * mate_pitch_radius)
+    tangential = circumferential_backlash(pair, extra_backlash)
+    mate_tip = mate.half_tooth_angle(mate.tip_radius) - thinning
+    if mate_tip <= 0.0:
+        raise InvalidInput(
+            "pointed_tooth", "the backlash leaves the mate's teeth pointed; reduce it", "normal_backlash"
+        )
+    return ToothSpace(
+        root=root_profile(pair.inputs, teeth, owner),
+        base_radius=owner.base_radius,
+        base_half_angle=pi / owner.teeth - owner.reference_half_angle - owner.reference_involute,
+        tip_roll=owner.tip_roll_length,
+        tip_radius=owner.tip_radius,
+        tip_half_angle=pi / owner.teeth - owner.half_tooth_angle(owner.tip_radius),
+        pitch_roll=pitch_radius * sin(pair.working_pressure_angle),
+        pitch_half_angle=pi / owner.teeth - owner.half_tooth_angle(pitch_radius),
+        mate_base_radius=mate.base_radius,
+        mate_base_half_angle=mate.reference_half_angle + mate.reference_involute - thinning,
+        mate_tip_roll=mate.tip_roll_length,
+        mate_tip_radius=mate.tip_radius,
+        mate_tip_half_angle=mate_tip,
+        centre_distance=pair.centre_distance,
+        line_of_action=pair.line_of_action,
+        ratio=owner.teeth / mate.teeth,
+        offset=(-tangential if of_pinion else tangential) / (2 * mate_pitch_radius),
+        backlash_gap=tangential * cos_working,
+        owner_drives=of_pinion,
+        contact_gap=gap is Gap.CONTACT,
+    )
+
+
+def stroke_limits(space: ToothSpace) -> StrokeLimits:
+    """When the mate's first and last corner cross the owner's tip circle, and when the driving flanks touch."""
+    a, tip, mate_tip = space.centre_distance, space.tip_radius, space.mate_tip_radius
+    reach = acos((a**2 + mate_tip**2 - tip**2) / (2 * a * mate_tip)) + space.mate_tip_half_angle
+    approach = (space.line_of_action - space.mate_tip_roll - space.pitch_roll) / space.base_radius
+    recess = (space.tip_roll - space.pitch_roll) / space.base_radius
+    phi_a, phi_e = space.pitch_half_angle + approach, space.pitch_half_angle + recess
+    return StrokeLimits(
+        start=(-reach - space.offset) / space.ratio,
+        contact_start=phi_a if space.owner_drives else -phi_e,
+        contact_end=phi_e if space.owner_drives else -phi_a,
+        end=(reach - space.offset) / space.ratio,
+    )
+
+
+def check_flanks(pair: GearPair) -> list[Notice]:
+    """Notices of undercut teeth and of a contact ratio below one.
+
+    Raises InvalidInput: involute_interference, form_diameter.
+    """
+    notices = _check_flank(pair, pair.pinion, pair.wheel, "pinion") + _check_flank(
+        pair, pair.wheel, pair.pinion, "wheel"
+    )
+    ratio = transverse_contact_ratio(pair)
+    if ratio < 1.0:
+        message = f"the transverse contact ratio is {ratio:.3f}: below 1 nothing seals the space between two pairs"
+        notices.append(Notice("contact_ratio_below_one", message, "addendum"))
+    return notices
+
+
+def _check_flank(pair: GearPair, gear: Gear, mate: Gear, name: str) -> list[Notice]:
+    active_roll = pair.line_of_action - mate.tip_roll_length
+    mate_name = "wheel" if name == "pinion" else "pinion"
+    if active_roll < 0.0:
+        message = f"the {mate_name}'s tip reaches past the {name}'s base tangent point; reduce its addendum"
+        raise InvalidInput("involute_interference", message, f"{mate_name}.addendum")
+    teeth = pair.inputs.pinion if name == "pinion" else pair.inputs.wheel
+    start = root_profile(pair.inputs, teeth, gear).involute_roll
+    active_radius, form_radius = hypot(gear.base_radius, active_roll), hypot(gear.base_radius, start)
+    where = f"the {name}'s active flank starts at {2e3 * active_radius:.3f} mm diameter"
+    if gear.undercut:
+        below = f"; {where}, below the undercut's {2e3 * form_radius:.3f} mm" if active_roll < start else ""
+        return [Notice("undercut", f"the {name} is undercut{below}", f"{name}.profile_shift")]
+    if active_roll < start * (1 - 1e-9):
+        message = f"{where}, below the end of the fillet at {2e3 * form_radius:.3f} mm; reduce the mate's addendum"
+        raise InvalidInput("form_diameter", message, f"{mate_name}.addendum")
+    return []

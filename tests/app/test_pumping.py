@@ -1,0 +1,225 @@
+"""The contract of /v1/pumping and /v1/pumping/choking-speed."""
+
+import copy
+from collections.abc import Callable
+from typing import Any
+
+import httpx
+import pytest
+
+from app.library import examples
+
+Post = Callable[[str, object], httpx.Response]
+PUMPING, CHOKING = "/v1/pumping", "/v1/pumping/choking-speed"
+
+SECTIONS = {
+    "geometry": {
+        "centre_distance_mm",
+        "backlash_free_centre_distance_mm",
+        "working_pressure_angle_deg",
+        "transverse_contact_ratio",
+        "normal_backlash_um",
+        "undercut",
+    },
+    "pinion_spaces": {
+        "stroke",
+        "peak_pressure_ratio",
+        "min_pressure_ratio",
+        "peak_axial_mach",
+        "peak_axial_velocity_m_per_s",
+        "radial_choked",
+        "axial_choked",
+        "max_temperature_rise_k",
+        "hottest_position_mm",
+        "pumping_power_w",
+        "work_per_space_j",
+        "mass_flow_g_per_s",
+        "balance",
+        "profile",
+        "field",
+    },
+    "total": {
+        "pumping_power_w",
+        "meshing_frequency_hz",
+        "axial_meshing_speed_m_per_s",
+        "axial_meshing_mach",
+    },
+    "lead_correction": {"range_um", "slope_um", "crown_um", "curves"},
+    "pulsation": {"frequency_hz", "front_mass_flow_g_per_s", "rear_mass_flow_g_per_s"},
+}
+STROKE = {"start_deg", "contact_start_deg", "contact_end_deg", "end_deg", "max_area_mm2", "min_area_mm2", "curves"}
+GROUPS = {
+    ("stroke", "curves"): {"angle_deg", "area_mm2", "clearance_left_mm", "clearance_right_mm"},
+    ("mass_flow_g_per_s",): {"front", "rear", "radial", "grooves", "reset"},
+    ("balance",): {"mass_error", "energy_error"},
+    ("profile",): {"position_mm", "temperature_rise_k", "static_temperature_rise_k", "peak_pressure_ratio"},
+    ("field",): {"angle_deg", "position_mm", "pressure_ratio", "axial_mach", "temperature_rise_k"},
+}
+
+
+def case(name: str = "milian-case-1", **sections: Any) -> dict[str, Any]:
+    """An example's request, its sections updated."""
+    request = copy.deepcopy(examples()[name].request)
+    for section, changes in sections.items():
+        if isinstance(changes, dict):
+            request.setdefault(section, {}).update(changes)
+        else:
+            request[section] = changes
+    return request
+
+
+def solved(post: Post, **sections: Any) -> dict[str, Any]:
+    response = post(PUMPING, case(**sections))
+    assert response.status_code == 200, response.text
+    result: dict[str, Any] = response.json()
+    return result
+
+
+@pytest.fixture(scope="module")
+def full(post: Post) -> dict[str, Any]:
+    return solved(post, detail="fields")
+
+
+@pytest.mark.parametrize("section", sorted(SECTIONS))
+def test_every_field_of_the_contract_is_there(full: dict[str, Any], section: str) -> None:
+    assert set(full[section]) >= SECTIONS[section]
+
+
+@pytest.mark.parametrize("spaces", ["pinion_spaces", "wheel_spaces"])
+def test_both_spaces_have_every_field(full: dict[str, Any], spaces: str) -> None:
+    assert set(full[spaces]) >= SECTIONS["pinion_spaces"]
+    assert set(full[spaces]["stroke"]) >= STROKE
+    for path, names in GROUPS.items():
+        group = full[spaces]
+        for part in path:
+            group = group[part]
+        assert set(group) >= names
+    assert set(full["lead_correction"]["curves"]) >= {"position_mm", "growth_um", "correction_um"}
+
+
+@pytest.mark.parametrize("spaces", ["pinion_spaces", "wheel_spaces"])
+def test_arrays_of_one_group_have_one_length(full: dict[str, Any], spaces: str) -> None:
+    result = full[spaces]
+    assert {len(values) for values in result["stroke"]["curves"].values()} == {361}
+    assert {len(values) for values in result["profile"].values()} == {100}
+    field = result["field"]
+    for name in ("pressure_ratio", "axial_mach", "temperature_rise_k"):
+        assert len(field[name]) == len(field["angle_deg"])
+        assert {len(row) for row in field[name]} == {len(field["position_mm"])} == {100}
+
+
+def test_numbers_of_case_1_in_their_units(post: Post) -> None:
+    # the pinion's spaces without wall transport: 2.7051, 23.40 K at 0.783 of 200 mm, 12.245 kW
+    result = solved(post, model={"wall_transport": False, "spaces": "pinion"})
+    spaces = result["pinion_spaces"]
+    assert spaces["peak_pressure_ratio"] == pytest.approx(2.7051, rel=1e-3)
+    assert spaces["max_temperature_rise_k"] == pytest.approx(23.40, rel=2e-3)
+    assert spaces["hottest_position_mm"] == pytest.approx(0.783 * 200, abs=2)
+    assert spaces["pumping_power_w"] == pytest.approx(12245, rel=2e-3)
+    assert spaces["stroke"]["contact_start_deg"] == pytest.approx(-4.234, abs=1e-3)
+    assert spaces["stroke"]["min_area_mm2"] == pytest.approx(20.02, abs=0.01)
+    assert spaces["mass_flow_g_per_s"]["radial"] == pytest.approx(22.35, rel=0.02)  # on fine grids
+    assert result["geometry"]["normal_backlash_um"] == pytest.approx(321.946, abs=1e-3)
+    assert result["total"]["meshing_frequency_hz"] == pytest.approx(7259.15)
+    assert result["total"]["axial_meshing_speed_m_per_s"] == pytest.approx(723, abs=0.5)
+    assert result["lead_correction"]["range_um"] == pytest.approx(13.1, abs=0.15)
+    assert result["wheel_spaces"] is None
+
+
+def test_total_is_the_sum_of_both_spaces(full: dict[str, Any]) -> None:
+    parts = [full[spaces]["pumping_power_w"] for spaces in ("pinion_spaces", "wheel_spaces")]
+    assert full["total"]["pumping_power_w"] == pytest.approx(sum(parts))
+
+
+def test_mass_flows_sum_to_zero(full: dict[str, Any]) -> None:
+    flows = full["pinion_spaces"]["mass_flow_g_per_s"]
+    assert abs(sum(flows.values())) < 1e-9
+
+
+def test_slices_in_force_are_echoed(post: Post) -> None:
+    assert solved(post, detail="summary")["model"]["slices"] == 100
+    chain = solved(post, model={"flow": "pocket_chain"}, detail="summary")
+    assert (chain["model"]["slices"], chain["slices"]) == (10, 10)
+
+
+def test_pocket_chain_of_the_paper(post: Post) -> None:
+    result = solved(post, name="milian-case-1-pocket-chain", detail="summary")
+    assert result["pinion_spaces"]["peak_pressure_ratio"] == pytest.approx(1.878, rel=2e-3)
+    assert result["pinion_spaces"]["balance"]["energy_error"] is None
+    assert [warning["code"] for warning in result["warnings"]] == ["no_energy_balance"]
+
+
+def test_incompressible_has_no_temperatures(post: Post) -> None:
+    result = solved(post, name="milian-table-1-incompressible", detail="fields")
+    assert result["total"]["pumping_power_w"] == pytest.approx(1.9462, rel=3e-3)
+    assert result["pinion_spaces"]["max_temperature_rise_k"] is None
+    assert result["pinion_spaces"]["profile"]["temperature_rise_k"] is None
+    assert result["lead_correction"] is None
+    assert result["total"]["axial_meshing_speed_m_per_s"] is None
+    assert {warning["code"] for warning in result["warnings"]} == {"spur_gear", "no_temperature", "no_lead_correction"}
+
+
+def test_assumptions_name_what_the_result_rests_on(post: Post) -> None:
+    named = {entry["field"] for entry in solved(post, detail="summary")["assumptions"]}
+    assert {"gears.normal_backlash_mm", "model.gap", "model.flow", "model.wall_transport", "model.slices"} <= named
+    assert "model.closure" not in named
+    given = solved(post, model={"gap": "tip", "slices": 40}, detail="summary")["assumptions"]
+    assert not {"model.gap", "model.slices", "model.wall_transport"} & {entry["field"] for entry in given}
+
+
+REFUSED: list[tuple[dict[str, Any], str, str]] = [
+    ({"gears": {"centre_distance_mm": 589}}, "/gears/centre_distance_mm", "flank_interference"),
+    ({"gears": {"centre_distance_mm": 620}}, "/gears/centre_distance_mm", "no_mesh"),
+    ({"gears": {"normal_backlash_mm": 6}}, "/gears/normal_backlash_mm", "pointed_tooth"),
+    ({"grooves": [{"position_mm": 100, "width_mm": 250}]}, "/grooves/0/position_mm", "groove_outside"),
+    (
+        {"grooves": [{"position_mm": 50, "width_mm": 20}, {"position_mm": 60, "width_mm": 20}]},
+        "/grooves/1/position_mm",
+        "groove_overlap",
+    ),
+    ({"model": {"flow": "incompressible"}}, "/gears/helix_angle_deg", "helix_incompressible"),
+    ({"model": {"slices": 3}}, "/model/slices", "too_few_slices"),
+    ({"operation": {"pinion_speed_rpm": 1}}, "/operation/pinion_speed_rpm", "too_many_steps"),
+    ({"operation": {"pinion_speed_rpm": 0}}, "/operation/pinion_speed_rpm", "greater_than"),
+]
+
+
+@pytest.mark.parametrize(("changes", "pointer", "code"), REFUSED)
+def test_impossible_input_is_refused_with_its_pointer(
+    post: Post, changes: dict[str, Any], pointer: str, code: str
+) -> None:
+    response = post(PUMPING, case(**changes))
+    assert response.status_code == 422, response.text
+    errors = response.json()["errors"]
+    assert [(error["pointer"], error["code"]) for error in errors] == [(pointer, code)]
+
+
+def test_transverse_module_is_that_of_the_transverse_plane(post: Post) -> None:
+    # Table 2 read as transverse module: the backlash-free centre distance becomes 575.42 mm
+    gears = {"module_plane": "transverse", "centre_distance_mm": None}
+    result = solved(post, gears=gears, detail="summary")
+    assert result["geometry"]["centre_distance_mm"] == pytest.approx(575.42, abs=0.01)
+
+
+def test_choking_speeds(post: Post) -> None:
+    model = {"wall_transport": False, "spaces": "pinion"}
+    result = post(CHOKING, case("milian-case-1-choking", model=model)).json()
+    assert result["radial_choking_speed_rpm"] == pytest.approx(7016, rel=1e-3)
+    assert result["axial_choking_speed_rpm"] == pytest.approx(7386, rel=1.5e-3)
+    curves = result["curves"]
+    assert len({len(values) for values in curves.values()}) == 1
+    assert curves["pinion_speed_rpm"] == sorted(curves["pinion_speed_rpm"])
+
+
+def test_choking_beyond_the_limit_is_null(post: Post) -> None:
+    result = post(CHOKING, case("milian-case-1-choking", search_limit_rpm=5000)).json()
+    assert result["radial_choking_speed_rpm"] is None
+    assert result["axial_choking_speed_rpm"] is None
+    assert result["status"] == "ok_with_warnings"
+    assert {warning["field"] for warning in result["warnings"]} == {"search_limit_rpm"}
+
+
+def test_choking_takes_no_operation(post: Post) -> None:
+    response = post(CHOKING, case())
+    assert response.status_code == 422
+    assert [error["pointer"] for error in response.json()["errors"]] == ["/operation"]

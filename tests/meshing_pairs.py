@@ -1,0 +1,48 @@
+"""Random gear pairs that mesh, for properties that hold for any."""
+
+from math import radians
+
+from hypothesis import assume
+from hypothesis import strategies as st
+
+from solvers.errors import InvalidInput
+from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.pair import gear_pair
+from solvers.pumping.inputs import PumpingSetup
+from solvers.pumping.spaces import prepare
+
+
+def teeth(low: int, high: int) -> st.SearchStrategy[GearTeeth]:
+    return st.builds(
+        lambda z, x, ha, clearance: GearTeeth(z, x, ha, ha + clearance),
+        st.integers(low, high),
+        st.floats(-0.2, 0.6),
+        st.floats(0.7, 1.1),
+        st.floats(0.15, 0.5),
+    )
+
+
+@st.composite
+def setups(draw: st.DrawFn, *, helix: bool = True) -> PumpingSetup:
+    """A set-up whose pair and tooth spaces exist; about three in four draws do."""
+    module = draw(st.floats(1e-3, 12e-3))
+    gears = GearPairInputs(
+        pinion=draw(teeth(18, 70)),
+        wheel=draw(teeth(25, 140)),
+        normal_module=module,
+        face_width=module * draw(st.floats(2, 40)),
+        normal_pressure_angle=radians(draw(st.floats(17, 26))),
+        helix_angle=radians(draw(st.floats(0, 32))) if helix else 0.0,
+        rack_tip_radius=draw(st.floats(0.1, 0.38)),
+    )
+    setup = PumpingSetup(gears, normal_backlash=module * draw(st.floats(0, 0.08)))
+    try:
+        apart = gear_pair(gears).backlash_free_centre_distance + module * draw(st.floats(0, 0.05))
+        meshed = PumpingSetup(
+            GearPairInputs(*(getattr(gears, name) for name in gears.__slots__[:6]), apart, gears.rack_tip_radius),
+            normal_backlash=setup.normal_backlash,
+        )
+        prepare(meshed)
+    except InvalidInput:
+        assume(False)
+    return meshed

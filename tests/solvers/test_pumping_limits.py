@@ -1,0 +1,201 @@
+"""What pumping refuses, and what it warns of."""
+
+import re
+from dataclasses import replace
+from functools import partial
+from math import pi
+
+import pytest
+
+from solvers.errors import InvalidInput
+from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.pumping import (
+    Ambient,
+    ChokingInputs,
+    Closure,
+    Flow,
+    Gap,
+    Groove,
+    PumpingInputs,
+    PumpingModel,
+    PumpingResult,
+    PumpingSetup,
+    Spaces,
+    choking_speeds,
+    solve,
+)
+from solvers.pumping import model as pumping_model
+from solvers.pumping.spaces import flow_at
+from tests.milian import CASE_1, TABLE_1
+
+PLAIN = PumpingSetup(CASE_1, model=PumpingModel(slices=20, spaces=Spaces.PINION))
+
+
+def gears(**changes: object) -> PumpingSetup:
+    return replace(PLAIN, gears=replace(CASE_1, **changes))
+
+
+def pinion(**changes: object) -> PumpingSetup:
+    return gears(pinion=replace(CASE_1.pinion, **changes))
+
+
+def model(**changes: object) -> PumpingSetup:
+    return replace(PLAIN, model=replace(PLAIN.model, **changes))
+
+
+def spur(flow: Flow = Flow.INCOMPRESSIBLE, **changes: object) -> PumpingSetup:
+    return replace(PLAIN, gears=TABLE_1, model=replace(PLAIN.model, flow=flow, slices=None), **changes)
+
+
+REFUSED: list[tuple[str, PumpingSetup, str | None]] = [
+    ("flank_interference", gears(centre_distance=0.5899), "centre_distance"),
+    ("no_tip_clearance", pinion(dedendum=0.7), "pinion.dedendum"),
+    ("no_mesh", gears(centre_distance=0.61), "centre_distance"),
+    ("no_involute", pinion(addendum=-2.0), None),
+    ("pointed_rack", pinion(dedendum=2.4), "pinion.dedendum"),
+    ("pointed_tooth", replace(PLAIN, normal_backlash=6e-3), "normal_backlash"),
+    ("too_few_teeth", pinion(teeth=4), "pinion.teeth"),
+    ("groove_outside", replace(PLAIN, grooves=(Groove(0.1, 0.25),)), "grooves.0.position"),
+    ("groove_outside", replace(PLAIN, grooves=(Groove(0.05, 0.01), Groove(0.196, 0.01))), "grooves.1.position"),
+    ("groove_overlap", replace(PLAIN, grooves=(Groove(0.1, 0.02), Groove(0.085, 0.02))), "grooves.0.position"),
+    ("too_few_slices", model(slices=3), "slices"),
+    ("discharge_coefficient", model(discharge_coefficient=1.2), "discharge_coefficient"),
+    ("isentropic_exponent", replace(PLAIN, ambient=Ambient(isentropic_exponent=1.0)), "isentropic_exponent"),
+    ("negative_backlash", replace(PLAIN, normal_backlash=-1e-5), "normal_backlash"),
+    ("face_width", gears(face_width=0.0), "face_width"),
+    ("helix_incompressible", model(flow=Flow.INCOMPRESSIBLE), "helix_angle"),
+    ("grooves_incompressible", spur(grooves=(Groove(0.1, 0.01),)), "grooves"),
+    ("too_many_steps", model(slices=2000), "pinion_speed"),
+]
+
+
+def solved(setup: PumpingSetup, speed: float = 9267.0) -> PumpingResult:
+    return solve(PumpingInputs(setup, speed * pi / 30))
+
+
+@pytest.mark.parametrize(("code", "setup", "field"), REFUSED, ids=lambda value: value if isinstance(value, str) else "")
+def test_refused(code: str, setup: PumpingSetup, field: str | None) -> None:
+    with pytest.raises(InvalidInput) as refusal:
+        solved(setup)
+    assert refusal.value.code == code
+    if field is not None:
+        assert refusal.value.field == field
+
+
+def test_centre_distance_may_be_backlash_free_to_rounding() -> None:
+    assert solved(gears(centre_distance=0.589968476818106 * (1 - 5e-10))).geometry.normal_backlash > 0
+
+
+def test_involute_interference() -> None:
+    with pytest.raises(InvalidInput) as refusal:
+        solved(PumpingSetup(GearPairInputs(GearTeeth(14, 0.0, 1.0, 1.4), GearTeeth(90, 0.0, 1.25, 1.4), 5e-3, 0.1)))
+    assert refusal.value.code == "involute_interference"
+    assert refusal.value.field == "wheel.addendum"
+
+
+def test_form_diameter() -> None:
+    with pytest.raises(InvalidInput) as refusal:
+        solved(
+            PumpingSetup(
+                GearPairInputs(
+                    GearTeeth(30, 0.0, 1.0, 1.15), GearTeeth(90, 0.0, 1.1, 1.25), 5e-3, 0.1, rack_tip_radius=0.38
+                )
+            )
+        )
+    assert refusal.value.code == "form_diameter"
+    assert refusal.value.field == "wheel.addendum"
+
+
+def test_jumping_feet_of_tip_gaps_are_named() -> None:
+    setup = PumpingSetup(
+        GearPairInputs(
+            GearTeeth(19, 0.0, 0.7, 0.85), GearTeeth(25, 0.0, 0.7, 0.85), 1e-3, 0.01, 0.2967, rack_tip_radius=0.1
+        ),
+        normal_backlash=0.0,
+        model=PumpingModel(gap=Gap.TIP, slices=10),
+    )
+    with pytest.raises(InvalidInput) as refusal:
+        solved(setup)
+    assert refusal.value.code == "tooth_space_minima"
+    assert "deg" in refusal.value.message
+
+
+@pytest.mark.parametrize("speed", [0.0, -100.0])
+def test_no_speed(speed: float) -> None:
+    with pytest.raises(InvalidInput) as refusal:
+        solved(PLAIN, speed)
+    assert refusal.value.code == "speed_not_positive"
+    assert refusal.value.field == "pinion_speed"
+
+
+def test_slow_speed_is_refused_with_what_would_fit(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pumping_model, "flow_at", partial(flow_at, cell_step_limit=30_000))
+    setup = replace(PLAIN, model=PumpingModel(spaces=Spaces.PINION))
+    with pytest.raises(InvalidInput) as refusal:
+        solved(setup, 2000.0)
+    assert refusal.value.code == "too_many_steps"
+    found = re.search(r"at least ([\d.e+]+) rpm .* at most (\d+) slices", refusal.value.message)
+    assert found is not None
+    speed, slices = float(found[1]), int(found[2])
+    assert solved(replace(setup, model=replace(setup.model, slices=slices)), 2000.0).slices == slices
+    assert solved(setup, 1.01 * speed).slices == 100
+    with pytest.raises(InvalidInput):
+        solved(setup, 0.97 * speed)
+
+
+def test_incompressible_cannot_choke() -> None:
+    with pytest.raises(InvalidInput) as refusal:
+        choking_speeds(ChokingInputs(spur(), 1000.0))
+    assert refusal.value.code == "choking_not_modelled"
+
+
+def other(pinion: GearTeeth, wheel: GearTeeth) -> PumpingSetup:
+    return replace(PLAIN, gears=GearPairInputs(pinion, wheel, 5e-3, 0.05, helix_angle=0.2))
+
+
+WARNED: list[tuple[PumpingSetup, set[str]]] = [
+    (PLAIN, set()),
+    (spur(Flow.GAS_DYNAMICS), {"spur_gear"}),
+    (spur(), {"spur_gear", "no_temperature", "no_lead_correction"}),
+    (model(flow=Flow.POCKET_CHAIN, slices=1), {"single_slice"}),
+    (model(flow=Flow.POCKET_CHAIN, closure=Closure.ISENTROPIC), {"no_energy_balance"}),
+    (model(spaces=Spaces.WHEEL), {"no_lead_correction"}),
+    (other(GearTeeth(11, 0.5, 0.9), GearTeeth(60)), {"few_teeth"}),
+    (other(GearTeeth(30, 0, 0.5, 1), GearTeeth(60, 0, 0.5, 1)), {"contact_ratio_below_one"}),
+    (other(GearTeeth(15, -0.1), GearTeeth(60, 0.1, 0.8)), {"undercut"}),
+]
+
+
+@pytest.mark.parametrize(("setup", "expected"), WARNED)
+def test_warned(setup: PumpingSetup, expected: set[str]) -> None:
+    assert {notice.code for notice in solved(setup, 3000.0).warnings} == expected
+
+
+def test_speed_beyond_every_check_is_warned_of() -> None:
+    assert [notice.code for notice in solved(PLAIN, 15000.0).warnings] == ["high_speed"]
+
+
+def test_speed_beyond_every_check_is_finite() -> None:
+    result = solved(PLAIN, 60000.0)
+    assert result.pinion_spaces is not None
+    assert 10 < result.pinion_spaces.peak_pressure_ratio < 20
+    assert result.pinion_spaces.min_pressure_ratio > 0.2
+
+
+def test_values_without_meaning_are_none() -> None:
+    result = solved(spur(), 1000.0)
+    assert result.pinion_spaces is not None
+    assert result.pinion_spaces.max_temperature_rise is None
+    assert result.pinion_spaces.field.temperature_rise is None
+    assert result.pinion_spaces.balance.energy_error is None
+    assert result.lead_correction is None
+    assert result.total.axial_meshing_speed is None
+    assert result.wheel_spaces is None
+
+
+def test_arrays_of_a_result_are_read_only() -> None:
+    result = solved(PLAIN)
+    assert result.pinion_spaces is not None
+    for array in (result.pinion_spaces.stroke.curves.area, result.pinion_spaces.field.pressure_ratio):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0
