@@ -114,7 +114,7 @@ def test_exchanged_surfaces_exchange_the_results(rheology: str) -> None:
 
 @pytest.mark.parametrize(("rheology", "nodes", "load"), [("newtonian", 121, 1e4), ("ree_eyring", 361, 2.73e5)])
 def test_perfect_conductors_make_it_isothermal(rheology: str, nodes: int, load: float) -> None:
-    """Film and solids that carry all heat away: the isothermal film, to the error of 20 intervals across it, 1/400 of A.
+    """Film and solids that carry all heat away: the isothermal film, but for 20 intervals across it, 1/400 of A.
 
     The two split a Ree-Eyring flux differently into its parts, which costs 0.8 % on 121 nodes.
     """
