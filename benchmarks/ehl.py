@@ -57,7 +57,7 @@ def grid(model: Model) -> list[LineContactInputs]:
 
 def random_contacts(model: Model, count: int = 500) -> list[LineContactInputs]:
     """Contacts drawn over the whole range, speeds, viscosities and radii by their logarithms."""
-    random = Random(1)  # noqa: S311 - draws contacts, not secrets
+    random = Random(1)
 
     def between(low: float, high: float) -> float:
         return exp(random.uniform(log(low), log(high)))
