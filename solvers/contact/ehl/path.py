@@ -6,10 +6,10 @@ from math import exp, log
 import numpy as np
 
 from solvers.contact.ehl.continuation import Attempt, Budget, Resolution, solve_cold, solve_from
-from solvers.contact.ehl.dimensionless import groups, moes_gap
+from solvers.contact.ehl.dimensionless import groups
 from solvers.contact.ehl.inputs import LineContactInputs, check
 from solvers.contact.ehl.mesh import grid_for
-from solvers.contact.ehl.model import resolution_for, result
+from solvers.contact.ehl.model import expected_gap, resolution_for, result
 from solvers.contact.ehl.problem import Problem, problem
 from solvers.contact.ehl.results import LineContactResult
 from solvers.contact.ehl.state import State
@@ -26,14 +26,13 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
         check(inputs)
     if not contacts:
         return []
-    scales = [groups(inputs) for inputs in contacts]
-    gap = exp(sum(log(moes_gap(scale)) for scale in scales) / len(scales))
-    resolution = resolution_for(contacts[0], gap)
+    gap = exp(sum(log(expected_gap(inputs)) for inputs in contacts) / len(contacts))
     known: list[State] = []
     results = []
-    for inputs, scale in zip(contacts, scales, strict=True):
+    for inputs in contacts:
+        scale = groups(inputs)
         constants = problem(inputs, scale)
-        attempt, steps = _solve_next(constants, resolution, known)
+        attempt, steps = _solve_next(constants, resolution_for(inputs, gap), known)
         results.append(result(inputs, scale, constants, attempt, steps))
         known = [*known[-1:], attempt.state] if attempt.converged else []
     return results
