@@ -71,7 +71,7 @@ class Budget:
 
 def _price(resolution: Resolution, nodes: int) -> float:
     relative = nodes / 121
-    return (relative**2) * resolution.film_nodes / 21 if resolution.thermal else 0.3 * relative**2
+    return (relative**2) * resolution.film_nodes / 21 if resolution.thermal else 0.2 * relative**2
 
 
 def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:

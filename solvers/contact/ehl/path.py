@@ -13,6 +13,7 @@ from solvers.contact.ehl.model import expected_gap, resolution_for, result
 from solvers.contact.ehl.problem import Problem, problem
 from solvers.contact.ehl.results import LineContactResult
 from solvers.contact.ehl.state import State
+from solvers.errors import InvalidInput
 
 
 def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]:
@@ -20,10 +21,12 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
 
     The first starts from nothing, the others from the pressures, temperatures and separation of those before,
     extrapolated. What does not converge so is solved from nothing; what fails then too neither stops its neighbours
-    nor is filled in. All contacts must share one model. Raises InvalidInput as `inputs.check` does.
+    nor is filled in. Raises InvalidInput as `inputs.check` does, and mixed_models unless all contacts share one model.
     """
     for inputs in contacts:
         check(inputs)
+        if inputs.model != contacts[0].model:
+            raise InvalidInput("mixed_models", "all contacts of a path must share one model", "model")
     if not contacts:
         return []
     gap = exp(sum(log(expected_gap(inputs)) for inputs in contacts) / len(contacts))
