@@ -77,5 +77,12 @@ def test_isothermal_path() -> None:
 
 def test_bad_point_is_refused_at_once() -> None:
     bad = [*contacts(2), LineContactInputs(Contact(2.5e5, 4e-3, 0.0, 3.0))]
-    with pytest.raises(InvalidInput):
+    with pytest.raises(InvalidInput, match="both speeds must be positive"):
         solve_path(bad)
+
+
+def test_models_of_a_path_must_agree() -> None:
+    mixed = [*contacts(2), replace(contacts(3)[2], model=Model(nodes=91))]
+    with pytest.raises(InvalidInput) as refusal:
+        solve_path(mixed)
+    assert refusal.value.code == "mixed_models"

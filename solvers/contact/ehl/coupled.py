@@ -177,7 +177,7 @@ def solve_coupled(
         changed = release_cavitated(work.faces, state.cavitated, tolerance)
         linearise(problem, grid, state, work, jacobian, residual)
         newton_step(problem, grid, work, state.cavitated, jacobian, residual, step, step_t)
-        inlet_step(problem, work.film, state.temperature, step_t)
+        inlet_step(problem, work, state.temperature, step_t)
         last_p, last_t = np.abs(step[:n]).max(), np.abs(step_t).max()
         state.history[1], state.history[2] = last_p, last_t
         if not (np.isfinite(last_p) and np.isfinite(last_t) and np.isfinite(step[n])):

@@ -25,12 +25,15 @@ class Groups:
     moes_l: float
 
 
-def groups(inputs: LineContactInputs) -> Groups:
-    """Hertz contact and Moes parameters M = W U^-1/2, L = alpha E' U^1/4."""
+def groups(inputs: LineContactInputs, temperature: float | None = None) -> Groups:
+    """Hertz contact and Moes parameters M = W U^-1/2, L = alpha E' U^1/4.
+
+    The viscosity is that at the inlet temperature unless another `temperature` [K] is given.
+    """
     contact, lubricant = inputs.contact, inputs.lubricant
     modulus = hertz.reduced_modulus(inputs.surface_1, inputs.surface_2)
     half_width = hertz.half_width(contact.line_load, contact.radius, modulus)
-    viscosity = lubricant.viscosity_at(0.0, inputs.temperatures.inlet)
+    viscosity = lubricant.viscosity_at(0.0, inputs.temperatures.inlet if temperature is None else temperature)
     speed_parameter = viscosity * 2.0 * contact.entrainment_speed / (modulus * contact.radius)
     load_parameter = contact.line_load / (modulus * contact.radius)
     return Groups(
@@ -43,6 +46,22 @@ def groups(inputs: LineContactInputs) -> Groups:
         moes_m=load_parameter / sqrt(speed_parameter),
         moes_l=lubricant.pressure_viscosity * modulus * speed_parameter**0.25,
     )
+
+
+def entry_temperature(inputs: LineContactInputs) -> float:
+    """Temperature [K] that the oil can be expected to have where the film forms.
+
+    Between that of the surfaces and that of the inlet, by the Peclet number rho c um h^2/(lambda b) of the film.
+    """
+    temperatures, oil = inputs.temperatures, inputs.lubricant
+    if not inputs.model.thermal:
+        return temperatures.inlet
+    surfaces = 0.5 * (temperatures.surface_1 + temperatures.surface_2)
+    scales = groups(inputs, surfaces)
+    height = moes_gap(scales) * scales.gap_scale
+    diffusivity = oil.thermal_conductivity / (oil.density * oil.specific_heat)
+    peclet = inputs.contact.entrainment_speed * height**2 / (diffusivity * scales.half_width)
+    return surfaces + (temperatures.inlet - surfaces) * peclet / (1.0 + peclet)
 
 
 def moes_central_film(m: float, l: float) -> float:

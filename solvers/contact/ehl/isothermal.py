@@ -82,8 +82,8 @@ def solve_isothermal(
 ) -> bool:
     """Newton for (P, H0) from the pressures given, in place; whether it converged.
 
-    Pressure changes are clipped node by node; a node behind the centre whose pressure falls below zero joins the
-    broken film, and leaves it when more oil flows in than out.
+    Pressure changes are first clipped node by node, later scaled as a whole; a node behind the centre whose pressure
+    falls below zero joins the broken film, and leaves it when more oil flows in than out.
     """
     n = grid.x.size
     jacobian, residual, step = np.empty((n + 1, n + 1)), np.empty(n + 1), np.empty(n + 1)
@@ -100,10 +100,14 @@ def solve_isothermal(
             return False
         largest = np.abs(step[:n]).max()
         state.history[1] = largest
-        clip = 0.3 if iteration < EARLY else 0.5
-        for i in range(n):
-            step[i] = min(max(step[i], -clip), clip)
-        taken, joined = apply_pressure_step(grid, state.pressure, state.separation, state.cavitated, step, 1.0)
+        scale = 1.0
+        if iteration < PATIENCE:
+            clip = 0.3 if iteration < EARLY else 0.5
+            for i in range(n):
+                step[i] = min(max(step[i], -clip), clip)
+        else:
+            scale = min(1.0, 0.5 / max(largest, 0.5))
+        taken, joined = apply_pressure_step(grid, state.pressure, state.separation, state.cavitated, step, scale)
         if largest < tolerance and taken == 1.0 and not (changed or joined):
             return True
     return False

@@ -99,7 +99,7 @@ def friction(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> C
     stress = work.film.mid_stress
     share = grid.weights * work.heat.fluid_fraction * problem.half_width / contact.line_load
     middle, first, second = (abs(float(share @ s)) for s in (stress, stress - 0.5 * gradient, stress + 0.5 * gradient))
-    loaded = p > 0.1 * problem.maximum_pressure
+    loaded = p > 0.1 * min(problem.maximum_pressure, float(p.max()))
     return ContactFriction(
         coefficient=middle,
         coefficient_1=first,

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from solvers.contact.ehl import measures
 from solvers.contact.ehl.continuation import Attempt, Budget, Resolution, solve_cold
-from solvers.contact.ehl.dimensionless import Groups, dowson_higginson_film, groups, moes_gap
+from solvers.contact.ehl.dimensionless import Groups, dowson_higginson_film, entry_temperature, groups, moes_gap
 from solvers.contact.ehl.inputs import Contact, LineContactInputs, Model, check
 from solvers.contact.ehl.problem import Problem, peclet_number, problem
 from solvers.contact.ehl.results import (
@@ -29,7 +29,7 @@ def solve(inputs: LineContactInputs) -> LineContactResult:
     check(inputs)
     scales = groups(inputs)
     constants = problem(inputs, scales)
-    resolution = resolution_for(inputs, moes_gap(scales))
+    resolution = resolution_for(inputs, expected_gap(inputs))
     budget = Budget()
     return result(inputs, scales, constants, solve_cold(constants, resolution, budget), budget.spent)
 
@@ -37,7 +37,18 @@ def solve(inputs: LineContactInputs) -> LineContactResult:
 def resolution_for(inputs: LineContactInputs, gap: float) -> Resolution:
     """Mesh of the contact, graded for a film of `gap` (in b^2/R)."""
     model = inputs.model
-    return Resolution(gap=gap, nodes=model.nodes, film_nodes=model.film_nodes, thermal=model.thermal)
+    return Resolution(
+        gap=gap,
+        entry_temperature=entry_temperature(inputs),
+        nodes=model.nodes,
+        film_nodes=model.film_nodes,
+        thermal=model.thermal,
+    )
+
+
+def expected_gap(inputs: LineContactInputs) -> float:
+    """Central film to expect, in b^2/R."""
+    return moes_gap(groups(inputs, entry_temperature(inputs)))
 
 
 def result(
@@ -46,7 +57,7 @@ def result(
     """Everything read off an attempt: all of it if the attempt meets every criterion, else why not."""
     thermal = inputs.model.thermal
     dimensionless = _dimensionless(inputs, scales)
-    notices = input_notices(inputs, dimensionless, moes_gap(scales))
+    notices = input_notices(inputs, dimensionless, expected_gap(inputs))
     measures.settle(constants, attempt, thermal)
     heat = measures.heat(constants, attempt) if thermal and attempt.converged else None
     balanced = heat is None or heat.balance_error < WORST_BALANCE

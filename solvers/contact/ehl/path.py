@@ -6,13 +6,14 @@ from math import exp, log
 import numpy as np
 
 from solvers.contact.ehl.continuation import Attempt, Budget, Resolution, solve_cold, solve_from
-from solvers.contact.ehl.dimensionless import groups, moes_gap
+from solvers.contact.ehl.dimensionless import groups
 from solvers.contact.ehl.inputs import LineContactInputs, check
 from solvers.contact.ehl.mesh import grid_for
-from solvers.contact.ehl.model import resolution_for, result
+from solvers.contact.ehl.model import expected_gap, resolution_for, result
 from solvers.contact.ehl.problem import Problem, problem
 from solvers.contact.ehl.results import LineContactResult
 from solvers.contact.ehl.state import State
+from solvers.errors import InvalidInput
 
 
 def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]:
@@ -20,20 +21,21 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
 
     The first starts from nothing, the others from the pressures, temperatures and separation of those before,
     extrapolated. What does not converge so is solved from nothing; what fails then too neither stops its neighbours
-    nor is filled in. All contacts must share one model. Raises InvalidInput as `inputs.check` does.
+    nor is filled in. Raises InvalidInput as `inputs.check` does, and mixed_models unless all contacts share one model.
     """
     for inputs in contacts:
         check(inputs)
+        if inputs.model != contacts[0].model:
+            raise InvalidInput("mixed_models", "all contacts of a path must share one model", "model")
     if not contacts:
         return []
-    scales = [groups(inputs) for inputs in contacts]
-    gap = exp(sum(log(moes_gap(scale)) for scale in scales) / len(scales))
-    resolution = resolution_for(contacts[0], gap)
+    gap = exp(sum(log(expected_gap(inputs)) for inputs in contacts) / len(contacts))
     known: list[State] = []
     results = []
-    for inputs, scale in zip(contacts, scales, strict=True):
+    for inputs in contacts:
+        scale = groups(inputs)
         constants = problem(inputs, scale)
-        attempt, steps = _solve_next(constants, resolution, known)
+        attempt, steps = _solve_next(constants, resolution_for(inputs, gap), known)
         results.append(result(inputs, scale, constants, attempt, steps))
         known = [*known[-1:], attempt.state] if attempt.converged else []
     return results

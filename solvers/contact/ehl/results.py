@@ -72,7 +72,8 @@ class ContactTemperature:
 class ContactFriction:
     """Coefficient from the mid-film stress and those of the two faces [-], magnitudes; power mu w |du| [W/m].
 
-    max_shear_stress and max_pressure_stress (|h dp/dx|) [Pa]; traction_ratio is the largest tau/p where p > p_H/10.
+    max_shear_stress and max_pressure_stress (|h dp/dx|) [Pa]; traction_ratio is the largest tau/p where p > p_H/10
+    (or a tenth of the largest pressure, where that is less).
     """
 
     coefficient: float

@@ -111,10 +111,19 @@ def temperature_step(
 
 
 @kernel
-def inlet_step(problem: Problem, film: Film, temperature: FloatArray, step: FloatArray) -> None:
-    """First column of `step`: oil enters at the inlet temperature, and leaves at that of the column behind it."""
-    for k in range(1, step.shape[1] - 1):
-        if film.stream[0, k + 1] < film.stream[0, k - 1]:
+def inlet_step(problem: Problem, work: Work, temperature: FloatArray, step: FloatArray) -> None:
+    """First column of `step`: oil enters at the inlet temperature, and leaves at that of the column behind it.
+
+    Which is which follows from the flux and a uniform viscosity, so that it cannot change with the temperatures it
+    decides on.
+    """
+    nodes = step.shape[1]
+    u1, u2 = problem.speed_1, problem.speed_2
+    mean = work.film.stream[0, nodes - 1] / (problem.laws.density * work.height[0] * problem.gap_scale)
+    for k in range(1, nodes - 1):
+        zeta = k / (nodes - 1)
+        speed = u1 * (1.0 - zeta) + u2 * zeta + 6.0 * (mean - 0.5 * (u1 + u2)) * zeta * (1.0 - zeta)
+        if speed < 0.0:
             step[0, k] = temperature[1, k] + step[1, k] - temperature[0, k]
         else:
             step[0, k] = problem.inlet - temperature[0, k]
