@@ -19,6 +19,7 @@ from app.quantities import Output
 
 MEDIA_TYPE = "application/problem+json"
 LONGEST_POINTER_PART = 100
+MOST_FIELD_ERRORS = 100
 
 logger = logging.getLogger("tribodrive")
 
@@ -84,7 +85,7 @@ class Problem(BaseModel):
     status: Annotated[int, Output("the HTTP status")]
     detail: Annotated[str, Output("what happened this time")]
     instance: Annotated[str, Output("the request id, as in the X-Request-ID header and the log")]
-    errors: Annotated[list[FieldError] | None, Output("with 422: every field at fault")] = None
+    errors: Annotated[list[FieldError] | None, Output("with 422: the fields at fault, the first hundred of them")] = None
 
 
 MEANINGS = {
@@ -160,7 +161,8 @@ def problem(
 def _invalid_request(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, RequestValidationError)
     errors = [
-        {"pointer": _pointer(item["loc"]), "code": item["type"], "message": _message(item)} for item in error.errors()
+        {"pointer": _pointer(item["loc"]), "code": item["type"], "message": _message(item)}
+        for item in error.errors()[:MOST_FIELD_ERRORS]
     ]
     return _unprocessable_response(request, "invalid_request", errors)
 

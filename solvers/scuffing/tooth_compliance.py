@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 
 from solvers.arrays import FloatArray
+from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import Gear, GearPair, full_rack_tip_radius, involute
 from solvers.materials import Solid
@@ -63,11 +64,18 @@ def tooth_shape(gear: Gear) -> ToothShape:
     """The rectangle and trapezium of a tooth.
 
     Heights run along the centre line from the chord of width S_F that lies on the root circle. A tooth no narrower
-    at the tip than at the root counts as one rectangle.
+    at the tip than at the root counts as one rectangle. Raises InvalidInput pointed_tooth: the virtual tooth of a normal
+    section may end in a point where the tooth itself does not.
     """
     root_angle, tip_angle = gear.half_tooth_angle(gear.form_radius), gear.half_tooth_angle(gear.tip_radius)
     root_width = 2 * gear.form_radius * sin(root_angle)
     tip_width = 2 * gear.tip_radius * sin(tip_angle)
+    if tip_width <= 0.0:
+        raise InvalidInput(
+            "pointed_tooth",
+            "a tooth is pointed in its normal section; choose the transverse section, or reduce addendum or profile shift",
+            "section",
+        )
     height = gear.tip_radius * cos(tip_angle) - _chord_height(gear, root_width)
     if root_width <= tip_width:
         return ToothShape(root_width, root_width, height, height)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from solvers.errors import InvalidInput
-from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.inputs import GearPairInputs, GearTeeth, normal_section
 from solvers.scuffing import solve_load_distribution, solve_scuffing
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, ScuffingInputs
 from solvers.scuffing.results import LoadDistribution
@@ -202,6 +202,19 @@ def test_no_tip_clearance_is_refused() -> None:
 def test_pointed_teeth_are_refused() -> None:
     error = refusal(replace(paper_gears(1), pinion=GearTeeth(12, 0.9)))
     assert (error.code, error.field) == ("pointed_tooth", "pinion.addendum")
+
+
+def test_teeth_pointed_in_their_normal_section_only_are_refused_there() -> None:
+    helix_angle = radians(43.0)
+    normal_module, normal_pressure_angle = normal_section(5e-3, radians(30.8), helix_angle)
+    gears = GearPairInputs(
+        GearTeeth(26, 2.38), GearTeeth(165, 1.01), normal_module, 50e-3, normal_pressure_angle, helix_angle
+    )
+    assert everything_finite(solve_gears(gears, model=Model(section="transverse")))
+    with pytest.raises(InvalidInput) as caught:
+        solve_gears(gears, model=Model(section="normal"))
+    assert (caught.value.code, caught.value.field) == ("pointed_tooth", "section")
+
 
 
 def test_thin_tips_are_a_warning() -> None:
