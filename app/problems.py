@@ -85,7 +85,7 @@ class Problem(BaseModel):
     status: Annotated[int, Output("the HTTP status")]
     detail: Annotated[str, Output("what happened this time")]
     instance: Annotated[str, Output("the request id, as in the X-Request-ID header and the log")]
-    errors: Annotated[list[FieldError] | None, Output("with 422: the fields at fault, the first hundred of them")] = None
+    errors: Annotated[list[FieldError] | None, Output("with 422: the fields at fault, at most a hundred")] = None
 
 
 MEANINGS = {

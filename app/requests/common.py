@@ -2,7 +2,9 @@
 
 from typing import Annotated, Any, Self
 
-from pydantic import ConfigDict
+from pydantic import ConfigDict, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
 
 from app.quantities import Detail, Documented, Input
 
@@ -25,6 +27,16 @@ class Request(Section):
         Detail,
         Input("how much to return: scalars, scalars and curves, or also two-dimensional fields"),
     ] = "curves"
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        """The schema as the docs page shows it best: what is required first, the level of detail last."""
+        document = super().__get_pydantic_json_schema__(schema, handler)
+        definition = handler.resolve_ref_schema(document)
+        required = definition.get("required", ())
+        rank = {name: (name not in required, name == "detail") for name in definition["properties"]}
+        definition["properties"] = {name: definition["properties"][name] for name in sorted(rank, key=rank.__getitem__)}
+        return document
 
     def inputs(self) -> Any:
         """The solver's inputs, SI; called on a resolved request."""

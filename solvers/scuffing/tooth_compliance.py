@@ -64,8 +64,8 @@ def tooth_shape(gear: Gear) -> ToothShape:
     """The rectangle and trapezium of a tooth.
 
     Heights run along the centre line from the chord of width S_F that lies on the root circle. A tooth no narrower
-    at the tip than at the root counts as one rectangle. Raises InvalidInput pointed_tooth: the virtual tooth of a normal
-    section may end in a point where the tooth itself does not.
+    at the tip than at the root counts as one rectangle. Raises InvalidInput pointed_tooth: the virtual tooth of a
+    normal section may end in a point where the tooth itself does not.
     """
     root_angle, tip_angle = gear.half_tooth_angle(gear.form_radius), gear.half_tooth_angle(gear.tip_radius)
     root_width = 2 * gear.form_radius * sin(root_angle)
@@ -73,7 +73,7 @@ def tooth_shape(gear: Gear) -> ToothShape:
     if tip_width <= 0.0:
         raise InvalidInput(
             "pointed_tooth",
-            "a tooth is pointed in its normal section; choose the transverse section, or reduce addendum or profile shift",
+            "a tooth is pointed in its normal section; choose transverse, or reduce addendum or profile shift",
             "section",
         )
     height = gear.tip_radius * cos(tip_angle) - _chord_height(gear, root_width)

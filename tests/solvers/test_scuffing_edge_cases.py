@@ -216,7 +216,6 @@ def test_teeth_pointed_in_their_normal_section_only_are_refused_there() -> None:
     assert (caught.value.code, caught.value.field) == ("pointed_tooth", "section")
 
 
-
 def test_thin_tips_are_a_warning() -> None:
     assert "thin_tip" in codes(solve_gears(replace(paper_gears(1), pinion=GearTeeth(14, 0.75))))
 
