@@ -1,6 +1,6 @@
-"""What the service survives: a mixed load under wrk while a worker is killed every second. Prints a table. Needs wrk.
+"""What the service survives: a load under wrk with a worker killed each second, faults, generated inputs. Needs wrk.
 
-python benchmarks/reliability.py
+Prints the table of the README's section "Reliability": python benchmarks/reliability.py
 """
 
 import argparse
@@ -14,6 +14,7 @@ import sys
 import tempfile
 import threading
 import time
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -24,12 +25,14 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from app.library import examples
 from tests.server import running_server
 
+ROOT = Path(__file__).parents[1]
 MIX = (
     "pahl-axial-displacement",
     "pahl-z-arrangement",
     "pahl-recommended-crowning",
     "xue-pair-1-modified",
     "xue-line-contact",
+    "milian-case-1",
 )
 CONNECTIONS = 4
 JSON = {"Content-Type": "application/json"}
@@ -108,8 +111,8 @@ def kill_workers(process: subprocess.Popen[str], done: threading.Event, watch: W
         watch.memory_mb.append(memory_mb(process.pid))
 
 
-def main(seconds: int) -> None:
-    """Run the load and print the table."""
+def under_load(seconds: int) -> Iterator[tuple[str, str]]:
+    """Rows of the table: a mixed load while workers are killed."""
     watch, done = Watch(), threading.Event()
     with (
         running_server(log_level="error") as (process, address),
@@ -135,18 +138,52 @@ def main(seconds: int) -> None:
         time.sleep(1)
         recovered = httpx.get(f"{address}/readyz", timeout=60).is_success
     outcomes = {name: int(count) for name, count in re.findall(r"outcome (\w+) (\d+)", report)}
-    print("| what | figure |\n|---|---|")
-    print(f"| load | {seconds} s, {CONNECTIONS} connections, {len(MIX)} kinds of request |")
-    print(f"| workers killed | {watch.kills} |")
-    print(f"| right answers | {outcomes['right']} |")
-    print(f"| wrong answers | {outcomes['wrong']} |")
-    print(f"| requests lost with their worker (503) | {outcomes['worker_lost']} |")
-    print(f"| any other failure | {outcomes['other']} |")
-    print(f"| memory of the server, first and last | {watch.memory_mb[0]:.0f} MB, {watch.memory_mb[-1]:.0f} MB |")
-    print(f"| answers afterwards | {'yes' if recovered else 'no'} |")
+    yield "load", f"{seconds} s, {CONNECTIONS} connections, {len(MIX)} kinds of request, a worker killed each second"
+    yield "workers killed", str(watch.kills)
+    yield "right answers", str(outcomes["right"])
+    yield "wrong answers", str(outcomes["wrong"])
+    yield "requests lost with their worker (503)", str(outcomes["worker_lost"])
+    yield "any other failure", str(outcomes["other"])
+    yield "memory of the server, first and last", f"{watch.memory_mb[0]:.0f} MB, {watch.memory_mb[-1]:.0f} MB"
+    yield "answers afterwards", "yes" if recovered else "no"
+
+
+def under_faults() -> Iterator[tuple[str, str]]:
+    """Rows of the table: every scenario of the fault suite."""
+    command = [sys.executable, "-m", "pytest", "-q", "-m", "service", "-rA", "tests/service/test_faults.py"]
+    report = subprocess.run(command, cwd=ROOT, check=False, capture_output=True, text=True).stdout
+    for outcome, name in re.findall(r"^(PASSED|FAILED|ERROR) \S+::test_(\w+)", report, re.MULTILINE):
+        yield f"fault: {name.replace('_', ' ')}", "held" if outcome == "PASSED" else outcome.lower()
+
+
+def under_generated_inputs(examples_per_operation: int) -> Iterator[tuple[str, str]]:
+    """Rows of the table: schemathesis with every check over the whole OpenAPI document."""
+    command = [Path(sys.executable).with_name("schemathesis"), "run", "--checks", "all"]
+    command += ["--max-examples", str(examples_per_operation)]
+    with running_server(log_level="error") as (_, address):
+        report = subprocess.run(
+            [*command, f"{address}/openapi.json"], cwd=ROOT, check=False, capture_output=True, text=True
+        ).stdout
+    operations = re.search(r"Tested: (\d+)", report)
+    cases = re.search(r"(\d+) generated(?:, (\d+) found)?", report)
+    if operations is None or cases is None:
+        raise RuntimeError(report[-2000:])
+    yield "operations tested with generated inputs", operations[1]
+    yield "generated inputs", cases[1]
+    yield "of them answered against the contract", cases[2] or "0"
+
+
+def main(seconds: int, examples_per_operation: int) -> None:
+    """Run everything and print the table."""
+    print("| tried | what held |\n|---|---|")
+    for rows in (under_load(seconds), under_faults(), under_generated_inputs(examples_per_operation)):
+        for what, figure in rows:
+            print(f"| {what} | {figure} |", flush=True)
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--seconds", type=int, default=60)
-    main(parser.parse_args().seconds)
+    parser.add_argument("--seconds", type=int, default=60, help="duration of the load")
+    parser.add_argument("--examples", type=int, default=100, help="generated inputs an operation, at least")
+    arguments = parser.parse_args()
+    main(arguments.seconds, arguments.examples)

@@ -102,7 +102,13 @@ def load_points(gear: Gear, radius: FloatArray) -> LoadPoints:
 
 
 def _chord_height(gear: Gear, root_width: float) -> float:
-    """Distance of the root chord from the gear's axis [m]."""
+    """Distance of the root chord from the gear's axis [m].
+
+    Raises InvalidInput root_circle where the chord does not fit into the root circle.
+    """
+    if gear.root_radius <= root_width / 2:
+        message = "a gear's root circle is narrower than the root of its teeth; reduce the dedendum or take more teeth"
+        raise InvalidInput("root_circle", message, "gears")
     return sqrt(gear.root_radius**2 - root_width**2 / 4)
 
 

@@ -204,6 +204,11 @@ def test_pointed_teeth_are_refused() -> None:
     assert (error.code, error.field) == ("pointed_tooth", "pinion.addendum")
 
 
+def test_root_circle_too_small_for_its_teeth_is_refused() -> None:
+    error = refusal(replace(paper_gears(1), wheel=GearTeeth(5, 0.0, 1.0, 2.0)))
+    assert error.code == "root_circle"
+
+
 def test_teeth_pointed_in_their_normal_section_only_are_refused_there() -> None:
     helix_angle = radians(43.0)
     normal_module, normal_pressure_angle = normal_section(5e-3, radians(30.8), helix_angle)
