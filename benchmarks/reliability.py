@@ -23,7 +23,7 @@ import httpx
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from app.library import examples
-from tests.server import running_server
+from tests.server import children, memory_mb, running_server
 
 ROOT = Path(__file__).parents[1]
 MIX = (
@@ -88,17 +88,6 @@ def load_script(address: str) -> str:
             f"table.insert(cases, {{path = {lua(example.endpoint)}, body = {lua(body)}, answer = {lua(answer)}}})"
         )
     return SCRIPT % "\n".join(lines)
-
-
-def children(process: subprocess.Popen[str]) -> list[int]:
-    """Process ids of the workers."""
-    return [int(pid) for pid in Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text("ascii").split()]
-
-
-def memory_mb(pid: int) -> float:
-    """Resident memory of one process."""
-    pages = int(Path(f"/proc/{pid}/statm").read_text("ascii").split()[1])
-    return pages * os.sysconf("SC_PAGE_SIZE") / 2**20
 
 
 def kill_workers(process: subprocess.Popen[str], done: threading.Event, watch: Watch) -> None:

@@ -1,4 +1,4 @@
-"""Requests per second and 99th percentile of the service beside an empty typed endpoint. Needs wrk.
+"""Requests/s and 99th percentile beside an empty typed endpoint; first requests; memory of the workers. Needs wrk.
 
 python benchmarks/service.py
 """
@@ -7,6 +7,7 @@ import argparse
 import json
 import os
 import re
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -18,11 +19,14 @@ from pathlib import Path
 import httpx
 from fastapi import FastAPI
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
 from app.__main__ import serve
-from app.library import examples
+from app.library import Example, examples
 from app.main import create_app
 from app.requests.coupling import CouplingRequest
 from app.routes.service import Health
+from tests.server import children, memory_mb
 
 PORT = 8765
 ADDRESS = f"http://127.0.0.1:{PORT}"
@@ -58,7 +62,7 @@ def ours() -> FastAPI:
 
 
 @contextmanager
-def served(factory: str) -> Iterator[None]:
+def served(factory: str) -> Iterator[subprocess.Popen[bytes]]:
     """A server process of one of the applications above."""
     environment = {**os.environ, "TRIBODRIVE_PORT": str(PORT)}
     command = [sys.executable, __file__, "--serve", factory]
@@ -70,7 +74,7 @@ def served(factory: str) -> Iterator[None]:
                     break
             except httpx.TransportError:
                 time.sleep(0.1)
-        yield
+        yield process
     finally:
         process.terminate()
         process.wait()
@@ -95,8 +99,28 @@ def load(path: str, body: object | None, seconds: int, connections: int = 8) -> 
     return float(rate[1]), float(percentile[1]) * {"us": 1e-3, "ms": 1.0, "s": 1e3}[percentile[2]]
 
 
+def milliseconds(example: Example) -> float:
+    """How long one request takes, seen by its client."""
+    start = time.perf_counter()
+    httpx.post(ADDRESS + example.endpoint, json=example.request, timeout=120).raise_for_status()
+    return 1e3 * (time.perf_counter() - start)
+
+
+def first_requests() -> None:
+    """The first request of every endpoint after start-up beside later ones, and what the workers then hold."""
+    first_of = {example.endpoint: example for example in reversed(examples().values())}
+    with served("ours") as process:
+        print(f"\n{'endpoint':<40}{'first ms':>12}{'later ms':>10}")
+        for endpoint, example in first_of.items():
+            first, *later = (milliseconds(example) for _ in range(6))
+            print(f"{endpoint:<40}{first:>12.0f}{statistics.median(later):>10.0f}")
+        for example in examples().values():
+            milliseconds(example)
+        print(f"largest worker after every example: {max(map(memory_mb, children(process))):.0f} MB (target 400 MB)")
+
+
 def main(seconds: int) -> None:
-    """Measure and print the table."""
+    """Measure and print the tables."""
     rows = []
     with served("bare"):
         rows.append(("empty typed endpoint, bare FastAPI", *load("/empty", EXAMPLE, seconds)))
@@ -108,6 +132,7 @@ def main(seconds: int) -> None:
     for name, rate, percentile in rows:
         print(f"{name:<40}{rate:>12.0f}{percentile:>10.1f}")
     print(f"middleware and logging cost {1 - rows[1][1] / rows[0][1]:.0%} of the bare application (target 25 %)")
+    first_requests()
 
 
 if __name__ == "__main__":

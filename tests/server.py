@@ -8,6 +8,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import httpx
 
@@ -52,3 +53,14 @@ def _ready(process: subprocess.Popen[str], address: str) -> str:
         except httpx.TransportError:
             time.sleep(0.1)
     raise RuntimeError(f"the service did not start: exit code {process.poll()}")
+
+
+def children(process: subprocess.Popen[Any]) -> list[int]:
+    """Process ids of the workers."""
+    return [int(pid) for pid in Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text("ascii").split()]
+
+
+def memory_mb(pid: int) -> float:
+    """Resident memory of one process [MiB]."""
+    pages = int(Path(f"/proc/{pid}/statm").read_text("ascii").split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE") / 2**20

@@ -11,14 +11,13 @@ import time
 from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 from urllib.parse import urlsplit
 
 import httpx
 import pytest
 
 from app.library import examples
-from tests.server import running_server
+from tests.server import children, running_server
 
 pytestmark = pytest.mark.service
 
@@ -33,10 +32,6 @@ def faulty() -> Iterator[tuple[subprocess.Popen[str], str]]:
         FAULTY, workers=2, queue=2, deadline_s=6, body_deadline_s=1, worker_memory_mb=1024, log_level="error"
     ) as server:
         yield server
-
-
-def workers_of(process: subprocess.Popen[str]) -> list[int]:
-    return [int(pid) for pid in Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text("ascii").split()]
 
 
 def calculations_running(address: str) -> float:
@@ -87,7 +82,7 @@ def outcomes_while_killing(process: subprocess.Popen[str], address: str) -> Coun
         loads = [pool.submit(load) for _ in range(3)]
         for _ in range(KILLS):
             time.sleep(KILL_EVERY_S)
-            workers = workers_of(process)
+            workers = children(process)
             if workers:
                 os.kill(random.choice(workers), signal.SIGKILL)
         done.set()
