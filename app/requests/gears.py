@@ -16,10 +16,10 @@ class GearMember(Section):
     teeth: Annotated[int, Input("number of teeth", "z", ISO_21771, ge=5, le=1000)]
     profile_shift: Annotated[float, Input("profile shift coefficient", "x", ISO_21771, ge=-2, le=3)] = 0.0
     addendum: Annotated[
-        float, Input("addendum coefficient of the rack; the tip radius follows", "h_aP*", "ISO 53", gt=0, le=3)
+        float, Input("addendum coefficient of the rack; the tip radius follows", "h_aP*", "ISO 53", ge=0.01, le=3)
     ] = 1.0
     dedendum: Annotated[
-        float, Input("dedendum coefficient of the rack; the root radius follows", "h_fP*", "ISO 53", gt=0, le=3)
+        float, Input("dedendum coefficient of the rack; the root radius follows", "h_fP*", "ISO 53", ge=0.01, le=3)
     ] = 1.25
 
 
@@ -31,7 +31,7 @@ class Gears(Section):
 
     pinion: Annotated[GearMember, Input("the driving gear")]
     wheel: Annotated[GearMember, Input("the driven gear")]
-    module_mm: Annotated[float, Input("module, in the plane named by `module_plane`", "m", ISO_21771, gt=0, le=100)]
+    module_mm: Annotated[float, Input("module, in the plane named by `module_plane`", "m", ISO_21771, ge=0.01, le=100)]
     module_plane: Annotated[
         Literal["normal", "transverse"], Input("plane of module and pressure angle", None, ISO_21771)
     ] = "normal"
@@ -41,9 +41,9 @@ class Gears(Section):
     helix_angle_deg: Annotated[
         float, Input("helix angle at the reference circle; the hand does not matter", "β", ISO_21771, ge=0, le=45)
     ] = 0.0
-    face_width_mm: Annotated[float, Input("common face width", "b", ISO_21771, gt=0, le=5000)]
+    face_width_mm: Annotated[float, Input("common face width", "b", ISO_21771, ge=0.01, le=5000)]
     centre_distance_mm: Annotated[
-        float | None, Input("centre distance; null: the backlash-free value", "a", ISO_21771, gt=0, le=20000)
+        float | None, Input("centre distance; null: the backlash-free value", "a", ISO_21771, ge=0.1, le=20000)
     ] = None
 
     def pair(self, rack_tip_radius: float) -> GearPairInputs:

@@ -30,7 +30,7 @@ class Oil(Section):
     """The oil; the defaults are the paper's, at 360 K."""
 
     viscosity_pa_s: Annotated[
-        float, Input("viscosity at the reference temperature and no pressure", "η_0", TABLE, gt=0, le=100)
+        float, Input("viscosity at the reference temperature and no pressure", "η_0", TABLE, ge=1e-5, le=100)
     ] = 0.08
     reference_temperature_c: Annotated[
         float,

@@ -99,17 +99,21 @@ class FlankModifications(Section):
     tip_relief_um: Annotated[float, Input("relief at E: pinion tip plus wheel root", "C_a", XUE, ge=0, le=1000)] = 0.0
     tip_relief_length_mm: Annotated[
         float | None,
-        Input("length along the line of action; null: to the single contact", "L_a", gt=0, le=1000, assumed=NO_LENGTHS),
+        Input(
+            "length along the line of action; null: to the single contact", "L_a", ge=1e-3, le=1000, assumed=NO_LENGTHS
+        ),
     ] = None
     root_relief_um: Annotated[float, Input("relief at A: pinion root plus wheel tip", "C_f", XUE, ge=0, le=1000)] = 0.0
     root_relief_length_mm: Annotated[
         float | None,
-        Input("length along the line of action; null: to the single contact", "L_f", gt=0, le=1000, assumed=NO_LENGTHS),
+        Input(
+            "length along the line of action; null: to the single contact", "L_f", ge=1e-3, le=1000, assumed=NO_LENGTHS
+        ),
     ] = None
     end_relief_um: Annotated[float, Input("relief at both ends of the face", "C_e", XUE, ge=0, le=1000)] = 0.0
     end_relief_length_mm: Annotated[
         float | None,
-        Input("length along the face; null: a tenth of it", "L_e", gt=0, le=5000, assumed=NO_LENGTHS),
+        Input("length along the face; null: a tenth of it", "L_e", ge=1e-3, le=5000, assumed=NO_LENGTHS),
     ] = None
     relief_exponent: Annotated[
         float,

@@ -10,9 +10,10 @@ import pytest
 from pydantic import BaseModel
 
 from app.calculations import CALCULATIONS, Calculation
-from app.library import examples
+from app.library import Example, examples
+from app.quantities import Input
 
-HOSTILE: list[Any] = ["30", True, "x" * 50, None, [], {}, -1e300, 1e300, 10**400]
+HOSTILE: list[Any] = ["30", True, "x" * 50, None, [], {}, -1e300, 1e300, 10**400, 0, 1e-9, 1e-300]
 
 
 def example_of(calculation: Calculation) -> dict[str, Any]:
@@ -113,4 +114,29 @@ def test_nothing_gives_500(client: httpx.Client, calculation: Calculation) -> No
     for path in number_fields(calculation.request):
         for value in HOSTILE:
             response = send(client, calculation.path, changed(example_of(calculation), path, value))
+            assert response.status_code in {200, 422}, (path, value, response.text)
+
+
+def range_ends(model: type[BaseModel], path: tuple[str, ...]) -> tuple[float, float]:
+    """The smallest and the largest number that a field takes, but for open ends."""
+    field = model.model_fields[path[0]]
+    if len(path) > 1:
+        assert isinstance(field.annotation, type)
+        return range_ends(field.annotation, path[1:])
+    meaning = next(item for item in field.metadata if isinstance(item, Input))
+    low = meaning.ge if meaning.ge is not None else meaning.gt
+    high = meaning.le if meaning.le is not None else meaning.lt
+    assert low is not None
+    assert high is not None
+    return low, high
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("example", examples().values(), ids=examples().keys())
+def test_ends_of_every_range_are_answered(client: httpx.Client, example: Example) -> None:
+    calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
+    for path in number_fields(calculation.request):
+        for value in range_ends(calculation.request, path):
+            request = changed(copy.deepcopy(example.request), path, value)
+            response = send(client, calculation.path, {**request, "detail": "summary"})
             assert response.status_code in {200, 422}, (path, value, response.text)
