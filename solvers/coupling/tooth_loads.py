@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.arrays import FloatArray, IntArray
+from solvers.coupling.geometry import pitch_radius
 from solvers.coupling.inputs import Coupling
 from solvers.coupling.kinematics import MeshMotion, ToothPositions, flank_normals, tangential_displacement
 from solvers.coupling.tooth_balance import centred_rows, floating_rows
@@ -37,7 +38,7 @@ def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPosit
 
 def elastic_rotation(coupling: Coupling, torque: float) -> float:
     """T/(r_o c_t) [m]: the rotation of a coupling with one tooth, as a length at the pitch radius."""
-    return torque / (coupling.module * coupling.teeth / 2.0 * coupling.tooth_stiffness)
+    return torque / (pitch_radius(coupling) * coupling.tooth_stiffness)
 
 
 def shares(interference: FloatArray, normal: FloatArray, state: FloatArray) -> FloatArray:
