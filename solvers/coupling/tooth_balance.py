@@ -135,12 +135,17 @@ def centred_rows(interference: FloatArray, share: FloatArray, rotation: FloatArr
 def floating_rows(
     interference: FloatArray, normal: FloatArray, force: FloatArray, state: FloatArray, iterations: IntArray
 ) -> None:
-    """States (rows, 3) of a floating sleeve under `force` (rows, 2), each row started from the one before."""
+    """States (rows, 3) of a floating sleeve under `force` (rows, 2), each row started from the one before.
+
+    Where that fails it starts from rest; a row that fails again, its iterations negative, ends it: later rows stay
+    untouched.
+    """
     system = np.empty((3, 4))
     for row in range(interference.shape[0]):
-        start = state[row - 1] if row > 0 and iterations[row - 1] > 0 else np.zeros(3)
-        state[row] = start
+        state[row] = state[max(row - 1, 0)]
         iterations[row] = float_sleeve(interference[row], normal[row], force[row], state[row], system)
         if iterations[row] < 0:
             state[row] = 0.0
             iterations[row] = float_sleeve(interference[row], normal[row], force[row], state[row], system)
+        if iterations[row] < 0:
+            break
