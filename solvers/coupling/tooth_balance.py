@@ -92,11 +92,9 @@ def potential(energy: float, force: FloatArray, state: FloatArray) -> float:
 
 
 @kernel
-def unbalance(force: FloatArray, system: FloatArray, residual: FloatArray) -> None:
-    """Torque and lateral force that the teeth do not hold, into `residual` (3): the potential's falling gradient."""
-    residual[0] = 1.0 - system[0, 3]
-    residual[1] = force[0] - system[1, 3]
-    residual[2] = force[1] - system[2, 3]
+def slope(force: FloatArray, system: FloatArray, step: FloatArray) -> float:
+    """How fast the potential falls along `step` (3)."""
+    return (1.0 - system[0, 3]) * step[0] + (force[0] - system[1, 3]) * step[1] + (force[1] - system[2, 3]) * step[2]
 
 
 @kernel
@@ -114,9 +112,8 @@ def move_downhill(
     The step halves until the potential falls enough. Where fewer than three teeth carry, the sleeve moves freely in
     some direction, and the next tooth may be many steps away: a whole step doubles while the slope stays as it was.
     """
-    start, residual = state.copy(), np.empty(3)
-    unbalance(force, system, residual)
-    descent = residual @ step
+    start = state.copy()
+    descent = slope(force, system, step)
     before = potential(energy, force, start)
     length = 1.0
     while True:
@@ -126,13 +123,11 @@ def move_downhill(
         if drop >= 1e-4 * length * descent - 1e-13 * (abs(before) + 1.0) or length < 1e-14:
             break
         length *= 0.5
-    unbalance(force, system, residual)
-    while 1.0 <= length < FARTHEST and residual @ step > 0.5 * descent:
+    while 1.0 <= length < FARTHEST and slope(force, system, step) > 0.5 * descent:
         nearer = potential(energy, force, state)
         length *= 2.0
         state[:] = start + length * step
         energy = balance(interference, normal, state, system)
-        unbalance(force, system, residual)
         if potential(energy, force, state) > nearer:
             state[:] = start + 0.5 * length * step
             return balance(interference, normal, state, system)
@@ -152,7 +147,9 @@ def float_sleeve(
     state[0] = common_rotation(interference - state[1] * normal[0] - state[2] * normal[1])
     energy = balance(interference, normal, state, system)
     for iteration in range(1, MAX_ITERATIONS + 1):
-        unbalance(force, system, residual)
+        residual[0] = 1.0 - system[0, 3]
+        residual[1] = force[0] - system[1, 3]
+        residual[2] = force[1] - system[2, 3]
         rounding = 1e-15 * interference.size * (abs(state[0]) + abs(state[1]) + abs(state[2]))
         if abs(residual[0]) + abs(residual[1]) + abs(residual[2]) < BALANCE_TOLERANCE + rounding:
             return iteration

@@ -105,6 +105,15 @@ def test_mean_of_one_mesh_agrees_with_many_midpoints(misalignment: float, errors
     assert result.losses.friction_power == pytest.approx(power, rel=1e-5)
 
 
+@pytest.mark.parametrize("teeth", [6, 52, 208, 400])
+def test_a_revolution_is_sampled_as_finely_whatever_the_number_of_teeth(teeth: int) -> None:
+    inputs = pahl_coupling(0.3, teeth=teeth, module=2 * PITCH_RADIUS / teeth, pitch_errors=(0.0,) * teeth)
+    samples = rotor_samples(inputs.coupling, two_meshes(inputs, tooth_geometry(inputs.coupling))[0], 2e-3)
+    assert samples.weight.sum() == pytest.approx(1.0, rel=1e-12)
+    # At most six reversals of friction a pitch leave seven pieces, each with its share of the 208 angles.
+    assert 208 <= samples.weight.size <= 7 * max(212, teeth)
+
+
 @pytest.mark.parametrize("teeth", [6, 400])
 def test_mean_over_a_revolution_is_as_good_with_few_and_with_many_teeth(teeth: int) -> None:
     errors = tuple(2e-6 * np.random.default_rng(5).normal(size=teeth))
