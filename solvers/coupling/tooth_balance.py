@@ -88,13 +88,16 @@ def solve_symmetric(system: FloatArray, right: FloatArray, solution: FloatArray)
 @kernel
 def potential(energy: float, force: FloatArray, state: FloatArray) -> float:
     """What a balanced sleeve minimises: the teeth's energy less the work of unit torque and lateral force (2)."""
-    return energy - state[0] - force[0] * state[1] - force[1] * state[2]
+    work: float = state[0] + force[0] * state[1] + force[1] * state[2]
+    return energy - work
 
 
 @kernel
 def slope(force: FloatArray, system: FloatArray, step: FloatArray) -> float:
     """How fast the potential falls along `step` (3)."""
-    return (1.0 - system[0, 3]) * step[0] + (force[0] - system[1, 3]) * step[1] + (force[1] - system[2, 3]) * step[2]
+    torque: float = 1.0 - system[0, 3]
+    fall: float = torque * step[0] + (force[0] - system[1, 3]) * step[1] + (force[1] - system[2, 3]) * step[2]
+    return fall
 
 
 @kernel
