@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.requests.common import Request
-from app.requests.coupling import CouplingRequest, RecommendationRequest
+from app.requests.coupling import CouplingRequest, RecommendationRequest, SleeveOrbitRequest
 from app.requests.line_contact import LineContactRequest
 from app.requests.pumping import ChokingSpeedRequest, PumpingRequest
 from app.requests.scuffing import LoadDistributionRequest, ScuffingRequest
@@ -43,7 +43,7 @@ CALCULATIONS = (
         path="/v1/coupling/sleeve-orbit",
         summary="Path and inertia force of a floating sleeve over one revolution",
         source="Pahl 1978, Fig. 5",
-        request=CouplingRequest,
+        request=SleeveOrbitRequest,
         solve=coupling.solve_orbit,
         response=SleeveOrbitResponse,
     ),

@@ -138,14 +138,35 @@ class CouplingLubricant(Section):
 
 
 class MixedFrictionTable(Section):
-    """Measured mixed friction against sliding velocity, held constant outside."""
+    """Measured mixed friction against sliding velocity, held constant outside; a single point is a constant."""
 
     sliding_velocity_m_per_s: Annotated[
-        list[float], Field(min_length=2, max_length=1000), Input("sliding velocities, rising", "v_G", ge=0, le=1000)
+        list[float], Field(min_length=1, max_length=1000), Input("sliding velocities, rising", "v_G", ge=0, le=1000)
     ]
     coefficient: Annotated[
-        list[float], Field(min_length=2, max_length=1000), Input("friction coefficients", "μ", ge=1e-4, le=2)
+        list[float], Field(min_length=1, max_length=1000), Input("friction coefficients", "μ", ge=1e-4, le=2)
     ]
+
+
+class MixedFrictionCurve(Section):
+    """Our law of mixed friction: it falls to its lowest value at one sliding velocity and rises again beyond."""
+
+    highest: Annotated[
+        float, Input("coefficient at rest, and the most at high velocity", "μ", "Pahl 1978, Fig. 9", ge=1e-4, le=2)
+    ] = 0.1
+    lowest: Annotated[float, Input("least coefficient", "μ", "Pahl 1978, Fig. 9", ge=1e-4, le=2)] = 0.05
+    velocity_m_per_s: Annotated[
+        float,
+        Input(
+            "largest sliding velocity at which the coefficient is least",
+            "v_G",
+            "Pahl 1978, Fig. 10",
+            ge=1e-4,
+            le=1000,
+            assumed="a calibration: it puts the friction minimum of the paper's heavily crowned coupling at 0.4° and "
+            "200 1/s; the points of Fig. 10 and the speed of Fig. 11 are not in the text",
+        ),
+    ] = 0.11
 
 
 class CouplingFriction(Section):
@@ -159,7 +180,7 @@ class CouplingFriction(Section):
             "Pahl 1978, Fig. 9",
             ge=0,
             le=2,
-            assumed="our law inside the paper's friction bands; its sliding-velocity scale is a calibration",
+            assumed="no coefficient given: the law of the friction regime, ours inside the paper's bands",
         ),
     ] = None
     static_coefficient: Annotated[
@@ -167,8 +188,11 @@ class CouplingFriction(Section):
     ] = None
     mixed_law: Annotated[
         MixedFrictionTable | None,
-        Input("table that replaces the mixed-lubrication branch of the law", None, "Pahl 1978, Fig. 10"),
+        Input("table that replaces the mixed-lubrication branch of the law, `mixed_curve`", None, "Pahl 1978, Fig. 10"),
     ] = None
+    mixed_curve: Annotated[
+        MixedFrictionCurve, Input("mixed-lubrication branch of the law", None, "Pahl 1978, Fig. 10")
+    ] = MixedFrictionCurve()
 
 
 class CouplingModel(Section):
@@ -191,12 +215,36 @@ class CouplingModel(Section):
         ),
     ] = "face"
     inlet_length_mm: Annotated[float | None, Input("inlet length instead of `inlet`", "b_Ix", ge=1e-3, le=2000)] = None
+    film_angle_deg: Annotated[
+        float | None,
+        Input(
+            "tooth angle whose hydrodynamic velocity builds the film, 90 at the tilt position; null: the largest",
+            "φ",
+            "Pahl 1978, Fig. 8",
+            ge=-360,
+            le=360,
+            assumed="the largest hydrodynamic velocity of a revolution; the paper does not say which it takes",
+        ),
+    ] = None
     rotor_angle_deg: Annotated[float, Input("rotor angle of the tooth forces", "θ", ge=-360, le=360)] = 0.0
+    simple_thrust_factor: Annotated[
+        float,
+        Input(
+            "share of the sleeve force that the one-pair model of self-induced thrust turns into tooth forces",
+            "κ",
+            "Pahl 1978, Fig. 13",
+            ge=0,
+            le=10,
+            assumed="all of it; the paper does not state the share",
+        ),
+    ] = 1.0
 
 
 class _CouplingRequest(Request):
     """What the three coupling calculations have in common."""
 
+    coupling: Annotated[CouplingDesign, Input("the coupling")]
+    operation: Annotated[CouplingLoad, Input("operating point")]
     lubricant: Annotated[CouplingLubricant, Input("oil at the teeth")] = CouplingLubricant()
     friction: Annotated[CouplingFriction, Input("friction between the teeth")] = CouplingFriction()
     model: Annotated[CouplingModel, Input("choices where the paper leaves room")] = CouplingModel()
@@ -206,15 +254,27 @@ class _CouplingRequest(Request):
         return self.model.model_dump()
 
     def unused_defaults(self) -> frozenset[str]:
-        """A given inlet length leaves the choice of inlet out."""
-        return frozenset() if self.model.inlet_length_mm is None else frozenset({"model.inlet"})
+        """What given values replace, and what the arrangement does without."""
+        unused = set()
+        if self.model.inlet_length_mm is not None:
+            unused.add("model.inlet")
+        if self.friction.coefficient is not None or self.friction.mixed_law is not None:
+            unused.add("friction.mixed_curve")
+        if self.operation.arrangement == "single":
+            unused.add("coupling.hub_distance_mm")
+        if self.operation.arrangement != "parallel_offset":
+            unused.add("model.simple_thrust_factor")
+        return frozenset(unused)
 
-    def _design(self, coupling: dict[str, Any], operation: dict[str, Any]) -> si.CouplingInputs:
-        friction = to_si(self.friction)
-        table = self.friction.mixed_law
-        friction["mixed_law"] = si.MixedFrictionCurve() if table is None else si.MixedFrictionTable(**to_si(table))
+    def _design(self, operation: dict[str, Any]) -> si.CouplingInputs:
+        friction, table = to_si(self.friction), self.friction.mixed_law
+        friction["mixed_law"] = (
+            si.MixedFrictionCurve(**to_si(self.friction.mixed_curve))
+            if table is None
+            else si.MixedFrictionTable(**to_si(table))
+        )
         return si.CouplingInputs(
-            coupling=si.Coupling(**coupling),
+            coupling=si.Coupling(**to_si(self.coupling)),
             operation=si.Operation(**operation),
             lubricant=si.Lubricant(**to_si(self.lubricant)),
             friction=si.Friction(**friction),
@@ -230,7 +290,23 @@ class CouplingRequest(_CouplingRequest):
 
     def inputs(self) -> si.CouplingInputs:
         """The solver's inputs."""
-        return self._design(to_si(self.coupling), to_si(self.operation))
+        return self._design(to_si(self.operation))
+
+
+class SleeveOrbitRequest(CouplingRequest):
+    """A gear coupling whose floating sleeve is followed over one revolution.
+
+    Its motion is one of tooth springs and sleeve mass: oil, friction and the contact's shape are accepted, not used.
+    """
+
+    def options(self) -> dict[str, Any]:
+        """The kinematics; the sleeve always floats."""
+        return {"kinematics": self.model.kinematics, "sleeve": "floating"}
+
+    def unused_defaults(self) -> frozenset[str]:
+        """All that belongs to contact, film, friction and a second mesh."""
+        contact = {"face_width_mm", "tooth_height_mm", "youngs_modulus_gpa", "poisson_ratio", "hub_distance_mm"}
+        return frozenset({"lubricant", "friction", "model", *(f"coupling.{name}" for name in contact)})
 
 
 class RecommendationRequest(_CouplingRequest):
@@ -239,9 +315,13 @@ class RecommendationRequest(_CouplingRequest):
     coupling: Annotated[CouplingDesign, Input("the coupling without its crowning")]
     operation: Annotated[CouplingOperationRange, Input("operating point and range of misalignment")]
 
+    def unused_defaults(self) -> frozenset[str]:
+        """Also the one-pair model of self-induced thrust, which only a result at one operating point shows."""
+        return super().unused_defaults() | {"model.simple_thrust_factor"}
+
     def inputs(self) -> si.RecommendationInputs:
         """The solver's inputs."""
         operation = to_si(self.operation)
         smallest, largest = operation.pop("misalignment_range")
-        design = self._design(to_si(self.coupling), {**operation, "misalignment": smallest})
+        design = self._design({**operation, "misalignment": smallest})
         return si.RecommendationInputs(design, min_misalignment=smallest, max_misalignment=largest)

@@ -66,6 +66,7 @@ class CouplingLoadDistribution(Group):
     rotation_um: Annotated[float, Output("rotation of hub against sleeve at the pitch radius", "ψ")]
     unloading_misalignment_deg: Annotated[float, Output("misalignment beyond which some tooth is free", "δ_L")]
     sleeve_displacement_um: Annotated[list[float], Output("displacement (x, y) of the sleeve", "e")]
+    iterations: Annotated[int, Output("iterations of a floating sleeve's balance; 0 for a centred one")]
     curves: Annotated[CouplingLoadCurves | None, Output("tooth by tooth", detail="curves")] = None
 
 
@@ -84,6 +85,9 @@ class FrictionRegime(Group):
 class CouplingLubrication(Group):
     """Contact and film of the highest loaded tooth in the tilt position."""
 
+    max_normal_force_n: Annotated[
+        float, Output("normal force of a tooth in the tilt position, or largest with pitch errors", "F_n,max", PAHL)
+    ]
     hertz_half_width_mm: Annotated[float, Output("half width of the Hertzian contact", "a_HZ", "Pahl 1978, Fig. 7")]
     hertz_pressure_mpa: Annotated[float, Output("largest Hertzian pressure", "p_H")]
     contact_overlap: Annotated[float | None, Output("contact surface overlap", "Pu", "Pahl 1978, Fig. 7")]
@@ -102,8 +106,12 @@ class SelfInducedThrust(Group):
 
     force_n: Annotated[float, Output("force on one shaft, positive: pulled together", "F_ax", "Pahl 1978, Fig. 17")]
     overturning_moment_n_m: Annotated[float, Output("moment of friction on the sleeve", "M_2", "Pahl 1978, Fig. 13")]
-    simple_model_force_n: Annotated[float, Output("one tooth pair per mesh", "F_ax", "Pahl 1978, Fig. 13")]
-    uniform_load_force_n: Annotated[float, Output("closed form, all teeth loaded alike", "F_ax")]
+    simple_model_force_n: Annotated[
+        float, Output("one tooth pair per mesh; zero with an angle (M)", "F_ax", "Pahl 1978, Fig. 13")
+    ]
+    uniform_load_force_n: Annotated[
+        float, Output("closed form, all teeth loaded alike; zero with an angle (M)", "F_ax")
+    ]
 
 
 class CouplingThrust(Group):
@@ -187,6 +195,7 @@ class SleeveOrbitResponse(Response):
     inertia_force: Annotated[SleeveInertia | None, Output("inertia force")] = None
     max_displacement_um: Annotated[float | None, Output("largest displacement")] = None
     sweeps: Annotated[int | None, Output("sweeps over the revolution until it repeated")] = None
+    change_um: Annotated[float | None, Output("how far the last sweep still moved the path")] = None
 
 
 class RecommendedPoint(Group):

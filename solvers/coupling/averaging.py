@@ -1,18 +1,19 @@
 """Rotor angles and weights for means over one tooth pitch, or one revolution where pitch errors break the symmetry."""
 
 from dataclasses import dataclass
+from functools import cache
 from math import asin, pi
 
 import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.coupling.inputs import Coupling, CouplingInputs
-from solvers.coupling.kinematics import MeshMotion, ToothPositions, tooth_positions
+from solvers.coupling.kinematics import MeshMotion, ToothPositions, positions_per_pitch, tooth_positions
 from solvers.coupling.tooth_loads import mesh_loads
 
 _PITCH_PARTS = 3
-_PITCH_RULE = np.polynomial.legendre.leggauss(8)
-_REVOLUTION_RULE = np.polynomial.legendre.leggauss(4)
+_PITCH_NODES = 8
+_gauss_rule = cache(np.polynomial.legendre.leggauss)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,10 +57,10 @@ def rotor_samples(coupling: Coupling, mesh: MeshMotion, axial_velocity: float) -
     breaks = [angle % pitch for angle in friction_reversals(mesh, axial_velocity)]
     if coupling.pitch_errors is None:
         breaks += [pitch * part / _PITCH_PARTS for part in range(_PITCH_PARTS)]
-        nodes, weights = _PITCH_RULE
+        nodes, weights = _gauss_rule(_PITCH_NODES)
         turns = 1
     else:
-        nodes, weights = _REVOLUTION_RULE
+        nodes, weights = _gauss_rule(positions_per_pitch(coupling.teeth))
         turns = coupling.teeth
     edges = np.array(sorted({0.0, pitch, *breaks}))
     middle, half = (edges[1:] + edges[:-1]) / 2.0, (edges[1:] - edges[:-1]) / 2.0

@@ -14,7 +14,7 @@ from solvers.coupling.validity import MAX_CONTACT_PRESSURE, MAX_CONTACT_WIDTH
 
 MIN_CROWNING_RATIO = 0.2
 MAX_CROWNING_RATIO = 1000.0
-# Failed constraint -> the quantity that a larger crowning ratio lowers.
+# Constraint by its public name, and the quantity that a larger crowning ratio lowers.
 _LOWER_BOUNDS = (("hertz_pressure", "pressure"), ("contact_width", "width"), ("contact_overlap", "overlap"))
 
 
@@ -87,18 +87,14 @@ def crowning_window(state: Callable[[float], CrowningState]) -> tuple[float, flo
     Overlap, pressure and width ask for at least, the edge for at most some crowning ratio.
     """
     low = MIN_CROWNING_RATIO
-    for name, constraint in (
-        ("hertz_pressure", "pressure"),
-        ("contact_width", "width"),
-        ("contact_overlap", "overlap"),
-    ):
+    for name, constraint in _LOWER_BOUNDS:
         bound = _root(state, constraint)
         if bound >= MAX_CROWNING_RATIO:
             return low, low, name
         low = max(low, bound)
-    high = _root(state, "edge")
-    # The overlap must be below 1, not at it.
+    # Inside both ends, whatever the rounding: the overlap must be below 1, not at it.
     low *= 1.0 + 1e-9
+    high = _root(state, "edge") * (1.0 - 1e-9)
     return low, high, None if low < high else "edge_contact"
 
 

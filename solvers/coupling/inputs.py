@@ -77,7 +77,10 @@ class MixedFrictionCurve:
 
 @dataclass(frozen=True, slots=True)
 class MixedFrictionTable:
-    """Measured mixed friction: coefficient [-] over rising `sliding_velocity` [m/s], constant outside."""
+    """Measured mixed friction: `coefficient` [-] over rising `sliding_velocity` [m/s], one point or more.
+
+    Constant outside the table.
+    """
 
     sliding_velocity: tuple[float, ...]
     coefficient: tuple[float, ...]

@@ -6,7 +6,7 @@ described by the coefficients of sin, cos and of their products; both kinematic 
 """
 
 from dataclasses import dataclass
-from math import hypot, pi, tan
+from math import ceil, hypot, pi, tan
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from solvers.arrays import FloatArray, frozen
 from solvers.coupling.inputs import Coupling, KinematicModel, Operation
 from solvers.coupling.results import Geometry, KinematicCurves, Kinematics
 
+_LEAST_ROTOR_POSITIONS = 208
 _CURVE_ANGLE = frozen(np.linspace(0.0, 2.0 * pi, 181))
 
 
@@ -42,6 +43,16 @@ class MeshMotion:
     tilt: float
     mixed: float
     pivot: float
+
+
+def positions_per_pitch(teeth: int) -> int:
+    """How many rotor angles a tooth pitch takes to make at least 208 of a revolution: 1.7 degrees apart."""
+    return ceil(_LEAST_ROTOR_POSITIONS / teeth)
+
+
+def revolution(teeth: int) -> FloatArray:
+    """Rotor angles [rad] of one revolution from zero, evenly spaced, a whole number a tooth pitch."""
+    return np.linspace(0.0, 2.0 * pi, positions_per_pitch(teeth) * teeth, endpoint=False)
 
 
 def tooth_positions(rotor_angles: FloatArray, teeth: int) -> ToothPositions:

@@ -14,6 +14,7 @@ from solvers.coupling.kinematics import (
     hydrodynamic_velocity,
     max_contact_travel,
     max_hydrodynamic_velocity,
+    revolution,
     tooth_positions,
 )
 from solvers.coupling.results import Geometry
@@ -22,7 +23,6 @@ from solvers.materials import Solid
 
 UNBOUNDED_LOAD = 0.20395702057972376
 """W of an infinitely long inlet, whose exit lies at tan g = 0.47513; 12 of it is Pahl's 2.447."""
-_POSITIONS_PER_PITCH = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,9 +45,8 @@ class FilmState:
 def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
     """Largest normal tooth force with a tooth in the tilt position [N]; with pitch errors over a revolution."""
     coupling, operation = inputs.coupling, inputs.operation
-    rows = 1 if coupling.pitch_errors is None else _POSITIONS_PER_PITCH * coupling.teeth
-    angles = pi / 2 + 2.0 * pi * np.arange(rows) / rows
-    teeth = tooth_positions(angles, coupling.teeth)
+    turns = np.zeros(1) if coupling.pitch_errors is None else revolution(coupling.teeth)
+    teeth = tooth_positions(pi / 2 + turns, coupling.teeth)
     loads = mesh_loads(coupling, mesh, teeth, operation.torque, floating=inputs.model.sleeve == "floating")
     return float(loads.tangential_force.max()) / cos(coupling.pressure_angle)
 

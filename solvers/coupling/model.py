@@ -20,8 +20,8 @@ from solvers.coupling.validity import check_contact, check_inputs
 def solve(inputs: CouplingInputs) -> CouplingResult:
     """Kinematics, tooth loads, lubrication, friction, axial thrust and losses at one operating point.
 
-    Raises InvalidInput (out_of_range, pitch_errors_length, mixed_law, hertz_pressure, contact_width) and NoSolution
-    (sleeve_balance, sleeve_equilibrium) with residuals.
+    Raises InvalidInput (out_of_range, pitch_errors_length, mixed_law, mixed_curve, hertz_pressure, contact_width) and
+    NoSolution (sleeve_balance, sleeve_equilibrium) with residuals.
     """
     check_inputs(inputs)
     geometry = tooth_geometry(inputs.coupling)
@@ -48,7 +48,7 @@ def solve(inputs: CouplingInputs) -> CouplingResult:
         losses=losses(inputs, geometry, loaded, friction),
         limits=bounds,
         warnings=(
-            *motion_notices(inputs, motion, thrust),
+            *motion_notices(inputs, motion, thrust, bounds),
             *load_notices(inputs, load, thrust, bounds),
             *contact_notices(inputs, motion, lubrication),
         ),

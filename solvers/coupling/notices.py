@@ -1,21 +1,32 @@
 """What a result has to say about its own validity: ranges it leaves, values without meaning."""
 
 from collections.abc import Iterator
+from math import degrees
 
 from solvers.coupling.friction import UNSTABLE_AREA
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.limits import SLIDING_VELOCITY_LIMIT
 from solvers.coupling.results import AxialThrust, Kinematics, Limits, LoadDistribution, Lubrication
+from solvers.coupling.validity import MAX_MISALIGNMENT
 from solvers.notices import Notice
 
 
-def motion_notices(inputs: CouplingInputs, kinematics: Kinematics, thrust: AxialThrust) -> Iterator[Notice]:
+def motion_notices(
+    inputs: CouplingInputs, kinematics: Kinematics, thrust: AxialThrust, limits: Limits
+) -> Iterator[Notice]:
     """Notices about misalignment, speed and sliding."""
     operation, sliding = inputs.operation, kinematics.max_sliding_velocity
     if operation.misalignment == 0.0:
         yield Notice("no_misalignment", "the contact does not travel: no contact overlap, no oil film", "misalignment")
     if operation.speed == 0.0:
         yield Notice("not_turning", "the coupling does not turn: no allowable misalignment, no oil film", "speed")
+    elif limits.allowable_misalignment is None:
+        message = "it turns so slowly that no misalignment reaches the sliding velocity limit: none to report"
+        yield Notice("no_sliding_limit", message, "speed")
+    elif limits.allowable_misalignment > MAX_MISALIGNMENT:
+        angle = degrees(limits.allowable_misalignment)
+        message = f"the allowable misalignment of {angle:.3g} degrees lies beyond the 6 degrees of the theory"
+        yield Notice("allowable_misalignment", message, "speed")
     if sliding > SLIDING_VELOCITY_LIMIT:
         message = f"the sliding velocity of {sliding:.3g} m/s exceeds the limit of {SLIDING_VELOCITY_LIMIT} m/s"
         yield Notice("sliding_velocity", message, "misalignment")
@@ -33,7 +44,11 @@ def load_notices(
     """Notices about torque, friction and the sleeve's place."""
     torque = inputs.operation.torque
     if torque == 0.0:
-        yield Notice("no_load", "no torque: no load concentration, load capacity coefficient or thrust limit", "torque")
+        message = (
+            "no torque: no load concentration, load capacity coefficient or thrust limit; "
+            "friction regime and coefficient are those of a vanishing load"
+        )
+        yield Notice("no_load", message, "torque")
     elif thrust.coaxial_limit == 0.0:
         yield Notice("no_friction", "no friction: the thrust is no fraction of its limit", "coefficient")
     if torque < limits.sleeve_centring_torque:

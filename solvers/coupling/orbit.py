@@ -1,22 +1,33 @@
 """Orbit of the floating sleeve under its own inertia over one revolution (Fig. 5)."""
 
-from math import ceil, cos, pi
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import cos, pi
 
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.coupling.geometry import tooth_geometry
 from solvers.coupling.inputs import CouplingInputs
-from solvers.coupling.kinematics import mesh_motion, tooth_positions
+from solvers.coupling.kinematics import mesh_motion, revolution, tooth_positions
 from solvers.coupling.results import InertiaForce, Orbit, OrbitResult
-from solvers.coupling.tooth_loads import floating_loads
+from solvers.coupling.tooth_loads import ToothLoads, floating_loads
 from solvers.coupling.validity import check_inputs
 from solvers.errors import InvalidInput, NoSolution
 
 MAX_SWEEPS = 50
 REPEAT_TOLERANCE = 1e-12
 HIGHEST_ORDER = 12
-_MIN_POSITIONS = 208
+
+
+@dataclass(frozen=True, slots=True)
+class _SettledPath:
+    """Path (rows, 2) [m], its inertia force (rows, 2) [N], the sweeps it took and the change [m] in the last one."""
+
+    path: FloatArray
+    force: FloatArray
+    sweeps: int
+    change: float
 
 
 def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
@@ -27,7 +38,7 @@ def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
     m_s (k omega)^2 stays well below the lateral stiffness.
 
     Raises InvalidInput as `solve` and torque_too_low (the tooth forces cannot hold the sleeve), NoSolution
-    `sleeve_orbit` if the path does not repeat within 50 sweeps.
+    `sleeve_orbit` if the path does not repeat within 50 sweeps, or some position is left without balance.
     """
     check_inputs(inputs)
     coupling, operation = inputs.coupling, inputs.operation
@@ -35,30 +46,41 @@ def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
         raise InvalidInput("torque_too_low", "without torque nothing centres the sleeve", "torque")
     geometry = tooth_geometry(coupling)
     mesh = mesh_motion(coupling, geometry, operation, inputs.model.kinematics)
-    positions = ceil(_MIN_POSITIONS / coupling.teeth) * coupling.teeth
-    angles = np.linspace(0.0, 2.0 * pi, positions, endpoint=False)
+    angles = revolution(coupling.teeth)
     teeth = tooth_positions(angles, coupling.teeth)
     holding_force = operation.torque / (geometry.pitch_radius * cos(coupling.pressure_angle))
     # A lateral force that the teeth hold at every rotor angle, whatever the sweeps ask for on their way.
     safe_force = 0.999 * cos(pi / coupling.teeth) * holding_force
-    inertia = -coupling.sleeve_mass * operation.speed**2
 
-    path = np.zeros((angles.size, 2))
-    force = np.zeros((angles.size, 2))
+    def balanced(force: FloatArray) -> ToothLoads:
+        return floating_loads(coupling, mesh, teeth, operation.torque, _limited(force, safe_force))
+
+    settled = _settled_path(balanced, np.zeros((angles.size, 2)), coupling.sleeve_mass * operation.speed**2)
+    _check_holding(settled.force, safe_force)
+    return _result(angles, settled)
+
+
+def _settled_path(balanced: Callable[[FloatArray], ToothLoads], force: FloatArray, inertia: float) -> _SettledPath:
+    """Sweep from an inertia force (rows, 2) [N] until the path repeats; `inertia` is m_s omega^2 [N/m].
+
+    The change from sweep to sweep may grow for a dozen of them, while teeth come under load, and still die out.
+    """
+    path = np.zeros_like(force)
     for sweep in range(1, MAX_SWEEPS + 1):
         previous = path
-        loads = floating_loads(coupling, mesh, teeth, operation.torque, _limited(force, safe_force))
+        loads = balanced(force)
         path = loads.displacement
-        force = inertia * _second_derivative(path)
+        force = -inertia * _second_derivative(path)
         change = float(np.abs(path - previous).max())
+        if loads.iterations.min() < 0:
+            break
         if change < REPEAT_TOLERANCE:
-            _check_holding(force, safe_force)
-            return _result(angles, path, force, sweep, change)
+            return _SettledPath(path, force, sweep, change)
     raise NoSolution(
         "sleeve_orbit",
         "the orbit does not settle: the sleeve's inertia is no longer small against the mesh stiffness; "
         "lower the speed or the sleeve mass, or raise the torque",
-        {"change": change, "sweeps": float(MAX_SWEEPS)},
+        {"change": change, "sweeps": float(sweep)},
     )
 
 
@@ -94,16 +116,16 @@ def _harmonics(force: FloatArray) -> FloatArray:
     return amplitude[: HIGHEST_ORDER + 1]
 
 
-def _result(angles: FloatArray, path: FloatArray, force: FloatArray, sweeps: int, change: float) -> OrbitResult:
+def _result(angles: FloatArray, settled: _SettledPath) -> OrbitResult:
     """The converged orbit."""
-    x, y = force[:, 0], force[:, 1]
+    path, x, y = settled.path, settled.force[:, 0], settled.force[:, 1]
     return OrbitResult(
         orbit=Orbit(rotor_angle=frozen(angles), x=frozen(path[:, 0]), y=frozen(path[:, 1])),
         inertia_force=InertiaForce(
             x=frozen(x), y=frozen(y), harmonics_x=frozen(_harmonics(x)), harmonics_y=frozen(_harmonics(y))
         ),
         max_displacement=float(np.hypot(path[:, 0], path[:, 1]).max()),
-        sweeps=sweeps,
-        change=change,
+        sweeps=settled.sweeps,
+        change=settled.change,
         warnings=(),
     )

@@ -8,7 +8,7 @@ solved for, and the load capacity is maximised between them.
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
+from functools import cache, partial
 from math import exp, log
 
 import numpy as np
@@ -23,10 +23,10 @@ from solvers.coupling.crowning_window import (
     crowning_window,
 )
 from solvers.coupling.geometry import tooth_geometry
-from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
+from solvers.coupling.inputs import RecommendationInputs
 from solvers.coupling.limits import SLIDING_VELOCITY_LIMIT
 from solvers.coupling.model import solve
-from solvers.coupling.results import CrowningScan, Recommendation, RecommendedPoint
+from solvers.coupling.results import CouplingResult, CrowningScan, Recommendation, RecommendedPoint
 from solvers.coupling.validity import MAX_MISALIGNMENT, check_inputs
 from solvers.errors import InvalidInput
 from solvers.notices import Notice
@@ -48,11 +48,11 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
     """The crowning ratio with the largest load capacity coefficient at the worse end of the range of misalignment.
 
     Constraints: overlap < 1 at both ends, contact within the face at the largest misalignment, Hertz contact; with a
-    range of one value also the sliding velocity, which a wider range only reports. Raises InvalidInput as `solve` and
-    misalignment_range, no_load, not_turning; NoSolution as `solve`.
+    range of one value also the sliding velocity, which a wider range only reports. The warnings are those of `solve`
+    at both ends. Raises InvalidInput as `solve` and misalignment_range, no_load, not_turning; NoSolution as `solve`.
     """
     _check(inputs)
-    state = partial(crowning_state, inputs)
+    state = cache(partial(crowning_state, inputs))
     scan = _scan(state)
     sliding = _sliding_notices(inputs)
     if inputs.min_misalignment == inputs.max_misalignment and sliding:
@@ -62,17 +62,17 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
     if failed is not None:
         return _infeasible(failed, scan, sliding)
     ratio = _best_ratio(state, low, high)
-    at_min = _point(at_misalignment(inputs, ratio, inputs.min_misalignment))
-    at_max = _point(at_misalignment(inputs, ratio, inputs.max_misalignment))
+    at_min = solve(at_misalignment(inputs, ratio, inputs.min_misalignment))
+    at_max = solve(at_misalignment(inputs, ratio, inputs.max_misalignment))
     return Recommendation(
         feasible=True,
         crowning_ratio=ratio,
         min_load_capacity_coefficient=state(ratio).load_capacity_coefficient,
         failed_constraint=None,
-        at_min=at_min,
-        at_max=at_max,
+        at_min=_point(at_min),
+        at_max=_point(at_max),
         scan=scan,
-        warnings=sliding,
+        warnings=_merged((*sliding, *at_min.warnings, *at_max.warnings)),
     )
 
 
@@ -90,9 +90,19 @@ def _best_ratio(state: Callable[[float], CrowningState], low: float, high: float
     return exp(refined.x) if -refined.fun > capacity[best] else float(grid[best])
 
 
-def _point(inputs: CouplingInputs) -> RecommendedPoint:
+def _merged(notices: tuple[Notice, ...]) -> tuple[Notice, ...]:
+    """The first notice of every code; those about the misalignment are about its range here."""
+    first: dict[str, Notice] = {}
+    for notice in notices:
+        first.setdefault(notice.code, notice)
+    return tuple(
+        replace(notice, field="misalignment_range") if notice.field == "misalignment" else notice
+        for notice in first.values()
+    )
+
+
+def _point(result: CouplingResult) -> RecommendedPoint:
     """The recommended coupling at one misalignment."""
-    result = solve(inputs)
     overlap, capacity = result.lubrication.contact_overlap, result.lubrication.load_capacity_coefficient
     assert overlap is not None
     assert capacity is not None

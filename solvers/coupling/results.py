@@ -116,7 +116,7 @@ class SelfInducedThrust:
     """Thrust that two meshes make without any axial motion, mean over one tooth pitch.
 
     `overturning_moment` is friction's on the sleeve, both meshes. `simple_model_force` and `uniform_load_force` are
-    closed forms of the parallel offset (one tooth pair a mesh; all teeth loaded alike).
+    closed forms (one tooth pair a mesh; all teeth loaded alike), zero in the angular arrangement.
     """
 
     force: float

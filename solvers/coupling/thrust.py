@@ -5,6 +5,7 @@ from math import asin, copysign, cos, pi, tan
 import numpy as np
 
 from solvers.coupling.averaging import LoadedMesh
+from solvers.coupling.geometry import pitch_radius
 from solvers.coupling.inputs import Coupling, CouplingInputs
 from solvers.coupling.kinematics import relative_velocity
 from solvers.coupling.results import AxialThrust, Geometry, SelfInducedThrust
@@ -13,7 +14,7 @@ from solvers.coupling.sleeve_equilibrium import sleeve_equilibrium
 
 def coaxial_limit(coupling: Coupling, torque: float, friction: float) -> float:
     """F_max = mu T/(r_o cos alpha) [N]: every tooth slides the same way."""
-    return friction * torque / (coupling.module * coupling.teeth / 2.0 * cos(coupling.pressure_angle))
+    return friction * torque / (pitch_radius(coupling) * cos(coupling.pressure_angle))
 
 
 def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> tuple[float, float]:
@@ -84,12 +85,19 @@ def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh,
 
 
 def self_induced_thrust(inputs: CouplingInputs, geometry: Geometry, friction: float) -> SelfInducedThrust:
-    """Thrust of two meshes without axial velocity, beside the closed forms."""
+    """Thrust of two meshes without axial velocity, beside the closed forms.
+
+    Those are zero in the angular arrangement: one tooth pair a mesh or equal loads make opposite moments of friction in
+    both meshes, and the sleeve asks the teeth for nothing (the paper's "for reasons of symmetry").
+    """
     coupling, torque = inputs.coupling, inputs.operation.torque
     equilibrium = sleeve_equilibrium(inputs, geometry, friction, 0.0)
+    offset = inputs.operation.arrangement == "parallel_offset"
+    simple = simple_self_induced_thrust(coupling, torque, friction, inputs.model.simple_thrust_factor)
+    uniform = uniform_self_induced_thrust(coupling, torque, friction)
     return SelfInducedThrust(
         force=equilibrium.thrust,
         overturning_moment=equilibrium.overturning_moment,
-        simple_model_force=simple_self_induced_thrust(coupling, torque, friction, inputs.model.simple_thrust_factor),
-        uniform_load_force=uniform_self_induced_thrust(coupling, torque, friction),
+        simple_model_force=simple if offset else 0.0,
+        uniform_load_force=uniform if offset else 0.0,
     )

@@ -13,7 +13,7 @@ from solvers.arrays import FloatArray, IntArray
 from solvers.compiled import kernel
 
 MAX_ITERATIONS = 300
-BALANCE_TOLERANCE = 1e-11
+BALANCE_TOLERANCE = 1e-13
 FARTHEST = 1e14
 
 
@@ -86,6 +86,58 @@ def solve_symmetric(system: FloatArray, right: FloatArray, solution: FloatArray)
 
 
 @kernel
+def potential(energy: float, force: FloatArray, state: FloatArray) -> float:
+    """What a balanced sleeve minimises: the teeth's energy less the work of unit torque and lateral force (2)."""
+    work: float = state[0] + force[0] * state[1] + force[1] * state[2]
+    return energy - work
+
+
+@kernel
+def slope(force: FloatArray, system: FloatArray, step: FloatArray) -> float:
+    """How fast the potential falls along `step` (3)."""
+    torque: float = 1.0 - system[0, 3]
+    fall: float = torque * step[0] + (force[0] - system[1, 3]) * step[1] + (force[1] - system[2, 3]) * step[2]
+    return fall
+
+
+@kernel
+def move_downhill(
+    interference: FloatArray,
+    normal: FloatArray,
+    force: FloatArray,
+    state: FloatArray,
+    step: FloatArray,
+    energy: float,
+    system: FloatArray,
+) -> float:
+    """Move `state` along Newton's `step` (3) to a lower potential; returns the energy and leaves `system` there.
+
+    The step halves until the potential falls enough. Where fewer than three teeth carry, the sleeve moves freely in
+    some direction, and the next tooth may be many steps away: a whole step doubles while the slope stays as it was.
+    """
+    start = state.copy()
+    descent = slope(force, system, step)
+    before = potential(energy, force, start)
+    length = 1.0
+    while True:
+        state[:] = start + length * step
+        energy = balance(interference, normal, state, system)
+        drop = before - potential(energy, force, state)
+        if drop >= 1e-4 * length * descent - 1e-13 * (abs(before) + 1.0) or length < 1e-14:
+            break
+        length *= 0.5
+    while 1.0 <= length < FARTHEST and slope(force, system, step) > 0.5 * descent:
+        nearer = potential(energy, force, state)
+        length *= 2.0
+        state[:] = start + length * step
+        energy = balance(interference, normal, state, system)
+        if potential(energy, force, state) > nearer:
+            state[:] = start + 0.5 * length * step
+            return balance(interference, normal, state, system)
+    return energy
+
+
+@kernel
 def float_sleeve(
     interference: FloatArray, normal: FloatArray, force: FloatArray, state: FloatArray, system: FloatArray
 ) -> int:
@@ -94,7 +146,7 @@ def float_sleeve(
     Damped semi-smooth Newton on the convex energy sum max(0, u_i)^2/2 - psi - force . e. Returns the number of
     iterations, negative if the balance was not met; `system` is left as at the solution.
     """
-    residual, step, trial = np.empty(3), np.empty(3), np.empty(3)
+    residual, step = np.empty(3), np.empty(3)
     state[0] = common_rotation(interference - state[1] * normal[0] - state[2] * normal[1])
     energy = balance(interference, normal, state, system)
     for iteration in range(1, MAX_ITERATIONS + 1):
@@ -105,17 +157,7 @@ def float_sleeve(
         if abs(residual[0]) + abs(residual[1]) + abs(residual[2]) < BALANCE_TOLERANCE + rounding:
             return iteration
         solve_symmetric(system, residual, step)
-        descent = residual[0] * step[0] + residual[1] * step[1] + residual[2] * step[2]
-        potential = energy - state[0] - force[0] * state[1] - force[1] * state[2]
-        length = 1.0
-        while True:
-            trial[:] = state + length * step
-            energy = balance(interference, normal, trial, system)
-            drop = potential - (energy - trial[0] - force[0] * trial[1] - force[1] * trial[2])
-            if drop >= 1e-4 * length * descent - 1e-13 * (abs(potential) + 1.0) or length < 1e-14:
-                break
-            length *= 0.5
-        state[:] = trial
+        energy = move_downhill(interference, normal, force, state, step, energy, system)
         if not abs(state[1]) + abs(state[2]) < FARTHEST:
             break
     return -MAX_ITERATIONS
@@ -135,12 +177,17 @@ def centred_rows(interference: FloatArray, share: FloatArray, rotation: FloatArr
 def floating_rows(
     interference: FloatArray, normal: FloatArray, force: FloatArray, state: FloatArray, iterations: IntArray
 ) -> None:
-    """States (rows, 3) of a floating sleeve under `force` (rows, 2), each row started from the one before."""
+    """States (rows, 3) of a floating sleeve under `force` (rows, 2), each row started from the one before.
+
+    Where that fails it starts from rest; a row that fails again, its iterations negative, ends it: later rows stay
+    untouched.
+    """
     system = np.empty((3, 4))
     for row in range(interference.shape[0]):
-        start = state[row - 1] if row > 0 and iterations[row - 1] > 0 else np.zeros(3)
-        state[row] = start
+        state[row] = state[max(row - 1, 0)]
         iterations[row] = float_sleeve(interference[row], normal[row], force[row], state[row], system)
         if iterations[row] < 0:
             state[row] = 0.0
             iterations[row] = float_sleeve(interference[row], normal[row], force[row], state[row], system)
+        if iterations[row] < 0:
+            break

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.arrays import FloatArray, IntArray
+from solvers.coupling.geometry import pitch_radius
 from solvers.coupling.inputs import Coupling
 from solvers.coupling.kinematics import MeshMotion, ToothPositions, flank_normals, tangential_displacement
 from solvers.coupling.tooth_balance import centred_rows, floating_rows
@@ -20,7 +21,7 @@ class ToothLoads:
     """Tooth loads of one mesh, one row a rotor angle.
 
     `tangential_force` (rows, teeth) [N], `rotation` (rows) and `displacement` (rows, 2) [m]; `iterations` (rows) is
-    negative where the balance of a floating sleeve was not met.
+    negative in the first row where the balance of a floating sleeve was not met; later rows then mean nothing.
     """
 
     tangential_force: FloatArray
@@ -37,7 +38,7 @@ def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPosit
 
 def elastic_rotation(coupling: Coupling, torque: float) -> float:
     """T/(r_o c_t) [m]: the rotation of a coupling with one tooth, as a length at the pitch radius."""
-    return torque / (coupling.module * coupling.teeth / 2.0 * coupling.tooth_stiffness)
+    return torque / (pitch_radius(coupling) * coupling.tooth_stiffness)
 
 
 def shares(interference: FloatArray, normal: FloatArray, state: FloatArray) -> FloatArray:
@@ -64,7 +65,7 @@ def floating_loads(
 ) -> ToothLoads:
     """Loads of a sleeve that finds its own place under an external `force` (rows, 2) [N], for torque > 0.
 
-    Iterations are negative in rows without balance: the force exceeds what the torque's tooth forces can hold.
+    Iterations are negative in a row without balance: the force exceeds what the torque's tooth forces can hold.
     """
     unit = elastic_rotation(coupling, torque)
     unit_force = unit * coupling.tooth_stiffness
@@ -82,14 +83,15 @@ def mesh_loads(
 ) -> ToothLoads:
     """Loads of one mesh without external force.
 
-    Raises NoSolution `sleeve_balance` if a floating sleeve is not balanced (largest lateral force over T/r_o).
+    Raises NoSolution `sleeve_balance` if a floating sleeve is not balanced (its lateral force over T/r_o).
     """
     if not floating or torque == 0.0:
         return centred_loads(coupling, mesh, teeth, torque)
     loads = floating_loads(coupling, mesh, teeth, torque, np.zeros((teeth.sine.shape[0], 2)))
-    if loads.iterations.min() < 0:
-        lateral = (loads.tangential_force[:, None] * flank_normals(mesh, teeth)).sum(axis=2)
-        residual = float(np.abs(lateral).max() / loads.tangential_force.sum(axis=1).min())
+    row = int(loads.iterations.argmin())
+    if loads.iterations[row] < 0:
+        lateral = flank_normals(mesh, teeth)[row] @ loads.tangential_force[row]
+        residual = float(np.hypot(*lateral)) * pitch_radius(coupling) / torque
         raise NoSolution(
             "sleeve_balance",
             "the floating sleeve was not balanced; raise the torque or lower the pitch errors",

@@ -3,7 +3,7 @@
 from itertools import pairwise
 from math import inf, isfinite, pi, radians
 
-from solvers.coupling.inputs import CouplingInputs, MixedFrictionTable
+from solvers.coupling.inputs import CouplingInputs, MixedFrictionCurve, MixedFrictionTable
 from solvers.coupling.lubrication import FilmState
 from solvers.coupling.results import Geometry
 from solvers.errors import InvalidInput
@@ -36,6 +36,11 @@ _OPERATION_RANGES: tuple[_Range, ...] = (
 )
 _LUBRICANT_RANGES: tuple[_Range, ...] = (("viscosity", 0.0, False, inf), ("reference_film", 0.0, False, inf))
 _FRICTION_RANGES: tuple[_Range, ...] = (("coefficient", 0.0, True, inf), ("static_coefficient", 0.0, True, inf))
+_CURVE_RANGES: tuple[_Range, ...] = (
+    ("highest", 0.0, False, inf),
+    ("lowest", 0.0, False, inf),
+    ("velocity", 0.0, False, inf),
+)
 _MODEL_RANGES: tuple[_Range, ...] = (
     ("inlet_length", 0.0, False, inf),
     ("film_angle", -inf, False, inf),
@@ -45,7 +50,7 @@ _MODEL_RANGES: tuple[_Range, ...] = (
 
 
 def check_inputs(inputs: CouplingInputs) -> None:
-    """Raise InvalidInput for what cannot be computed: out_of_range, pitch_errors_length, mixed_law."""
+    """Raise InvalidInput for what cannot be computed: out_of_range, pitch_errors_length, mixed_law, mixed_curve."""
     _check_ranges(inputs.coupling, _COUPLING_RANGES)
     _check_ranges(inputs.operation, _OPERATION_RANGES)
     _check_ranges(inputs.lubricant, _LUBRICANT_RANGES)
@@ -59,7 +64,9 @@ def check_inputs(inputs: CouplingInputs) -> None:
         raise InvalidInput("out_of_range", f"a torque below {LEAST_TORQUE:g} N m is none; give 0 or more", "torque")
     _check_pitch_errors(inputs)
     if isinstance(inputs.friction.mixed_law, MixedFrictionTable):
-        _check_mixed_law(inputs.friction.mixed_law)
+        _check_mixed_table(inputs.friction.mixed_law)
+    else:
+        _check_mixed_curve(inputs.friction.mixed_law)
 
 
 def _check_ranges(group: object, ranges: tuple[_Range, ...]) -> None:
@@ -87,8 +94,15 @@ def _check_pitch_errors(inputs: CouplingInputs) -> None:
         raise InvalidInput("out_of_range", "pitch errors must be finite", "pitch_errors")
 
 
-def _check_mixed_law(law: MixedFrictionTable) -> None:
-    """A table of positive coefficients over rising velocities >= 0."""
+def _check_mixed_curve(law: MixedFrictionCurve) -> None:
+    """Positive numbers, the lowest coefficient not above the highest."""
+    _check_ranges(law, _CURVE_RANGES)
+    if law.lowest > law.highest:
+        raise InvalidInput("mixed_curve", "the lowest coefficient must not exceed the highest", "lowest")
+
+
+def _check_mixed_table(law: MixedFrictionTable) -> None:
+    """Positive coefficients over rising velocities >= 0; one point is a constant."""
     velocities, coefficients = law.sliding_velocity, law.coefficient
     rising = all(a < b for a, b in pairwise(velocities))
     if len(velocities) != len(coefficients) or not velocities or not rising or not velocities[0] >= 0.0:

@@ -1,6 +1,7 @@
 """/v1/coupling: the binding names, the paper's numbers end to end, and what is refused."""
 
 import copy
+import json
 from collections.abc import Callable
 from typing import Any
 
@@ -27,12 +28,14 @@ RESULT = {
         "max_normal_force_n",
         "load_concentration",
         "loaded_teeth",
+        "iterations",
         "rotation_um",
         "unloading_misalignment_deg",
         "sleeve_displacement_um",
         "curves",
     },
     "lubrication": {
+        "max_normal_force_n",
         "hertz_half_width_mm",
         "hertz_pressure_mpa",
         "contact_overlap",
@@ -126,6 +129,8 @@ def test_orbit_of_the_example(post: Post) -> None:
     assert harmonics[3] / harmonics[1] == pytest.approx(5.84, rel=0.02)
     assert set(result["orbit"]) == {"rotor_angle_deg", "x_um", "y_um"}
     assert result["sweeps"] >= 1
+    assert 0.0 <= result["change_um"] < 1e-6
+    assert max(result["orbit"]["x_um"]) <= result["max_displacement_um"]
 
 
 @pytest.mark.parametrize(
@@ -144,6 +149,69 @@ def test_orbit_of_the_example(post: Post) -> None:
             {"operation": {"torque_n_m": 0.1}},
             "/operation/torque_n_m",
             "torque_too_low",
+        ),
+        (
+            "/v1/coupling/sleeve-orbit",
+            "pahl-sleeve-orbit",
+            {"operation": {"torque_n_m": 0}},
+            "/operation/torque_n_m",
+            "torque_too_low",
+        ),
+        (
+            "/v1/coupling/sleeve-orbit",
+            "pahl-sleeve-orbit",
+            {"coupling": {"pitch_errors_um": [1.0] * 53}},
+            "/coupling/pitch_errors_um",
+            "pitch_errors_length",
+        ),
+        (
+            "/v1/coupling",
+            "pahl-heavily-crowned",
+            {"coupling": {"pitch_errors_um": [*[1.0] * 51, float("nan")]}},
+            "/coupling/pitch_errors_um/51",
+            "finite_number",
+        ),
+        (
+            "/v1/coupling",
+            "pahl-heavily-crowned",
+            {"operation": {"misalignment_deg": float("nan")}},
+            "/operation/misalignment_deg",
+            "finite_number",
+        ),
+        (
+            "/v1/coupling",
+            "pahl-heavily-crowned",
+            {"operation": {"speed_rpm": "1910"}},
+            "/operation/speed_rpm",
+            "number_type",
+        ),
+        (
+            "/v1/coupling",
+            "pahl-heavily-crowned",
+            {"coupling": {"crowning": 1.0}},
+            "/coupling/crowning",
+            "extra_forbidden",
+        ),
+        (
+            "/v1/coupling/recommendation",
+            "pahl-recommended-crowning",
+            {"coupling": {"crowning_ratio": 1.0}},
+            "/coupling/crowning_ratio",
+            "extra_forbidden",
+        ),
+        (
+            "/v1/coupling",
+            "pahl-heavily-crowned",
+            {"coupling": {"youngs_modulus_gpa": 1}, "operation": {"torque_n_m": 2e5}},
+            "/coupling/crowning_ratio",
+            "contact_width",
+        ),
+        (
+            "/v1/coupling",
+            "pahl-heavily-crowned",
+            {"friction": {"mixed_curve": {"highest": 0.05, "lowest": 0.1}}},
+            "/friction/mixed_curve/lowest",
+            "mixed_curve",
         ),
         (
             "/v1/coupling",
@@ -176,9 +244,10 @@ def test_orbit_of_the_example(post: Post) -> None:
     ],
 )
 def test_what_is_refused(
-    post: Post, path: str, name: str, changes: dict[str, dict[str, Any]], pointer: str, code: str
+    client: httpx.Client, path: str, name: str, changes: dict[str, dict[str, Any]], pointer: str, code: str
 ) -> None:
-    response = post(path, request(name, **changes))
+    body = json.dumps(request(name, **changes))  # with the NaN that strict encoders refuse
+    response = client.post(path, content=body, headers={"Content-Type": "application/json"})
     assert response.status_code == 422, response.text
     assert [(error["pointer"], error["code"]) for error in response.json()["errors"]] == [(pointer, code)]
 
@@ -216,6 +285,165 @@ def test_given_defaults_are_no_assumptions(post: Post) -> None:
     assert "coupling.pressure_angle_deg" not in fields
     assert "friction.coefficient" not in fields
     assert {"coupling.face_width_mm", "coupling.tooth_stiffness_n_per_um", "model.inlet"} <= fields
+
+
+OF_CONTACT = {
+    "coupling.face_width_mm",
+    "coupling.tooth_height_mm",
+    "coupling.youngs_modulus_gpa",
+    "coupling.poisson_ratio",
+    "lubricant.viscosity_pa_s",
+    "friction.coefficient",
+    "friction.mixed_curve.velocity_m_per_s",
+    "model.inlet",
+    "model.film_angle_deg",
+}
+OF_SPRINGS = {"coupling.pressure_angle_deg", "coupling.tooth_stiffness_n_per_um", "coupling.sleeve_mass_kg"}
+
+
+def assumed(post: Post, path: str, body: dict[str, Any]) -> dict[str, str]:
+    return {each["field"]: each["reason"] for each in post(path, body).json()["assumptions"]}
+
+
+@pytest.mark.parametrize(
+    ("arrangement", "more"),
+    [
+        ("single", set()),
+        ("parallel_offset", {"coupling.hub_distance_mm", "model.simple_thrust_factor"}),
+        ("angular", {"coupling.hub_distance_mm"}),
+    ],
+)
+def test_assumptions_of_an_arrangement(post: Post, arrangement: str, more: set[str]) -> None:
+    operation = {"torque_n_m": 3000, "speed_rpm": 1910, "misalignment_deg": 0.1, "arrangement": arrangement}
+    body = {"coupling": {"teeth": 52, "module_mm": 3}, "operation": operation}
+    assert set(assumed(post, "/v1/coupling", body)) == OF_CONTACT | OF_SPRINGS | more
+    # The recommendation shows the thrust on the shafts, not the one-pair model of it.
+    del operation["misalignment_deg"]
+    operation["misalignment_range_deg"] = [0.1, 0.3]  # type: ignore[assignment]
+    expected = (OF_CONTACT | OF_SPRINGS | more) - {"model.simple_thrust_factor"}
+    assert set(assumed(post, "/v1/coupling/recommendation", body)) == expected
+
+
+def test_an_orbit_assumes_and_reports_only_what_it_uses(post: Post) -> None:
+    body = request("pahl-sleeve-orbit", model={"kinematics": "spatial", "inlet": "travel"}, friction={"coefficient": 1})
+    del body["coupling"]["sleeve_mass_kg"]
+    assert set(assumed(post, "/v1/coupling/sleeve-orbit", body)) == OF_SPRINGS
+    result = post("/v1/coupling/sleeve-orbit", body).json()
+    assert result["model"] == {"kinematics": "spatial", "sleeve": "floating"}
+    # What it does not assume does not matter.
+    other = copy.deepcopy(body)
+    other["coupling"] |= {
+        "face_width_mm": 1,
+        "tooth_height_mm": 1,
+        "hub_distance_mm": 10,
+        "youngs_modulus_gpa": 1,
+        "poisson_ratio": 0,
+    }
+    other |= {"lubricant": {"viscosity_pa_s": 1}, "model": {"kinematics": "spatial", "rotor_angle_deg": 90}}
+    again = post("/v1/coupling/sleeve-orbit", other).json()
+    assert again["orbit"] == result["orbit"]
+    heavier = copy.deepcopy(body)
+    heavier["coupling"]["sleeve_mass_kg"] = 8
+    assert post("/v1/coupling/sleeve-orbit", heavier).json()["orbit"] != result["orbit"]
+
+
+@pytest.mark.parametrize(
+    ("changes", "dropped"),
+    [
+        ({"model": {"inlet_length_mm": 5}}, {"model.inlet"}),
+        ({"model": {"film_angle_deg": 90}}, {"model.film_angle_deg"}),
+        ({"friction": {"coefficient": 0.1}}, {"friction.coefficient", "friction.mixed_curve.velocity_m_per_s"}),
+        (
+            {"friction": {"mixed_law": {"sliding_velocity_m_per_s": [0.1], "coefficient": [0.1]}}},
+            {"friction.mixed_curve.velocity_m_per_s"},
+        ),
+        ({"friction": {"mixed_curve": {"velocity_m_per_s": 0.2}}}, {"friction.mixed_curve.velocity_m_per_s"}),
+    ],
+)
+def test_a_choice_drops_the_assumptions_it_replaces(
+    post: Post, changes: dict[str, dict[str, Any]], dropped: set[str]
+) -> None:
+    fields = set(assumed(post, "/v1/coupling", request("pahl-heavily-crowned", **changes)))
+    assert fields == (OF_CONTACT | OF_SPRINGS) - dropped
+
+
+def test_the_friction_law_is_explained_where_no_coefficient_is_given(post: Post) -> None:
+    reasons = assumed(post, "/v1/coupling", request("pahl-heavily-crowned"))
+    assert reasons["friction.coefficient"].startswith("no coefficient given: the law of the friction regime")
+    assert "calibration" in reasons["friction.mixed_curve.velocity_m_per_s"]
+
+
+def test_film_angle_and_inlet_length_reach_the_film(post: Post) -> None:
+    def film(**model: float) -> dict[str, Any]:
+        lubrication: dict[str, Any] = post("/v1/coupling", request("pahl-heavily-crowned", model=model)).json()[
+            "lubrication"
+        ]
+        return lubrication
+
+    largest, reversal = (film(**model)["hydrodynamic_capacity_n"] for model in ({}, {"film_angle_deg": 90.0}))
+    assert reversal / largest == pytest.approx(0.179, abs=5e-4)
+    # B = b_I/sqrt(2 R_e h_0) with R_e = 78 mm/sin(20 deg) and h_0 = 1 um.
+    assert film(inlet_length_mm=2.0)["inlet_ratio"] == pytest.approx(2.0 / (2 * 228.055 * 1e-3) ** 0.5, rel=1e-5)
+    assert film()["max_normal_force_n"] > film()["hydrodynamic_capacity_n"]
+
+
+def test_the_mixed_friction_curve_reaches_the_coefficient(post: Post) -> None:
+    body = request("pahl-heavily-crowned", friction={"mixed_curve": {"lowest": 0.06, "highest": 0.06}})
+    body["operation"]["misalignment_deg"] = 1.0
+    film = post("/v1/coupling", body).json()["lubrication"]
+    # ln mu is linear in Tr from the curve's value at 0 to 0.05 at 0.2.
+    share = film["load_capacity_coefficient"] / 0.2
+    assert film["friction_coefficient"] == pytest.approx(0.06 ** (1 - share) * 0.05**share, rel=1e-9)
+
+
+def test_the_thrust_factor_reaches_the_one_pair_model(post: Post) -> None:
+    full, half = (
+        post("/v1/coupling", request("pahl-z-arrangement", model=model)).json()["axial_thrust"]["self_induced"]
+        for model in ({}, {"simple_thrust_factor": 0.5})
+    )
+    assert full["simple_model_force_n"] == pytest.approx(1277.0, rel=1e-3)
+    assert half["simple_model_force_n"] == pytest.approx(full["simple_model_force_n"] / 2, rel=1e-12)
+    assert half["force_n"] == full["force_n"]
+
+
+def test_static_friction_gives_the_breakaway_force_alone(post: Post) -> None:
+    given, default = (
+        post("/v1/coupling", request("pahl-axial-displacement", friction=friction)).json()["axial_thrust"]
+        for friction in ({"static_coefficient": 0.3}, {})
+    )
+    assert default["breakaway_force_n"] == default["coaxial_limit_n"]
+    assert given["breakaway_force_n"] == pytest.approx(1.5 * given["coaxial_limit_n"], rel=1e-12)
+    assert given["force_n"] == default["force_n"]
+
+
+def test_the_rotor_angle_turns_the_teeth(post: Post) -> None:
+    pitch = 360 / 52
+    still, turned, half = (
+        post("/v1/coupling", request("pahl-heavily-crowned", model={"rotor_angle_deg": angle})).json()
+        for angle in (0.0, pitch, pitch / 2)
+    )
+    curves, later = (each["load_distribution"]["curves"] for each in (still, turned))
+    assert later["angle_deg"] == pytest.approx([angle + pitch for angle in curves["angle_deg"]], abs=1e-9)
+    force = curves["tangential_force_n"]
+    assert later["tangential_force_n"] == pytest.approx([*force[1:], force[0]], rel=1e-9, abs=1e-6)
+    assert half["load_distribution"]["max_tangential_force_n"] != pytest.approx(max(force), rel=1e-5)
+    assert half["lubrication"] == still["lubrication"]
+
+
+def test_an_angle_between_the_shafts_has_no_closed_form_thrust(post: Post) -> None:
+    body = request("pahl-z-arrangement", operation={"arrangement": "angular"})
+    induced = post("/v1/coupling", body).json()["axial_thrust"]["self_induced"]
+    assert induced["simple_model_force_n"] == induced["uniform_load_force_n"] == 0.0
+    assert induced["force_n"] == pytest.approx(0.0, abs=1e-3)
+
+
+def test_a_recommendation_points_its_warnings_into_its_own_request(post: Post) -> None:
+    body = request("pahl-recommended-crowning", operation={"misalignment_range_deg": [0.1, 0.5], "torque_n_m": 5})
+    warnings = post("/v1/coupling/recommendation", body).json()["warnings"]
+    assert {warning["code"]: warning["field"] for warning in warnings} == {
+        "sliding_velocity": "operation.misalignment_range_deg",
+        "sleeve_not_centred": "operation.torque_n_m",
+    }
 
 
 def test_assumptions_state_the_value_used(post: Post) -> None:

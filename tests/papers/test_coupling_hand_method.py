@@ -66,6 +66,13 @@ def test_contact_shift_moment_stays_below_its_bound_and_reaches_it() -> None:
     assert bloch(END_CONTACT_RATIO, STIFF).losses.contact_shift_moment == pytest.approx(bound, rel=2e-3)
 
 
+def test_a_turning_misaligned_coupling_resists_axial_motion_far_less_than_a_standing_one() -> None:
+    # A direction that measurements fix, without a number; Pahl's Fig. 18 shows a tenth.
+    turning = bloch(axial_velocity=1e-3)
+    assert turning.kinematics.max_sliding_velocity > 10 * 1e-3
+    assert turning.axial_thrust.force < 0.1 * turning.axial_thrust.breakaway_force
+
+
 def test_friction_never_exceeds_what_calistrat_measured() -> None:
     for overlap in np.geomspace(0.01, 100.0, 41):
         for capacity in np.geomspace(1e-4, 100.0, 41):

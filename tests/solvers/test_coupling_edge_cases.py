@@ -17,6 +17,7 @@ from solvers.coupling.inputs import (
     Friction,
     KinematicModel,
     Lubricant,
+    MixedFrictionCurve,
     MixedFrictionTable,
     ModelOptions,
     Operation,
@@ -132,12 +133,42 @@ ON_TWO_TEETH = ModelOptions(sleeve="floating", rotor_angle=pi / 2)
         (pahl_coupling(0.1, model=ModelOptions(inlet="infinite")), "infinite_inlet"),
         (pahl_coupling(2.0, teeth=6, module=26e-3, torque=10.0, model=ON_TWO_TEETH), "sleeve_position"),
         (replace(pahl_coupling(0.02, crowning_ratio=11.0), lubricant=Lubricant(viscosity=1.0)), "unstable_regime"),
+        (pahl_coupling(0.1, speed=0.9), "no_sliding_limit"),
+        (pahl_coupling(0.1, speed=-14.0), "allowable_misalignment"),
     ],
 )
 def test_ranges_left_are_named(inputs: CouplingInputs, code: str) -> None:
     result = solve(inputs)
     assert_finite(result)
     assert code in codes(result)
+
+
+@pytest.mark.parametrize(
+    ("speed", "allowed", "code"),
+    [
+        (0.0, False, "not_turning"),
+        (0.97, False, "no_sliding_limit"),  # 0.12 m/s over 0.078 m is 1.54 rad/s at an angle of one, 0.98 at pi/2
+        (0.99, True, "allowable_misalignment"),
+        (14.6, True, "allowable_misalignment"),  # 14.69 rad/s: 6 degrees
+        (14.8, True, None),
+    ],
+)
+def test_allowable_misalignment_is_given_or_its_absence_explained(
+    speed: float, allowed: bool, code: str | None
+) -> None:
+    result = solve(pahl_coupling(0.1, speed=speed, axial_velocity=1e-3))
+    assert (result.limits.allowable_misalignment is not None) == allowed
+    assert codes(result) & {"not_turning", "no_sliding_limit", "allowable_misalignment"} == ({code} if code else set())
+
+
+@pytest.mark.parametrize(("misalignment", "area"), [(0.1, "3.1"), (0.0, "1.3")])
+def test_without_load_the_notice_says_what_regime_and_friction_rest_on(misalignment: float, area: str) -> None:
+    result = solve(pahl_coupling(misalignment, torque=0.0, friction=None))
+    message = next(notice.message for notice in result.warnings if notice.code == "no_load")
+    assert "regime and coefficient are those of a vanishing load" in message
+    vanishing = solve(pahl_coupling(misalignment, torque=1e-6, friction=None)).lubrication
+    assert result.lubrication.regime.area == vanishing.regime.area == area
+    assert result.lubrication.friction_coefficient == pytest.approx(vanishing.friction_coefficient, rel=1e-6)
 
 
 INVALID = [
@@ -163,7 +194,9 @@ INVALID = [
     ("friction", "coefficient", -0.1),
     ("friction", "static_coefficient", nan),
     ("model", "inlet_length", 0.0),
+    ("model", "film_angle", nan),
     ("model", "rotor_angle", inf),
+    ("model", "simple_thrust_factor", -0.1),
 ]
 
 
@@ -200,6 +233,33 @@ def test_friction_tables_are_checked(velocity: tuple[float, ...], coefficient: t
     with pytest.raises(InvalidInput) as caught:
         solve(replace(pahl_coupling(0.1), friction=law))
     assert (caught.value.code, caught.value.field) == ("mixed_law", "mixed_law")
+
+
+def test_a_friction_table_of_one_point_is_a_constant() -> None:
+    law = MixedFrictionTable((0.1,), (0.07,))
+    films = [
+        solve(replace(pahl_coupling(0.4, speed=speed), friction=Friction(mixed_law=law))).lubrication
+        for speed in (20.0, 200.0)
+    ]
+    assert [film.regime.area for film in films] == ["1.1", "1.1"]
+    slow, fast = (film.friction_coefficient for film in films)
+    assert slow == pytest.approx(0.07, rel=1e-2)
+    assert slow > fast > 0.05
+
+
+@pytest.mark.parametrize(
+    ("law", "code", "field"),
+    [
+        (MixedFrictionCurve(highest=0.0), "out_of_range", "highest"),
+        (MixedFrictionCurve(lowest=nan), "out_of_range", "lowest"),
+        (MixedFrictionCurve(velocity=0.0), "out_of_range", "velocity"),
+        (MixedFrictionCurve(highest=0.04), "mixed_curve", "lowest"),
+    ],
+)
+def test_friction_curves_are_checked(law: MixedFrictionCurve, code: str, field: str) -> None:
+    with pytest.raises(InvalidInput) as caught:
+        solve(replace(pahl_coupling(0.1), friction=Friction(mixed_law=law)))
+    assert (caught.value.code, caught.value.field) == (code, field)
 
 
 def test_contacts_beyond_hertz_are_refused() -> None:
@@ -285,7 +345,18 @@ def test_any_valid_input_is_answered_or_refused_with_a_reason(inputs: CouplingIn
         assert force.sum() * result.geometry.pitch_radius == pytest.approx(inputs.operation.torque, rel=1e-6)
 
 
-@settings(max_examples=200)
+@settings(max_examples=300)
+@given(any_inputs())
+def test_every_floating_sleeve_is_balanced(inputs: CouplingInputs) -> None:
+    alone = replace(
+        inputs,
+        operation=replace(inputs.operation, arrangement="single"),
+        model=replace(inputs.model, sleeve="floating"),
+    )
+    answered(lambda: solve(alone), {"hertz_pressure", "contact_width"})
+
+
+@settings(max_examples=300)
 @given(
     misalignment=st.floats(0.005, 3.0),
     teeth=st.integers(6, 100),

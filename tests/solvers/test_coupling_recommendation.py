@@ -9,7 +9,7 @@ import pytest
 
 from solvers.coupling import recommend, solve
 from solvers.coupling.crowning_window import at_misalignment, crowning_state, crowning_window
-from solvers.coupling.inputs import RecommendationInputs
+from solvers.coupling.inputs import ModelOptions, RecommendationInputs
 from solvers.errors import InvalidInput
 from tests.couplings import pahl_coupling, random_pitch_errors
 
@@ -17,7 +17,7 @@ DESIGN = pahl_coupling(0.1, friction=None)
 
 
 def misalignments(low: float, high: float, **changes: object) -> RecommendationInputs:
-    design = pahl_coupling(0.1, friction=None, **changes)  # type: ignore[arg-type]
+    design = pahl_coupling(0.1, **{"friction": None, **changes})  # type: ignore[arg-type]
     return RecommendationInputs(design, radians(low), radians(high))
 
 
@@ -94,6 +94,33 @@ def test_a_range_reports_sliding_instead_of_excluding_it() -> None:
     recommendation = recommend(misalignments(0.1, 0.5))
     assert recommendation.feasible
     assert [notice.code for notice in recommendation.warnings] == ["sliding_velocity"]
+
+
+def test_warnings_are_those_of_the_solution_at_both_ends() -> None:
+    inputs = misalignments(0.1, 0.5, friction=0.0, torque=5.0, axial_velocity=1e-3)
+    recommendation = recommend(inputs)
+    assert recommendation.crowning_ratio is not None
+    expected = {"sliding_velocity"}
+    for delta in (inputs.min_misalignment, inputs.max_misalignment):
+        expected |= {
+            notice.code for notice in solve(at_misalignment(inputs, recommendation.crowning_ratio, delta)).warnings
+        }
+    assert expected == {"sliding_velocity", "no_friction", "sleeve_not_centred"}
+    codes = [notice.code for notice in recommendation.warnings]
+    assert sorted(codes) == sorted(expected)
+    # The sliding velocity is that of the largest misalignment, and the field one of this request.
+    sliding = recommendation.warnings[codes.index("sliding_velocity")]
+    assert "0.136 m/s" in sliding.message
+    assert sliding.field == "misalignment_range"
+
+
+@pytest.mark.parametrize(("low", "high"), [(0.05, 0.1), (0.05, 0.2), (0.1, 0.3), (0.03, 0.06), (0.3, 0.35)])
+def test_a_recommended_contact_never_leaves_the_face(low: float, high: float) -> None:
+    for kinematics in ("tangential", "spatial"):
+        inputs = misalignments(low, high, model=ModelOptions(kinematics=kinematics, inlet="infinite"))  # type: ignore[arg-type]
+        recommendation = recommend(inputs)
+        assert recommendation.feasible
+        assert "edge_contact" not in [notice.code for notice in recommendation.warnings]
 
 
 def test_scan_agrees_with_the_constraints() -> None:

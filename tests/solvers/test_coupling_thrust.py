@@ -105,6 +105,34 @@ def test_mean_of_one_mesh_agrees_with_many_midpoints(misalignment: float, errors
     assert result.losses.friction_power == pytest.approx(power, rel=1e-5)
 
 
+@pytest.mark.parametrize("teeth", [6, 52, 208, 400])
+def test_a_revolution_is_sampled_as_finely_whatever_the_number_of_teeth(teeth: int) -> None:
+    inputs = pahl_coupling(0.3, teeth=teeth, module=2 * PITCH_RADIUS / teeth, pitch_errors=(0.0,) * teeth)
+    samples = rotor_samples(inputs.coupling, two_meshes(inputs, tooth_geometry(inputs.coupling))[0], 2e-3)
+    assert samples.weight.sum() == pytest.approx(1.0, rel=1e-12)
+    # At most six reversals of friction a pitch leave seven pieces, each with its share of the 208 angles.
+    assert 208 <= samples.weight.size <= 7 * max(212, teeth)
+
+
+@pytest.mark.parametrize("teeth", [6, 400])
+def test_mean_over_a_revolution_is_as_good_with_few_and_with_many_teeth(teeth: int) -> None:
+    errors = tuple(2e-6 * np.random.default_rng(5).normal(size=teeth))
+    module = 2 * PITCH_RADIUS / teeth
+    inputs = pahl_coupling(0.06, axial_velocity=2e-3, teeth=teeth, module=module, pitch_errors=errors)
+    rows = 16 * 3200
+    mesh = two_meshes(inputs, tooth_geometry(inputs.coupling))[0]
+    force = power = 0.0
+    for part in range(16):
+        positions = tooth_positions((np.arange(part, rows, 16) + 0.5) / rows * 2 * pi, teeth)
+        tangential = centred_loads(inputs.coupling, mesh, positions, 3000.0).tangential_force
+        sliding = sliding_velocity(mesh, positions)
+        force += 0.2 / cos(ALPHA) * (tangential * np.sign(2e-3 + sliding)).sum() / rows
+        power += 0.2 / cos(ALPHA) * (tangential * np.abs(sliding)).sum() / rows
+    result = solve(inputs)
+    assert result.axial_thrust.force == pytest.approx(force, abs=2e-4 * result.axial_thrust.coaxial_limit)
+    assert result.losses.friction_power == pytest.approx(power, rel=1e-4)
+
+
 def test_mean_of_two_meshes_agrees_with_many_midpoints() -> None:
     inputs = pahl_coupling(0.06, axial_velocity=2e-3, arrangement="parallel_offset")
     angles = (np.arange(400) + 0.5) / 400 * 2 * pi / TEETH
@@ -130,6 +158,34 @@ def test_self_induced_thrust_of_concentrated_loads_tends_to_sin_alpha() -> None:
     assert induced is not None
     assert induced.force == pytest.approx(sin(ALPHA) * 2 * 0.05**2 * 3000 / cos(ALPHA) / 0.2, rel=2e-2)
     assert induced.overturning_moment == pytest.approx(2 * 0.05 * 3000 / cos(ALPHA), rel=2e-2)
+
+
+def test_closed_forms_of_the_angular_arrangement_are_zero() -> None:
+    # One tooth pair a mesh, or equal loads: friction's moments are opposite in both meshes.
+    for model in ("tangential", "spatial"):
+        options = ModelOptions(kinematics=model)  # type: ignore[arg-type]
+        induced = solve(pahl_coupling(0.3, arrangement="angular", model=options)).axial_thrust.self_induced
+        assert induced is not None
+        assert induced.simple_model_force == induced.uniform_load_force == 0.0
+        # The full model agrees in the limit of equal loads.
+        limit = solve(pahl_coupling(1e-3, arrangement="angular", model=options)).axial_thrust.self_induced
+        assert limit is not None
+        assert limit.force == pytest.approx(0.0, abs=1e-2)
+        assert limit.overturning_moment == pytest.approx(0.0, abs=1e-2)
+
+
+@pytest.mark.parametrize("factor", [0.0, 0.25])
+def test_one_pair_model_is_proportional_to_its_factor(factor: float) -> None:
+    base, scaled = (
+        solve(
+            pahl_coupling(0.1, arrangement="parallel_offset", model=ModelOptions(simple_thrust_factor=share))
+        ).axial_thrust.self_induced
+        for share in (1.0, factor)
+    )
+    assert base is not None
+    assert scaled is not None
+    assert scaled.simple_model_force == pytest.approx(factor * base.simple_model_force, rel=1e-12)
+    assert scaled.force == base.force
 
 
 def test_coaxial_shafts_that_separate_are_pulled_with_the_whole_limit() -> None:

@@ -101,6 +101,29 @@ def test_floating_sleeve_is_in_equilibrium(
     assert lateral == pytest.approx([-force[0], -force[1]], abs=1e-8 * limit)
 
 
+@pytest.mark.parametrize("direction", np.linspace(0.0, 2 * pi, 7))
+@pytest.mark.parametrize("share", [1e-10, 1e-6, 1e-2])
+def test_sleeve_on_two_teeth_finds_the_next_one_however_light_the_force(direction: float, share: float) -> None:
+    # At little torque two opposite teeth carry and leave one direction free: the third tooth is many steps away.
+    inputs = pahl_coupling(2.0, torque=10.0)
+    size = share * 10.0 / PITCH_RADIUS
+    force = (size * cos(direction), size * sin(direction))
+    loads, lateral = floating(inputs, force, angle=pi / 2)
+    assert 0 < loads.iterations[0] < 100
+    # Rounding: 1e-15 of each of 52 interferences of some 300 times the rotation of one tooth.
+    assert lateral == pytest.approx([-force[0], -force[1]], abs=5e-11 * 10.0 / PITCH_RADIUS)
+
+
+def test_floating_rows_end_at_the_first_without_balance() -> None:
+    inputs = pahl_coupling(0.1)
+    mesh, teeth = mesh_of(inputs), tooth_positions(np.array([0.0, 0.1, 0.2, 0.3]), TEETH)
+    beyond = 1.01 * 3000 / (PITCH_RADIUS * COSINE)
+    forces = np.array([[0.0, 0.0], [0.0, 0.0], [beyond, 0.0], [0.0, 0.0]])
+    loads = floating_loads(inputs.coupling, mesh, teeth, 3000.0, forces)
+    assert list(np.sign(loads.iterations)) == [1, 1, -1, 0]
+    assert np.isfinite(loads.tangential_force).all()
+
+
 def test_floating_sleeve_minimises_the_energy() -> None:
     inputs = pahl_coupling(0.7, pitch_errors=random_pitch_errors(7))
     mesh, teeth = mesh_of(inputs), tooth_positions(np.array([0.3]), TEETH)
