@@ -12,7 +12,7 @@ from typing import Any
 
 import httpx
 
-START_UP_S = 240.0  # kernels are compiled the first time
+START_UP_S = 400.0  # kernels are compiled the first time
 
 
 def free_port() -> int:
