@@ -27,10 +27,13 @@ def pocket_chain(
     for stretch, duct in ducts:
         record = empty_record(gas, angle.size, duct.cells, substeps * (angle.size - 1))
         isentropic = closure is Closure.ISENTROPIC
-        taken = march_chain(gas, duct, empty_pockets(duct.cells), angle, substeps, record, isentropic)
+        pockets = empty_pockets(duct.cells)
+        taken = march_chain(gas, duct, pockets, angle, substeps, record, isentropic)
         if taken < 0:
             raise NoSolution(
-                "newton_not_converged", "a time step of the pocket chain did not converge; change the slices"
+                "newton_not_converged",
+                "a time step of the pocket chain did not converge; try a higher speed, fewer slices or gas dynamics",
+                {"content_error": float(pockets.error[0])},
             )
         marches.append(March(stretch, record, taken))
     return space_flow(angle, marches, conserves_energy=closure is Closure.ENERGY)
