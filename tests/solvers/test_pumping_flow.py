@@ -124,15 +124,25 @@ def test_power_grows_with_the_cube_of_a_low_speed(setup: PumpingSetup) -> None:
     assert low_speed_exponent(setup, MODELS[2]) == pytest.approx(3, abs=0.02)
 
 
-@settings(RANDOM, max_examples=10)
+@settings(RANDOM, max_examples=6)
 @given(setups())
 def test_power_of_gas_dynamics_grows_with_the_cube_of_a_low_speed(setup: PumpingSetup) -> None:
-    # resolved: 32 slices in the stroke at one time, and a coast-side gap, for spaces sealed all round have kinks there
+    assert resolved_low_speed_exponent(setup) == pytest.approx(3, abs=0.05)
+
+
+@pytest.mark.slow
+@RANDOM
+@given(setups())
+def test_power_of_gas_dynamics_grows_with_the_cube_of_a_low_speed_for_any_pair(setup: PumpingSetup) -> None:
+    assert resolved_low_speed_exponent(setup) == pytest.approx(3, abs=0.05)
+
+
+def resolved_low_speed_exponent(setup: PumpingSetup) -> float:
+    """That of gas dynamics with 64 slices in the stroke at one time, for spaces whose coast side does not seal."""
     assume(setup.normal_backlash > 0.01 * setup.gears.normal_module)
     space = prepare(setup).spaces[0]
     waves = space.lag * setup.gears.face_width / (space.table.limits.end - space.table.limits.start)
-    slices = ceil(32 * max(waves, 1.0))
-    assert low_speed_exponent(setup, replace(MODELS[1], slices=slices)) == pytest.approx(3, abs=0.05)
+    return low_speed_exponent(setup, replace(MODELS[1], slices=ceil(64 * max(waves, 1.0))), mach=0.05)
 
 
 def test_coarse_grids_dissipate_at_low_speed() -> None:
@@ -155,12 +165,12 @@ def test_coarse_grids_dissipate_at_low_speed() -> None:
     assert np.diff(np.log2(power[12])).max() < 2.85
 
 
-def low_speed_exponent(setup: PumpingSetup, model: PumpingModel) -> float:
-    """Logarithmic slope of the power where the axial Mach number is about 0.03; the power is positive."""
+def low_speed_exponent(setup: PumpingSetup, model: PumpingModel, mach: float = 0.03) -> float:
+    """Logarithmic slope of the power between an axial Mach number and its double; the power is positive."""
     setup = replace(setup, model=replace(model, spaces=Spaces.PINION))
     gears = setup.gears
     tried = 10.0 / (gears.normal_module * (gears.pinion.teeth / 2 + 1 + gears.pinion.profile_shift))
-    slow = tried * min(0.03 / pinion(solve(PumpingInputs(setup, tried))).peak_axial_mach, 1.0)
+    slow = tried * mach / pinion(solve(PumpingInputs(setup, tried))).peak_axial_mach
     one, two = (solve(PumpingInputs(setup, speed)).total.pumping_power for speed in (slow, 2 * slow))
     assert one > 0
     return log2(two / one)

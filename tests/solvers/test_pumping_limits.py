@@ -171,6 +171,24 @@ def test_a_chain_that_does_not_converge_says_by_how_much() -> None:
     assert 1e-10 < failure.value.residuals["content_error"] < 1e9
 
 
+def test_a_chain_whose_flow_turns_round_takes_finer_steps() -> None:
+    gears = GearPairInputs(
+        GearTeeth(18, 0.0, 0.9143846017006865, 1.1615842123346414),
+        GearTeeth(136, 0.0, 1.072923182032606, 1.2605652403431145),
+        0.0035877575329388294,
+        0.01584270315227065,
+        0.3141592653589793,
+        0.5247308275427033,
+        0.31920332047188477,
+        0.173941375245739,
+    )
+    options = PumpingModel(flow=Flow.POCKET_CHAIN, slices=6, spaces=Spaces.PINION)
+    result = solved(PumpingSetup(gears, 4.305309039526595e-08, model=options), 11892.522826318651).pinion_spaces
+    assert result is not None
+    assert result.steps > 2000
+    assert result.peak_pressure_ratio == pytest.approx(1.037, abs=0.002)
+
+
 def test_incompressible_cannot_choke() -> None:
     with pytest.raises(InvalidInput) as refusal:
         choking_speeds(ChokingInputs(spur(), 1000.0))
