@@ -16,7 +16,7 @@ from solvers.pumping.nozzle import Gas
 from solvers.pumping.stroke import StrokeTable
 
 LEAST_SLICES = 4
-CELL_STEP_LIMIT = 10_000_000  # some ten seconds
+CELL_STEP_LIMIT = 5_000_000  # some ten seconds
 _HASTE = 2.5  # steps may be this much shorter than sound at rest asks for
 _ANGLES = 201
 

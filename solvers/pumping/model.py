@@ -30,8 +30,8 @@ from solvers.pumping.tooth_space import normal_backlash, transverse_contact_rati
 def solve(inputs: PumpingInputs) -> PumpingResult:
     """Flow through the tooth spaces of a pair at one speed, what it costs and what it heats.
 
-    Raises InvalidInput (codes of `spaces.prepare`; speed_not_positive, too_many_steps, incompressible_vacuum) and NoSolution
-    (unphysical_state, newton_not_converged).
+    Raises InvalidInput (codes of `spaces.prepare`; speed_not_positive, too_many_steps, incompressible_vacuum) and
+    NoSolution (unphysical_state, newton_not_converged).
     """
     mesh = prepare(inputs.setup)
     speed, slices = inputs.pinion_speed, inputs.setup.model.slice_count

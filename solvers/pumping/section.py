@@ -137,9 +137,7 @@ def _close(
 
 
 @kernel
-def _corner_section(
-    space: ToothSpace, angle: float, mate_angle: float
-) -> tuple[float, float, float, float, float]:
+def _corner_section(space: ToothSpace, angle: float, mate_angle: float) -> tuple[float, float, float, float, float]:
     """Section from the nearer tip corner to the other gear, from the mate's alone with tip gaps.
 
     Clearance [m], the foot's radius [m], half angle [rad] and sector below it [m^2], roll length on the mate [m].

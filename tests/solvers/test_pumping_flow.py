@@ -147,12 +147,12 @@ def resolved_low_speed_exponent(setup: PumpingSetup) -> float:
 
 def test_coarse_grids_dissipate_at_low_speed() -> None:
     # what a Riemann solver's pressure loses at jumps of velocity between slices falls with the Mach number more slowly
-    # than the power: 12 slices make it 2 times too large at Mach 0.01, 50 agree with 200 to half a percent
+    # than the power: 12 slices make it 2 times too large at Mach 0.01, 50 agree with 100 to half a percent
     gears = GearPairInputs(
         GearTeeth(18, 0.0, 1.0, 1.5), GearTeeth(25, 0.0, 1.0, 1.5), 7.8125e-3, 0.125, radians(17), radians(20)
     )
     setup = PumpingSetup(gears, 0.0)
-    speeds = {12: (10.0, 20.0, 40.0), 50: (10.0, 20.0, 40.0), 200: (40.0,)}
+    speeds = {12: (10.0, 20.0, 40.0), 50: (20.0, 40.0), 100: (40.0,)}
     power = {
         slices: [
             pinion(solve(PumpingInputs(replace(setup, model=replace(PRINTED, slices=slices)), speed))).pumping_power
@@ -160,7 +160,7 @@ def test_coarse_grids_dissipate_at_low_speed() -> None:
         ]
         for slices, of in speeds.items()
     }
-    assert power[50][-1] == pytest.approx(power[200][-1], rel=5e-3)
+    assert power[50][-1] == pytest.approx(power[100][-1], rel=5e-3)
     assert np.diff(np.log2(power[50])) == pytest.approx(3, abs=0.005)
     assert np.diff(np.log2(power[12])).max() < 2.85
 
