@@ -29,7 +29,8 @@ class Pockets(NamedTuple):
     `old` and `new` (pockets, 2): pressure [Pa], mass [kg/m]; `area` (pockets, 2) at the start and the end of the step
     [m^2] and `gap` [m] at its end; `opening` (faces) [m^2]; `flow` (faces, 2) mass and heat towards the high end
     [kg/s, W], `leak` (pockets, 2) outwards [kg/(s m), W/m]; `residual` (pockets, 2), `lower`, `diagonal`, `upper`
-    (pockets, 2, 2) and `correction` (pockets, 2) of Newton's method, `trial` (pockets, 2) its candidate.
+    (pockets, 2, 2) and `correction` (pockets, 2) of Newton's method, `trial` (pockets, 2) its candidate, `error` (1,)
+    its largest residual relative to the ambient content.
     """
 
     old: FloatArray
@@ -45,12 +46,14 @@ class Pockets(NamedTuple):
     upper: FloatArray
     correction: FloatArray
     trial: FloatArray
+    error: FloatArray
 
 
 def empty_pockets(pockets: int) -> Pockets:
     """Arrays for so many pockets."""
     two, blocks = (pockets, 2), (pockets, 2, 2)
-    shapes = [two, two, two, (pockets,), (pockets + 1,), (pockets + 1, 2), two, two, blocks, blocks, blocks, two, two]
+    faces = pockets + 1
+    shapes = [two, two, two, (pockets,), (faces,), (faces, 2), two, two, blocks, blocks, blocks, two, two, (1,)]
     return Pockets(*[np.zeros(shape) for shape in shapes])
 
 
@@ -61,6 +64,7 @@ def advance(gas: Gas, duct: Duct, pockets: Pockets, low: int, high: int, dt: flo
         pockets.new[i, 0], pockets.new[i, 1] = pockets.old[i, 0], pockets.old[i, 1]
     error = _assemble(gas, duct, pockets, pockets.new, low, high, dt, isentropic)
     for _ in range(_NEWTON_LIMIT):
+        pockets.error[0] = error
         if error < _TOLERANCE:
             _settle(gas, duct, pockets, low, high, dt, isentropic)
             return True

@@ -13,6 +13,9 @@ LEAST_TEETH = 5
 FEW_TEETH = 12
 TIP_SPEED_SHARE = 0.8  # of the ambient speed of sound
 PITCH_LINE_SPEED = 250.0  # m/s
+FEW_SLICES = 20  # in the stroke at one time
+INCOMPRESSIBLE_MACH = 0.3
+LEAST_GAUGE_PRESSURE = 1e-6  # of the ambient pressure
 
 
 def check_setup(setup: PumpingSetup) -> list[Notice]:
@@ -66,6 +69,31 @@ def _check_incompressible(setup: PumpingSetup) -> None:
     if setup.model.discharge_coefficient == 0.0:
         message = "incompressible gas cannot stay in a shrinking space"
         raise InvalidInput("discharge_coefficient", message, "discharge_coefficient")
+
+
+def check_resolution(flow: Flow, active_slices: float) -> list[Notice]:
+    """A notice of gas dynamics with few slices in the stroke at one time."""
+    if flow is not Flow.GAS_DYNAMICS or active_slices >= FEW_SLICES:
+        return []
+    message = (
+        f"{active_slices:.0f} slices are in the stroke at one time: below {FEW_SLICES} the grid's own dissipation "
+        "raises the power at low speed by tens of percent"
+    )
+    return [Notice("few_slices", message, "slices")]
+
+
+def check_flow(flow: Flow, largest_mach: float, largest_gauge_pressure: float) -> list[Notice]:
+    """Notices of flows outside what their model resolves; the pressure is a share of the ambient one."""
+    if flow is Flow.INCOMPRESSIBLE and largest_mach > INCOMPRESSIBLE_MACH:
+        message = f"Mach {largest_mach:.2f}: above {INCOMPRESSIBLE_MACH:g} the gas is far from incompressible"
+        return [Notice("incompressible_mach", message, "flow")]
+    if flow is Flow.POCKET_CHAIN and largest_gauge_pressure < LEAST_GAUGE_PRESSURE:
+        message = (
+            f"the pressure differs from the ambient one by less than its {LEAST_GAUGE_PRESSURE:g}th part, which the "
+            "pocket chain does not resolve; power falls as the cube of the speed"
+        )
+        return [Notice("pressure_not_resolved", message, "pinion_speed")]
+    return []
 
 
 def check_speed(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]:

@@ -16,7 +16,7 @@ from solvers.pumping.nozzle import Gas
 from solvers.pumping.stroke import StrokeTable
 
 LEAST_SLICES = 4
-CELL_STEP_LIMIT = 10_000_000  # some ten seconds
+CELL_STEP_LIMIT = 5_000_000  # some ten seconds
 _HASTE = 2.5  # steps may be this much shorter than sound at rest asks for
 _ANGLES = 201
 
@@ -55,7 +55,9 @@ def gas_dynamics(
         steps = march(gas, part, empty_cells(part.cells), angle, record, 2)
         if steps < 0:
             reason = "the step limit was reached" if steps == -1 else "no step length gave a physical state"
-            raise NoSolution("unphysical_state", f"the gas dynamics failed: {reason}; try fewer slices")
+            duration = float(angle[-1] - angle[0]) / part.speed
+            remaining = {"remaining_share_of_stroke": 1.0 - float(record.ends[:, 0].max()) / duration}
+            raise NoSolution("unphysical_state", f"the gas dynamics failed: {reason}; try fewer slices", remaining)
         marches.append(March(stretch, record, steps))
     return space_flow(angle, marches, conserves_energy=True)
 

@@ -3,7 +3,9 @@
 import numpy as np
 
 from solvers.arrays import frozen
+from solvers.errors import InvalidInput
 from solvers.pumping.flow import EndFlow, ExitMasses, SpaceFlow
+from solvers.pumping.inputs import rpm
 from solvers.pumping.nozzle import Gas
 from solvers.pumping.stroke import StrokeTable
 
@@ -12,6 +14,7 @@ def incompressible(gas: Gas, table: StrokeTable, face_width: float, speed: float
     """Every opening passes the same velocity U = -(dV/dt) / [C_d (2 S + L b)], and p - p_e = rho U |U| / 2.
 
     The middle of each table interval counts. Temperatures are None: what heats the gas is the work, in no place.
+    Raises InvalidInput: incompressible_vacuum (suction would exceed the ambient pressure).
     """
     time = (table.angle - table.angle[0]) / speed
     step = np.diff(time)
@@ -22,6 +25,10 @@ def incompressible(gas: Gas, table: StrokeTable, face_width: float, speed: float
     velocity = displaced / step / (discharge * (2 * area + gap))
     gauge = 0.5 * gas.density * velocity * np.abs(velocity)
     pressure = gas.pressure + gauge
+    if pressure.min() <= 0.0:
+        slower = rpm(speed) * float(np.sqrt(-gas.pressure / gauge.min()))
+        message = f"suction exceeds the ambient pressure: stay below {slower:.6g} rpm of the gear, or use gas dynamics"
+        raise InvalidInput("incompressible_vacuum", message, "pinion_speed")
     out = gas.density * velocity * discharge * step
     front, radial = out * area, out * gap
     return SpaceFlow(

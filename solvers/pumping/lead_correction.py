@@ -40,11 +40,12 @@ def growth_per_kelvin(pair: GearPair) -> float:
     return EXPANSION * (radius * sin(angle) + half_thickness * cos(angle))
 
 
-def lead_correction(
-    pair: GearPair, position: FloatArray, temperature_rise: FloatArray, *, wall_response: float = 1.0
-) -> LeadCorrection:
-    """Correction for metal that warms by `wall_response` per kelvin of gas; position [m] and rise [K] are (slices,)."""
-    growth = growth_per_kelvin(pair) * wall_response * temperature_rise
+def lead_correction(pair: GearPair, position: FloatArray, temperature_rise: FloatArray) -> LeadCorrection:
+    """Correction for metal that warms as much as the gas; position [m] and rise [K] are (slices,).
+
+    It scales with the wall's response, which only measurements give.
+    """
+    growth = growth_per_kelvin(pair) * temperature_rise
     correction = -(growth - growth.min())
     place = position / pair.inputs.face_width - 0.5
     degree = min(position.size - 1, 2)

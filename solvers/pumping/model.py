@@ -6,7 +6,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.notices import Notice
-from solvers.pumping.checks import check_speed
+from solvers.pumping.checks import check_flow, check_speed
 from solvers.pumping.flow import ExitMasses, SpaceFlow
 from solvers.pumping.inputs import PumpingInputs
 from solvers.pumping.lead_correction import LeadCorrection, lead_correction
@@ -30,8 +30,8 @@ from solvers.pumping.tooth_space import normal_backlash, transverse_contact_rati
 def solve(inputs: PumpingInputs) -> PumpingResult:
     """Flow through the tooth spaces of a pair at one speed, what it costs and what it heats.
 
-    Raises InvalidInput (codes of `spaces.prepare`; speed_not_positive, too_many_steps) and NoSolution
-    (unphysical_state, newton_not_converged).
+    Raises InvalidInput (codes of `spaces.prepare`; speed_not_positive, too_many_steps, incompressible_vacuum) and
+    NoSolution (unphysical_state, newton_not_converged).
     """
     mesh = prepare(inputs.setup)
     speed, slices = inputs.pinion_speed, inputs.setup.model.slice_count
@@ -40,6 +40,11 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
 
     flows = [flow_at(mesh, space, speed, slices) for space in mesh.spaces]
     results = [_spaces_result(mesh.gas, space, flow, frequency) for space, flow in zip(mesh.spaces, flows, strict=True)]
+    flow_notices = check_flow(
+        inputs.setup.model.flow,
+        max(result.peak_axial_mach for result in results),
+        max(result.peak_pressure_ratio - result.min_pressure_ratio for result in results),
+    )
     of_gear = {space.of_pinion: result for space, result in zip(mesh.spaces, results, strict=True)}
     correction = _pinion_correction(mesh, of_gear.get(True))
     total = _totals(mesh, speed, frequency, sum(result.pumping_power for result in results))
@@ -51,7 +56,7 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
         lead_correction=correction,
         pulsation=_pulsation(mesh, flows, speed, frequency),
         slices=sum(part.cells for part in face_stretches(inputs.setup, slices)),
-        warnings=(*mesh.notices, *speed_notices, *_missing(results[0], total, correction)),
+        warnings=(*mesh.notices, *speed_notices, *flow_notices, *_missing(results[0], total, correction)),
     )
 
 

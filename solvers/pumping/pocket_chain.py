@@ -12,25 +12,31 @@ from solvers.pumping.flow import March, SpaceFlow, space_flow
 from solvers.pumping.inputs import Closure
 from solvers.pumping.nozzle import Gas
 
-STEPS = 2000
+STEPS = 2000  # at least
+_REFINEMENTS = (1, 2, 4, 8)  # of the steps, until Newton's method converges in all of them
 
 
-def pocket_chain(
-    gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray, closure: Closure, *, steps: int = STEPS
-) -> SpaceFlow:
-    """March every stretch of a tooth space through its stroke in at least `steps` steps.
+def pocket_chain(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray, closure: Closure) -> SpaceFlow:
+    """March every stretch of a tooth space through its stroke.
 
     Raises NoSolution: newton_not_converged.
     """
-    substeps = ceil(steps / (angle.size - 1))
-    marches = []
-    for stretch, duct in ducts:
-        record = empty_record(gas, angle.size, duct.cells, substeps * (angle.size - 1))
-        isentropic = closure is Closure.ISENTROPIC
-        taken = march_chain(gas, duct, empty_pockets(duct.cells), angle, substeps, record, isentropic)
-        if taken < 0:
-            raise NoSolution(
-                "newton_not_converged", "a time step of the pocket chain did not converge; change the slices"
-            )
-        marches.append(March(stretch, record, taken))
+    substeps = ceil(STEPS / (angle.size - 1))
+    marches = [_march(gas, stretch, duct, angle, closure, substeps) for stretch, duct in ducts]
     return space_flow(angle, marches, conserves_energy=closure is Closure.ENERGY)
+
+
+def _march(gas: Gas, stretch: Stretch, duct: Duct, angle: FloatArray, closure: Closure, substeps: int) -> March:
+    """The march of one stretch, in finer steps where a flow that turns round within one stalls Newton's method."""
+    for refinement in _REFINEMENTS:
+        count = refinement * substeps
+        record = empty_record(gas, angle.size, duct.cells, count * (angle.size - 1))
+        pockets = empty_pockets(duct.cells)
+        taken = march_chain(gas, duct, pockets, angle, count, record, closure is Closure.ISENTROPIC)
+        if taken > 0:
+            return March(stretch, record, taken)
+    raise NoSolution(
+        "newton_not_converged",
+        "a time step of the pocket chain did not converge; try a higher speed, fewer slices or gas dynamics",
+        {"content_error": float(pockets.error[0])},
+    )

@@ -28,6 +28,13 @@ def _sector(roll: float, base: float) -> float:
 
 
 @kernel
+def _sector_to_involute(space: ToothSpace, roll: float) -> float:
+    """Area between the owner's centre and half a space's profile up to a roll length of its involute [m^2]."""
+    base = space.base_radius
+    return space.root.sector_area + _sector(roll, base) - _sector(space.root.involute_roll, base)
+
+
+@kernel
 def _distance_to_fillet(fillet: RackFillet, t: float, radius: float, angle: float) -> float:
     r, psi = fillet_point(fillet, t)
     distance: float = np.sqrt((r - radius) ** 2 + 4.0 * r * radius * np.sin(0.5 * (psi - angle)) ** 2)
@@ -77,7 +84,7 @@ def _nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple
     root, base = space.root, space.base_radius
     roll, distance = _foot_on_flank(space, radius, angle)
     r, psi = np.hypot(base, roll), space.base_half_angle + _involute(roll, base)
-    area = root.sector_area + _sector(roll, base) - _sector(root.involute_roll, base)
+    area = _sector_to_involute(space, roll)
     bottom = min(max(angle, 0.0), root.root_half_angle)
     gap = np.hypot(root.root_radius * np.sin(bottom - angle), radius - root.root_radius * np.cos(bottom - angle))
     if gap < distance:
@@ -130,17 +137,11 @@ def _close(
 
 
 @kernel
-def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tuple[float, float, float]:
-    """One side: area part [m^2], clearance [m], half the rolling velocity of the flanks per angular speed [m]."""
-    base = space.base_radius
-    roll = space.pitch_roll + base * (angle - space.pitch_half_angle)
-    mate_roll = space.line_of_action - roll - gap
-    on_flanks = 0.0 < roll <= space.tip_roll and 0.0 < mate_roll <= space.mate_tip_roll
-    if space.contact_gap and on_flanks:
-        below = space.root.sector_area + _sector(roll, base) - _sector(space.root.involute_roll, base)
-        psi = space.base_half_angle + _involute(roll, base)
-        upper = _close(space, angle, mate_angle, np.hypot(base, roll), psi, mate_roll)
-        return upper - below, gap, 0.5 * (roll + mate_roll * space.ratio)
+def _corner_section(space: ToothSpace, angle: float, mate_angle: float) -> tuple[float, float, float, float, float]:
+    """Section from the nearer tip corner to the other gear, from the mate's alone with tip gaps.
+
+    Clearance [m], the foot's radius [m], half angle [rad] and sector below it [m^2], roll length on the mate [m].
+    """
     mu = mate_angle - space.mate_tip_half_angle
     x, y = space.mate_tip_radius * np.sin(mu), space.centre_distance - space.mate_tip_radius * np.cos(mu)
     clearance, r, psi, below = _nearest_on_profile(space, np.hypot(x, y), angle - np.arctan2(x, y))
@@ -151,8 +152,29 @@ def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tup
         mate_foot, distance = _foot_on_mate(space, np.hypot(x, y), mate_angle - np.arctan2(x, y))
         if distance < clearance:
             clearance, foot, r, psi = distance, mate_foot, space.tip_radius, space.tip_half_angle
-            below = space.root.sector_area + _sector(space.tip_roll, base) - _sector(space.root.involute_roll, base)
-    return _close(space, angle, mate_angle, r, psi, foot) - below, clearance, 0.0
+            below = _sector_to_involute(space, space.tip_roll)
+    return clearance, r, psi, below, foot
+
+
+@kernel
+def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tuple[float, float, float]:
+    """One side: area part [m^2], clearance [m], area per radian that the flanks roll through its section [m^2].
+
+    Flanks that face each other close the space on the line of action, `gap` [m] apart there. A wide gap is not always
+    the side's narrowest place: a tip corner may come closer to the root fillet and throttles, but closes nothing.
+    """
+    base = space.base_radius
+    roll = space.pitch_roll + base * (angle - space.pitch_half_angle)
+    mate_roll = space.line_of_action - roll - gap
+    on_flanks = 0.0 < roll <= space.tip_roll and 0.0 < mate_roll <= space.mate_tip_roll
+    if not (space.contact_gap and on_flanks):
+        clearance, r, psi, below, foot = _corner_section(space, angle, mate_angle)
+        return _close(space, angle, mate_angle, r, psi, foot) - below, clearance, 0.0
+    psi = space.base_half_angle + _involute(roll, base)
+    upper = _close(space, angle, mate_angle, np.hypot(base, roll), psi, mate_roll)
+    clearance = min(gap, _corner_section(space, angle, mate_angle)[0]) if gap > 0.0 else 0.0
+    rolling = 0.5 * (roll + mate_roll * space.ratio)
+    return upper - _sector_to_involute(space, roll), clearance, gap * rolling
 
 
 @kernel
@@ -164,6 +186,6 @@ def section(space: ToothSpace, angle: float) -> tuple[float, float, float, float
     """
     mate_angle = angle * space.ratio + space.offset
     left_gap = 0.0 if space.owner_drives else space.backlash_gap
-    left_area, left, left_roll = _side(space, angle, mate_angle, left_gap)
-    right_area, right, right_roll = _side(space, -angle, -mate_angle, space.backlash_gap - left_gap)
-    return left_area + right_area, left, right, right * right_roll - left * left_roll
+    left_area, left, left_transport = _side(space, angle, mate_angle, left_gap)
+    right_area, right, right_transport = _side(space, -angle, -mate_angle, space.backlash_gap - left_gap)
+    return left_area + right_area, left, right, right_transport - left_transport

@@ -5,7 +5,7 @@ from math import tan
 
 from solvers.gears.pair import GearPair, gear_pair
 from solvers.notices import Notice
-from solvers.pumping.checks import check_setup
+from solvers.pumping.checks import check_resolution, check_setup
 from solvers.pumping.face import Stretch, stretches
 from solvers.pumping.flow import SpaceFlow
 from solvers.pumping.gas_dynamics import CELL_STEP_LIMIT, LEAST_SLICES, duct, gas_dynamics, sample_angles
@@ -53,7 +53,15 @@ def prepare(setup: PumpingSetup) -> Mesh:
         spaces.append(_space(setup, pair, of_pinion=True))
     if wanted is not Spaces.PINION:
         spaces.append(_space(setup, pair, of_pinion=False))
+    active = min(_active_share(space, setup.gears.face_width) for space in spaces) * setup.model.slice_count
+    notices += check_resolution(setup.model.flow, active)
     return Mesh(setup, pair, gas(setup.ambient), tuple(spaces), tuple(notices))
+
+
+def _active_share(space: Space, face_width: float) -> float:
+    """Largest share of the face whose slices are in their stroke at one time."""
+    limits, lag = space.table.limits, space.lag * face_width
+    return min((limits.end - limits.start) / lag, 1.0) if lag > 0.0 else 1.0
 
 
 def _space(setup: PumpingSetup, pair: GearPair, *, of_pinion: bool) -> Space:

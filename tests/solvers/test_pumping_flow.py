@@ -3,7 +3,7 @@
 import itertools
 from collections.abc import Callable
 from dataclasses import replace
-from math import log2, pi, tan
+from math import ceil, log2, pi, radians, tan
 
 import numpy as np
 import pytest
@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from solvers.arrays import FloatArray
 from solvers.errors import InvalidInput
+from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
 from solvers.pumping import (
     Ambient,
@@ -33,12 +34,13 @@ from solvers.pumping.gas_step import empty_cells
 from solvers.pumping.leakage import Walls, implicit_stage
 from solvers.pumping.nozzle import Gas, flux_squared, gas, mass_flux
 from solvers.pumping.riemann import hllc, reservoir_face
+from solvers.pumping.spaces import prepare
 from solvers.pumping.tooth_space import stroke_limits, tooth_space
 from tests.meshing_pairs import setups
 from tests.milian import CASE_1, CHAIN, GROOVE, PRINTED, TABLE_1, pinion, run
 
 AIR = gas(Ambient())
-RANDOM = settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
+RANDOM = settings(max_examples=100, derandomize=True, suppress_health_check=[HealthCheck.filter_too_much])
 COARSE = PumpingModel(slices=12)
 MODELS = [
     COARSE,
@@ -122,18 +124,53 @@ def test_power_grows_with_the_cube_of_a_low_speed(setup: PumpingSetup) -> None:
     assert low_speed_exponent(setup, MODELS[2]) == pytest.approx(3, abs=0.02)
 
 
-@settings(RANDOM, max_examples=8)
+@settings(RANDOM, max_examples=6)
 @given(setups())
 def test_power_of_gas_dynamics_grows_with_the_cube_of_a_low_speed(setup: PumpingSetup) -> None:
-    assert low_speed_exponent(setup, MODELS[1]) == pytest.approx(3, abs=0.1)
+    assert resolved_low_speed_exponent(setup) == pytest.approx(3, abs=0.05)
 
 
-def low_speed_exponent(setup: PumpingSetup, model: PumpingModel) -> float:
-    """Logarithmic slope of the power where the axial Mach number is about 0.03; the power is positive."""
+@pytest.mark.slow
+@RANDOM
+@given(setups())
+def test_power_of_gas_dynamics_grows_with_the_cube_of_a_low_speed_for_any_pair(setup: PumpingSetup) -> None:
+    assert resolved_low_speed_exponent(setup) == pytest.approx(3, abs=0.05)
+
+
+def resolved_low_speed_exponent(setup: PumpingSetup) -> float:
+    """That of gas dynamics with 64 slices in the stroke at one time, for spaces whose coast side does not seal."""
+    assume(setup.normal_backlash > 0.01 * setup.gears.normal_module)
+    space = prepare(setup).spaces[0]
+    waves = space.lag * setup.gears.face_width / (space.table.limits.end - space.table.limits.start)
+    return low_speed_exponent(setup, replace(MODELS[1], slices=ceil(64 * max(waves, 1.0))), mach=0.05)
+
+
+def test_coarse_grids_dissipate_at_low_speed() -> None:
+    # what a Riemann solver's pressure loses at jumps of velocity between slices falls with the Mach number more slowly
+    # than the power: 12 slices make it 2 times too large at Mach 0.01, 50 agree with 100 to half a percent
+    gears = GearPairInputs(
+        GearTeeth(18, 0.0, 1.0, 1.5), GearTeeth(25, 0.0, 1.0, 1.5), 7.8125e-3, 0.125, radians(17), radians(20)
+    )
+    setup = PumpingSetup(gears, 0.0)
+    speeds = {12: (10.0, 20.0, 40.0), 50: (20.0, 40.0), 100: (40.0,)}
+    power = {
+        slices: [
+            pinion(solve(PumpingInputs(replace(setup, model=replace(PRINTED, slices=slices)), speed))).pumping_power
+            for speed in of
+        ]
+        for slices, of in speeds.items()
+    }
+    assert power[50][-1] == pytest.approx(power[100][-1], rel=5e-3)
+    assert np.diff(np.log2(power[50])) == pytest.approx(3, abs=0.005)
+    assert np.diff(np.log2(power[12])).max() < 2.85
+
+
+def low_speed_exponent(setup: PumpingSetup, model: PumpingModel, mach: float = 0.03) -> float:
+    """Logarithmic slope of the power between an axial Mach number and its double; the power is positive."""
     setup = replace(setup, model=replace(model, spaces=Spaces.PINION))
     gears = setup.gears
     tried = 10.0 / (gears.normal_module * (gears.pinion.teeth / 2 + 1 + gears.pinion.profile_shift))
-    slow = tried * min(0.03 / pinion(solve(PumpingInputs(setup, tried))).peak_axial_mach, 1.0)
+    slow = tried * mach / pinion(solve(PumpingInputs(setup, tried))).peak_axial_mach
     one, two = (solve(PumpingInputs(setup, speed)).total.pumping_power for speed in (slow, 2 * slow))
     assert one > 0
     return log2(two / one)

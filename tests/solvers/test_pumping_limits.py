@@ -7,7 +7,7 @@ from math import pi
 
 import pytest
 
-from solvers.errors import InvalidInput
+from solvers.errors import InvalidInput, NoSolution
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.pumping import (
     Ambient,
@@ -143,6 +143,52 @@ def test_slow_speed_is_refused_with_what_would_fit(monkeypatch: pytest.MonkeyPat
         solved(setup, 0.97 * speed)
 
 
+def test_incompressible_vacuum_is_refused_with_the_speed_that_fits() -> None:
+    with pytest.raises(InvalidInput) as refusal:
+        solved(spur(), 60000.0)
+    assert refusal.value.code == "incompressible_vacuum"
+    assert refusal.value.field == "pinion_speed"
+    found = re.search(r"below ([\d.]+) rpm", refusal.value.message)
+    assert found is not None
+    result = solved(spur(), 0.999 * float(found[1])).pinion_spaces
+    assert result is not None
+    assert 0 < result.min_pressure_ratio < 0.01
+
+
+@pytest.mark.parametrize(
+    ("setup", "speed", "code"),
+    [(spur(), 10000.0, "incompressible_mach"), (model(flow=Flow.POCKET_CHAIN), 5.0, "pressure_not_resolved")],
+)
+def test_flow_outside_its_model_is_warned_of(setup: PumpingSetup, speed: float, code: str) -> None:
+    assert code in {notice.code for notice in solved(setup, speed).warnings}
+    assert code not in {notice.code for notice in solved(setup, 1000.0).warnings}
+
+
+def test_a_chain_that_does_not_converge_says_by_how_much() -> None:
+    with pytest.raises(NoSolution) as failure:
+        solved(model(flow=Flow.POCKET_CHAIN, closure=Closure.ISENTROPIC, discharge_coefficient=0.7), 1e-9)
+    assert failure.value.code == "newton_not_converged"
+    assert 1e-10 < failure.value.residuals["content_error"] < 1e9
+
+
+def test_a_chain_whose_flow_turns_round_takes_finer_steps() -> None:
+    gears = GearPairInputs(
+        GearTeeth(18, 0.0, 0.9143846017006865, 1.1615842123346414),
+        GearTeeth(136, 0.0, 1.072923182032606, 1.2605652403431145),
+        0.0035877575329388294,
+        0.01584270315227065,
+        0.3141592653589793,
+        0.5247308275427033,
+        0.31920332047188477,
+        0.173941375245739,
+    )
+    options = PumpingModel(flow=Flow.POCKET_CHAIN, slices=6, spaces=Spaces.PINION)
+    result = solved(PumpingSetup(gears, 4.305309039526595e-08, model=options), 11892.522826318651).pinion_spaces
+    assert result is not None
+    assert result.steps > 2000
+    assert result.peak_pressure_ratio == pytest.approx(1.037, abs=0.002)
+
+
 def test_incompressible_cannot_choke() -> None:
     with pytest.raises(InvalidInput) as refusal:
         choking_speeds(ChokingInputs(spur(), 1000.0))
@@ -156,7 +202,8 @@ def other(pinion: GearTeeth, wheel: GearTeeth) -> PumpingSetup:
 WARNED: list[tuple[PumpingSetup, set[str]]] = [
     (PLAIN, set()),
     (spur(Flow.GAS_DYNAMICS), {"spur_gear"}),
-    (spur(), {"spur_gear", "no_temperature", "no_lead_correction"}),
+    (spur(), {"spur_gear", "no_temperature", "no_lead_correction", "incompressible_mach"}),
+    (model(slices=12), {"few_slices"}),
     (model(flow=Flow.POCKET_CHAIN, slices=1), {"single_slice"}),
     (model(flow=Flow.POCKET_CHAIN, closure=Closure.ISENTROPIC), {"no_energy_balance"}),
     (model(spaces=Spaces.WHEEL), {"no_lead_correction"}),
