@@ -43,7 +43,7 @@ class GearGroove(Section):
     """A circumferential groove of full tooth depth."""
 
     position_mm: Annotated[float, Input("centre, from the end that meshes first", "z", MILIAN, ge=0, le=5000)]
-    width_mm: Annotated[float, Input("width", None, MILIAN, gt=0, le=5000)]
+    width_mm: Annotated[float, Input("width", None, MILIAN, ge=0.01, le=5000)]
 
 
 class PumpingOperation(Section):
