@@ -12,7 +12,7 @@ from solvers.contact.ehl.coupled import solve_coupled
 from solvers.contact.ehl.isothermal import solve_isothermal
 from solvers.contact.ehl.mesh import Grid, grid_for
 from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.state import State, Work, work_arrays
+from solvers.contact.ehl.state import State, Work, no_steps, work_arrays
 from solvers.contact.ehl.temperature import march_temperatures
 
 Stage = Literal["isothermal", "coupling"]
@@ -90,8 +90,8 @@ def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Atte
 
 def _distance(attempt: Attempt) -> tuple[int, float]:
     """How far from a solution: by the mesh reached, then by the last change of pressure."""
-    steps, change = attempt.state.history[:2]
-    return -attempt.grid.x.size, float(change) if steps > 0.0 and np.isfinite(change) else np.inf
+    change = float(attempt.state.history[1])
+    return -attempt.grid.x.size, change if np.isfinite(change) else np.inf
 
 
 def solve_from(problem: Problem, resolution: Resolution, grid: Grid, guess: State, budget: Budget) -> Attempt:
@@ -135,16 +135,20 @@ def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
 
 
 def _dry_state(grid: Grid, resolution: Resolution) -> State:
-    """Hertz pressure, scaled to carry the load on this mesh, over a film of the expected thickness."""
-    pressure = np.sqrt(np.maximum(1.0 - grid.x**2, 0.0))
+    """Hertz pressure, scaled to carry the load on this mesh, over a film of the expected thickness.
+
+    A thick film spreads it over (2 R h)^1/2.
+    """
+    width = max(1.0, sqrt(2.0 * resolution.gap))
+    pressure = np.sqrt(np.maximum(1.0 - (grid.x / width) ** 2, 0.0))
     pressure *= 0.5 * np.pi / float(grid.weights @ pressure)
     centre = int(np.abs(grid.x).argmin())
     return State(
         pressure=pressure,
         separation=np.array([resolution.gap - float(grid.deflection[centre] @ pressure)]),
         temperature=np.zeros((grid.x.size, resolution.film_nodes)),
-        cavitated=grid.x > 1.0,
-        history=np.zeros(3),
+        cavitated=grid.x > width,
+        history=no_steps(),
     )
 
 
@@ -177,7 +181,7 @@ def _polish(
     """Newton on one mesh."""
     work = work_arrays(grid.x.size, resolution.film_nodes)
     steps = budget.steps(resolution, grid.x.size)
-    state.history[0] = 0.0
+    state.history[:] = no_steps()
     if resolution.thermal:
         converged = bool(solve_coupled(problem, grid, state, work, steps, tolerances[0], tolerances[1]))
     else:
@@ -196,7 +200,7 @@ def interpolate(state: State, x: FloatArray, onto: FloatArray) -> State:
         separation=state.separation.copy(),
         temperature=np.ascontiguousarray(np.stack(columns, axis=1)),
         cavitated=(pressure <= 0.0) & (onto > 0.0),
-        history=np.zeros(3),
+        history=no_steps(),
     )
 
 

@@ -5,14 +5,15 @@ from math import exp, log
 
 import numpy as np
 
+from solvers.contact.ehl.checks import check
 from solvers.contact.ehl.continuation import Attempt, Budget, Resolution, solve_cold, solve_from
-from solvers.contact.ehl.dimensionless import groups
-from solvers.contact.ehl.inputs import LineContactInputs, check
+from solvers.contact.ehl.dimensionless import expected_gap, groups
+from solvers.contact.ehl.inputs import LineContactInputs
 from solvers.contact.ehl.mesh import grid_for
-from solvers.contact.ehl.model import expected_gap, resolution_for, result
+from solvers.contact.ehl.model import resolution_for, result
 from solvers.contact.ehl.problem import Problem, problem
 from solvers.contact.ehl.results import LineContactResult
-from solvers.contact.ehl.state import State
+from solvers.contact.ehl.state import State, no_steps
 from solvers.errors import InvalidInput
 
 
@@ -68,5 +69,5 @@ def _extrapolate(known: Sequence[State]) -> State:
         separation=2.0 * last.separation - before.separation,
         temperature=np.maximum(2.0 * last.temperature - before.temperature, 0.9 * last.temperature.min()),
         cavitated=cavitated,
-        history=np.zeros(3),
+        history=no_steps(),
     )
