@@ -84,7 +84,7 @@ def _check_oil(inputs: LineContactInputs) -> None:
 
 def _check_load(inputs: LineContactInputs) -> None:
     """Pressure and the film to be expected: thick against the deformation it is no elastic contact any more."""
-    contact, scales = inputs.contact, groups(inputs)
+    scales = groups(inputs)
     if scales.maximum_pressure > HIGHEST_PRESSURE:
         raise InvalidInput("pressure_range", "the Hertz pressure must not exceed 4 GPa", "line_load")
     hottest = inputs.temperatures.inlet

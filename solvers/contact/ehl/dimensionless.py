@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from math import exp, inf, pi, sqrt
 
 from solvers.contact import hertz
-from solvers.contact.film import dowson_higginson_minimum
 from solvers.contact.ehl.inputs import LineContactInputs
+from solvers.contact.film import dowson_higginson_minimum
 
 NO_LOAD = 1e-9  # of Moes' M; its films are 10^18 times b^2/R
 

@@ -44,6 +44,11 @@ def film_heights(problem: Problem, attempt: Attempt) -> FloatArray:
     return attempt.work.height * problem.gap_scale
 
 
+def temperature_range(attempt: Attempt) -> float:
+    """Hottest less coldest place [K]; within the tolerance of temperature there is no heat whose balance could count."""
+    return float(np.ptp(attempt.state.temperature))
+
+
 def at_centre(attempt: Attempt, values: FloatArray) -> float:
     """Value at x = 0, linear between nodes."""
     return float(np.interp(0.0, attempt.grid.x, values))

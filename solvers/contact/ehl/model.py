@@ -5,7 +5,7 @@ from math import isfinite
 
 from solvers.contact.ehl import measures
 from solvers.contact.ehl.checks import check
-from solvers.contact.ehl.continuation import Attempt, Budget, Resolution, solve_cold
+from solvers.contact.ehl.continuation import TIGHT, Attempt, Budget, Resolution, solve_cold
 from solvers.contact.ehl.dimensionless import (
     Groups,
     dowson_higginson_film,
@@ -64,7 +64,7 @@ def result(
     if attempt.converged:
         measures.settle(constants, attempt, thermal)
     heat = measures.heat(constants, attempt) if thermal and attempt.converged else None
-    balanced = heat is None or heat.balance_error < WORST_BALANCE
+    balanced = heat is None or heat.balance_error < WORST_BALANCE or measures.temperature_range(attempt) < TIGHT[1]
     convergence = _convergence(attempt, iterations, thermal, balanced)
     unsolved = LineContactResult(
         status="no_solution",

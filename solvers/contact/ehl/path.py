@@ -25,7 +25,6 @@ from solvers.contact.ehl.results import LineContactResult
 from solvers.contact.ehl.state import State, no_steps
 from solvers.errors import InvalidInput
 
-
 REGRADED = 2.0  # ratio of films beyond which a point needs a mesh graded for itself
 STEPS_FOR_TROUBLE = 4.0 * STEPS_IN_ALL  # of a whole path, beside a few for each point
 STEPS_A_POINT = 6.0
