@@ -135,7 +135,7 @@ def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
     budget.charge(resolution, grid.x.size, int(state.history[0]))
     if resolution.thermal:
         march_temperatures(problem, grid, state, work)
-        budget.charge(resolution, grid.x.size, MARCH)
+        budget.remaining -= MARCH * price(resolution, grid.x.size)
     return Attempt(grid, state, work, converged=converged, stage="isothermal")
 
 

@@ -26,9 +26,10 @@ from solvers.contact.ehl.state import State, no_steps
 from solvers.errors import InvalidInput
 
 REGRADED = 2.0  # ratio of films beyond which a point needs a mesh graded for itself
-STEPS_FOR_TROUBLE = 4.0 * STEPS_IN_ALL  # of a whole path, beside a few for each point
-STEPS_A_POINT = 6.0
+STEPS_FOR_TROUBLE = 2.0 * STEPS_IN_ALL  # of a whole path, beside a few for each point
+STEPS_A_POINT = 4.0
 SHARE = 0.25  # of what is left, for one point that has to start from nothing
+FEWEST_STEPS = 10.0  # that are worth a start from nothing
 
 
 @dataclass(slots=True)
@@ -77,6 +78,7 @@ def _solve_next(inputs: LineContactInputs, gap: float, walk: _Walk) -> LineConta
         spent, walk.remaining = budget.spent, budget.remaining
     if attempt is None or not attempt.converged:
         allowed = min(STEPS_IN_ALL, SHARE * walk.remaining)
+        allowed = allowed if allowed > FEWEST_STEPS else 0.0
         budget = Budget(allowed)
         attempt = solve_cold(constants, resolution, budget)
         spent, walk.remaining = spent + budget.spent, walk.remaining - (allowed - budget.remaining)
