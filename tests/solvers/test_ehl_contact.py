@@ -9,12 +9,14 @@ import numpy as np
 import pytest
 
 from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, Temperatures, continuation, solve
+from solvers.contact.ehl.shear import STRESS_LIMIT
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 
 POINT = Contact(2.73e5, 4.015e-3, 1.0179, 3.7076)
 MODULUS = 226.37e9
+EYRING_STRESS = Model().eyring_stress
 
 
 def at_pressure(
@@ -34,10 +36,14 @@ def check_solution(result: LineContactResult, thermal: bool) -> None:
     assert convergence.load_error < 1e-9
     assert result.curves is not None
     assert result.friction is not None
-    assert np.all(result.curves.pressure >= -1e-3 * result.hertz.maximum_pressure)
+    broken = result.curves.fluid_fraction < 1.0
+    assert np.all(result.curves.pressure >= 0.0)
+    assert np.all(result.curves.pressure[broken] == 0.0)
+    assert np.all(np.diff(broken.astype(int)) >= 0)  # the film breaks once, behind the centre
     assert np.all(result.curves.film > 0.0)
     assert np.all((result.curves.fluid_fraction > 0.0) & (result.curves.fluid_fraction <= 1.0))
     assert np.isfinite(result.friction.coefficient)
+    assert result.friction.max_pressure_stress < 2.0 * STRESS_LIMIT * EYRING_STRESS  # no guard acted
     assert not result.curves.pressure.flags.writeable
     if not thermal:
         assert result.heat is None
@@ -208,6 +214,10 @@ REFUSED = [
     ("pressure_range", {"line_load": 2e6}, {}, {}),
     ("no_load", {"line_load": 0.0}, {}, {}),
     ("temperature_range", {}, {"reference_temperature": 150.0}, {}),
+    ("viscosity_range", {}, {"reference_temperature": 600.0}, {}),
+    ("viscosity_range", {"line_load": 1e6}, {"pressure_viscosity": 120e-9, "pressure_viscosity_law": "barus"}, {}),
+    ("load_range", {"line_load": 1.0}, {}, {}),
+    ("film_range", {"speed_1": 1e-6, "speed_2": 1e-6}, {}, {}),
     ("resolution", {}, {}, {"nodes": 11}),
 ]
 

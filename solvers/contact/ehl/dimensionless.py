@@ -1,6 +1,7 @@
 """Dimensionless groups of a line contact and the published film formulas in them."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import exp, inf, pi, sqrt
 
 from solvers.contact import hertz
@@ -28,6 +29,7 @@ class Groups:
     moes_l: float
 
 
+@lru_cache(maxsize=256)
 def groups(inputs: LineContactInputs, temperature: float | None = None) -> Groups:
     """Hertz contact and Moes parameters M = W U^-1/2, L = alpha E' U^1/4.
 
