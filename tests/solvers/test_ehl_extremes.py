@@ -47,13 +47,20 @@ def numbers(item: object) -> Iterator[float]:
 
 
 def outcome(inputs: LineContactInputs) -> str:
-    """The status of a result that holds nothing but numbers, or the code of the refusal."""
+    """The status of the result, or the code of the refusal."""
     try:
         result = solve(inputs)
-    except InvalidInput as refusal:
-        assert refusal.code in CODES
-        assert refusal.field
-        return refusal.code
+    except InvalidInput as error:
+        refusal = error
+    else:
+        return status(result)
+    assert refusal.code in CODES
+    assert refusal.field
+    return refusal.code
+
+
+def status(result: LineContactResult) -> str:
+    """The status of a result, which has numbers where it is a solution, and nowhere anything else."""
     assert all(isfinite(value) for value in numbers(result))
     if result.status == "no_solution":
         assert (result.pressure, result.friction, result.curves, result.film.minimum) == (None,) * 4

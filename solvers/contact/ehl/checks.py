@@ -10,7 +10,7 @@ from solvers.lubricants import ROELANDS_POLE_TEMPERATURE, log_viscosity, pressur
 LOWEST_SPEED = 1e-9  # m/s, three centimetres a year
 LOWEST_VISCOSITY = 7e-5  # Pa s; Roelands' law ends at 6.31e-5
 HIGHEST_VISCOSITY = 1e4  # Pa s without pressure; no oil flows there
-HIGHEST_VISCOSITY_UNDER_PRESSURE = 1e50  # Pa s; glass begins at 1e12
+HIGHEST_VISCOSITY_UNDER_PRESSURE = 1e100  # Pa s; glass begins at 1e12
 LOWEST_TEMPERATURE = ROELANDS_POLE_TEMPERATURE + 60.0  # K; no oil flows there
 HIGHEST_PRESSURE = 4e9  # Pa
 THICKEST_FILM = 1e4  # in b^2/R, which is what the surfaces deform by

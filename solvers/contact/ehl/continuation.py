@@ -19,7 +19,8 @@ Stage = Literal["isothermal", "coupling"]
 
 COARSEST = 61
 STEPS_A_SOLVE = 60
-STEPS_IN_ALL = 500.0  # in Newton steps at 121 x 21 nodes, less than a second
+STEPS_IN_ALL = 500.0  # in Newton steps at 121 x 21 nodes, about a second
+STEPS_ON_FINEST = 25  # that even a very fine mesh is given
 TIGHT = (1e-5, 0.01)  # of P and of temperature [K]
 LOOSE = (1e-3, 1.0)
 MARCH = 5  # steps that a march of temperatures lasts at most
@@ -57,7 +58,7 @@ class Attempt:
 class Budget:
     """Newton steps left, in units of a step at 121 x 21 nodes; it bounds every solve, and every path of them."""
 
-    remaining: float = STEPS_IN_ALL
+    remaining: float
     spent: int = 0
 
     def steps(self, resolution: Resolution, nodes: int) -> int:
@@ -68,6 +69,11 @@ class Budget:
         """Pay for steps taken."""
         self.remaining -= steps * price(resolution, nodes)
         self.spent += steps
+
+
+def budget_for(resolution: Resolution) -> Budget:
+    """What one contact may take."""
+    return Budget(max(STEPS_IN_ALL, STEPS_ON_FINEST * price(resolution, resolution.nodes)))
 
 
 def price(resolution: Resolution, nodes: int) -> float:

@@ -45,7 +45,7 @@ def film_heights(problem: Problem, attempt: Attempt) -> FloatArray:
 
 
 def temperature_range(attempt: Attempt) -> float:
-    """Hottest less coldest place [K]; within the tolerance of temperature there is no heat whose balance could count."""
+    """Hottest less coldest place [K]; within the tolerance of temperature no balance of heat can be told."""
     return float(np.ptp(attempt.state.temperature))
 
 

@@ -5,7 +5,7 @@ from math import isfinite
 
 from solvers.contact.ehl import measures
 from solvers.contact.ehl.checks import check
-from solvers.contact.ehl.continuation import TIGHT, Attempt, Budget, Resolution, solve_cold
+from solvers.contact.ehl.continuation import TIGHT, Attempt, Resolution, budget_for, solve_cold
 from solvers.contact.ehl.dimensionless import (
     Groups,
     dowson_higginson_film,
@@ -38,7 +38,7 @@ def solve(inputs: LineContactInputs) -> LineContactResult:
     scales = groups(inputs)
     constants = problem(inputs, scales)
     resolution = resolution_for(inputs, expected_gap(inputs))
-    budget = Budget()
+    budget = budget_for(resolution)
     return result(inputs, scales, constants, solve_cold(constants, resolution, budget), budget.spent)
 
 

@@ -8,9 +8,9 @@ import numpy as np
 
 from solvers.contact.ehl.checks import check
 from solvers.contact.ehl.continuation import (
-    STEPS_IN_ALL,
     Attempt,
     Budget,
+    budget_for,
     interpolate,
     price,
     solve_cold,
@@ -26,7 +26,7 @@ from solvers.contact.ehl.state import State, no_steps
 from solvers.errors import InvalidInput
 
 REGRADED = 2.0  # ratio of films beyond which a point needs a mesh graded for itself
-STEPS_FOR_TROUBLE = 2.0 * STEPS_IN_ALL  # of a whole path, beside a few for each point
+CONTACTS_FROM_NOTHING = 2.0  # that a whole path may pay for, beside a few steps for each point
 STEPS_A_POINT = 4.0
 SHARE = 0.25  # of what is left, for one point that has to start from nothing
 FEWEST_STEPS = 10.0  # that are worth a start from nothing
@@ -59,8 +59,9 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
         return []
     gaps = [expected_gap(inputs) for inputs in contacts]
     mean = exp(sum(map(log, gaps)) / len(gaps))
-    a_step = price(resolution_for(contacts[0], mean), contacts[0].model.nodes)
-    walk = _Walk(mean, STEPS_FOR_TROUBLE + STEPS_A_POINT * a_step * len(contacts), [])
+    resolution = resolution_for(contacts[0], mean)
+    steps = STEPS_A_POINT * price(resolution, resolution.nodes) * len(contacts)
+    walk = _Walk(mean, CONTACTS_FROM_NOTHING * budget_for(resolution).remaining + steps, [])
     return [_solve_next(inputs, gap, walk) for inputs, gap in zip(contacts, gaps, strict=True)]
 
 
@@ -77,7 +78,7 @@ def _solve_next(inputs: LineContactInputs, gap: float, walk: _Walk) -> LineConta
         attempt = solve_from(constants, resolution, grid, _extrapolate(walk.known), budget)
         spent, walk.remaining = budget.spent, budget.remaining
     if attempt is None or not attempt.converged:
-        allowed = min(STEPS_IN_ALL, SHARE * walk.remaining)
+        allowed = min(budget_for(resolution).remaining, SHARE * walk.remaining)
         allowed = allowed if allowed > FEWEST_STEPS else 0.0
         budget = Budget(allowed)
         attempt = solve_cold(constants, resolution, budget)
