@@ -29,7 +29,7 @@ def test_path_is_what_its_points_are_alone() -> None:
 
 
 def test_path_from_heavy_to_light_loads_gets_meshes_for_each() -> None:
-    """A thousandfold load: every film is still that of the contact alone, within what one grading differs from another."""
+    """A thousandfold load: every film is that of the contact alone, but for what one grading differs from another."""
     at = contacts(1)[0]
     heavy_to_light = [
         replace(at, contact=replace(at.contact, line_load=at.contact.line_load * 10.0 ** (-k / 5))) for k in range(16)
