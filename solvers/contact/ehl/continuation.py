@@ -136,7 +136,8 @@ def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
     state = _dry_state(grid, resolution)
     steps = budget.steps(resolution, grid.x.size)
     isothermal = problem._replace(inlet=resolution.entry_temperature)
-    tolerance = LOOSE[0] if resolution.thermal else TIGHT[0] * 1e-2
+    final = not resolution.thermal and resolution.nodes <= COARSEST
+    tolerance = TIGHT[0] * 1e-2 if final else LOOSE[0]
     converged = bool(solve_isothermal(isothermal, grid, state, work, steps, tolerance))
     budget.charge(resolution, grid.x.size, int(state.history[0]))
     if resolution.thermal:
