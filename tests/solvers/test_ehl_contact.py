@@ -8,7 +8,16 @@ from random import Random
 import numpy as np
 import pytest
 
-from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, Temperatures, continuation, solve
+from solvers.contact.ehl import (
+    Contact,
+    LineContactInputs,
+    LineContactResult,
+    Model,
+    Temperatures,
+    budget,
+    continuation,
+    solve,
+)
 from solvers.contact.ehl.shear import STRESS_LIMIT
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant
@@ -256,7 +265,7 @@ def test_thin_film_and_high_traction_are_flagged() -> None:
 
 def test_no_solution_carries_residuals_and_no_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     """With three steps a mesh nothing converges; the budget ends it."""
-    monkeypatch.setattr(continuation, "STEPS_A_SOLVE", 3)
+    monkeypatch.setattr(budget, "STEPS_A_SOLVE", 3)
     result = solve(LineContactInputs(POINT, model=Model(rheology="newtonian")))
     assert result.status == "no_solution"
     assert result.convergence.stage == "coupling"
@@ -271,4 +280,4 @@ def test_steps_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(continuation, "LOOSE", (0.0, 0.0))
     result = solve(LineContactInputs(POINT))
     assert result.status == "no_solution"
-    assert result.convergence.iterations < 4 * continuation.STEPS_IN_ALL  # coarse meshes are cheaper
+    assert result.convergence.iterations < 4 * budget.STEPS_IN_ALL  # coarse meshes are cheaper

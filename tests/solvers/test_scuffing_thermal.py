@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from solvers.contact import ehl
-from solvers.contact.ehl import continuation
+from solvers.contact.ehl import budget, continuation
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
@@ -218,16 +218,16 @@ def test_a_path_that_nowhere_converges_ends_with_its_steps(monkeypatch: pytest.M
     monkeypatch.setattr(continuation, "TIGHT", (0.0, 0.0))
     monkeypatch.setattr(continuation, "LOOSE", (0.0, 0.0))
     taken: list[float] = []
-    charge = continuation.Budget.charge
+    charge = budget.Budget.charge
 
-    def counted(budget: continuation.Budget, resolution: continuation.Resolution, nodes: int, steps: int) -> None:
-        taken.append(steps * continuation.price(resolution, nodes))
-        charge(budget, resolution, nodes, steps)
+    def counted(given: budget.Budget, resolution: budget.Resolution, nodes: int, steps: int) -> None:
+        taken.append(steps * budget.price(resolution, nodes))
+        charge(given, resolution, nodes, steps)
 
-    monkeypatch.setattr(continuation.Budget, "charge", counted)
+    monkeypatch.setattr(budget.Budget, "charge", counted)
     result = solve_scuffing(inputs(points=200))
     assert set(result.path.status) == {"no_solution"}
     assert result.unsolved_points == 200
-    assert sum(taken) < 3.0 * continuation.STEPS_IN_ALL
+    assert sum(taken) < 3.0 * budget.STEPS_IN_ALL
     codes = [warning.code for warning in result.warnings]
     assert {"unsolved_points", "untried_points"} <= set(codes)

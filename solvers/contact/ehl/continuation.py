@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 
 from solvers.arrays import FloatArray
+from solvers.contact.ehl.budget import Budget, Resolution, price
 from solvers.contact.ehl.coupled import solve_coupled
 from solvers.contact.ehl.isothermal import solve_isothermal
 from solvers.contact.ehl.mesh import Grid, grid_for
@@ -18,28 +19,11 @@ from solvers.contact.ehl.temperature import march_temperatures
 Stage = Literal["isothermal", "coupling"]
 
 COARSEST = 61
-STEPS_A_SOLVE = 60
-STEPS_IN_ALL = 500.0  # in Newton steps at 121 x 21 nodes, about a second
-STEPS_ON_FINEST = 25  # that even a very fine mesh is given
 TIGHT = (1e-5, 0.01)  # of P and of temperature [K]
 LOOSE = (1e-3, 1.0)
 MARCH = 5  # steps that a march of temperatures lasts at most
 SPEED_STEPS = (1 / 27, 1 / 9, 1 / 3)
 SOFT_STRESSES = tuple(5e6 * 2.0**k for k in range(10))  # Pa
-
-
-@dataclass(frozen=True, slots=True)
-class Resolution:
-    """What meshes to use: graded for a film of `gap` (in b^2/R), `nodes` along, `film_nodes` across it.
-
-    The isothermal film that a thermal one starts from is at `entry_temperature` [K].
-    """
-
-    gap: float
-    entry_temperature: float
-    nodes: int
-    film_nodes: int
-    thermal: bool
 
 
 @dataclass(slots=True)
@@ -52,36 +36,6 @@ class Attempt:
     converged: bool
     stage: Stage
     eyring_stress: float | None = None
-
-
-@dataclass(slots=True)
-class Budget:
-    """Newton steps left, in units of a step at 121 x 21 nodes; it bounds every solve, and every path of them."""
-
-    remaining: float
-    spent: int = 0
-
-    def steps(self, resolution: Resolution, nodes: int) -> int:
-        """Steps affordable at `nodes` nodes, at most those of one solve."""
-        return min(STEPS_A_SOLVE, int(self.remaining / price(resolution, nodes)))
-
-    def charge(self, resolution: Resolution, nodes: int, steps: int) -> None:
-        """Pay for steps taken."""
-        self.remaining -= steps * price(resolution, nodes)
-        self.spent += steps
-
-
-def budget_for(resolution: Resolution) -> Budget:
-    """What one contact may take."""
-    return Budget(max(STEPS_IN_ALL, STEPS_ON_FINEST * price(resolution, resolution.nodes)))
-
-
-def price(resolution: Resolution, nodes: int) -> float:
-    """Time of a step over that of one at 121 x 21 nodes: columns, dense products, dense factors (fitted)."""
-    relative = nodes / 121
-    if resolution.thermal:
-        return relative**2 * (0.4 + 0.4 * resolution.film_nodes / 21 + 0.2 * relative)
-    return relative**2 * (0.1 + 0.1 * relative)
 
 
 def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:

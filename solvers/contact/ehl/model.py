@@ -4,8 +4,9 @@ from dataclasses import replace
 from math import isfinite
 
 from solvers.contact.ehl import measures
+from solvers.contact.ehl.budget import Resolution, budget_for
 from solvers.contact.ehl.checks import check
-from solvers.contact.ehl.continuation import TIGHT, Attempt, Resolution, budget_for, solve_cold
+from solvers.contact.ehl.continuation import TIGHT, Attempt, solve_cold
 from solvers.contact.ehl.dimensionless import (
     Groups,
     dowson_higginson_film,

@@ -6,16 +6,9 @@ from math import exp, log
 
 import numpy as np
 
+from solvers.contact.ehl.budget import Budget, budget_for, price
 from solvers.contact.ehl.checks import check
-from solvers.contact.ehl.continuation import (
-    Attempt,
-    Budget,
-    budget_for,
-    interpolate,
-    price,
-    solve_cold,
-    solve_from,
-)
+from solvers.contact.ehl.continuation import Attempt, interpolate, solve_cold, solve_from
 from solvers.contact.ehl.dimensionless import expected_gap, groups
 from solvers.contact.ehl.inputs import LineContactInputs
 from solvers.contact.ehl.mesh import grid_for
