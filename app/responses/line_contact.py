@@ -71,15 +71,22 @@ class FilmHeat(Group):
     to_surface_1_w_per_mm: Annotated[float, Output("into surface 1")]
     to_surface_2_w_per_mm: Annotated[float, Output("into surface 2")]
     convected_w_per_mm: Annotated[float, Output("carried out by the oil")]
-    balance_error: Annotated[float, Output("what is missing, over generated plus absolute convected heat")]
+    balance_error: Annotated[
+        float,
+        Output("what is missing, over generated plus absolute convected heat, or over what one surface takes if more"),
+    ]
 
 
 class ContactConvergence(Group):
     """How the iteration ended."""
 
     iterations: Annotated[int, Output("Newton steps in all")]
-    pressure_change: Annotated[float, Output("last change of the pressure over the Hertz pressure")]
-    temperature_change_k: Annotated[float | None, Output("last change of temperature; null if isothermal")]
+    pressure_change: Annotated[
+        float | None, Output("last change of the pressure over the Hertz pressure; null if no step could be taken")
+    ]
+    temperature_change_k: Annotated[
+        float | None, Output("last change of temperature; null if isothermal or no step could be taken")
+    ]
     load_error: Annotated[float, Output("relative error of the load")]
     nodes: Annotated[int, Output("nodes of the last mesh")]
 

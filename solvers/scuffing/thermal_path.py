@@ -1,7 +1,7 @@
 """The thermal EHL solution along the feature line: film, flash temperatures and friction under the local load."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,6 +12,18 @@ from solvers.notices import Notice
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.results import FeatureLine
 from solvers.scuffing.safety_results import PointStatus
+
+# What a contact is given, by the name of the scuffing input that decides it; other names are the same.
+FIELDS = {
+    "line_load": "power",
+    "speed_1": "pinion_speed",
+    "speed_2": "pinion_speed",
+    "temperatures": "temperatures.bulk",
+}
+UNSOLVED = Notice("unsolved_points", "the thermal EHL solution did not converge", "nodes")
+UNTRIED = Notice(
+    "untried_points", "too many others did not converge: the steps that a whole path may take were spent", "nodes"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +53,8 @@ def thermal_path(inputs: ScuffingInputs, line: FeatureLine, loaded: BoolArray) -
     contacts = {point: _contact(inputs, line, point) for point in np.flatnonzero(loaded).tolist()}
     refusals = {point: refusal for point, contact in contacts.items() if (refusal := _refusal(contact)) is not None}
     if refusals and len(refusals) == len(contacts):
-        raise next(iter(refusals.values()))
+        first = next(iter(refusals.values()))
+        raise InvalidInput(first.code, first.message, _field(first.field))
     solvable = [point for point in contacts if point not in refusals]
     results = dict(zip(solvable, ehl.solve_path([contacts[point] for point in solvable]), strict=True))
     status: list[PointStatus] = ["unloaded"] * line.psi.size
@@ -50,7 +63,7 @@ def thermal_path(inputs: ScuffingInputs, line: FeatureLine, loaded: BoolArray) -
         status[point] = "refused"
     for point, result in results.items():
         status[point] = result.status
-        if result.status != "no_solution":
+        if not _unsolved(result):
             values[:, point] = _values(result)
     warnings = _notices(list(results.values()), list(refusals.values()))
     return ThermalPath(tuple(status), warnings, *(frozen(row) for row in values))
@@ -103,13 +116,22 @@ def _notices(results: Sequence[ehl.LineContactResult], refusals: Sequence[Invali
     points: dict[str, int] = {}
     first: dict[str, Notice] = {}
     notices = [notice for result in results for notice in result.warnings]
-    notices += [Notice(refusal.code, refusal.message) for refusal in refusals]
-    unsolved = sum(result.status == "no_solution" for result in results)
-    notices += [Notice("unsolved_points", "the thermal EHL solution did not converge", "nodes")] * unsolved
+    notices += [Notice(refusal.code, refusal.message, refusal.field) for refusal in refusals]
+    notices += [UNSOLVED if result.convergence.iterations else UNTRIED for result in results if _unsolved(result)]
     for notice in notices:
         points[notice.code] = points.get(notice.code, 0) + 1
         first.setdefault(notice.code, notice)
+    count = len(results) + len(refusals)
     return tuple(
-        Notice(code, f"at {points[code]} of {len(results) + len(refusals)} points: {notice.message}")
+        replace(notice, message=f"at {points[code]} of {count} points: {notice.message}", field=_field(notice.field))
         for code, notice in first.items()
     )
+
+
+def _unsolved(result: ehl.LineContactResult) -> bool:
+    return result.status == "no_solution"
+
+
+def _field(of_contact: str | None) -> str | None:
+    """The scuffing input behind an input of the contact."""
+    return None if of_contact is None else FIELDS.get(of_contact, of_contact)

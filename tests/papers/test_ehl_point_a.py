@@ -55,7 +55,8 @@ def test_hottest_place_of_the_faces(rheology: str, x_1: float, x_2: float) -> No
 
 
 @pytest.mark.parametrize(
-    ("nodes", "central", "minimum"), [(81, 0.5626, 0.5099), (241, 0.5800, 0.5226), (481, 0.5816, 0.5239)]
+    ("nodes", "central", "minimum"),
+    [(81, 0.5626, 0.5099), (241, 0.5800, 0.5226), (481, 0.5816, 0.5239), (961, 0.5820, 0.5242)],
 )
 def test_isothermal_film(nodes: int, central: float, minimum: float) -> None:
     film = point_a(nodes, "newtonian", thermal=False).film
@@ -83,11 +84,40 @@ def test_hertz_contact() -> None:
     assert result.dimensionless.moes_l == pytest.approx(22.39, abs=0.005)
 
 
-@pytest.mark.parametrize(("rheology", "reference"), [("ree_eyring", 1.546e9), ("newtonian", 1.5725e9)])
-def test_pressure_at_the_centre(rheology: str, reference: float) -> None:
-    result = point_a(121, rheology)
+@pytest.mark.parametrize("nodes", [81, 121, 241])
+@pytest.mark.parametrize(
+    ("rheology", "thermal", "reference"),
+    [("ree_eyring", True, 1.546e9), ("newtonian", True, 1.5724e9), ("newtonian", False, 1.5465e9)],
+)
+def test_pressure_at_the_centre(rheology: str, thermal: bool, reference: float, nodes: int) -> None:
+    result = point_a(nodes, rheology, thermal=thermal)
     assert result.pressure is not None
     assert result.pressure.centre == pytest.approx(reference, rel=0.001)
+
+
+@pytest.mark.parametrize("row", [(81, 1.671e9, 0.71), (121, 1.714e9, 0.69), (241, 1.754e9, 0.70), (481, 1.766e9, 0.69)])
+def test_thermal_pressure_maximum_of_the_newtonian_film(row: tuple[int, float, float]) -> None:
+    """Its height depends on where the nearest node lies: 1 %; position within two nodes."""
+    result = point_a(row[0], "newtonian", film_nodes=31 if row[0] >= 361 else 21)
+    assert result.pressure is not None
+    assert result.pressure.maximum == pytest.approx(row[1], rel=0.01)
+    assert result.pressure.maximum_at / result.hertz.half_width == pytest.approx(row[2], abs=0.03)
+
+
+@pytest.mark.parametrize("nodes", [81, 121, 241])
+def test_pressure_maximum_of_the_eyring_film_is_in_the_centre(nodes: int) -> None:
+    result = point_a(nodes)
+    assert result.pressure is not None
+    assert result.pressure.maximum == pytest.approx(1.546e9, rel=0.001)
+    assert abs(result.pressure.maximum_at) < 0.035 * result.hertz.half_width  # one node
+
+
+def test_isothermal_newtonian_friction_has_no_meaning() -> None:
+    """2.6e4: nothing but heat limits the shear stress of a Newtonian film, and the result says so."""
+    result = point_a(121, "newtonian", thermal=False)
+    assert result.friction is not None
+    assert result.friction.coefficient == pytest.approx(2.6e4, rel=0.05)
+    assert "high_traction" in [warning.code for warning in result.warnings]
 
 
 def test_ten_megapascal_eyring_stress() -> None:

@@ -1,20 +1,31 @@
 """The solved contact: every criterion of convergence, limits, symmetry, order, and what is refused."""
 
 from dataclasses import replace
-from math import pi
+from itertools import product
+from math import exp, log, pi
+from random import Random
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, Temperatures, continuation, solve
+from solvers.contact.ehl import (
+    Contact,
+    LineContactInputs,
+    LineContactResult,
+    Model,
+    Temperatures,
+    budget,
+    continuation,
+    solve,
+)
+from solvers.contact.ehl.shear import STRESS_LIMIT
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 
 POINT = Contact(2.73e5, 4.015e-3, 1.0179, 3.7076)
 MODULUS = 226.37e9
+EYRING_STRESS = Model().eyring_stress
 
 
 def at_pressure(
@@ -29,14 +40,19 @@ def at_pressure(
 def check_solution(result: LineContactResult, thermal: bool) -> None:
     """All criteria of a converged result, and nothing that is not a number."""
     convergence = result.convergence
+    assert convergence.pressure_change is not None
     assert convergence.pressure_change < 1e-5
     assert convergence.load_error < 1e-9
     assert result.curves is not None
     assert result.friction is not None
-    assert np.all(result.curves.pressure >= -1e-3 * result.hertz.maximum_pressure)
+    broken = result.curves.fluid_fraction < 1.0
+    assert np.all(result.curves.pressure >= 0.0)
+    assert np.all(result.curves.pressure[broken] == 0.0)
+    assert np.all(np.diff(broken.astype(int)) >= 0)  # the film breaks once, behind the centre
     assert np.all(result.curves.film > 0.0)
     assert np.all((result.curves.fluid_fraction > 0.0) & (result.curves.fluid_fraction <= 1.0))
     assert np.isfinite(result.friction.coefficient)
+    assert result.friction.max_pressure_stress < 2.0 * STRESS_LIMIT * EYRING_STRESS  # no guard acted
     assert not result.curves.pressure.flags.writeable
     if not thermal:
         assert result.heat is None
@@ -50,28 +66,72 @@ def check_solution(result: LineContactResult, thermal: bool) -> None:
     assert np.all(np.isfinite(result.field.temperature))
 
 
-@settings(max_examples=40)
-@given(st.floats(0.3e9, 3e9), st.floats(0.0, 1.9), st.floats(0.3, 20.0), st.floats(0.008, 0.1), st.floats(3e-3, 30e-3))
-def test_every_eyring_contact_is_solved(
-    pressure: float, ratio: float, speed: float, viscosity: float, radius: float
-) -> None:
-    result = solve(at_pressure(pressure, ratio, speed, viscosity, radius, Model()))
-    assert result.status != "no_solution"
-    check_solution(result, thermal=True)
+def random_contacts(model: Model, count: int, seed: int) -> list[LineContactInputs]:
+    """Hertz pressure 0.3-3 GPa, slide-roll ratio 0-1.9, and by their logarithms mean speed, viscosity and radius."""
+    random = Random(seed)
+
+    def between(low: float, high: float) -> float:
+        return exp(random.uniform(log(low), log(high)))
+
+    return [
+        at_pressure(
+            random.uniform(0.3e9, 3e9),
+            random.uniform(0.0, 1.9),
+            between(0.3, 20.0),
+            between(0.008, 0.1),
+            between(3e-3, 30e-3),
+            model,
+        )
+        for _ in range(count)
+    ]
 
 
-@settings(max_examples=20)
-@given(st.floats(0.3e9, 3e9), st.floats(0.0, 1.9), st.floats(0.3, 20.0), st.floats(0.008, 0.1), st.floats(3e-3, 30e-3))
-def test_a_newtonian_contact_is_solved_or_says_that_it_is_not(
-    pressure: float, ratio: float, speed: float, viscosity: float, radius: float
-) -> None:
-    result = solve(at_pressure(pressure, ratio, speed, viscosity, radius, Model(rheology="newtonian")))
-    if result.status == "no_solution":
-        assert result.friction is None
-        assert result.film.minimum is None
-        assert result.convergence.stage in {"isothermal", "coupling", "heat_balance"}
-    else:
-        check_solution(result, thermal=True)
+def grid_contacts(model: Model) -> list[LineContactInputs]:
+    """The 200 contacts on which other schemes are known to fail."""
+    ranges = ((0.3e9, 0.7e9, 1.2e9, 2e9, 3e9), (0.0, 0.1, 0.5, 1.0, 1.9), (1.0, 10.0), (0.01, 0.08), (5e-3, 20e-3))
+    return [at_pressure(*values, model) for values in product(*ranges)]
+
+
+def check_all(contacts: list[LineContactInputs]) -> int:
+    """Every solution meets all criteria, and what is none has no numbers; how many are solved."""
+    solved = 0
+    for inputs in contacts:
+        result = solve(inputs)
+        if result.status == "no_solution":
+            assert result.friction is None
+            assert result.film.minimum is None
+            assert result.convergence.stage in {"isothermal", "coupling", "heat_balance"}
+            continue
+        check_solution(result, thermal=inputs.model.thermal)
+        solved += 1
+    return solved
+
+
+def test_every_eyring_contact_is_solved() -> None:
+    assert check_all(random_contacts(Model(), 60, seed=2)) == 60
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1])
+def test_every_one_of_500_eyring_contacts_is_solved(seed: int) -> None:
+    assert check_all(random_contacts(Model(), 500, seed)) == 500
+
+
+@pytest.mark.slow
+def test_every_eyring_contact_of_the_grid_is_solved() -> None:
+    assert check_all(grid_contacts(Model())) == 200
+
+
+def test_a_newtonian_contact_is_solved_or_says_that_it_is_not() -> None:
+    assert check_all(random_contacts(Model(rheology="newtonian"), 30, seed=3)) >= 28
+
+
+@pytest.mark.slow
+def test_newtonian_contacts_of_the_grid_and_at_random() -> None:
+    """Near pure rolling nothing limits the stress: four of the grid are not solved, at slide-roll ratios to 0.1."""
+    newtonian = Model(rheology="newtonian")
+    assert check_all(grid_contacts(newtonian)) >= 195
+    assert check_all(random_contacts(newtonian, 500, seed=1)) >= 498
 
 
 @pytest.mark.parametrize("rheology", ["ree_eyring", "newtonian"])
@@ -163,6 +223,10 @@ REFUSED = [
     ("pressure_range", {"line_load": 2e6}, {}, {}),
     ("no_load", {"line_load": 0.0}, {}, {}),
     ("temperature_range", {}, {"reference_temperature": 150.0}, {}),
+    ("viscosity_range", {}, {"reference_temperature": 600.0}, {}),
+    ("viscosity_range", {"line_load": 1e6}, {"pressure_viscosity": 120e-9, "pressure_viscosity_law": "barus"}, {}),
+    ("load_range", {"line_load": 1.0}, {}, {}),
+    ("film_range", {"speed_1": 1e-6, "speed_2": 1e-6}, {}, {}),
     ("resolution", {}, {}, {"nodes": 11}),
 ]
 
@@ -201,11 +265,11 @@ def test_thin_film_and_high_traction_are_flagged() -> None:
 
 def test_no_solution_carries_residuals_and_no_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     """With three steps a mesh nothing converges; the budget ends it."""
-    monkeypatch.setattr(continuation, "STEPS_A_SOLVE", 3)
+    monkeypatch.setattr(budget, "STEPS_A_SOLVE", 3)
     result = solve(LineContactInputs(POINT, model=Model(rheology="newtonian")))
     assert result.status == "no_solution"
     assert result.convergence.stage == "coupling"
-    assert result.convergence.pressure_change > 0.0
+    assert (result.convergence.pressure_change or 0.0) > 0.0
     assert (result.pressure, result.temperature, result.friction, result.heat, result.curves) == (None,) * 5
     assert result.film.dowson_higginson > 0.0
 
@@ -216,4 +280,4 @@ def test_steps_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(continuation, "LOOSE", (0.0, 0.0))
     result = solve(LineContactInputs(POINT))
     assert result.status == "no_solution"
-    assert result.convergence.iterations < 4 * continuation.STEPS_IN_ALL
+    assert result.convergence.iterations < 4 * budget.STEPS_IN_ALL  # coarse meshes are cheaper

@@ -28,6 +28,17 @@ def test_path_is_what_its_points_are_alone() -> None:
         assert along.convergence.load_error < 1e-9
 
 
+def test_path_from_heavy_to_light_loads_gets_meshes_for_each() -> None:
+    """A thousandfold load: every film is that of the contact alone, but for what one grading differs from another."""
+    at = contacts(1)[0]
+    heavy_to_light = [
+        replace(at, contact=replace(at.contact, line_load=at.contact.line_load * 10.0 ** (-k / 5))) for k in range(16)
+    ]
+    for alone, along in zip([solve(c) for c in heavy_to_light], solve_path(heavy_to_light), strict=True):
+        assert along.status != "no_solution"
+        assert along.film.minimum == pytest.approx(alone.film.minimum, rel=0.02)
+
+
 def test_direction_of_the_path_does_not_matter() -> None:
     forward, backward = solve_path(contacts()), solve_path(contacts()[::-1])[::-1]
     for one, other in zip(forward, backward, strict=True):

@@ -6,13 +6,23 @@ import numpy as np
 import pytest
 
 from solvers.contact import ehl
+from solvers.contact.ehl import budget, continuation
 from solvers.errors import InvalidInput
+from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 from solvers.scuffing import solve_scuffing
-from solvers.scuffing.inputs import Modifications, ScuffingInputs, Temperatures
+from solvers.scuffing.inputs import (
+    Load,
+    LoadDistributionInputs,
+    Modifications,
+    ScuffingInputs,
+    Temperatures,
+    angular_speed,
+    torque_from_power,
+)
 from solvers.scuffing.safety_results import Scuffing
-from tests.gear_pairs import paper_pair
+from tests.gear_pairs import paper_pair, with_torque
 
 COARSE = ehl.Model(nodes=61, film_nodes=11)
 
@@ -144,3 +154,80 @@ def test_warnings_count_the_points_they_concern(pair_1: Scuffing) -> None:
     assert count > 0
     assert slow == [message for message in slow if message.startswith(f"at {count} of 21 points")]
     assert len(slow) == 1
+
+
+def compressor_gears(power: float, points: int = 11) -> ScuffingInputs:
+    """A wide pair of module 7 mm at 2000 1/min under `power` [W]: fast, with a thick film."""
+    gears = GearPairInputs(GearTeeth(47), GearTeeth(117), 7e-3, 0.2, rack_tip_radius=0.38)
+    speed = angular_speed(2000.0)
+    distribution = LoadDistributionInputs(gears=gears, load=Load(torque_from_power(power, speed), speed))
+    return ScuffingInputs(distribution, film=COARSE, path_points=points)
+
+
+@pytest.mark.parametrize("power", [1e6, 1e5, 3e4])
+def test_light_loads_are_solved(power: float) -> None:
+    """Films up to 10^4 times the deformation; the lighter the load, the thicker."""
+    result = solve_scuffing(compressor_gears(power))
+    assert set(result.path.status) <= {"ok", "ok_with_warnings"}
+    assert result.film.thermal_ehl_min is not None
+    assert result.film.thermal_ehl_min > 2e-6
+
+
+@pytest.mark.parametrize("power", [5e3, 1e3, 10.0])
+def test_a_load_too_light_for_an_elastic_contact_is_refused(power: float) -> None:
+    with pytest.raises(InvalidInput, match="raise the line load") as refusal:
+        solve_scuffing(compressor_gears(power))
+    assert (refusal.value.code, refusal.value.field) == ("load_range", "power")
+
+
+@pytest.mark.parametrize("pair", [1, 4])
+def test_torque_from_nominal_to_a_millionth(pair: int) -> None:
+    """Every load is solved or refused as too light, in this order; a path of both has numbers where it is solved."""
+    codes: set[str] = set()
+    nominal = paper_pair(pair)
+    for factor in 10.0 ** np.linspace(0.0, -6.0, 19):
+        distribution = with_torque(nominal, nominal.load.pinion_torque * float(factor))
+        try:
+            result = solve_scuffing(inputs(points=7, distribution=distribution))
+        except InvalidInput as refusal:
+            codes.add(refusal.code)
+            continue
+        assert not codes
+        status = np.array(result.path.status)
+        assert set(status) <= {"ok", "ok_with_warnings", "refused"}
+        assert np.isfinite(numbers(result)[:, status != "refused"]).all()
+    assert codes == {"load_range"}
+
+
+def test_notices_name_the_input_of_the_gear_pair(pair_1: Scuffing) -> None:
+    strong = paper_pair(1)
+    refused = solve_scuffing(inputs(distribution=with_torque(strong, 9.5 * strong.load.pinion_torque)))
+    fields = {warning.code: warning.field for result in (pair_1, refused) for warning in result.warnings}
+    assert fields["low_peclet"] == "pinion_speed"
+    assert fields["pressure_range"] == "power"
+
+
+def test_temperature_out_of_range_names_the_bulk_temperature() -> None:
+    with pytest.raises(InvalidInput) as refusal:
+        solve_scuffing(inputs(temperatures=Temperatures(bulk=180.0)))
+    assert (refusal.value.code, refusal.value.field) == ("temperature_range", "temperatures.bulk")
+
+
+def test_a_path_that_nowhere_converges_ends_with_its_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Tolerances that cannot be met: 200 points share the steps of three, and those left over say so."""
+    monkeypatch.setattr(continuation, "TIGHT", (0.0, 0.0))
+    monkeypatch.setattr(continuation, "LOOSE", (0.0, 0.0))
+    taken: list[float] = []
+    charge = budget.Budget.charge
+
+    def counted(given: budget.Budget, resolution: budget.Resolution, nodes: int, steps: int) -> None:
+        taken.append(steps * budget.price(resolution, nodes))
+        charge(given, resolution, nodes, steps)
+
+    monkeypatch.setattr(budget.Budget, "charge", counted)
+    result = solve_scuffing(inputs(points=200))
+    assert set(result.path.status) == {"no_solution"}
+    assert result.unsolved_points == 200
+    assert sum(taken) < 3.0 * budget.STEPS_IN_ALL
+    codes = [warning.code for warning in result.warnings]
+    assert {"unsolved_points", "untried_points"} <= set(codes)

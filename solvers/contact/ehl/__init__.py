@@ -1,6 +1,7 @@
 """The lubricated line contact: pressure, film, temperature and friction, isothermal or thermal."""
 
-from solvers.contact.ehl.inputs import Contact, LineContactInputs, Model, Temperatures, check
+from solvers.contact.ehl.checks import check
+from solvers.contact.ehl.inputs import Contact, LineContactInputs, Model, Temperatures
 from solvers.contact.ehl.model import solve, warm_up
 from solvers.contact.ehl.path import solve_path
 from solvers.contact.ehl.results import LineContactResult

@@ -8,36 +8,22 @@ from typing import Literal
 import numpy as np
 
 from solvers.arrays import FloatArray
+from solvers.contact.ehl.budget import Budget, Resolution, price
 from solvers.contact.ehl.coupled import solve_coupled
 from solvers.contact.ehl.isothermal import solve_isothermal
 from solvers.contact.ehl.mesh import Grid, grid_for
 from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.state import State, Work, work_arrays
+from solvers.contact.ehl.state import State, Work, no_steps, work_arrays
 from solvers.contact.ehl.temperature import march_temperatures
 
 Stage = Literal["isothermal", "coupling"]
 
 COARSEST = 61
-STEPS_A_SOLVE = 60
-STEPS_IN_ALL = 500.0  # in Newton steps at 121 x 21 nodes, less than a second
 TIGHT = (1e-5, 0.01)  # of P and of temperature [K]
 LOOSE = (1e-3, 1.0)
+MARCH = 5  # steps that a march of temperatures lasts at most
 SPEED_STEPS = (1 / 27, 1 / 9, 1 / 3)
 SOFT_STRESSES = tuple(5e6 * 2.0**k for k in range(10))  # Pa
-
-
-@dataclass(frozen=True, slots=True)
-class Resolution:
-    """What meshes to use: graded for a film of `gap` (in b^2/R), `nodes` along, `film_nodes` across it.
-
-    The isothermal film that a thermal one starts from is at `entry_temperature` [K].
-    """
-
-    gap: float
-    entry_temperature: float
-    nodes: int
-    film_nodes: int
-    thermal: bool
 
 
 @dataclass(slots=True)
@@ -50,28 +36,6 @@ class Attempt:
     converged: bool
     stage: Stage
     eyring_stress: float | None = None
-
-
-@dataclass(slots=True)
-class Budget:
-    """Newton steps left, in units of a step at 121 x 21 nodes; it bounds every solve."""
-
-    remaining: float = STEPS_IN_ALL
-    spent: int = 0
-
-    def steps(self, resolution: Resolution, nodes: int) -> int:
-        """Steps affordable at `nodes` nodes, at most those of one solve."""
-        return min(STEPS_A_SOLVE, int(self.remaining / _price(resolution, nodes)))
-
-    def charge(self, resolution: Resolution, nodes: int, steps: int) -> None:
-        """Pay for steps taken."""
-        self.remaining -= steps * _price(resolution, nodes)
-        self.spent += steps
-
-
-def _price(resolution: Resolution, nodes: int) -> float:
-    relative = nodes / 121
-    return (relative**2) * resolution.film_nodes / 21 if resolution.thermal else 0.2 * relative**2
 
 
 def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
@@ -90,8 +54,8 @@ def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Atte
 
 def _distance(attempt: Attempt) -> tuple[int, float]:
     """How far from a solution: by the mesh reached, then by the last change of pressure."""
-    steps, change = attempt.state.history[:2]
-    return -attempt.grid.x.size, float(change) if steps > 0.0 and np.isfinite(change) else np.inf
+    change = float(attempt.state.history[1])
+    return -attempt.grid.x.size, change if np.isfinite(change) else np.inf
 
 
 def solve_from(problem: Problem, resolution: Resolution, grid: Grid, guess: State, budget: Budget) -> Attempt:
@@ -126,25 +90,31 @@ def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
     state = _dry_state(grid, resolution)
     steps = budget.steps(resolution, grid.x.size)
     isothermal = problem._replace(inlet=resolution.entry_temperature)
-    tolerance = LOOSE[0] if resolution.thermal else TIGHT[0] * 1e-2
+    final = not resolution.thermal and resolution.nodes <= COARSEST
+    tolerance = TIGHT[0] * 1e-2 if final else LOOSE[0]
     converged = bool(solve_isothermal(isothermal, grid, state, work, steps, tolerance))
     budget.charge(resolution, grid.x.size, int(state.history[0]))
     if resolution.thermal:
         march_temperatures(problem, grid, state, work)
+        budget.remaining -= MARCH * price(resolution, grid.x.size)
     return Attempt(grid, state, work, converged=converged, stage="isothermal")
 
 
 def _dry_state(grid: Grid, resolution: Resolution) -> State:
-    """Hertz pressure, scaled to carry the load on this mesh, over a film of the expected thickness."""
-    pressure = np.sqrt(np.maximum(1.0 - grid.x**2, 0.0))
+    """Hertz pressure, scaled to carry the load on this mesh, over a film of the expected thickness.
+
+    A thick film spreads it over (2 R h)^1/2.
+    """
+    width = max(1.0, sqrt(2.0 * resolution.gap))
+    pressure = np.sqrt(np.maximum(1.0 - (grid.x / width) ** 2, 0.0))
     pressure *= 0.5 * np.pi / float(grid.weights @ pressure)
     centre = int(np.abs(grid.x).argmin())
     return State(
         pressure=pressure,
         separation=np.array([resolution.gap - float(grid.deflection[centre] @ pressure)]),
         temperature=np.zeros((grid.x.size, resolution.film_nodes)),
-        cavitated=grid.x > 1.0,
-        history=np.zeros(3),
+        cavitated=grid.x > width,
+        history=no_steps(),
     )
 
 
@@ -177,7 +147,7 @@ def _polish(
     """Newton on one mesh."""
     work = work_arrays(grid.x.size, resolution.film_nodes)
     steps = budget.steps(resolution, grid.x.size)
-    state.history[0] = 0.0
+    state.history[:] = no_steps()
     if resolution.thermal:
         converged = bool(solve_coupled(problem, grid, state, work, steps, tolerances[0], tolerances[1]))
     else:
@@ -196,7 +166,7 @@ def interpolate(state: State, x: FloatArray, onto: FloatArray) -> State:
         separation=state.separation.copy(),
         temperature=np.ascontiguousarray(np.stack(columns, axis=1)),
         cavitated=(pressure <= 0.0) & (onto > 0.0),
-        history=np.zeros(3),
+        history=no_steps(),
     )
 
 

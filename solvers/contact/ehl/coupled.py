@@ -179,9 +179,9 @@ def solve_coupled(
         newton_step(problem, grid, work, state.cavitated, jacobian, residual, step, step_t)
         inlet_step(problem, work, state.temperature, step_t)
         last_p, last_t = np.abs(step[:n]).max(), np.abs(step_t).max()
-        state.history[1], state.history[2] = last_p, last_t
         if not (np.isfinite(last_p) and np.isfinite(last_t) and np.isfinite(step[n])):
             return False
+        state.history[1], state.history[2] = last_p, last_t
         scale = min(1.0, LARGEST_PRESSURE_STEP / max(last_p, 1e-9), LARGEST_TEMPERATURE_STEP / max(last_t, 1e-9))
         if scale < 0.2 and damping < FROZEN:
             damping = max(10.0 * damping, FIRST_DAMPING)

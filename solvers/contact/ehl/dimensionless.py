@@ -1,10 +1,14 @@
 """Dimensionless groups of a line contact and the published film formulas in them."""
 
 from dataclasses import dataclass
-from math import exp, pi, sqrt
+from functools import lru_cache
+from math import exp, inf, pi, sqrt
 
 from solvers.contact import hertz
 from solvers.contact.ehl.inputs import LineContactInputs
+from solvers.contact.film import dowson_higginson_minimum
+
+NO_LOAD = 1e-9  # of Moes' M; its films are 10^18 times b^2/R
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +29,7 @@ class Groups:
     moes_l: float
 
 
+@lru_cache(maxsize=256)
 def groups(inputs: LineContactInputs, temperature: float | None = None) -> Groups:
     """Hertz contact and Moes parameters M = W U^-1/2, L = alpha E' U^1/4.
 
@@ -58,7 +63,10 @@ def entry_temperature(inputs: LineContactInputs) -> float:
         return temperatures.inlet
     surfaces = 0.5 * (temperatures.surface_1 + temperatures.surface_2)
     scales = groups(inputs, surfaces)
-    height = moes_gap(scales) * scales.gap_scale
+    gap = moes_gap(scales)
+    if gap == inf:
+        return temperatures.inlet
+    height = gap * scales.gap_scale
     diffusivity = oil.thermal_conductivity / (oil.density * oil.specific_heat)
     peclet = inputs.contact.entrainment_speed * height**2 / (diffusivity * scales.half_width)
     return surfaces + (temperatures.inlet - surfaces) * peclet / (1.0 + peclet)
@@ -86,17 +94,25 @@ def _moes_film(l: float, asymptotes: tuple[float, float, float, float]) -> float
 
 
 def moes_gap(contact: Groups) -> float:
-    """The Moes central film thickness in units of b^2/R: what the mesh is graded by."""
+    """The Moes central film thickness in units of b^2/R: what the mesh is graded by; without load infinite."""
+    if contact.moes_m < NO_LOAD:
+        return inf
     return moes_central_film(contact.moes_m, contact.moes_l) * pi / (8.0 * contact.moes_m)
 
 
+def expected_gap(inputs: LineContactInputs) -> float:
+    """Central film to expect at the temperature where it forms, in b^2/R."""
+    return moes_gap(groups(inputs, entry_temperature(inputs)))
+
+
 def dowson_higginson_film(inputs: LineContactInputs) -> float:
-    """Minimum film thickness [m] of Dowson and Higginson (Eq. 27), the viscosity taken at the inlet temperature."""
+    """Minimum film thickness [m] of Dowson and Higginson, the viscosity taken at the inlet temperature."""
     contact, scales = inputs.contact, groups(inputs)
-    return float(
-        2.65
-        * inputs.lubricant.pressure_viscosity**0.54
-        * (scales.viscosity * contact.entrainment_speed) ** 0.7
-        * contact.radius**0.43
-        / (scales.reduced_modulus**0.03 * contact.line_load**0.13)
+    return dowson_higginson_minimum(
+        viscosity=scales.viscosity,
+        pressure_viscosity=inputs.lubricant.pressure_viscosity,
+        mean_speed=contact.entrainment_speed,
+        radius=contact.radius,
+        line_load=contact.line_load,
+        modulus=scales.reduced_modulus,
     )

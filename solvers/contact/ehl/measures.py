@@ -18,6 +18,8 @@ from solvers.contact.ehl.results import (
 )
 from solvers.contact.ehl.state import evaluate_state
 
+PEAK_ZONE = 0.1  # half widths behind the centre: what lies before is the Hertz maximum
+
 
 def settle(problem: Problem, attempt: Attempt, thermal: bool) -> None:
     """Evaluate the last state once more, so that everything read below belongs to it."""
@@ -42,6 +44,11 @@ def film_heights(problem: Problem, attempt: Attempt) -> FloatArray:
     return attempt.work.height * problem.gap_scale
 
 
+def temperature_range(attempt: Attempt) -> float:
+    """Hottest less coldest place [K]; within the tolerance of temperature no balance of heat can be told."""
+    return float(np.ptp(attempt.state.temperature))
+
+
 def at_centre(attempt: Attempt, values: FloatArray) -> float:
     """Value at x = 0, linear between nodes."""
     return float(np.interp(0.0, attempt.grid.x, values))
@@ -61,9 +68,6 @@ def pressure(problem: Problem, attempt: Attempt) -> ContactPressure:
         second_maximum=None if second is None else float(p[second]) * problem.maximum_pressure,
         second_maximum_at=None if second is None else float(x[second]) * problem.half_width,
     )
-
-
-PEAK_ZONE = 0.1  # half widths behind the centre: what lies before is the Hertz maximum
 
 
 def temperature(problem: Problem, attempt: Attempt) -> ContactTemperature:
@@ -123,13 +127,14 @@ def heat(problem: Problem, attempt: Attempt) -> ContactHeat:
     entering = np.where(inlet > 0.0, t[0], t[1])
     convected = problem.specific_heat * float(outlet @ t[-1] - inlet @ entering)
     defect = generated + compression - sum(to_surfaces) - convected
+    turnover = max(generated + abs(convected), *map(abs, to_surfaces))
     return ContactHeat(
         generated=generated,
         compression=compression,
         to_surface_1=to_surfaces[0],
         to_surface_2=to_surfaces[1],
         convected=convected,
-        balance_error=abs(defect) / max(generated + abs(convected), 1e-300),
+        balance_error=abs(defect) / turnover if turnover > 0.0 else 0.0,
     )
 
 

@@ -11,7 +11,6 @@ from solvers.contact.ehl.deflection import deflection_matrix
 from solvers.contact.ehl.heat_matrix import heat_matrix
 
 SHORTEST_INLET = 4.0
-LONGEST_INLET = 60.0
 CLEARANCE = 40.0  # undeformed gap at the inlet over the central film
 
 
@@ -47,14 +46,18 @@ def _grid(half_octaves: int, nodes: int) -> Grid:
 
 
 def _graded(gap: float, nodes: int) -> FloatArray:
-    """Nodes that equidistribute 1/spacing between inlet and outlet (n,)."""
-    inlet = -min(inlet_length(gap), LONGEST_INLET)
+    """Nodes that equidistribute 1/spacing between inlet and outlet (n,).
+
+    A film much thicker than b^2/R carries its pressure over (2 R h)^1/2 rather than b, which then needs no resolution.
+    """
+    inlet = -inlet_length(gap)
     outlet = max(1.25, 1.0 + 1.2 * gap ** (2 / 3))
     layer = 0.45 * gap ** (2 / 3) + 0.004
     fine = np.linspace(inlet, outlet, 40 * nodes)
     distance = np.abs(fine - 1.0 + 0.5 * layer)
     spacing = np.minimum(0.12 * layer + 0.14 * np.abs(fine + 1.0), 0.03 * layer + 0.12 * distance)
-    spacing[np.abs(fine) < 1.0] = np.minimum(spacing[np.abs(fine) < 1.0], 0.035)
+    inside = np.abs(fine) < 1.0
+    spacing[inside] = np.minimum(spacing[inside], 0.035 * max(1.0, sqrt(2.0 * gap)))
     density = 1.0 / spacing
     count = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * np.diff(fine))])
     x = np.interp(np.linspace(0.0, count[-1], nodes), count, fine)

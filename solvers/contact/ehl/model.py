@@ -1,11 +1,20 @@
 """The thermal elastohydrodynamic line contact (Xue, Zhang and Wang, sections III and IV)."""
 
 from dataclasses import replace
+from math import isfinite
 
 from solvers.contact.ehl import measures
-from solvers.contact.ehl.continuation import Attempt, Budget, Resolution, solve_cold
-from solvers.contact.ehl.dimensionless import Groups, dowson_higginson_film, entry_temperature, groups, moes_gap
-from solvers.contact.ehl.inputs import Contact, LineContactInputs, Model, check
+from solvers.contact.ehl.budget import Resolution, budget_for
+from solvers.contact.ehl.checks import check
+from solvers.contact.ehl.continuation import TIGHT, Attempt, solve_cold
+from solvers.contact.ehl.dimensionless import (
+    Groups,
+    dowson_higginson_film,
+    entry_temperature,
+    expected_gap,
+    groups,
+)
+from solvers.contact.ehl.inputs import Contact, LineContactInputs, Model
 from solvers.contact.ehl.problem import Problem, peclet_number, problem
 from solvers.contact.ehl.results import (
     Convergence,
@@ -30,7 +39,7 @@ def solve(inputs: LineContactInputs) -> LineContactResult:
     scales = groups(inputs)
     constants = problem(inputs, scales)
     resolution = resolution_for(inputs, expected_gap(inputs))
-    budget = Budget()
+    budget = budget_for(resolution)
     return result(inputs, scales, constants, solve_cold(constants, resolution, budget), budget.spent)
 
 
@@ -46,21 +55,17 @@ def resolution_for(inputs: LineContactInputs, gap: float) -> Resolution:
     )
 
 
-def expected_gap(inputs: LineContactInputs) -> float:
-    """Central film to expect, in b^2/R."""
-    return moes_gap(groups(inputs, entry_temperature(inputs)))
-
-
 def result(
     inputs: LineContactInputs, scales: Groups, constants: Problem, attempt: Attempt, iterations: int
 ) -> LineContactResult:
     """Everything read off an attempt: all of it if the attempt meets every criterion, else why not."""
     thermal = inputs.model.thermal
     dimensionless = _dimensionless(inputs, scales)
-    notices = input_notices(inputs, dimensionless, expected_gap(inputs))
-    measures.settle(constants, attempt, thermal)
+    notices = input_notices(inputs, dimensionless)
+    if attempt.converged:
+        measures.settle(constants, attempt, thermal)
     heat = measures.heat(constants, attempt) if thermal and attempt.converged else None
-    balanced = heat is None or heat.balance_error < WORST_BALANCE
+    balanced = heat is None or heat.balance_error < WORST_BALANCE or measures.temperature_range(attempt) < TIGHT[1]
     convergence = _convergence(attempt, iterations, thermal, balanced)
     unsolved = LineContactResult(
         status="no_solution",
@@ -107,7 +112,7 @@ def _dimensionless(inputs: LineContactInputs, scales: Groups) -> Dimensionless:
 
 
 def _convergence(attempt: Attempt, iterations: int, thermal: bool, balanced: bool) -> Convergence:
-    changes = [float(change) if change < 1e300 else 1e300 for change in attempt.state.history[1:]]
+    changes = [float(change) if isfinite(change) else None for change in attempt.state.history[1:]]
     return Convergence(
         iterations=iterations,
         pressure_change=changes[0],

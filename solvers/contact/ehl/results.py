@@ -7,6 +7,7 @@ from solvers.arrays import FloatArray
 from solvers.notices import Notice
 
 Status = Literal["ok", "ok_with_warnings", "no_solution"]
+Stage = Literal["isothermal", "coupling", "heat_balance"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +90,8 @@ class ContactFriction:
 class ContactHeat:
     """Heat per length of contact [W/m]; into the surfaces and convected out positive.
 
-    balance_error is relative to generated plus absolute convected heat.
+    balance_error is relative to generated plus absolute convected heat, or to what passes through one of the surfaces
+    where that is more: between surfaces of different temperatures the film conducts heat that it does not generate.
     """
 
     generated: float
@@ -104,15 +106,16 @@ class ContactHeat:
 class Convergence:
     """Newton steps in all, last changes of P and of temperature [K], load error (relative), nodes of the last mesh.
 
-    `stage` is where it ended; `eyring_stress` [Pa] what continuation reached, where it was tried and failed.
+    `stage` is where it ended; `eyring_stress` [Pa] what continuation reached, where it was tried and failed. A change
+    is None where there was none: isothermal, or no step left in the budget.
     """
 
     iterations: int
-    pressure_change: float
+    pressure_change: float | None
     temperature_change: float | None
     load_error: float
     nodes: int
-    stage: Literal["isothermal", "coupling", "heat_balance"]
+    stage: Stage
     eyring_stress: float | None
 
 

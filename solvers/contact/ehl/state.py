@@ -26,7 +26,8 @@ from solvers.contact.ehl.shear import Film, film_arrays, limited_gradient
 class State(NamedTuple):
     """Unknowns at n nodes along and k across: pressure/p_H (n,), rigid separation H0 (1,), temperature (n, k) [K].
 
-    `cavitated` (n,) marks the nodes of broken film; `history` (3,) keeps iterations, last max|dP| and max|dT| [K].
+    `cavitated` (n,) marks the nodes of broken film; `history` (3,) keeps iterations, last max|dP| and max|dT| [K]
+    (NaN: none).
     """
 
     pressure: FloatArray
@@ -34,6 +35,11 @@ class State(NamedTuple):
     temperature: FloatArray
     cavitated: BoolArray
     history: FloatArray
+
+
+def no_steps() -> FloatArray:
+    """The history of a state that no step has been taken from (3,): no change is known."""
+    return np.array([0.0, np.nan, np.nan])
 
 
 class Work(NamedTuple):

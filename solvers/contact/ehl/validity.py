@@ -1,13 +1,7 @@
 """What limits a result of the line contact: one notice for every range it leaves."""
 
 from solvers.contact.ehl.inputs import LineContactInputs
-from solvers.contact.ehl.mesh import LONGEST_INLET, inlet_length
-from solvers.contact.ehl.results import (
-    ContactFriction,
-    ContactHeat,
-    Dimensionless,
-    FilmThickness,
-)
+from solvers.contact.ehl.results import ContactFriction, ContactHeat, Dimensionless, FilmThickness
 from solvers.notices import Notice
 
 LOWEST_PECLET = 5.0
@@ -17,7 +11,7 @@ THIN_FILM = 0.05e-6  # m
 BALANCE_ERROR = 1e-4
 
 
-def input_notices(inputs: LineContactInputs, groups: Dimensionless, gap: float) -> list[Notice]:
+def input_notices(inputs: LineContactInputs, groups: Dimensionless) -> list[Notice]:
     """What can be said before the solution."""
     notices = []
     model = inputs.model
@@ -39,14 +33,6 @@ def input_notices(inputs: LineContactInputs, groups: Dimensionless, gap: float) 
                 "Newtonian: traction not reliable for |slide-roll ratio| < 0.3, where no heat limits it; "
                 "use ree_eyring",
                 "rheology",
-            )
-        )
-    if inlet_length(gap) > LONGEST_INLET:
-        notices.append(
-            Notice(
-                "short_inlet",
-                f"so thick a film needs an inlet longer than the {LONGEST_INLET:g} half widths used; it is starved",
-                "line_load",
             )
         )
     return notices

@@ -1,0 +1,120 @@
+"""What cannot be computed as an elastohydrodynamic line contact: one refusal for every range left."""
+
+from math import log
+
+from solvers.contact.ehl.dimensionless import expected_gap, groups
+from solvers.contact.ehl.inputs import LineContactInputs
+from solvers.errors import InvalidInput
+from solvers.lubricants import ROELANDS_POLE_TEMPERATURE, log_viscosity, pressure_part
+
+LOWEST_SPEED = 1e-9  # m/s, three centimetres a year
+LOWEST_VISCOSITY = 7e-5  # Pa s; Roelands' law ends at 6.31e-5
+HIGHEST_VISCOSITY = 1e4  # Pa s without pressure; no oil flows there
+HIGHEST_VISCOSITY_UNDER_PRESSURE = 1e100  # Pa s; glass begins at 1e12
+LOWEST_TEMPERATURE = ROELANDS_POLE_TEMPERATURE + 60.0  # K; no oil flows there
+HIGHEST_PRESSURE = 4e9  # Pa
+THICKEST_FILM = 1e4  # in b^2/R, which is what the surfaces deform by
+THINNEST_FILM = 1e-9  # m, the length of an oil's molecule
+MIN_NODES = 41
+MIN_FILM_NODES = 5
+
+
+def check(inputs: LineContactInputs) -> None:
+    """Refuse what has no solution or lies outside the laws of the lubricant.
+
+    Raises InvalidInput: no_load, no_entrainment, stationary_surface, viscosity_range, temperature_range,
+    pressure_range, load_range, film_range, resolution.
+    """
+    _check_motion(inputs)
+    _check_resolution(inputs)
+    _check_oil(inputs)
+    _check_load(inputs)
+
+
+def _check_motion(inputs: LineContactInputs) -> None:
+    contact = inputs.contact
+    if contact.line_load <= 0.0 or contact.radius <= 0.0:
+        raise InvalidInput("no_load", "line load and reduced radius must be positive", "line_load")
+    if contact.entrainment_speed < LOWEST_SPEED:
+        raise InvalidInput(
+            "no_entrainment",
+            f"the mean surface speed must be positive, at least {LOWEST_SPEED:g} m/s: it draws the film in",
+            "speed_1",
+        )
+    if inputs.model.thermal and min(contact.speed_1, contact.speed_2) <= 0.0:
+        name = "speed_1" if contact.speed_1 <= contact.speed_2 else "speed_2"
+        raise InvalidInput(
+            "stationary_surface",
+            "a surface that does not move through the contact heats up without limit; both speeds must be positive "
+            "(or switch thermal off)",
+            name,
+        )
+
+
+def _check_resolution(inputs: LineContactInputs) -> None:
+    if inputs.model.nodes < MIN_NODES or inputs.model.film_nodes < MIN_FILM_NODES:
+        raise InvalidInput(
+            "resolution", f"at least {MIN_NODES} nodes along and {MIN_FILM_NODES} across the film are needed", "nodes"
+        )
+
+
+def _check_oil(inputs: LineContactInputs) -> None:
+    """Viscosity and temperatures; an isothermal film knows the inlet temperature only."""
+    oil, temperatures = inputs.lubricant, inputs.temperatures
+    if oil.viscosity < LOWEST_VISCOSITY:
+        raise InvalidInput(
+            "viscosity_range", f"the viscosity must be at least {LOWEST_VISCOSITY:g} Pa s, Roelands' limit", "viscosity"
+        )
+    used = [temperatures.inlet]
+    if inputs.model.thermal:
+        used += [temperatures.surface_1, temperatures.surface_2]
+    if min(*used, oil.reference_temperature) < LOWEST_TEMPERATURE:
+        raise InvalidInput("temperature_range", f"temperatures must be above {LOWEST_TEMPERATURE:g} K", "temperatures")
+    for temperature in used:
+        logarithm = _log_viscosity(inputs, 0.0, temperature)
+        if not log(0.9 * LOWEST_VISCOSITY) < logarithm < log(HIGHEST_VISCOSITY):
+            raise InvalidInput(
+                "viscosity_range",
+                f"the oil's laws give it a viscosity of 10^{logarithm / log(10.0):.2g} Pa s at {temperature:g} K, "
+                f"beyond {LOWEST_VISCOSITY:g} to {HIGHEST_VISCOSITY:g} Pa s; temperatures must lie nearer to the "
+                "reference temperature, or the temperature-viscosity coefficient be smaller",
+                "temperature_viscosity",
+            )
+
+
+def _check_load(inputs: LineContactInputs) -> None:
+    """Pressure and the film to be expected: thick against the deformation it is no elastic contact any more."""
+    scales = groups(inputs)
+    if scales.maximum_pressure > HIGHEST_PRESSURE:
+        raise InvalidInput("pressure_range", "the Hertz pressure must not exceed 4 GPa", "line_load")
+    hottest = inputs.temperatures.inlet
+    if _log_viscosity(inputs, scales.maximum_pressure, hottest) > log(HIGHEST_VISCOSITY_UNDER_PRESSURE):
+        raise InvalidInput(
+            "viscosity_range",
+            f"the oil's laws give it more than {HIGHEST_VISCOSITY_UNDER_PRESSURE:g} Pa s at the Hertz pressure of "
+            f"{scales.maximum_pressure * 1e-9:.2g} GPa; the pressure-viscosity coefficient or the load must be "
+            "smaller, or (Roelands) the viscosity higher",
+            "pressure_viscosity",
+        )
+    gap = expected_gap(inputs)
+    if gap > THICKEST_FILM:
+        raise InvalidInput(
+            "load_range",
+            f"the film would be more than {THICKEST_FILM:g} times as thick as the surfaces deform (Moes' load "
+            f"parameter M = {scales.moes_m:.2g}): they are rigid, and no elastic contact is left to compute; raise "
+            "the line load, or lower speed or viscosity",
+            "line_load",
+        )
+    if gap * scales.gap_scale < THINNEST_FILM:
+        raise InvalidInput(
+            "film_range",
+            f"the film would be {gap * scales.gap_scale * 1e9:.2g} nm thin, less than a molecule of oil; raise speed "
+            "or viscosity",
+            "speed_1",
+        )
+
+
+def _log_viscosity(inputs: LineContactInputs, pressure: float, temperature: float) -> float:
+    """ln(eta / Pa s), which is a number where the viscosity itself is not."""
+    laws = inputs.lubricant.laws
+    return float(log_viscosity(laws, pressure_part(laws, pressure)[0], temperature)[0])
