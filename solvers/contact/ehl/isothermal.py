@@ -4,7 +4,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.contact.ehl.dense import solve_dense
+from solvers.contact.ehl.dense import solved
 from solvers.contact.ehl.fluxes import BY_G, BY_H, BY_P, VALUE, assemble_faces, film_shape, pressure_gradients
 from solvers.contact.ehl.mesh import Grid
 from solvers.contact.ehl.problem import Problem
@@ -94,9 +94,7 @@ def solve_isothermal(
         rupture_tolerance = 0.0 if iteration < PATIENCE else RUPTURE_TOLERANCE
         changed = release_cavitated(work.faces, state.cavitated, rupture_tolerance)
         assemble_system(grid, state.pressure, state.cavitated, work.faces, jacobian, residual)
-        step[:] = -residual
-        solve_dense(jacobian, step)
-        if not np.all(np.isfinite(step)):
+        if not solved(jacobian, residual, step):
             return False
         largest = np.abs(step[:n]).max()
         state.history[1] = largest

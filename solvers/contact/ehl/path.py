@@ -1,6 +1,6 @@
 """A sequence of contacts, as along the flank of a gear: each solved from its neighbour."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import exp, log
 
@@ -21,13 +21,15 @@ from solvers.errors import InvalidInput
 REGRADED = 2.0  # ratio of films beyond which a point needs a mesh graded for itself
 CONTACTS_FROM_NOTHING = 2.0  # that a whole path may pay for, beside a few steps for each point
 STEPS_A_POINT = 4.0
+STEPS_FROM_NEIGHBOURS = 20.0  # for one guess; where that is not enough it seldom leads anywhere
 SHARE = 0.25  # of what is left, for one point that has to start from nothing
+EXTRAPOLATION = ((1.0,), (-1.0, 2.0), (1.0, -3.0, 3.0))  # weights of so many states in the next
 FEWEST_STEPS = 10.0  # that are worth a start from nothing
 
 
 @dataclass(slots=True)
 class _Walk:
-    """Where the path has got to: its mesh, the states solved last (at most two), what steps are left for the rest."""
+    """Where the path has got to: its mesh, the states solved last (at most three), what steps are left for the rest."""
 
     gap: float
     remaining: float
@@ -65,18 +67,21 @@ def _solve_next(inputs: LineContactInputs, gap: float, walk: _Walk) -> LineConta
     resolution = resolution_for(inputs, _regrade(walk, gap, inputs.model.nodes))
     spent = 0
     attempt: Attempt | None = None
-    if walk.known:
-        budget = Budget(walk.remaining)
-        grid = grid_for(walk.gap, inputs.model.nodes)
-        attempt = solve_from(constants, resolution, grid, _extrapolate(walk.known), budget)
-        spent, walk.remaining = budget.spent, budget.remaining
+    grid = grid_for(walk.gap, inputs.model.nodes)
+    for guess in _guesses(walk.known):
+        allowed = min(STEPS_FROM_NEIGHBOURS * price(resolution, inputs.model.nodes), walk.remaining)
+        budget = Budget(allowed)
+        attempt = solve_from(constants, resolution, grid, guess, budget)
+        spent, walk.remaining = spent + budget.spent, walk.remaining - (allowed - budget.remaining)
+        if attempt.converged:
+            break
     if attempt is None or not attempt.converged:
         allowed = min(budget_for(resolution).remaining, SHARE * walk.remaining)
         allowed = allowed if allowed > FEWEST_STEPS else 0.0
         budget = Budget(allowed)
         attempt = solve_cold(constants, resolution, budget)
         spent, walk.remaining = spent + budget.spent, walk.remaining - (allowed - budget.remaining)
-    walk.known = [*walk.known[-1:], attempt.state] if attempt.converged else []
+    walk.known = [*walk.known[-2:], attempt.state] if attempt.converged else []
     return result(inputs, scale, constants, attempt, spent)
 
 
@@ -90,17 +95,24 @@ def _regrade(walk: _Walk, gap: float, nodes: int) -> float:
     return gap
 
 
-def _extrapolate(known: Sequence[State]) -> State:
-    """The next state if the last change repeats itself; the last state itself where it is the only one."""
+def _guesses(known: Sequence[State]) -> Iterator[State]:
+    """The next state if the changes so far go on, as parabola or line; then the last state itself."""
+    if known:
+        yield _combined(known, EXTRAPOLATION[len(known) - 1])
+    if len(known) > 1:
+        yield _combined(known[-1:], EXTRAPOLATION[0])
+
+
+def _combined(known: Sequence[State], weights: Sequence[float]) -> State:
+    """A weighted sum of states, made physical; what is broken in the last one stays so."""
     last = known[-1]
-    before = known[0]
-    cavitated = last.cavitated.copy()
-    pressure = np.maximum(2.0 * last.pressure - before.pressure, 0.0)
-    pressure[cavitated] = 0.0
+    pressure = np.maximum(sum(w * state.pressure for w, state in zip(weights, known, strict=True)), 0.0)
+    pressure[last.cavitated] = 0.0
+    temperature = np.asarray(sum(w * state.temperature for w, state in zip(weights, known, strict=True)))
     return State(
         pressure=pressure,
-        separation=2.0 * last.separation - before.separation,
-        temperature=np.maximum(2.0 * last.temperature - before.temperature, 0.9 * last.temperature.min()),
-        cavitated=cavitated,
+        separation=np.asarray(sum(w * state.separation for w, state in zip(weights, known, strict=True))),
+        temperature=np.maximum(temperature, 0.9 * last.temperature.min()),
+        cavitated=last.cavitated.copy(),
         history=no_steps(),
     )
