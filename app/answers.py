@@ -27,9 +27,9 @@ def answer(calculation: Calculation, request: Request) -> bytes:
     else:
         warnings = [_notice(request, warning) for warning in result.warnings]
         content = from_si(calculation.response, result, request.detail, skip=frozenset(Response.model_fields))
-        unsolved = getattr(result, "status", None) == "no_solution"
-        status = "no_solution" if unsolved else "ok_with_warnings" if warnings else "ok"
-        content |= {"status": status, "warnings": warnings}
+        content |= {"status": "ok_with_warnings" if warnings else "ok", "warnings": warnings}
+        if getattr(result, "status", None) == "no_solution":
+            content |= {"status": "no_solution", "residuals": result.residuals}
     content |= {
         "assumptions": assumptions(request, resolved),
         "model_version": MODEL_VERSION,

@@ -44,7 +44,6 @@ class Runner:
         for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"):
             os.environ.setdefault(variable, "1")
         async with anyio.create_task_group() as self._tasks:
-            await self._warm_one()  # alone, so that kernels not yet in the cache are compiled once
             await self._warm()
             self._tasks.start_soon(self._keep_warm)
             yield

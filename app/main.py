@@ -1,8 +1,10 @@
 """Wires the application together."""
 
+import sys
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
+import anyio
 from fastapi import FastAPI
 from fastapi_offline import FastAPIOffline
 
@@ -28,6 +30,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         app.state.runner = runner
+        # Kernels not yet in the cache are compiled once, in a process that takes the compiler's memory with it.
+        await anyio.run_process([sys.executable, "-m", "app.warm_up"], check=False)
         async with runner.started():
             yield
 

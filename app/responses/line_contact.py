@@ -1,6 +1,6 @@
 """One lubricated line contact: response of /v1/scuffing/line-contact."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from app.quantities import Output
 from app.responses.common import Group, Response
@@ -89,6 +89,13 @@ class ContactConvergence(Group):
     ]
     load_error: Annotated[float, Output("relative error of the load")]
     nodes: Annotated[int, Output("nodes of the last mesh")]
+    stage: Annotated[
+        Literal["isothermal", "coupling", "heat_balance"],
+        Output("where the iteration ended: the isothermal film, film and temperatures together, the books on heat"),
+    ]
+    eyring_stress_mpa: Annotated[
+        float | None, Output("Eyring stress that a continuation without solution reached; null where none was tried")
+    ]
 
 
 class ContactCurves(Group):

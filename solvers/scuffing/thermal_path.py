@@ -20,10 +20,6 @@ FIELDS = {
     "speed_2": "pinion_speed",
     "temperatures": "temperatures.bulk",
 }
-UNSOLVED = Notice("unsolved_points", "the thermal EHL solution did not converge", "nodes")
-UNTRIED = Notice(
-    "untried_points", "too many others did not converge: the steps that a whole path may take were spent", "nodes"
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +59,7 @@ def thermal_path(inputs: ScuffingInputs, line: FeatureLine, loaded: BoolArray) -
         status[point] = "refused"
     for point, result in results.items():
         status[point] = result.status
-        if not _unsolved(result):
+        if result.status != "no_solution":
             values[:, point] = _values(result)
     warnings = _notices(list(results.values()), list(refusals.values()))
     return ThermalPath(tuple(status), warnings, *(frozen(row) for row in values))
@@ -117,7 +113,6 @@ def _notices(results: Sequence[ehl.LineContactResult], refusals: Sequence[Invali
     first: dict[str, Notice] = {}
     notices = [notice for result in results for notice in result.warnings]
     notices += [Notice(refusal.code, refusal.message, refusal.field) for refusal in refusals]
-    notices += [UNSOLVED if result.convergence.iterations else UNTRIED for result in results if _unsolved(result)]
     for notice in notices:
         points[notice.code] = points.get(notice.code, 0) + 1
         first.setdefault(notice.code, notice)
@@ -126,10 +121,6 @@ def _notices(results: Sequence[ehl.LineContactResult], refusals: Sequence[Invali
         replace(notice, message=f"at {points[code]} of {count} points: {notice.message}", field=_field(notice.field))
         for code, notice in first.items()
     )
-
-
-def _unsolved(result: ehl.LineContactResult) -> bool:
-    return result.status == "no_solution"
 
 
 def _field(of_contact: str | None) -> str | None:

@@ -230,4 +230,4 @@ def test_a_path_that_nowhere_converges_ends_with_its_steps(monkeypatch: pytest.M
     assert result.unsolved_points == 200
     assert sum(taken) < 3.0 * budget.STEPS_IN_ALL
     codes = [warning.code for warning in result.warnings]
-    assert {"unsolved_points", "untried_points"} <= set(codes)
+    assert {"not_converged", "untried"} <= set(codes)

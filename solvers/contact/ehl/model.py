@@ -23,7 +23,7 @@ from solvers.contact.ehl.results import (
     HertzContact,
     LineContactResult,
 )
-from solvers.contact.ehl.validity import input_notices, result_notices
+from solvers.contact.ehl.validity import failure_notice, input_notices, result_notices
 from solvers.lubricants import Lubricant
 
 WORST_BALANCE = 1e-3
@@ -82,7 +82,7 @@ def result(
         warnings=tuple(notices),
     )
     if not (attempt.converged and balanced and convergence.load_error < WORST_LOAD):
-        return unsolved
+        return replace(unsolved, warnings=(*notices, failure_notice(convergence)))
     film = _film(inputs, constants, attempt)
     friction = measures.friction(constants, attempt, inputs)
     notices += result_notices(film, friction, heat)

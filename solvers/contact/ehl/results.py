@@ -118,6 +118,16 @@ class Convergence:
     stage: Stage
     eyring_stress: float | None
 
+    @property
+    def residuals(self) -> dict[str, float]:
+        """How far an iteration came, by name: what is known of changes of P and of temperature [K], and the load."""
+        known = {
+            "pressure_change": self.pressure_change,
+            "temperature_change": self.temperature_change,
+            "load_error": self.load_error,
+        }
+        return {name: value for name, value in known.items() if value is not None}
+
 
 @dataclass(frozen=True, slots=True)
 class ContactCurves:
@@ -159,3 +169,8 @@ class LineContactResult:
     curves: ContactCurves | None
     field: ContactField | None
     warnings: tuple[Notice, ...]
+
+    @property
+    def residuals(self) -> dict[str, float]:
+        """How far a solution without convergence came."""
+        return self.convergence.residuals

@@ -1,7 +1,7 @@
 """What limits a result of the line contact: one notice for every range it leaves."""
 
 from solvers.contact.ehl.inputs import LineContactInputs
-from solvers.contact.ehl.results import ContactFriction, ContactHeat, Dimensionless, FilmThickness
+from solvers.contact.ehl.results import ContactFriction, ContactHeat, Convergence, Dimensionless, FilmThickness, Stage
 from solvers.notices import Notice
 
 LOWEST_PECLET = 5.0
@@ -9,6 +9,11 @@ NEWTONIAN_SLIDE_ROLL_RATIO = 0.3
 TRACTION_RATIO = 0.1
 THIN_FILM = 0.05e-6  # m
 BALANCE_ERROR = 1e-4
+FAILURES: dict[Stage, str] = {
+    "isothermal": "the isothermal film did not converge",
+    "coupling": "pressures and temperatures did not converge together",
+    "heat_balance": "the solution leaves the heat balance open",
+}
 
 
 def input_notices(inputs: LineContactInputs, groups: Dimensionless) -> list[Notice]:
@@ -62,3 +67,11 @@ def result_notices(film: FilmThickness, friction: ContactFriction, heat: Contact
             Notice("heat_balance", f"the heat balance is open by {heat.balance_error:.1e}, above 1e-4", "nodes")
         )
     return notices
+
+
+def failure_notice(convergence: Convergence) -> Notice:
+    """Why there is no solution."""
+    if convergence.iterations == 0:
+        return Notice("untried", "no steps were left: too many contacts before it did not converge", "nodes")
+    message = f"{FAILURES[convergence.stage]} on {convergence.nodes} nodes; try other nodes or ree_eyring"
+    return Notice("not_converged", message, "nodes")
