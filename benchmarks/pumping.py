@@ -5,13 +5,13 @@ Run from the project's root: python -m benchmarks.pumping. Kernels are warm; the
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import pi, radians
+from math import pi
 from time import perf_counter
 
 import numpy as np
 
 from benchmarks.pumping_numpy import numpy_step
-from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.inputs import GearPairInputs
 from solvers.gears.pair import gear_pair
 from solvers.pumping import (
     ChokingInputs,
@@ -31,25 +31,8 @@ from solvers.pumping.gas_step import Cells, empty_cells, set_walls, step
 from solvers.pumping.spaces import face_stretches, prepare
 from solvers.pumping.stroke import stroke_table
 from solvers.pumping.tooth_space import tooth_space
+from tests.milian import CASE_1, CASE_2
 
-CASE_1 = GearPairInputs(
-    GearTeeth(47, 0.16, 0.9919, 1.47921),
-    GearTeeth(117, 0.05, 0.9925, 1.47885),
-    7e-3,
-    0.2,
-    radians(20),
-    radians(12.75),
-    0.590,
-)
-CASE_2 = GearPairInputs(
-    GearTeeth(52, 0.198, 0.9891, 1.47469),
-    GearTeeth(79, 0.21, 0.9894, 1.47507),
-    6.8e-3,
-    0.2,
-    radians(22.5),
-    radians(10),
-    0.455,
-)
 ONE_SET = PumpingModel(spaces=Spaces.PINION)
 SPEED = 9267 * pi / 30
 

@@ -1,6 +1,6 @@
 """What the service survives: a load under wrk with a worker killed each second, faults, generated inputs. Needs wrk.
 
-Prints the table of the README's section "Reliability": python benchmarks/reliability.py
+Prints the table of the README's section "Reliability". Run from the project's root: python -m benchmarks.reliability
 """
 
 import argparse
@@ -19,8 +19,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import httpx
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from app.library import examples
 from tests.server import children, memory_mb, running_server

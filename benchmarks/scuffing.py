@@ -1,4 +1,7 @@
-"""Time of a load distribution with its 200 x 100 flank map, of a scuffing check, and of a relief sweep."""
+"""Time of a load distribution with its 200 x 100 flank map, of a scuffing check, and of a relief sweep.
+
+Run from the project's root: python -m benchmarks.scuffing. Kernels are warm; the best of several repeats counts.
+"""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace

@@ -1,6 +1,6 @@
 """Requests/s and 99th percentile beside an empty typed endpoint; first requests; memory of the workers. Needs wrk.
 
-python benchmarks/service.py
+Run from the project's root: python -m benchmarks.service
 """
 
 import argparse
@@ -14,12 +14,9 @@ import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 
 import httpx
 from fastapi import FastAPI
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from app.__main__ import serve
 from app.library import Example, examples
@@ -65,7 +62,7 @@ def ours() -> FastAPI:
 def served(factory: str) -> Iterator[subprocess.Popen[bytes]]:
     """A server process of one of the applications above."""
     environment = {**os.environ, "TRIBODRIVE_PORT": str(PORT)}
-    command = [sys.executable, __file__, "--serve", factory]
+    command = [sys.executable, "-m", "benchmarks.service", "--serve", factory]
     process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL)
     try:
         for _ in range(600):
@@ -141,7 +138,6 @@ if __name__ == "__main__":
     parser.add_argument("--seconds", type=int, default=8)
     arguments = parser.parse_args()
     if arguments.serve:
-        sys.path.insert(0, str(Path(__file__).parent))
-        serve(f"service:{arguments.serve}")
+        serve(f"benchmarks.service:{arguments.serve}")
     else:
         main(arguments.seconds)

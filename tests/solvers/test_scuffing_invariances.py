@@ -22,6 +22,15 @@ from solvers.scuffing.results import LoadDistribution
 EXAMPLES = settings(
     max_examples=200, deadline=None, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow]
 )
+AMPLITUDES = (
+    "profile_crowning",
+    "lead_crowning",
+    "profile_slope",
+    "helix_slope",
+    "tip_relief",
+    "root_relief",
+    "end_relief",
+)
 COARSE = Resolution(roll_positions=40, slices=25, profile_points=21, face_points=11, feature_points=11)
 MODELS = st.sampled_from(
     [
@@ -117,20 +126,11 @@ def test_contact_lengths_agree_with_their_closed_forms(inputs: GearPairInputs) -
 @given(designs(), st.floats(0.1, 10.0))
 def test_gears_of_another_size_under_the_same_stress_deform_alike(inputs: LoadDistributionInputs, size: float) -> None:
     gears, shape = inputs.gears, inputs.modifications
-    lengths = (
-        "profile_crowning",
-        "lead_crowning",
-        "profile_slope",
-        "helix_slope",
-        "tip_relief",
-        "root_relief",
-        "end_relief",
-    )
     scaled = replace(
         inputs,
         gears=replace(gears, normal_module=gears.normal_module * size, face_width=gears.face_width * size),
         load=replace(inputs.load, pinion_torque=inputs.load.pinion_torque * size**3),
-        modifications=replace(shape, **{name: getattr(shape, name) * size for name in lengths}),
+        modifications=replace(shape, **{name: getattr(shape, name) * size for name in AMPLITUDES}),
     )
     one, other = solve(inputs), solve(scaled)
     # A roll position more or less in an interval is a matter of rounding; the shared ones are what is compared.
@@ -219,18 +219,7 @@ def test_the_gap_is_linear_in_its_amplitudes(inputs: LoadDistributionInputs) -> 
     single = gaps_at(gap(inputs.modifications, path), x, y)
     double = replace(
         inputs.modifications,
-        **{
-            name: 2 * getattr(inputs.modifications, name)
-            for name in (
-                "profile_crowning",
-                "lead_crowning",
-                "profile_slope",
-                "helix_slope",
-                "tip_relief",
-                "root_relief",
-                "end_relief",
-            )
-        },
+        **{name: 2 * getattr(inputs.modifications, name) for name in AMPLITUDES},
     )
     assert gaps_at(gap(double, path), x, y) == pytest.approx(2 * single, rel=1e-12, abs=1e-18)
 
