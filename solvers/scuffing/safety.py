@@ -184,7 +184,8 @@ def _notices(path: ScuffingPath, safety: Safety | None) -> tuple[Notice, ...]:
     notices = []
     if np.any(np.isnan(path.dowson_higginson)):
         cause = "modifications" if _any_number(path.dowson_higginson) else "pinion_torque"
-        notices.append(Notice("no_film", "where the feature line is not loaded or does not move there is no film", cause))
+        message = "there is no film where the feature line is not loaded or does not move"
+        notices.append(Notice("no_film", message, cause))
     if safety is not None and safety.blok_factor is None:
         notices.append(
             Notice("no_safety", "the teeth stay as cool as the oil; the safety factor has no meaning", "temperatures")

@@ -284,6 +284,12 @@ def test_no_film_where_the_feature_line_is_not_loaded() -> None:
     assert result.film.dowson_higginson_min is not None
 
 
+def test_no_film_anywhere_is_for_want_of_torque() -> None:
+    result = solve_scuffing(ScuffingInputs(with_torque(paper_pair(1), 0.0), lubrication="closed_form"))
+    assert result.film.dowson_higginson_min is None
+    assert ("no_film", "pinion_torque") in {(notice.code, notice.field) for notice in result.warnings}
+
+
 @pytest.mark.parametrize("model", [LINEAR, Model()])
 def test_without_torque_the_transmission_error_is_kinematic(model: Model) -> None:
     shape = Modifications(profile_crowning=10e-6, helix_slope=8e-6, end_relief=5e-6)
