@@ -6,11 +6,11 @@ from math import exp, log
 
 from scipy.optimize import brentq
 
+from solvers.coupling.checks import MAX_CONTACT_PRESSURE, MAX_CONTACT_WIDTH
 from solvers.coupling.geometry import tooth_geometry
 from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
 from solvers.coupling.kinematics import max_contact_travel, mesh_motion
 from solvers.coupling.lubrication import film_state
-from solvers.coupling.validity import MAX_CONTACT_PRESSURE, MAX_CONTACT_WIDTH
 
 MIN_CROWNING_RATIO = 0.2
 MAX_CROWNING_RATIO = 1000.0

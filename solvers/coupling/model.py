@@ -3,6 +3,7 @@
 from math import isfinite
 
 from solvers.coupling.averaging import loaded_mesh
+from solvers.coupling.checks import check_contact, check_inputs
 from solvers.coupling.friction import friction_coefficient, friction_regime
 from solvers.coupling.geometry import tooth_geometry
 from solvers.coupling.inputs import CouplingInputs
@@ -14,7 +15,6 @@ from solvers.coupling.lubrication import FilmState, film_state
 from solvers.coupling.notices import contact_notices, load_notices, motion_notices
 from solvers.coupling.results import CouplingResult, Lubrication
 from solvers.coupling.thrust import axial_thrust
-from solvers.coupling.validity import check_contact, check_inputs
 
 
 def solve(inputs: CouplingInputs) -> CouplingResult:

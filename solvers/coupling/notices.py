@@ -3,11 +3,11 @@
 from collections.abc import Iterator
 from math import degrees
 
+from solvers.coupling.checks import MAX_MISALIGNMENT
 from solvers.coupling.friction import UNSTABLE_AREA
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.limits import SLIDING_VELOCITY_LIMIT
 from solvers.coupling.results import AxialThrust, Kinematics, Limits, LoadDistribution, Lubrication
-from solvers.coupling.validity import MAX_MISALIGNMENT
 from solvers.notices import Notice
 
 

@@ -7,12 +7,12 @@ from math import cos, pi
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
+from solvers.coupling.checks import check_inputs
 from solvers.coupling.geometry import tooth_geometry
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.kinematics import mesh_motion, revolution, tooth_positions
 from solvers.coupling.results import InertiaForce, Orbit, OrbitResult
 from solvers.coupling.tooth_loads import ToothLoads, floating_loads
-from solvers.coupling.validity import check_inputs
 from solvers.errors import InvalidInput, NoSolution
 
 MAX_SWEEPS = 50

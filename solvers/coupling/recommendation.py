@@ -15,6 +15,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from solvers.arrays import frozen
+from solvers.coupling.checks import MAX_MISALIGNMENT, check_inputs
 from solvers.coupling.crowning_window import (
     MIN_CROWNING_RATIO,
     CrowningState,
@@ -27,7 +28,6 @@ from solvers.coupling.inputs import RecommendationInputs
 from solvers.coupling.limits import SLIDING_VELOCITY_LIMIT
 from solvers.coupling.model import solve
 from solvers.coupling.results import CouplingResult, CrowningScan, Recommendation, RecommendedPoint
-from solvers.coupling.validity import MAX_MISALIGNMENT, check_inputs
 from solvers.errors import InvalidInput
 from solvers.notices import Notice
 

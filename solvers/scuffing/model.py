@@ -14,6 +14,7 @@ from solvers.scuffing.line_survey import Peak, largest
 from solvers.scuffing.load_balance import LoadBalance, balance_load
 from solvers.scuffing.mesh_stiffness import stiffness
 from solvers.scuffing.modification import gap
+from solvers.scuffing.notices import geometry_notices, load_notices, model_notices
 from solvers.scuffing.path_of_contact import PathOfContact, meshing_path
 from solvers.scuffing.results import (
     ContactLines,
@@ -27,7 +28,6 @@ from solvers.scuffing.results import (
 )
 from solvers.scuffing.tooth_stiffness import pair_compliance
 from solvers.scuffing.transmission_error import transmission_error
-from solvers.scuffing.validity import geometry_notices, load_notices, model_notices
 
 
 def solve(inputs: LoadDistributionInputs) -> LoadDistribution:

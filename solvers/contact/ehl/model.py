@@ -15,6 +15,7 @@ from solvers.contact.ehl.dimensionless import (
     groups,
 )
 from solvers.contact.ehl.inputs import Contact, LineContactInputs, Model
+from solvers.contact.ehl.notices import failure_notice, input_notices, result_notices
 from solvers.contact.ehl.problem import Problem, peclet_number, problem
 from solvers.contact.ehl.results import (
     Convergence,
@@ -23,7 +24,6 @@ from solvers.contact.ehl.results import (
     HertzContact,
     LineContactResult,
 )
-from solvers.contact.ehl.validity import failure_notice, input_notices, result_notices
 from solvers.lubricants import Lubricant
 
 WORST_BALANCE = 1e-3
