@@ -34,7 +34,7 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
     if setup.model.flow is Flow.INCOMPRESSIBLE:
         raise InvalidInput("choking_not_modelled", "incompressible flow cannot choke", "flow")
     mesh = prepare(setup)
-    check_speed(mesh.pair, mesh.gas, inputs.search_limit)
+    check_speed(inputs.search_limit)
     slices = setup.model.slice_count
     coarse = max(slices // _COARSENING, 10) if setup.model.flow is Flow.GAS_DYNAMICS else slices
     rough = [_Demand(mesh, space, coarse) for space in mesh.spaces]

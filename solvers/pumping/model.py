@@ -6,10 +6,11 @@ import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.notices import Notice
-from solvers.pumping.checks import check_flow, check_speed
+from solvers.pumping.checks import check_speed
 from solvers.pumping.flow import ExitMasses, SpaceFlow
 from solvers.pumping.inputs import PumpingInputs
 from solvers.pumping.lead_correction import LeadCorrection, lead_correction
+from solvers.pumping.notices import flow_notices, speed_notices
 from solvers.pumping.nozzle import Gas
 from solvers.pumping.pulsation import Pulsation, pulsation
 from solvers.pumping.results import (
@@ -35,16 +36,11 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
     """
     mesh = prepare(inputs.setup)
     speed, slices = inputs.pinion_speed, inputs.setup.model.slice_count
-    speed_notices = check_speed(mesh.pair, mesh.gas, speed)
+    check_speed(speed)
     frequency = mesh.pair.pinion.teeth * speed / (2 * pi)
 
     flows = [flow_at(mesh, space, speed, slices) for space in mesh.spaces]
     results = [_spaces_result(mesh.gas, space, flow, frequency) for space, flow in zip(mesh.spaces, flows, strict=True)]
-    flow_notices = check_flow(
-        inputs.setup.model.flow,
-        max(result.peak_axial_mach for result in results),
-        max(result.peak_pressure_ratio - result.min_pressure_ratio for result in results),
-    )
     of_gear = {space.of_pinion: result for space, result in zip(mesh.spaces, results, strict=True)}
     correction = _pinion_correction(mesh, of_gear.get(True))
     total = _totals(mesh, speed, frequency, sum(result.pumping_power for result in results))
@@ -56,8 +52,20 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
         lead_correction=correction,
         pulsation=_pulsation(mesh, flows, speed, frequency),
         slices=sum(part.cells for part in face_stretches(inputs.setup, slices)),
-        warnings=(*mesh.notices, *speed_notices, *flow_notices, *_missing(results[0], total, correction)),
+        warnings=(
+            *mesh.notices,
+            *speed_notices(mesh.pair, mesh.gas, speed),
+            *_flow_notices(inputs, results),
+            *_missing(results[0], total, correction),
+        ),
     )
+
+
+def _flow_notices(inputs: PumpingInputs, results: list[SpacesResult]) -> list[Notice]:
+    """Flows that their model does not resolve, judged by the largest Mach number and span of pressure."""
+    mach = max(result.peak_axial_mach for result in results)
+    span = max(result.peak_pressure_ratio - result.min_pressure_ratio for result in results)
+    return flow_notices(inputs.setup.model.flow, mach, span)
 
 
 def _geometry(mesh: Mesh) -> MeshGeometry:

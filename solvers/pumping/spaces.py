@@ -5,12 +5,13 @@ from math import tan
 
 from solvers.gears.pair import GearPair, gear_pair
 from solvers.notices import Notice
-from solvers.pumping.checks import check_resolution, check_setup
+from solvers.pumping.checks import check_setup
 from solvers.pumping.face import Stretch, stretches
 from solvers.pumping.flow import SpaceFlow
 from solvers.pumping.gas_dynamics import CELL_STEP_LIMIT, LEAST_SLICES, duct, gas_dynamics, sample_angles
 from solvers.pumping.incompressible import incompressible
 from solvers.pumping.inputs import Flow, PumpingSetup, Spaces
+from solvers.pumping.notices import setup_notices
 from solvers.pumping.nozzle import Gas, gas
 from solvers.pumping.pocket_chain import pocket_chain
 from solvers.pumping.stroke import StrokeTable, stroke_table
@@ -44,9 +45,9 @@ def prepare(setup: PumpingSetup) -> Mesh:
     Raises InvalidInput with the codes of `gear_pair`, `check_setup`, `check_flanks`, `tooth_space`, `stroke_table` and
     `stretches`.
     """
-    notices = check_setup(setup)
+    check_setup(setup)
     pair = gear_pair(setup.gears)
-    notices += check_flanks(pair)
+    flank_notices = check_flanks(pair)
     wanted = setup.model.spaces
     spaces = []
     if wanted is not Spaces.WHEEL:
@@ -54,8 +55,7 @@ def prepare(setup: PumpingSetup) -> Mesh:
     if wanted is not Spaces.PINION:
         spaces.append(_space(setup, pair, of_pinion=False))
     active = min(_active_share(space, setup.gears.face_width) for space in spaces) * setup.model.slice_count
-    notices += check_resolution(setup.model.flow, active)
-    return Mesh(setup, pair, gas(setup.ambient), tuple(spaces), tuple(notices))
+    return Mesh(setup, pair, gas(setup.ambient), tuple(spaces), (*flank_notices, *setup_notices(setup, active)))
 
 
 def _active_share(space: Space, face_width: float) -> float:

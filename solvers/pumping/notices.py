@@ -1,0 +1,62 @@
+"""What a result has to say about its own validity: too coarse, unresolved, or beyond what was ever checked."""
+
+from math import pi
+
+from solvers.gears.pair import GearPair
+from solvers.notices import Notice
+from solvers.pumping.inputs import Flow, PumpingSetup
+from solvers.pumping.nozzle import Gas
+
+FEW_TEETH = 12
+TIP_SPEED_SHARE = 0.8  # of the ambient speed of sound
+PITCH_LINE_SPEED = 250.0  # m/s
+FEW_SLICES = 20  # in the stroke at one time
+INCOMPRESSIBLE_MACH = 0.3
+LEAST_GAUGE_PRESSURE = 1e-6  # of the ambient pressure
+
+
+def setup_notices(setup: PumpingSetup, active_slices: float) -> list[Notice]:
+    """Few teeth, a helix without slices, gas dynamics with few `active_slices` in the stroke at one time."""
+    notices = []
+    for gear, name in ((setup.gears.pinion, "pinion"), (setup.gears.wheel, "wheel")):
+        if gear.teeth < FEW_TEETH:
+            message = f"the {name} has {gear.teeth} teeth: below {FEW_TEETH} the model was never checked"
+            notices.append(Notice("few_teeth", message, f"{name}.teeth"))
+    if setup.model.slice_count == 1 and setup.gears.helix_angle != 0.0:
+        message = "one pocket takes no notice of the helix; 10 slices are usual"
+        notices.append(Notice("single_slice", message, "slices"))
+    if setup.model.flow is Flow.GAS_DYNAMICS and active_slices < FEW_SLICES:
+        message = (
+            f"{active_slices:.0f} slices are in the stroke at one time: below {FEW_SLICES} the grid's own dissipation "
+            "raises the power at low speed by tens of percent"
+        )
+        notices.append(Notice("few_slices", message, "slices"))
+    return notices
+
+
+def flow_notices(flow: Flow, largest_mach: float, largest_gauge_pressure: float) -> list[Notice]:
+    """Flows outside what their model resolves; the pressure is a share of the ambient one."""
+    if flow is Flow.INCOMPRESSIBLE and largest_mach > INCOMPRESSIBLE_MACH:
+        message = f"Mach {largest_mach:.2f}: above {INCOMPRESSIBLE_MACH:g} the gas is far from incompressible"
+        return [Notice("incompressible_mach", message, "flow")]
+    if flow is Flow.POCKET_CHAIN and largest_gauge_pressure < LEAST_GAUGE_PRESSURE:
+        message = (
+            f"the pressure differs from the ambient one by less than its {LEAST_GAUGE_PRESSURE:g}th part, which the "
+            "pocket chain does not resolve; power falls as the cube of the speed"
+        )
+        return [Notice("pressure_not_resolved", message, "pinion_speed")]
+    return []
+
+
+def speed_notices(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]:
+    """Speeds beyond every published check."""
+    tip = max(pair.pinion.tip_radius, pair.wheel.tip_radius * pair.pinion.teeth / pair.wheel.teeth) * pinion_speed
+    pitch_line = pair.pinion_working_radius * pinion_speed
+    if tip > TIP_SPEED_SHARE * gas.sound_speed or pitch_line > PITCH_LINE_SPEED:
+        message = (
+            f"tip speed {tip:.0f} m/s, pitch line {pitch_line:.0f} m/s: published checks end at "
+            f"{TIP_SPEED_SHARE:g} of the speed of sound and {PITCH_LINE_SPEED:g} m/s; "
+            f"{PITCH_LINE_SPEED / pair.pinion_working_radius * 30 / pi:.0f} rpm is the latter"
+        )
+        return [Notice("high_speed", message, "pinion_speed")]
+    return []
