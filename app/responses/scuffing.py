@@ -182,7 +182,7 @@ class ContactTemperatureResult(Group):
     thermal_ehl_max_c: Annotated[float | None, Output("by the thermal EHL solution; null in closed form", "t_B")]
 
 
-class FilmThickness(Group):
+class ThinnestFilm(Group):
     """Thinnest film; null where nothing is loaded."""
 
     dowson_higginson_min_um: Annotated[float | None, Output("by Dowson and Higginson", "h_min", f"{XUE}, Eq. 27")]
@@ -231,7 +231,7 @@ class ScuffingResponse(LoadDistributionResponse):
 
     flash: Annotated[FlashTemperature | None, Output("flash temperature")] = None
     contact_temperature: Annotated[ContactTemperatureResult | None, Output("contact temperature")] = None
-    film: Annotated[FilmThickness | None, Output("film thickness")] = None
+    film: Annotated[ThinnestFilm | None, Output("film thickness")] = None
     safety: Annotated[ScuffingSafety | None, Output("safety factors; null without a scuffing temperature")] = None
     path: Annotated[ScuffingPathCurves | None, Output("along the feature line", detail="curves")] = None
     unsolved_points: Annotated[int | None, Output("points of the path without a solution")] = None

@@ -29,6 +29,11 @@ def test_every_field_has_a_description(document: dict[str, Any]) -> None:
     assert [(schema, name) for schema, name, field in fields(document) if not field.get("description")] == []
 
 
+def test_every_schema_has_a_name_of_its_own(document: dict[str, Any]) -> None:
+    """Names that two modules share are spelt with their modules, which generated clients cannot take."""
+    assert [name for name in document["components"]["schemas"] if "__" in name] == []
+
+
 def test_every_unit_in_a_name_is_stated(document: dict[str, Any]) -> None:
     for schema, name, field in fields(document):
         _, unit = split_unit(name)
