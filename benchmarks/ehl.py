@@ -13,23 +13,19 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterable
 from dataclasses import replace
-from itertools import product
-from math import cos, exp, log, pi, radians
-from random import Random
+from math import cos, pi, radians
 from statistics import median, quantiles
 from time import perf_counter
 
 from solvers.contact.ehl import Contact, LineContactInputs, Model, solve, solve_path, warm_up
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
-from solvers.lubricants import Lubricant
+from tests.line_contacts import POINT, grid_contacts, random_contacts
 
-POINT = Contact(2.73e5, 4.015e-3, 1.0179, 3.7076)
 EYRING = Model()
 STIFF = Model(eyring_stress=10e6)
 NEWTONIAN = Model(rheology="newtonian")
 ISOTHERMAL = Model(thermal=False, rheology="newtonian")
-MODULUS = 226.37e9
 FRESH = """
 import json, resource, time
 start = time.perf_counter()
@@ -40,40 +36,6 @@ ready = time.perf_counter()
 memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 print(json.dumps([imported - start, ready - imported, memory]))
 """
-
-
-def at(pressure: float, ratio: float, speed: float, viscosity: float, radius: float, model: Model) -> LineContactInputs:
-    """A contact by Hertz pressure [Pa], slide-roll ratio, mean speed [m/s], viscosity [Pa s] and radius [m]."""
-    contact = Contact(
-        2.0 * pi * radius * pressure**2 / MODULUS, radius, speed * (1 + ratio / 2), speed * (1 - ratio / 2)
-    )
-    return LineContactInputs(contact, lubricant=Lubricant(viscosity=viscosity), model=model)
-
-
-def grid(model: Model) -> list[LineContactInputs]:
-    """The 200 contacts of the grid."""
-    ranges = ((0.3e9, 0.7e9, 1.2e9, 2e9, 3e9), (0.0, 0.1, 0.5, 1.0, 1.9), (1.0, 10.0), (0.01, 0.08), (5e-3, 20e-3))
-    return [at(*values, model) for values in product(*ranges)]
-
-
-def random_contacts(model: Model, count: int, seed: int) -> list[LineContactInputs]:
-    """Contacts drawn over the whole range, speeds, viscosities and radii by their logarithms."""
-    random = Random(seed)
-
-    def between(low: float, high: float) -> float:
-        return exp(random.uniform(log(low), log(high)))
-
-    return [
-        at(
-            random.uniform(0.3e9, 3e9),
-            random.uniform(0.0, 1.9),
-            between(0.3, 20.0),
-            between(0.008, 0.1),
-            between(3e-3, 30e-3),
-            model,
-        )
-        for _ in range(count)
-    ]
 
 
 def path(model: Model, points: int = 50) -> list[LineContactInputs]:
@@ -162,9 +124,9 @@ def fresh_process() -> None:
 
 def rates(count: int, seed: int) -> None:
     """Over the grid, and over `count` random contacts."""
-    many("grid, Ree-Eyring", grid(EYRING), "18/60/-, 200")
-    many("grid, Newtonian", grid(NEWTONIAN), "34/-/-, -")
-    many("grid, isothermal Newtonian", grid(ISOTHERMAL), "-, 200")
+    many("grid, Ree-Eyring", grid_contacts(EYRING), "18/60/-, 200")
+    many("grid, Newtonian", grid_contacts(NEWTONIAN), "34/-/-, -")
+    many("grid, isothermal Newtonian", grid_contacts(ISOTHERMAL), "-, 200")
     many(f"{count} random contacts (seed {seed}), Ree-Eyring", random_contacts(EYRING, count, seed), f"-, {count}")
     many(f"{count} random contacts (seed {seed}), Newtonian", random_contacts(NEWTONIAN, count, seed), "-")
 

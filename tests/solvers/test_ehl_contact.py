@@ -1,15 +1,11 @@
 """The solved contact: every criterion of convergence, limits, symmetry, order, and what is refused."""
 
 from dataclasses import replace
-from itertools import product
-from math import exp, log, pi
-from random import Random
 
 import numpy as np
 import pytest
 
 from solvers.contact.ehl import (
-    Contact,
     LineContactInputs,
     LineContactResult,
     Model,
@@ -22,19 +18,9 @@ from solvers.contact.ehl.shear import STRESS_LIMIT
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
+from tests.line_contacts import POINT, at_pressure, grid_contacts, random_contacts
 
-POINT = Contact(2.73e5, 4.015e-3, 1.0179, 3.7076)
-MODULUS = 226.37e9
 EYRING_STRESS = Model().eyring_stress
-
-
-def at_pressure(
-    pressure: float, ratio: float, speed: float, viscosity: float, radius: float, model: Model
-) -> LineContactInputs:
-    """A contact by Hertz pressure [Pa], slide-roll ratio, mean speed [m/s], viscosity [Pa s] and radius [m]."""
-    line_load = 2.0 * pi * radius * pressure**2 / MODULUS
-    contact = Contact(line_load, radius, speed * (1 + ratio / 2), speed * (1 - ratio / 2))
-    return LineContactInputs(contact, lubricant=Lubricant(viscosity=viscosity), model=model)
 
 
 def check_solution(result: LineContactResult, thermal: bool) -> None:
@@ -64,32 +50,6 @@ def check_solution(result: LineContactResult, thermal: bool) -> None:
     assert result.heat.balance_error < 1e-4
     assert result.field is not None
     assert np.all(np.isfinite(result.field.temperature))
-
-
-def random_contacts(model: Model, count: int, seed: int) -> list[LineContactInputs]:
-    """Hertz pressure 0.3-3 GPa, slide-roll ratio 0-1.9, and by their logarithms mean speed, viscosity and radius."""
-    random = Random(seed)
-
-    def between(low: float, high: float) -> float:
-        return exp(random.uniform(log(low), log(high)))
-
-    return [
-        at_pressure(
-            random.uniform(0.3e9, 3e9),
-            random.uniform(0.0, 1.9),
-            between(0.3, 20.0),
-            between(0.008, 0.1),
-            between(3e-3, 30e-3),
-            model,
-        )
-        for _ in range(count)
-    ]
-
-
-def grid_contacts(model: Model) -> list[LineContactInputs]:
-    """The 200 contacts on which other schemes are known to fail."""
-    ranges = ((0.3e9, 0.7e9, 1.2e9, 2e9, 3e9), (0.0, 0.1, 0.5, 1.0, 1.9), (1.0, 10.0), (0.01, 0.08), (5e-3, 20e-3))
-    return [at_pressure(*values, model) for values in product(*ranges)]
 
 
 def check_all(contacts: list[LineContactInputs]) -> int:

@@ -1,0 +1,46 @@
+"""Line contacts: point A of gear pair 1 of Xue, Zhang and Wang, the grid, and contacts drawn over the whole range."""
+
+from itertools import product
+from math import exp, log, pi
+from random import Random
+
+from solvers.contact.ehl import Contact, LineContactInputs, Model
+from solvers.lubricants import Lubricant
+
+POINT = Contact(2.73e5, 4.015e-3, 1.0179, 3.7076)
+MODULUS = 226.37e9
+
+
+def at_pressure(
+    pressure: float, ratio: float, speed: float, viscosity: float, radius: float, model: Model
+) -> LineContactInputs:
+    """A contact by Hertz pressure [Pa], slide-roll ratio, mean speed [m/s], viscosity [Pa s] and radius [m]."""
+    line_load = 2.0 * pi * radius * pressure**2 / MODULUS
+    contact = Contact(line_load, radius, speed * (1 + ratio / 2), speed * (1 - ratio / 2))
+    return LineContactInputs(contact, lubricant=Lubricant(viscosity=viscosity), model=model)
+
+
+def random_contacts(model: Model, count: int, seed: int) -> list[LineContactInputs]:
+    """Hertz pressure 0.3-3 GPa, slide-roll ratio 0-1.9, and by their logarithms mean speed, viscosity and radius."""
+    random = Random(seed)
+
+    def between(low: float, high: float) -> float:
+        return exp(random.uniform(log(low), log(high)))
+
+    return [
+        at_pressure(
+            random.uniform(0.3e9, 3e9),
+            random.uniform(0.0, 1.9),
+            between(0.3, 20.0),
+            between(0.008, 0.1),
+            between(3e-3, 30e-3),
+            model,
+        )
+        for _ in range(count)
+    ]
+
+
+def grid_contacts(model: Model) -> list[LineContactInputs]:
+    """The 200 contacts on which other schemes are known to fail."""
+    ranges = ((0.3e9, 0.7e9, 1.2e9, 2e9, 3e9), (0.0, 0.1, 0.5, 1.0, 1.9), (1.0, 10.0), (0.01, 0.08), (5e-3, 20e-3))
+    return [at_pressure(*values, model) for values in product(*ranges)]
