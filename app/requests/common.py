@@ -1,5 +1,6 @@
 """What every request has in common."""
 
+from abc import abstractmethod
 from typing import Annotated, Any, Self
 
 from pydantic import ConfigDict, GetJsonSchemaHandler
@@ -38,13 +39,13 @@ class Request(Section):
         definition["properties"] = {name: definition["properties"][name] for name in sorted(rank, key=rank.__getitem__)}
         return document
 
+    @abstractmethod
     def inputs(self) -> Any:
         """The solver's inputs, SI; called on a resolved request."""
-        raise NotImplementedError
 
+    @abstractmethod
     def options(self) -> dict[str, Any]:
         """The options in force, by their names in the contract."""
-        raise NotImplementedError
 
     def unused_defaults(self) -> frozenset[str]:
         """Dotted names of fields or sections that the chosen options leave out of the result."""

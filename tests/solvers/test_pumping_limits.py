@@ -56,6 +56,7 @@ REFUSED: list[tuple[str, PumpingSetup, str | None]] = [
     ("pointed_tooth", replace(PLAIN, normal_backlash=6e-3), "normal_backlash"),
     ("too_few_teeth", pinion(teeth=4), "pinion.teeth"),
     ("groove_outside", replace(PLAIN, grooves=(Groove(0.1, 0.25),)), "grooves.0.position"),
+    ("groove_outside", replace(PLAIN, grooves=(Groove(0.05, 0.1), Groove(0.15, 0.1))), "grooves"),
     ("groove_outside", replace(PLAIN, grooves=(Groove(0.05, 0.01), Groove(0.196, 0.01))), "grooves.1.position"),
     ("groove_overlap", replace(PLAIN, grooves=(Groove(0.1, 0.02), Groove(0.085, 0.02))), "grooves.0.position"),
     ("too_few_slices", model(slices=3), "slices"),
