@@ -9,7 +9,7 @@ from solvers.scuffing.contact_slices import Mesh
 from solvers.scuffing.feature_line import feature_line
 from solvers.scuffing.flank import face_load_factor, flank
 from solvers.scuffing.friction_loss import friction_loss
-from solvers.scuffing.inputs import LoadDistributionInputs
+from solvers.scuffing.inputs import Load, LoadDistributionInputs
 from solvers.scuffing.line_survey import Peak, largest
 from solvers.scuffing.load_balance import LoadBalance, balance_load
 from solvers.scuffing.mesh_stiffness import stiffness
@@ -42,7 +42,7 @@ def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
     mesh = Mesh(path.plane, pair_compliance(path, pinion, wheel, inputs.model), gap(inputs.modifications, path))
     rolls = roll_positions(path.plane, resolution.roll_positions)
 
-    tangential_force = inputs.load.pinion_torque / path.pair.pinion.base_radius
+    tangential_force = inputs.load.contact_torque / path.pair.pinion.base_radius
     normal_force = tangential_force / path.plane.cos_base_helix
     force = normal_force if inputs.model.load_convention == "exact" else tangential_force
     balance = balance_load(mesh, rolls, force, resolution.slices)
@@ -56,7 +56,7 @@ def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
         contact_lines=_contact_lines(lengths, balance),
         stiffness=stiffness(path, balance, force / lengths.mean, tangential_force),
         transmission_error=transmission_error(balance),
-        load=_load_on_flank(path, balance, loads, inputs.load.pinion_torque, tangential_force),
+        load=_load_on_flank(path, balance, loads, inputs.load, tangential_force),
         pressure=_pressure(path, balance, modulus),
         friction_loss=friction_loss(path, balance, inputs.load, inputs.friction_coefficient),
         feature_line=feature_line(
@@ -100,13 +100,14 @@ def _contact_lines(lengths: ContactLengths, balance: LoadBalance) -> ContactLine
 
 
 def _load_on_flank(
-    path: PathOfContact, balance: LoadBalance, loads: Flank, torque: float, tangential_force: float
+    path: PathOfContact, balance: LoadBalance, loads: Flank, load: Load, tangential_force: float
 ) -> LoadOnFlank:
     """Forces, the largest line load over all roll positions and how much of the flank is loaded."""
     peak = largest(balance.survey.peak_load)
     phase, loaded, length = balance.rolls.phase, balance.survey.loaded_length, balance.survey.length
     return LoadOnFlank(
-        pinion_torque=torque,
+        pinion_torque=load.pinion_torque,
+        contact_factor=load.contact_factor,
         tangential_force=tangential_force,
         normal_force=balance.force,
         max_line_load=0.0 if peak is None else peak.value,

@@ -106,11 +106,12 @@ class TransmissionError:
 class LoadOnFlank:
     """Forces [N], torque [N m], largest line load [N/m] and its place; contact_fraction of the flank's contact length.
 
-    normal_force is the one in balance, tangential_force always F_bt. pair_share [line, roll position] is the force on
+    pinion_torque is the transmitted one; the forces are contact_factor times those it gives. normal_force is the one in balance, tangential_force always F_bt. pair_share [line, roll position] is the force on
     each line over the force in balance.
     """
 
     pinion_torque: float
+    contact_factor: float
     tangential_force: float
     normal_force: float
     max_line_load: float
@@ -131,10 +132,12 @@ class Pressure:
 
 @dataclass(frozen=True, slots=True)
 class FrictionLoss:
-    """Loss factor H_V (None without load) and friction power [W]."""
+    """Mean coefficient of friction, loss factor H_V and efficiency (None without load), friction power [W]."""
 
+    coefficient: float
     loss_factor: float | None
     power: float
+    efficiency: float | None
 
 
 @dataclass(frozen=True, slots=True)
