@@ -33,3 +33,15 @@ def paper_pair(
 def with_torque(inputs: LoadDistributionInputs, torque: float) -> LoadDistributionInputs:
     """The same pair under another pinion torque [N m]."""
     return replace(inputs, load=replace(inputs.load, pinion_torque=torque))
+
+
+# FZG test gears type A (ISO 14635-1): tip diameters 88.8 and 112.5 mm, centre distance 91.5 mm, which its rounded
+# shifts make 91.50008 mm without backlash.
+FZG_A = GearPairInputs(
+    GearTeeth(16, 0.8532, addendum=88.8 / 9 - 8 - 0.8532),
+    GearTeeth(24, -0.5, addendum=112.5 / 9 - 12 + 0.5),
+    4.5e-3,
+    20e-3,
+    rack_tip_radius=0.38,
+)
+FZG_TORQUES = (3.3, 13.7, 35.25, 60.75, 94.1, 135.3, 183.35, 239.25, 302.0, 372.6, 450.1, 534.5)  # N m, stages 1 to 12

@@ -126,7 +126,7 @@ class LoadDistributionInputs:
 
 @dataclass(frozen=True, slots=True)
 class ScuffingTest:
-    """The FZG A/8.3/90 load stage at which the oil fails, structure factor X_W, lubricant factor X_L (None: derived)."""
+    """The FZG A/8.3/90 load stage at which the oil fails; X_W of the steel, X_L of the oil (None: that of friction)."""
 
     fzg_stage: int
     structure_factor: float = 1.0

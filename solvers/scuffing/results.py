@@ -106,8 +106,9 @@ class TransmissionError:
 class LoadOnFlank:
     """Forces [N], torque [N m], largest line load [N/m] and its place; contact_fraction of the flank's contact length.
 
-    pinion_torque is the transmitted one; the forces are contact_factor times those it gives. normal_force is the one in balance, tangential_force always F_bt. pair_share [line, roll position] is the force on
-    each line over the force in balance.
+    pinion_torque is the transmitted one, the forces are contact_factor times what it gives. normal_force is the one
+    in balance, tangential_force always F_bt. pair_share [line, roll position] is the force on each line over the force
+    in balance.
     """
 
     pinion_torque: float
