@@ -96,7 +96,8 @@ class OilSheet:
         shifted = 10.0**exponent
         _, slope = self._walther()
         thinning = log(10.0) * shifted * exponent * slope / ((shifted - WALTHER_SHIFT) * temperature)
-        return thinning + THERMAL_EXPANSION / (1.0 - THERMAL_EXPANSION * (temperature - DENSITY_TEMPERATURE))
+        expansion = THERMAL_EXPANSION / (1.0 - THERMAL_EXPANSION * (temperature - DENSITY_TEMPERATURE))
+        return float(thinning + expansion)
 
     def pressure_coefficient(self, temperature: float) -> float:
         """Alpha = s nu^t [1/Pa], nu in mm^2/s (Gold), unless the sheet gives it."""
@@ -104,7 +105,7 @@ class OilSheet:
             return self.pressure_viscosity
         kind = KINDS[self.kind]
         thickness = self.kinematic_viscosity(temperature) / SQUARE_MILLIMETRE
-        return kind.pressure_viscosity_scale * thickness**kind.pressure_viscosity_exponent * 1e-9
+        return float(kind.pressure_viscosity_scale * thickness**kind.pressure_viscosity_exponent) * 1e-9
 
     def lubricant(self, temperature: float) -> Lubricant:
         """The lubricant with this temperature [K] as its reference."""

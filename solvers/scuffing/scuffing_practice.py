@@ -32,12 +32,12 @@ def lubricant_factor(viscosity: float, kind: OilKind) -> float:
             "the friction law of ISO/TR 13989-1 has no lubricant factor for an ester; give the friction coefficient",
             "lubricant.kind",
         )
-    return OIL_KIND_FACTOR[kind] * (viscosity * 1e3) ** -0.05
+    return float(OIL_KIND_FACTOR[kind] * (viscosity * 1e3) ** -0.05)
 
 
 def roughness_factor(roughness_1: float, roughness_2: float) -> float:
     """X_R = [(Ra_1 + Ra_2)/2]^0.25, Ra in micrometres; roughness [m]."""
-    return ((roughness_1 + roughness_2) / 2 * 1e6) ** 0.25
+    return float(((roughness_1 + roughness_2) / 2 * 1e6) ** 0.25)
 
 
 def mean_friction(inputs: LoadDistributionInputs, path: PathOfContact, factor: float) -> float:
