@@ -4,6 +4,7 @@ import numpy as np
 
 from solvers.arrays import frozen
 from solvers.contact.hertz import reduced_modulus
+from solvers.gears.path_of_contact import PathOfContact, meshing_path
 from solvers.scuffing.contact_lines import ContactLengths, contact_lengths, roll_positions
 from solvers.scuffing.contact_slices import Mesh
 from solvers.scuffing.feature_line import feature_line
@@ -15,7 +16,6 @@ from solvers.scuffing.load_balance import LoadBalance, balance_load
 from solvers.scuffing.mesh_stiffness import stiffness
 from solvers.scuffing.modification import gap
 from solvers.scuffing.notices import geometry_notices, load_notices, model_notices
-from solvers.scuffing.path_of_contact import PathOfContact, meshing_path
 from solvers.scuffing.results import (
     ContactLines,
     Flank,

@@ -7,8 +7,8 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
+from solvers.gears.path_of_contact import PathOfContact
 from solvers.scuffing.inputs import Modifications
-from solvers.scuffing.path_of_contact import PathOfContact
 
 
 class Gap(NamedTuple):

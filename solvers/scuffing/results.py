@@ -6,9 +6,9 @@ x runs along the path from A to E, y along the face from the end that meshes fir
 from dataclasses import dataclass
 
 from solvers.arrays import FloatArray
+from solvers.gears.path_of_contact import PathOfContact
 from solvers.notices import Notice
 from solvers.scuffing.load_balance import LoadBalance
-from solvers.scuffing.path_of_contact import PathOfContact
 
 
 @dataclass(frozen=True, slots=True)
