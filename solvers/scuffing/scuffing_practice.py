@@ -11,7 +11,7 @@ from solvers.arrays import FloatArray
 from solvers.errors import InvalidInput
 from solvers.oils import OilKind
 from solvers.scuffing.inputs import LoadDistributionInputs, OilSupply
-from solvers.scuffing.path_of_contact import PathOfContact
+from solvers.gears.path_of_contact import PathOfContact
 
 ScuffingRisk = Literal["high", "moderate", "low"]
 

@@ -12,12 +12,12 @@ from solvers.contact import hertz
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
+from solvers.gears.path_of_contact import path_of_contact, reduced_radius
 from solvers.materials import Solid
 from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, Resolution, angular_speed
 from solvers.scuffing.load_balance import line_loads
 from solvers.scuffing.mesh_stiffness import standard_stiffness
-from solvers.scuffing.path_of_contact import path_of_contact, reduced_radius
 from solvers.scuffing.tooth_stiffness import linear_contact_compliance
 from tests.gear_pairs import FZG_A, FZG_TORQUES, PAPER_LOAD, paper_pair, with_torque
 
