@@ -9,9 +9,9 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.errors import InvalidInput
+from solvers.gears.path_of_contact import PathOfContact
 from solvers.oils import OilKind
 from solvers.scuffing.inputs import LoadDistributionInputs, OilSupply
-from solvers.gears.path_of_contact import PathOfContact
 
 ScuffingRisk = Literal["high", "moderate", "low"]
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from solvers.errors import InvalidInput
+from solvers.gears.path_of_contact import meshing_path
 from solvers.materials import Solid
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, OilSupply, angular_speed
-from solvers.gears.path_of_contact import meshing_path
 from solvers.scuffing.scuffing_practice import (
     bulk_temperature,
     lubricant_factor,
