@@ -6,7 +6,8 @@ from typing import Annotated, Any
 from app.contract.conversion import to_si
 from app.contract.quantities import Input
 from app.requests.common import Request, Section
-from app.requests.materials import XUE, Oil, Surface
+from app.requests.materials import XUE, Surface
+from app.requests.oil import Oil
 from solvers.contact import ehl
 
 BULK = "360 K, the paper's bulk temperature"

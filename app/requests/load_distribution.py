@@ -45,8 +45,10 @@ class ScuffingLoad(Section):
     @model_validator(mode="after")
     def torque_or_power(self) -> Self:
         """Refuse both and neither."""
-        if (self.pinion_torque_n_m is None) == (self.power_kw is None):
-            raise PydanticCustomError("torque_or_power", "Give either pinion_torque_n_m or power_kw")
+        if self.pinion_torque_n_m is None and self.power_kw is None:
+            raise PydanticCustomError("torque_or_power", "give pinion_torque_n_m or power_kw")
+        if self.pinion_torque_n_m is not None and self.power_kw is not None:
+            raise PydanticCustomError("torque_or_power", "pinion_torque_n_m and power_kw are both given; keep one")
         return self
 
     def load(self) -> si.Load:

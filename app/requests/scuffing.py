@@ -7,7 +7,8 @@ from app.contract.quantities import Input
 from app.requests.common import Section
 from app.requests.line_contact import FilmModel
 from app.requests.load_distribution import LoadDistributionModel, LoadDistributionRequest
-from app.requests.materials import XUE, Oil
+from app.requests.materials import XUE
+from app.requests.oil import Oil
 from solvers.scuffing import inputs as si
 
 
