@@ -20,17 +20,23 @@ BARE = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 def kernel(function: Callable[P, R]) -> Callable[P, R]:
     """Compile a function of scalars and arrays; division by zero follows IEEE instead of raising."""
-    return cast("Callable[P, R]", Kernel(function, targetoptions=OPTIONS))
+    return cast("Callable[P, R]", Kernel(function))
 
 
-class Kernel(CPUDispatcher):  # type: ignore[misc]  # numba ships no types
+class _Cached(CPUDispatcher):
+    """A compiled function whose machine code is kept; `variant` tells it from others of the same source."""
+
+    def __init__(self, function: Callable[..., Any], variant: str, **options: Any) -> None:
+        super().__init__(function, **options)
+        self._cache = KernelCache(function, variant)
+
+
+class Kernel(_Cached):
     """A compiled function that Python can call."""
 
-    def __init__(self, function: Callable[..., Any], *arguments: Any, **options: Any) -> None:
-        super().__init__(function, *arguments, **options)
-        self._cache = KernelCache(function, "")
-        self._bare = CPUDispatcher(function, targetoptions=OPTIONS | BARE)
-        self._bare._cache = KernelCache(function, "-bare")  # noqa: SLF001
+    def __init__(self, function: Callable[..., Any]) -> None:
+        super().__init__(function, "", targetoptions=OPTIONS)
+        self._bare = _Cached(function, "-bare", targetoptions=OPTIONS | BARE)
 
     def get_call_template(self, args: Any, kws: Any) -> Any:
         """How another kernel calls this one: numba asks while it infers types."""

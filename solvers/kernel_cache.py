@@ -17,13 +17,14 @@ import re
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numba
+from llvmlite.binding import get_host_cpu_name
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile
 
 PACKAGE = Path(__file__).parent
@@ -32,7 +33,7 @@ IMPORT = re.compile(rf"^\s*(?:from|import)\s+({PACKAGE.name}[\w.]*)(?:\s+import\
 logger = logging.getLogger(__name__)
 
 
-class KernelCache(FunctionCache):  # type: ignore[misc]  # numba ships no types
+class KernelCache(FunctionCache):
     """The cached machine code of one kernel, in the form that numba's dispatcher uses."""
 
     def __init__(self, function: Callable[..., Any], variant: str) -> None:
@@ -42,7 +43,7 @@ class KernelCache(FunctionCache):  # type: ignore[misc]  # numba ships no types
         self._name = function.__qualname__
         self._py_func = function
         self._impl = _Implementation(function)
-        self.enable()
+        self._enabled = True
 
     @property
     def cache_path(self) -> str:
@@ -53,15 +54,15 @@ class KernelCache(FunctionCache):  # type: ignore[misc]  # numba ships no types
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The compiled kernel, or None where no folder has a sound one."""
         target_context.refresh()
-        key = self._index_key(sig, target_context.codegen())
+        key = FunctionCache._index_key(self, sig, target_context.codegen())
         for file in self._files:
             try:
                 data = file.load(key)
                 if data is not None:
                     return self._impl.rebuild(target_context, data)
             except Exception as error:  # noqa: BLE001  whatever a broken file makes of the reader
-                logger.warning("discarded a broken kernel cache: %s (%s)", file._index_path, error)  # noqa: SLF001
-                _discard(Path(file._index_path))  # noqa: SLF001
+                logger.warning("discarded a broken kernel cache: %s (%s)", file._index_path, error)
+                _discard(Path(file._index_path))
         return None
 
     def save_overload(self, sig: Any, data: Any) -> None:
@@ -71,15 +72,15 @@ class KernelCache(FunctionCache):  # type: ignore[misc]  # numba ships no types
             return
         file = self._files[roots().index(root)]
         try:
-            with _locked(Path(file._cache_path)):  # noqa: SLF001
-                file.save(self._index_key(sig, data.codegen), self._impl.reduce(data))
+            with _locked(Path(file._cache_path)):
+                file.save(FunctionCache._index_key(self, sig, data.codegen), self._impl.reduce(data))
         except OSError as error:
             logger.warning("kernels are kept in memory only: %s", error)
             writable_root.cache_clear()
             _unwritable.add(root)
 
 
-class _Implementation(CompileResultCacheImpl):  # type: ignore[misc]
+class _Implementation(CompileResultCacheImpl):
     """Numba's way to store a compiled function, without its search for a place."""
 
     def __init__(self, function: Callable[..., Any]) -> None:
@@ -99,7 +100,7 @@ _unwritable: set[Path] = set()
 
 @cache
 def roots() -> list[Path]:
-    """Where compiled kernels may lie, best first: as told, beside the sources, the user's cache, a private temporary."""
+    """Where kernels may lie, best first: as told, with the sources, in the user's cache, in a private folder."""
     told = os.environ.get("NUMBA_CACHE_DIR")
     home = Path(os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser())
     private = Path(tempfile.gettempdir()) / f"tribodrive-{os.getuid()}"
@@ -160,6 +161,26 @@ def _modules(text: str) -> Iterator[Path]:
 @cache
 def _text(path: Path) -> str:
     return path.read_text("utf-8")
+
+
+def is_complete(content: str) -> bool:
+    """Whether everything that `content` names was compiled for these sources on this kind of processor."""
+    return any((root / _mark(content)).is_file() for root in roots())
+
+
+def mark_complete(content: str) -> None:
+    """Note that everything that `content` names is compiled and kept."""
+    root = writable_root()
+    if root is not None and not _unwritable:
+        with suppress(OSError):
+            (root / _mark(content)).touch()
+
+
+def _mark(content: str) -> str:
+    digest = hashlib.sha256(f"{content} {get_host_cpu_name()}".encode())
+    for source in sorted(PACKAGE.rglob("*.py")):
+        digest.update(folder_name(source).encode())
+    return f"complete-{digest.hexdigest()[:24]}"
 
 
 @contextmanager
