@@ -62,17 +62,21 @@ class StartUp:
 
     async def _run(self) -> None:
         try:
-            if writable_root() is None:
-                logger.warning("no folder for compiled kernels can be written: they are compiled at every start")
-            if is_complete(_content()) or writable_root() is None:
-                for stage in STAGES:
-                    await self._load(stage)
+            if is_complete(_content()):
+                await self._load_all()
+            elif writable_root() is None:
+                logger.warning("no folder for compiled kernels can be written: they are compiled in memory")
+                await self._load_all()
             else:
                 await self._compile()
                 mark_complete(_content())
             self._progress.finish(f"tribodrive: everything is warm after {time.monotonic() - self._began:.1f} s")
         except Exception:
             logger.exception("the warm-up failed")
+
+    async def _load_all(self) -> None:
+        for stage in STAGES:
+            await self._load(stage)
 
     async def _compile(self) -> None:
         """Each track of stages in a process of its own as far as there are cores; each stage loaded when compiled."""

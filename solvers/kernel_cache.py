@@ -14,8 +14,10 @@ import logging
 import os
 import platform
 import re
+import shutil
 import sys
 import tempfile
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -27,8 +29,10 @@ import numba
 from llvmlite.binding import get_host_cpu_name
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile
 
-PACKAGE = Path(__file__).parent
+PACKAGE = Path(__file__).resolve().parent
 IMPORT = re.compile(rf"^\s*(?:from|import)\s+({PACKAGE.name}[\w.]*)(?:\s+import\s+(\([^)]*\)|[^\n#]*))?", re.MULTILINE)
+
+KEPT_UNUSED_S = 30 * 86400
 
 logger = logging.getLogger(__name__)
 
@@ -37,7 +41,7 @@ class KernelCache(FunctionCache):
     """The cached machine code of one kernel, in the form that numba's dispatcher uses."""
 
     def __init__(self, function: Callable[..., Any], variant: str) -> None:
-        folder = folder_name(Path(function.__code__.co_filename))
+        folder = folder_name(Path(function.__code__.co_filename).resolve())
         base = f"{function.__qualname__}-{function.__code__.co_firstlineno}{variant}"
         self._files = [IndexDataCacheFile(str(root / folder), base, folder) for root in roots()]
         self._name = function.__qualname__
@@ -100,32 +104,37 @@ _unwritable: set[Path] = set()
 
 @cache
 def roots() -> list[Path]:
-    """Where kernels may lie, best first: as told, with the sources, in the user's cache, in a private folder."""
-    told = os.environ.get("NUMBA_CACHE_DIR")
-    home = Path(os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser())
+    """Where kernels may lie, best first: where NUMBA_CACHE_DIR says, or else beside the sources or with the user."""
+    if told := os.environ.get("NUMBA_CACHE_DIR"):
+        return [Path(told)]
+    home = Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))  # noqa: PTH111  raises nothing
     private = Path(tempfile.gettempdir()) / f"tribodrive-{os.getuid()}"
-    places = [Path(told)] if told else []
-    return [*places, PACKAGE / "__pycache__" / "kernels", home / "tribodrive" / "kernels", private]
+    places = [PACKAGE / "__pycache__" / "kernels"]
+    if home.is_absolute():
+        places.append(home / "tribodrive" / "kernels")
+    return [*places, private] if _is_ours(private) else places  # anybody can create a folder of that name
 
 
 @cache
 def writable_root() -> Path | None:
-    """The first of the roots that takes files and is nobody else's."""
-    for root in roots():
-        try:
-            root.mkdir(mode=0o700, parents=True, exist_ok=True)
-        except OSError:
-            continue
-        if root not in _unwritable and root.stat().st_uid == os.getuid() and os.access(root, os.W_OK | os.X_OK):
-            return root
-    return None
+    """The first of the roots that can be written."""
+    return next((root for root in roots() if root not in _unwritable and _is_ours(root)), None)
+
+
+def _is_ours(folder: Path) -> bool:
+    """Whether the folder is there, made if need be, belongs to this user and takes files."""
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        return folder.lstat().st_uid == os.getuid() and os.access(folder, os.W_OK | os.X_OK)
+    except OSError:
+        return False
 
 
 @cache
 def folder_name(path: Path) -> str:
     """The module's name and a hash of everything its machine code depends on."""
     digest = hashlib.sha256(f"{sys.version} {platform.machine()} {numba.__version__}".encode())
-    for source in sorted(sources(path)):
+    for source in sorted(sources(path) - {Path(__file__).resolve()}):  # the place of the code does not change it
         digest.update(source.name.encode())
         digest.update(_text(source).encode())
     return f"{path.stem}-{digest.hexdigest()[:24]}"
@@ -174,6 +183,15 @@ def mark_complete(content: str) -> None:
     if root is not None and not _unwritable:
         with suppress(OSError):
             (root / _mark(content)).touch()
+            _prune(root)
+
+
+def _prune(root: Path) -> None:
+    """Remove what no source of today needs and nobody has touched for a month."""
+    needed = {folder_name(source) for source in PACKAGE.rglob("*.py")}
+    for folder in root.iterdir():
+        if folder.name not in needed and time.time() - folder.stat().st_mtime > KEPT_UNUSED_S:
+            shutil.rmtree(folder) if folder.is_dir() else folder.unlink()
 
 
 def _mark(content: str) -> str:
