@@ -90,7 +90,7 @@ class MixedFrictionTable:
 class Friction:
     """Coefficients of friction: None means the law of the friction regime.
 
-    `static_coefficient` None means the coefficient in use.
+    `static_coefficient` None means the user's coefficient, without one that of the regime at rest without film.
     """
 
     coefficient: float | None = None

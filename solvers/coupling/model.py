@@ -48,7 +48,7 @@ def solve(inputs: CouplingInputs) -> CouplingResult:
         losses=losses(inputs, geometry, loaded, friction),
         limits=bounds,
         warnings=(
-            *motion_notices(inputs, motion, thrust, bounds),
+            *motion_notices(inputs, geometry, motion, thrust, bounds),
             *load_notices(inputs, load, thrust, bounds),
             *contact_notices(inputs, motion, lubrication),
         ),

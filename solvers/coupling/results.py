@@ -132,7 +132,7 @@ class AxialThrust:
     `force`: of one mesh in the sense of the axial velocity (`single`), or on one shaft, positive = shafts pulled
     together. The bounds differ from `force` only where friction is `indeterminate` (nothing slides).
     `fraction_of_limit` is force over `coaxial_limit`; None without load. `breakaway_force` starts coaxial shafts
-    sliding. `uniform_load_force` is the closed form of one mesh with equal tooth loads.
+    sliding from rest, where no film carries. `uniform_load_force` is the closed form of one mesh with equal tooth loads.
     """
 
     force: float
@@ -148,7 +148,11 @@ class AxialThrust:
 
 @dataclass(frozen=True, slots=True)
 class Losses:
-    """Friction power [W] and moments [N m] of one mesh, means over one tooth pitch (revolution with pitch errors)."""
+    """Friction power [W] and moments [N m] of one mesh, means over one tooth pitch (revolution with pitch errors).
+
+    Axial velocity included: power is friction moment times tilting speed plus thrust times axial velocity. Where
+    nothing slides the friction moment is open and reported as zero.
+    """
 
     friction_power: float
     friction_moment: float

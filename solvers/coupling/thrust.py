@@ -4,17 +4,13 @@ from math import asin, copysign, cos, pi, tan
 
 import numpy as np
 
-from solvers.coupling.averaging import LoadedMesh
-from solvers.coupling.geometry import pitch_radius
+from solvers.coupling.averaging import LoadedMesh, without_rounding
+from solvers.coupling.friction import static_friction
 from solvers.coupling.inputs import Coupling, CouplingInputs
 from solvers.coupling.kinematics import relative_velocity
+from solvers.coupling.limits import coaxial_limit
 from solvers.coupling.results import AxialThrust, Geometry, SelfInducedThrust
 from solvers.coupling.sleeve_equilibrium import sleeve_equilibrium
-
-
-def coaxial_limit(coupling: Coupling, torque: float, friction: float) -> float:
-    """F_max = mu T/(r_o cos alpha) [N]: every tooth slides the same way."""
-    return friction * torque / (pitch_radius(coupling) * cos(coupling.pressure_angle))
 
 
 def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> tuple[float, float]:
@@ -25,9 +21,10 @@ def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> t
     """
     velocity = relative_velocity(loaded.motion, loaded.teeth, axial_velocity)
     scale = friction / cos(loaded.motion.pressure_angle)
+    largest = loaded.mean_sum(loaded.tangential_force)
     force = loaded.mean_sum(loaded.tangential_force * np.sign(velocity))
     slack = loaded.mean_sum(loaded.tangential_force * (velocity == 0.0))
-    return scale * force, scale * slack
+    return scale * without_rounding(force, largest), scale * slack
 
 
 def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocity: float) -> float:
@@ -70,11 +67,10 @@ def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh,
         force = induced.force
         if operation.axial_velocity != 0.0:
             force = sleeve_equilibrium(inputs, geometry, friction, operation.axial_velocity).thrust
-    static = inputs.friction.static_coefficient
     return AxialThrust(
         force=force,
         coaxial_limit=limit,
-        breakaway_force=coaxial_limit(coupling, operation.torque, friction if static is None else static),
+        breakaway_force=coaxial_limit(coupling, operation.torque, static_friction(inputs.friction)),
         fraction_of_limit=force / limit if limit > 0.0 else None,
         uniform_load_force=uniform_load_thrust(limit, operation.axial_velocity, abs(loaded.motion.sliding)),
         lower_bound=force - slack,
