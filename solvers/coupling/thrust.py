@@ -17,14 +17,15 @@ def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> t
     """F_ax = sum mu F_n sgn(v_r), the paper's general expression, and its slack [N], both averaged over rotor angles.
 
     A tooth without relative velocity may carry any friction between -mu F_n and mu F_n: it counts as zero, and as
-    mu F_n towards the slack.
+    mu F_n towards the slack. Without axial velocity the force is zero: half a turn later every tooth meets the same
+    load under the opposite sliding.
     """
     velocity = relative_velocity(loaded.motion, loaded.teeth, axial_velocity)
     scale = friction / cos(loaded.motion.pressure_angle)
     largest = loaded.mean_sum(loaded.tangential_force)
     force = loaded.mean_sum(loaded.tangential_force * np.sign(velocity))
     slack = loaded.mean_sum(loaded.tangential_force * (velocity == 0.0))
-    return scale * without_rounding(force, largest), scale * slack
+    return scale * without_rounding(force, largest) * (axial_velocity != 0.0), scale * slack
 
 
 def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocity: float) -> float:
