@@ -11,6 +11,11 @@ from solvers.coupling.losses import equal_loads_friction_moment
 from solvers.coupling.results import AxialThrust, Geometry, Kinematics, Limits, LoadDistribution, Lubrication
 from solvers.notices import Notice
 
+ORBIT_RESOLUTION = 0.01
+"""Uncertainty of an orbit over its largest value that is worth a notice."""
+LEAST_ORBIT = 1e-10
+"""Largest displacement [m] below which an orbit is none: perfect teeth leave rounding."""
+
 
 def motion_notices(
     inputs: CouplingInputs, geometry: Geometry, kinematics: Kinematics, thrust: AxialThrust, limits: Limits
@@ -81,3 +86,23 @@ def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication:
     if lubrication.regime.area == UNSTABLE_AREA:
         message = "the friction is unstable here: the paper states no coefficient for area 3.3"
         yield Notice("unstable_regime", message, "misalignment")
+
+
+def orbit_notices(
+    fewest_teeth: int, displacement: tuple[float, float | None], harmonics: tuple[float, float | None]
+) -> Iterator[Notice]:
+    """Notices about the place and the resolution of an orbit; each value with its uncertainty."""
+    if fewest_teeth < 3:
+        message = "at some rotor angle fewer than three teeth carry: the place of the sleeve is not unique there"
+        yield Notice("sleeve_position", message, "torque")
+    if displacement[0] < LEAST_ORBIT:
+        return
+    for name, (value, uncertainty) in (("largest displacement", displacement), ("force's harmonics", harmonics)):
+        if uncertainty is None:
+            message = "with twice the orders the orbit does not settle: how certain it is cannot be told"
+            yield Notice("orbit_resolution", message, "speed")
+            return
+        if uncertainty > ORBIT_RESOLUTION * value:
+            share = 100.0 * uncertainty / value
+            message = f"teeth that load and unload leave the {name} uncertain by {share:.2g} % of the largest"
+            yield Notice("orbit_resolution", message, "misalignment")

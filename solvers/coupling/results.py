@@ -214,12 +214,16 @@ class InertiaForce:
 class OrbitResult:
     """One revolution of a floating sleeve under its own inertia.
 
-    `sweeps` over the revolution until it repeated to `change` [m].
+    `sweeps` over the revolution until it repeated to `change` [m]. The uncertainties are how far the largest
+    displacement [m] and any harmonic of the force [N] move with twice the rotor angles and orders; None where that
+    path does not settle.
     """
 
     orbit: Orbit
     inertia_force: InertiaForce
     max_displacement: float
+    displacement_uncertainty: float | None
+    harmonics_uncertainty: float | None
     sweeps: int
     change: float
     warnings: tuple[Notice, ...]
