@@ -141,7 +141,7 @@ def check_resolution(random: Generator) -> None:
     with finer():
         after = numbers(solve(inputs))
     for name, (value, scale) in before.items():
-        assert abs(after[name][0] - value) <= 0.01 * abs(value) + 1e-5 * scale, (name, value, after[name][0], inputs)
+        assert abs(after[name][0] - value) <= 0.01 * abs(value) + 1e-4 * scale, (name, value, after[name][0], inputs)
 
 
 def check_orbit_resolution(random: Generator) -> None:
@@ -151,8 +151,9 @@ def check_orbit_resolution(random: Generator) -> None:
         before = solve_orbit(inputs)
         with patch.object(kinematics, "_LEAST_ROTOR_POSITIONS", 2 * kinematics._LEAST_ROTOR_POSITIONS):
             after = solve_orbit(inputs)
-    except SolverError as error:
-        assert error.code in {"sleeve_orbit", "torque_too_low"}, inputs
+    except SolverError as refusal:
+        if refusal.code not in {"sleeve_orbit", "torque_too_low"}:
+            raise
         return
     if any(notice.code == "orbit_resolution" for notice in before.warnings):
         return

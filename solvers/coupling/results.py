@@ -132,7 +132,8 @@ class AxialThrust:
     `force`: of one mesh in the sense of the axial velocity (`single`), or on one shaft, positive = shafts pulled
     together. The bounds differ from `force` only where friction is `indeterminate` (nothing slides).
     `fraction_of_limit` is force over `coaxial_limit`; None without load. `breakaway_force` starts coaxial shafts
-    sliding from rest, where no film carries. `uniform_load_force` is the closed form of one mesh with equal tooth loads.
+    sliding from rest, where no film carries. `uniform_load_force` is the closed form of one mesh with equal tooth
+    loads.
     """
 
     force: float

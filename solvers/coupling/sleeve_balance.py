@@ -94,9 +94,9 @@ def balance_sleeve(
 ) -> float:
     """Solve Phi(g) = g at one rotor angle from and into `force` g (2) and `state` (2, 3); returns |Phi(g) - g|.
 
-    interference and ahead (2, teeth), normal and arm (2, 2, teeth); `lever` is (mu/cos alpha)(r_o/l_H). Newton's method with
-    steps shortened until the residual falls; some damped substitutions where that fails, for Phi is piecewise linear
-    (teeth come under load) and Newton may cycle between its pieces.
+    interference and ahead (2, teeth), normal and arm (2, 2, teeth); `lever` is (mu/cos alpha)(r_o/l_H). Newton's
+    method with steps shortened until the residual falls; some damped substitutions where that fails, for Phi is
+    piecewise linear (teeth come under load) and Newton may cycle between its pieces.
     """
     gap, step, accepted, slope = np.empty(2), np.zeros(2), np.zeros(2), np.empty((2, 2))
     accepted_residual, length, substitutions = np.inf, 1.0, 0
@@ -138,7 +138,8 @@ def balance_rows(
 ) -> float:
     """Balance the sleeve at every rotor angle, each started from the one before, then from rest if that fails.
 
-    Leaves the tooth forces in `share` (rows, 2, teeth). Returns the largest residual, that of the first angle without balance if there is one: no later angle is tried.
+    Leaves the tooth forces in `share` (rows, 2, teeth). Returns the largest residual, that of the first angle without
+    balance if there is one: no later angle is tried.
     """
     force, state = np.zeros(2), np.zeros((2, 3))
     largest = 0.0

@@ -123,7 +123,8 @@ def next_step(hessian: FloatArray, missing: FloatArray, step: FloatArray) -> flo
         loaded = max(hessian[0, 0], 1.0)
         step[1], step[2] = free[0] / unheld, free[1] / unheld
         step[0] = -(hessian[0, 1] * step[1] + hessian[0, 2] * step[2]) / loaded
-    return missing[0] * step[0] + missing[1] * step[1] + missing[2] * step[2]
+    fall: float = missing[0] * step[0] + missing[1] * step[1] + missing[2] * step[2]
+    return fall
 
 
 @kernel
