@@ -97,12 +97,15 @@ def orbit_notices(
         yield Notice("sleeve_position", message, "torque")
     if displacement[0] < LEAST_ORBIT:
         return
-    for name, (value, uncertainty) in (("largest displacement", displacement), ("force's harmonics", harmonics)):
-        if uncertainty is None:
-            message = "with twice the orders the orbit does not settle: how certain it is cannot be told"
-            yield Notice("orbit_resolution", message, "speed")
-            return
-        if uncertainty > ORBIT_RESOLUTION * value:
-            share = 100.0 * uncertainty / value
-            message = f"teeth that load and unload leave the {name} uncertain by {share:.2g} % of the largest"
-            yield Notice("orbit_resolution", message, "misalignment")
+    if displacement[1] is None or harmonics[1] is None:
+        message = "with twice the orders the orbit does not settle: how certain it is cannot be told"
+        yield Notice("orbit_resolution", message, "speed")
+        return
+    uncertain = (
+        (displacement[1] / displacement[0], "largest displacement"),
+        (harmonics[1] / harmonics[0] if harmonics[0] > 0.0 else 0.0, "largest harmonic of the force"),
+    )
+    share, name = max(uncertain)
+    if share > ORBIT_RESOLUTION:
+        message = f"teeth that load and unload leave the {name} uncertain by {100.0 * share:.2g} %"
+        yield Notice("orbit_resolution", message, "misalignment")

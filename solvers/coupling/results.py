@@ -133,12 +133,15 @@ class AxialThrust:
     together. The bounds differ from `force` only where friction is `indeterminate` (nothing slides).
     `fraction_of_limit` is force over `coaxial_limit`; None without load. `breakaway_force` starts coaxial shafts
     sliding from rest, where no film carries. `uniform_load_force` is the closed form of one mesh with equal tooth
-    loads.
+    loads. A thrust bearing must hold `design_force`, the larger of |force| and breakaway; `customary_force` is beside
+    it what practice reckons with, None without a shaft diameter.
     """
 
     force: float
     coaxial_limit: float
     breakaway_force: float
+    design_force: float
+    customary_force: float | None
     fraction_of_limit: float | None
     uniform_load_force: float
     lower_bound: float

@@ -6,7 +6,7 @@ import numpy as np
 
 from solvers.coupling.averaging import LoadedMesh, without_rounding
 from solvers.coupling.friction import static_friction
-from solvers.coupling.inputs import Coupling, CouplingInputs
+from solvers.coupling.inputs import Coupling, CouplingInputs, Operation
 from solvers.coupling.kinematics import relative_velocity
 from solvers.coupling.limits import coaxial_limit
 from solvers.coupling.results import AxialThrust, Geometry, SelfInducedThrust
@@ -40,6 +40,11 @@ def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocit
     return limit * 2.0 / pi * asin(axial_velocity / max_sliding_velocity)
 
 
+def customary_thrust(operation: Operation) -> float | None:
+    """0.25 T/D [N] with the shaft diameter D, None without one (API 617 and 671 practice, quoted from memory)."""
+    return None if operation.shaft_diameter is None else 0.25 * operation.torque / operation.shaft_diameter
+
+
 def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: float, factor: float) -> float:
     """Thrust of the parallel offset with one tooth pair a mesh, 2 kappa mu^2 T/(l_H cos alpha) [N] (Fig. 13).
 
@@ -68,10 +73,13 @@ def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh,
         force = induced.force
         if operation.axial_velocity != 0.0:
             force = sleeve_equilibrium(inputs, geometry, friction, operation.axial_velocity).thrust
+    breakaway = coaxial_limit(coupling, operation.torque, static_friction(inputs.friction))
     return AxialThrust(
         force=force,
         coaxial_limit=limit,
-        breakaway_force=coaxial_limit(coupling, operation.torque, static_friction(inputs.friction)),
+        breakaway_force=breakaway,
+        design_force=max(abs(force), breakaway),
+        customary_force=customary_thrust(operation),
         fraction_of_limit=force / limit if limit > 0.0 else None,
         uniform_load_force=uniform_load_thrust(limit, operation.axial_velocity, abs(loaded.motion.sliding)),
         lower_bound=force - slack,

@@ -199,6 +199,7 @@ INVALID = [
     ("operation", "misalignment", radians(6.1)),
     ("operation", "misalignment", nan),
     ("operation", "axial_velocity", nan),
+    ("operation", "shaft_diameter", 0.0),
     ("lubricant", "viscosity", 0.0),
     ("lubricant", "reference_film", 0.0),
     ("friction", "coefficient", -0.1),

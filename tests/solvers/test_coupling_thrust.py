@@ -11,7 +11,7 @@ from scipy.optimize import root
 
 from solvers.coupling import solve
 from solvers.coupling.averaging import rotor_samples
-from solvers.coupling.geometry import tooth_geometry
+from solvers.coupling.geometry import offset_misalignment, tooth_geometry
 from solvers.coupling.inputs import Arrangement, CouplingInputs, KinematicModel, ModelOptions
 from solvers.coupling.kinematics import (
     flank_normals,
@@ -230,6 +230,35 @@ def test_thrust_never_exceeds_its_coaxial_limit(
     result = solve(inputs).axial_thrust
     assert abs(result.force) <= result.coaxial_limit * (1 + 1e-9)
     assert result.lower_bound == result.force == result.upper_bound
+
+
+@pytest.mark.parametrize(
+    ("arrangement", "velocity", "static", "expected"),
+    [
+        ("single", 0.0, None, 8186.0),  # at rest friction may hold the whole limit though it turns without thrust
+        ("single", 0.1, 0.1, 8186.0),  # all teeth slide axially: running thrust beyond breakaway
+        ("parallel_offset", -0.1, 0.1, 8186.0),
+        ("single", 0.1, 0.3, 12279.0),
+    ],
+)
+def test_the_bearing_is_designed_for_the_larger_of_thrust_and_breakaway(
+    arrangement: Arrangement, velocity: float, static: float | None, expected: float
+) -> None:
+    inputs = pahl_coupling(0.1, axial_velocity=velocity, arrangement=arrangement)
+    result = solve(replace(inputs, friction=replace(inputs.friction, static_coefficient=static))).axial_thrust
+    assert result.design_force == pytest.approx(expected, abs=0.1)
+
+
+def test_customary_thrust_needs_a_shaft() -> None:
+    inputs = pahl_coupling(0.1)
+    assert solve(inputs).axial_thrust.customary_force is None
+    shaft = replace(inputs, operation=replace(inputs.operation, shaft_diameter=0.1))
+    assert solve(shaft).axial_thrust.customary_force == 7500.0  # 0.25 x 3000 N m/0.1 m
+
+
+def test_parallel_offset_tilts_both_hubs() -> None:
+    assert offset_misalignment(0.35e-3, 0.2) == pytest.approx(radians(0.10027), rel=1e-4)
+    assert offset_misalignment(-0.35e-3, 0.2) == -offset_misalignment(0.35e-3, 0.2)
 
 
 def test_overturned_sleeve_is_no_solution() -> None:
