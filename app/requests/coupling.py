@@ -184,7 +184,15 @@ class CouplingFriction(Section):
         ),
     ] = None
     static_coefficient: Annotated[
-        float | None, Input("coefficient at rest; null: the coefficient in use", "μ_s", PAHL, ge=0, le=2)
+        float | None,
+        Input(
+            "coefficient at rest; null: `coefficient`, without one that of the friction regime at rest without film",
+            "μ_s",
+            PAHL,
+            ge=0,
+            le=2,
+            assumed="0.16, the law of the friction regime at rest without film",
+        ),
     ] = None
     mixed_law: Annotated[
         MixedFrictionTable | None,
@@ -260,6 +268,8 @@ class _CouplingRequest(Request):
             unused.add("model.inlet")
         if self.friction.coefficient is not None or self.friction.mixed_law is not None:
             unused.add("friction.mixed_curve")
+        if self.friction.coefficient is not None:
+            unused.add("friction.static_coefficient")
         if self.operation.arrangement == "single":
             unused.add("coupling.hub_distance_mm")
         if self.operation.arrangement != "parallel_offset":
@@ -316,8 +326,8 @@ class RecommendationRequest(_CouplingRequest):
     operation: Annotated[CouplingOperationRange, Input("operating point and range of misalignment")]
 
     def unused_defaults(self) -> frozenset[str]:
-        """Also the one-pair model of self-induced thrust, which only a result at one operating point shows."""
-        return super().unused_defaults() | {"model.simple_thrust_factor"}
+        """Also what only a result at one operating point shows: the one-pair model of thrust, breakaway."""
+        return super().unused_defaults() | {"model.simple_thrust_factor", "friction.static_coefficient"}
 
     def inputs(self) -> si.RecommendationInputs:
         """The solver's inputs."""

@@ -194,6 +194,12 @@ class SleeveOrbitResponse(Response):
     orbit: Annotated[SleeveOrbit | None, Output("path of the sleeve centre", detail="curves")] = None
     inertia_force: Annotated[SleeveInertia | None, Output("inertia force")] = None
     max_displacement_um: Annotated[float | None, Output("largest displacement")] = None
+    displacement_uncertainty_um: Annotated[
+        float | None, Output("change of the largest displacement with twice the orders and rotor angles")
+    ] = None
+    harmonics_uncertainty_n: Annotated[
+        float | None, Output("largest change of a harmonic with twice the orders and rotor angles")
+    ] = None
     sweeps: Annotated[int | None, Output("sweeps over the revolution until it repeated")] = None
     change_um: Annotated[float | None, Output("how far the last sweep still moved the path")] = None
 
