@@ -7,6 +7,7 @@ from solvers.compiled import kernel
 from solvers.pumping.duct import Duct, Record, active_range, wall_values
 from solvers.pumping.gas_step import Cells, set_walls, step
 from solvers.pumping.nozzle import Gas
+from solvers.pumping.riemann import front_face
 
 COURANT = 0.7
 _RETRIES = 12
@@ -69,13 +70,17 @@ def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> fl
 
 @kernel
 def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int, new_high: int, angle: float) -> None:
-    """Ambient gas at rest in the cells whose stroke begins."""
+    """The gas of the border in the cells whose stroke begins, ambient gas at rest in the first ones."""
+    rho, u, p = gas.density, 0.0, gas.pressure
+    if low < high < new_high:
+        last = cells.state[high - 1]
+        rho, u, p = front_face(gas, duct.speed / duct.lag, last[0], last[1], last[2])
     for i in range(new_low, new_high):
         if i < low or i >= high:
             area = wall_values(duct, duct.start + (i + 0.5) * duct.width, angle)[0]
-            cells.content[i, 0], cells.content[i, 1] = gas.density * area, 0.0
-            cells.content[i, 2] = gas.pressure * area / (gas.exponent - 1.0)
-            cells.state[i, 0], cells.state[i, 1], cells.state[i, 2] = gas.density, 0.0, gas.pressure
+            cells.content[i, 0], cells.content[i, 1] = rho * area, rho * u * area
+            cells.content[i, 2] = (p / (gas.exponent - 1.0) + 0.5 * rho * u * u) * area
+            cells.state[i, 0], cells.state[i, 1], cells.state[i, 2] = rho, u, p
 
 
 @kernel

@@ -17,7 +17,7 @@ from solvers.compiled import kernel
 from solvers.pumping.duct import Duct, wall_values
 from solvers.pumping.leakage import Stage, Walls, implicit_stage
 from solvers.pumping.nozzle import Gas
-from solvers.pumping.riemann import hllc, reservoir_face
+from solvers.pumping.riemann import front_face, hllc, reservoir_face
 
 _DIAGONAL = 1.0 - np.sqrt(0.5)  # of the two-stage method
 
@@ -72,7 +72,7 @@ def step(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float, ord
     _set_slopes(cells, low, high, order)
     if not _predict(gas, duct, cells, low, high, dt):
         return False
-    _set_fluxes(gas, cells, low, high)
+    _set_fluxes(gas, duct, cells, low, high)
     return _correct(gas, duct, cells, low, high, dt)
 
 
@@ -149,7 +149,7 @@ def _edge(w: FloatArray, s: FloatArray, i: int, side: float) -> tuple[float, flo
 
 
 @kernel
-def _set_fluxes(gas: Gas, cells: Cells, low: int, high: int) -> None:
+def _set_fluxes(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> None:
     """Fluxes through all faces, times their areas."""
     half, slope, flux, area = cells.half, cells.slope, cells.flux, cells.face_area
     for i in range(low + 1, high):
@@ -158,7 +158,10 @@ def _set_fluxes(gas: Gas, cells: Cells, low: int, high: int) -> None:
         mass, momentum, energy = hllc(gas.exponent, rho_l, u_l, p_l, rho_r, u_r, p_r)
         flux[i, 0], flux[i, 1], flux[i, 2] = area[i] * mass, area[i] * momentum, area[i] * energy
     _set_end(gas, cells, low, low, 0)
-    _set_end(gas, cells, high - 1, high, 1)
+    if high < duct.cells:
+        _set_front(gas, duct, cells, high)
+    else:
+        _set_end(gas, cells, high - 1, high, 1)
 
 
 @kernel
@@ -171,6 +174,17 @@ def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
     cells.flux[face, 1] = area * (rho_f * v * v + p_f)
     cells.flux[face, 2] = outward * area * v * (g / (g - 1.0) * p_f + 0.5 * rho_f * v * v)
     cells.ends[end, 0], cells.ends[end, 1], cells.ends[end, 2] = mach, v / np.sqrt(g * p_f / rho_f), v
+
+
+@kernel
+def _set_front(gas: Gas, duct: Duct, cells: Cells, high: int) -> None:
+    """Flux through the border to slices whose stroke is to begin, at the state with which they will begin."""
+    rho, u, p = _edge(cells.half, cells.slope, high - 1, 0.5)
+    rho_f, v, p_f = front_face(gas, duct.speed / duct.lag, rho, u, p)
+    area, g = cells.face_area[high], gas.exponent
+    cells.flux[high, 0] = area * rho_f * v
+    cells.flux[high, 1] = area * (rho_f * v * v + p_f)
+    cells.flux[high, 2] = area * v * (g / (g - 1.0) * p_f + 0.5 * rho_f * v * v)
 
 
 @kernel
