@@ -14,7 +14,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.pumping.duct import Duct, wall_values
+from solvers.pumping.duct import Duct, stroke_share, wall_values
 from solvers.pumping.leakage import Stage, Walls, implicit_stage
 from solvers.pumping.nozzle import Gas
 from solvers.pumping.riemann import front_face, hllc, reservoir_face
@@ -29,7 +29,8 @@ class Cells(NamedTuple):
     step and `next_walls` at its end (area, clearance, transport); `slope` and `half` of the state; `loss` over the
     step (leaked mass, energy lost to the walls, gauge work done by them; per metre); `face_area` and `flux` at the
     half step; `ends` (2, 3) of the low and the high end: Mach number asked for, Mach number, velocity outwards [m/s];
-    `leak` (cells,) the latest leakage, a first guess for the next [kg/(s m)].
+    `leak` (cells,) the latest leakage, a first guess for the next [kg/(s m)]; `share` (cells,) of the step in which a
+    cell's centre is in its stroke: outside it the walls stand still and nothing leaks.
     """
 
     content: FloatArray
@@ -45,12 +46,13 @@ class Cells(NamedTuple):
     flux: FloatArray
     ends: FloatArray
     leak: FloatArray
+    share: FloatArray
 
 
 def empty_cells(cells: int) -> Cells:
     """Arrays for a duct of so many cells."""
     wide, faces = (cells, 3), cells + 1
-    shapes = [wide, wide, wide, wide, wide, wide, wide, wide, wide, (faces,), (faces, 3), (2, 3), (cells,)]
+    shapes = [wide, wide, wide, wide, wide, wide, wide, wide, wide, (faces,), (faces, 3), (2, 3), (cells,), (cells,)]
     return Cells(*[np.zeros(shape) for shape in shapes])
 
 
@@ -60,8 +62,11 @@ def set_walls(duct: Duct, cells: Cells, low: int, high: int, angle: float, turn:
     for i in range(low, high):
         z = duct.start + (i + 0.5) * duct.width
         now, after = wall_values(duct, z, angle), wall_values(duct, z, angle + turn)
-        for k in range(3):
-            cells.walls[i, k], cells.next_walls[i, k] = now[k], after[k]
+        share = stroke_share(duct, z, angle, turn)
+        cells.share[i] = share
+        cells.walls[i, 0], cells.next_walls[i, 0] = now[0], after[0]
+        for k in range(1, 3):
+            cells.walls[i, k], cells.next_walls[i, k] = share * now[k], share * after[k]
     for i in range(low, high + 1):
         cells.face_area[i] = wall_values(duct, duct.start + i * duct.width, angle + 0.5 * turn)[0]
 

@@ -112,6 +112,6 @@ def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> tuple[float,
     root = np.sqrt(jet * (slope**2 + jet - invariant**2))
     ratio = max((slope * invariant + root) / (slope**2 + jet), np.sqrt(2.0 / (g + 1.0)))
     c = stagnation * ratio
-    v = -np.sqrt(jet * (1.0 - ratio**2))
+    v = -np.sqrt(max(jet * (1.0 - ratio**2), 0.0))  # at rest the root may round beyond one
     rho = gas.density * ratio ** (2.0 / (g - 1.0))
     return rho, v, rho * c * c / g
