@@ -120,15 +120,6 @@ def _parabola(fraction: FloatArray, end_ratio: float) -> FloatArray:
 
 
 @kernel
-def tabulated(table: FloatArray, points_per_metre: float, x: float) -> float:
-    """Linear interpolation in an equidistant table that begins at x = 0."""
-    position = x * points_per_metre
-    index = min(max(int(position), 0), table.size - 2)
-    low, high = float(table[index]), float(table[index + 1])
-    return low + (position - index) * (high - low)
-
-
-@kernel
 def line_load(
     approach: float, constant: float, logarithmic: float, limit: float, omega: float
 ) -> tuple[float, float, float]:
