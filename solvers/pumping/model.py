@@ -25,7 +25,7 @@ from solvers.pumping.results import (
 )
 from solvers.pumping.spaces import Mesh, Space, face_stretches, flow_at, prepare
 from solvers.pumping.stroke import StrokeTable
-from solvers.pumping.tooth_space import normal_backlash, transverse_contact_ratio
+from solvers.pumping.tooth_space import normal_backlash
 
 
 def solve(inputs: PumpingInputs) -> PumpingResult:
@@ -74,7 +74,7 @@ def _geometry(mesh: Mesh) -> MeshGeometry:
         centre_distance=pair.centre_distance,
         backlash_free_centre_distance=pair.backlash_free_centre_distance,
         working_pressure_angle=pair.working_pressure_angle,
-        transverse_contact_ratio=transverse_contact_ratio(pair),
+        transverse_contact_ratio=mesh.path.transverse_contact_ratio,
         normal_backlash=normal_backlash(pair, mesh.setup.normal_backlash),
         undercut=pair.pinion.undercut or pair.wheel.undercut,
     )

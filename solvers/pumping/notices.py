@@ -2,7 +2,9 @@
 
 from math import pi
 
+from solvers.gears.notices import pair_notices
 from solvers.gears.pair import GearPair
+from solvers.gears.path_of_contact import PathOfContact
 from solvers.notices import Notice
 from solvers.pumping.inputs import Flow, PumpingSetup
 from solvers.pumping.nozzle import Gas
@@ -15,9 +17,16 @@ INCOMPRESSIBLE_MACH = 0.3
 LEAST_GAUGE_PRESSURE = 1e-6  # of the ambient pressure
 
 
-def setup_notices(setup: PumpingSetup, active_slices: float) -> list[Notice]:
-    """Few teeth, a helix without slices, gas dynamics with few `active_slices` in the stroke at one time."""
-    notices = []
+def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float) -> list[Notice]:
+    """What is said of the pair, few teeth, no seal between two pairs of teeth, too few slices.
+
+    `active_slices` are in the stroke at one time.
+    """
+    notices = pair_notices(path)
+    ratio = path.transverse_contact_ratio
+    if ratio < 1.0:
+        message = f"the transverse contact ratio is {ratio:.3f}: below 1 nothing seals the space between two pairs"
+        notices.append(Notice("contact_ratio_below_one", message, "addendum"))
     for gear, name in ((setup.gears.pinion, "pinion"), (setup.gears.wheel, "wheel")):
         if gear.teeth < FEW_TEETH:
             message = f"the {name} has {gear.teeth} teeth: below {FEW_TEETH} the model was never checked"

@@ -3,9 +3,10 @@
 from dataclasses import dataclass
 from math import tan
 
-from solvers.gears.pair import GearPair, gear_pair
+from solvers.gears.pair import GearPair
+from solvers.gears.path_of_contact import PathOfContact, meshing_path
 from solvers.notices import Notice
-from solvers.pumping.checks import check_setup
+from solvers.pumping.checks import check_setup, check_tips_meet_involutes
 from solvers.pumping.face import Stretch, stretches
 from solvers.pumping.flow import SpaceFlow
 from solvers.pumping.gas_dynamics import CELL_STEP_LIMIT, LEAST_SLICES, duct, gas_dynamics, sample_angles
@@ -15,7 +16,7 @@ from solvers.pumping.notices import setup_notices
 from solvers.pumping.nozzle import Gas, gas
 from solvers.pumping.pocket_chain import pocket_chain
 from solvers.pumping.stroke import StrokeTable, stroke_table
-from solvers.pumping.tooth_space import check_flanks, tooth_space
+from solvers.pumping.tooth_space import tooth_space
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,29 +34,34 @@ class Mesh:
     """All that does not depend on the speed."""
 
     setup: PumpingSetup
-    pair: GearPair
+    path: PathOfContact
     gas: Gas
     spaces: tuple[Space, ...]
     notices: tuple[Notice, ...]
+
+    @property
+    def pair(self) -> GearPair:
+        """The gear pair."""
+        return self.path.pair
 
 
 def prepare(setup: PumpingSetup) -> Mesh:
     """Geometry, stroke tables and the notices they call for.
 
-    Raises InvalidInput with the codes of `gear_pair`, `check_setup`, `check_flanks`, `tooth_space`, `stroke_table` and
-    `stretches`.
+    Raises InvalidInput with the codes of `check_setup`, `meshing_path`, `check_tips_meet_involutes`, `tooth_space`,
+    `stroke_table` and `stretches`.
     """
     check_setup(setup)
-    pair = gear_pair(setup.gears)
-    flank_notices = check_flanks(pair)
+    path = meshing_path(setup.gears)
+    check_tips_meet_involutes(path)
     wanted = setup.model.spaces
     spaces = []
     if wanted is not Spaces.WHEEL:
-        spaces.append(_space(setup, pair, of_pinion=True))
+        spaces.append(_space(setup, path.pair, of_pinion=True))
     if wanted is not Spaces.PINION:
-        spaces.append(_space(setup, pair, of_pinion=False))
+        spaces.append(_space(setup, path.pair, of_pinion=False))
     active = min(_active_share(space, setup.gears.face_width) for space in spaces) * setup.model.slice_count
-    return Mesh(setup, pair, gas(setup.ambient), tuple(spaces), (*flank_notices, *setup_notices(setup, active)))
+    return Mesh(setup, path, gas(setup.ambient), tuple(spaces), tuple(setup_notices(setup, path, active)))
 
 
 def _active_share(space: Space, face_width: float) -> float:
