@@ -1,13 +1,16 @@
 """What no calculation can be made of."""
 
-from math import hypot
+from math import ceil, floor, hypot, log10, sqrt
+from typing import NoReturn
 
 from solvers.errors import InvalidInput
 from solvers.gears.path_of_contact import PathOfContact
+from solvers.pumping.face import Stretch
 from solvers.pumping.gas_dynamics import LEAST_SLICES
-from solvers.pumping.inputs import Flow, PumpingSetup
+from solvers.pumping.inputs import Flow, PumpingSetup, rpm
 
 LEAST_TEETH = 5
+NARROW = 0.5  # of the widest slice: below it grooves are the reason for short steps
 
 
 def check_setup(setup: PumpingSetup) -> None:
@@ -84,3 +87,31 @@ def check_tips_meet_involutes(path: PathOfContact) -> None:
                 f"the end of the fillet at {2e3 * gear.form_radius:.3f} mm; reduce the mate's addendum"
             )
             raise InvalidInput("form_diameter", message, f"{mate_name}.addendum")
+
+
+def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoReturn:
+    """Refuse a march that asks for `excess` times the steps it may take, with what would fit.
+
+    Raises InvalidInput: narrow_land where grooves leave so little face somewhere that its slices are the reason,
+    too_many_steps.
+    """
+    narrowest, widest = min(part.width for part in parts), max(part.width for part in parts)
+    if narrowest < NARROW * widest:
+        land = min(part.width * part.cells for part in parts)
+        message = (
+            f"the grooves leave {1e3 * land:.3g} mm of face, whose slices ask for too many steps; leave nothing there, "
+            f"or at least {1e3 * LEAST_SLICES * NARROW * widest:.3g} mm"
+        )
+        raise InvalidInput("narrow_land", message, "grooves")
+    slices = sum(part.cells for part in parts)
+    message = (
+        f"{slices} slices need too many steps at this speed: use at least {_rounded_up(rpm(pinion_speed) * excess):g} "
+        f"rpm of the pinion, or at most {int(slices / sqrt(excess))} slices, or the pocket chain"
+    )
+    raise InvalidInput("too_many_steps", message, "pinion_speed")
+
+
+def _rounded_up(value: float) -> float:
+    """To three digits, not below."""
+    unit = 10.0 ** (floor(log10(value)) - 2)
+    return ceil(value / unit) * unit

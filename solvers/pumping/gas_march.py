@@ -105,7 +105,7 @@ def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> tuple[fl
 
     Ambient gas at rest where no cell is active yet.
     """
-    if high == low or high == duct.cells:
+    if not low < high < duct.cells:
         return gas.density, 0.0, gas.pressure
     last, before = cells.state[high - 1], cells.state[max(high - 2, low)]
     rho, p = 2.0 * last[0] - before[0], 2.0 * last[2] - before[2]

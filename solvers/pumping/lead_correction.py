@@ -21,7 +21,7 @@ EXPANSION = 12e-6  # of steel, 1/K
 
 @dataclass(frozen=True, slots=True)
 class LeadCurves:
-    """Over positions along the face [m], each (slices,): growth d [m], its radial part alone [m], the correction [m]."""
+    """Along the face, each (slices,) [m]: positions, growth d, its radial part alone, the correction."""
 
     position: FloatArray
     growth: FloatArray
