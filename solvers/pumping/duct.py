@@ -87,7 +87,8 @@ def active_range(duct: Duct, angle: float) -> tuple[int, int]:
 @kernel
 def stroke_end(duct: Duct) -> float:
     """Phase at which the stroke ends [rad]."""
-    return duct.first_angle + duct.angle_step * (duct.table.shape[0] - 1)
+    end: float = duct.first_angle + duct.angle_step * (duct.table.shape[0] - 1)
+    return end
 
 
 @kernel

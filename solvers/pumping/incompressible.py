@@ -15,7 +15,8 @@ def incompressible(
 ) -> SpaceFlow:
     """Every opening passes the same velocity U = -(dV/dt) / [C_d (2 S + L b)], and p - p_e = rho U |U| / 2.
 
-    `speed_ratio` of the owner to the pinion. The middle of each table interval counts. Temperatures are None: what heats the gas is the work, in no place.
+    `speed_ratio` of the owner to the pinion. The middle of each table interval counts.
+    Temperatures are None: what heats the gas is the work, in no place.
     Raises InvalidInput: incompressible_vacuum (suction would exceed the ambient pressure).
     """
     time = (table.angle - table.angle[0]) / (pinion_speed * speed_ratio)
@@ -29,7 +30,9 @@ def incompressible(
     pressure = gas.pressure + gauge
     if pressure.min() <= 0.0:
         slower = rpm(pinion_speed) * float(np.sqrt(-gas.pressure / gauge.min()))
-        message = f"suction exceeds the ambient pressure: stay below {slower:.6g} rpm of the pinion, or use gas dynamics"
+        message = (
+            f"suction exceeds the ambient pressure: stay below {slower:.6g} rpm of the pinion, or use gas dynamics"
+        )
         raise InvalidInput("incompressible_vacuum", message, "pinion_speed")
     out = gas.density * velocity * discharge * step
     front, radial = out * area, out * gap

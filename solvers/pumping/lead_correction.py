@@ -68,4 +68,5 @@ def _elongation(position: FloatArray, strain: FloatArray) -> FloatArray:
     Between the end and the first position the strain is that of the first.
     """
     parts = 0.5 * (strain[1:] + strain[:-1]) * np.diff(position)
-    return strain[0] * position[0] + np.concatenate([[0.0], np.cumsum(parts)])
+    elongation: FloatArray = strain[0] * position[0] + np.concatenate([[0.0], np.cumsum(parts)])
+    return elongation
