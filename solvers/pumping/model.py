@@ -96,7 +96,7 @@ def _spaces_result(gas: Gas, space: Space, flow: SpaceFlow, halved: SpaceFlow, f
         static_temperature_rise=_rise(gas, flow.mean_temperature),
         peak_pressure_ratio=frozen(flow.peak_pressure / gas.pressure),
     )
-    rise = profile.temperature_rise
+    hottest = _hottest(flow.position, profile.temperature_rise)
     return SpacesResult(
         stroke=_stroke(space.table),
         peak_pressure_ratio=flow.largest_pressure / gas.pressure,
@@ -105,8 +105,8 @@ def _spaces_result(gas: Gas, space: Space, flow: SpaceFlow, halved: SpaceFlow, f
         peak_axial_velocity=flow.largest_velocity,
         radial_choked=flow.largest_pressure * gas.critical_ratio > gas.pressure,
         axial_choked=flow.exit_demand > 1.0,
-        max_temperature_rise=None if rise is None else float(rise.max()),
-        hottest_position=None if rise is None else float(flow.position[int(np.argmax(rise))]),
+        max_temperature_rise=hottest[1],
+        hottest_position=hottest[0],
         pumping_power=frequency * flow.work,
         work_per_space=flow.work,
         mass_flow=_mass_flow(flow, halved, frequency),
@@ -125,6 +125,21 @@ def _spaces_result(gas: Gas, space: Space, flow: SpaceFlow, halved: SpaceFlow, f
 
 def _rise(gas: Gas, temperature: FloatArray | None) -> FloatArray | None:
     return None if temperature is None else frozen(temperature - gas.temperature)
+
+
+def _hottest(position: FloatArray, rise: FloatArray | None) -> tuple[float | None, float | None]:
+    """Position [m] and value [K] of the largest rise, the vertex of a parabola through the three highest slices."""
+    if rise is None:
+        return None, None
+    top = int(np.argmax(rise))
+    if not 0 < top < rise.size - 1:
+        return float(position[top]), float(rise[top])
+    before, here, after = (float(value) for value in rise[top - 1 : top + 2])
+    ahead, bend = 0.5 * (after - before), before - 2.0 * here + after
+    back, apart = (float(step) for step in np.diff(position[top - 1 : top + 2]))
+    if bend == 0.0 or abs(apart - back) > 1e-6 * apart:  # next to a groove slices are not evenly spaced
+        return float(position[top]), here
+    return float(position[top]) - apart * ahead / bend, here - 0.5 * ahead**2 / bend
 
 
 def _mass_flow(flow: SpaceFlow, halved: SpaceFlow, frequency: float) -> MassFlow:
