@@ -28,7 +28,7 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
             turn = (angles[k] - angle) / pieces
             done = False
             for retry in range(_RETRIES):
-                new_low, new_high = _taking_part(duct, angle, turn)
+                new_low, new_high = _taking_part(gas, duct, angle, turn)
                 if new_high == new_low:
                     done = True
                     break
@@ -60,19 +60,22 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
 
 
 @kernel
-def _taking_part(duct: Duct, angle: float, turn: float) -> tuple[int, int]:
+def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, int]:
     """First cell that takes part in a step of `turn` from `angle` [rad], and the one after the last.
 
     A cell does while its centre is in its stroke, the first also while its outer end is, the last likewise: whatever
     leaves through an end leaves while that end is open. Walls and books count the share of the step in the stroke.
+    Where the stroke runs along the face faster than sound, cells come a width early: gas that the one behind them
+    pushes on would pile up at the border, and in truth does not reach it.
     """
     low, high, rear = 0, 0, duct.cells - 1
+    early = duct.lag * duct.width if duct.speed >= duct.lag * gas.sound_speed else 0.0
     for i in range(duct.cells):
         centre = (i + 0.5) * duct.width
         first, last = 0.0 if i == 0 else centre, duct.cells * duct.width if i == rear else centre
         if angle - duct.lag * (duct.start + last) >= stroke_end(duct):
             low = i + 1
-        if angle + turn - duct.lag * (duct.start + first) > duct.first_angle:
+        if angle + turn - duct.lag * (duct.start + first) + early > duct.first_angle:
             high = i + 1
     return low, max(low, high)
 
