@@ -38,16 +38,16 @@ def solve(inputs: LineContactInputs) -> LineContactResult:
     check(inputs)
     scales = groups(inputs)
     constants = problem(inputs, scales)
-    resolution = resolution_for(inputs, expected_gap(inputs))
+    resolution = resolution_for(inputs)
     budget = budget_for(resolution)
     return result(inputs, scales, constants, solve_cold(constants, resolution, budget), budget.spent)
 
 
-def resolution_for(inputs: LineContactInputs, gap: float) -> Resolution:
-    """Mesh of the contact, graded for a film of `gap` (in b^2/R)."""
+def resolution_for(inputs: LineContactInputs) -> Resolution:
+    """Mesh of the contact, graded for the film to expect."""
     model = inputs.model
     return Resolution(
-        gap=gap,
+        gap=expected_gap(inputs),
         entry_temperature=entry_temperature(inputs),
         nodes=model.nodes,
         film_nodes=model.film_nodes,

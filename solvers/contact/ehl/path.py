@@ -1,24 +1,22 @@
 """A sequence of contacts, as along the flank of a gear: each solved from its neighbour."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from math import exp, log
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from solvers.contact.ehl.budget import Budget, budget_for, price
 from solvers.contact.ehl.checks import check
 from solvers.contact.ehl.continuation import Attempt, interpolate, solve_cold, solve_from
-from solvers.contact.ehl.dimensionless import expected_gap, groups
+from solvers.contact.ehl.dimensionless import groups
 from solvers.contact.ehl.inputs import LineContactInputs
-from solvers.contact.ehl.mesh import grid_for
+from solvers.contact.ehl.mesh import Grid, grid_for
 from solvers.contact.ehl.model import resolution_for, result
 from solvers.contact.ehl.problem import problem
 from solvers.contact.ehl.results import LineContactResult
 from solvers.contact.ehl.state import State, no_steps
 from solvers.errors import InvalidInput
 
-REGRADED = 2.0  # ratio of films beyond which a point needs a mesh graded for itself
 CONTACTS_FROM_NOTHING = 2.0  # that a whole path may pay for, beside a few steps for each point
 STEPS_A_POINT = 4.0
 STEPS_FROM_NEIGHBOURS = 20.0  # for one guess; where that is not enough it seldom leads anywhere
@@ -29,20 +27,25 @@ FEWEST_STEPS = 10.0  # that are worth a start from nothing
 
 @dataclass(slots=True)
 class _Walk:
-    """Where the path has got to: its mesh, the states solved last (at most three), what steps are left for the rest."""
+    """Where the path has got to: steps left for the rest, the states solved last (at most three) and their mesh."""
 
-    gap: float
     remaining: float
-    known: list[State]
+    known: list[State] = field(default_factory=list)
+    grid: Grid | None = None
+
+    def move_to(self, grid: Grid) -> None:
+        """Interpolate the known states onto another mesh, where it is another."""
+        if self.grid is not None and self.grid is not grid:
+            self.known = [interpolate(state, self.grid.x, grid.x) for state in self.known]
+        self.grid = grid
 
 
 def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]:
-    """Solve neighbouring contacts on one dimensionless mesh; each result carries its own status.
+    """Solve neighbouring contacts, each on its own mesh; each result is that of the contact solved alone.
 
     The first starts from nothing, the others from the pressures, temperatures and separation of those before,
     extrapolated. What does not converge so is solved from nothing; what fails then too neither stops its neighbours
-    nor is filled in. A film twice as thick or thin as the mesh is graded for gets another mesh. All points share one
-    budget of steps: the more of them fail, the fewer each further one is given.
+    nor is filled in. All points share one budget of steps: the more of them fail, the fewer each further one is given.
 
     Raises InvalidInput as `check` does, and mixed_models unless all contacts share one model.
     """
@@ -52,24 +55,23 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
             raise InvalidInput("mixed_models", "all contacts of a path must share one model", "model")
     if not contacts:
         return []
-    gaps = [expected_gap(inputs) for inputs in contacts]
-    mean = exp(sum(map(log, gaps)) / len(gaps))
-    resolution = resolution_for(contacts[0], mean)
+    resolution = resolution_for(contacts[0])
     steps = STEPS_A_POINT * price(resolution, resolution.nodes) * len(contacts)
-    walk = _Walk(mean, CONTACTS_FROM_NOTHING * budget_for(resolution).remaining + steps, [])
-    return [_solve_next(inputs, gap, walk) for inputs, gap in zip(contacts, gaps, strict=True)]
+    walk = _Walk(CONTACTS_FROM_NOTHING * budget_for(resolution).remaining + steps)
+    return [_solve_next(inputs, walk) for inputs in contacts]
 
 
-def _solve_next(inputs: LineContactInputs, gap: float, walk: _Walk) -> LineContactResult:
+def _solve_next(inputs: LineContactInputs, walk: _Walk) -> LineContactResult:
     """From the neighbours if there are any, else, or if that fails, from nothing; the walk goes on from here."""
     scale = groups(inputs)
     constants = problem(inputs, scale)
-    resolution = resolution_for(inputs, _regrade(walk, gap, inputs.model.nodes))
+    resolution = resolution_for(inputs)
+    grid = grid_for(resolution.gap, resolution.nodes)
+    walk.move_to(grid)
     spent = 0
     attempt: Attempt | None = None
-    grid = grid_for(walk.gap, inputs.model.nodes)
     for guess in _guesses(walk.known):
-        allowed = min(STEPS_FROM_NEIGHBOURS * price(resolution, inputs.model.nodes), walk.remaining)
+        allowed = min(STEPS_FROM_NEIGHBOURS * price(resolution, resolution.nodes), walk.remaining)
         budget = Budget(allowed)
         attempt = solve_from(constants, resolution, grid, guess, budget)
         spent, walk.remaining = spent + budget.spent, walk.remaining - (allowed - budget.remaining)
@@ -83,16 +85,6 @@ def _solve_next(inputs: LineContactInputs, gap: float, walk: _Walk) -> LineConta
         spent, walk.remaining = spent + budget.spent, walk.remaining - (allowed - budget.remaining)
     walk.known = [*walk.known[-2:], attempt.state] if attempt.converged else []
     return result(inputs, scale, constants, attempt, spent)
-
-
-def _regrade(walk: _Walk, gap: float, nodes: int) -> float:
-    """The film the mesh is graded for; where that changes, the known states move to the new mesh."""
-    if 1.0 / REGRADED <= gap / walk.gap <= REGRADED:
-        return walk.gap
-    old, new = grid_for(walk.gap, nodes), grid_for(gap, nodes)
-    walk.known = [interpolate(state, old.x, new.x) for state in walk.known]
-    walk.gap = gap
-    return gap
 
 
 def _guesses(known: Sequence[State]) -> Iterator[State]:
