@@ -5,13 +5,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from solvers.contact.ehl.budget import Budget, budget_for, price
+from solvers.contact.ehl.budget import Budget, budget_for, price, refinement_budget
 from solvers.contact.ehl.checks import check
-from solvers.contact.ehl.continuation import Attempt, interpolate, solve_cold, solve_from
+from solvers.contact.ehl.continuation import TIGHT, Attempt, interpolate, polish, solve_cold
 from solvers.contact.ehl.dimensionless import groups
 from solvers.contact.ehl.inputs import LineContactInputs
 from solvers.contact.ehl.mesh import Grid, grid_for
-from solvers.contact.ehl.model import resolution_for, result
+from solvers.contact.ehl.model import conclude, resolution_for
 from solvers.contact.ehl.problem import problem
 from solvers.contact.ehl.results import LineContactResult
 from solvers.contact.ehl.state import State, no_steps
@@ -27,9 +27,10 @@ FEWEST_STEPS = 10.0  # that are worth a start from nothing
 
 @dataclass(slots=True)
 class _Walk:
-    """Where the path has got to: steps left for the rest, the states solved last (at most three) and their mesh."""
+    """Where the path has got to: steps left, the states solved last (at most three) and their mesh."""
 
-    remaining: float
+    budget: Budget
+    for_refinement: Budget
     known: list[State] = field(default_factory=list)
     grid: Grid | None = None
 
@@ -57,34 +58,29 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
         return []
     resolution = resolution_for(contacts[0])
     steps = STEPS_A_POINT * price(resolution, resolution.nodes) * len(contacts)
-    walk = _Walk(CONTACTS_FROM_NOTHING * budget_for(resolution).remaining + steps)
+    budget = Budget(CONTACTS_FROM_NOTHING * budget_for(resolution).remaining + steps)
+    walk = _Walk(budget, refinement_budget(len(contacts)))
     return [_solve_next(inputs, walk) for inputs in contacts]
 
 
 def _solve_next(inputs: LineContactInputs, walk: _Walk) -> LineContactResult:
     """From the neighbours if there are any, else, or if that fails, from nothing; the walk goes on from here."""
-    scale = groups(inputs)
-    constants = problem(inputs, scale)
+    constants = problem(inputs, groups(inputs))
     resolution = resolution_for(inputs)
     grid = grid_for(resolution.gap, resolution.nodes)
     walk.move_to(grid)
-    spent = 0
+    point = walk.budget.part()
     attempt: Attempt | None = None
     for guess in _guesses(walk.known):
-        allowed = min(STEPS_FROM_NEIGHBOURS * price(resolution, resolution.nodes), walk.remaining)
-        budget = Budget(allowed)
-        attempt = solve_from(constants, resolution, grid, guess, budget)
-        spent, walk.remaining = spent + budget.spent, walk.remaining - (allowed - budget.remaining)
+        budget = point.part(STEPS_FROM_NEIGHBOURS * price(resolution, resolution.nodes))
+        attempt = polish(constants, resolution, grid, guess, TIGHT, budget)
         if attempt.converged:
             break
     if attempt is None or not attempt.converged:
-        allowed = min(budget_for(resolution).remaining, SHARE * walk.remaining)
-        allowed = allowed if allowed > FEWEST_STEPS else 0.0
-        budget = Budget(allowed)
-        attempt = solve_cold(constants, resolution, budget)
-        spent, walk.remaining = spent + budget.spent, walk.remaining - (allowed - budget.remaining)
+        allowed = min(budget_for(resolution).remaining, SHARE * walk.budget.remaining)
+        attempt = solve_cold(constants, resolution, point.part(allowed if allowed > FEWEST_STEPS else 0.0))
     walk.known = [*walk.known[-2:], attempt.state] if attempt.converged else []
-    return result(inputs, scale, constants, attempt, spent)
+    return conclude(inputs, constants, resolution, attempt, point.spent, walk.for_refinement)
 
 
 def _guesses(known: Sequence[State]) -> Iterator[State]:

@@ -112,11 +112,10 @@ def temperature_step(
 
 @kernel
 def inlet_step(problem: Problem, work: Work, temperature: FloatArray, step: FloatArray) -> None:
-    """First column of `step`: the bulk temperatures at its walls; oil enters at the inlet temperature and leaves at that
-    of the column behind it.
+    """First column of `step`: walls at bulk temperature, oil that enters at that of the inlet.
 
-    Which oil does what follows from the flux and a uniform viscosity, so that it cannot change with the temperatures
-    it decides on.
+    Oil that leaves has the temperature of the column behind. Which does what follows from the flux and a uniform
+    viscosity, so that it cannot change with the temperatures it decides on.
     """
     nodes = step.shape[1]
     u1, u2 = problem.speed_1, problem.speed_2
