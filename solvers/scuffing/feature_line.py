@@ -12,10 +12,14 @@ from solvers.scuffing.results import FeatureLine
 
 
 def feature_line(
-    path: PathOfContact, balance: LoadBalance, pinion_speed: float, tangential_force: float, modulus: float, points: int
+    path: PathOfContact,
+    balance: LoadBalance,
+    pinion_speed: float,
+    tangential_force: float,
+    modulus: float,
+    psi: FloatArray,
 ) -> FeatureLine:
-    """Line load, radius and speeds at equidistant psi in 0..1, x = psi g_alpha, y = psi b; F_bt [N], E' [Pa]."""
-    psi = np.linspace(0.0, 1.0, points)
+    """Line load, radius and speeds at psi in 0..1 (n,), x = psi g_alpha, y = psi b; F_bt [N], E' [Pa]."""
     x = psi * path.length
     load = line_loads(balance, x, psi * path.plane.face_width)
     radius = reduced_radius(path.plane, x)

@@ -8,7 +8,7 @@ from dataclasses import fields, replace
 
 import numpy as np
 
-from solvers.arrays import BoolArray, FloatArray, frozen
+from solvers.arrays import FloatArray, frozen
 from solvers.contact.film import dowson_higginson_minimum, thickness_ratio, thickness_regime
 from solvers.contact.flash import blok_flash_temperature
 from solvers.contact.hertz import reduced_modulus
@@ -17,9 +17,11 @@ from solvers.notices import Notice
 from solvers.scuffing.feature_line import feature_line
 from solvers.scuffing.inputs import ScuffingInputs, Temperatures
 from solvers.scuffing.model import solve
-from solvers.scuffing.results import FeatureLine
+from solvers.scuffing.results import FeatureLine, LoadDistribution
 from solvers.scuffing.safety_results import ContactTemperature, Film, Flash, Safety, Scuffing, ScuffingPath
-from solvers.scuffing.thermal_path import ThermalPath, thermal_path
+from solvers.scuffing.thermal_path import CURVES, ThermalPath, thermal_path
+
+SURVEY_POINTS = 4001  # of the formulas along the feature line, to find where they are largest and smallest
 
 
 def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
@@ -31,39 +33,61 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     given, temperatures = inputs.distribution, inputs.temperatures
     _check_temperatures(temperatures)
     distribution = solve(given)
-    modulus = reduced_modulus(given.pinion_material, given.wheel_material)
-    line = feature_line(
-        distribution.path_of_contact,
-        distribution.balance,
-        given.load.pinion_speed,
-        distribution.load.tangential_force,
-        modulus,
-        inputs.path_points,
-    )
-    loaded = (line.line_load > 0.0) & (line.half_width > 0.0) & (line.pinion_speed + line.wheel_speed > 0.0)
-    path = _closed_form_path(inputs, line, loaded, modulus)
+    line = _checked_line(inputs, distribution)
+    path = _closed_form_path(inputs, line)
+    thermal: ThermalPath | None = None
     warnings = distribution.warnings
     if inputs.lubrication == "thermal_ehl":
-        thermal = thermal_path(inputs, line, loaded)
+        thermal = thermal_path(inputs, line, np.isin(path.status, "ok"))
         path = _with_thermal(inputs, path, thermal)
         warnings += thermal.warnings
-    flash = _largest_flash(path)
+    unknown = _unknown_points(path, thermal)
+    flash, film = _largest_flash(path), _thinnest_film(path)
+    if unknown:
+        flash, film = _without_verdict(path, flash, film)
     contact_temperature = ContactTemperature(
-        blok_max=temperatures.bulk + flash.blok_max,
+        blok_max=None if flash.blok_max is None else temperatures.bulk + flash.blok_max,
         thermal_ehl_max=None if flash.thermal_ehl_max is None else temperatures.bulk + flash.thermal_ehl_max,
     )
     safety = _safety(temperatures, contact_temperature)
     found = {item.name: getattr(distribution, item.name) for item in fields(distribution)}
-    found["warnings"] = warnings + _notices(path, safety)
+    found["warnings"] = warnings + _notices(path, safety, unknown)
     return Scuffing(
         **found,
         flash=flash,
         contact_temperature=contact_temperature,
-        film=_thinnest_film(path),
+        film=film,
         safety=safety,
         path=path,
-        unsolved_points=path.status.count("no_solution"),
+        unsolved_points=path.status.count("no_solution") + path.status.count("refused"),
     )
+
+
+def _checked_line(inputs: ScuffingInputs, distribution: LoadDistribution) -> FeatureLine:
+    """The feature line at equidistant points and where the formulas are largest and smallest.
+
+    Without the latter, a maximum would depend on the number of points.
+    """
+    given = inputs.distribution
+    modulus = reduced_modulus(given.pinion_material, given.wheel_material)
+
+    def line_at(psi: FloatArray) -> FeatureLine:
+        return feature_line(
+            distribution.path_of_contact,
+            distribution.balance,
+            given.load.pinion_speed,
+            distribution.load.tangential_force,
+            modulus,
+            psi,
+        )
+
+    survey = _closed_form_path(inputs, line_at(np.linspace(0.0, 1.0, SURVEY_POINTS)))
+    extremes = [
+        survey.psi[find(values)]
+        for find, values in ((np.nanargmax, survey.blok_flash), (np.nanargmin, survey.dowson_higginson))
+        if "ok" in survey.status
+    ]
+    return line_at(np.unique([*np.linspace(0.0, 1.0, inputs.path_points), *extremes]))
 
 
 def safety_factor(scuffing: float, oil: float, contact: float) -> float | None:
@@ -84,40 +108,44 @@ def _safety(temperatures: Temperatures, contact: ContactTemperature) -> Safety |
     if temperatures.scuffing is None:
         return None
     limit, oil = temperatures.scuffing, temperatures.oil
-    return Safety(
-        blok_factor=safety_factor(limit, oil, contact.blok_max),
-        thermal_ehl_factor=(
-            None if contact.thermal_ehl_max is None else safety_factor(limit, oil, contact.thermal_ehl_max)
-        ),
+    blok, thermal = (
+        None if hottest is None else safety_factor(limit, oil, hottest)
+        for hottest in (contact.blok_max, contact.thermal_ehl_max)
     )
+    return Safety(blok_factor=blok, thermal_ehl_factor=thermal)
 
 
-def _closed_form_path(inputs: ScuffingInputs, line: FeatureLine, loaded: BoolArray, modulus: float) -> ScuffingPath:
-    """Flash temperature (Eq. 25) and film (Eqs. 27, 28) along the feature line."""
+def _closed_form_path(inputs: ScuffingInputs, line: FeatureLine) -> ScuffingPath:
+    """Flash temperature (Eq. 25) and film (Eqs. 27, 28) along the feature line.
+
+    A loaded point where the reduced radius vanishes has none: it is "refused".
+    """
     given, lubricant = inputs.distribution, inputs.lubricant
     pinion, wheel = given.pinion_material, given.wheel_material
-    flash, film = np.zeros(line.psi.size), np.full(line.psi.size, np.nan)
-    speed_1, speed_2, load = line.pinion_speed[loaded], line.wheel_speed[loaded], line.line_load[loaded]
-    flash[loaded] = blok_flash_temperature(
+    loaded = (line.line_load > 0.0) & (line.pinion_speed + line.wheel_speed > 0.0)
+    defined = loaded & (line.half_width > 0.0)
+    flash, film = np.where(loaded & ~defined, np.nan, 0.0), np.full(line.psi.size, np.nan)
+    speed_1, speed_2, load = line.pinion_speed[defined], line.wheel_speed[defined], line.line_load[defined]
+    flash[defined] = blok_flash_temperature(
         friction=given.friction_coefficient,
         line_load=load,
         speed_1=speed_1,
         speed_2=speed_2,
-        half_width=line.half_width[loaded],
+        half_width=line.half_width[defined],
         solid_1=pinion,
         solid_2=wheel,
     )
-    film[loaded] = dowson_higginson_minimum(
+    film[defined] = dowson_higginson_minimum(
         viscosity=lubricant.viscosity_at(0.0, inputs.temperatures.bulk),
         pressure_viscosity=lubricant.pressure_viscosity,
         mean_speed=(speed_1 + speed_2) / 2,
-        radius=line.radius[loaded],
+        radius=line.radius[defined],
         line_load=load,
-        modulus=modulus,
+        modulus=reduced_modulus(pinion, wheel),
     )
     return ScuffingPath(
         psi=line.psi,
-        status=tuple("ok" if point else "unloaded" for point in loaded),
+        status=tuple(np.where(defined, "ok", np.where(loaded, "refused", "unloaded")).tolist()),
         blok_flash=frozen(flash),
         dowson_higginson=frozen(film),
         thickness_ratio=frozen(thickness_ratio(film, pinion.roughness, wheel.roughness)),
@@ -128,23 +156,28 @@ def _with_thermal(inputs: ScuffingInputs, path: ScuffingPath, thermal: ThermalPa
     """The path with everything the thermal EHL solution knows, its film judged instead of the formula's."""
     given = inputs.distribution
     ratio = thickness_ratio(thermal.minimum_film, given.pinion_material.roughness, given.wheel_material.roughness)
-    return replace(
-        path,
-        status=thermal.status,
-        thickness_ratio=frozen(ratio),
-        pinion_flash=thermal.pinion_flash,
-        wheel_flash=thermal.wheel_flash,
-        minimum_film=thermal.minimum_film,
-        central_film=thermal.central_film,
-        max_pressure=thermal.max_pressure,
-        friction_coefficient=thermal.friction_coefficient,
-        film_max_temperature=thermal.film_max_temperature,
+    status = tuple(
+        formula if formula == "refused" else solved for formula, solved in zip(path.status, thermal.status, strict=True)
     )
+    curves = {name: getattr(thermal, name) for name in CURVES}
+    return replace(path, status=status, thickness_ratio=frozen(ratio), **curves)
+
+
+def _unknown_points(path: ScuffingPath, thermal: ThermalPath | None) -> int:
+    """Loaded points without numbers, unless bounds show that the largest and smallest values are elsewhere."""
+    missing = np.isin(path.status, ("no_solution", "refused"))
+    if thermal is None or missing.all() or not _any_number(thermal.minimum_film):
+        return int(missing.sum())
+    hottest = np.nanmax(np.fmax(thermal.pinion_flash, thermal.wheel_flash))
+    harmless = (thermal.flash_bound <= hottest) & (thermal.film_bound >= np.nanmin(thermal.minimum_film))
+    return int((missing & ~harmless).sum())
 
 
 def _largest_flash(path: ScuffingPath) -> Flash:
-    """Largest flash temperature by Blok, and by the thermal EHL solution on either flank."""
-    hottest = int(np.argmax(path.blok_flash))
+    """Largest flash temperature of the points that have one, by Blok and by the thermal EHL solution (either flank)."""
+    if not _any_number(path.blok_flash):
+        return Flash(None, None)
+    hottest = int(np.nanargmax(path.blok_flash))
     flash = Flash(
         blok_max=float(path.blok_flash[hottest]),
         blok_at_psi=float(path.psi[hottest]) if path.blok_flash[hottest] > 0.0 else None,
@@ -157,7 +190,7 @@ def _largest_flash(path: ScuffingPath) -> Flash:
 
 
 def _thinnest_film(path: ScuffingPath) -> Film:
-    """The thinnest film, judged by the thermal EHL solution where there is one."""
+    """The thinnest film of all points that have one, judged by the thermal EHL solution where there is one."""
     if not _any_number(path.dowson_higginson):
         return Film()
     formula = float(np.nanmin(path.dowson_higginson))
@@ -175,18 +208,36 @@ def _thinnest_film(path: ScuffingPath) -> Film:
     )
 
 
+def _without_verdict(path: ScuffingPath, flash: Flash, film: Film) -> tuple[Flash, Film]:
+    """What is left of extremes over a path that has loaded points without numbers: those that every point has."""
+    complete = not np.isnan(path.blok_flash).any()
+    return (
+        Flash(flash.blok_max, flash.blok_at_psi) if complete else Flash(None, None),
+        Film(dowson_higginson_min=film.dowson_higginson_min) if complete else Film(),
+    )
+
+
 def _any_number(values: FloatArray) -> bool:
     return not bool(np.isnan(values).all())
 
 
-def _notices(path: ScuffingPath, safety: Safety | None) -> tuple[Notice, ...]:
-    """Points without a film, and a safety without a meaning."""
+def _notices(path: ScuffingPath, safety: Safety | None, unknown: int) -> tuple[Notice, ...]:
+    """Points without a film, a path without a verdict, and a safety without a meaning."""
     notices = []
-    if np.any(np.isnan(path.dowson_higginson)):
+    if "unloaded" in path.status:
         cause = "modifications" if _any_number(path.dowson_higginson) else "pinion_torque"
         message = "there is no film where the feature line is not loaded or does not move"
         notices.append(Notice("no_film", message, cause))
-    if safety is not None and safety.blok_factor is None:
+    if unknown:
+        notices.append(
+            Notice(
+                "unsolved_points",
+                f"{path.status.count('no_solution')} of {len(path.status)} points have no solution and "
+                f"{path.status.count('refused')} are outside the range of the model; {unknown} of them may decide: no "
+                "largest flash temperature, thinnest film or safety is stated from the others",
+            )
+        )
+    if safety is not None and safety.blok_factor is None and not np.isnan(path.blok_flash).any():
         notices.append(
             Notice("no_safety", "the teeth stay as cool as the oil; the safety factor has no meaning", "temperatures")
         )
