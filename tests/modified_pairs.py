@@ -9,10 +9,12 @@ from math import log, radians
 import numpy as np
 
 from solvers.contact import ehl
+from solvers.contact.hertz import reduced_modulus
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.scuffing import solve_scuffing
+from solvers.scuffing.feature_line import contact_points
 from solvers.scuffing.inputs import (
     Load,
     LoadDistributionInputs,
@@ -21,6 +23,7 @@ from solvers.scuffing.inputs import (
     Temperatures,
     angular_speed,
 )
+from solvers.scuffing.results import ContactPoints
 from solvers.scuffing.safety_results import Scuffing
 from solvers.scuffing.thermal_path import contact_at
 
@@ -94,24 +97,35 @@ def turbo_pair(helix_slope: float) -> ScuffingInputs:
 def points_alone(inputs: ScuffingInputs, result: Scuffing, every: int = 1) -> dict[int, ehl.LineContactResult]:
     """Each solved point of a path (or every so-manyth) as the contact it is, solved from nothing."""
     solved = [k for k, status in enumerate(result.path.status) if status in {"ok", "ok_with_warnings"}]
-    return {k: ehl.solve(contact_at(inputs, result.path.line, k)) for k in solved[::every]}
+    points = points_of(inputs, result)
+    return {k: ehl.solve(contact_at(inputs, points, k)) for k in solved[::every]}
+
+
+def points_of(inputs: ScuffingInputs, result: Scuffing) -> ContactPoints:
+    """Load, radius and speeds at the points of a path."""
+    plane, psi, given = result.path_of_contact.plane, result.path.psi, inputs.distribution
+    modulus = reduced_modulus(given.pinion_material, given.wheel_material)
+    x, y = psi * plane.path_length, psi * plane.face_width
+    return contact_points(result.path_of_contact, result.balance, x, y, given.load.pinion_speed, modulus)
 
 
 def check_path(inputs: ScuffingInputs, every: int = 1) -> Scuffing:
     """A path equals its points: film and friction 1 %, flash 0.5 K or 1 %; AssertionError with the case if not."""
     result = solve_scuffing(inputs)
     path = result.path
-    assert path.thermal is not None
+    curves = (path.minimum_film, path.friction_coefficient, path.pinion_flash, path.wheel_flash)
+    assert all(curve is not None for curve in curves)
+    film, friction, pinion, wheel = (np.asarray(curve) for curve in curves)
     for point, alone in points_alone(inputs, result, every).items():
         if alone.status == "no_solution":
             continue
         assert alone.friction is not None
         assert alone.temperature is not None
         pairs = (
-            ("film", path.thermal.minimum_film[point], alone.film.minimum, 0.01, 0.0),
-            ("friction", path.thermal.friction_coefficient[point], alone.friction.coefficient, 0.01, 1e-6),
-            ("pinion flash", path.thermal.pinion_flash[point], alone.temperature.surface_1_flash, 0.01, 0.5),
-            ("wheel flash", path.thermal.wheel_flash[point], alone.temperature.surface_2_flash, 0.01, 0.5),
+            ("film", film[point], alone.film.minimum, 0.01, 0.0),
+            ("friction", friction[point], alone.friction.coefficient, 0.01, 1e-6),
+            ("pinion flash", pinion[point], alone.temperature.surface_1_flash, 0.01, 0.5),
+            ("wheel flash", wheel[point], alone.temperature.surface_2_flash, 0.01, 0.5),
         )
         for name, along, expected, relative, absolute in pairs:
             assert abs(along - expected) <= max(relative * abs(expected), absolute), (

@@ -12,9 +12,9 @@ from app.requests.gears import Gears
 from app.requests.line_contact import FilmModel
 from app.requests.materials import XUE, Oil, Surface
 from solvers.errors import InvalidInput
+from solvers.gears.path_of_contact import meshing_path
 from solvers.scuffing import inputs as si
 from solvers.scuffing.modification import gap
-from solvers.scuffing.path_of_contact import meshing_path
 
 RELIEFS = ("tip_relief", "root_relief", "end_relief")
 NO_LENGTHS = "the paper gives no relief lengths"

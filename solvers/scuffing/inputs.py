@@ -34,6 +34,17 @@ def angular_speed(revolutions_per_minute: float) -> float:
 
 
 @dataclass(frozen=True, slots=True)
+class LeadCurve:
+    """Any gap [m] over the face: linear between rising positions [m] from the end that meshes first, constant outside.
+
+    Positive where material is missing, along the transverse line of action.
+    """
+
+    position: tuple[float, ...]
+    gap: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Modifications:
     """Gaps [m] along the transverse line of action; positive where material is missing.
 
@@ -41,6 +52,7 @@ class Modifications:
     do shaft deviations over the face, in the plane of the shafts and out of it.
     tip_relief acts at E (pinion tip and gear root), root_relief at A; the caller adds the two members. Relief lengths
     run along the line of action, end relief length along the face [m]; None is the default of `modification.gap`.
+    lead_curve adds whatever else the gap does over the face.
     """
 
     profile_crowning: float = 0.0
@@ -56,6 +68,7 @@ class Modifications:
     end_relief: float = 0.0
     end_relief_length: float | None = None
     relief_exponent: float = 1.0
+    lead_curve: LeadCurve | None = None
 
 
 @dataclass(frozen=True, slots=True)
