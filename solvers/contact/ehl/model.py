@@ -4,7 +4,7 @@ from dataclasses import replace
 from math import isfinite
 
 from solvers.contact.ehl import measures, verification
-from solvers.contact.ehl.budget import Budget, Resolution, budget_for, refinement_budget
+from solvers.contact.ehl.budget import STEPS_TO_REFINE, Budget, Resolution, budget_for, refinement_budget
 from solvers.contact.ehl.checks import check
 from solvers.contact.ehl.continuation import TIGHT, Attempt, solve_cold
 from solvers.contact.ehl.dimensionless import (
@@ -90,7 +90,7 @@ def conclude(
     if not attempt.converged:
         return replace(unsolved, warnings=(*notices, failure_notice(unsolved.convergence)))
     measures.settle(constants, attempt, inputs.model.thermal)
-    steps = for_refinement.part()
+    steps = for_refinement.part(STEPS_TO_REFINE)
     attempt, error = refined(inputs, constants, resolution, attempt, steps)
     convergence = _convergence(inputs, attempt, iterations + steps.spent)
     found = _read(inputs, constants, attempt, replace(unsolved, convergence=convergence))
