@@ -55,6 +55,9 @@ class FilmModel(Section):
         float, Input("Eyring stress", "τ_0", ge=1, le=50, assumed="middle of the usual 3 to 12 MPa of gear oils")
     ] = 5.0
     nodes: Annotated[int, Input("nodes along the contact", "N", ge=61, le=481)] = 121
+    refine_mesh: Annotated[bool, Input("add nodes, up to 481, until the estimated error of the mesh is below 2 %")] = (
+        True
+    )
     film_nodes: Annotated[int, Input("nodes across the film", "n_z", ge=7, le=61)] = 21
 
     def film(self) -> ehl.Model:
@@ -64,6 +67,7 @@ class FilmModel(Section):
             eyring_stress=to_si(self)["eyring_stress"],
             nodes=self.nodes,
             film_nodes=self.film_nodes,
+            refine=self.refine_mesh,
         )
 
     def unused_film_defaults(self, section: str) -> frozenset[str]:

@@ -90,12 +90,28 @@ class ContactConvergence(Group):
     load_error: Annotated[float, Output("relative error of the load")]
     nodes: Annotated[int, Output("nodes of the last mesh")]
     stage: Annotated[
-        Literal["isothermal", "coupling", "heat_balance"],
-        Output("where the iteration ended: the isothermal film, film and temperatures together, the books on heat"),
+        Literal["isothermal", "coupling", "heat_balance", "verification"],
+        Output("where it ended: the isothermal film, film and temperatures, the books on heat, the check of the state"),
     ]
     eyring_stress_mpa: Annotated[
         float | None, Output("Eyring stress that a continuation without solution reached; null where none was tried")
     ]
+    departure_k: Annotated[
+        float | None,
+        Output("what an independent check of the finished temperatures finds, at most 0.1; null if isothermal"),
+    ]
+
+
+class MeshErrors(Group):
+    """Estimated error that the mesh leaves, relative; small friction and flash temperatures over 0.001 and 25 K."""
+
+    central_film: Annotated[float, Output("of the film at x = 0")]
+    minimum_film: Annotated[float, Output("of the smallest film")]
+    centre_pressure: Annotated[float, Output("of the pressure at x = 0")]
+    friction: Annotated[float, Output("of the coefficient of friction")]
+    surface_1_flash: Annotated[float | None, Output("of the flash temperature of surface 1; null if isothermal")]
+    surface_2_flash: Annotated[float | None, Output("of the flash temperature of surface 2; null if isothermal")]
+    generated_heat: Annotated[float | None, Output("of the heat by shear; null if isothermal")]
 
 
 class ContactCurves(Group):
@@ -108,6 +124,8 @@ class ContactCurves(Group):
     mid_film_temperature_c: Annotated[list[float] | None, Output("in the middle of the film")]
     surface_1_temperature_c: Annotated[list[float] | None, Output("of surface 1")]
     surface_2_temperature_c: Annotated[list[float] | None, Output("of surface 2")]
+    surface_1_heat_flux_w_per_mm2: Annotated[list[float] | None, Output("heat flux into surface 1", "q_1", XUE)]
+    surface_2_heat_flux_w_per_mm2: Annotated[list[float] | None, Output("heat flux into surface 2", "q_2", XUE)]
 
 
 class ContactField(Group):
@@ -128,6 +146,7 @@ class LineContactResponse(Response):
     temperature: Annotated[FilmTemperature | None, Output("temperatures; null if isothermal")] = None
     friction: Annotated[FilmFriction | None, Output("friction")] = None
     heat: Annotated[FilmHeat | None, Output("heat; null if isothermal")] = None
+    mesh_error: Annotated[MeshErrors | None, Output("estimated error of the mesh; null where it is not known")] = None
     convergence: Annotated[ContactConvergence | None, Output("how the iteration ended")] = None
     curves: Annotated[ContactCurves | None, Output("along the contact", detail="curves")] = None
     field: Annotated[ContactField | None, Output("temperature in the film", detail="fields")] = None

@@ -169,7 +169,7 @@ class LoadDistributionResponse(Response):
 class FlashTemperature(Group):
     """Largest flash temperature; thermal EHL values are null in closed form."""
 
-    blok_max_k: Annotated[float, Output("by Blok", "t_f", f"{XUE}, Eq. 25")]
+    blok_max_k: Annotated[float | None, Output("by Blok; null where a loaded point has none", "t_f", f"{XUE}, Eq. 25")]
     blok_at_psi: Annotated[float | None, Output("where; null without load", "ψ")]
     thermal_ehl_max_k: Annotated[float | None, Output("by the thermal EHL solution", "t_f", f"{XUE}, Fig. 22")]
     thermal_ehl_at_psi: Annotated[float | None, Output("where", "ψ")]
@@ -178,7 +178,7 @@ class FlashTemperature(Group):
 class ContactTemperatureResult(Group):
     """Largest contact temperature, bulk plus flash."""
 
-    blok_max_c: Annotated[float, Output("by Blok", "t_B", f"{XUE}, Eq. 16")]
+    blok_max_c: Annotated[float | None, Output("by Blok; null where a loaded point has none", "t_B", f"{XUE}, Eq. 16")]
     thermal_ehl_max_c: Annotated[float | None, Output("by the thermal EHL solution; null in closed form", "t_B")]
 
 
@@ -212,7 +212,7 @@ class ScuffingPathCurves(Group):
         list[Literal["ok", "ok_with_warnings", "no_solution", "refused", "unloaded"]],
         Output("outcome at the point; refused: outside the range of the thermal EHL solver"),
     ]
-    blok_flash_k: Annotated[Values, Output("flash temperature by Blok", "t_f", f"{XUE}, Fig. 22")]
+    blok_flash_k: Annotated[Gaps, Output("flash temperature by Blok; null at a base circle", "t_f", f"{XUE}, Fig. 22")]
     pinion_flash_k: Annotated[Gaps | None, Output("flash temperature of the pinion", "t_f1", f"{XUE}, Fig. 22")]
     wheel_flash_k: Annotated[Gaps | None, Output("flash temperature of the wheel", "t_f2", f"{XUE}, Fig. 22")]
     dowson_higginson_um: Annotated[
@@ -234,4 +234,4 @@ class ScuffingResponse(LoadDistributionResponse):
     film: Annotated[ThinnestFilm | None, Output("film thickness")] = None
     safety: Annotated[ScuffingSafety | None, Output("safety factors; null without a scuffing temperature")] = None
     path: Annotated[ScuffingPathCurves | None, Output("along the feature line", detail="curves")] = None
-    unsolved_points: Annotated[int | None, Output("points of the path without a solution")] = None
+    unsolved_points: Annotated[int | None, Output("points of the path without a solution or refused")] = None
