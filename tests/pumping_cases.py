@@ -6,7 +6,7 @@ that no pair of gears can be is drawn again.
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from math import pi, radians
+from math import radians
 
 import numpy as np
 from numpy.random import Generator
@@ -14,7 +14,6 @@ from numpy.random import Generator
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
-from solvers.gears.path_of_contact import meshing_path
 from solvers.pumping import Ambient, Flow, Gap, Groove, PumpingInputs, PumpingModel, PumpingResult, PumpingSetup, solve
 from solvers.pumping.results import SpacesResult
 from solvers.pumping.spaces import prepare
@@ -169,7 +168,9 @@ SCANS: dict[str, Change] = {
     ),
     "centre_distance": _centre_distance,
     "face_width": lambda case, by: _gears(case, face_width=case.setup.gears.face_width * (1 + 0.1 * by)),
-    "helix_angle": lambda case, by: _gears(case, helix_angle=case.setup.gears.helix_angle * (1 + 0.05 * by), centre_distance=None),
+    "helix_angle": lambda case, by: _gears(
+        case, helix_angle=case.setup.gears.helix_angle * (1 + 0.05 * by), centre_distance=None
+    ),
     "profile_shift": _shift,
     "groove_position": lambda case, by: _groove(case, 0.4 + 0.2 * by, 0.08),
     "groove_width": lambda case, by: _groove(case, 0.5, 0.04 + 0.08 * by),
