@@ -27,9 +27,7 @@ from solvers.scuffing.inputs import (
 
 SPEED = 10000 * pi / 30
 CELSIUS = 273.15
-PLAIN = Modifications(
-    tip_relief=15e-6, root_relief=15e-6, tip_relief_length=6e-3, root_relief_length=6e-3
-)
+PLAIN = Modifications(tip_relief=15e-6, root_relief=15e-6, tip_relief_length=6e-3, root_relief_length=6e-3)
 GROUND = replace(PLAIN, helix_slope=50e-6, lead_crowning=4e-6)
 
 
@@ -61,9 +59,7 @@ HEAT = Heat(0.6, pinion_bulk=95 + CELSIUS, wheel_bulk=80 + CELSIUS, reference=20
 
 def turbo_gear(modifications: Modifications = PLAIN, power: float = 12e6) -> DriveTrainInputs:
     """The example with a flank as drawn, or another; thermal film left out."""
-    gears = GearPairInputs(
-        GearTeeth(39), GearTeeth(130), 6e-3, 0.2, helix_angle=radians(11.5), rack_tip_radius=0.38
-    )
+    gears = GearPairInputs(GearTeeth(39), GearTeeth(130), 6e-3, 0.2, helix_angle=radians(11.5), rack_tip_radius=0.38)
     distribution = LoadDistributionInputs(
         gears,
         Load(power / SPEED, SPEED),

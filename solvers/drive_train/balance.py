@@ -49,7 +49,10 @@ class LoadedMesh:
         lead = self.fixed + np.interp(points, self.stations, gap)
         mesh = self.prepared.mesh
         balance = balance_load(
-            Mesh(mesh.plane, mesh.compliance, mesh.gap._replace(lead=lead)), self.prepared.rolls, self.force, self.slices
+            Mesh(mesh.plane, mesh.compliance, mesh.gap._replace(lead=lead)),
+            self.prepared.rolls,
+            self.force,
+            self.slices,
         )
         response = face_response(balance, self.slices, self.stations.size)
         return balance, FaceResponse(self.scale * response.force, self.scale * response.derivative)
@@ -103,7 +106,7 @@ def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -
                 residual=state.size,
             )
         matrix = np.eye(count) - _centred_rows(state.answer.derivative) @ state.response.derivative
-        step = centred(np.linalg.solve(matrix, -state.residual))
+        step = centred(np.asarray(np.linalg.solve(matrix, -state.residual), dtype=float))
         state = _advance(unit, mesh, state, step)
     raise NoSolution("drive_train", "shafts and mesh found no common gap", {"residual_um": state.size * 1e6})
 
@@ -152,7 +155,7 @@ def centred(gap: FloatArray) -> FloatArray:
 def _centred_rows(derivative: FloatArray) -> FloatArray:
     """The derivative of the gap without its mean."""
     mean = (derivative.sum(axis=0) - 0.5 * (derivative[0] + derivative[-1])) / (derivative.shape[0] - 1)
-    return derivative - mean
+    return np.asarray(derivative - mean)
 
 
 def respond(unit: Unit, force: FloatArray, tilts: FloatArray) -> Tilts:
@@ -195,7 +198,7 @@ def _solve_tilts(
                 whole = derivative[:count, :count] + derivative[:count, count:] @ by_tilts @ through
                 return Tilts(tilts, loads, motion, whole), size
             best, share = size, 1.0
-            step = np.linalg.solve(matrix, -residual)
+            step = np.asarray(np.linalg.solve(matrix, -residual), dtype=float)
         else:
             tilts, share = tilts - share * step, share / 2
         tilts = tilts + share * step

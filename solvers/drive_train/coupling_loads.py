@@ -5,8 +5,8 @@ sleeve's slope is (c_B - c_A) / (towards l), and the tilt of a hub is its slope 
 in the planes X and Y. Loads are conjugate to slopes, m = -Z x M: with a = M_s + M_e and M_l
     on the hub       m = -a e + s (M_l - s_d T delta / 2) Z x e
     on its shaft     f = -a e / l + s (M_l + s_d T delta / 2) Z x e / l     times `towards`, of both hubs
-M_l dissipates, M_s and M_e straighten; s is the sense of rotation, s_d = +1 where the hub drives the sleeve. The sign of
-T delta / 2 differs between hub and sleeve because the torque bisects their axes.
+M_l dissipates, M_s and M_e straighten; s is the sense of rotation, s_d = +1 where the hub drives the sleeve. The sign
+of T delta / 2 differs between hub and sleeve because the torque bisects their axes.
 """
 
 from dataclasses import dataclass, replace
@@ -72,7 +72,13 @@ class CouplingPort:
 
 
 def coupling_port(
-    inputs: UnitCoupling, index: int, law: CouplingFriction, torque: float, speed: float, rotation: float, up: FloatArray
+    inputs: UnitCoupling,
+    index: int,
+    law: CouplingFriction,
+    torque: float,
+    speed: float,
+    rotation: float,
+    up: FloatArray,
 ) -> CouplingPort:
     """The coupling of a shaft; `up` points against gravity, where the machine's shaft grows to."""
     offset = np.array(inputs.offset) + (0.0 if inputs.alignment is None else inputs.alignment.growth) * up

@@ -112,9 +112,7 @@ def unit(inputs: DriveTrainInputs, path: PathOfContact) -> Unit:
             )
         )
     collar = collar_force(inputs, path, directions, tuple(couplings))
-    sides = [
-        _shaft_ports(inputs, path, directions, stations, tuple(couplings), speeds[i], collar, i) for i in range(2)
-    ]
+    sides = [_shaft_ports(inputs, path, directions, stations, tuple(couplings), speeds[i], collar, i) for i in range(2)]
     elastic = sum(_elastic(side) for side in sides)
     shares = [np.einsum("bn,dnp->bdp", side.model.bearing_share, side.loads) for side in sides]
     rests = [np.einsum("bn,dn->bd", side.model.bearing_share, side.fixed) for side in sides]

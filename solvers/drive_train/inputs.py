@@ -16,6 +16,7 @@ Vector2 = tuple[float, float]
 CouplingFriction = Literal["elastic_plastic", "sliding"]
 ShaftName = Literal["pinion", "wheel"]
 STATIONS = 41
+ASSUMED_RESPONSE = 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,6 +162,11 @@ class Heat:
     wheel_bulk: float = 353.15
     reference: float = 293.15
     bulk_includes_pumping: bool = False
+
+    def responses(self, speed_ratio: float) -> tuple[float, float]:
+        """Wall responses of pinion and wheel; `speed_ratio` is z1/z2."""
+        pinion = ASSUMED_RESPONSE if self.wall_response is None else self.wall_response
+        return pinion, pinion * speed_ratio if self.wall_response_wheel is None else self.wall_response_wheel
 
 
 @dataclass(frozen=True, slots=True)

@@ -76,10 +76,7 @@ def thermal_lead(inputs: DriveTrainInputs, path: PathOfContact, stations: FloatA
     """
     heat, ratio = inputs.heat, path.pair.pinion.teeth / path.pair.wheel.teeth
     rises = [np.zeros(stations.size), np.zeros(stations.size)]
-    responses = (
-        heat.wall_response,
-        heat.wall_response * ratio if heat.wall_response_wheel is None else heat.wall_response_wheel,
-    )
+    responses = heat.responses(ratio)
     if any(responses):
         gas = gas_heat(inputs.pumping, inputs.mesh.distribution.load.pinion_speed)
         profiles = ((gas.pinion_position, gas.pinion_rise), (gas.wheel_position, gas.wheel_rise))

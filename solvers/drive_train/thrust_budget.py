@@ -74,7 +74,9 @@ def thrust_budget(
     if collared:
         own = Thrust(mesh, pinion, None, None, None, customary[0])
         both = pinion + wheel
-        return own, Thrust(-mesh, wheel, -both, both, _use(-both, both, inputs.wheel_shaft.ultimate_thrust), customary[1])
+        return own, Thrust(
+            -mesh, wheel, -both, both, _use(-both, both, inputs.wheel_shaft.ultimate_thrust), customary[1]
+        )
     return (
         Thrust(
             mesh,
