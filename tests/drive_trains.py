@@ -87,3 +87,9 @@ def turbo_gear(modifications: Modifications = PLAIN, power: float = 12e6) -> Dri
 
 
 NO_EFFECTS = Effects(shafts=False, coupling=False, thermal=False)
+
+
+def cold(inputs: DriveTrainInputs) -> DriveTrainInputs:
+    """Every tooth at its reference temperature, nothing pumped warm."""
+    reference = inputs.heat.reference
+    return replace(inputs, heat=replace(inputs.heat, wall_response=0.0, pinion_bulk=reference, wheel_bulk=reference))

@@ -103,4 +103,4 @@ def _safety(inputs: DriveTrainInputs, hottest: list[float | None]) -> TrainSafet
     limit, oil = temperatures.scuffing, temperatures.oil
     factors = [None if contact is None else safety_factor(limit, oil, contact) for contact in hottest]
     least = min((factor for factor in factors if factor is not None), default=None)
-    return TrainSafety(*factors, least)
+    return TrainSafety(factors[0], factors[1], factors[2], factors[3], least)
