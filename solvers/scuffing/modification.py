@@ -8,8 +8,8 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.errors import InvalidInput
+from solvers.gears.path_of_contact import PathOfContact
 from solvers.scuffing.inputs import LeadCurve, Modifications
-from solvers.scuffing.path_of_contact import PathOfContact
 from solvers.scuffing.tables import tabulated
 
 LEAD_POINTS = 401

@@ -17,10 +17,10 @@ from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.contact.hertz import reduced_modulus
 from solvers.errors import InvalidInput
-from solvers.gears.pair import Gear
+from solvers.gears.gear import Gear
+from solvers.gears.path_of_contact import PathOfContact, reduced_radius
 from solvers.materials import Solid
 from solvers.scuffing.inputs import Model
-from solvers.scuffing.path_of_contact import PathOfContact, reduced_radius
 from solvers.scuffing.tooth_compliance import bending_compliance, load_points, section_gear, tooth_shape
 
 TABLE_POINTS = 801
