@@ -70,13 +70,18 @@ class Tilts:
 
 @dataclass(frozen=True, slots=True)
 class Equilibrium:
-    """Gap [m] at the stations (mean taken out and kept), the loads of all ports, the couplings' tilts, the balance."""
+    """Gap [m] at the stations (mean taken out and kept), the loads of all ports, the couplings' tilts, the balance.
+
+    `by_gap` [N/m] is the derivative of the force at the stations by a gap added there: the mesh's answer with the
+    shafts' behind it.
+    """
 
     gap: FloatArray
     mean_gap: float
     loads: FloatArray
     tilts: FloatArray
     balance: LoadBalance
+    by_gap: FloatArray
     iterations: int
     residual: float
 
@@ -93,19 +98,19 @@ def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -
         tilts, start = answer.tilts, centred(answer.motion[:count])
     state = _evaluate(unit, mesh, start, tilts)
     for iteration in range(1, ITERATIONS + 1):
+        matrix = np.eye(count) - _centred_rows(state.answer.derivative) @ state.response.derivative
         if state.size <= TOLERANCE:
             answer = state.answer
-            loads = np.concatenate([state.response.force, answer.loads])
             return Equilibrium(
                 gap=state.gap,
                 mean_gap=face_mean(answer.motion[:count]),
-                loads=loads,
+                loads=np.concatenate([state.response.force, answer.loads]),
                 tilts=answer.tilts,
                 balance=state.balance,
+                by_gap=np.linalg.solve(matrix.T, state.response.derivative.T).T,
                 iterations=iteration,
                 residual=state.size,
             )
-        matrix = np.eye(count) - _centred_rows(state.answer.derivative) @ state.response.derivative
         step = centred(np.asarray(np.linalg.solve(matrix, -state.residual), dtype=float))
         state = _advance(unit, mesh, state, step)
     raise NoSolution("drive_train", "shafts and mesh found no common gap", {"residual_um": state.size * 1e6})

@@ -12,7 +12,7 @@ from solvers.drive_train.influence import ShaftPorts, Unit
 from solvers.drive_train.inputs import DriveTrainInputs, Vector2
 from solvers.drive_train.results import BearingResult, CouplingResult, ShaftCurves, ShaftResult
 from solvers.drive_train.thrust_budget import mesh_thrust, thrust_budget
-from solvers.scuffing.path_of_contact import PathOfContact
+from solvers.gears.path_of_contact import PathOfContact
 
 
 def hubs_of(unit: Unit, found: Equilibrium) -> list[tuple[HubMoments, HubMoments]]:

@@ -17,7 +17,7 @@ from solvers.drive_train.frame import Frame, frame
 from solvers.drive_train.inputs import DriveTrainInputs, Shaft
 from solvers.drive_train.shaft import GRAVITY, ShaftModel, shaft_model
 from solvers.drive_train.thrust_budget import collar_force
-from solvers.scuffing.path_of_contact import PathOfContact
+from solvers.gears.path_of_contact import PathOfContact
 
 
 @dataclass(frozen=True, slots=True)

@@ -64,6 +64,18 @@ def prepare(inputs: DriveTrainInputs) -> Prepared:
     )
 
 
+def settle(inputs: DriveTrainInputs, prepared: Prepared, start: FloatArray | None = None) -> Equilibrium:
+    """The gap that mesh, shafts and couplings agree on; without their effect the shafts do not move.
+
+    Raises NoSolution (drive_train, load_balance, journal).
+    """
+    if inputs.effects.shafts:
+        return equilibrium(prepared.unit, prepared.mesh, start)
+    gap = np.zeros(prepared.unit.stations.size)
+    balance, response = prepared.mesh.under(gap)
+    return Equilibrium(gap, 0.0, response.force, np.zeros(0), balance, response.derivative, 0, 0.0)
+
+
 def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTrainResult:
     """Misalignment, load, safety, thrust and losses of a unit; `start` is the shafts' gap of a similar one.
 
@@ -72,7 +84,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     """
     prepared = prepare(inputs)
     system, mesh, thermal = prepared.unit, prepared.mesh, prepared.thermal
-    found = equilibrium(system, mesh, start) if inputs.effects.shafts else _stiff(prepared)
+    found = settle(inputs, prepared, start)
     spread = distribution(inputs.mesh.distribution, mesh.prepared, found.balance)
     hubs = hubs_of(system, found)
     couplings = coupling_results(system, found, hubs)
@@ -117,13 +129,6 @@ def face_load(spread: LoadDistribution) -> FaceLoad:
         contact_fraction=spread.load.contact_fraction,
         transmission_error_peak_to_peak=spread.transmission_error.peak_to_peak,
     )
-
-
-def _stiff(prepared: Prepared) -> Equilibrium:
-    """The mesh between shafts that do not move, their bearings loaded all the same."""
-    gap = np.zeros(prepared.unit.stations.size)
-    balance, response = prepared.mesh.under(gap)
-    return Equilibrium(gap, 0.0, response.force, np.zeros(0), balance, 0, 0.0)
 
 
 def _torques(inputs: DriveTrainInputs) -> tuple[float, float]:

@@ -15,10 +15,10 @@ from solvers import pumping
 from solvers.arrays import FloatArray
 from solvers.drive_train.face_curves import face_mean
 from solvers.drive_train.inputs import DriveTrainInputs
+from solvers.gears.path_of_contact import PathOfContact
 from solvers.notices import Notice
 from solvers.pumping.inputs import PumpingSetup
 from solvers.pumping.results import SpacesResult
-from solvers.scuffing.path_of_contact import PathOfContact
 
 EXPANSION = 12e-6  # of steel, 1/K
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from solvers.drive_train.coupling_loads import CouplingPort, hub_moments
 from solvers.drive_train.frame import Frame
 from solvers.drive_train.inputs import DriveTrainInputs
-from solvers.scuffing.path_of_contact import PathOfContact
+from solvers.gears.path_of_contact import PathOfContact
 
 USABLE = 0.5  # of the ultimate rating
 SMALL_TILT = 1e-6  # rad, where a limit is wanted before the tilts are known
