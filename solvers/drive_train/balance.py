@@ -43,19 +43,20 @@ class LoadedMesh:
     slices: int
     scale: float
 
-    def under(self, gap: FloatArray) -> tuple[LoadBalance, FaceResponse]:
-        """Its balance with the shafts' gap [m] at the stations, and the force there."""
+    def under(self, gap: FloatArray) -> Mesh:
+        """The mesh with the shafts' gap [m] at the stations."""
         points = np.linspace(0.0, self.stations[-1], self.fixed.size)
-        lead = self.fixed + np.interp(points, self.stations, gap)
         mesh = self.prepared.mesh
-        balance = balance_load(
-            Mesh(mesh.plane, mesh.compliance, mesh.gap._replace(lead=lead)),
-            self.prepared.rolls,
-            self.force,
-            self.slices,
-        )
-        response = face_response(balance, self.slices, self.stations.size)
-        return balance, FaceResponse(self.scale * response.force, self.scale * response.derivative)
+        lead = self.fixed + np.interp(points, self.stations, gap)
+        return mesh._replace(gap=mesh.gap._replace(lead=lead))
+
+    def respond(self, gap: FloatArray, start: FaceResponse | None = None) -> FaceResponse:
+        """Force of the contacts at the stations, from the response to a similar gap."""
+        return face_response(self.under(gap), self.prepared.rolls, self.force, self.slices, self.stations.size, start)
+
+    def balance(self, gap: FloatArray) -> LoadBalance:
+        """The balance of the load with the shafts' gap [m]."""
+        return balance_load(self.under(gap), self.prepared.rolls, self.force, self.slices)
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,18 +97,18 @@ def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -
     if start is None:
         answer = respond(unit, uniform_force(mesh.prepared.tangential_force, count), tilts)
         tilts, start = answer.tilts, centred(answer.motion[:count])
-    state = _evaluate(unit, mesh, start, tilts)
+    state = _evaluate(unit, mesh, start, tilts, None)
     for iteration in range(1, ITERATIONS + 1):
-        matrix = np.eye(count) - _centred_rows(state.answer.derivative) @ state.response.derivative
+        matrix = np.eye(count) - mesh.scale * _centred_rows(state.answer.derivative) @ state.response.derivative
         if state.size <= TOLERANCE:
             answer = state.answer
             return Equilibrium(
                 gap=state.gap,
                 mean_gap=face_mean(answer.motion[:count]),
-                loads=np.concatenate([state.response.force, answer.loads]),
+                loads=np.concatenate([mesh.scale * state.response.force, answer.loads]),
                 tilts=answer.tilts,
-                balance=state.balance,
-                by_gap=np.linalg.solve(matrix.T, state.response.derivative.T).T,
+                balance=mesh.balance(state.gap),
+                by_gap=np.asarray(np.linalg.solve(matrix.T, mesh.scale * state.response.derivative.T).T, dtype=float),
                 iterations=iteration,
                 residual=state.size,
             )
@@ -119,7 +120,6 @@ def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -
 @dataclass(frozen=True, slots=True)
 class _State:
     gap: FloatArray
-    balance: LoadBalance
     response: FaceResponse
     answer: Tilts
     residual: FloatArray
@@ -129,17 +129,17 @@ class _State:
         return float(np.max(np.abs(self.residual)))
 
 
-def _evaluate(unit: Unit, mesh: LoadedMesh, gap: FloatArray, tilts: FloatArray) -> _State:
-    balance, response = mesh.under(gap)
-    answer = respond(unit, response.force, tilts)
-    return _State(gap, balance, response, answer, gap - centred(answer.motion[: gap.size]))
+def _evaluate(unit: Unit, mesh: LoadedMesh, gap: FloatArray, tilts: FloatArray, before: FaceResponse | None) -> _State:
+    response = mesh.respond(gap, before)
+    answer = respond(unit, mesh.scale * response.force, tilts)
+    return _State(gap, response, answer, gap - centred(answer.motion[: gap.size]))
 
 
 def _advance(unit: Unit, mesh: LoadedMesh, state: _State, step: FloatArray) -> _State:
     """The state after a step, halved while the residual does not fall."""
     share = 1.0
     while True:
-        following = _evaluate(unit, mesh, state.gap + share * step, state.answer.tilts)
+        following = _evaluate(unit, mesh, state.gap + share * step, state.answer.tilts, state.response)
         if following.size < state.size or share < LEAST_STEP:
             return following
         share /= 2

@@ -10,7 +10,7 @@ of T delta / 2 differs between hub and sleeve because the torque bisects their a
 """
 
 from dataclasses import dataclass, replace
-from math import acos, cos, pi, sin, sqrt
+from math import acos, cos, hypot, pi, sin, sqrt
 
 import numpy as np
 
@@ -158,31 +158,37 @@ def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, F
     loads, derivative = np.zeros(4), np.zeros((4, 4))
     for hub, driving in enumerate(port.driving):
         part = slice(2 * hub, 2 * hub + 2)
-        own, by_own = _hub_loads(port, tilts[part], -driving)
-        sleeve, by_sleeve = _hub_loads(port, tilts[part], driving)
+        tilt = tilts[part]
+        size = max(hypot(*tilt), LEAST_TILT)
+        now, further = _moments(port, size), _moments(port, size * (1 + STEP))
+        slopes = (further - now) / (size * STEP)
+        sleeve, by_sleeve = _polar(tilt, now, slopes, port.rotation * driving * port.torque / 2)
         loads[:2] += sleeve / port.length
         derivative[:2, part] += by_sleeve / port.length
         if hub == 0:
-            loads[2:] = own
-            derivative[2:, part] = by_own
+            loads[2:], derivative[2:, part] = _polar(tilt, now, slopes, -port.rotation * driving * port.torque / 2)
     return loads, derivative
 
 
-def _hub_loads(port: CouplingPort, tilt: FloatArray, torque_sign: float) -> tuple[FloatArray, FloatArray]:
-    """-a e + s (M_l + torque_sign T delta / 2) Z x e, and its derivative by the tilt vector."""
-    size = max(float(np.hypot(*tilt)), LEAST_TILT)
-    direction = tilt / size if np.any(tilt) else np.array([1.0, 0.0])
+def _polar(tilt: FloatArray, moments: FloatArray, slopes: FloatArray, torque: float) -> tuple[FloatArray, FloatArray]:
+    """-a e + (b + torque delta) Z x e of a tilt delta e, and its derivative by the tilt's components.
+
+    `moments` holds a and b, `slopes` their derivatives by delta; below the least tilt both are proportional to it.
+    """
+    size = hypot(*tilt)
+    direction = tilt / size if size > 0.0 else np.array([1.0, 0.0])
     across = np.array([-direction[1], direction[0]])
-    now, further = hub_moments(port, size), hub_moments(port, size * (1 + STEP))
-    step = size * STEP
-    a, a_slope = now.straightening, (further.straightening - now.straightening) / step
-    b = port.rotation * (now.loss + torque_sign * port.torque * size / 2)
-    b_slope = port.rotation * ((further.loss - now.loss) / step + torque_sign * port.torque / 2)
-    along = -a_slope * direction + b_slope * across
-    turning = (-a * across - b * direction) / size
-    derivative = np.outer(along, direction) + np.outer(turning, across)
-    loads = -a * direction + b * across if np.any(tilt) else np.zeros(2)
-    return loads, derivative
+    a, b = moments / max(size, LEAST_TILT)
+    along = -slopes[0] * direction + (slopes[1] + torque) * across
+    turning = -a * across - (b + torque) * direction
+    loads = size * (-a * direction + (b + torque) * across)
+    return loads, np.outer(along, direction) + np.outer(turning, across)
+
+
+def _moments(port: CouplingPort, tilt: float) -> FloatArray:
+    """Straightening a and loss moment, with the sense of rotation's sign, of a hub."""
+    hub = hub_moments(port, tilt)
+    return np.array([hub.straightening, port.rotation * hub.loss])
 
 
 def softened(port: CouplingPort, factor: float) -> CouplingPort:

@@ -65,8 +65,8 @@ def design(
     """Best worst case over collective x corners: the largest least safety, or the least largest of other figures.
 
     Starts from the inputs' own values (within their ranges), searched by COBYQA, which takes no derivatives and copes
-    with the kinks of a maximum. Raises InvalidInput (variable_range, too_many_corners, safety_undefined, unknown_name and
-    what `outcome` raises) and NoSolution design where the start has none.
+    with the kinks of a maximum. Raises InvalidInput (variable_range, too_many_corners, safety_undefined, unknown_name
+    and what `outcome` raises) and NoSolution design where the start has none.
     """
     cases = _cases(inputs, corners, collective, objective)
     low, high = (np.array([getattr(variable, end) for variable in variables]) for end in ("low", "high"))

@@ -72,8 +72,10 @@ def settle(inputs: DriveTrainInputs, prepared: Prepared, start: FloatArray | Non
     if inputs.effects.shafts:
         return equilibrium(prepared.unit, prepared.mesh, start)
     gap = np.zeros(prepared.unit.stations.size)
-    balance, response = prepared.mesh.under(gap)
-    return Equilibrium(gap, 0.0, response.force, np.zeros(0), balance, response.derivative, 0, 0.0)
+    mesh = prepared.mesh
+    response = mesh.respond(gap)
+    force, by_gap = mesh.scale * response.force, mesh.scale * response.derivative
+    return Equilibrium(gap, 0.0, force, np.zeros(0), mesh.balance(gap), by_gap, 0, 0.0)
 
 
 def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTrainResult:

@@ -73,7 +73,7 @@ def outcome_of(inputs: DriveTrainInputs, prepared: Prepared, found: Equilibrium)
         shaft_slope=slope,
         total_slope=slope + face_slope(prepared.thermal.lead),
         transmission_error_peak_to_peak=spread.transmission_error.peak_to_peak,
-        shares=shares / mean if mean > 0.0 else shares,
+        shares=np.asarray(shares) / (mean if mean > 0.0 else 1.0),
         temperature=heat.temperature,
         gap=found.gap,
     )

@@ -79,12 +79,10 @@ def sensitivity(inputs: DriveTrainInputs, tolerances: Sequence[Tolerance]) -> Se
 def _influence(inputs: DriveTrainInputs, base: Outcome, tolerance: Tolerance) -> Influence:
     """Differences at the frozen places, and of the free maxima on either side."""
     value = _number(value_at(inputs, tolerance.name), tolerance.name)
-    sides = [
-        outcome(varied(inputs, {tolerance.name: value + sign * STEP * tolerance.change}), base.gap)
-        for sign in (1.0, -1.0)
-    ]
+    units = [varied(inputs, {tolerance.name: value + sign * STEP * tolerance.change}) for sign in (1.0, -1.0)]
+    sides = [outcome(unit, base.gap) for unit in units]
     factors = [_factor_at(side, base) for side in sides]
-    safeties = [_safety_at(inputs, side, base) for side in sides]
+    safeties = [_safety_at(unit, side, base) for unit, side in zip(units, sides, strict=True)]
     safety = None
     if safeties[0] is not None and safeties[1] is not None:
         safety = (safeties[0] - safeties[1]) / (2 * STEP)
