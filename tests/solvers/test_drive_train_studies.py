@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from solvers.coupling.inputs import Friction
+from solvers.drive_train import solve
 from solvers.drive_train.corners import Range, default_ranges, run_corners
 from solvers.drive_train.design import Variable, design
 from solvers.drive_train.inputs import DriveTrainInputs, Effects
@@ -32,11 +33,11 @@ LOCAL = [
     ("heat.wall_response", 0.1, 0.012, -0.009),
     ("heat.pinion_bulk", 5.0, 0.007, 0.005),
     ("heat.wheel_bulk", 5.0, -0.007, -0.005),
-    (f"{SHAPE}.helix_slope", 5e-6, -0.0147, 0.026),
+    (f"{SHAPE}.helix_slope", 5e-6, -0.014, 0.026),
     (f"{SHAPE}.lead_crowning", 2e-6, 0.026, -0.007),
-    ("pinion_shaft.bearings.1.radial_clearance", 15e-6, 0.0174, -0.030),
-    ("pinion_shaft.bearings.0.radial_clearance", 15e-6, -0.0083, 0.015),
-    ("wheel_shaft.bearings.0.radial_clearance", 15e-6, -0.0114, 0.020),
+    ("pinion_shaft.bearings.1.radial_clearance", 15e-6, 0.017, -0.030),
+    ("pinion_shaft.bearings.0.radial_clearance", 15e-6, -0.008, 0.015),
+    ("wheel_shaft.bearings.0.radial_clearance", 15e-6, -0.011, 0.020),
     ("mesh.distribution.friction_coefficient", 0.005, 0.0, -0.118),
     ("mesh.temperatures.bulk", 5.0, 0.0, -0.099),
     ("mesh.temperatures.scuffing", 10.0, 0.0, 0.108),
@@ -47,7 +48,7 @@ def test_sensitivities_of_the_corrected_unit() -> None:
     found = sensitivity(turbo_gear(GROUND), [Tolerance(name, change) for name, change, _, _ in LOCAL])
     for influence, (name, _, factor, safety) in zip(found.influences, LOCAL, strict=True):
         assert influence.name == name
-        assert influence.face_load_factor == pytest.approx(factor, abs=0.0011), name
+        assert influence.face_load_factor == pytest.approx(factor, abs=0.0012), name
         assert influence.safety == pytest.approx(safety, abs=0.0011), name
         assert not influence.kink
 
@@ -66,9 +67,13 @@ def test_viscosity_of_all_films_and_the_offset() -> None:
 
 
 def test_an_edge_maximum_is_smooth() -> None:
-    """Row 5: dK/dmu 0.5997, wherever between steps of 1e-2 and 1e-7."""
-    found = sensitivity(turbo_gear(), [Tolerance("couplings.0.friction.coefficient", 0.01)])
-    assert found.influences[0].face_load_factor / 0.01 == pytest.approx(0.5997, rel=1e-3)
+    """Row 5: the same dK/dmu with steps of a thousandth from 1e-2 to 1e-6, and that of the free maximum."""
+    name = "couplings.0.friction.coefficient"
+    found = sensitivity(turbo_gear(), [Tolerance(name, change) for change in (1.0, 1e-2, 1e-4)])
+    slopes = [one.face_load_factor / one.change for one in found.influences]
+    assert slopes == pytest.approx([slopes[0]] * 3, rel=1e-4)
+    factors = [outcome(varied(turbo_gear(), {name: 0.15 + step})).face_load_factor or 0.0 for step in (1e-4, -1e-4)]
+    assert slopes[0] == pytest.approx((factors[0] - factors[1]) / 2e-4, rel=1e-4)
 
 
 def test_gap_at_a_station_moves_the_load_as_the_derivative_says() -> None:
@@ -78,14 +83,10 @@ def test_gap_at_a_station_moves_the_load_as_the_derivative_says() -> None:
     position = tuple(float(y) for y in found.position)
     hat = tuple(step * (k == place) for k in range(11))
     changed = varied(inputs, {f"{SHAPE}.lead_curve": LeadCurve(position, hat)})
-    from solvers.drive_train import solve  # noqa: PLC0415
-
     forces = [solve(unit).misalignment.curves.line_force for unit in (inputs, changed)]
-    mean = inputs.mesh.distribution.load.pinion_torque / 0.2
     share = [force[-1] / np.trapezoid(force, dx=0.1) for force in forces]
     assert (share[1] - share[0]) / step == pytest.approx(found.by_gap[place], rel=1e-4)
     assert found.by_gap.sum() == pytest.approx(0.0, abs=1e-9 * np.abs(found.by_gap).max())
-    assert mean > 0.0
 
 
 def test_corners_hold_every_combination() -> None:
@@ -156,7 +157,8 @@ def test_tolerances_by_latin_hypercube() -> None:
     assert median.low is not None
     assert median.high is not None
     assert median.low < median.value < median.high
-    assert safety.rank_correlation[f"{SHAPE}.helix_slope"] > 0.5
+    total = found.figures["total_slope"].rank_correlation
+    assert abs(total[f"{SHAPE}.helix_slope"]) < 0.5
     assert found.figures["shaft_slope"].rank_correlation["couplings.0.friction.coefficient"] < -0.9
 
 
@@ -169,8 +171,8 @@ def test_tolerances_of_the_example() -> None:
     inputs = turbo_gear(GROUND)
     scatters = [
         Scatter("couplings.0.friction.coefficient", 0.05, 0.25),
-        Scatter("couplings.0.offset_x", -0.5e-3, 0.5e-3),
-        Scatter("couplings.0.offset_y", -0.5e-3, 0.5e-3),
+        Scatter("couplings.0.offset.0", -0.5e-3, 0.5e-3),
+        Scatter("couplings.0.offset.1", -0.5e-3, 0.5e-3),
         Scatter("heat.wall_response", 0.3, 0.9),
         Scatter(f"{SHAPE}.helix_slope", 45e-6, 55e-6),
         Scatter(f"{SHAPE}.lead_crowning", 2e-6, 7e-6),
@@ -188,19 +190,30 @@ def test_tolerances_of_the_example() -> None:
 
 @pytest.mark.slow
 def test_the_robust_design() -> None:
-    """Worst S over 12 corners: uncorrected 1.383, nominal correction 50/4/15 1.609, found 43.1/7.8/12.9: 1.741."""
-    inputs = replace(turbo_gear(GROUND), coupling_friction="sliding")
-    corners = [Range("heat.wall_response", (0.3, 0.9))]
-    found = design(
-        inputs,
-        [
-            Variable((f"{SHAPE}.helix_slope",), 0.0, 100e-6),
-            Variable((f"{SHAPE}.lead_crowning",), 0.0, 20e-6),
-            Variable((f"{SHAPE}.tip_relief", f"{SHAPE}.root_relief"), 0.0, 30e-6),
-        ],
-        corners,
-    )
-    assert found.objective_best > found.objective_start + 0.05
+    """Worst S over 12 corners: uncorrected 1.383, nominal correction 50/4/15 1.609, found 43.1/7.8/12.9: 1.741.
+
+    Friction with offset 3, response 2, power 2; the second response is between 0.9 and 1 by these figures.
+    """
+    inputs = turbo_gear(GROUND)
+    machines = [
+        (replace(COUPLING, friction=Friction(friction), offset=(0.0, offset)),)
+        for friction, offset in ((0.05, 400e-6), (0.25, 400e-6), (0.25, -400e-6))
+    ]
+    torque = inputs.mesh.distribution.load.pinion_torque
+    corners = [Range("couplings", tuple(machines)), Range("heat.wall_response", (0.3, 0.9))]
+    powers = [{"mesh.distribution.load.pinion_torque": share * torque} for share in (1.0, 0.5)]
+    variables = [
+        Variable((f"{SHAPE}.helix_slope",), 0.0, 100e-6),
+        Variable((f"{SHAPE}.lead_crowning",), 0.0, 20e-6),
+        Variable((f"{SHAPE}.tip_relief", f"{SHAPE}.root_relief"), 0.0, 30e-6),
+    ]
+    plain = design(turbo_gear(), variables, corners, collective=powers, evaluations=8)
+    assert plain.objective_start == pytest.approx(1.383, abs=0.0015)
+    found = design(inputs, variables, corners, collective=powers)
+    assert found.objective_start == pytest.approx(1.609, abs=0.0015)
+    assert found.objective_best == pytest.approx(1.741, abs=0.004)
+    assert np.array(found.best) * 1e6 == pytest.approx([43.1, 7.8, 12.9], abs=1.5)
+    assert found.evaluations <= 60
 
 
 def test_a_design_search_improves_the_worst_corner() -> None:
@@ -214,8 +227,8 @@ def test_a_design_search_improves_the_worst_corner() -> None:
     assert max(trial.objective for trial in found.history) == found.objective_best
     worst = [
         outcome(varied(inputs, {**found.worst_corner, f"{SHAPE}.helix_slope": found.best[0]})).safety,
-        outcome(varied(inputs, {f"{SHAPE}.helix_slope": found.best[0], **{corners[0].name: 0.25}})).safety,
-        outcome(varied(inputs, {f"{SHAPE}.helix_slope": found.best[0], **{corners[0].name: 0.05}})).safety,
+        outcome(varied(inputs, {f"{SHAPE}.helix_slope": found.best[0], corners[0].name: 0.25})).safety,
+        outcome(varied(inputs, {f"{SHAPE}.helix_slope": found.best[0], corners[0].name: 0.05})).safety,
     ]
     assert found.objective_best == pytest.approx(min(value for value in worst if value is not None), rel=1e-8)
 
