@@ -94,7 +94,7 @@ def crowning_scan(request: RecommendationRequest, answer: RecommendationResponse
     panels = (
         Panel(
             x=x,
-            y=Axis("least load capacity coefficient Tr over the range", log=True),
+            y=Axis("least load capacity coefficient Tr over the range", log=True, limits=_decades_shown(capacity)),
             lines=(Line("least Tr", ratio, capacity, named=False),),
             levels=(*boundaries, *choice),
             spans=window,
@@ -115,6 +115,12 @@ def crowning_scan(request: RecommendationRequest, answer: RecommendationResponse
 def _window(ratio: "np.ndarray", feasible: "np.ndarray", best: float | None) -> tuple[Span, ...]:  # type: ignore[type-arg]
     inside = [*ratio[feasible].tolist(), *([] if best is None else [best])]
     return (Span(min(inside), max(inside), "feasible"),) if inside else ()
+
+
+def _decades_shown(capacity: "np.ndarray") -> tuple[float, float]:  # type: ignore[type-arg]
+    """Down to a thousandth of the best: where the film tears off, its capacity falls to nothing."""
+    top = 10.0 ** np.ceil(np.log10(max(float(np.nanmax(capacity)), CAPACITY_BOUNDARIES[1])))
+    return top / 1e4, top
 
 
 def _choice(answer: RecommendationResponse) -> str:

@@ -200,4 +200,4 @@ def _crowded(panel: Panel, width: float) -> bool:
     if panel.map is None or not panel.map.bar:
         return False
     free = width + TICKS + _right(panel) - text_width(_color_name(panel.map), SMALL)
-    return text_width(panel.y.label, SMALL) + 0.2 > free
+    return text_width(panel.y.label, SMALL) + 0.4 > free

@@ -10,7 +10,7 @@ from matplotlib.colors import LogNorm, Normalize
 
 from app.figures.annotations import draw_mark, name_span
 from app.figures.canvas import Canvas
-from app.figures.data import Map, Panel, Scale, Span, Values
+from app.figures.data import Axis, Map, Panel, Scale, Span, Values
 from app.figures.labels import Place, Placer, around
 from app.figures.scales import Range, nice_ticks
 from app.figures.style import SMALL, TEXT, Theme, text_height, text_width
@@ -58,7 +58,7 @@ def color_bar_width(chart: Map) -> float:
 
 def draw_map(axes: Axes, panel: Panel, chart: Map, size: tuple[float, float], theme: Theme) -> None:
     """Colours, contours, critical values and marks."""
-    x, y = _range(chart.x), _range(chart.y)
+    x, y = _range(chart.x, panel.x), _range(chart.y, panel.y)
     canvas = Canvas(axes, x, y, Placer(*size), theme)
     canvas.frame()
     axes.grid(visible=False)
@@ -127,11 +127,11 @@ def _norm(chart: Map) -> Normalize:
     return LogNorm(low, high) if chart.scale is Scale.RATIO else Normalize(low, high)
 
 
-def _range(coordinate: Values) -> Range:
-    low, high = float(coordinate.min()), float(coordinate.max())
+def _range(coordinate: Values, axis: Axis) -> Range:
+    low, high = axis.limits or (float(coordinate.min()), float(coordinate.max()))
     if low == high:
         low, high = low - 0.5, high + 0.5
-    return Range(low, high, nice_ticks(low, high, 6))
+    return Range(low, high, axis.ticks or nice_ticks(low, high, 5))
 
 
 def _image(chart: Map, x: Range, y: Range) -> Values:
@@ -149,7 +149,8 @@ def _contours(axes: Axes, chart: Map, theme: Theme) -> None:
     finite = chart.values[np.isfinite(chart.values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
     critical = [each.value for each in chart.critical]
-    levels = [tick for tick in bar_ticks(chart) if low < tick < high and tick not in critical]
+    still = {Scale.RATIO: 1.0, Scale.SIGNED: 0.0}.get(chart.scale)  # where nothing happens there is only noise
+    levels = [tick for tick in bar_ticks(chart) if low < tick < high and tick not in {*critical, still}]
     pale = chart.scale is not Scale.MAGNITUDE
     for values, style in (
         (levels, {"colors": "#1F2937" if pale else "#FFFFFF", "linewidths": 0.6, "alpha": 0.55}),

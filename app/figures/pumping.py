@@ -5,11 +5,12 @@ import numpy as np
 from app.figures.data import Axis, Bars, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Role, Row, Span, Values, values
 from app.figures.declaration import Declaration, present
 from app.figures.pumping_maps import MAPS, critical_ratio, spaces
-from app.figures.wording import number
+from app.figures.wording import number, ratio
 from app.requests.pumping import PumpingRequest
 from app.responses.pumping import PumpingResponse, PumpingSpaces
 
 HUES = {"pinion": Hue.BLUE, "wheel": Hue.VERMILLION}
+NO_FLOW = 1e-9  # g/s
 FACE = "position along the face from the end that meshes first"
 
 
@@ -72,7 +73,7 @@ def peak_pressure(request: PumpingRequest, answer: PumpingResponse) -> Figure:
         line = _along(request, gear, profile.position_mm, profile.peak_pressure_ratio, HUES[gear])
         at = int(np.nanargmax(line.y))
         lines.append(line)
-        marks.append(Mark(float(line.x[at]), float(line.y[at]), number(float(line.y[at])), line.hue))
+        marks.append(Mark(float(line.x[at]), float(line.y[at]), ratio(float(line.y[at])), line.hue))
     critical = critical_ratio(request)
     panel = Panel(
         x=_face(request),
@@ -126,12 +127,13 @@ def pulsation(_: PumpingRequest, answer: PumpingResponse) -> Figure:
 
 def mass_flow(_: PumpingRequest, answer: PumpingResponse) -> Figure:
     """Net flow out of the tooth spaces of each gear by exit."""
-    panels = tuple(
-        Panel(x=Axis("net mass flow out (negative: in)", "g/s"), y=Axis("exit"), title=f"spaces of the {gear}", rows=_exits(space))
-        for gear, space in spaces(answer)
-    )
-    breathed = sum(abs(space.mass_flow_g_per_s.front) + abs(space.mass_flow_g_per_s.rear) for _, space in spaces(answer))
-    finding = f"{number(breathed, 'g/s')} net through the ends of the face; the exits of a gear sum to zero"
+    exits = {gear: _exits(space) for gear, space in spaces(answer)}
+    still = all(abs(row.value) < NO_FLOW for rows in exits.values() for row in rows)
+    x = Axis("net mass flow out (negative: in)", "g/s", limits=(0.0, 1.0) if still else None)
+    panels = tuple(Panel(x=x, y=Axis("exit"), title=f"spaces of the {gear}", rows=rows) for gear, rows in exits.items())
+    through_ends = sum(rows[0].value + rows[1].value for rows in exits.values())
+    net = f"{number(abs(through_ends), 'g/s')} {'leave' if through_ends > 0.0 else 'enter'} through the ends of the face"
+    finding = "what leaves an exit comes back through it" if still else f"{net}; the exits of a gear sum to zero"
     return Figure("Where the mist leaves and enters the tooth spaces", finding, "Milian 2004", panels)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from app.figures.data import Axis, Critical, Figure, Map, Mark, NoFigure, Panel, Scale, Span, matrix, values
 from app.figures.declaration import Declaration, present
-from app.figures.wording import number
+from app.figures.wording import number, ratio
 from app.requests.pumping import PumpingRequest
 from app.responses.pumping import PumpingField, PumpingResponse, PumpingSpaces
 
@@ -37,7 +37,7 @@ def pressure_map(request: PumpingRequest, answer: PumpingResponse) -> Figure:
     )
     peak = max(space.peak_pressure_ratio for _, space in spaces(answer))
     least = min(space.min_pressure_ratio for _, space in spaces(answer))
-    finding = f"highest {number(peak)}, lowest {number(least)} of ambient pressure"
+    finding = f"highest {ratio(peak)}, lowest {ratio(least)} of ambient pressure"
     return Figure("Pressure in the tooth spaces", finding, "Milian 2004, Eqs. 1-4", panels, beside=True)
 
 
@@ -129,7 +129,8 @@ def _extremes(chart: Map, scale: Scale) -> tuple[Mark, ...]:
     marks = []
     for place in places:
         row, column = np.unravel_index(place, chart.values.shape)
-        text = number(float(chart.values[row, column]), chart.unit or "")
+        value = float(chart.values[row, column])
+        text = ratio(value) if scale is Scale.RATIO else number(value, chart.unit or "")
         marks.append(Mark(float(chart.x[column]), float(chart.y[row]), text))
     return tuple(marks)
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import ceil, floor, inf, isfinite, log10
+from math import ceil, floor, log10
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator
@@ -68,12 +68,12 @@ def _linear_ends(axis: Axis, finite: Values, levels: Iterable[float], *, snug: b
     grounded = axis.magnitude and not snug
     base = min(low, 0.0) if grounded else low
     reach = (max(high, 0.0) if grounded else high) - base
+    top, farthest = base + reach, FARTHEST_LEVEL * max(reach, 1e-300)
     for level in levels:
-        if not isfinite(level):
-            continue
-        if level > high and level - base <= FARTHEST_LEVEL * max(reach, 1e-300):
-            high = level
-        low = level if level < low and high - level <= FARTHEST_LEVEL * max(reach, 1e-300) else low
+        if level > top and level - base <= farthest:
+            high = max(high, level)
+        if level < base and top - level <= farthest:
+            low = min(low, level)
     if grounded:
         low, high = min(low, 0.0), max(high, 0.0)
     if high - low <= 1e-9 * max(abs(low), abs(high)):
@@ -88,15 +88,13 @@ def _linear_ends(axis: Axis, finite: Values, levels: Iterable[float], *, snug: b
 
 def _log_range(axis: Axis, positive: Values, levels: Iterable[float]) -> Range:
     """Whole or half decades around the values."""
-    low, high = axis.limits or (inf, 0.0)
-    for value in (*positive.tolist(), *(level for level in levels if level > 0.0)):
-        low, high = min(low, value), max(high, value)
-    if not isfinite(low):
-        low, high = 0.1, 10.0
-    if axis.limits is None or (low, high) != axis.limits:
-        low, high = 10.0 ** (floor(2.0 * log10(low)) / 2.0), 10.0 ** (ceil(2.0 * log10(high)) / 2.0)
-    if high / low < 10.0 ** 0.99:
-        low, high = low / 10.0 ** 0.5, high * 10.0 ** 0.5
+    if axis.limits is not None:
+        low, high = axis.limits
+    else:
+        seen = [*positive.tolist(), *(level for level in levels if level > 0.0)] or [1.0]
+        low, high = 10.0 ** (floor(2.0 * log10(min(seen))) / 2.0), 10.0 ** (ceil(2.0 * log10(max(seen))) / 2.0)
+    if high / low < 9.0:
+        low, high = low / 10.0**0.5, high * 10.0**0.5
     ticks = _decades(low, high) if axis.ticks is None else tuple(tick for tick in axis.ticks if low <= tick <= high)
     return Range(low, high, ticks, log=True)
 

@@ -34,6 +34,11 @@ def percent(fraction: float) -> str:
     return number(0.0 if abs(fraction) < 1e-9 else 100.0 * fraction, "%")
 
 
+def ratio(value: float) -> str:
+    """A ratio around 1, with as many digits as show how far from it."""
+    return number(value, digits=3 if abs(value - 1.0) > 0.01 else 6)
+
+
 def listed(names: list[str]) -> str:
     """Names in a sentence."""
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
