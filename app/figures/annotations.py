@@ -26,7 +26,8 @@ def name_span(canvas: Canvas, span: Span) -> None:
         return
     width, height = text_width(span.name, SMALL), text_height(span.name, SMALL)
     starts = float(ends.mean()) - width / 2, float(ends[0]) + 0.04, float(ends[1]) - width - 0.04
-    levels = canvas.placer.height - height - 0.02, 0.03, canvas.placer.height / 2
+    share = canvas.placer.height - height
+    levels = share - 0.02, 0.03, share * 0.75, share * 0.5, share * 0.25
     place = canvas.placer.place(span.name, SMALL, [(x, y) for y in levels for x in starts])
     canvas.write(place, span.name, SMALL, canvas.theme.muted)
 

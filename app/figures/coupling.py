@@ -22,8 +22,18 @@ def friction_regime_figure(_: CouplingRequest, answer: CouplingResponse) -> Figu
     lubrication = present(answer.lubrication)
     regime = lubrication.regime
     overlap, capacity = _shown(lubrication.contact_overlap), _shown(lubrication.load_capacity_coefficient)
-    x = Axis("contact surface overlap Pu (right: worse supply of oil)", log=True, limits=_around("overlap", overlap), ticks=_ticks(*OVERLAP_BOUNDARIES))
-    y = Axis("load capacity coefficient Tr (up: stronger film)", log=True, limits=_around("capacity", capacity), ticks=_ticks(*CAPACITY_BOUNDARIES))
+    x = Axis(
+        "contact surface overlap Pu (right: worse supply of oil)",
+        log=True,
+        limits=_around("overlap", overlap),
+        ticks=_ticks(*OVERLAP_BOUNDARIES),
+    )
+    y = Axis(
+        "load capacity coefficient Tr (up: stronger film)",
+        log=True,
+        limits=_around("capacity", capacity),
+        ticks=_ticks(*CAPACITY_BOUNDARIES),
+    )
     assert x.limits is not None
     assert y.limits is not None
     at = min(max(overlap, x.limits[0]), x.limits[1]), min(max(capacity, y.limits[0]), y.limits[1])
@@ -94,7 +104,12 @@ def _band(low: float | None, high: float | None) -> str:
 
 
 def _tint(name: str) -> Hue:
-    for word, hue in (("full", Hue.GREEN), ("unstable", Hue.PURPLE), ("transition", Hue.ORANGE), ("boundary", Hue.VERMILLION)):
+    for word, hue in (
+        ("full", Hue.GREEN),
+        ("unstable", Hue.PURPLE),
+        ("transition", Hue.ORANGE),
+        ("boundary", Hue.VERMILLION),
+    ):
         if word in name:
             return hue
     return Hue.SKY
@@ -156,8 +171,12 @@ def tooth_motion(_: CouplingRequest, answer: CouplingResponse) -> Figure:
             marks=(Mark(float(angle[top]), float(sliding[top]), number(float(sliding[top]), "m/s"), Hue.VERMILLION),),
             spans=TILTS,
         ),
-        _motion("hydrodynamic velocity, that builds the film", "m/s", angle, curves.hydrodynamic_velocity_m_per_s, Hue.BLUE),
-        _motion("tangential displacement, that loads the tooth", "µm", angle, curves.tangential_displacement_um, Hue.GREEN),
+        _motion(
+            "hydrodynamic velocity, that builds the film", "m/s", angle, curves.hydrodynamic_velocity_m_per_s, Hue.BLUE
+        ),
+        _motion(
+            "tangential displacement, that loads the tooth", "µm", angle, curves.tangential_displacement_um, Hue.GREEN
+        ),
     )
     finding = f"sliding reaches {percent(share)} of its lasting limit; least film velocity near the tilt positions"
     return Figure("Motion of one tooth over a revolution", finding, "Pahl 1978, Figs. 6, 12", panels)
@@ -212,10 +231,23 @@ def axial_thrust(request: CouplingRequest, answer: CouplingResponse) -> Figure:
         lines=(Line("sliding by tilt", values(curves.angle_deg), sliding, Hue.VERMILLION),),
         levels=(Level(axial, f"axial velocity {number(axial * 1e3, 'mm/s')}"),) if axial else (),
     )
-    share = "no limit without load or friction" if thrust.fraction_of_limit is None else f"{percent(thrust.fraction_of_limit)} of the coaxial limit"
-    state = "friction at rest is indeterminate" if thrust.indeterminate else f"{percent(opposed)} of the revolution slides against the axial motion"
+    share = (
+        "no limit without load or friction"
+        if thrust.fraction_of_limit is None
+        else f"{percent(thrust.fraction_of_limit)} of the coaxial limit"
+    )
+    state = (
+        "friction at rest is indeterminate"
+        if thrust.indeterminate
+        else f"{percent(opposed)} of the revolution slides against the axial motion"
+    )
     finding = f"{share}; {state}" if axial or thrust.indeterminate else share
-    return Figure("Axial thrust of the coupling", finding, "Pahl 1978, Fig. 14", (Panel(x=Axis("thrust", "N"), y=Axis("thrust"), rows=tuple(rows), levels=(limit,)), motion))
+    return Figure(
+        "Axial thrust of the coupling",
+        finding,
+        "Pahl 1978, Fig. 14",
+        (Panel(x=Axis("thrust", "N"), y=Axis("thrust"), rows=tuple(rows), levels=(limit,)), motion),
+    )
 
 
 def losses(_: CouplingRequest, answer: CouplingResponse) -> Figure:

@@ -57,7 +57,9 @@ def inertia_force(_: SleeveOrbitRequest, answer: SleeveOrbitResponse) -> Figure:
         lines=tuple(lines),
         marks=(Mark(float(angle[at]), value, number(value, "N"), strongest.hue),),
     )
-    return Figure("Inertia force of the sleeve", f"up to {number(abs(value), 'N')} {strongest.title}", ORBIT_SOURCE, (panel,))
+    return Figure(
+        "Inertia force of the sleeve", f"up to {number(abs(value), 'N')} {strongest.title}", ORBIT_SOURCE, (panel,)
+    )
 
 
 def orders(_: SleeveOrbitRequest, answer: SleeveOrbitResponse) -> Figure:

@@ -112,7 +112,12 @@ def _beside(figure: Figure, top: float) -> list[Slot]:
 
 def _above(panel: Panel, width: float) -> float:
     title = 0.2 if panel.title else 0.0
-    return title + LABEL_LINE + LEGEND_SPACING * len(legend_rows(panel, width)) - (LABEL_LINE - 0.08 if panel.rows else 0.0)
+    return (
+        title
+        + LABEL_LINE
+        + LEGEND_SPACING * len(legend_rows(panel, width))
+        - (LABEL_LINE - 0.08 if panel.rows else 0.0)
+    )
 
 
 def _right(panel: Panel) -> float:
@@ -171,7 +176,9 @@ def _draw_names(sheet: Sheet, slot: Slot, axes: Axes, height: float, theme: Them
     if panel.title:
         lift -= 0.01
         above = slot.top - 0.07 - (0.0 if panel.rows else LABEL_LINE - 0.02)
-        sheet.text(slot.left / WIDTH, 1.0 - above / height, panel.title, fontsize=TEXT, fontweight="bold", color=theme.ink)
+        sheet.text(
+            slot.left / WIDTH, 1.0 - above / height, panel.title, fontsize=TEXT, fontweight="bold", color=theme.ink
+        )
     if slot.abscissa:
         axes.set_xlabel(panel.x.label, fontsize=SMALL, color=theme.muted, labelpad=3)
     else:

@@ -16,7 +16,9 @@ PROFILE = Axis("profile (0: A, pinion root; 1: E, pinion tip)", limits=(0.0, 1.0
 def flank_load(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
     """Line load over the flank, its maximum over all roll positions marked."""
     load, flank = present(answer.load), present(answer.flank)
-    panel = _panel(flank, "line load", "N/mm", matrix(flank.line_load_n_per_mm), load.max_at, load.max_line_load_n_per_mm)
+    panel = _panel(
+        flank, "line load", "N/mm", matrix(flank.line_load_n_per_mm), load.max_at, load.max_line_load_n_per_mm
+    )
     factor = load.face_load_factor
     face = "" if factor is None else f", K_Hβ = {number(factor)}"
     finding = f"highest {number(load.max_line_load_n_per_mm, 'N/mm')}{face}; {percent(load.contact_fraction)} of the flank carries"
@@ -71,6 +73,8 @@ def _where(place: FlankPlace) -> str:
 
 MAPS = (
     Declaration("flank-load", "Line load on the flank", "Xue 2020, Fig. 11", flank_load, detail="fields"),
-    Declaration("flank-pressure", "Hertz pressure on the flank", "Xue 2020, Figs. 13, 16, 17", flank_pressure, detail="fields"),
+    Declaration(
+        "flank-pressure", "Hertz pressure on the flank", "Xue 2020, Figs. 13, 16, 17", flank_pressure, detail="fields"
+    ),
     Declaration("modification", "Modification of the flank", "Xue 2020, Fig. 15", modification, detail="fields"),
 )

@@ -90,7 +90,9 @@ def _hits(box: Box, cloud: Values) -> int:
     return int(inside.sum())
 
 
-def around(x: float, y: float, text: str, size: float, *, bold: bool = False, gap: float = 0.08) -> list[tuple[float, float]]:
+def around(
+    x: float, y: float, text: str, size: float, *, bold: bool = False, gap: float = 0.08
+) -> list[tuple[float, float]]:
     """Corners of a text above, right of, left of and below a point, near first."""
     width, height = text_width(text, size, bold=bold), text_height(text, size)
     corners = []

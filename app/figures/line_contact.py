@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from app.figures.data import Axis, Figure, Hue, Level, Line, Map, Mark, NoFigure, Panel, Role, Row, Span, matrix, values
+from app.figures.data import Axis, Figure, Hue, Line, Map, Mark, NoFigure, Panel, Role, Row, Span, matrix, values
 from app.figures.declaration import Declaration, present
 from app.figures.wording import number
 from app.requests.line_contact import LineContactRequest
@@ -36,7 +36,14 @@ def contact(_: LineContactRequest, answer: LineContactResponse) -> Figure:
             x=x,
             y=Axis("film thickness", "µm", limits=(0.0, ceiling)),
             lines=(Line("film thickness", x_mm, thickness, Hue.GREEN, named=False),),
-            marks=(Mark(float(x_mm[thinnest]), float(thickness[thinnest]), number(float(thickness[thinnest]), "µm"), Hue.GREEN),),
+            marks=(
+                Mark(
+                    float(x_mm[thinnest]),
+                    float(thickness[thinnest]),
+                    number(float(thickness[thinnest]), "µm"),
+                    Hue.GREEN,
+                ),
+            ),
             spans=plain,
         ),
     ]

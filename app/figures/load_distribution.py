@@ -56,13 +56,17 @@ def path_of_contact(_: LoadDistributionRequest, answer: LoadDistributionResponse
         _along(psi, "sliding speed, magnitude", "m/s", sliding, Hue.GREEN, unnamed(points), None),
     )
     loaded = load.max_at is not None
-    finding = f"on the whole flank up to {number(load.max_line_load_n_per_mm, 'N/mm')} and {number(pressure.max_mpa, 'MPa')}"
+    finding = (
+        f"on the whole flank up to {number(load.max_line_load_n_per_mm, 'N/mm')} and {number(pressure.max_mpa, 'MPa')}"
+    )
     gaps = int(np.isnan(stresses).sum())
     title = "Load, pressure and sliding along the path of contact"
     return Figure(title, finding if loaded else NO_LOAD, "Xue 2020, Figs. 11, 13, 18", panels, unsolved=gaps)
 
 
-def _along(psi: Values, title: str, unit: str, y: Values, hue: Hue, points: tuple[Level, ...], marked: str | None) -> Panel:
+def _along(
+    psi: Values, title: str, unit: str, y: Values, hue: Hue, points: tuple[Level, ...], marked: str | None
+) -> Panel:
     name = title.split(",", maxsplit=1)[0]
     marks: tuple[Mark, ...] = ()
     if marked is not None and np.nanmax(y, initial=0.0) > 0.0:
@@ -89,9 +93,13 @@ def stiffness(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> F
     curves = present(stiff.curves)
     gamma, single = values(curves.gamma), values(curves.single_n_per_mm_um)
     unit = "N/(mm µm)"
-    levels = [Level(stiff.standard_single_n_per_mm_um, f"ISO 6336-1, one pair: {number(stiff.standard_single_n_per_mm_um)}")]
+    levels = [
+        Level(stiff.standard_single_n_per_mm_um, f"ISO 6336-1, one pair: {number(stiff.standard_single_n_per_mm_um)}")
+    ]
     if stiff.mean_mesh_n_per_mm_um is not None:
-        levels.append(Level(stiff.mean_mesh_n_per_mm_um, f"mean of the loaded mesh: {number(stiff.mean_mesh_n_per_mm_um)}"))
+        levels.append(
+            Level(stiff.mean_mesh_n_per_mm_um, f"mean of the loaded mesh: {number(stiff.mean_mesh_n_per_mm_um)}")
+        )
     if gamma[0] < 0.0 < gamma[-1]:
         levels.append(Level(0.0, "C, pitch point", vertical=True))
     panel = Panel(
@@ -152,9 +160,18 @@ def pair_share(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> 
 
 FIGURES = (
     *MAPS,
-    Declaration("transmission-error", "Transmission error and length of contact", "Xue 2020, Figs. 5, 12", transmission_error),
-    Declaration("path-of-contact", "Load, pressure and sliding along the path of contact", "Xue 2020, Figs. 11, 13, 18", path_of_contact),
+    Declaration(
+        "transmission-error", "Transmission error and length of contact", "Xue 2020, Figs. 5, 12", transmission_error
+    ),
+    Declaration(
+        "path-of-contact",
+        "Load, pressure and sliding along the path of contact",
+        "Xue 2020, Figs. 11, 13, 18",
+        path_of_contact,
+    ),
     Declaration("stiffness", "Stiffness of a pair of teeth along the path", "Xue 2020, Fig. 8", stiffness),
     Declaration("load-sharing", "Load sharing along the path of contact", "Xue 2020, Fig. 19", load_sharing),
-    Declaration("pair-share", "Share of each pair of teeth over the roll", "Xue 2020, section II", pair_share, detail="fields"),
+    Declaration(
+        "pair-share", "Share of each pair of teeth over the roll", "Xue 2020, section II", pair_share, detail="fields"
+    ),
 )

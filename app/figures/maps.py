@@ -1,7 +1,5 @@
 """Draws a panel that is a map, and its colour bar."""
 
-from itertools import pairwise
-
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
@@ -10,7 +8,7 @@ from matplotlib.colors import LogNorm, Normalize
 
 from app.figures.annotations import draw_mark, name_span
 from app.figures.canvas import Canvas
-from app.figures.data import Axis, Map, Panel, Scale, Span, Values
+from app.figures.data import Axis, Map, Panel, Scale, Values
 from app.figures.labels import Place, Placer, around
 from app.figures.scales import Range, nice_ticks
 from app.figures.style import SMALL, TEXT, Theme, text_height, text_width
@@ -100,7 +98,9 @@ def draw_color_bar(axes: Axes, chart: Map, size: tuple[float, float], theme: The
         if not low <= critical.value <= high:
             continue
         at = float(_norm(chart)(critical.value))
-        axes.plot([0.0, 1.0], [at, at], transform=axes.transAxes, color=theme.limit, linewidth=1.6, linestyle=(0, (2, 1)))
+        axes.plot(
+            [0.0, 1.0], [at, at], transform=axes.transAxes, color=theme.limit, linewidth=1.6, linestyle=(0, (2, 1))
+        )
         axes.text(
             1.0 + TICK_ROOM * 0.6 / size[0],
             at - text_height("x", SMALL) / size[1] / 2,

@@ -2,7 +2,20 @@
 
 import numpy as np
 
-from app.figures.data import Axis, Bars, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Role, Row, Span, Values, values
+from app.figures.data import (
+    Axis,
+    Bars,
+    Figure,
+    Hue,
+    Level,
+    Line,
+    Mark,
+    NoFigure,
+    Panel,
+    Row,
+    Span,
+    values,
+)
 from app.figures.declaration import Declaration, present
 from app.figures.pumping_maps import MAPS, critical_ratio, spaces
 from app.figures.wording import number, ratio
@@ -92,7 +105,9 @@ def lead_correction(request: PumpingRequest, answer: PumpingResponse) -> Figure:
     """Thermal growth of the pinion's flank and what undoes it."""
     lead = answer.lead_correction
     if lead is None:
-        raise NoFigure("no_lead_correction", "A lead correction needs the temperatures of the pinion's spaces", "model.spaces")
+        raise NoFigure(
+            "no_lead_correction", "A lead correction needs the temperatures of the pinion's spaces", "model.spaces"
+        )
     curves = present(lead.curves)
     panel = Panel(
         x=_face(request),
@@ -132,7 +147,9 @@ def mass_flow(_: PumpingRequest, answer: PumpingResponse) -> Figure:
     x = Axis("net mass flow out (negative: in)", "g/s", limits=(0.0, 1.0) if still else None)
     panels = tuple(Panel(x=x, y=Axis("exit"), title=f"spaces of the {gear}", rows=rows) for gear, rows in exits.items())
     through_ends = sum(rows[0].value + rows[1].value for rows in exits.values())
-    net = f"{number(abs(through_ends), 'g/s')} {'leave' if through_ends > 0.0 else 'enter'} through the ends of the face"
+    net = (
+        f"{number(abs(through_ends), 'g/s')} {'leave' if through_ends > 0.0 else 'enter'} through the ends of the face"
+    )
     finding = "what leaves an exit comes back through it" if still else f"{net}; the exits of a gear sum to zero"
     return Figure("Where the mist leaves and enters the tooth spaces", finding, "Milian 2004", panels)
 
@@ -176,5 +193,7 @@ FIGURES = (
     *MAPS,
     Declaration("lead-correction", "Lead correction against thermal growth", "Milian 2004", lead_correction),
     Declaration("pulsation", "Pulsating flow at the ends of the face", "Milian 2004", pulsation),
-    Declaration("mass-flow", "Where the mist leaves and enters the tooth spaces", "Milian 2004", mass_flow, detail="summary"),
+    Declaration(
+        "mass-flow", "Where the mist leaves and enters the tooth spaces", "Milian 2004", mass_flow, detail="summary"
+    ),
 )

@@ -49,7 +49,7 @@ def mach_map(request: PumpingRequest, answer: PumpingResponse) -> Figure:
         lambda field: field.axial_mach,
         title="axial Mach number",
         scale=Scale.SIGNED,
-        critical=(Critical(1.0, "sonic 1"), Critical(-1.0, "sonic −1")),
+        critical=(Critical(1.0, "sonic"), Critical(-1.0, "sonic")),
     )
     peak = max(space.peak_axial_mach for _, space in spaces(answer))
     choked = [gear for gear, space in spaces(answer) if space.axial_choked]
@@ -85,6 +85,8 @@ def _panels(
         raise NoFigure("no_temperature", "Incompressible flow has no temperatures", "model.flow")
     grids = {gear: matrix(present(rows)) for gear, rows in charts.items()}
     ends = min(float(grid.min()) for grid in grids.values()), max(float(grid.max()) for grid in grids.values())
+    if scale is Scale.SIGNED and ends[0] >= 0.0:
+        scale = Scale.MAGNITUDE
     panels = []
     for gear, field in fields:
         chart = Map(
@@ -115,12 +117,12 @@ def _panels(
 
 
 def _around(scale: Scale, low: float, high: float) -> tuple[float, float]:
-    """Ends of the colours: as far below as above 1 by ratio, or 0 by difference."""
+    """Ends of the colours: as far below as above 1 by ratio or 0 by difference; a magnitude starts at zero."""
     if scale is Scale.RATIO:
         reach = max(high, 1.0 / max(low, 1e-3), 1.0001)
         return 1.0 / reach, reach
     reach = max(abs(low), abs(high), 1e-12)
-    return -reach, reach
+    return (0.0 if scale is Scale.MAGNITUDE else -reach), reach
 
 
 def _extremes(chart: Map, scale: Scale) -> tuple[Mark, ...]:
@@ -139,6 +141,10 @@ MAPS = (
     Declaration("pressure-map", "Pressure in the tooth spaces", "Milian 2004, Eqs. 1-4", pressure_map, detail="fields"),
     Declaration("mach-map", "Axial flow in the tooth spaces", "Milian 2004, Eq. 7", mach_map, detail="fields"),
     Declaration(
-        "temperature-map", "Temperature in the tooth spaces", "Milian 2004, Figs. 5, 6", temperature_map, detail="fields"
+        "temperature-map",
+        "Temperature in the tooth spaces",
+        "Milian 2004, Figs. 5, 6",
+        temperature_map,
+        detail="fields",
     ),
 )

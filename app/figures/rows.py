@@ -85,7 +85,9 @@ def _row(canvas: Canvas, row: Row, middle: float, axis: Axis) -> None:
         return
     ends = [row.value]
     if row.bounds is not None and row.bounds[0] < row.bounds[1]:
-        canvas.axes.plot(row.bounds, [middle, middle], color=theme.ink, linewidth=1.2, marker="|", markersize=7, zorder=4)
+        canvas.axes.plot(
+            row.bounds, [middle, middle], color=theme.ink, linewidth=1.2, marker="|", markersize=7, zorder=4
+        )
         ends += row.bounds
     text, height = _written(canvas, row.value, axis), text_height("x", TEXT)
     width = text_width(text, TEXT, bold=True)

@@ -10,7 +10,7 @@ from app.requests.scuffing import ScuffingRequest
 from app.responses.scuffing import ScuffingPathCurves, ScuffingResponse
 
 UNSOLVED = {"no_solution", "refused"}
-WARNED = "beyond its validity, see warnings"
+WARNED = "outside validity"
 
 
 def contact_temperature(request: ScuffingRequest, answer: ScuffingResponse) -> Figure:
@@ -26,7 +26,9 @@ def contact_temperature(request: ScuffingRequest, answer: ScuffingResponse) -> F
     lines.append(Line("Blok", psi, bulk + values(path.blok_flash_k), Hue.GREY if thermal else Hue.BLUE, role))
     levels = [Level(bulk, f"bulk {number(bulk, '°C', digits=4)}")]
     if temperatures.scuffing_c is not None:
-        levels.append(Level(temperatures.scuffing_c, f"scuffing temperature {number(temperatures.scuffing_c, '°C')}", limit=True))
+        levels.append(
+            Level(temperatures.scuffing_c, f"scuffing temperature {number(temperatures.scuffing_c, '°C')}", limit=True)
+        )
     panel = Panel(
         x=PATH,
         y=Axis("contact temperature: bulk and flash", "°C", magnitude=False),
@@ -84,7 +86,10 @@ def film(request: ScuffingRequest, answer: ScuffingResponse) -> Figure:
         x=PATH,
         y=Axis("film thickness", "µm"),
         lines=tuple(lines),
-        levels=(Level(roughness(request), "λ = 1, film as thick as the roughness", limit=True), *_pitch_point(answer, path)),
+        levels=(
+            Level(roughness(request), "λ = 1, film as thick as the roughness", limit=True),
+            *_pitch_point(answer, path),
+        ),
         spans=_warned(path),
         marks=marks,
     )
@@ -105,7 +110,9 @@ def friction(_: ScuffingRequest, answer: ScuffingResponse) -> Figure:
     """Coefficient of friction and film pressure along the path, from thermal EHL."""
     path = present(answer.path)
     if path.friction_coefficient is None or path.max_pressure_mpa is None:
-        raise NoFigure("closed_form", "Friction along the path comes from the thermal EHL solution only", "model.lubrication")
+        raise NoFigure(
+            "closed_form", "Friction along the path comes from the thermal EHL solution only", "model.lubrication"
+        )
     psi, friction_line = values(path.psi), values(path.friction_coefficient)
     points = _pitch_point(answer, path)
     panels = (
@@ -163,7 +170,9 @@ def _warned(path: ScuffingPathCurves) -> tuple[Span, ...]:
 
 
 FIGURES = (
-    Declaration("contact-temperature", "Contact temperature along the path of contact", "Xue 2020, Fig. 22", contact_temperature),
+    Declaration(
+        "contact-temperature", "Contact temperature along the path of contact", "Xue 2020, Fig. 22", contact_temperature
+    ),
     Declaration("film", "Film along the path of contact", "Xue 2020, Fig. 23", film),
     Declaration("friction", "Friction and pressure along the path of contact", "Xue 2020, section IV", friction),
 )
