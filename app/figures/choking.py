@@ -52,11 +52,9 @@ def choking(request: ChokingSpeedRequest, answer: ChokingSpeedResponse, curves: 
         ),
     )
     limit = number(request.search_limit_rpm, "1/min")
-    texts = [
-        f"{name} " + (f"not up to {limit}" if at is None else f"from {number(at, '1/min')}")
-        for name, at in speeds.items()
-    ]
-    return Figure(TITLE, f"sonic: {', '.join(texts)}", SOURCE, panels, unsolved=int(np.isnan(mach).sum()))
+    onsets = (f"not up to {limit}" if at is None else f"from {number(at, '1/min')}" for at in speeds.values())
+    texts = (f"{name} {onset}" for name, onset in zip(speeds, onsets, strict=True))
+    return Figure(f"sonic: {', '.join(texts)}", panels, unsolved=int(np.isnan(mach).sum()))
 
 
 def _choking(answer: ChokingSpeedResponse) -> tuple[tuple[str, float | None], ...]:

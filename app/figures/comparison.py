@@ -2,8 +2,11 @@
 
 from collections.abc import Iterable
 from dataclasses import replace
+from typing import TypeVar
 
 from app.figures.data import Bars, Figure, Line, Panel, Role, Row
+
+Series = TypeVar("Series", Line, Bars)
 
 
 def compared(figure: Figure, variant: Figure, name: str) -> Figure:
@@ -34,7 +37,7 @@ def _overlaid(panel: Panel, other: Panel | None) -> Panel:
     )
 
 
-def _variants[Series: (Line, Bars)](own: Iterable[Series], others: Iterable[Series]) -> tuple[Series, ...]:
+def _variants(own: Iterable[Series], others: Iterable[Series]) -> tuple[Series, ...]:
     hues = {each.title: each.hue for each in own if each.role is Role.RESULT}
     return tuple(replace(each, role=Role.VARIANT, hue=hues[each.title]) for each in others if each.title in hues)
 

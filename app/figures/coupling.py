@@ -4,7 +4,23 @@ from math import exp, inf, log
 
 import numpy as np
 
-from app.figures.data import Area, Axis, Bars, Figure, Hue, Level, Line, Mark, Panel, Ribbon, Role, Row, Span, values
+from app.figures.data import (
+    Area,
+    Axis,
+    Bars,
+    Figure,
+    Hue,
+    Level,
+    Line,
+    Mark,
+    Panel,
+    Ribbon,
+    Role,
+    Row,
+    Span,
+    Values,
+    values,
+)
 from app.figures.declaration import Declaration, present
 from app.figures.wording import number, percent
 from app.requests.coupling import CouplingRequest
@@ -40,9 +56,7 @@ def friction_regime_figure(_: CouplingRequest, answer: CouplingResponse) -> Figu
     distance = regime.distance_to_boundary
     away = "" if distance is None else f", a factor {number(exp(distance))} from the next area"
     return Figure(
-        title="Friction regime of the coupling",
         finding=f"area {regime.area}, {regime.name}{away}; μ = {number(lubrication.friction_coefficient)}",
-        source="Pahl 1978, Fig. 9",
         panels=(
             Panel(
                 x=x,
@@ -151,7 +165,7 @@ def tooth_loads(request: CouplingRequest, answer: CouplingResponse) -> Figure:
         panels.append(Panel(x=TOOTH, y=error, bars=(bars,)))
     concentration = load.load_concentration
     share = "" if concentration is None else f"; the highest loaded takes {number(concentration)} times the mean {tilt}"
-    return Figure("Load on the coupling teeth", f"{teeth}{share}", "Pahl 1978, Figs. 3, 4", tuple(panels))
+    return Figure(f"{teeth}{share}", tuple(panels))
 
 
 def tooth_motion(_: CouplingRequest, answer: CouplingResponse) -> Figure:
@@ -179,20 +193,19 @@ def tooth_motion(_: CouplingRequest, answer: CouplingResponse) -> Figure:
         ),
     )
     finding = f"sliding reaches {percent(share)} of its lasting limit; least film velocity near the tilt positions"
-    return Figure("Motion of one tooth over a revolution", finding, "Pahl 1978, Figs. 6, 12", panels)
+    return Figure(finding, panels)
 
 
-def _motion(title: str, unit: str, angle: np.ndarray, items: list[float], hue: Hue) -> Panel:  # type: ignore[type-arg]
+def _motion(title: str, unit: str, angle: Values, items: list[float], hue: Hue) -> Panel:
     line = Line(title.split(",", maxsplit=1)[0], angle, values(items), hue, named=False)
     return Panel(x=TOOTH, y=Axis(title, unit), lines=(line,), spans=TILTS)
 
 
-def contact_track(request: CouplingRequest, answer: CouplingResponse) -> Figure:
+def contact_track(_: CouplingRequest, answer: CouplingResponse) -> Figure:
     """Where the contact is on the face, and how wide."""
     curves, lubrication = present(present(answer.kinematics).curves), present(answer.lubrication)
     angle, position = values(curves.angle_deg), values(curves.contact_position_mm)
-    half, width = lubrication.hertz_half_width_mm, request.coupling.face_width_mm
-    assert width is not None
+    half, width = lubrication.hertz_half_width_mm, present(answer.derived).face_width_mm
     edge = width / 2.0
     reach = float(np.abs(position).max()) + half
     panel = Panel(
@@ -205,7 +218,7 @@ def contact_track(request: CouplingRequest, answer: CouplingResponse) -> Figure:
     overlap = lubrication.contact_overlap
     supply = "without travel no oil comes in" if overlap is None else f"overlap Pu = {number(overlap)}"
     finding = f"contact reaches {number(reach, 'mm')} of {number(edge, 'mm')} to the edge; {supply}"
-    return Figure("Track of the contact on the face", finding, "Pahl 1978, Fig. 7", (panel,))
+    return Figure(finding, (panel,))
 
 
 def axial_thrust(request: CouplingRequest, answer: CouplingResponse) -> Figure:
@@ -243,9 +256,7 @@ def axial_thrust(request: CouplingRequest, answer: CouplingResponse) -> Figure:
     )
     finding = f"{share}; {state}" if axial or thrust.indeterminate else share
     return Figure(
-        "Axial thrust of the coupling",
         finding,
-        "Pahl 1978, Fig. 14",
         (Panel(x=Axis("thrust", "N"), y=Axis("thrust"), rows=tuple(rows), levels=(limit,)), motion),
     )
 
@@ -259,12 +270,13 @@ def losses(_: CouplingRequest, answer: CouplingResponse) -> Figure:
         Row("bending of the hub, resultant", loss.hub_bending_moment_n_m, Hue.GREY),
     )
     power = (Row("friction power of one mesh", loss.friction_power_w, Hue.VERMILLION),)
-    finding = f"{number(loss.friction_power_w, 'W')} of heat and {number(loss.hub_bending_moment_n_m, 'N m')} of bending in one mesh"
+    bending = number(loss.hub_bending_moment_n_m, "N m")
+    finding = f"{number(loss.friction_power_w, 'W')} of heat and {bending} of bending in one mesh"
     panels = (
         Panel(x=Axis("moment", "N m"), y=Axis("moment"), rows=moments),
         Panel(x=Axis("power", "W"), y=Axis("power"), rows=power),
     )
-    return Figure("Moments and losses of one mesh", finding, "Pahl 1978", panels)
+    return Figure(finding, panels)
 
 
 FIGURES = (

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from app.figures.data import Axis, Bars, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Span, values
+from app.figures.data import Axis, Bars, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Span, Values, values
 from app.figures.declaration import Declaration, present
 from app.figures.wording import number
 from app.requests.coupling import RecommendationRequest, SleeveOrbitRequest
@@ -37,7 +37,7 @@ def orbit(_: SleeveOrbitRequest, answer: SleeveOrbitResponse) -> Figure:
         equal=True,
     )
     finding = f"the centre strays up to {number(largest, 'µm')} from the axis"
-    return Figure("Path of the sleeve centre over one revolution", finding, ORBIT_SOURCE, (panel,))
+    return Figure(finding, (panel,))
 
 
 def inertia_force(_: SleeveOrbitRequest, answer: SleeveOrbitResponse) -> Figure:
@@ -57,9 +57,7 @@ def inertia_force(_: SleeveOrbitRequest, answer: SleeveOrbitResponse) -> Figure:
         lines=tuple(lines),
         marks=(Mark(float(angle[at]), value, number(value, "N"), strongest.hue),),
     )
-    return Figure(
-        "Inertia force of the sleeve", f"up to {number(abs(value), 'N')} {strongest.title}", ORBIT_SOURCE, (panel,)
-    )
+    return Figure(f"up to {number(abs(value), 'N')} {strongest.title}", (panel,))
 
 
 def orders(_: SleeveOrbitRequest, answer: SleeveOrbitResponse) -> Figure:
@@ -77,7 +75,7 @@ def orders(_: SleeveOrbitRequest, answer: SleeveOrbitResponse) -> Figure:
     )
     both = np.hypot(series[0].height, series[1].height)[1:]
     finding = f"strongest at order {int(np.argmax(both)) + 1}" if both.any() else "no force"
-    return Figure("Orders of the sleeve's inertia force", finding, ORBIT_SOURCE, (panel,))
+    return Figure(finding, (panel,))
 
 
 def crowning_scan(request: RecommendationRequest, answer: RecommendationResponse) -> Figure:
@@ -85,7 +83,7 @@ def crowning_scan(request: RecommendationRequest, answer: RecommendationResponse
     scan = present(answer.scan)
     if not scan.crowning_ratio:
         raise NoFigure("no_contact_to_scan", "No crowning ratio gives a contact that can be computed")
-    ratio, feasible = values(scan.crowning_ratio), np.array(scan.feasible)
+    ratio, feasible = values(scan.crowning_ratio), values([float(each) for each in scan.feasible])
     x = Axis("crowning ratio ε (left: heavily, right: slightly crowned)", log=True)
     best = answer.crowning_ratio
     capacity, overlap = values(scan.min_load_capacity_coefficient), values(scan.max_contact_overlap)
@@ -111,15 +109,15 @@ def crowning_scan(request: RecommendationRequest, answer: RecommendationResponse
         ),
     )
     low, high = request.operation.misalignment_range_deg
-    return Figure(f"Crowning for {number(low)}° to {number(high)}°", _choice(answer), "Pahl 1978, conclusion", panels)
+    return Figure(_choice(answer), panels, title=f"Crowning for {number(low)}° to {number(high)}°")
 
 
-def _window(ratio: "np.ndarray", feasible: "np.ndarray", best: float | None) -> tuple[Span, ...]:  # type: ignore[type-arg]
-    inside = [*ratio[feasible].tolist(), *([] if best is None else [best])]
+def _window(ratio: Values, feasible: Values, best: float | None) -> tuple[Span, ...]:
+    inside = [*ratio[feasible > 0.0].tolist(), *([] if best is None else [best])]
     return (Span(min(inside), max(inside), "feasible"),) if inside else ()
 
 
-def _decades_shown(capacity: "np.ndarray") -> tuple[float, float]:  # type: ignore[type-arg]
+def _decades_shown(capacity: Values) -> tuple[float, float]:
     """Down to a thousandth of the best: where the film tears off, its capacity falls to nothing."""
     top = 10.0 ** np.ceil(np.log10(max(float(np.nanmax(capacity)), CAPACITY_BOUNDARIES[1])))
     return top / 1e4, top

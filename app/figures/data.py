@@ -210,12 +210,15 @@ class Panel:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Figure:
-    """Panels under a title that says what and a finding that says what of it; `beside` puts them in a row."""
+    """Panels under a title that says what and a finding that says what of it; `beside` puts them in a row.
 
-    title: str
+    Title and source are those of the declaration, unless the case calls for a title of its own.
+    """
+
     finding: str
-    source: str
     panels: tuple[Panel, ...]
+    title: str = ""
+    source: str = ""
     beside: bool = False
     unsolved: int = 0
 

@@ -1,11 +1,11 @@
 """What a figure is before there is a case: its name, and the function that makes its data."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
+from app.contract.quantities import Detail
 from app.figures.data import Figure, NoFigure
-from app.quantities import Detail
 
 T = TypeVar("T")
 
@@ -26,12 +26,12 @@ class Declaration:
     compute: Callable[[Any, Any], Any] | None = None
 
     def figure(self, request: Any, answer: Any) -> Figure:
-        """The figure of a case; `request` is resolved. Raises NoFigure where there is nothing to show."""
+        """The figure of a case. `Raises NoFigure where there is nothing to show."""
         if answer.status == "no_solution":
             raise NoFigure("no_solution", "The calculation has no solution, so there is nothing to draw")
-        if self.compute is None:
-            return self.build(request, answer)
-        return self.build(request, answer, self.compute(request, answer))
+        computed = () if self.compute is None else (self.compute(request, answer),)
+        figure = self.build(request, answer, *computed)
+        return replace(figure, title=figure.title or self.title, source=self.source)
 
 
 def present(part: T | None) -> T:

@@ -5,8 +5,8 @@ import numpy as np
 from app.figures.data import Axis, Figure, Map, Mark, Panel, Scale, Values, matrix, values
 from app.figures.declaration import Declaration, present
 from app.figures.wording import number, percent
-from app.requests.scuffing import LoadDistributionRequest
-from app.responses.scuffing import FlankFields, FlankPlace, LoadDistributionResponse
+from app.requests.load_distribution import LoadDistributionRequest
+from app.responses.load_distribution import FlankFields, FlankPlace, LoadDistributionResponse
 
 FIFTHS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
 FACE = Axis("face (0: end that meshes first)", limits=(0.0, 1.0), ticks=FIFTHS)
@@ -21,8 +21,9 @@ def flank_load(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> 
     )
     factor = load.face_load_factor
     face = "" if factor is None else f", K_Hβ = {number(factor)}"
-    finding = f"highest {number(load.max_line_load_n_per_mm, 'N/mm')}{face}; {percent(load.contact_fraction)} of the flank carries"
-    return Figure("Line load on the flank", finding if load.max_at else "no load", "Xue 2020, Fig. 11", (panel,))
+    carrying = f"{percent(load.contact_fraction)} of the flank carries"
+    finding = f"highest {number(load.max_line_load_n_per_mm, 'N/mm')}{face}; {carrying}"
+    return Figure(finding if load.max_at else "no load", (panel,))
 
 
 def flank_pressure(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
@@ -32,7 +33,7 @@ def flank_pressure(_: LoadDistributionRequest, answer: LoadDistributionResponse)
     panel = _panel(flank, "Hertz pressure", "MPa", grid, pressure.max_at, pressure.max_mpa)
     finding = f"highest {number(pressure.max_mpa, 'MPa')} {_where(pressure.max_at)}" if pressure.max_at else "no load"
     gaps = int(np.isnan(grid).sum())
-    return Figure("Hertz pressure on the flank", finding, "Xue 2020, Figs. 13, 16, 17", (panel,), unsolved=gaps)
+    return Figure(finding, (panel,), unsolved=gaps)
 
 
 def modification(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
@@ -50,7 +51,7 @@ def modification(_: LoadDistributionRequest, answer: LoadDistributionResponse) -
     )
     panel = Panel(x=FACE, y=PROFILE, map=chart)
     finding = f"from {number(low)} to {number(high, 'µm')}" if high > low else "flanks without modification"
-    return Figure("Modification of the flank", finding, "Xue 2020, Fig. 15", (panel,))
+    return Figure(finding, (panel,))
 
 
 def _panel(flank: FlankFields, title: str, unit: str, grid: Values, at: FlankPlace | None, largest: float) -> Panel:

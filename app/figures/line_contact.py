@@ -4,7 +4,7 @@ import numpy as np
 
 from app.figures.data import Axis, Figure, Hue, Line, Map, Mark, NoFigure, Panel, Role, Row, Span, matrix, values
 from app.figures.declaration import Declaration, present
-from app.figures.wording import number
+from app.figures.wording import number, percent
 from app.requests.line_contact import LineContactRequest
 from app.responses.line_contact import LineContactResponse
 
@@ -61,8 +61,7 @@ def contact(_: LineContactRequest, answer: LineContactResponse) -> Figure:
         finding += f"; up to {number(answer.temperature.film_max_c, '°C')}"
     if answer.friction is not None:
         finding += f"; μ = {number(answer.friction.coefficient)}"
-    title = "Lubricated line contact" if answer.temperature is None else "Thermal elastohydrodynamic line contact"
-    return Figure(title, finding, "Xue 2020, Fig. 20", tuple(panels))
+    return Figure(finding, tuple(panels))
 
 
 def film_temperature(_: LineContactRequest, answer: LineContactResponse) -> Figure:
@@ -92,7 +91,7 @@ def film_temperature(_: LineContactRequest, answer: LineContactResponse) -> Figu
         f"film to {number(surfaces.film_max_c, '°C')}, surface 1 to {number(surfaces.surface_1_max_c, '°C')}, "
         f"surface 2 to {number(surfaces.surface_2_max_c, '°C')}"
     )
-    return Figure("Temperature in the film", finding, "Xue 2020, Fig. 21", (panel,))
+    return Figure(finding, (panel,))
 
 
 def heat(_: LineContactRequest, answer: LineContactResponse) -> Figure:
@@ -114,12 +113,13 @@ def heat(_: LineContactRequest, answer: LineContactResponse) -> Figure:
     x = Axis("heat per length of contact", unit, limits=(min(ends), max(ends)) if max(ends) > min(ends) else None)
     made = books.generated_w_per_mm + books.compression_w_per_mm
     shares = [row.value / made for row in sink[:2]] if made else [0.0, 0.0]
-    finding = f"{number(books.generated_w_per_mm, unit)} by shear; surface 1 takes {number(100 * shares[0], '%')}, surface 2 {number(100 * shares[1], '%')}"
+    taken = f"surface 1 takes {percent(shares[0])}, surface 2 {percent(shares[1])}"
+    finding = f"{number(books.generated_w_per_mm, unit)} by shear; {taken}"
     panels = (
         Panel(x=x, y=Axis("heat"), title="made", rows=source),
         Panel(x=x, y=Axis("heat"), title="gone", rows=sink),
     )
-    return Figure("Where the heat of the contact goes", finding, "Xue 2020, Eqs. 23, 24", panels)
+    return Figure(finding, panels)
 
 
 def _isothermal() -> NoFigure:

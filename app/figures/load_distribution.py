@@ -8,8 +8,8 @@ from app.figures.data import ORDER, Axis, Bars, Figure, Hue, Level, Line, Mark, 
 from app.figures.declaration import Declaration, present
 from app.figures.flank_maps import MAPS
 from app.figures.wording import number
-from app.requests.scuffing import LoadDistributionRequest
-from app.responses.scuffing import LoadDistributionResponse
+from app.requests.load_distribution import LoadDistributionRequest
+from app.responses.load_distribution import LoadDistributionResponse
 
 ROLL = Axis("roll position", "base pitches", limits=(0.0, 1.0), magnitude=False)
 PATH = Axis("path of contact Ψ (0: A, pinion root; 1: E, pinion tip)", limits=(0.0, 1.0), magnitude=False)
@@ -40,8 +40,9 @@ def transmission_error(_: LoadDistributionRequest, answer: LoadDistributionRespo
             bars=(Bars("amplitude", order, values(error.harmonics_um)),),
         ),
     )
-    finding = f"peak to peak {number(error.peak_to_peak_um, 'µm')}; contact from {number(lines.min_length_mm)} to {number(lines.max_length_mm, 'mm')}"
-    return Figure("Transmission error and length of contact", finding, "Xue 2020, Figs. 5, 12", panels)
+    contact = f"contact from {number(lines.min_length_mm)} to {number(lines.max_length_mm, 'mm')}"
+    finding = f"peak to peak {number(error.peak_to_peak_um, 'µm')}; {contact}"
+    return Figure(finding, panels)
 
 
 def path_of_contact(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
@@ -60,8 +61,7 @@ def path_of_contact(_: LoadDistributionRequest, answer: LoadDistributionResponse
         f"on the whole flank up to {number(load.max_line_load_n_per_mm, 'N/mm')} and {number(pressure.max_mpa, 'MPa')}"
     )
     gaps = int(np.isnan(stresses).sum())
-    title = "Load, pressure and sliding along the path of contact"
-    return Figure(title, finding if loaded else NO_LOAD, "Xue 2020, Figs. 11, 13, 18", panels, unsolved=gaps)
+    return Figure(finding if loaded else NO_LOAD, panels, unsolved=gaps)
 
 
 def _along(
@@ -109,8 +109,10 @@ def stiffness(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> F
         levels=tuple(levels),
         marks=(Mark(stiff.max_at_gamma, stiff.max_n_per_mm_um, number(stiff.max_n_per_mm_um, unit)),),
     )
-    finding = f"highest {number(stiff.max_n_per_mm_um)} at Γ = {number(stiff.max_at_gamma)}, {number(stiff.approach_n_per_mm_um)} at A, {number(stiff.recess_n_per_mm_um, unit)} at E"
-    return Figure("Stiffness of a pair of teeth along the path", finding, "Xue 2020, Fig. 8", (panel,))
+    highest = f"highest {number(stiff.max_n_per_mm_um)} at Γ = {number(stiff.max_at_gamma)}"
+    ends = f"{number(stiff.approach_n_per_mm_um)} at A, {number(stiff.recess_n_per_mm_um, unit)} at E"
+    finding = f"{highest}, {ends}"
+    return Figure(finding, (panel,))
 
 
 def load_sharing(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
@@ -136,7 +138,7 @@ def load_sharing(_: LoadDistributionRequest, answer: LoadDistributionResponse) -
         levels=path_points(psi, values(curves.gamma)),
         marks=marks,
     )
-    return Figure("Load sharing along the path of contact", finding, "Xue 2020, Fig. 19", (panel,))
+    return Figure(finding, (panel,))
 
 
 def pair_share(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
@@ -155,7 +157,7 @@ def pair_share(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> 
     )
     most = max(float(line.y.max()) for line in lines)
     finding = f"one line of contact carries up to {number(100.0 * most, '%')}" if load.max_at is not None else NO_LOAD
-    return Figure("Share of each pair of teeth over the roll", finding, "Xue 2020, section II", (panel,))
+    return Figure(finding, (panel,))
 
 
 FIGURES = (

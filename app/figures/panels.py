@@ -35,6 +35,10 @@ def draw_panel(canvas: Canvas, panel: Panel) -> None:
         draw_level(canvas, level)
     for mark in panel.marks:
         draw_mark(canvas, mark)
+    _write_texts(canvas, panel)
+
+
+def _write_texts(canvas: Canvas, panel: Panel) -> None:
     for mark in panel.marks:
         name_mark(canvas, mark)
     for level in panel.levels:

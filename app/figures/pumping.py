@@ -20,7 +20,8 @@ from app.figures.declaration import Declaration, present
 from app.figures.pumping_maps import MAPS, critical_ratio, spaces
 from app.figures.wording import number, ratio
 from app.requests.pumping import PumpingRequest
-from app.responses.pumping import PumpingResponse, PumpingSpaces
+from app.responses.pumping import PumpingResponse
+from app.responses.pumping_spaces import PumpingSpaces
 
 HUES = {"pinion": Hue.BLUE, "wheel": Hue.VERMILLION}
 NO_FLOW = 1e-9  # g/s
@@ -51,8 +52,9 @@ def stroke(_: PumpingRequest, answer: PumpingResponse) -> Figure:
         ),
         spans=(Span(*contact, ""),),
     )
-    finding = f"the {gear}'s space shrinks from {number(first.stroke.max_area_mm2)} to {number(first.stroke.min_area_mm2, 'mm²')}"
-    return Figure("One stroke of a tooth space", finding, "Milian 2004, Fig. 3", (section, clearances))
+    ends = f"{number(first.stroke.max_area_mm2)} to {number(first.stroke.min_area_mm2, 'mm²')}"
+    finding = f"the {gear}'s space shrinks from {ends}"
+    return Figure(finding, (section, clearances))
 
 
 def heating(request: PumpingRequest, answer: PumpingResponse) -> Figure:
@@ -75,7 +77,7 @@ def heating(request: PumpingRequest, answer: PumpingResponse) -> Figure:
         spans=_grooves(request),
     )
     finding = f"hottest: {', '.join(texts)}; of the gas, trends rather than kelvins of the teeth"
-    return Figure("Where along the face the mist heats the teeth", finding, "Milian 2004, Figs. 5, 6", (panel,))
+    return Figure(finding, (panel,))
 
 
 def peak_pressure(request: PumpingRequest, answer: PumpingResponse) -> Figure:
@@ -98,7 +100,7 @@ def peak_pressure(request: PumpingRequest, answer: PumpingResponse) -> Figure:
     )
     choked = [gear for gear, space in spaces(answer) if space.radial_choked]
     state = f"clearances of the {' and '.join(choked)} become sonic" if choked else "no clearance becomes sonic"
-    return Figure("Highest pressure along the face", state, "Milian 2004, Eq. 7", (panel,))
+    return Figure(state, (panel,))
 
 
 def lead_correction(request: PumpingRequest, answer: PumpingResponse) -> Figure:
@@ -118,8 +120,9 @@ def lead_correction(request: PumpingRequest, answer: PumpingResponse) -> Figure:
         ),
         spans=_grooves(request),
     )
-    finding = f"growth ranges over {number(lead.range_um, 'µm')}; slope {number(lead.slope_um, 'µm')}, crown {number(lead.crown_um, 'µm')}"
-    return Figure("Lead correction against thermal growth", finding, "Milian 2004", (panel,))
+    shape = f"slope {number(lead.slope_um, 'µm')}, crown {number(lead.crown_um, 'µm')}"
+    finding = f"growth ranges over {number(lead.range_um, 'µm')}; {shape}"
+    return Figure(finding, (panel,))
 
 
 def pulsation(_: PumpingRequest, answer: PumpingResponse) -> Figure:
@@ -137,7 +140,7 @@ def pulsation(_: PumpingRequest, answer: PumpingResponse) -> Figure:
         bars=series,
     )
     peak = max(float(each.height.max()) for each in series)
-    return Figure("Pulsating flow at the ends of the face", f"up to {number(peak, 'g/s')}", "Milian 2004", (panel,))
+    return Figure(f"up to {number(peak, 'g/s')}", (panel,))
 
 
 def mass_flow(_: PumpingRequest, answer: PumpingResponse) -> Figure:
@@ -151,7 +154,7 @@ def mass_flow(_: PumpingRequest, answer: PumpingResponse) -> Figure:
         f"{number(abs(through_ends), 'g/s')} {'leave' if through_ends > 0.0 else 'enter'} through the ends of the face"
     )
     finding = "what leaves an exit comes back through it" if still else f"{net}; the exits of a gear sum to zero"
-    return Figure("Where the mist leaves and enters the tooth spaces", finding, "Milian 2004", panels)
+    return Figure(finding, panels)
 
 
 def _exits(space: PumpingSpaces) -> tuple[Row, ...]:

@@ -7,8 +7,9 @@ import numpy as np
 from app.figures.data import Axis, Critical, Figure, Map, Mark, NoFigure, Panel, Scale, Span, matrix, values
 from app.figures.declaration import Declaration, present
 from app.figures.wording import number, ratio
-from app.requests.pumping import PumpingRequest
-from app.responses.pumping import PumpingField, PumpingResponse, PumpingSpaces
+from app.requests.pumping import ChokingSpeedRequest, PumpingRequest
+from app.responses.pumping import PumpingResponse
+from app.responses.pumping_spaces import PumpingField, PumpingSpaces
 
 Rows = list[list[float]]
 
@@ -19,7 +20,7 @@ def spaces(answer: PumpingResponse) -> list[tuple[str, PumpingSpaces]]:
     return [(gear, space) for gear, space in both if space is not None]
 
 
-def critical_ratio(request: PumpingRequest) -> float:
+def critical_ratio(request: PumpingRequest | ChokingSpeedRequest) -> float:
     """Pressure over ambient pressure from which the flow into the surroundings is sonic (Eq. 7)."""
     exponent = request.ambient.isentropic_exponent
     return float(((exponent + 1.0) / 2.0) ** (exponent / (exponent - 1.0)))
@@ -38,7 +39,7 @@ def pressure_map(request: PumpingRequest, answer: PumpingResponse) -> Figure:
     peak = max(space.peak_pressure_ratio for _, space in spaces(answer))
     least = min(space.min_pressure_ratio for _, space in spaces(answer))
     finding = f"highest {ratio(peak)}, lowest {ratio(least)} of ambient pressure"
-    return Figure("Pressure in the tooth spaces", finding, "Milian 2004, Eqs. 1-4", panels, beside=True)
+    return Figure(finding, panels, beside=True)
 
 
 def mach_map(request: PumpingRequest, answer: PumpingResponse) -> Figure:
@@ -55,7 +56,7 @@ def mach_map(request: PumpingRequest, answer: PumpingResponse) -> Figure:
     choked = [gear for gear, space in spaces(answer) if space.axial_choked]
     state = f"an end of the {' and '.join(choked)} becomes sonic" if choked else "no end becomes sonic"
     finding = f"up to {number(peak)} with the exit faces; {state}"
-    return Figure("Axial flow in the tooth spaces", finding, "Milian 2004, Eq. 7", panels, beside=True)
+    return Figure(finding, panels, beside=True)
 
 
 def temperature_map(request: PumpingRequest, answer: PumpingResponse) -> Figure:
@@ -65,7 +66,7 @@ def temperature_map(request: PumpingRequest, answer: PumpingResponse) -> Figure:
     )
     peak = max(float(np.nanmax(panel.map.values)) for panel in panels if panel.map is not None)
     finding = f"up to {number(peak, 'K')} above ambient for a moment; the teeth see the mean over the stroke"
-    return Figure("Temperature in the tooth spaces", finding, "Milian 2004, Figs. 5, 6", panels, beside=True)
+    return Figure(finding, panels, beside=True)
 
 
 def _panels(

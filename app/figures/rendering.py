@@ -2,8 +2,8 @@
 
 from typing import Any, Literal
 
-from app.answers import answer
 from app.calculations import Calculation
+from app.evaluate import evaluate
 from app.figures.data import Figure, NoFigure
 from app.figures.declaration import Declaration
 from app.figures.tables import table
@@ -26,16 +26,15 @@ def render(
     image_format: Format,
     theme: Literal["light", "dark"],
 ) -> bytes:
-    """Solve the request and write the figure; raises Unprocessable as `answer` does and where there is no figure."""
+    """Solve the request and write the figure; raises Unprocessable as `evaluate` does and where there is no figure."""
     asked = request.model_copy(update={"detail": declaration.detail})
-    response = calculation.response.model_validate_json(answer(calculation, asked))
-    return written(figure_of(declaration, asked, response), image_format, theme)
+    return written(figure_of(declaration, asked, evaluate(calculation, asked)), image_format, theme)
 
 
 def figure_of(declaration: Declaration, request: Request, response: Any) -> Figure:
     """The data of a figure; raises Unprocessable where the case has none."""
     try:
-        return declaration.figure(request.resolved(), response)
+        return declaration.figure(request, response)
     except NoFigure as reason:
         raise Unprocessable(reason.code, reason.message, reason.field) from reason
 

@@ -37,8 +37,7 @@ def contact_temperature(request: ScuffingRequest, answer: ScuffingResponse) -> F
         spans=_warned(path),
         marks=_hottest(lines[:-1] or lines),
     )
-    title, source = "Contact temperature along the path of contact", "Xue 2020, Fig. 22"
-    return Figure(title, _safety(answer), source, (panel,), unsolved=_unsolved(path))
+    return Figure(_safety(answer), (panel,), unsolved=_unsolved(path))
 
 
 def _safety(answer: ScuffingResponse) -> str:
@@ -96,8 +95,9 @@ def film(request: ScuffingRequest, answer: ScuffingResponse) -> Figure:
     if thinnest.thickness_ratio is None:
         finding = "no film is known everywhere" if _unsolved(path) else "no load"
     else:
-        finding = f"λ = {number(thinnest.thickness_ratio)} at the thinnest: {(thinnest.thickness_regime or '').replace('_', ' ')}"
-    return Figure("Film along the path of contact", finding, "Xue 2020, Fig. 23", (panel,), unsolved=_unsolved(path))
+        regime = present(thinnest.thickness_regime).replace("_", " ")
+        finding = f"λ = {number(thinnest.thickness_ratio)} at the thinnest: {regime}"
+    return Figure(finding, (panel,), unsolved=_unsolved(path))
 
 
 def roughness(request: ScuffingRequest) -> float:
@@ -135,8 +135,7 @@ def friction(_: ScuffingRequest, answer: ScuffingResponse) -> Figure:
     )
     known = friction_line[np.isfinite(friction_line)]
     finding = f"μ from {number(float(known.min()))} to {number(float(known.max()))}" if known.size else "nowhere known"
-    title = "Friction and pressure along the path of contact"
-    return Figure(title, finding, "Xue 2020, section IV", panels, unsolved=_unsolved(path))
+    return Figure(finding, panels, unsolved=_unsolved(path))
 
 
 def _largest(psi: Values, y: Values, unit: str, hue: Hue) -> tuple[Mark, ...]:
@@ -157,7 +156,7 @@ def _unsolved(path: ScuffingPathCurves) -> int:
 
 def _warned(path: ScuffingPathCurves) -> tuple[Span, ...]:
     """Stretches of the path whose points carry warnings, to the middle between points."""
-    psi, spans = values(path.psi), []
+    psi, spans = values(path.psi), list[Span]()
     edges = np.concatenate([psi[:1], (psi[:-1] + psi[1:]) / 2.0, psi[-1:]])
     start: float | None = None
     for index, status in enumerate((*path.status, "ok")):

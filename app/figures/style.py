@@ -1,7 +1,7 @@
 """The house style: what every figure looks like on white and on black."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 from matplotlib.font_manager import FontProperties, findfont, get_font
 
@@ -84,7 +84,7 @@ THEMES: dict[ThemeName, Theme] = {
 }
 
 
-def settings(theme: Theme) -> dict[str, object]:
+def settings(theme: Theme) -> Any:
     """Settings of matplotlib under which a figure is drawn and written."""
     return {
         "font.family": "sans-serif",
@@ -112,6 +112,7 @@ def settings(theme: Theme) -> dict[str, object]:
         "lines.linewidth": 1.7,
         "lines.solid_capstyle": "round",
         "lines.dash_capstyle": "butt",
+        "text.parse_math": False,
         "text.color": theme.ink,
         "savefig.facecolor": theme.background,
         "savefig.edgecolor": "none",

@@ -26,11 +26,12 @@ def _columns(panel: Panel) -> list[Column]:
     """Abscissa and ordinate of each line and bar; names and values of rows; maps point by point; limits."""
     prefix = f"{panel.title}: " if panel.title else ""
     columns: list[Column] = []
-    for series in (*panel.bars, *panel.lines):
-        ordinate = series.height if hasattr(series, "height") else series.y
-        name = series.title if series.title == panel.y.title else f"{series.title}: {panel.y.title}"
-        variant = " (variant)" if series.role is Role.VARIANT else ""
-        columns.append((prefix + _header(panel.x), _cells(series.x)))
+    series = [(bars.title, bars.role, bars.x, bars.height) for bars in panel.bars]
+    series += [(line.title, line.role, line.x, line.y) for line in panel.lines]
+    for title, role, abscissa, ordinate in series:
+        name = title if title == panel.y.title else f"{title}: {panel.y.title}"
+        variant = " (variant)" if role is Role.VARIANT else ""
+        columns.append((prefix + _header(panel.x), _cells(abscissa)))
         columns.append((f"{prefix}{_header(Axis(name, panel.y.unit))}{variant}", _cells(ordinate)))
     for ribbon in panel.ribbons:
         columns.append((prefix + _header(panel.x), _cells(ribbon.x)))

@@ -7,11 +7,11 @@ from pydantic import BaseModel
 
 from app.calculations import CALCULATIONS, Calculation
 from app.compute import Runner
+from app.contract.quantities import Output
 from app.figures.declaration import Declaration
 from app.figures.rendering import MEDIA_TYPES, Format, render
 from app.library import body_of
 from app.problems import documented
-from app.quantities import Output
 
 FORMATS: tuple[Format, ...] = get_args(Format)
 router = APIRouter(tags=["figures"])
