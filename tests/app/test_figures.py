@@ -2,6 +2,7 @@
 
 import csv
 import io
+import re
 from collections.abc import Callable, Iterator
 from functools import cache
 from typing import Any
@@ -125,11 +126,12 @@ def answered(answer: BaseModel, unit: str | None, shown: np.ndarray[Any, Any]) -
     """Whether an array of the answer in this unit holds the numbers shown, a closing point or a gap aside."""
     known = shown[np.isfinite(shown)]
     for own, array in arrays(answer):
-        flat = array[np.isfinite(array)]
-        if own == unit and flat.size and array.ndim == shown.ndim:
-            if flat.size == known.size and np.array_equal(flat, known):
-                return True
-            if flat.size + 1 == known.size and np.array_equal(flat, known[:-1]) and known[-1] == known[0]:
+        if own != unit:
+            continue
+        for candidate in array if array.ndim > shown.ndim else (array,):
+            flat = candidate[np.isfinite(candidate)]
+            closed = flat.size + 1 == known.size and known[-1] == known[0]
+            if flat.size and np.array_equal(flat, known[:-1] if closed else known):
                 return True
     return False
 
@@ -156,7 +158,7 @@ def test_examples_give_figures_with_finite_numbers_and_findings(name: str) -> No
                 assert np.isfinite(series).any(), which
             for mark in panel.marks:
                 assert np.isfinite([mark.x, mark.y]).all(), which
-        assert "nan" not in data.subtitle
+        assert not re.search(r"\bnan\b", data.subtitle)
 
 
 # Lines that are no array of the answer: bulk plus flash, magnitudes, ways drawn between points.
@@ -307,8 +309,7 @@ def test_equal_figures_give_equal_bytes_without_a_date(name: str, which: str, im
     first = draw(figure(name, which), image_format)
     assert first == draw(figure(name, which), image_format)
     assert first.startswith(start)
-    for word in (b"Date>", b"/CreationDate", b"tIME", b"2026"):
-        assert word not in first or image_format == "png"
+    assert not re.search(rb"<dc:date>|/CreationDate|/ModDate|[0-9]{4}-[0-9]{2}-[0-9]{2}T", first)
 
 
 def test_svg_keeps_its_text_and_themes_differ() -> None:
