@@ -10,13 +10,13 @@ from app.requests.coupling_design import (
     FIG_13,
     PAHL,
     CouplingDesign,
-    CouplingFriction,
     CouplingLoad,
     CouplingLubricant,
     CouplingOperation,
     CouplingOperationRange,
     CrownedCoupling,
 )
+from app.requests.coupling_friction import CouplingFriction
 from solvers.coupling import inputs as si
 
 _DEFAULTS = si.ModelOptions()
