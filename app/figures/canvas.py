@@ -1,16 +1,18 @@
 """Axes of a panel with what is needed to place something in them."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.ticker import NullLocator
+from matplotlib.collections import LineCollection
 
 from app.figures.data import Bars, Line, Panel, Role, Values
 from app.figures.labels import Place, Placer
 from app.figures.scales import Range, chosen_range, nice_ticks
-from app.figures.style import Theme
+from app.figures.style import SMALL, Theme
 
+TICK_GAP = 0.05
 LEGEND_BEYOND = 4  # lines
 TICK_PITCH = (0.7, 0.31)  # inches, along and up
 
@@ -50,16 +52,35 @@ class Canvas:
             zorder=6,
         )
 
-    def frame(self) -> None:
-        """Ranges, scales, ticks and a line at zero."""
+    def frame(self, *, upright: bool = True, across: bool = True, tick_names: bool = True) -> None:
+        """Ranges, scales, grid, edges and numbers at the ticks; drawn as two sets of lines, for axes' own are slow."""
+        axes, theme = self.axes, self.theme
+        axes.set_axis_off()
         for which, chosen in (("x", self.x), ("y", self.y)):
             if chosen.log:
-                getattr(self.axes, f"set_{which}scale")("log")
-            getattr(self.axes, f"set_{which}lim")(chosen.low, chosen.high)
-            getattr(self.axes, f"set_{which}ticks")(chosen.ticks, chosen.labels)
-            getattr(self.axes, f"{which}axis").set_minor_locator(NullLocator())
+                getattr(axes, f"set_{which}scale")("log")
+            getattr(axes, f"set_{which}lim")(chosen.low, chosen.high)
+        columns, rows = self.x.places(np.array(self.x.ticks)), self.y.places(np.array(self.y.ticks))
+        grid = [((at, 0.0), (at, 1.0)) for at in columns if upright] + [((0.0, at), (1.0, at)) for at in rows if across]
+        edges = [((0.0, 0.0), (1.0, 0.0)), *([((0.0, 0.0), (0.0, 1.0))] if self.y.ticks else [])]
         if self.y.low < 0.0 < self.y.high and not self.y.log:
-            self.axes.axhline(0.0, color=self.theme.frame, linewidth=0.8, zorder=1)
+            zero = float(self.y.places(0.0))
+            edges.append(((0.0, zero), (1.0, zero)))
+        for lines, color, width, order in ((grid, theme.grid, 0.6, 0.5), (edges, theme.frame, 0.8, 4)):
+            axes.add_collection(
+                LineCollection(
+                    lines, colors=color, linewidths=width, transform=axes.transAxes, zorder=order, clip_on=False
+                ),
+                autolim=False,
+            )
+        for at, name in zip(columns, self.x.labels, strict=True):
+            if tick_names:
+                self._number(at, -TICK_GAP / self.placer.height, name, ha="center", va="top")
+        for at, name in zip(rows, self.y.labels, strict=True):
+            self._number(-TICK_GAP / self.placer.width, at, name, ha="right", va="center_baseline")
+
+    def _number(self, x: float, y: float, name: str, **alignment: Any) -> None:
+        self.axes.text(x, y, name, transform=self.axes.transAxes, fontsize=SMALL, color=self.theme.muted, **alignment)
 
 
 def ranges(panel: Panel, width: float, height: float) -> tuple[Range, Range]:

@@ -20,8 +20,8 @@ from app.figures.data import Figure, Map, Panel
 from app.figures.labels import Placer
 from app.figures.maps import BAR_GAP, BAR_WIDTH, color_bar_width, draw_color_bar, draw_map
 from app.figures.panels import LEGEND_SPACING, draw_panel
-from app.figures.rows import draw_rows, names_width, rows_height
-from app.figures.style import DPI, SMALL, TEXT, THEMES, TITLE, WIDTH, Theme, ThemeName, settings, text_width, wrapped
+from app.figures.rows import draw_rows, names_width, rows_height, rows_range
+from app.figures.style import DPI, SMALL, TEXT, THEMES, TITLE, WIDTH, Theme, ThemeName, settings, wrapped
 
 EDGE, TICKS = 0.18, 0.46  # left and right of everything; room for the ordinate's numbers
 TITLE_LINE, SUBTITLE_LINE, HEAD_GAP = 0.24, 0.165, 0.1
@@ -29,6 +29,7 @@ LABEL_LINE = 0.25  # with the ordinate's name, above the panel
 TICK_LINE, AXIS_LINE, FOOT = 0.22, 0.2, 0.1
 HEIGHTS = {1: 2.9, 2: 1.75, 3: 1.3}  # of panels above each other
 MAP_HEIGHT, PLANE_HEIGHT = 2.9, 3.4
+DPIS = {"svg": 100, "png": DPI, "pdf": DPI}  # of the images inside the vectors too
 CANVASES = {"svg": FigureCanvasSVG, "png": FigureCanvasAgg, "pdf": FigureCanvasPdf}
 # No date and no version in any of them.
 METADATA: dict[str, dict[str, str | None]] = {
@@ -40,7 +41,10 @@ METADATA: dict[str, dict[str, str | None]] = {
 
 @dataclass(frozen=True, slots=True)
 class Slot:
-    """Place of a panel on the sheet in inches, from its top left corner; whether it shows its abscissa."""
+    """Place of a panel on the sheet in inches, from its top left corner; whether it shows its abscissa.
+
+    Lying bars share the range of their `peers`.
+    """
 
     panel: Panel
     left: float
@@ -48,6 +52,7 @@ class Slot:
     width: float
     height: float
     abscissa: bool
+    peers: tuple[Panel, ...] = ()
 
 
 def draw(figure: Figure, image_format: str, theme_name: ThemeName = "light") -> bytes:
@@ -65,7 +70,7 @@ def draw(figure: Figure, image_format: str, theme_name: ThemeName = "light") -> 
         image = BytesIO()
         CANVASES[image_format](sheet)
         metadata = METADATA[image_format] | {"Title": figure.title}
-        sheet.savefig(image, format=image_format, metadata=metadata, dpi=DPI)
+        sheet.savefig(image, format=image_format, metadata=metadata, dpi=DPIS[image_format])
         return image.getvalue()
 
 
@@ -90,7 +95,8 @@ def _stacked(figure: Figure, top: float) -> list[Slot]:
         shared = index + 1 < len(panels) and not panel.rows and panels[index + 1].x == panel.x
         width = WIDTH - left - right
         top += _above(panel, width)
-        slot = Slot(panel, left, top, width, _height(panel, len(panels), width), not shared)
+        peers = tuple(each for each in panels if each.rows and each.x == panel.x)
+        slot = Slot(panel, left, top, width, _height(panel, len(panels), width), not shared, peers)
         slots.append(slot)
         top += slot.height + (_foot(slot) if slot.abscissa else 0.06)
     return slots
@@ -145,7 +151,7 @@ def _draw_slot(sheet: Sheet, slot: Slot, height: float, theme: Theme) -> None:
     panel, size = slot.panel, (slot.width, slot.height)
     axes = _axes(sheet, slot.left, slot.top, size, height)
     if panel.rows:
-        draw_rows(axes, panel, *size, theme)
+        draw_rows(axes, panel, rows_range(slot.peers, slot.width), *size, theme)
     elif panel.map is not None:
         draw_map(axes, panel, panel.map, size, theme)
         if panel.map.bar:
@@ -153,7 +159,7 @@ def _draw_slot(sheet: Sheet, slot: Slot, height: float, theme: Theme) -> None:
             beside = _axes(sheet, slot.left + slot.width + BAR_GAP, slot.top, bar, height)
             draw_color_bar(beside, panel.map, bar, theme)
     else:
-        draw_panel(Canvas(axes, *ranges(panel, *size), Placer(*size), theme), panel)
+        draw_panel(Canvas(axes, *ranges(panel, *size), Placer(*size), theme), panel, tick_names=slot.abscissa)
     _draw_names(sheet, slot, axes, height, theme)
 
 
@@ -168,7 +174,7 @@ def _draw_names(sheet: Sheet, slot: Slot, axes: Axes, height: float, theme: Them
     lift = slot.top - 0.07 - LEGEND_SPACING * len(legend_rows(panel, slot.width))
     name = panel.y.label
     if panel.map is not None and panel.map.bar:
-        _name_colors(sheet, slot, panel.map, lift, height, theme)
+        _name_colors(sheet, panel.map, lift, height, theme)
     start = slot.left if panel.rows else slot.left - TICKS + 0.1
     if not panel.rows:
         sheet.text(start / WIDTH, 1.0 - lift / height, name, fontsize=SMALL, color=theme.muted)
@@ -180,31 +186,20 @@ def _draw_names(sheet: Sheet, slot: Slot, axes: Axes, height: float, theme: Them
             slot.left / WIDTH, 1.0 - above / height, panel.title, fontsize=TEXT, fontweight="bold", color=theme.ink
         )
     if slot.abscissa:
-        axes.set_xlabel(panel.x.label, fontsize=SMALL, color=theme.muted, labelpad=3)
-    else:
-        axes.tick_params(axis="x", labelbottom=False)
+        middle, below = slot.left + slot.width / 2, slot.top + slot.height + TICK_LINE
+        sheet.text(
+            middle / WIDTH,
+            1.0 - below / height,
+            panel.x.label,
+            fontsize=SMALL,
+            color=theme.muted,
+            ha="center",
+            va="top",
+        )
 
 
-def _name_colors(sheet: Sheet, slot: Slot, chart: Map, lift: float, height: float, theme: Theme) -> None:
-    """What the colours mean, flush with the right edge; above the ordinate's name where both do not fit in a line."""
-    crowded = _crowded(slot.panel, slot.width)
-    sheet.text(
-        (WIDTH - EDGE) / WIDTH,
-        1.0 - (lift - (LABEL_LINE - 0.03 if crowded else 0.0)) / height,
-        _color_name(chart),
-        fontsize=SMALL,
-        color=theme.muted,
-        ha="right",
-    )
-
-
-def _color_name(chart: Map) -> str:
-    return f"{chart.title}, {chart.unit}" if chart.unit else chart.title
-
-
-def _crowded(panel: Panel, width: float) -> bool:
-    """Whether the names of ordinate and colours, and the panel's title above, would meet."""
-    if panel.map is None or not panel.map.bar:
-        return False
-    free = width + TICKS + _right(panel) - text_width(_color_name(panel.map), SMALL)
-    return text_width(panel.y.label, SMALL) + 0.4 > free
+def _name_colors(sheet: Sheet, chart: Map, lift: float, height: float, theme: Theme) -> None:
+    """What the colours mean, flush with the right edge."""
+    name = f"{chart.title}, {chart.unit}" if chart.unit else chart.title
+    place = (WIDTH - EDGE) / WIDTH, 1.0 - lift / height
+    sheet.text(*place, name, fontsize=SMALL, color=theme.muted, ha="right")

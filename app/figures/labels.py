@@ -52,13 +52,15 @@ class Placer:
 
     def add_curve(self, x: Values, y: Values) -> None:
         """Keep texts off a curve."""
-        for start in range(len(x) - 1):
-            ends = x[start], y[start], x[start + 1], y[start + 1]
-            if np.isfinite(ends).all():
-                count = int(np.clip(np.hypot(ends[2] - ends[0], ends[3] - ends[1]) / CURVE_STEP, 1, 500)) + 1
-                self.points.append(
-                    np.column_stack([np.linspace(ends[0], ends[2], count), np.linspace(ends[1], ends[3], count)])
-                )
+        points = np.column_stack([x, y])
+        points[~np.isfinite(points)] = np.nan
+        steps = np.diff(points, axis=0)
+        lengths = np.hypot(steps[:, 0], steps[:, 1])
+        drawn = np.isfinite(lengths)
+        counts = np.clip(lengths[drawn] / CURVE_STEP, 1, 500).astype(int)
+        segment = np.repeat(np.arange(counts.size), counts)
+        along = (np.arange(segment.size) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[segment]
+        self.points.append(points[:-1][drawn][segment] + along[:, None] * steps[drawn][segment])
 
     def add_box(self, left: float, bottom: float, right: float, top: float) -> None:
         """Keep texts off a rectangle."""

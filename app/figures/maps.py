@@ -3,7 +3,6 @@
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm, Normalize
 
 from app.figures.annotations import draw_mark, name_span
@@ -11,13 +10,15 @@ from app.figures.canvas import Canvas
 from app.figures.data import Axis, Map, Panel, Scale, Values
 from app.figures.labels import Place, Placer, around
 from app.figures.scales import Range, nice_ticks
-from app.figures.style import SMALL, TEXT, Theme, text_height, text_width
+from app.figures.style import SMALL, TEXT, Theme, text_width
 from app.figures.wording import number
 
 COLOURS = {Scale.MAGNITUDE: "cividis", Scale.RATIO: "RdBu_r", Scale.SIGNED: "RdBu_r"}
 RATIO_TICKS = (0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0, 20.0, 50.0, 100.0)
 LINEAR_RATIO = 1.3  # up to which a ratio's ticks are evenly spaced
 IMAGE = (360, 300)  # pixels across and up, at most
+NAME_ROOM = 0.13  # inches between values at the colour bar
+BAR_STEPS = 64
 BAR_WIDTH, BAR_GAP, TICK_ROOM = 0.13, 0.12, 0.1
 
 
@@ -58,8 +59,7 @@ def draw_map(axes: Axes, panel: Panel, chart: Map, size: tuple[float, float], th
     """Colours, contours, critical values and marks."""
     x, y = _range(chart.x, panel.x), _range(chart.y, panel.y)
     canvas = Canvas(axes, x, y, Placer(*size), theme)
-    canvas.frame()
-    axes.grid(visible=False)
+    canvas.frame(upright=False, across=False)
     axes.imshow(
         _image(chart, x, y),
         extent=(x.low, x.high, y.low, y.high),
@@ -84,37 +84,34 @@ def draw_map(axes: Axes, panel: Panel, chart: Map, size: tuple[float, float], th
 
 def draw_color_bar(axes: Axes, chart: Map, size: tuple[float, float], theme: Theme) -> None:
     """The colours with their values; names of critical values where they belong."""
-    low, high = color_range(chart)
-    mappable = ScalarMappable(_norm(chart), colormaps[COLOURS[chart.scale]])
-    bar = axes.figure.colorbar(mappable, cax=axes, drawedges=False)
-    ticks = [
-        tick for tick in bar_ticks(chart) if not any(_near(chart, tick, each.value, size[1]) for each in chart.critical)
-    ]
-    bar.set_ticks(ticks, labels=[number(tick, digits=6) for tick in ticks])
-    bar.ax.minorticks_off()
-    bar.outline.set_visible(False)
-    axes.tick_params(length=0, labelsize=SMALL, labelcolor=theme.muted, pad=3)
-    for critical in chart.critical:
-        if not low <= critical.value <= high:
-            continue
-        at = float(_norm(chart)(critical.value))
-        axes.plot(
-            [0.0, 1.0], [at, at], transform=axes.transAxes, color=theme.limit, linewidth=1.6, linestyle=(0, (2, 1))
-        )
-        axes.text(
-            1.0 + TICK_ROOM * 0.6 / size[0],
-            at - text_height("x", SMALL) / size[1] / 2,
-            critical.name,
-            transform=axes.transAxes,
-            fontsize=SMALL,
-            color=theme.limit,
-            va="bottom",
-        )
-
-
-def _near(chart: Map, tick: float, critical: float, height: float) -> bool:
     norm = _norm(chart)
-    return _within(chart, critical) and abs(float(norm(tick)) - float(norm(critical))) * height < 0.13
+    axes.set_axis_off()
+    axes.imshow(
+        np.linspace(0.0, 1.0, BAR_STEPS)[:, None],
+        extent=(0.0, 1.0, 0.0, 1.0),
+        origin="lower",
+        aspect="auto",
+        cmap=colormaps[COLOURS[chart.scale]],
+        interpolation="bilinear",
+    )
+    texts = [
+        (tick, number(tick, digits=6), theme.muted) for tick in bar_ticks(chart) if not _crowded(chart, tick, size[1])
+    ]
+    critical = [each for each in chart.critical if _within(chart, each.value)]
+    texts += [(each.value, each.name, theme.limit) for each in critical]
+    for each in critical:
+        at = float(norm(each.value))
+        axes.plot([0.0, 1.0], [at, at], color=theme.limit, linewidth=1.6, linestyle=(0, (2, 1)))
+    for value, text, color in texts:
+        style = {"fontsize": SMALL, "color": color, "va": "center_baseline"}
+        axes.text(1.0 + TICK_ROOM * 0.6 / size[0], float(norm(value)), text, transform=axes.transAxes, **style)
+
+
+def _crowded(chart: Map, tick: float, height: float) -> bool:
+    """Whether a tick would meet the name of a critical value."""
+    norm = _norm(chart)
+    named = [each.value for each in chart.critical if _within(chart, each.value)]
+    return any(abs(float(norm(tick)) - float(norm(each))) * height < NAME_ROOM for each in named)
 
 
 def _within(chart: Map, value: float) -> bool:

@@ -17,11 +17,9 @@ from app.figures.data import Panel
 LEGEND_SPACING = 0.17
 
 
-def draw_panel(canvas: Canvas, panel: Panel) -> None:
+def draw_panel(canvas: Canvas, panel: Panel, *, tick_names: bool) -> None:
     """Everything of the panel from the ground up; texts last and in the order of their worth."""
-    canvas.frame()
-    if panel.areas:
-        canvas.axes.grid(visible=False)
+    canvas.frame(upright=not panel.areas, across=not panel.areas, tick_names=tick_names)
     for span in panel.spans:
         draw_span(canvas, span)
     for bars in panel.bars:

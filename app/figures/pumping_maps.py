@@ -32,7 +32,7 @@ def pressure_map(request: PumpingRequest, answer: PumpingResponse) -> Figure:
         request,
         answer,
         lambda field: field.pressure_ratio,
-        title="pressure over ambient pressure",
+        title="pressure ratio",
         scale=Scale.RATIO,
         critical=(Critical(critical_ratio(request), f"sonic {number(critical_ratio(request))}"),),
     )

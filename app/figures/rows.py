@@ -1,5 +1,8 @@
 """Draws a panel of named values as lying bars."""
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
@@ -28,13 +31,11 @@ def names_width(panel: Panel) -> float:
     return max(text_width(row.name, TEXT) for row in panel.rows) + 0.1
 
 
-def draw_rows(axes: Axes, panel: Panel, width: float, height: float, theme: Theme) -> None:
+def draw_rows(axes: Axes, panel: Panel, x: Range, width: float, height: float, theme: Theme) -> None:
     """Bars from zero with value and name; a thin line from bound to bound."""
     own = [row for row in panel.rows if row.role is not Role.VARIANT]
-    canvas = Canvas(axes, _range(panel, width), Range(0.0, height, ()), Placer(width, height), theme)
-    canvas.frame()
-    axes.grid(visible=False, axis="y")
-    axes.spines["left"].set_visible(False)
+    canvas = Canvas(axes, x, Range(0.0, height, ()), Placer(width, height), theme)
+    canvas.frame(across=False)
     axes.axvline(0.0, color=theme.frame, linewidth=0.9, zorder=3)
     names = [row.name for row in own]
     for level in panel.levels:
@@ -46,18 +47,18 @@ def draw_rows(axes: Axes, panel: Panel, width: float, height: float, theme: Them
         name_level(canvas, level)
 
 
-def _range(panel: Panel, width: float) -> Range:
-    """The range with room for the values written beside the bars."""
-    ends = [end for row in panel.rows for end in (row.value, *(row.bounds or ()))]
-    levels = [level.value for level in panel.levels]
-    chosen = chosen_range(panel.x, [np.array(ends)], levels, snug=False, most=6)
-    widest = max(text_width(number(row.value, panel.x.unit or ""), TEXT, bold=True) for row in panel.rows) + 0.12
+def rows_range(panels: Sequence[Panel], width: float) -> Range:
+    """The range of all panels of one abscissa, with room for the values written beside the bars."""
+    axis, rows = panels[0].x, [row for panel in panels for row in panel.rows]
+    ends = [end for row in rows for end in (row.value, *(row.bounds or ()))]
+    levels = [level.value for panel in panels for level in panel.levels]
+    chosen = chosen_range(axis, [np.array(ends)], levels, snug=False, most=6)
+    widest = max(text_width(number(row.value, axis.unit or ""), TEXT, bold=True) for row in rows) + 0.12
     low, high = min([0.0, *ends]), max([0.0, *ends])
     scale = (chosen.high - chosen.low) / max(width - widest * (1 + (low < 0.0)), 0.5)
     low = min(chosen.low, low - widest * scale) if low < 0.0 else 0.0
     high = max(chosen.high, high + widest * scale)
-    limits = Axis(panel.x.title, panel.x.unit, limits=(low, high))
-    return chosen_range(limits, [], snug=False, most=6)
+    return chosen_range(replace(axis, limits=(low, high)), [], snug=False, most=6)
 
 
 def _written(canvas: Canvas, value: float, axis: Axis) -> str:

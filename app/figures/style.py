@@ -1,9 +1,11 @@
 """The house style: what every figure looks like on white and on black."""
 
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, Literal
 
 from matplotlib.font_manager import FontProperties, findfont, get_font
+from matplotlib.ft2font import LoadFlags
 
 from app.figures.data import Hue
 
@@ -13,6 +15,7 @@ WIDTH = 6.4  # inches, as all lengths of a figure
 DPI = 160
 TITLE, TEXT, SMALL = 12.0, 8.8, 8.0  # points
 POINT = 1.0 / 72.0
+UNIT_SIZE = 100.0  # at which characters are measured
 # Measured in the widest of them, which comes with matplotlib, so that no reader's substitute is cut.
 FONTS = ("DejaVu Sans", "Verdana", "Segoe UI", "Helvetica Neue", "Arial", "sans-serif")
 
@@ -90,25 +93,6 @@ def settings(theme: Theme) -> Any:
         "font.family": "sans-serif",
         "font.sans-serif": list(FONTS),
         "font.size": SMALL,
-        "axes.unicode_minus": True,
-        "axes.facecolor": "none",
-        "axes.edgecolor": theme.frame,
-        "axes.linewidth": 0.8,
-        "axes.spines.top": False,
-        "axes.spines.right": False,
-        "axes.axisbelow": True,
-        "axes.grid": True,
-        "grid.color": theme.grid,
-        "grid.linewidth": 0.6,
-        "xtick.color": theme.frame,
-        "ytick.color": theme.frame,
-        "xtick.labelcolor": theme.muted,
-        "ytick.labelcolor": theme.muted,
-        "xtick.labelsize": SMALL,
-        "ytick.labelsize": SMALL,
-        "xtick.major.size": 3.0,
-        "ytick.major.size": 0.0,
-        "xtick.major.width": 0.8,
         "lines.linewidth": 1.7,
         "lines.solid_capstyle": "round",
         "lines.dash_capstyle": "butt",
@@ -125,15 +109,19 @@ def settings(theme: Theme) -> Any:
 
 def text_width(text: str, size: float, *, bold: bool = False) -> float:
     """Width of the widest line of a text of `size` points, in inches."""
+    widths = (sum(_advance(character, bold=bold) for character in line) for line in text.split("\n"))
+    return max(widths) * size * POINT
+
+
+@cache
+def _advance(character: str, *, bold: bool) -> float:
+    """Width of a character over the size of the font."""
     font = get_font(_font_file(bold=bold))
-    font.set_size(size, 72.0)
-    widths = []
-    for line in text.split("\n"):
-        font.set_text(line)
-        widths.append(font.get_width_height()[0] / 64.0)
-    return max(widths) * POINT
+    font.set_size(UNIT_SIZE, 72.0)
+    return float(font.load_char(ord(character), flags=LoadFlags.NO_HINTING).linearHoriAdvance) / 65536.0 / UNIT_SIZE
 
 
+@cache
 def _font_file(*, bold: bool) -> str:
     return str(findfont(FontProperties(family="DejaVu Sans", weight="bold" if bold else "normal")))
 
@@ -152,4 +140,4 @@ def wrapped(text: str, size: float, width: float) -> str:
             lines.append(word)
         else:
             lines[-1] = longer
-    return "\n".join(lines)
+    return "\n".join(line.removesuffix(" ·") for line in lines)

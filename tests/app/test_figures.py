@@ -16,7 +16,7 @@ from app.calculations import CALCULATIONS
 from app.contract.units import split_unit
 from app.evaluate import evaluate
 from app.figures.comparison import compared
-from app.figures.data import Figure, NoFigure, Panel, Role, values
+from app.figures.data import Figure, NoFigure, Role
 from app.figures.drawing import draw
 from app.figures.tables import table
 from app.library import examples
@@ -185,7 +185,9 @@ def test_curves_and_maps_are_the_answers_numbers_in_the_unit_of_their_axis(name:
     assert seen
 
 
-@pytest.mark.parametrize("name", ["pahl-axial-displacement", "pahl-z-arrangement", "milian-case-1-groove", "xue-line-contact"])
+@pytest.mark.parametrize(
+    "name", ["pahl-axial-displacement", "pahl-z-arrangement", "milian-case-1-groove", "xue-line-contact"]
+)
 def test_rows_and_levels_are_the_answers_numbers(name: str) -> None:
     request, answer = solved(name)
     known = {(unit, value) for model in (request, answer) for unit, value in scalars(model)}
@@ -200,9 +202,9 @@ def test_contact_temperature_is_bulk_plus_flash() -> None:
     (panel,) = figure("xue-pair-1-scuffing", "contact-temperature").panels
     (blok,) = panel.lines
     assert blok.y.max() == pytest.approx(answer.contact_temperature.blok_max_c, rel=1e-12)
-    assert np.array_equal(blok.y - request.temperatures.bulk_c, np.array(answer.path.blok_flash_k) + 0.0) or np.allclose(
-        blok.y, request.temperatures.bulk_c + np.array(answer.path.blok_flash_k), rtol=1e-15
-    )
+    assert np.array_equal(
+        blok.y - request.temperatures.bulk_c, np.array(answer.path.blok_flash_k) + 0.0
+    ) or np.allclose(blok.y, request.temperatures.bulk_c + np.array(answer.path.blok_flash_k), rtol=1e-15)
     limits = {level.value for level in panel.levels if level.limit}
     assert limits == {request.temperatures.scuffing_c}
 
@@ -219,7 +221,9 @@ def test_friction_map_has_nine_areas_and_holds_the_point() -> None:
     _, answer = solved("pahl-heavily-crowned")
     (panel,) = figure("pahl-heavily-crowned", "friction-regime").panels
     (mark,) = panel.marks
-    assert {area.text.split("\n")[0] for area in panel.areas} == {f"{row}.{column}" for row in "123" for column in "123"}
+    assert {area.text.split("\n")[0] for area in panel.areas} == {
+        f"{row}.{column}" for row in "123" for column in "123"
+    }
     (home,) = [area for area in panel.areas if area.left <= mark.x < area.right and area.bottom <= mark.y < area.top]
     assert home.text.startswith(answer.lubrication.regime.area)
     assert (mark.x, mark.y) == (answer.lubrication.contact_overlap, answer.lubrication.load_capacity_coefficient)
@@ -233,14 +237,19 @@ def test_contact_track_is_as_wide_as_the_hertz_contact() -> None:
     (panel,) = figure("pahl-heavily-crowned", "contact-track").panels
     (ribbon,) = panel.ribbons
     assert np.allclose((ribbon.high - ribbon.low) / 2, answer.lubrication.hertz_half_width_mm)
-    assert {level.value for level in panel.levels} == {answer.derived.face_width_mm / 2, -answer.derived.face_width_mm / 2}
+    assert {level.value for level in panel.levels} == {
+        answer.derived.face_width_mm / 2,
+        -answer.derived.face_width_mm / 2,
+    }
 
 
 def test_choking_scan_repeats_the_pumping_endpoint_and_crosses_its_limits_at_the_speeds_found() -> None:
     request, answer = solved("milian-case-1-choking")
     (declaration,) = CALCULATION["/v1/pumping/choking-speed"].figures
     data = declaration.figure(request, answer)
-    for panel, found in zip(data.panels, (answer.axial_choking_speed_rpm, answer.radial_choking_speed_rpm), strict=True):
+    for panel, found in zip(
+        data.panels, (answer.axial_choking_speed_rpm, answer.radial_choking_speed_rpm), strict=True
+    ):
         (line,) = panel.lines
         (limit,) = [level.value for level in panel.levels if level.limit]
         assert line.x.size >= 24
@@ -304,7 +313,9 @@ def test_a_case_without_solution_has_no_figure() -> None:
 
 
 @pytest.mark.parametrize(("image_format", "start"), [("svg", b"<?xml"), ("png", b"\x89PNG"), ("pdf", b"%PDF")])
-@pytest.mark.parametrize(("name", "which"), [("pahl-heavily-crowned", "tooth-motion"), ("milian-case-1-groove", "pressure-map")])
+@pytest.mark.parametrize(
+    ("name", "which"), [("pahl-heavily-crowned", "tooth-motion"), ("milian-case-1-groove", "pressure-map")]
+)
 def test_equal_figures_give_equal_bytes_without_a_date(name: str, which: str, image_format: str, start: bytes) -> None:
     first = draw(figure(name, which), image_format)
     assert first == draw(figure(name, which), image_format)
@@ -325,7 +336,11 @@ def test_csv_holds_the_numbers_with_units_in_the_header() -> None:
     assert rows[0][1] == "tangential force [N]"
     assert [float(row[1]) for row in rows[1:]] == answer.load_distribution.curves.tangential_force_n
     grid = list(csv.reader(io.StringIO(table(figure("xue-pair-4-helix-slope-40", "flank-load")).decode())))
-    assert grid[0][:3] == ["profile (0: A, pinion root; 1: E, pinion tip) [-]", "face (0: end that meshes first) [-]", "line load [N/mm]"]
+    assert grid[0][:3] == [
+        "profile (0: A, pinion root; 1: E, pinion tip) [-]",
+        "face (0: end that meshes first) [-]",
+        "line load [N/mm]",
+    ]
     _, flank = solved("xue-pair-4-helix-slope-40")
     assert [float(row[2]) for row in grid[1:]] == [each for row in flank.flank.line_load_n_per_mm for each in row]
 
@@ -341,7 +356,9 @@ def test_comparison_draws_the_variant_dashed_in_the_same_hue() -> None:
         assert variant.hue is result.hue
         assert np.array_equal(variant.y, second.lines[0].y)
     assert draw(both, "svg") != draw(own, "svg")
-    maps = compared(*(figure(name, "flank-pressure") for name in ("xue-pair-4-helix-slope-40", "xue-pair-4-modified")), "A")
+    maps = compared(
+        *(figure(name, "flank-pressure") for name in ("xue-pair-4-helix-slope-40", "xue-pair-4-modified")), "A"
+    )
     assert len(maps.panels) == 2
     first, second = (panel.map for panel in maps.panels)
     assert first is not None
