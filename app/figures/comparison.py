@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TypeVar
 
-from app.figures.data import Bars, Figure, Line, Panel, Role, Row
+from app.figures.data import Bars, Figure, Hue, Line, Panel, Role, Row
 
 Series = TypeVar("Series", Line, Bars)
 
@@ -17,7 +17,7 @@ def compared(figure: Figure, variant: Figure, name: str) -> Figure:
             figure, finding=f"right: {name} · {figure.finding}", panels=_maps(figure, variant, name), beside=True
         )
     others = {_key(panel): panel for panel in variant.panels}
-    panels = tuple(_overlaid(panel, others.get(_key(panel))) for panel in figure.panels)
+    panels = tuple(_overlaid(panel, others.get(_key(panel)), name) for panel in figure.panels)
     return replace(figure, finding=finding, panels=panels, unsolved=figure.unsolved + variant.unsolved)
 
 
@@ -25,8 +25,8 @@ def _key(panel: Panel) -> tuple[str, str | None]:
     return panel.y.title, panel.title
 
 
-def _overlaid(panel: Panel, other: Panel | None) -> Panel:
-    """The panel with lines, bars and rows of the other that have the names of its own."""
+def _overlaid(panel: Panel, other: Panel | None, name: str) -> Panel:
+    """The panel with lines, bars and rows of the other that have the names of its own, and its point on a plane."""
     if other is None:
         return panel
     return replace(
@@ -34,6 +34,7 @@ def _overlaid(panel: Panel, other: Panel | None) -> Panel:
         lines=(*panel.lines, *_variants(panel.lines, other.lines)),
         bars=(*panel.bars, *_variants(panel.bars, other.bars)),
         rows=(*panel.rows, *_variant_rows(panel.rows, other.rows)),
+        marks=(*panel.marks, *(replace(mark, text=name, hue=Hue.VERMILLION) for mark in other.marks if panel.areas)),
     )
 
 

@@ -160,7 +160,7 @@ def _draw_slot(sheet: Sheet, slot: Slot, height: float, theme: Theme) -> None:
             draw_color_bar(beside, panel.map, bar, theme)
     else:
         draw_panel(Canvas(axes, *ranges(panel, *size), Placer(*size), theme), panel, tick_names=slot.abscissa)
-    _draw_names(sheet, slot, axes, height, theme)
+    _draw_names(sheet, slot, height, theme)
 
 
 def _axes(sheet: Sheet, left: float, top: float, size: tuple[float, float], height: float) -> Axes:
@@ -168,7 +168,7 @@ def _axes(sheet: Sheet, left: float, top: float, size: tuple[float, float], heig
     return sheet.add_axes((left / WIDTH, 1.0 - (top + tall) / height, width / WIDTH, tall / height))
 
 
-def _draw_names(sheet: Sheet, slot: Slot, axes: Axes, height: float, theme: Theme) -> None:
+def _draw_names(sheet: Sheet, slot: Slot, height: float, theme: Theme) -> None:
     """The ordinate's name above the panel, the abscissa's below, the panel's own on top."""
     panel = slot.panel
     lift = slot.top - 0.07 - LEGEND_SPACING * len(legend_rows(panel, slot.width))
@@ -186,10 +186,11 @@ def _draw_names(sheet: Sheet, slot: Slot, axes: Axes, height: float, theme: Them
             slot.left / WIDTH, 1.0 - above / height, panel.title, fontsize=TEXT, fontweight="bold", color=theme.ink
         )
     if slot.abscissa:
-        middle, below = slot.left + slot.width / 2, slot.top + slot.height + TICK_LINE
+        below = 1.0 - (slot.top + slot.height + TICK_LINE) / height
+        middle = (slot.left + slot.width / 2) / WIDTH
         sheet.text(
-            middle / WIDTH,
-            1.0 - below / height,
+            middle,
+            below,
             panel.x.label,
             fontsize=SMALL,
             color=theme.muted,

@@ -10,7 +10,7 @@ from app.responses.load_distribution import FlankFields, FlankPlace, LoadDistrib
 
 FIFTHS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
 FACE = Axis("face (0: end that meshes first)", limits=(0.0, 1.0), ticks=FIFTHS)
-PROFILE = Axis("profile (0: A, pinion root; 1: E, pinion tip)", limits=(0.0, 1.0), ticks=FIFTHS)
+PROFILE = Axis("profile (0: A, 1: E)", limits=(0.0, 1.0), ticks=FIFTHS)
 
 
 def flank_load(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:

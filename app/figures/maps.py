@@ -94,17 +94,16 @@ def draw_color_bar(axes: Axes, chart: Map, size: tuple[float, float], theme: The
         cmap=colormaps[COLOURS[chart.scale]],
         interpolation="bilinear",
     )
-    texts = [
-        (tick, number(tick, digits=6), theme.muted) for tick in bar_ticks(chart) if not _crowded(chart, tick, size[1])
-    ]
+    ticks = [tick for tick in bar_ticks(chart) if not _crowded(chart, tick, size[1])]
+    texts = [(tick, number(tick, digits=6), theme.muted) for tick in ticks]
     critical = [each for each in chart.critical if _within(chart, each.value)]
     texts += [(each.value, each.name, theme.limit) for each in critical]
     for each in critical:
         at = float(norm(each.value))
         axes.plot([0.0, 1.0], [at, at], color=theme.limit, linewidth=1.6, linestyle=(0, (2, 1)))
     for value, text, color in texts:
-        style = {"fontsize": SMALL, "color": color, "va": "center_baseline"}
-        axes.text(1.0 + TICK_ROOM * 0.6 / size[0], float(norm(value)), text, transform=axes.transAxes, **style)
+        place = 1.0 + TICK_ROOM * 0.6 / size[0], float(norm(value))
+        axes.text(*place, text, fontsize=SMALL, color=color, va="center_baseline")
 
 
 def _crowded(chart: Map, tick: float, height: float) -> bool:

@@ -42,7 +42,8 @@ def draw_rows(axes: Axes, panel: Panel, x: Range, width: float, height: float, t
         draw_level(canvas, level)
     for row in panel.rows:
         if row.name in names:
-            _row(canvas, row, PITCH * (len(own) - names.index(row.name) - 0.5), panel.x)
+            others = [each for each in panel.rows if each.name == row.name and each is not row]
+            _row(canvas, row, PITCH * (len(own) - names.index(row.name) - 0.5), panel.x, others)
     for level in panel.levels:
         name_level(canvas, level)
 
@@ -67,7 +68,8 @@ def _written(canvas: Canvas, value: float, axis: Axis) -> str:
     return number(0.0 if noise else value, axis.unit or "")
 
 
-def _row(canvas: Canvas, row: Row, middle: float, axis: Axis) -> None:
+def _row(canvas: Canvas, row: Row, middle: float, axis: Axis, others: Sequence[Row]) -> None:
+    """One bar with its name and value, which stands beyond the bars of `others` in the same place."""
     theme, thick = canvas.theme, BAR * PITCH
     color, variant = theme.drawing[row.hue], row.role is Role.VARIANT
     canvas.axes.add_patch(
@@ -84,7 +86,7 @@ def _row(canvas: Canvas, row: Row, middle: float, axis: Axis) -> None:
     )
     if variant:
         return
-    ends = [row.value]
+    ends = [row.value, *(each.value for each in others)]
     if row.bounds is not None and row.bounds[0] < row.bounds[1]:
         canvas.axes.plot(
             row.bounds, [middle, middle], color=theme.ink, linewidth=1.2, marker="|", markersize=7, zorder=4
@@ -92,7 +94,7 @@ def _row(canvas: Canvas, row: Row, middle: float, axis: Axis) -> None:
         ends += row.bounds
     text, height = _written(canvas, row.value, axis), text_height("x", TEXT)
     width = text_width(text, TEXT, bold=True)
-    tip = max(ends) if row.value >= 0.0 else min(ends)
+    tip = max(0.0, *ends) if row.value >= 0.0 else min(0.0, *ends)
     x = float(canvas.x.places(tip)) * canvas.placer.width
     x = x + 0.06 if row.value >= 0.0 else x - width - 0.06
     place = canvas.placer.place(text, TEXT, [(x, middle - height / 2 - 0.01)], bold=True)

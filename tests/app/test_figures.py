@@ -337,7 +337,7 @@ def test_csv_holds_the_numbers_with_units_in_the_header() -> None:
     assert [float(row[1]) for row in rows[1:]] == answer.load_distribution.curves.tangential_force_n
     grid = list(csv.reader(io.StringIO(table(figure("xue-pair-4-helix-slope-40", "flank-load")).decode())))
     assert grid[0][:3] == [
-        "profile (0: A, pinion root; 1: E, pinion tip) [-]",
+        "profile (0: A, 1: E) [-]",
         "face (0: end that meshes first) [-]",
         "line load [N/mm]",
     ]
