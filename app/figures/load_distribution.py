@@ -4,7 +4,7 @@ from itertools import cycle
 
 import numpy as np
 
-from app.figures.data import ORDER, Axis, Bars, Figure, Hue, Level, Line, Mark, Panel, Role, Values, values
+from app.figures.data import ORDER, Axis, Bars, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Role, Values, values
 from app.figures.declaration import Declaration, present
 from app.figures.flank_maps import MAPS
 from app.figures.wording import number
@@ -144,7 +144,9 @@ def load_sharing(_: LoadDistributionRequest, answer: LoadDistributionResponse) -
 def pair_share(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
     """Share of the force on each line of contact over the roll."""
     load, curves = present(answer.load), present(present(answer.transmission_error).curves)
-    roll, shares = values(curves.roll_position), present(load.pair_share)
+    if load.pair_share is None:
+        raise NoFigure("no_load", "Without load no pair of teeth carries a share of it", "load")
+    roll, shares = values(curves.roll_position), load.pair_share
     lines = tuple(
         Line(f"{name} line", roll, values(share), hue)
         for name, share, hue in zip(PAIRS, shares, cycle(ORDER), strict=False)
