@@ -12,7 +12,7 @@ from app.contract.quantities import Output
 from app.figures.data import ThemeName
 from app.figures.rendering import MEDIA_TYPES, Format, render
 from app.library import body_of
-from app.problems import documented
+from app.problems import Unprocessable, documented
 from app.reading import read
 from app.routes.calculations import require_json
 from app.start_up import StartUp
@@ -57,7 +57,7 @@ def _wanted(calculation: Calculation, http: Request) -> tuple[str, Format, Theme
     if name not in names or image_format not in FORMATS:
         raise HTTPException(404, f"There are {', '.join(names)}, each as {', '.join(FORMATS)}")
     if theme not in THEMES:
-        raise HTTPException(404, f"There are the themes {', '.join(THEMES)}")
+        raise Unprocessable("unknown_theme", f"there are the themes {', '.join(THEMES)}", None)
     return name, image_format, theme
 
 
