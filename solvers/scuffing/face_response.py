@@ -10,8 +10,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.scuffing.contact_lines import line_count
-from solvers.scuffing.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, ROWS, Mesh, Y, gather
+from solvers.scuffing.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, Mesh, Y, gather, slice_table
 from solvers.scuffing.load_balance import LoadBalance
 from solvers.scuffing.tooth_stiffness import line_load
 
@@ -60,10 +59,10 @@ def _response(
 ) -> tuple[FloatArray, FloatArray]:
     """Sums of w dl hat and, with P_ab = sum (dw/ddelta) dl hat_a hat_b and k = P 1, of k k^T / (1^T k) - P."""
     force, derivative = np.zeros(stations), np.zeros((stations, stations))
-    table = np.zeros((ROWS, line_count(mesh.plane) * slices))
+    table = slice_table(mesh, slices)
     steps_per_metre = (stations - 1) / mesh.plane.face_width
     for i in range(phase.size if loaded else 0):
-        count, _ = gather(mesh, phase[i], side[i], slices, table)
+        count = gather(mesh, phase[i], side[i], slices, error[i], table).slices
         whole, omega = np.zeros(stations), 0.0
         for n in range(count):
             load, stiffness, omega = line_load(

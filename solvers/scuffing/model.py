@@ -9,18 +9,18 @@ from solvers.contact.hertz import reduced_modulus
 from solvers.gears.path_of_contact import PathOfContact, meshing_path
 from solvers.scuffing.contact_lines import ContactLengths, RollPositions, contact_lengths, roll_positions
 from solvers.scuffing.contact_slices import Mesh
+from solvers.scuffing.face_load import face_load_factor
 from solvers.scuffing.feature_line import feature_line
-from solvers.scuffing.flank import face_load_factor, flank
+from solvers.scuffing.flank import flank
 from solvers.scuffing.friction_loss import friction_loss
 from solvers.scuffing.inputs import LoadDistributionInputs
 from solvers.scuffing.line_survey import Peak, largest
 from solvers.scuffing.load_balance import LoadBalance, balance_load
 from solvers.scuffing.mesh_stiffness import stiffness
-from solvers.scuffing.modification import gap
-from solvers.scuffing.notices import geometry_notices, load_notices, model_notices
+from solvers.scuffing.modification import gap, kinks_along_face, kinks_along_path
+from solvers.scuffing.notices import geometry_notices, load_notices, model_notices, relief_notices
 from solvers.scuffing.results import (
     ContactLines,
-    Flank,
     Geometry,
     LengthCurves,
     LoadDistribution,
@@ -55,13 +55,16 @@ def mesh_of(inputs: LoadDistributionInputs) -> PreparedMesh:
     """
     path = meshing_path(inputs.gears)
     compliance = pair_compliance(path, inputs.pinion_material, inputs.wheel_material, inputs.model)
+    form = gap(inputs.modifications, path)
     tangential_force = inputs.load.pinion_torque / path.pair.pinion.base_radius
     normal_force = tangential_force / path.plane.cos_base_helix
     return PreparedMesh(
         path=path,
         lengths=contact_lengths(path),
-        mesh=Mesh(path.plane, compliance, gap(inputs.modifications, path)),
-        rolls=roll_positions(path.plane, inputs.resolution.roll_positions),
+        mesh=Mesh(path.plane, compliance, form),
+        rolls=roll_positions(
+            path.plane, inputs.resolution.roll_positions, kinks_along_path(form), kinks_along_face(form)
+        ),
         tangential_force=tangential_force,
         force=normal_force if inputs.model.load_convention == "exact" else tangential_force,
     )
@@ -90,7 +93,7 @@ def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance
         contact_lines=_contact_lines(lengths, balance),
         stiffness=stiffness(path, balance, balance.force / lengths.mean, tangential_force),
         transmission_error=transmission_error(balance),
-        load=_load_on_flank(path, balance, loads, inputs.load.pinion_torque, tangential_force),
+        load=_load_on_flank(path, balance, inputs.load.pinion_torque, tangential_force, resolution.face_points),
         pressure=_pressure(path, balance, modulus),
         friction_loss=friction_loss(path, balance, inputs.load, inputs.friction_coefficient),
         feature_line=feature_line(
@@ -100,7 +103,8 @@ def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance
         warnings=(
             *geometry_notices(path, lengths),
             *model_notices(path, inputs.model),
-            *load_notices(path, balance),
+            *relief_notices(path, inputs.modifications),
+            *load_notices(balance),
         ),
     )
 
@@ -134,7 +138,7 @@ def _contact_lines(lengths: ContactLengths, balance: LoadBalance) -> ContactLine
 
 
 def _load_on_flank(
-    path: PathOfContact, balance: LoadBalance, loads: Flank, torque: float, tangential_force: float
+    path: PathOfContact, balance: LoadBalance, torque: float, tangential_force: float, face_points: int
 ) -> LoadOnFlank:
     """Forces, the largest line load over all roll positions and how much of the flank is loaded."""
     peak = largest(balance.survey.peak_load)
@@ -146,7 +150,7 @@ def _load_on_flank(
         max_line_load=0.0 if peak is None else peak.value,
         max_at=_place(path, peak),
         contact_fraction=float(np.trapezoid(loaded, phase) / np.trapezoid(length, phase)),
-        face_load_factor=face_load_factor(loads.line_load),
+        face_load_factor=None if peak is None else face_load_factor(balance, peak.y, face_points),
         balance_error=float(balance.residual.max()),
         pair_share=frozen(balance.survey.line_forces.T / balance.force) if balance.force > 0.0 else None,
     )
@@ -154,6 +158,8 @@ def _load_on_flank(
 
 def _pressure(path: PathOfContact, balance: LoadBalance, modulus: float) -> Pressure:
     """Largest p_H = sqrt(E' w / (2 pi R_n)) over all roll positions."""
+    if np.any(balance.survey.undefined > 0.0):
+        return Pressure(None, None)
     peak = largest(balance.survey.peak_pressure)
     maximum = 0.0 if peak is None else float(np.sqrt(modulus * peak.value / (2 * np.pi)))
     return Pressure(maximum, _place(path, peak))

@@ -123,9 +123,12 @@ class LoadOnFlank:
 
 @dataclass(frozen=True, slots=True)
 class Pressure:
-    """Largest Hertz pressure [Pa] over all roll positions, and its place."""
+    """Largest Hertz pressure [Pa] over all roll positions, and its place.
 
-    max: float
+    None where the loaded path reaches a base circle, towards which pressure has no limit.
+    """
+
+    max: float | None
     max_at: Place | None
 
 
