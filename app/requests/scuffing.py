@@ -100,14 +100,22 @@ class FlankModifications(Section):
     tip_relief_length_mm: Annotated[
         float | None,
         Input(
-            "length along the line of action; null: to the single contact", "L_a", ge=1e-3, le=1000, assumed=NO_LENGTHS
+            "length along the line of action; null: to the single contact, a tenth to half of the path",
+            "L_a",
+            ge=1e-3,
+            le=1000,
+            assumed=NO_LENGTHS,
         ),
     ] = None
     root_relief_um: Annotated[float, Input("relief at A: pinion root plus wheel tip", "C_f", XUE, ge=0, le=1000)] = 0.0
     root_relief_length_mm: Annotated[
         float | None,
         Input(
-            "length along the line of action; null: to the single contact", "L_f", ge=1e-3, le=1000, assumed=NO_LENGTHS
+            "length along the line of action; null: to the single contact, a tenth to half of the path",
+            "L_f",
+            ge=1e-3,
+            le=1000,
+            assumed=NO_LENGTHS,
         ),
     ] = None
     end_relief_um: Annotated[float, Input("relief at both ends of the face", "C_e", XUE, ge=0, le=1000)] = 0.0

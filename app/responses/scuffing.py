@@ -111,8 +111,15 @@ class FlankLoad(Group):
 class FlankPressure(Group):
     """Dry Hertz pressure."""
 
-    max_mpa: Annotated[float, Output("largest over all roll positions", "p_H", f"{XUE}, Eq. 14")]
-    max_at: Annotated[FlankPlace | None, Output("where; null without load")]
+    max_mpa: Annotated[
+        float | None,
+        Output(
+            "largest over all roll positions; null where the loaded path reaches a base circle",
+            "p_H",
+            f"{XUE}, Eq. 14",
+        ),
+    ]
+    max_at: Annotated[FlankPlace | None, Output("where; null without load or largest pressure")]
 
 
 class MeshLoss(Group):

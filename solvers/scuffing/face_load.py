@@ -9,9 +9,9 @@ from solvers.scuffing.contact_slices import Mesh, load_at
 from solvers.scuffing.load_balance import LoadBalance, line_loads
 from solvers.scuffing.modification import kinks_along_face
 
-SUBSTEPS = 4  # of a step between roll positions
+SUBSTEPS = 4  # of a step between roll positions, where lines are loaded in part
 ZOOMS = 4
-ZOOM_POINTS = 21
+ZOOM_POINTS = 7
 
 
 def face_load_factor(balance: LoadBalance, y: float, points: int) -> float:
@@ -35,12 +35,20 @@ def face_loads(balance: LoadBalance, y: FloatArray) -> FloatArray:
     plane = balance.mesh.plane
     starts = line_loads(balance, np.zeros(y.size), y)
     ends = line_loads(balance, np.full(y.size, plane.path_length), y)
-    return _face_loads(balance.mesh, balance.rolls.phase, balance.transmission_error, y, starts, ends)
+    in_part = np.any(balance.survey.loaded_length < balance.survey.length)
+    substeps = SUBSTEPS if in_part else 1
+    return _face_loads(balance.mesh, balance.rolls.phase, balance.transmission_error, substeps, y, starts, ends)
 
 
 @kernel
 def _face_loads(
-    mesh: Mesh, phase: FloatArray, error: FloatArray, y: FloatArray, starts: FloatArray, ends: FloatArray
+    mesh: Mesh,
+    phase: FloatArray,
+    error: FloatArray,
+    substeps: int,
+    y: FloatArray,
+    starts: FloatArray,
+    ends: FloatArray,
 ) -> FloatArray:
     """Trapezia along the path from A to E, whose loads are known, over the roll positions whose lines pass between."""
     plane, loads, omega = mesh.plane, np.zeros(y.size), 0.0
@@ -49,12 +57,12 @@ def _face_loads(
         for j in range(line_count(plane)):
             for i in range(phase.size - 1):
                 first = phase[i] + j * plane.base_pitch - y[k] * plane.tan_base_helix
-                step = (phase[i + 1] - phase[i]) / SUBSTEPS
-                for n in range(SUBSTEPS + 1 if step > 0.0 else 0):
+                step = (phase[i + 1] - phase[i]) / substeps
+                for n in range(substeps + 1 if step > 0.0 else 0):
                     following = first + n * step
                     if not 0.0 < following < plane.path_length:
                         continue
-                    local = error[i] + (error[i + 1] - error[i]) * n / SUBSTEPS
+                    local = error[i] + (error[i + 1] - error[i]) * n / substeps
                     before = load
                     load, omega = load_at(mesh, local, following, y[k], omega)
                     loads[k] += 0.5 * (before + load) * (following - x)

@@ -205,7 +205,7 @@ def test_pressure_is_null_where_the_path_reaches_a_base_circle(post: Post) -> No
     assert result["geometry"]["undercut"] is True
     assert result["feature_line"]["pressure_mpa"][0] is None
     assert set(result["flank"]["pressure_mpa"][0]) == {None}
-    assert {"undercut", "pressure_undefined"} <= {warning["code"] for warning in result["warnings"]}
+    assert {"undercut", "path_reaches_base_circle"} <= {warning["code"] for warning in result["warnings"]}
 
 
 def test_without_load_what_has_no_meaning_is_null(post: Post) -> None:
