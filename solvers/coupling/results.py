@@ -6,6 +6,7 @@ A value that has no meaning is None, and a notice in `warnings` says why.
 from dataclasses import dataclass
 
 from solvers.arrays import FloatArray
+from solvers.coupling.inputs import Coupling
 from solvers.notices import Notice
 
 
@@ -172,7 +173,7 @@ class Limits:
 
 @dataclass(frozen=True, slots=True)
 class CouplingResult:
-    """Everything about one operating point."""
+    """Everything about one operating point; `derived` is the coupling with its proportions filled in."""
 
     geometry: Geometry
     kinematics: Kinematics
@@ -181,6 +182,7 @@ class CouplingResult:
     axial_thrust: AxialThrust
     losses: Losses
     limits: Limits
+    derived: Coupling
     warnings: tuple[Notice, ...]
 
 
@@ -210,7 +212,7 @@ class InertiaForce:
 class OrbitResult:
     """One revolution of a floating sleeve under its own inertia.
 
-    `sweeps` over the revolution until it repeated to `change` [m].
+    `sweeps` over the revolution until it repeated to `change` [m]; `derived` is the tooth that moves.
     """
 
     orbit: Orbit
@@ -218,6 +220,7 @@ class OrbitResult:
     max_displacement: float
     sweeps: int
     change: float
+    derived: Geometry
     warnings: tuple[Notice, ...]
 
 
@@ -260,4 +263,5 @@ class Recommendation:
     at_min: RecommendedPoint | None
     at_max: RecommendedPoint | None
     scan: CrowningScan
+    derived: Coupling
     warnings: tuple[Notice, ...]

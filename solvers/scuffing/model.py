@@ -6,6 +6,7 @@ import numpy as np
 
 from solvers.arrays import frozen
 from solvers.contact.hertz import reduced_modulus
+from solvers.gears.gear import rack_tip_radius
 from solvers.gears.path_of_contact import PathOfContact, meshing_path
 from solvers.scuffing.contact_lines import ContactLengths, RollPositions, contact_lengths, roll_positions
 from solvers.scuffing.contact_slices import Mesh
@@ -13,14 +14,15 @@ from solvers.scuffing.face_load import face_load_factor
 from solvers.scuffing.feature_line import feature_line
 from solvers.scuffing.flank import flank
 from solvers.scuffing.friction_loss import friction_loss
-from solvers.scuffing.inputs import LoadDistributionInputs
+from solvers.scuffing.inputs import Load, LoadDistributionInputs
 from solvers.scuffing.line_survey import Peak, largest
 from solvers.scuffing.load_balance import LoadBalance, balance_load
 from solvers.scuffing.mesh_stiffness import stiffness
-from solvers.scuffing.modification import gap, kinks_along_face, kinks_along_path
+from solvers.scuffing.modification import Gap, gap, kinks_along_face, kinks_along_path
 from solvers.scuffing.notices import geometry_notices, load_notices, model_notices, relief_notices
 from solvers.scuffing.results import (
     ContactLines,
+    Derived,
     Geometry,
     LengthCurves,
     LoadDistribution,
@@ -100,6 +102,7 @@ def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance
             path, balance, inputs.load.pinion_speed, tangential_force, modulus, resolution.feature_points
         ),
         flank=loads,
+        derived=_derived(path, balance.mesh.gap, inputs.load),
         warnings=(
             *geometry_notices(path, lengths),
             *model_notices(path, inputs.model),
@@ -122,6 +125,20 @@ def _geometry(path: PathOfContact) -> Geometry:
         overlap_ratio=path.overlap_ratio,
         total_contact_ratio=path.total_contact_ratio,
         undercut=pair.pinion.undercut or pair.wheel.undercut,
+    )
+
+
+def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
+    """What the inputs left open, and what is used of them."""
+    pair = path.pair.inputs
+    return Derived(
+        pinion_torque=load.pinion_torque,
+        power=load.power,
+        centre_distance=path.pair.centre_distance,
+        tip_relief_length=form.tip_relief_length,
+        root_relief_length=form.root_relief_length,
+        end_relief_length=form.end_relief_length,
+        rack_tip_radius=min(rack_tip_radius(pair, teeth) for teeth in (pair.pinion, pair.wheel)),
     )
 
 

@@ -187,6 +187,22 @@ class Flank:
 
 
 @dataclass(frozen=True, slots=True)
+class Derived:
+    """What follows from the inputs before any physics: torque [N m], power [W], lengths [m].
+
+    rack_tip_radius is what both racks have room for, in normal modules.
+    """
+
+    pinion_torque: float
+    power: float
+    centre_distance: float
+    tip_relief_length: float
+    root_relief_length: float
+    end_relief_length: float
+    rack_tip_radius: float
+
+
+@dataclass(frozen=True, slots=True)
 class LoadDistribution:
     """How a pair of gears carries its load; path_of_contact and balance are what further checks build on."""
 
@@ -201,4 +217,5 @@ class LoadDistribution:
     friction_loss: FrictionLoss
     feature_line: FeatureLine
     flank: Flank
+    derived: Derived
     warnings: tuple[Notice, ...]
