@@ -12,6 +12,8 @@ from solvers.scuffing.contact_lines import COINCIDENT, line_count, line_ends
 from solvers.scuffing.contact_slices import GAP, LENGTH, LIMIT, LINE, LOAD, Mesh, X, Y, load_at
 from solvers.scuffing.modification import MOST_EDGES, smooth_parts
 
+EQUAL = 1e-9  # peaks nearer than this, relatively, are the same; a spur gear's single pair has the same load all along
+
 
 class Survey(NamedTuple):
     """Over the roll positions: friction_moment int w |s - s_C| dl [N m], loaded_length and length [m].
@@ -57,12 +59,12 @@ def empty_survey(mesh: Mesh, positions: int) -> Survey:
 @kernel
 def _note_peaks(mesh: Mesh, survey: Survey, i: int, load: float, at: tuple[float, float]) -> None:
     x, y = at
-    if load > survey.peak_load[i, 0]:
+    if load > survey.peak_load[i, 0] * (1.0 + EQUAL):
         survey.peak_load[i, 0], survey.peak_load[i, 1], survey.peak_load[i, 2] = load, x, y
     radius = reduced_radius(mesh.plane, x)
     if radius < mesh.plane.least_radius:
         survey.undefined[i] += load > 0.0
-    elif load > survey.peak_pressure[i, 0] * radius:
+    elif load > survey.peak_pressure[i, 0] * radius * (1.0 + EQUAL):
         survey.peak_pressure[i, 0] = load / radius
         survey.peak_pressure[i, 1], survey.peak_pressure[i, 2] = x, y
 
@@ -98,6 +100,6 @@ def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Sur
 
 
 def largest(peaks: FloatArray) -> Peak | None:
-    """The largest of the peaks of all roll positions; None where nothing is loaded."""
-    row = peaks[np.argmax(peaks[:, 0])]
+    """The largest of the peaks of all roll positions, the first of equals; None where nothing is loaded."""
+    row = peaks[np.argmax(peaks[:, 0] >= peaks[:, 0].max() * (1.0 - EQUAL))]
     return Peak(float(row[0]), float(row[1]), float(row[2])) if row[0] > 0.0 else None
