@@ -11,7 +11,7 @@ import numpy as np
 
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.gears.path_of_contact import meshing_path, reduced_radius
+from solvers.gears.path_of_contact import meshing_path
 from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.contact_lines import contact_lengths
 from solvers.scuffing.face_load import face_loads
@@ -106,7 +106,7 @@ def check_books(rng: np.random.Generator) -> None:
     inputs = draw_flank(rng)
     result = solve_load_distribution(inputs)
     balance, plane = result.balance, result.path_of_contact.plane
-    y = (np.arange(160) + 0.5) / 160 * plane.face_width
+    y = (np.arange(800) + 0.5) / 800 * plane.face_width
     x = (np.arange(400) + 0.5) / 400 * plane.path_length
     load = line_loads(balance, *np.meshgrid(x, y, indexing="ij"))
     cell = plane.path_length * plane.face_width / load.size
@@ -125,9 +125,6 @@ def check_books(rng: np.random.Generator) -> None:
     assert factor <= result.load.face_load_factor * (1 + 1e-3), f"face load factor {factor}: {inputs}"
     assert load.max() <= result.load.max_line_load * (1 + 5e-3), f"line load {load.max()}: {inputs}"
     if result.pressure.max is not None:
-        radius = reduced_radius(plane, x)[:, None]
-        stress = np.sqrt(load / radius).max() / np.sqrt(result.load.max_line_load)
-        assert np.isfinite(stress)
         assert np.nanmax(result.flank.pressure) <= result.pressure.max * (1 + 5e-3), f"pressure: {inputs}"
 
 

@@ -10,18 +10,19 @@ from solvers.scuffing.load_balance import LoadBalance, line_loads
 from solvers.scuffing.modification import kinks_along_face
 
 SUBSTEPS = 4  # of a step between roll positions, where lines are loaded in part
+FACE_POINTS = 101
 ZOOMS = 4
 ZOOM_POINTS = 7
 
 
-def face_load_factor(balance: LoadBalance, y: float, points: int) -> float:
+def face_load_factor(balance: LoadBalance, y: float) -> float:
     """K_H_beta = largest over mean of q(y) = int w dx / p_bt (the idea of ISO 6336-1, annex E) of a loaded mesh.
 
     Looked for at equidistant points, at kinks of the gap and at y [m], where a peak is, and closer around the largest.
     The mean is the force in balance over the face.
     """
     plane = balance.mesh.plane
-    places = np.unique([*np.linspace(0.0, plane.face_width, points), *kinks_along_face(balance.mesh.gap), y])
+    places = np.unique([*np.linspace(0.0, plane.face_width, FACE_POINTS), *kinks_along_face(balance.mesh.gap), y])
     for _ in range(ZOOMS):
         shares = face_loads(balance, places)
         top = int(np.argmax(shares))

@@ -95,7 +95,7 @@ def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance
         contact_lines=_contact_lines(lengths, balance),
         stiffness=stiffness(path, balance, balance.force / lengths.mean, tangential_force),
         transmission_error=transmission_error(balance),
-        load=_load_on_flank(path, balance, inputs.load.pinion_torque, tangential_force, resolution.face_points),
+        load=_load_on_flank(path, balance, inputs.load.pinion_torque, tangential_force),
         pressure=_pressure(path, balance, modulus),
         friction_loss=friction_loss(path, balance, inputs.load, inputs.friction_coefficient),
         feature_line=feature_line(
@@ -154,9 +154,7 @@ def _contact_lines(lengths: ContactLengths, balance: LoadBalance) -> ContactLine
     )
 
 
-def _load_on_flank(
-    path: PathOfContact, balance: LoadBalance, torque: float, tangential_force: float, face_points: int
-) -> LoadOnFlank:
+def _load_on_flank(path: PathOfContact, balance: LoadBalance, torque: float, tangential_force: float) -> LoadOnFlank:
     """Forces, the largest line load over all roll positions and how much of the flank is loaded."""
     peak = largest(balance.survey.peak_load)
     phase, loaded, length = balance.rolls.phase, balance.survey.loaded_length, balance.survey.length
@@ -167,7 +165,7 @@ def _load_on_flank(
         max_line_load=0.0 if peak is None else peak.value,
         max_at=_place(path, peak),
         contact_fraction=float(np.trapezoid(loaded, phase) / np.trapezoid(length, phase)),
-        face_load_factor=None if peak is None else face_load_factor(balance, peak.y, face_points),
+        face_load_factor=None if peak is None else face_load_factor(balance, peak.y),
         balance_error=float(balance.residual.max()),
         pair_share=frozen(balance.survey.line_forces.T / balance.force) if balance.force > 0.0 else None,
     )
