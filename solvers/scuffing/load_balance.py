@@ -20,12 +20,6 @@ from solvers.errors import NoSolution
 from solvers.gears.path_of_contact import ContactPlane
 from solvers.scuffing.contact_lines import RollPositions
 from solvers.scuffing.contact_slices import (
-    CONSTANT,
-    GAP,
-    LENGTH,
-    LIMIT,
-    LOAD,
-    OMEGA,
     Cover,
     Mesh,
     gather,
@@ -33,7 +27,7 @@ from solvers.scuffing.contact_slices import (
     slice_table,
 )
 from solvers.scuffing.line_survey import Survey, empty_survey, survey_ends, survey_slices
-from solvers.scuffing.tooth_stiffness import line_load
+from solvers.scuffing.position_balance import solve_position
 
 MAX_COVERS = 20  # of the lines of one roll position by slices
 SETTLED = 1e-6  # change of the approach between two covers
@@ -42,10 +36,6 @@ MAX_HALVINGS = 8  # of the steps between roll positions
 MOST_ADDED = 1000  # roll positions
 LEAST_LINE_LOAD = 0.1  # N/m, mean; the approach it makes is near the rounding of large gaps
 LEAST_SPREAD = 1e-12  # m, of a kinematic error
-MAX_STEPS = 60
-LEAST_OMEGA = 2.0  # of the start, whose compliance must stay positive
-ROUNDING = 1e-14  # relative force at which Newton has nothing left to gain
-NEAR_ROUNDING = 1e-12
 TOLERANCE = 1e-10  # relative force above which there is no solution
 
 
@@ -132,65 +122,6 @@ def _merged(balance: LoadBalance, added: LoadBalance, places: IntArray) -> LoadB
 
 
 @kernel
-def _secant_start(table: FloatArray, count: int, logarithmic: float, force: float) -> float:
-    """Exact TE of the linear problem; half-spaces take their secant compliance at the mean load, and keep its omega.
-
-    All slices pressed to a common TE, pulling included, reach the force to the right of the root of the convex F(TE);
-    Newton's steps descend from there through ever smaller contact sets.
-    """
-    log_mean = 0.0
-    if logarithmic > 0.0:
-        total = 0.0
-        for i in range(count):
-            total += table[LENGTH, i]
-        log_mean = np.log(force / total)
-        for i in range(count):
-            table[OMEGA, i] = max(table[CONSTANT, i] / logarithmic - log_mean, LEAST_OMEGA)
-    error = np.inf
-    for _ in range(MAX_STEPS):
-        stiffness, moment = 0.0, 0.0
-        for i in range(count):
-            if table[GAP, i] < error:
-                compliance = logarithmic * table[OMEGA, i] if logarithmic > 0.0 else table[CONSTANT, i]
-                stiffness += table[LENGTH, i] / compliance
-                moment += table[LENGTH, i] / compliance * table[GAP, i]
-        following = (force + moment) / stiffness
-        if following >= error:
-            break
-        error = following
-    return error
-
-
-@kernel
-def _press(table: FloatArray, count: int, logarithmic: float, error: float) -> tuple[float, float]:
-    """Force [N] at an approach [m] and its derivative [N/m]; notes each slice's load and omega."""
-    force, slope = 0.0, 0.0
-    for i in range(count):
-        load, stiffness, table[OMEGA, i] = line_load(
-            error - table[GAP, i], table[CONSTANT, i], logarithmic, table[LIMIT, i], table[OMEGA, i]
-        )
-        table[LOAD, i] = load
-        force += load * table[LENGTH, i]
-        slope += stiffness * table[LENGTH, i]
-    return force, slope
-
-
-@kernel
-def _solve_position(table: FloatArray, count: int, logarithmic: float, force: float) -> tuple[float, float, float]:
-    """TE [m], relative residual and steps at one roll position."""
-    error = _secant_start(table, count, logarithmic, force)
-    residual, steps = np.inf, 0.0
-    while steps < MAX_STEPS:
-        carried, slope = _press(table, count, logarithmic, error)
-        steps += 1.0
-        before, residual = residual, abs(carried - force) / force
-        if residual <= ROUNDING or (residual <= NEAR_ROUNDING and residual >= before):
-            break
-        error -= (carried - force) / slope
-    return error, residual, steps
-
-
-@kernel
 def _settle(
     mesh: Mesh, at: tuple[float, float], slices: int, force: float, least: float, error: float, table: FloatArray
 ) -> tuple[Cover, float, float, float]:
@@ -202,7 +133,7 @@ def _settle(
     while not settled:
         cover = gather(mesh, at[0], at[1], slices, error, table)
         before = error
-        error, residual, more = _solve_position(table, cover.slices, mesh.compliance.logarithmic, force)
+        error, residual, more = solve_position(table, cover.slices, mesh.compliance.logarithmic, force)
         covers, steps = covers + 1, steps + more
         settled = abs(error - before) <= SETTLED * (error - least) or covers == MAX_COVERS
     return cover, error, residual, steps
@@ -222,7 +153,7 @@ def _balance(
         survey.length[i], unloaded[i] = cover.length, cover.least
         error[i] = cover.least
         if force > 0.0:
-            error[i], residual[i], steps[i] = _solve_position(table, cover.slices, mesh.compliance.logarithmic, force)
+            error[i], residual[i], steps[i] = solve_position(table, cover.slices, mesh.compliance.logarithmic, force)
             if error[i] < cover.most:
                 at = (phase[i], side[i])
                 cover, error[i], residual[i], steps[i] = _settle(mesh, at, slices, force, cover.least, error[i], table)
