@@ -58,9 +58,8 @@ def _press(table: FloatArray, count: int, logarithmic: float, error: float) -> t
 
 
 @kernel
-def solve_position(table: FloatArray, count: int, logarithmic: float, force: float) -> tuple[float, float, float]:
-    """TE [m], relative residual and steps at one roll position."""
-    error = _secant_start(table, count, logarithmic, force)
+def newton(table: FloatArray, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
+    """TE [m] from a start, relative residual and steps at one roll position; loads and omegas stay in the table."""
     residual, steps = np.inf, 0.0
     while steps < MAX_STEPS:
         carried, slope = _press(table, count, logarithmic, error)
@@ -70,3 +69,9 @@ def solve_position(table: FloatArray, count: int, logarithmic: float, force: flo
             break
         error -= (carried - force) / slope
     return error, residual, steps
+
+
+@kernel
+def solve_position(table: FloatArray, count: int, logarithmic: float, force: float) -> tuple[float, float, float]:
+    """TE [m], relative residual and steps at one roll position."""
+    return newton(table, count, logarithmic, force, _secant_start(table, count, logarithmic, force))
