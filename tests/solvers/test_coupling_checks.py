@@ -9,7 +9,7 @@ from numpy.random import Generator
 from tests.coupling_checks import CHECKS
 
 # How many cases a second allows in the default run.
-CASES = dict(zip((check.__name__ for check in CHECKS), (60, 40, 15, 6, 12), strict=True))
+CASES = dict(zip((check.__name__ for check in CHECKS), (60, 40, 15, 6, 8), strict=True))
 
 
 @pytest.mark.parametrize("check", CHECKS)
