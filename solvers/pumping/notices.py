@@ -15,7 +15,7 @@ TIP_SPEED_SHARE = 0.8  # of the ambient speed of sound
 PITCH_LINE_SPEED = 250.0  # m/s
 FEW_SLICES = 20  # in the stroke at one time
 INCOMPRESSIBLE_MACH = 0.3
-COARSE_CHANGE = 0.04  # by half the slices; twice as many change a third or a quarter of it
+COARSE_CHANGE = 0.02  # by half the slices; twice as many change at most half of it, 1 %
 NET_UNCERTAINTY = 0.1  # of the net flow
 LEAST_GAUGE_PRESSURE = 1e-6  # of the ambient pressure
 
