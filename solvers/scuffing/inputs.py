@@ -9,6 +9,12 @@ from solvers.gears.inputs import GearPairInputs
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 
+ToothModel = Literal["ishikawa", "parabola"]
+ContactModel = Literal["hertzian", "linear"]
+ToothSection = Literal["normal", "transverse"]
+LoadConvention = Literal["exact", "paper"]
+Lubrication = Literal["thermal_ehl", "closed_form"]
+
 
 @dataclass(frozen=True, slots=True)
 class Load:
@@ -81,11 +87,11 @@ class Model:
     "paper" (Eq. 1) F_bt.
     """
 
-    tooth_stiffness: Literal["ishikawa", "parabola"] = "ishikawa"
+    tooth_stiffness: ToothModel = "ishikawa"
     parabola_end_ratio: float = 0.757
-    contact: Literal["hertzian", "linear"] = "hertzian"
-    section: Literal["normal", "transverse"] = "normal"
-    load_convention: Literal["exact", "paper"] = "exact"
+    contact: ContactModel = "hertzian"
+    section: ToothSection = "normal"
+    load_convention: LoadConvention = "exact"
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,6 +146,6 @@ class ScuffingInputs:
     distribution: LoadDistributionInputs
     lubricant: Lubricant = field(default_factory=Lubricant)
     temperatures: Temperatures = field(default_factory=Temperatures)
-    lubrication: Literal["thermal_ehl", "closed_form"] = "thermal_ehl"
+    lubrication: Lubrication = "thermal_ehl"
     film: ehl.Model = field(default_factory=ehl.Model)
     path_points: int = 50

@@ -12,14 +12,15 @@ from solvers.scuffing.contact_slices import Mesh
 from solvers.scuffing.feature_line import feature_line
 from solvers.scuffing.flank import face_load_factor, flank
 from solvers.scuffing.friction_loss import friction_loss
-from solvers.scuffing.inputs import LoadDistributionInputs
+from solvers.scuffing.inputs import Load, LoadDistributionInputs
 from solvers.scuffing.line_survey import Peak, largest
 from solvers.scuffing.load_balance import LoadBalance, balance_load
 from solvers.scuffing.mesh_stiffness import stiffness
-from solvers.scuffing.modification import gap
+from solvers.scuffing.modification import Gap, gap
 from solvers.scuffing.notices import geometry_notices, load_notices, model_notices
 from solvers.scuffing.results import (
     ContactLines,
+    Derived,
     Flank,
     Geometry,
     LengthCurves,
@@ -102,6 +103,7 @@ def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance
             np.linspace(0.0, 1.0, resolution.feature_points),
         ),
         flank=loads,
+        derived=_derived(path, balance.mesh.gap, inputs.load),
         warnings=(
             *geometry_notices(path, lengths),
             *model_notices(path, inputs.model),
@@ -123,6 +125,18 @@ def _geometry(path: PathOfContact) -> Geometry:
         overlap_ratio=path.overlap_ratio,
         total_contact_ratio=path.total_contact_ratio,
         undercut=pair.pinion.undercut or pair.wheel.undercut,
+    )
+
+
+def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
+    """What the inputs left open."""
+    return Derived(
+        pinion_torque=load.pinion_torque,
+        power=load.power,
+        centre_distance=path.pair.centre_distance,
+        tip_relief_length=form.tip_relief_length,
+        root_relief_length=form.root_relief_length,
+        end_relief_length=form.end_relief_length,
     )
 
 

@@ -184,6 +184,18 @@ class Flank:
 
 
 @dataclass(frozen=True, slots=True)
+class Derived:
+    """What follows from the inputs before any physics: torque [N m], power [W], lengths [m]."""
+
+    pinion_torque: float
+    power: float
+    centre_distance: float
+    tip_relief_length: float
+    root_relief_length: float
+    end_relief_length: float
+
+
+@dataclass(frozen=True, slots=True)
 class LoadDistribution:
     """How a pair of gears carries its load; path_of_contact and balance are what further checks build on."""
 
@@ -198,4 +210,5 @@ class LoadDistribution:
     friction_loss: FrictionLoss
     feature_line: FeatureLine
     flank: Flank
+    derived: Derived
     warnings: tuple[Notice, ...]

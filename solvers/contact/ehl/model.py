@@ -20,6 +20,7 @@ from solvers.contact.ehl.problem import Problem, peclet_number, problem
 from solvers.contact.ehl.refinement import refined
 from solvers.contact.ehl.results import (
     Convergence,
+    Derived,
     Dimensionless,
     FilmThickness,
     HertzContact,
@@ -85,6 +86,7 @@ def conclude(
         convergence=_convergence(inputs, attempt, iterations),
         curves=None,
         field=None,
+        derived=Derived(inputs.contact.entrainment_speed, groups(inputs).reduced_modulus),
         warnings=tuple(notices),
     )
     if not attempt.converged:
