@@ -8,9 +8,11 @@ from fastapi.routing import APIRoute
 
 from app.answers import answer
 from app.calculations import CALCULATIONS, Calculation
+from app.cost import refuse_endless
 from app.library import body_of
 from app.problems import documented
 from app.reading import read
+from app.settings import Settings
 from app.start_up import StartUp
 from app.workers.admission import Runner
 
@@ -27,7 +29,8 @@ class CalculationRoute(APIRoute):
             start_up: StartUp = http.app.state.start_up
             start_up.require(path)
             runner: Runner = http.app.state.runner
-            content = await runner.run(http.receive, answer_body, path, await http.body())
+            limits: Settings = http.app.state.settings
+            content = await runner.run(http.receive, answer_body, path, await http.body(), limits.deadline_s)
             return Response(content, media_type="application/json")
 
         return handle
@@ -37,10 +40,12 @@ router = APIRouter(route_class=CalculationRoute, responses=documented(400, 408, 
 _BY_PATH = {calculation.path: calculation for calculation in CALCULATIONS}
 
 
-def answer_body(path: str, body: bytes) -> bytes:
+def answer_body(path: str, body: bytes, deadline_s: float) -> bytes:
     """The answer of an endpoint to the bytes of a request; runs in a worker."""
     calculation = _BY_PATH[path]
-    return answer(calculation, read(calculation.request, body))
+    request = read(calculation.request, body)
+    refuse_endless(request, deadline_s)
+    return answer(calculation, request)
 
 
 def require_json(http: Request) -> None:
