@@ -25,7 +25,7 @@ def refuse_endless(request: Request, deadline_s: float) -> None:
             if cost.seconds > deadline_s:
                 raise Unprocessable(
                     "cannot_finish",
-                    f"would take some {cost.seconds:.0f} s, and calculations end after {deadline_s:g} s: make it smaller",
+                    f"would take some {cost.seconds:.0f} s, but calculations end after {deadline_s:g} s; make it less",
                     cost.field,
                 )
 
