@@ -5,6 +5,8 @@ import socket
 import sys
 from io import TextIOWrapper
 
+from pydantic.fields import FieldInfo
+
 from app.settings import Settings, settings
 
 INTERRUPTED = 130
@@ -47,8 +49,12 @@ def _documentation() -> str:
     """The settings, one line each."""
     rows = ["environment variables:"]
     for name, field in Settings.model_fields.items():
-        rows.append(f"  TRIBODRIVE_{name.upper():<18} {field.description} (default {field.get_default()})")
+        rows.append(f"  TRIBODRIVE_{name.upper():<18} {field.description} (default {_default(field)})")
     return "\n".join(rows)
+
+
+def _default(field: FieldInfo) -> object:
+    return field.default if field.default_factory is None else "follows from the descriptor limit"
 
 
 if __name__ == "__main__":
