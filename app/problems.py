@@ -15,7 +15,7 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 from starlette.exceptions import HTTPException
 
-from app.quantities import Output
+from app.contract.quantities import Output
 from app.reading import MOST_FIELD_ERRORS, InvalidBody, Unreadable
 
 MEDIA_TYPE = "application/problem+json"

@@ -9,8 +9,8 @@ from functools import cache
 
 from numba.core import event
 
-from app.answers import answer
 from app.calculations import CALCULATIONS
+from app.formats.json import answer
 from app.library import examples
 from app.processes import end_with_parent
 from solvers.kernel_cache import mark_complete

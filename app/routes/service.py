@@ -7,9 +7,9 @@ from fastapi.responses import RedirectResponse
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 from pydantic import BaseModel
 
+from app.contract.quantities import Output
 from app.library import Example, ExampleSummary, examples
 from app.problems import WarmingUp, WorkerLost, documented
-from app.quantities import Output
 from app.start_up import StartUp
 from app.workers.pool import Pool
 

@@ -5,7 +5,7 @@ Lengths [m], angles [rad], forces [N], speeds [rad/s]. Every name is the API's n
 
 from dataclasses import dataclass, field
 from math import radians
-from typing import Literal
+from typing import Any, Literal
 
 Arrangement = Literal["single", "parallel_offset", "angular"]
 KinematicModel = Literal["tangential", "spatial"]
@@ -38,6 +38,18 @@ class Coupling:
     poisson_ratio: float = 0.3
 
 
+def proportioned(
+    *, module: float, face_width: float | None = None, tooth_height: float | None = None, **others: Any
+) -> Coupling:
+    """The coupling, a missing face width 8 modules and a missing tooth height 2 modules: the paper gives none."""
+    return Coupling(
+        module=module,
+        face_width=8 * module if face_width is None else face_width,
+        tooth_height=2 * module if tooth_height is None else tooth_height,
+        **others,
+    )
+
+
 @dataclass(frozen=True, slots=True)
 class Operation:
     """Load and motion.
@@ -45,6 +57,7 @@ class Operation:
     `torque` [N m] >= 0. Signed: `speed` [rad/s] (sense of rotation), `misalignment` [rad] of hub against sleeve at
     one mesh, `axial_velocity` [m/s] per mesh, positive where the shafts move apart. `arrangement`: `single` is one
     mesh, `parallel_offset` (Z) two hubs tilted alike against the sleeve, `angular` (M) two hubs tilted oppositely.
+    `shaft_diameter` [m] is that of the customary thrust 0.25 T/D; None asks for none.
     """
 
     torque: float
@@ -52,6 +65,7 @@ class Operation:
     misalignment: float
     axial_velocity: float = 0.0
     arrangement: Arrangement = "single"
+    shaft_diameter: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +104,7 @@ class MixedFrictionTable:
 class Friction:
     """Coefficients of friction: None means the law of the friction regime.
 
-    `static_coefficient` None means the coefficient in use.
+    `static_coefficient` None means the user's coefficient, without one that of the regime at rest without film.
     """
 
     coefficient: float | None = None

@@ -47,8 +47,9 @@ def solve(inputs: CouplingInputs) -> CouplingResult:
         axial_thrust=thrust,
         losses=losses(inputs, geometry, loaded, friction),
         limits=bounds,
+        derived=inputs.coupling,
         warnings=(
-            *motion_notices(inputs, motion, thrust, bounds),
+            *motion_notices(inputs, geometry, motion, thrust, bounds),
             *load_notices(inputs, load, thrust, bounds),
             *contact_notices(inputs, motion, lubrication),
         ),

@@ -6,6 +6,8 @@ from typing import Literal
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 
+Rheology = Literal["ree_eyring", "newtonian"]
+
 
 @dataclass(frozen=True, slots=True)
 class Contact:
@@ -44,14 +46,16 @@ class Temperatures:
 class Model:
     """Physics and resolution; eyring_stress [Pa], `nodes` along the contact, `film_nodes` across the film.
 
+    `refine` adds nodes until the estimated error of the mesh is below 2 %.
     The paper's film is Newtonian; near pure rolling its friction is not physical, so Ree-Eyring is the default.
     """
 
     thermal: bool = True
-    rheology: Literal["ree_eyring", "newtonian"] = "ree_eyring"
+    rheology: Rheology = "ree_eyring"
     eyring_stress: float = 5e6
     nodes: int = 121
     film_nodes: int = 21
+    refine: bool = True
 
 
 @dataclass(frozen=True, slots=True)
