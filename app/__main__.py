@@ -1,6 +1,7 @@
 """python -m app: start the service; --help lists every setting."""
 
 import argparse
+import os
 import socket
 import sys
 from io import TextIOWrapper
@@ -31,7 +32,8 @@ def serve(factory: str) -> None:
     try:
         listener = _listener(limits)
     except OSError as error:
-        sys.exit(f"tribodrive: cannot listen on port {limits.port} of {limits.host}: {error.strerror}")
+        reason = error.strerror if isinstance(error, socket.gaierror) else os.strerror(error.errno or 0)
+        sys.exit(f"tribodrive: cannot listen on port {limits.port} of {limits.host}: {reason}")
     try:
         from app.server import run  # noqa: PLC0415  a second of imports, for which the port need not wait
 
