@@ -58,6 +58,8 @@ class _Request:
             await (self._refusal() or application)(self._scope, self._receive_within_limits, self._send_decorated)
         except ClientDisconnect:
             pass
+        except asyncio.CancelledError:  # the server stops and waits no longer; this task ends with its answer
+            await self._say_goodbye()
         except Exception as error:
             answer = internal_error(self._identifier, error)
             if self._status != CLIENT_GONE:
@@ -68,6 +70,11 @@ class _Request:
             endpoint = getattr(self._scope.get("route"), "path", "unmatched")
             status = self._state.get("answered", self._status)  # by the protocol, in our place
             record(self._identifier, self._method, endpoint, status, time.perf_counter() - self._started)
+
+    async def _say_goodbye(self) -> None:
+        if self._status == CLIENT_GONE:
+            answer = problem(self._identifier, 503, "shutting_down", "The service stops", headers={"Retry-After": "5"})
+            await answer(self._scope, self._receive, self._send_decorated)
 
     async def _send_decorated(self, message: Message) -> None:
         if message["type"] == "http.response.start":
