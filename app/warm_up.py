@@ -3,6 +3,7 @@
 from functools import cache
 
 from app.calculations import CALCULATIONS
+from app.figures.rendering import render
 from app.formats.json import answer
 from app.library import examples
 
@@ -20,6 +21,7 @@ WARMING = (
     "xue-line-contact-isothermal",
     "xue-pair-1-modified",
 )
+DRAWN = "pahl-z-arrangement"  # loads what draws figures
 
 
 @cache
@@ -29,7 +31,10 @@ def warm_up() -> None:
     for name in WARMING:
         example = examples()[name]
         calculation = calculations[example.endpoint]
-        answer(calculation, calculation.request.model_validate(example.request))
+        request = calculation.request.model_validate(example.request)
+        answer(calculation, request)
+        if name == DRAWN:
+            render(calculation, calculation.figures[0], request, "svg", "light")
 
 
 if __name__ == "__main__":
