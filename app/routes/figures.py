@@ -14,6 +14,8 @@ from app.library import body_of
 from app.problems import documented
 
 FORMATS: tuple[Format, ...] = get_args(Format)
+# A figure fetched alone runs nothing and loads nothing; its styles and images are its own.
+ALONE = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
 router = APIRouter(tags=["figures"])
 
 
@@ -61,7 +63,7 @@ def _add(calculation: Calculation) -> None:
         runner: Runner = http.app.state.runner
         declaration, image_format = which
         content = await runner.run(http.receive, render, calculation, declaration, body, image_format, theme)
-        return Response(content, media_type=MEDIA_TYPES[image_format])
+        return Response(content, 200, {"Content-Security-Policy": ALONE}, media_type=MEDIA_TYPES[image_format])
 
     show.__annotations__["body"] = Annotated[calculation.request, body_of(calculation.path)]
     _, _, model, *parts = calculation.path.split("/")
