@@ -39,27 +39,13 @@ PUMPING = Stage(
         "milian-table-1-incompressible",
     ),
 )
-<<<<<<< HEAD
-DRAWN = "pahl-z-arrangement"  # loads what draws figures
-
-
-@cache
-def warm_up() -> None:
-    """Answer them, once in a process; runs in each worker as it starts."""
-    calculations = {calculation.path: calculation for calculation in CALCULATIONS}
-    for name in WARMING:
-        example = examples()[name]
-        calculation = calculations[example.endpoint]
-        request = calculation.request.model_validate(example.request)
-        answer(calculation, request)
-        if name == DRAWN:
-            render(calculation, calculation.figures[0], request, "svg", "light")
-=======
 LINE_CONTACT = Stage("line contact", 153, ("xue-line-contact", "xue-line-contact-isothermal", "xue-pair-1-thermal"))
 
 # What two cores compile side by side, each in this order; no stage needs kernels of one in the other track.
 TRACKS = ((COUPLING, SLEEVE, LOADS, PUMPING), (LINE_CONTACT,))
 STAGES = tuple(stage for track in TRACKS for stage in track)
+
+DRAWN = COUPLING.examples[0]  # loads what draws figures
 
 
 def needed_for(endpoint: str) -> Stage:
@@ -76,7 +62,10 @@ def calculate(name: str) -> None:
     """Answer one example."""
     example = examples()[name]
     calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
-    answer(calculation, calculation.request.model_validate(example.request))
+    request = calculation.request.model_validate(example.request)
+    answer(calculation, request)
+    if name == DRAWN:
+        render(calculation, calculation.figures[0], request, "svg", "light")
 
 
 class _Ticks(event.Listener):
@@ -99,7 +88,6 @@ def main(names: list[str]) -> None:
             for name in stage.examples:
                 calculate(name)
             print("stage", stage.name, flush=True)  # noqa: T201
->>>>>>> main
 
 
 if __name__ == "__main__":
