@@ -29,6 +29,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         app.state.pool = Pool(settings.workers, settings.worker_memory_mb)
         app.state.start_up = StartUp(app.state.pool)
+        app.state.settings = settings
         app.state.runner = Runner(settings, app.state.pool)
         async with app.state.pool.running(), app.state.start_up.running():
             yield

@@ -223,11 +223,17 @@ class Oil(SheetOil):
             )
         return self
 
-    def lubricant(self) -> Lubricant | OilSheet:
-        """The solver's lubricant, or the oil it comes from."""
+    def oil(self) -> OilSheet | None:
+        """The solver's oil, where it is given by grade or data sheet."""
         fields = to_si(self)
-        if self.by_sheet:
-            return self.sheet(**{name: fields[name] for name in _BEYOND_VISCOSITY})
+        return self.sheet(**{name: fields[name] for name in _BEYOND_VISCOSITY}) if self.by_sheet else None
+
+    def lubricant(self, temperature: float = _OIL.reference_temperature) -> Lubricant:
+        """The solver's lubricant; one by grade or data sheet as it is at a temperature [K]."""
+        oil = self.oil()
+        if oil is not None:
+            return oil.lubricant(temperature)
+        fields = to_si(self)
         return Lubricant(**{name: fields[name] for name in Lubricant.__dataclass_fields__})
 
     def unused_defaults(self, section: str) -> frozenset[str]:

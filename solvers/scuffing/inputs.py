@@ -11,6 +11,7 @@ from solvers.materials import Solid
 from solvers.oils import OilSheet
 
 FrictionMethod = Literal["given", "iso_tr_13989"]
+BulkMethod = Literal["given", "estimated"]
 OilSupply = Literal["spray", "dip", "submerged"]
 
 ToothModel = Literal["ishikawa", "parabola"]
@@ -157,14 +158,15 @@ class Temperatures:
     """Bulk temperature of the teeth and of the oil they draw in, oil temperature, scuffing temperature [K].
 
     With bulk_method "estimated" the bulk follows from the oil, its supply and Blok's flash temperature. The scuffing
-    temperature is a property of oil and material that the paper does not give: it is a number or a test; with neither
-    there is no safety.
+    temperature is a property of oil and material that the paper does not give: a number, or what a test says; with
+    neither there is no safety.
     """
 
     bulk: float = 360.0
     oil: float = 333.15
-    scuffing: float | ScuffingTest | None = None
-    bulk_method: Literal["given", "estimated"] = "given"
+    scuffing: float | None = None
+    scuffing_test: ScuffingTest | None = None
+    bulk_method: BulkMethod = "given"
     oil_supply: OilSupply = "spray"
 
 
@@ -172,15 +174,15 @@ class Temperatures:
 class ScuffingInputs:
     """What scuffing depends on; `path_points` along the feature line.
 
-    An oil by its data sheet becomes the lubricant it is at the bulk temperature. friction: "given" is the coefficient
-    of the distribution, "iso_tr_13989" the mean coefficient of that report, for Blok and the losses.
-
+    An `oil` by its data sheet takes the place of the lubricant, as it is at the bulk temperature. friction: "given" is
+    the coefficient of the distribution, "iso_tr_13989" the mean coefficient of that report, for Blok and the losses.
     lubrication: "thermal_ehl" solves the film under the local load (`film` is its model), "closed_form" leaves it at
     Blok's and Dowson and Higginson's formulas, which are there in either case.
     """
 
     distribution: LoadDistributionInputs
-    lubricant: Lubricant | OilSheet = field(default_factory=Lubricant)
+    lubricant: Lubricant = field(default_factory=Lubricant)
+    oil: OilSheet | None = None
     temperatures: Temperatures = field(default_factory=Temperatures)
     lubrication: Lubrication = "thermal_ehl"
     friction: FrictionMethod = "given"

@@ -10,14 +10,17 @@ import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.contact.film import dowson_higginson_minimum, thickness_ratio
-from solvers.contact.flash import blok_flash_temperature
 from solvers.contact.hertz import reduced_modulus
 from solvers.errors import InvalidInput
+from solvers.lubricants import oil_in_use
+from solvers.scuffing.blok import blok_flash
 from solvers.scuffing.feature_line import feature_line
-from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs, Temperatures
+from solvers.scuffing.inputs import ScuffingInputs, Temperatures
 from solvers.scuffing.model import solve
-from solvers.scuffing.results import ContactPoints, FeatureLine, LoadDistribution
-from solvers.scuffing.safety_results import ContactTemperature, Safety, Scuffing, ScuffingPath
+from solvers.scuffing.results import Derived, FeatureLine, LoadDistribution
+from solvers.scuffing.safety_results import ContactTemperature, Safety, Scuffing, ScuffingDerived, ScuffingPath
+from solvers.scuffing.scuffing_practice import scuffing_risk
+from solvers.scuffing.temperatures import with_friction, with_temperatures
 from solvers.scuffing.thermal_path import CURVES, ThermalPath, thermal_path
 from solvers.scuffing.verdict import largest_flash, path_notices, thinnest_film, unknown_points, without_verdict
 
@@ -30,9 +33,11 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     Raises what `model.solve` raises; InvalidInput scuffing_temperature if the oil is not cooler than that, and what
     the thermal EHL solver raises if it refuses every point.
     """
-    given, temperatures = inputs.distribution, inputs.temperatures
+    inputs = with_friction(inputs)
+    distribution = solve(inputs.distribution)
+    inputs = with_temperatures(inputs, distribution)
+    temperatures = inputs.temperatures
     _check_temperatures(temperatures)
-    distribution = solve(given)
     line = _checked_line(inputs, distribution)
     path = _closed_form_path(inputs, line, distribution.path_of_contact.plane.least_radius)
     thermal: ThermalPath | None = None
@@ -46,11 +51,13 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     if unknown:
         flash, film = without_verdict(path, flash, film)
     contact_temperature = ContactTemperature(
+        bulk=temperatures.bulk,
         blok_max=None if flash.blok_max is None else temperatures.bulk + flash.blok_max,
         thermal_ehl_max=None if flash.thermal_ehl_max is None else temperatures.bulk + flash.thermal_ehl_max,
     )
     safety = _safety(temperatures, contact_temperature)
     found = {item.name: getattr(distribution, item.name) for item in fields(distribution)}
+    found["derived"] = _derived(inputs, distribution.derived)
     found["warnings"] = warnings + path_notices(path, safety, unknown)
     return Scuffing(
         **found,
@@ -91,6 +98,15 @@ def _checked_line(inputs: ScuffingInputs, distribution: LoadDistribution) -> Fea
     return line_at(np.unique(psi))
 
 
+def _derived(inputs: ScuffingInputs, mesh: Derived) -> ScuffingDerived:
+    """What follows from the inputs for mesh and oil."""
+    return ScuffingDerived(
+        **{item.name: getattr(mesh, item.name) for item in fields(mesh)},
+        **oil_in_use(inputs.lubricant),
+        kinematic_viscosity_100=None if inputs.oil is None else inputs.oil.kinematic_viscosity_100,
+    )
+
+
 def safety_factor(scuffing: float, oil: float, contact: float) -> float | None:
     """S = (t_s - t_oil) / (max t_B - t_oil) (Eq. 26), temperatures in one unit; None where the rise is not positive."""
     return (scuffing - oil) / (contact - oil) if contact > oil else None
@@ -113,22 +129,8 @@ def _safety(temperatures: Temperatures, contact: ContactTemperature) -> Safety |
         None if hottest is None else safety_factor(limit, oil, hottest)
         for hottest in (contact.blok_max, contact.thermal_ehl_max)
     )
-    return Safety(blok_factor=blok, thermal_ehl_factor=thermal)
-
-
-def blok_flash(given: LoadDistributionInputs, points: ContactPoints) -> FloatArray:
-    """Blok's flash temperature [K] (Eq. 25) at the points; 0 where nothing touches or moves."""
-    flash, touching = np.zeros(points.line_load.shape), points.in_contact
-    flash[touching] = blok_flash_temperature(
-        friction=given.friction_coefficient,
-        line_load=points.line_load[touching],
-        speed_1=points.pinion_speed[touching],
-        speed_2=points.wheel_speed[touching],
-        half_width=points.half_width[touching],
-        solid_1=given.pinion_material,
-        solid_2=given.wheel_material,
-    )
-    return flash
+    verdict = None if blok is None else scuffing_risk(blok)
+    return Safety(scuffing=limit, blok_factor=blok, thermal_ehl_factor=thermal, verdict=verdict)
 
 
 def _closed_form_path(inputs: ScuffingInputs, line: FeatureLine, least_radius: float) -> ScuffingPath:
