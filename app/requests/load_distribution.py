@@ -173,7 +173,7 @@ class LoadDistributionRequest(Request):
             ge=0,
             le=1,
             tolerance=0.01,
-            assumed="0.06, the paper's; `model.friction` of the scuffing check computes it from load, oil and roughness",
+            assumed="0.06, the paper's; `model.friction` of the scuffing check computes it",
         ),
     ] = 0.06
     model: Annotated[

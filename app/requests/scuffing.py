@@ -128,7 +128,7 @@ class ScuffingModel(LoadDistributionModel, FilmModel):
             "friction law",
             None,
             TR_13989,
-            text="the coefficient given, or the mean one of ISO/TR 13989-1, for Blok's flash temperature and the losses",
+            text="the coefficient given, or the mean one of ISO/TR 13989-1, for Blok and the losses",
         ),
     ] = "given"
 
