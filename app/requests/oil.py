@@ -20,6 +20,11 @@ _BY_KIND = "by the kind of oil; a data sheet rarely gives it"
 _THE_PAPERS = "the paper's oil"
 
 
+def names_a_sheet(given: Any) -> bool:
+    """Whether what was sent for an oil names a grade or a kinematic viscosity."""
+    return isinstance(given, dict) and any(given.get(name) is not None for name in _BY_SHEET)
+
+
 class SheetOil(Section):
     """An oil by its ISO grade or by two kinematic viscosities, where that is what is known of it."""
 
@@ -202,9 +207,7 @@ class Oil(SheetOil):
     @classmethod
     def properties_follow_the_sheet(cls, given: Any) -> Any:
         """With grade or data sheet, what is not given is no default of the paper's but follows from the sheet."""
-        if not isinstance(given, dict) or all(given.get(name) is None for name in _BY_SHEET):
-            return given
-        return dict.fromkeys(_OF_THE_PAPER) | given
+        return dict.fromkeys(_OF_THE_PAPER) | given if names_a_sheet(given) else given
 
     @model_validator(mode="after")
     def one_reference(self) -> Self:
