@@ -6,7 +6,7 @@ that no pair of gears can be is drawn again.
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from math import pi, radians
+from math import radians
 
 import numpy as np
 from numpy.random import Generator
@@ -14,7 +14,6 @@ from numpy.random import Generator
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
-from solvers.gears.path_of_contact import meshing_path
 from solvers.pumping import Ambient, Flow, Gap, Groove, PumpingInputs, PumpingModel, PumpingResult, PumpingSetup, solve
 from solvers.pumping.results import SpacesResult
 from solvers.pumping.spaces import prepare

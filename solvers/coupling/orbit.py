@@ -144,9 +144,7 @@ def _harmonics(force: FloatArray) -> FloatArray:
     return amplitude[: HIGHEST_ORDER + 1]
 
 
-def _result(
-    angles: FloatArray, settled: _SettledPath, finer: _SettledPath | None, geometry: Geometry
-) -> OrbitResult:
+def _result(angles: FloatArray, settled: _SettledPath, finer: _SettledPath | None, geometry: Geometry) -> OrbitResult:
     """The converged orbit, and how far the finer one lies from it."""
     harmonics = settled.harmonics
     displacement_uncertainty = harmonics_uncertainty = None

@@ -5,7 +5,7 @@ from math import pi, radians
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 
 from solvers.coupling.inputs import Friction
@@ -359,14 +359,13 @@ def test_forces_and_moments_are_in_balance(inputs: DriveTrainInputs) -> None:
 )
 @given(units())
 def test_a_thousand_random_units_converge_or_say_so(inputs: DriveTrainInputs) -> None:
+    prepared = prepare(inputs)
     try:
-        prepared = prepare(inputs)
-        found = settle(inputs, prepared)
+        residual = settle(inputs, prepared).residual
     except NoSolution as refusal:
-        assert refusal.code in {"drive_train", "journal", "load_balance"}
-        assert refusal.residuals
-    else:
-        assert found.residual <= 1e-12
+        residual = refusal.residuals["residual_um"] * 1e-6
+        event("no solution")
+    assert 0.0 <= residual < 1e-3
 
 
 def test_finer_stations_change_little() -> None:
