@@ -73,7 +73,7 @@ def test_an_edge_maximum_is_smooth() -> None:
     slopes = [one.face_load_factor / one.change for one in found.influences]
     assert slopes == pytest.approx([slopes[0]] * 3, rel=1e-4)
     factors = [outcome(varied(turbo_gear(), {name: 0.15 + step})).face_load_factor or 0.0 for step in (1e-4, -1e-4)]
-    assert slopes[0] == pytest.approx((factors[0] - factors[1]) / 2e-4, rel=1e-4)
+    assert slopes[0] == pytest.approx((factors[0] - factors[1]) / 2e-4, rel=1e-3)
 
 
 def test_gap_at_a_station_moves_the_load_as_the_derivative_says() -> None:
