@@ -157,6 +157,22 @@ def test_the_other_rows_hardly_notice_the_yielding(row: int) -> None:
     assert yielding == pytest.approx(sliding, abs=0.0005)
 
 
+THERMAL = [3.056, 2.883, 2.832, 3.010, 2.821, 3.084, 2.730, 3.067, 3.041, 3.075, 3.065, 2.993, 3.072, 3.067, 3.077]
+THERMAL += [3.063, 3.301, 3.044, 2.971, 3.009, 2.917]
+
+
+@pytest.mark.parametrize(
+    "row", [pytest.param(row, marks=() if row == 5 else pytest.mark.slow) for row in range(1, len(THERMAL) + 1)]
+)
+def test_safety_by_the_thermal_film(row: int) -> None:
+    """Along the profile line through the flank's worst point; milder than Blok's and in the same order."""
+    unit = UNITS[row]()
+    found = solve(replace(unit, mesh=replace(unit.mesh, lubrication="thermal_ehl"))).safety
+    assert found is not None
+    assert found.thermal_ehl_profile == pytest.approx(THERMAL[row - 1], abs=0.003)
+    assert found.minimum == found.blok_flank
+
+
 PARTS = {
     "films_pinion": (-11.63, -15.72),
     "films_wheel": (-10.88, -15.02),
