@@ -12,7 +12,6 @@ from numba.core import event
 from app.calculations import CALCULATIONS
 from app.formats.json import answer
 from app.library import examples
-from app.processes import end_with_parent
 from solvers.kernel_cache import mark_complete
 
 
@@ -81,7 +80,6 @@ class _Ticks(event.Listener):
 
 def main(names: list[str]) -> None:
     """Compile these stages, or all."""
-    end_with_parent()
     event.register("numba:compile", _Ticks())
     for stage in STAGES:
         if not names or stage.name in names:
