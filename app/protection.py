@@ -79,8 +79,10 @@ class _Request:
     async def _send_decorated(self, message: Message) -> None:
         if message["type"] == "http.response.start":
             self._status = message["status"]
+            given = message.get("headers", ())
+            said = {name.lower() for name, _ in given}
             own = own_headers(self._identifier, time.perf_counter() - self._started)
-            message["headers"] = [*message.get("headers", ()), *own]
+            message["headers"] = [*given, *(header for header in own if header[0] not in said)]
         await self._send(message)
 
     def _refusal(self) -> JSONResponse | None:

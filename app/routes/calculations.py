@@ -20,11 +20,15 @@ from app.workers.admission import Runner
 
 
 class Work(NamedTuple):
-    """What a worker does with the body of a request for the endpoint at `path`, and the kind of the outcome."""
+    """What a worker does with the body of a request for the endpoint at `path`, and the kind of the outcome.
+
+    `policy` is a content policy of its own, where the service's does not fit.
+    """
 
     path: str
     function: Callable[[bytes, float], bytes]
     media_type: str
+    policy: str | None = None
 
 
 class CalculationRoute(APIRoute):
@@ -45,7 +49,8 @@ class CalculationRoute(APIRoute):
             runner: Runner = http.app.state.runner
             limits: Settings = http.app.state.settings
             content = await runner.run(http.receive, work.function, await http.body(), limits.deadline_s)
-            return Response(content, media_type=work.media_type)
+            headers = {"Content-Security-Policy": work.policy} if work.policy else None
+            return Response(content, headers=headers, media_type=work.media_type)
 
         return handle
 

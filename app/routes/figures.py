@@ -17,6 +17,8 @@ from app.routes.calculations import CalculationRoute, Work, read_case
 Theme = Literal["light", "dark"]
 FORMATS: tuple[Format, ...] = get_args(Format)
 THEMES: tuple[Theme, ...] = get_args(Theme)
+# A figure fetched alone runs nothing and loads nothing; its styles and images are its own.
+ALONE = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
 _FIGURES = {each.path: {figure.name: figure for figure in each.figures} for each in CALCULATIONS}
 
 router = APIRouter(tags=["figures"])
@@ -55,7 +57,7 @@ class FigureRoute(CalculationRoute):
         theme = http.query_params.get("theme", "light")
         if theme not in THEMES:
             raise InvalidBody([{"loc": ("theme",), "type": "literal_error", "msg": "Input should be light or dark"}])
-        return Work(path, partial(figure_of, path, name, image_format, theme), MEDIA_TYPES[image_format])
+        return Work(path, partial(figure_of, path, name, image_format, theme), MEDIA_TYPES[image_format], ALONE)
 
 
 def figure_of(path: str, name: str, image_format: Format, theme: Theme, body: bytes, deadline_s: float) -> bytes:

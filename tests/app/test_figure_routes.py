@@ -35,6 +35,7 @@ def test_figure_in_every_format_with_equal_bytes(post: Post, image_format: str, 
     assert first.status_code == 200, first.text
     assert first.headers["content-type"] == media_type
     assert first.content == second.content
+    assert "default-src 'none'" in first.headers["content-security-policy"]
 
 
 def test_detail_is_ignored_and_numbers_are_the_endpoints(post: Post) -> None:
