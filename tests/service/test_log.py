@@ -81,6 +81,7 @@ def test_a_log_that_nobody_reads_costs_lines_and_nothing_else() -> None:
                 connection.request("GET", "/healthz")
                 assert connection.getresponse().read() == b'{"status":"ok"}'
                 slowest = max(slowest, time.monotonic() - started)
+            connection.close()
             metrics = httpx.get(f"{address}/metrics").text.splitlines()
             dropped = next(line for line in metrics if line.startswith("tribodrive_log_lines_dropped_total"))
             assert slowest < 1.0
