@@ -1,10 +1,9 @@
 """What no calculation can be made of."""
 
-from math import ceil, floor, hypot, log10, sqrt
+from math import ceil, floor, log10, sqrt
 from typing import NoReturn
 
 from solvers.errors import InvalidInput
-from solvers.gears.path_of_contact import PathOfContact
 from solvers.pumping.face import Stretch
 from solvers.pumping.gas_dynamics import LEAST_SLICES
 from solvers.pumping.inputs import Flow, PumpingSetup, rpm
@@ -64,29 +63,6 @@ def check_speed(pinion_speed: float) -> None:
     if pinion_speed <= 0.0:
         message = "the speed must be positive; towards standstill power vanishes and pressure is ambient"
         raise InvalidInput("speed_not_positive", message, "pinion_speed")
-
-
-def check_tips_meet_involutes(path: PathOfContact) -> None:
-    """Refuse tips that reach past a base tangent point or into a fillet: no flank there closes the tooth space.
-
-    Contact itself may be cut short there, so the load distribution only warns of it. An undercut takes the flank away
-    from the tip and passes. Raises InvalidInput: involute_interference, form_diameter.
-    """
-    pair = path.pair
-    for gear, mate, name, mate_name in (
-        (pair.pinion, pair.wheel, "pinion", "wheel"),
-        (pair.wheel, pair.pinion, "wheel", "pinion"),
-    ):
-        reached = pair.line_of_action - mate.tip_roll_length
-        if reached < 0.0:
-            message = f"the {mate_name}'s tip reaches past the {name}'s base tangent point; reduce its addendum"
-            raise InvalidInput("involute_interference", message, f"{mate_name}.addendum")
-        if name in path.shortened_by:
-            message = (
-                f"the {name}'s active flank starts at {2e3 * hypot(gear.base_radius, reached):.3f} mm diameter, below "
-                f"the end of the fillet at {2e3 * gear.form_radius:.3f} mm; reduce the mate's addendum"
-            )
-            raise InvalidInput("form_diameter", message, f"{mate_name}.addendum")
 
 
 def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoReturn:
