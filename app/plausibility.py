@@ -86,9 +86,7 @@ def _of_modifications(request: Request) -> Found:
 def _of_load(content: dict[str, Any]) -> Found:
     pressure = (content.get("pressure") or {}).get("max_mpa") or (content.get("hertz") or {}).get("max_pressure_mpa")
     if pressure is not None and pressure > HIGHEST_PRESSURE:
-        message = (
-            f"the Hertz pressure of {pressure:.4g} MPa is beyond what steel carries; too much load?"
-        )
+        message = f"the Hertz pressure of {pressure:.4g} MPa is beyond what steel carries; too much load?"
         yield ("contact.line_load_n_per_mm" if "hertz" in content else "load"), message
     highest = (content.get("load") or {}).get("max_line_load_n_per_mm")
     if highest is not None and 0.0 < highest < LEAST_LOAD:

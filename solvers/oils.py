@@ -79,10 +79,14 @@ class OilSheet:
         """Kinematic viscosity [m^2/s] at a temperature [K] by the Walther law through both points (ASTM D341)."""
         return float(10.0 ** self._double_exponent(temperature) - WALTHER_SHIFT) * SQUARE_MILLIMETRE
 
+    @property
+    def reference_density(self) -> float:
+        """Density at 15 C [kg/m^3], that of the kind where the sheet does not give it."""
+        return KINDS[self.kind].density_15 if self.density_15 is None else self.density_15
+
     def density(self, temperature: float) -> float:
-        """rho_15 [1 - 0.00065 (t - 15 C)] [kg/m^3]."""
-        given = KINDS[self.kind].density_15 if self.density_15 is None else self.density_15
-        return given * (1.0 - THERMAL_EXPANSION * (temperature - DENSITY_TEMPERATURE))
+        """Rho_15 [1 - 0.00065 (t - 15 C)] [kg/m^3]."""
+        return self.reference_density * (1.0 - THERMAL_EXPANSION * (temperature - DENSITY_TEMPERATURE))
 
     def viscosity(self, temperature: float) -> float:
         """Eta = nu rho [Pa s]."""

@@ -22,6 +22,9 @@ class ScuffingOilDerived(ScuffingDerived, OilDerived):
     kinematic_viscosity_100_mm2_per_s: Annotated[
         float | None, Output("kinematic viscosity used at 100 °C", "ν_100", text="null without grade or data sheet")
     ]
+    density_15_kg_per_m3: Annotated[
+        float | None, Output("oil density used at 15 °C", "ρ_15", text="null without grade or data sheet")
+    ]
 
 
 class FlashTemperature(Group):

@@ -104,6 +104,7 @@ def _derived(inputs: ScuffingInputs, mesh: Derived) -> ScuffingDerived:
         **{item.name: getattr(mesh, item.name) for item in fields(mesh)},
         **oil_in_use(inputs.lubricant),
         kinematic_viscosity_100=None if inputs.oil is None else inputs.oil.kinematic_viscosity_100,
+        density_15=None if inputs.oil is None else inputs.oil.reference_density,
     )
 
 

@@ -60,9 +60,10 @@ class Safety:
 
 @dataclass(frozen=True, kw_only=True)
 class ScuffingDerived(OilInUse, Derived):
-    """Also the oil as it enters the contact, and its kinematic viscosity at 100 C [m^2/s] where a sheet gives it."""
+    """Also the oil as it enters the contact, and where a sheet gives it nu at 100 C [m^2/s], rho at 15 C [kg/m^3]."""
 
     kinematic_viscosity_100: float | None
+    density_15: float | None
 
 
 @dataclass(frozen=True, slots=True)
