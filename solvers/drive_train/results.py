@@ -133,10 +133,13 @@ class CouplingResult:
 
 @dataclass(frozen=True, slots=True)
 class FlashPlaces:
-    """Largest Blok flash temperature [K] on the feature line and on the flank, and where on the flank."""
+    """Largest Blok flash temperature [K] on the feature line and on the flank, and where on the flank.
 
-    feature: float
-    flank: float
+    None where the load reaches a base circle, which has no limit to offer.
+    """
+
+    feature: float | None
+    flank: float | None
     flank_at: Place | None
 
 

@@ -11,9 +11,11 @@ from solvers.drive_train.results import FlashPlaces, TrainSafety
 from solvers.drive_train.thermal_lead import ThermalLead
 from solvers.notices import Notice
 from solvers.scuffing.feature_line import contact_points
+from solvers.scuffing.line_survey import reaches_base_circle
 from solvers.scuffing.results import ContactPoints, LoadDistribution, Place
 from solvers.scuffing.safety import blok_flash, safety_factor
 from solvers.scuffing.thermal_path import thermal_path
+from solvers.scuffing.verdict import unknown_points
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +41,8 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: Therma
     on_feature, on_flank = (blok_flash(inputs.mesh.distribution, points) for points in (feature, flank))
     warm_feature = on_feature + _bulk(inputs, thermal, across)
     warm_flank = on_flank + _bulk(inputs, thermal, y)
+    if reaches_base_circle(mesh.balance.survey):
+        return _heat_without_limit(inputs, warm_flank)
     worst = np.unravel_index(int(np.argmax(warm_flank)), warm_flank.shape)
     place = Place(
         gamma=float(flank.gamma[worst]),
@@ -86,14 +90,19 @@ def _bulk(inputs: DriveTrainInputs, thermal: ThermalLead, y: FloatArray) -> Floa
 def _thermal(
     inputs: DriveTrainInputs, points: ContactPoints, bulk: FloatArray
 ) -> tuple[float | None, int, tuple[Notice, ...]]:
-    """Hottest flank surface [K] along a line by thermal EHL, None where a loaded point was not solved; how many."""
+    """Hottest flank surface [K] along a line by thermal EHL, None where points not solved may decide; how many are."""
     if not np.any(points.in_contact):
         return None, 0, ()
     path = thermal_path(inputs.mesh, points, points.in_contact)
     unsolved = sum(status in {"no_solution", "refused"} for status in path.status)
-    if unsolved:
+    if unknown_points(path, bulk):
         return None, unsolved, path.warnings
-    return float(np.nanmax(np.fmax(path.pinion_flash, path.wheel_flash) + bulk)), 0, path.warnings
+    return float(np.nanmax(np.fmax(path.pinion_flash, path.wheel_flash) + bulk)), unsolved, path.warnings
+
+
+def _heat_without_limit(inputs: DriveTrainInputs, temperature: FloatArray) -> FlankHeat:
+    """No maximum and no safety: the load reaches a base circle, as a notice of the mesh says."""
+    return FlankHeat(temperature, FlashPlaces(None, None, None), _safety(inputs, [None] * 4), 0, ())
 
 
 def _safety(inputs: DriveTrainInputs, hottest: list[float | None]) -> TrainSafety | None:
