@@ -9,8 +9,8 @@ from solvers.scuffing.results import ContactPoints
 
 
 def blok_flash(given: LoadDistributionInputs, points: ContactPoints) -> FloatArray:
-    """Blok's flash temperature [K] (Eq. 25) at the points; 0 where nothing touches or moves."""
-    flash, touching = np.zeros(points.line_load.shape), points.in_contact
+    """Blok's flash temperature [K] (Eq. 25) at the points; 0 where nothing touches or moves, NaN without a limit."""
+    flash, touching = np.where(points.undefined, np.nan, 0.0), points.in_contact
     flash[touching] = blok_flash_temperature(
         friction=given.friction_coefficient,
         line_load=points.line_load[touching],

@@ -15,7 +15,7 @@ from solvers.scuffing.feature_line import feature_line
 from solvers.scuffing.flank import flank
 from solvers.scuffing.friction_loss import friction_loss
 from solvers.scuffing.inputs import Load, LoadDistributionInputs
-from solvers.scuffing.line_survey import Peak, largest
+from solvers.scuffing.line_survey import Peak, largest, reaches_base_circle
 from solvers.scuffing.load_balance import LoadBalance, balance_load
 from solvers.scuffing.mesh_stiffness import stiffness
 from solvers.scuffing.modification import Gap, gap, kinks_along_face, kinks_along_path
@@ -179,7 +179,7 @@ def _load_on_flank(path: PathOfContact, balance: LoadBalance, load: Load, tangen
 
 def _pressure(path: PathOfContact, balance: LoadBalance, modulus: float) -> Pressure:
     """Largest p_H = sqrt(E' w / (2 pi R_n)) over all roll positions."""
-    if np.any(balance.survey.undefined > 0.0):
+    if reaches_base_circle(balance.survey):
         return Pressure(None, None)
     peak = largest(balance.survey.peak_pressure)
     maximum = 0.0 if peak is None else float(np.sqrt(modulus * peak.value / (2 * np.pi)))

@@ -169,6 +169,11 @@ class ContactPoints:
         """Where the flanks touch and move, so that film and flash temperature have a meaning."""
         return (self.line_load > 0.0) & (self.half_width > 0.0) & (self.pinion_speed + self.wheel_speed > 0.0)
 
+    @property
+    def undefined(self) -> BoolArray:
+        """Where a load presses too near a base circle for a width of contact, a pressure or a flash temperature."""
+        return (self.line_load > 0.0) & (self.half_width <= 0.0)
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class FeatureLine(ContactPoints):

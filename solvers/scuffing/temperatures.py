@@ -64,7 +64,7 @@ def _estimated_bulk(inputs: ScuffingInputs, distribution: LoadDistribution) -> f
         reduced_modulus(given.pinion_material, given.wheel_material),
         np.linspace(0.0, 1.0, MEAN_POINTS),
     )
-    if np.any((line.line_load > 0.0) & (line.radius < distribution.path_of_contact.plane.least_radius)):
+    if np.any(line.undefined):
         message = "the path of contact reaches a base circle, where no flash temperature is defined; give the bulk"
         raise InvalidInput("no_bulk_estimate", message, "temperatures.bulk_method")
     flash = blok_flash(given, line)
