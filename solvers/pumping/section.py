@@ -228,8 +228,8 @@ def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tup
 def section(space: ToothSpace, angle: float) -> tuple[float, float, float, float]:
     """Area [m^2], left and right clearance [m], area of gas that the flanks have carried out so far [m^2].
 
-    `angle` [rad] of the owner; what is carried counts from anywhere. The flanks of the coast side roll through the section fixed on the line of action: out
-    of the space where the owner drives, into it where the owner is driven.
+    `angle` [rad] of the owner; what is carried counts from anywhere. The flanks of the coast side roll through the
+    section fixed on the line of action: out of the space where the owner drives, into it where the owner is driven.
     """
     mate_angle = angle * space.ratio + space.offset
     left_gap = 0.0 if space.owner_drives else space.backlash_gap
