@@ -8,7 +8,7 @@ from typing import Annotated, Any
 from fastapi import Body
 from pydantic import BaseModel
 
-from app.quantities import Output
+from app.contract.quantities import Output
 
 
 class ExampleSummary(BaseModel):

@@ -15,7 +15,7 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 from starlette.exceptions import HTTPException
 
-from app.quantities import Output
+from app.contract.quantities import Output
 
 MEDIA_TYPE = "application/problem+json"
 LONGEST_POINTER_PART = 100

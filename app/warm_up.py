@@ -2,8 +2,8 @@
 
 from functools import cache
 
-from app.answers import answer
 from app.calculations import CALCULATIONS
+from app.formats.json import answer
 from app.library import examples
 
 WARMING = (

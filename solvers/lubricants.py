@@ -8,6 +8,8 @@ import numpy as np
 
 from solvers.compiled import kernel
 
+PressureViscosityLaw = Literal["roelands", "barus"]
+
 ROELANDS_PRESSURE = 5.1e-9  # 1/Pa
 ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the viscosity 6.31e-5 Pa s at the pole
 ROELANDS_POLE_TEMPERATURE = 138.0  # K
@@ -30,7 +32,7 @@ class Lubricant:
     density: float = 870.0
     specific_heat: float = 2000.0
     thermal_conductivity: float = 0.14
-    pressure_viscosity_law: Literal["roelands", "barus"] = "roelands"
+    pressure_viscosity_law: PressureViscosityLaw = "roelands"
     compressible: bool = True
 
     @property

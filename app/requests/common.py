@@ -1,13 +1,13 @@
 """What every request has in common."""
 
 from abc import abstractmethod
-from typing import Annotated, Any, Self
+from typing import Annotated, Any
 
 from pydantic import ConfigDict, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
-from app.quantities import Detail, Documented, Input
+from app.contract.quantities import Detail, Documented, Input
 
 
 class Section(Documented):
@@ -15,18 +15,13 @@ class Section(Documented):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    def resolved(self) -> Self:
-        """The section with every default that depends on other fields filled in."""
-        sections = {name: value.resolved() for name, value in self if isinstance(value, Section)}
-        return self.model_copy(update=sections) if sections else self
-
 
 class Request(Section):
     """The body of a calculation."""
 
     detail: Annotated[
         Detail,
-        Input("how much to return: scalars, scalars and curves, or also two-dimensional fields"),
+        Input("level of detail", text="what to return: scalars, scalars and curves, or also two-dimensional fields"),
     ] = "curves"
 
     @classmethod
@@ -41,7 +36,7 @@ class Request(Section):
 
     @abstractmethod
     def inputs(self) -> Any:
-        """The solver's inputs, SI; called on a resolved request."""
+        """The solver's inputs, SI."""
 
     @abstractmethod
     def options(self) -> dict[str, Any]:

@@ -2,8 +2,8 @@
 
 from typing import Annotated, Literal
 
-from app.conversion import to_si
-from app.quantities import Input
+from app.contract.conversion import to_si
+from app.contract.quantities import Input
 from app.requests.common import Section
 from solvers.gears.inputs import GearPairInputs, GearTeeth, normal_section
 
@@ -14,12 +14,30 @@ class GearMember(Section):
     """One gear of the pair; coefficients count normal modules."""
 
     teeth: Annotated[int, Input("number of teeth", "z", ISO_21771, ge=5, le=1000)]
-    profile_shift: Annotated[float, Input("profile shift coefficient", "x", ISO_21771, ge=-2, le=3)] = 0.0
+    profile_shift: Annotated[float, Input("profile shift coefficient", "x", ISO_21771, ge=-2, le=3, tolerance=0.01)] = (
+        0.0
+    )
     addendum: Annotated[
-        float, Input("addendum coefficient of the rack; the tip radius follows", "h_aP*", "ISO 53", ge=0.01, le=3)
+        float,
+        Input(
+            "addendum coefficient",
+            "h_aP*",
+            "ISO 53",
+            text="addendum coefficient of the rack; the tip radius follows",
+            ge=0.01,
+            le=3,
+        ),
     ] = 1.0
     dedendum: Annotated[
-        float, Input("dedendum coefficient of the rack; the root radius follows", "h_fP*", "ISO 53", ge=0.01, le=3)
+        float,
+        Input(
+            "dedendum coefficient",
+            "h_fP*",
+            "ISO 53",
+            text="dedendum coefficient of the rack; the root radius follows",
+            ge=0.01,
+            le=3,
+        ),
     ] = 1.25
 
 
@@ -29,21 +47,51 @@ class Gears(Section):
     Each model adds `rack_tip_radius` with its own default.
     """
 
-    pinion: Annotated[GearMember, Input("the driving gear")]
-    wheel: Annotated[GearMember, Input("the driven gear")]
-    module_mm: Annotated[float, Input("module, in the plane named by `module_plane`", "m", ISO_21771, ge=0.01, le=100)]
+    pinion: Annotated[GearMember, Input("pinion", text="the driving gear")]
+    wheel: Annotated[GearMember, Input("wheel", text="the driven gear")]
+    module_mm: Annotated[
+        float, Input("module", "m", ISO_21771, text="module, in the plane named by `module_plane`", ge=0.01, le=100)
+    ]
     module_plane: Annotated[
-        Literal["normal", "transverse"], Input("plane of module and pressure angle", None, ISO_21771)
+        Literal["normal", "transverse"],
+        Input("plane of the module", None, ISO_21771, text="plane of module and pressure angle"),
     ] = "normal"
     pressure_angle_deg: Annotated[
-        float, Input("pressure angle at the reference circle, in the module's plane", "α", ISO_21771, ge=10, le=35)
+        float,
+        Input(
+            "pressure angle",
+            "α",
+            ISO_21771,
+            text="pressure angle at the reference circle, in the module's plane",
+            ge=10,
+            le=35,
+        ),
     ] = 20.0
     helix_angle_deg: Annotated[
-        float, Input("helix angle at the reference circle; the hand does not matter", "β", ISO_21771, ge=0, le=45)
+        float,
+        Input(
+            "helix angle",
+            "β",
+            ISO_21771,
+            text="helix angle at the reference circle; the hand does not matter",
+            ge=0,
+            le=45,
+        ),
     ] = 0.0
-    face_width_mm: Annotated[float, Input("common face width", "b", ISO_21771, ge=0.01, le=5000)]
+    face_width_mm: Annotated[
+        float, Input("face width", "b", ISO_21771, text="common face width", ge=0.01, le=5000, tolerance=0.1)
+    ]
     centre_distance_mm: Annotated[
-        float | None, Input("centre distance; null: the backlash-free value", "a", ISO_21771, ge=0.1, le=20000)
+        float | None,
+        Input(
+            "centre distance",
+            "a",
+            ISO_21771,
+            ge=0.1,
+            le=20000,
+            default_text="the backlash-free value",
+            tolerance=0.02,
+        ),
     ] = None
 
     def pair(self, rack_tip_radius: float) -> GearPairInputs:

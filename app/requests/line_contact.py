@@ -1,41 +1,55 @@
 """One lubricated line contact: request of /v1/scuffing/line-contact."""
 
 from dataclasses import replace
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
-from app.conversion import to_si
-from app.quantities import Input
+from app.contract.conversion import to_si
+from app.contract.quantities import Input
 from app.requests.common import Request, Section
 from app.requests.materials import XUE, Oil, Surface
 from solvers.contact import ehl
 
 BULK = "360 K, the paper's bulk temperature"
 
+_DEFAULTS = ehl.Model()
+
 
 class LineContact(Section):
     """Load, curvature and speeds."""
 
-    line_load_n_per_mm: Annotated[float, Input("load per length of contact", "w", XUE, gt=0, le=1e5)]
-    radius_mm: Annotated[float, Input("reduced radius of curvature, 1/R = 1/R_1 + 1/R_2", "R", XUE, ge=0.01, le=1e4)]
+    line_load_n_per_mm: Annotated[float, Input("line load", "w", XUE, text="load per length of contact", gt=0, le=1e5)]
+    radius_mm: Annotated[
+        float,
+        Input("reduced radius", "R", XUE, text="reduced radius of curvature, 1/R = 1/R_1 + 1/R_2", ge=0.01, le=1e4),
+    ]
     speed_1_m_per_s: Annotated[
-        float, Input("speed of surface 1 through the contact", "u_1", f"{XUE}, Eq. 18", ge=-300, le=300)
+        float,
+        Input(
+            "speed of surface 1", "u_1", f"{XUE}, Eq. 18", text="through the contact, positive into it", ge=-300, le=300
+        ),
     ]
     speed_2_m_per_s: Annotated[
-        float, Input("speed of surface 2 through the contact", "u_2", f"{XUE}, Eq. 18", ge=-300, le=300)
+        float,
+        Input(
+            "speed of surface 2", "u_2", f"{XUE}, Eq. 18", text="through the contact, positive into it", ge=-300, le=300
+        ),
     ]
 
 
 class LineContactTemperatures(Section):
     """Temperatures far from the contact."""
 
-    surface_1_c: Annotated[float, Input("bulk temperature of surface 1", "t_b1", XUE, ge=-50, le=400, assumed=BULK)] = (
+    surface_1_c: Annotated[float, Input("bulk temperature of surface 1", "θ_M1", XUE, ge=-50, le=400, assumed=BULK)] = (
         86.85
     )
-    surface_2_c: Annotated[float, Input("bulk temperature of surface 2", "t_b2", XUE, ge=-50, le=400, assumed=BULK)] = (
+    surface_2_c: Annotated[float, Input("bulk temperature of surface 2", "θ_M2", XUE, ge=-50, le=400, assumed=BULK)] = (
         86.85
     )
     inlet_c: Annotated[
-        float, Input("temperature of the oil at the inlet", "t_in", XUE, ge=-50, le=400, assumed=BULK)
+        float,
+        Input(
+            "inlet temperature", "θ_in", XUE, text="temperature of the oil at the inlet", ge=-50, le=400, assumed=BULK
+        ),
     ] = 86.85
 
 
@@ -43,19 +57,29 @@ class FilmModel(Section):
     """Physics and resolution of the film."""
 
     rheology: Annotated[
-        Literal["ree_eyring", "newtonian"],
+        ehl.Rheology,
         Input(
-            "how shear stress depends on shear rate",
+            "rheology",
             None,
             XUE,
+            text="how shear stress depends on shear rate",
             assumed="the paper's film is Newtonian, whose friction is not physical near pure rolling",
+            advanced=True,
         ),
-    ] = "ree_eyring"
+    ] = _DEFAULTS.rheology
     eyring_stress_mpa: Annotated[
-        float, Input("Eyring stress", "τ_0", ge=1, le=50, assumed="middle of the usual 3 to 12 MPa of gear oils")
+        float,
+        Input(
+            "Eyring stress",
+            "τ_0",
+            ge=1,
+            le=50,
+            assumed="middle of the usual 3 to 12 MPa of gear oils",
+            advanced=True,
+        ),
     ] = 5.0
-    nodes: Annotated[int, Input("nodes along the contact", "N", ge=61, le=481)] = 121
-    film_nodes: Annotated[int, Input("nodes across the film", "n_z", ge=7, le=61)] = 21
+    nodes: Annotated[int, Input("nodes along the contact", "N", ge=61, le=481, advanced=True)] = _DEFAULTS.nodes
+    film_nodes: Annotated[int, Input("nodes across the film", "N_z", ge=7, le=61, advanced=True)] = _DEFAULTS.film_nodes
 
     def film(self) -> ehl.Model:
         """The solver's model of a film that heats up."""
@@ -74,20 +98,24 @@ class FilmModel(Section):
 class LineContactModel(FilmModel):
     """Physics and resolution of the contact."""
 
-    thermal: Annotated[bool, Input("whether the film heats up", None, XUE)] = True
+    thermal: Annotated[bool, Input("thermal film", None, XUE, text="whether the film heats up", advanced=True)] = (
+        _DEFAULTS.thermal
+    )
 
 
 class LineContactRequest(Request):
     """One lubricated line contact."""
 
-    contact: Annotated[LineContact, Input("load, curvature and speeds")]
-    surface_1: Annotated[Surface, Input("material of surface 1")] = Surface()
-    surface_2: Annotated[Surface, Input("material of surface 2")] = Surface()
-    lubricant: Annotated[Oil, Input("the oil")] = Oil()
-    temperatures: Annotated[LineContactTemperatures, Input("temperatures far from the contact")] = (
+    contact: Annotated[LineContact, Input("contact", text="load, curvature and speeds")]
+    surface_1: Annotated[Surface, Input("surface 1", text="material of surface 1")] = Surface()
+    surface_2: Annotated[Surface, Input("surface 2", text="material of surface 2")] = Surface()
+    lubricant: Annotated[Oil, Input("oil")] = Oil()
+    temperatures: Annotated[LineContactTemperatures, Input("temperatures", text="far from the contact")] = (
         LineContactTemperatures()
     )
-    model: Annotated[LineContactModel, Input("physics and resolution")] = LineContactModel()
+    model: Annotated[LineContactModel, Input("model", text="physics and resolution", advanced=True)] = (
+        LineContactModel()
+    )
 
     def options(self) -> dict[str, Any]:
         """The model section and the laws of the oil."""

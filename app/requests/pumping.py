@@ -1,16 +1,19 @@
 """Pumping: requests of /v1/pumping and /v1/pumping/choking-speed."""
 
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any
 
 from pydantic import Field
 
-from app.conversion import to_si
-from app.quantities import Input
+from app.contract.conversion import to_si
+from app.contract.quantities import Input
 from app.requests.common import Request, Section
 from app.requests.gears import Gears
 from solvers.pumping import inputs as si
 
 MILIAN = "Milian 2004"
+
+_DEFAULTS = si.PumpingModel()
+_AMBIENT = si.Ambient()
 
 
 class PumpingGears(Gears):
@@ -19,9 +22,10 @@ class PumpingGears(Gears):
     rack_tip_radius: Annotated[
         float,
         Input(
-            "tip radius coefficient of the rack, at most the full radius",
+            "rack tip radius coefficient",
             "ρ_fP*",
             "ISO 53",
+            text="tip radius coefficient of the rack, at most the full radius",
             ge=0,
             le=0.6,
             assumed="a usual ground fillet; the paper gives none",
@@ -30,11 +34,13 @@ class PumpingGears(Gears):
     normal_backlash_mm: Annotated[
         float,
         Input(
-            "normal backlash added to what the centre distance gives, by a thinner mating tooth",
+            "normal backlash",
             "j_n",
+            text="normal backlash added to what the centre distance gives, by a thinner mating tooth",
             ge=0,
             le=20,
             assumed="order of magnitude for module 7 mm; the paper gives none",
+            tolerance=0.05,
         ),
     ] = 0.3
 
@@ -42,8 +48,11 @@ class PumpingGears(Gears):
 class GearGroove(Section):
     """A circumferential groove of full tooth depth."""
 
-    position_mm: Annotated[float, Input("centre, from the end that meshes first", "z", MILIAN, ge=0, le=5000)]
-    width_mm: Annotated[float, Input("width", None, MILIAN, ge=0.01, le=5000)]
+    position_mm: Annotated[
+        float,
+        Input("groove position", "z_g", MILIAN, text="centre, from the end that meshes first", ge=0, le=5000),
+    ]
+    width_mm: Annotated[float, Input("groove width", "b_g", MILIAN, ge=0.01, le=5000)]
 
 
 class PumpingOperation(Section):
@@ -56,14 +65,24 @@ class Mist(Section):
     """The air and oil mist around the mesh, a perfect gas."""
 
     pressure_kpa: Annotated[
-        float, Input("pressure", "P_e", MILIAN, ge=0.1, le=1e4, assumed="normal atmosphere; the paper gives none")
+        float,
+        Input("ambient pressure", "p_e", MILIAN, ge=0.1, le=1e4, assumed="normal atmosphere; the paper gives none"),
     ] = 101.325
     temperature_c: Annotated[
-        float, Input("temperature", "T_e", MILIAN, ge=-70, le=400, assumed="a warm gear case; the paper gives none")
+        float,
+        Input("ambient temperature", "θ_e", MILIAN, ge=-70, le=400, assumed="a warm gear case; the paper gives none"),
     ] = 50.0
     isentropic_exponent: Annotated[
-        float, Input("isentropic exponent; oil droplets at the gas's temperature lower it", "γ", MILIAN, ge=1.01, le=2)
-    ] = 1.4
+        float,
+        Input(
+            "isentropic exponent",
+            "γ",
+            MILIAN,
+            text="isentropic exponent; oil droplets at the gas's temperature lower it",
+            ge=1.01,
+            le=2,
+        ),
+    ] = _AMBIENT.isentropic_exponent
     molar_mass_g_per_mol: Annotated[
         float, Input("molar mass", "M", MILIAN, ge=1, le=500, assumed="dry air; oil in the air raises it")
     ] = 28.9647
@@ -73,78 +92,108 @@ class PumpingOptions(Section):
     """Choices where the paper leaves room."""
 
     flow: Annotated[
-        Literal["gas_dynamics", "pocket_chain", "incompressible"],
+        si.Flow,
         Input(
-            "quasi-one-dimensional gas dynamics; the paper's chain of pockets; incompressible flow of one spur pocket",
+            "flow model",
             None,
             f"{MILIAN}, Eqs. 2-7",
+            text="quasi-one-dimensional gas dynamics; the paper's chain of pockets; incompressible flow of one spur "
+            "pocket",
             assumed="converges with the slices; pressures of the paper's pocket chain depend on the number of pockets",
+            advanced=True,
         ),
-    ] = "gas_dynamics"
+    ] = _DEFAULTS.flow
     closure: Annotated[
-        Literal["energy", "isentropic"],
+        si.Closure,
         Input(
-            "what a pocket of the chain conserves beside mass",
+            "closure of a pocket",
             None,
             f"{MILIAN}, Eq. 1",
+            text="what a pocket of the chain conserves beside mass",
             assumed="the paper's isentropic pockets lose the heat that throttling makes",
+            advanced=True,
         ),
-    ] = "energy"
+    ] = _DEFAULTS.closure
     gap: Annotated[
-        Literal["contact", "tip"],
+        si.Gap,
         Input(
-            "radial clearances at the flanks' narrowest sections, sealed in contact, or at the mate's tip corners",
+            "place of the radial clearances",
             "L_1, L_2",
             f"{MILIAN}, Fig. 1",
+            text="radial clearances at the flanks' narrowest sections, sealed in contact, or at the mate's tip corners",
             assumed="flanks in contact seal; with the paper's tip corners its test speeds are far from sonic",
+            advanced=True,
         ),
-    ] = "contact"
+    ] = _DEFAULTS.gap
     wall_transport: Annotated[
         bool,
         Input(
-            "whether flanks that roll through the coast-side gap carry their gas along",
+            "transport by the flanks",
+            text="whether flanks that roll through the coast-side gap carry their gas along",
             assumed="follows from the flanks' motion; the paper has no such term",
+            advanced=True,
         ),
-    ] = True
+    ] = _DEFAULTS.wall_transport
     slices: Annotated[
         int | None,
         Input(
-            "slices or pockets over the face width; null: 100 of gas dynamics, 10 pockets",
+            "slices",
             "N",
             MILIAN,
+            text="slices or pockets over the face width",
             ge=1,
             le=1000,
+            default_text="100 of gas dynamics, 10 pockets",
             assumed="the paper gives none; peak pressures of gas dynamics are within 0.1 % at 100",
+            advanced=True,
         ),
-    ] = None
+    ] = _DEFAULTS.slices
     spaces: Annotated[
-        Literal["both", "pinion", "wheel"],
-        Input("whose tooth spaces pump", None, MILIAN, assumed="both gears' do; the paper models the pinion's"),
-    ] = "both"
+        si.Spaces,
+        Input(
+            "pumping tooth spaces",
+            None,
+            MILIAN,
+            text="whose tooth spaces pump",
+            assumed="both gears' do; the paper models the pinion's",
+            advanced=True,
+        ),
+    ] = _DEFAULTS.spaces
     discharge_coefficient: Annotated[
         float,
-        Input("of all openings of the chain, of the radial gaps of gas dynamics", "C_d", ge=0, le=1, assumed="ideal"),
-    ] = 1.0
-    minimum_gap_um: Annotated[float, Input("least radial clearance of a side", "L_min", ge=0, le=1000)] = 0.0
+        Input(
+            "discharge coefficient",
+            "C_d",
+            text="of all openings of the chain, of the radial gaps of gas dynamics",
+            ge=0,
+            le=1,
+            assumed="ideal",
+            advanced=True,
+        ),
+    ] = _DEFAULTS.discharge_coefficient
+    minimum_gap_um: Annotated[
+        float,
+        Input("least radial clearance", "L_min", text="least radial clearance of a side", ge=0, le=1000, advanced=True),
+    ] = _DEFAULTS.minimum_gap
 
 
 class _PumpingSetup(Request):
     """What both calculations have in common."""
 
-    gears: Annotated[PumpingGears, Input("the gear pair")]
+    gears: Annotated[PumpingGears, Input("gear pair")]
     grooves: Annotated[
-        list[GearGroove], Field(max_length=50), Input("circumferential grooves", None, f"{MILIAN}, Figs. 5, 6")
+        list[GearGroove],
+        Field(max_length=50),
+        Input("grooves", None, f"{MILIAN}, Figs. 5, 6", text="circumferential grooves"),
     ] = Field(default_factory=list)
-    ambient: Annotated[Mist, Input("the mist around the mesh")] = Mist()
-    model: Annotated[PumpingOptions, Input("choices where the paper leaves room")] = PumpingOptions()
-
-    def resolved(self) -> Self:
-        """The number of slices follows from the flow model."""
-        return self.model_copy(update={"model": self.model.model_copy(update={"slices": self._options().slice_count})})
+    ambient: Annotated[Mist, Input("ambient", text="the mist around the mesh")] = Mist()
+    model: Annotated[PumpingOptions, Input("model", text="choices where the paper leaves room", advanced=True)] = (
+        PumpingOptions()
+    )
 
     def options(self) -> dict[str, Any]:
         """The model section, the number of slices filled in."""
-        return self.model.model_dump()
+        return self.model.model_dump() | {"slices": self._options().slice_count}
 
     def unused_defaults(self) -> frozenset[str]:
         """Closure belongs to the pocket chain, wall transport to gas dynamics with contact gaps, slices to both."""
@@ -158,9 +207,7 @@ class _PumpingSetup(Request):
         return frozenset(unused)
 
     def _options(self) -> si.PumpingModel:
-        options = to_si(self.model)
-        kinds = {"flow": si.Flow, "closure": si.Closure, "gap": si.Gap, "spaces": si.Spaces}
-        return si.PumpingModel(**options | {name: kind(options[name]) for name, kind in kinds.items()})
+        return si.PumpingModel(**to_si(self.model))
 
     def _setup(self) -> si.PumpingSetup:
         gears = to_si(self.gears)
@@ -186,7 +233,9 @@ class PumpingRequest(_PumpingSetup):
 class ChokingSpeedRequest(_PumpingSetup):
     """A gear pair whose choking speeds are sought."""
 
-    search_limit_rpm: Annotated[float, Input("pinion speed at which the search ends", ge=100, le=1e5)] = 60000.0
+    search_limit_rpm: Annotated[
+        float, Input("end of the search", "n_1,max", text="pinion speed at which the search ends", ge=100, le=1e5)
+    ] = 60000.0
 
     def inputs(self) -> si.ChokingInputs:
         """The solver's inputs."""

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import ConfigDict
 
-from app.quantities import Documented, Output
+from app.contract.quantities import Documented, Output
 
 MODEL_VERSION = version("tribodrive")
 
@@ -27,20 +27,40 @@ class Notice(Group):
 class Assumption(Group):
     """A default that this result used and that is ours, not the paper's."""
 
-    field: Annotated[str, Output("dotted name of the request field")]
+    field: Annotated[str, Output("dotted name of the assumed request field")]
     value: Annotated[Any, Output("the value used")]
     reason: Annotated[str, Output("why this value")]
 
 
+class Derived(Group):
+    """What follows from the request before any physics."""
+
+
 class Response(Group):
-    """What every result says about itself."""
+    """What every result says about itself; each adds its results."""
 
     status: Annotated[
         Literal["ok", "ok_with_warnings", "no_solution"],
-        Output("whether the calculation succeeded; with no_solution, `residuals` says how far it came"),
+        Output("whether the calculation succeeded", text="with no_solution, `residuals` says how far it came"),
     ]
     warnings: Annotated[list[Notice], Output("limits of validity that this result touches")]
+    residuals: Annotated[dict[str, float] | None, Output("how far an iteration without a solution came")] = None
     assumptions: Annotated[list[Assumption], Output("defaults used that are ours and not the paper's")]
     model_version: Annotated[str, Output("version of the model that computed this result")]
-    model: Annotated[dict[str, Any], Output("the options in force")]
-    residuals: Annotated[dict[str, float] | None, Output("how far an iteration without a solution came")] = None
+    model: Annotated[dict[str, Any], Output("options in force")]
+    derived: Annotated[Derived | None, Output("what follows from the request before any physics")] = None
+    inputs: Annotated[
+        dict[str, Any],
+        Output("the request with its defaults", text="the request with its defaults, to be posted"),
+    ]
+    case: Annotated[
+        str,
+        Output("name of the case", text="SHA-256 of endpoint, inputs and model version; equal for equal numbers"),
+    ]
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **_: Any) -> None:
+        """Results stand before what they rest on."""
+        for name in ("assumptions", "model_version", "model", "derived", "inputs", "case"):
+            cls.model_fields[name] = cls.model_fields.pop(name)
+        cls.model_rebuild(force=True)

@@ -1,20 +1,26 @@
 """One lubricated line contact: response of /v1/scuffing/line-contact."""
 
-from typing import Annotated, Literal
+from typing import Annotated
 
-from app.quantities import Output
-from app.responses.common import Group, Response
+from app.contract.quantities import Output
+from app.responses.common import Derived, Group, Response
+from solvers.contact import ehl
 
 XUE = "Xue 2020"
+
+
+class LineContactDerived(Derived):
+    """What load, curvature and speeds make of the two surfaces."""
+
+    entrainment_speed_m_per_s: Annotated[float, Output("mean surface speed", "u_m", XUE)]
+    reduced_modulus_gpa: Annotated[float, Output("reduced modulus", "E'", XUE)]
 
 
 class HertzContact(Group):
     """The dry contact."""
 
-    half_width_mm: Annotated[float, Output("half width", "b")]
-    max_pressure_mpa: Annotated[
-        float, Output("largest pressure", "p_H", f"{XUE}, Eq. 14 without its π/4", si="maximum_pressure")
-    ]
+    half_width_mm: Annotated[float, Output("half width of the contact", "b")]
+    max_pressure_mpa: Annotated[float, Output("Hertz pressure", "p_H", f"{XUE}, Eq. 14 without its π/4", limit=4000.0)]
 
 
 class ContactNumbers(Group):
@@ -22,7 +28,7 @@ class ContactNumbers(Group):
 
     moes_m: Annotated[float, Output("load parameter of Moes", "M", "Moes 1992")]
     moes_l: Annotated[float, Output("lubricant parameter of Moes", "L", "Moes 1992")]
-    slide_roll_ratio: Annotated[float, Output("sliding over mean speed", "SRR")]
+    slide_roll_ratio: Annotated[float, Output("slide-roll ratio", "SRR", text="sliding over mean speed")]
     peclet_1: Annotated[float, Output("Péclet number of surface 1", "Pe_1")]
     peclet_2: Annotated[float, Output("Péclet number of surface 2", "Pe_2")]
 
@@ -30,71 +36,102 @@ class ContactNumbers(Group):
 class FilmThickness(Group):
     """Film thickness; null without a solution, but for the formula."""
 
-    central_um: Annotated[float | None, Output("at x = 0", "h_c", f"{XUE}, Eq. 21")]
-    minimum_um: Annotated[float | None, Output("smallest", "h_min", f"{XUE}, Eq. 21")]
+    central_um: Annotated[
+        float | None, Output("central film thickness", "h_c", f"{XUE}, Eq. 21", text="film thickness at x = 0")
+    ]
+    minimum_um: Annotated[float | None, Output("minimum film thickness", "h_min", f"{XUE}, Eq. 21", headline=1)]
     dowson_higginson_um: Annotated[
-        float, Output("smallest by formula", "h_min", f"Dowson and Higginson; {XUE}, Eq. 27")
+        float,
+        Output(
+            "film thickness by Dowson and Higginson",
+            "h_min,DH",
+            f"Dowson and Higginson; {XUE}, Eq. 27",
+            text="minimum film by formula",
+        ),
     ]
 
 
 class FilmPressure(Group):
     """Pressure in the film."""
 
-    centre_mpa: Annotated[float, Output("at x = 0", "p(0)", f"{XUE}, Eq. 17")]
-    maximum_mpa: Annotated[float, Output("largest; a sharp second maximum depends on the mesh", "p_max", XUE)]
-    maximum_at_mm: Annotated[float, Output("where it is largest", "x")]
+    centre_mpa: Annotated[float, Output("pressure in the centre", "p(0)", f"{XUE}, Eq. 17", text="pressure at x = 0")]
+    maximum_mpa: Annotated[
+        float,
+        Output("largest film pressure", "p_max", XUE, text="largest; a sharp second maximum depends on the mesh"),
+    ]
+    maximum_at_mm: Annotated[float, Output("place of the largest pressure", "x_p,max")]
 
 
 class FilmTemperature(Group):
     """Temperatures."""
 
-    film_max_c: Annotated[float, Output("largest in the film", "t_max", f"{XUE}, Eq. 23")]
-    surface_1_max_c: Annotated[float, Output("largest of surface 1", "t_1", f"{XUE}, Eq. 24")]
-    surface_2_max_c: Annotated[float, Output("largest of surface 2", "t_2", f"{XUE}, Eq. 24")]
-    surface_1_flash_k: Annotated[float, Output("flash temperature of surface 1")]
-    surface_2_flash_k: Annotated[float, Output("flash temperature of surface 2")]
+    film_max_c: Annotated[float, Output("largest film temperature", "θ_max", f"{XUE}, Eq. 23", headline=2)]
+    surface_1_max_c: Annotated[float, Output("largest temperature of surface 1", "θ_1,max", f"{XUE}, Eq. 24")]
+    surface_2_max_c: Annotated[float, Output("largest temperature of surface 2", "θ_2,max", f"{XUE}, Eq. 24")]
+    surface_1_flash_k: Annotated[float, Output("flash temperature of surface 1", "Δθ_1")]
+    surface_2_flash_k: Annotated[float, Output("flash temperature of surface 2", "Δθ_2")]
 
 
 class FilmFriction(Group):
     """Friction."""
 
-    coefficient: Annotated[float, Output("coefficient of friction, a magnitude", "μ")]
-    power_w_per_mm: Annotated[float, Output("sliding power per length of contact")]
-    max_shear_stress_mpa: Annotated[float, Output("largest shear stress", "τ")]
+    coefficient: Annotated[
+        float, Output("friction coefficient", "μ", text="coefficient of friction, a magnitude", headline=3)
+    ]
+    power_w_per_mm: Annotated[float, Output("sliding power", "P", text="sliding power per length of contact")]
+    max_shear_stress_mpa: Annotated[float, Output("largest shear stress", "τ_max")]
 
 
 class FilmHeat(Group):
     """Heat per length of contact; into the surfaces and convected out positive."""
 
-    generated_w_per_mm: Annotated[float, Output("by shear")]
-    compression_w_per_mm: Annotated[float, Output("by compression, added")]
-    to_surface_1_w_per_mm: Annotated[float, Output("into surface 1")]
-    to_surface_2_w_per_mm: Annotated[float, Output("into surface 2")]
-    convected_w_per_mm: Annotated[float, Output("carried out by the oil")]
+    generated_w_per_mm: Annotated[float, Output("heat of shear", "q_s", text="heat generated by shear")]
+    compression_w_per_mm: Annotated[float, Output("heat of compression", "q_c", text="heat by compression, added")]
+    to_surface_1_w_per_mm: Annotated[float, Output("heat into surface 1", "q_1")]
+    to_surface_2_w_per_mm: Annotated[float, Output("heat into surface 2", "q_2")]
+    convected_w_per_mm: Annotated[float, Output("heat carried out by the oil", "q_o")]
     balance_error: Annotated[
         float,
-        Output("what is missing, over generated plus absolute convected heat, or over what one surface takes if more"),
+        Output(
+            "heat balance error",
+            text="what is missing, over generated plus absolute convected heat, or over what one surface takes if more",
+        ),
     ]
 
 
 class ContactConvergence(Group):
     """How the iteration ended."""
 
-    iterations: Annotated[int, Output("Newton steps in all")]
+    iterations: Annotated[int, Output("Newton steps", text="Newton steps in all")]
     pressure_change: Annotated[
-        float | None, Output("last change of the pressure over the Hertz pressure; null if no step could be taken")
+        float | None,
+        Output(
+            "last change of pressure",
+            text="last change of the pressure over the Hertz pressure; null if no step could be taken",
+        ),
     ]
     temperature_change_k: Annotated[
-        float | None, Output("last change of temperature; null if isothermal or no step could be taken")
+        float | None,
+        Output(
+            "last change of temperature",
+            text="last change of temperature; null if isothermal or no step could be taken",
+        ),
     ]
-    load_error: Annotated[float, Output("relative error of the load")]
-    nodes: Annotated[int, Output("nodes of the last mesh")]
+    load_error: Annotated[float, Output("load error", text="relative error of the load")]
+    nodes: Annotated[int, Output("nodes in use", text="nodes of the last mesh")]
     stage: Annotated[
-        Literal["isothermal", "coupling", "heat_balance"],
-        Output("where the iteration ended: the isothermal film, film and temperatures together, the books on heat"),
+        ehl.Stage,
+        Output(
+            "last stage",
+            text="where the iteration ended: the isothermal film, film and temperatures together, the books on heat",
+        ),
     ]
     eyring_stress_mpa: Annotated[
-        float | None, Output("Eyring stress that a continuation without solution reached; null where none was tried")
+        float | None,
+        Output(
+            "Eyring stress reached",
+            text="Eyring stress that a continuation without solution reached; null where none was tried",
+        ),
     ]
 
 
@@ -102,32 +139,37 @@ class ContactCurves(Group):
     """Along the contact; temperatures are null if isothermal."""
 
     x_mm: Annotated[list[float], Output("position along the flow", "x")]
-    pressure_mpa: Annotated[list[float], Output("pressure in the film", "p")]
-    hertz_pressure_mpa: Annotated[list[float], Output("dry pressure")]
-    film_um: Annotated[list[float], Output("film thickness", "h")]
-    mid_film_temperature_c: Annotated[list[float] | None, Output("in the middle of the film")]
-    surface_1_temperature_c: Annotated[list[float] | None, Output("of surface 1")]
-    surface_2_temperature_c: Annotated[list[float] | None, Output("of surface 2")]
+    pressure_mpa: Annotated[list[float], Output("film pressure", "p", text="pressure in the film", axis="x_mm")]
+    hertz_pressure_mpa: Annotated[list[float], Output("dry pressure", "p_dry", axis="x_mm")]
+    film_um: Annotated[list[float], Output("film thickness", "h", axis="x_mm")]
+    mid_film_temperature_c: Annotated[list[float] | None, Output("mid-film temperature", "θ_mid", axis="x_mm")]
+    surface_1_temperature_c: Annotated[list[float] | None, Output("temperature of surface 1", "θ_1", axis="x_mm")]
+    surface_2_temperature_c: Annotated[list[float] | None, Output("temperature of surface 2", "θ_2", axis="x_mm")]
 
 
 class ContactField(Group):
     """Temperature in the film, indexed [x][film fraction]."""
 
     x_mm: Annotated[list[float], Output("position along the flow", "x")]
-    film_fraction: Annotated[list[float], Output("height over film thickness from surface 1")]
-    temperature_c: Annotated[list[list[float]], Output("temperature")]
+    film_fraction: Annotated[
+        list[float], Output("height in the film", "z/h", text="height over film thickness from surface 1")
+    ]
+    temperature_c: Annotated[list[list[float]], Output("temperature in the film", "θ", axis=("x_mm", "film_fraction"))]
 
 
 class LineContactResponse(Response):
     """A lubricated line contact; what was not solved is null."""
 
-    hertz: Annotated[HertzContact | None, Output("the dry contact")] = None
+    hertz: Annotated[HertzContact | None, Output("dry contact")] = None
     dimensionless: Annotated[ContactNumbers | None, Output("dimensionless numbers")] = None
-    film: Annotated[FilmThickness | None, Output("film thickness")] = None
+    film: Annotated[FilmThickness | None, Output("film")] = None
     pressure: Annotated[FilmPressure | None, Output("pressure")] = None
-    temperature: Annotated[FilmTemperature | None, Output("temperatures; null if isothermal")] = None
+    temperature: Annotated[FilmTemperature | None, Output("temperatures", text="temperatures; null if isothermal")] = (
+        None
+    )
     friction: Annotated[FilmFriction | None, Output("friction")] = None
-    heat: Annotated[FilmHeat | None, Output("heat; null if isothermal")] = None
-    convergence: Annotated[ContactConvergence | None, Output("how the iteration ended")] = None
+    heat: Annotated[FilmHeat | None, Output("heat", text="heat; null if isothermal")] = None
+    convergence: Annotated[ContactConvergence | None, Output("convergence", text="how the iteration ended")] = None
     curves: Annotated[ContactCurves | None, Output("along the contact", detail="curves")] = None
-    field: Annotated[ContactField | None, Output("temperature in the film", detail="fields")] = None
+    field: Annotated[ContactField | None, Output("film map", text="temperature in the film", detail="fields")] = None
+    derived: Annotated[LineContactDerived | None, Output("speed and modulus used")] = None

@@ -4,9 +4,9 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Request, Response
 
-from app.answers import answer
 from app.calculations import CALCULATIONS, Calculation
 from app.compute import Runner
+from app.formats.json import answer
 from app.library import body_of
 from app.problems import documented
 

@@ -8,9 +8,9 @@ from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 from pydantic import BaseModel
 
 from app.compute import Runner
+from app.contract.quantities import Output
 from app.library import Example, ExampleSummary, examples
 from app.problems import documented
-from app.quantities import Output
 
 router = APIRouter(tags=["service"])
 

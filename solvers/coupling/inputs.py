@@ -5,7 +5,7 @@ Lengths [m], angles [rad], forces [N], speeds [rad/s]. Every name is the API's n
 
 from dataclasses import dataclass, field
 from math import radians
-from typing import Literal
+from typing import Any, Literal
 
 Arrangement = Literal["single", "parallel_offset", "angular"]
 KinematicModel = Literal["tangential", "spatial"]
@@ -36,6 +36,18 @@ class Coupling:
     pitch_errors: tuple[float, ...] | None = None
     youngs_modulus: float = 206e9
     poisson_ratio: float = 0.3
+
+
+def proportioned(
+    *, module: float, face_width: float | None = None, tooth_height: float | None = None, **others: Any
+) -> Coupling:
+    """The coupling, a missing face width 8 modules and a missing tooth height 2 modules: the paper gives none."""
+    return Coupling(
+        module=module,
+        face_width=8 * module if face_width is None else face_width,
+        tooth_height=2 * module if tooth_height is None else tooth_height,
+        **others,
+    )
 
 
 @dataclass(frozen=True, slots=True)

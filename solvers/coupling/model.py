@@ -47,6 +47,7 @@ def solve(inputs: CouplingInputs) -> CouplingResult:
         axial_thrust=thrust,
         losses=losses(inputs, geometry, loaded, friction),
         limits=bounds,
+        derived=inputs.coupling,
         warnings=(
             *motion_notices(inputs, motion, thrust, bounds),
             *load_notices(inputs, load, thrust, bounds),

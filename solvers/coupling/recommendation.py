@@ -24,7 +24,7 @@ from solvers.coupling.crowning_window import (
     crowning_window,
 )
 from solvers.coupling.geometry import tooth_geometry
-from solvers.coupling.inputs import RecommendationInputs
+from solvers.coupling.inputs import Coupling, RecommendationInputs
 from solvers.coupling.limits import SLIDING_VELOCITY_LIMIT
 from solvers.coupling.model import solve
 from solvers.coupling.results import CouplingResult, CrowningScan, Recommendation, RecommendedPoint
@@ -57,10 +57,10 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
     sliding = _sliding_notices(inputs)
     if inputs.min_misalignment == inputs.max_misalignment and sliding:
         nowhere = replace(scan, feasible=(False,) * len(scan.feasible))
-        return _infeasible("sliding_velocity", nowhere, sliding)
+        return _infeasible("sliding_velocity", nowhere, inputs.design.coupling, sliding)
     low, high, failed = crowning_window(state)
     if failed is not None:
-        return _infeasible(failed, scan, sliding)
+        return _infeasible(failed, scan, inputs.design.coupling, sliding)
     ratio = _best_ratio(state, low, high)
     at_min = solve(at_misalignment(inputs, ratio, inputs.min_misalignment))
     at_max = solve(at_misalignment(inputs, ratio, inputs.max_misalignment))
@@ -72,6 +72,7 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
         at_min=_point(at_min),
         at_max=_point(at_max),
         scan=scan,
+        derived=inputs.design.coupling,
         warnings=_merged((*sliding, *at_min.warnings, *at_max.warnings)),
     )
 
@@ -127,7 +128,7 @@ def _scan(state: Callable[[float], CrowningState]) -> CrowningScan:
     )
 
 
-def _infeasible(failed: str, scan: CrowningScan, warnings: tuple[Notice, ...]) -> Recommendation:
+def _infeasible(failed: str, scan: CrowningScan, coupling: Coupling, warnings: tuple[Notice, ...]) -> Recommendation:
     """No crowning ratio serves the whole range."""
     return Recommendation(
         feasible=False,
@@ -137,6 +138,7 @@ def _infeasible(failed: str, scan: CrowningScan, warnings: tuple[Notice, ...]) -
         at_min=None,
         at_max=None,
         scan=scan,
+        derived=coupling,
         warnings=(*warnings, Notice("infeasible", _REASONS[failed], "misalignment_range")),
     )
 

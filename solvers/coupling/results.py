@@ -6,6 +6,7 @@ A value that has no meaning is None, and a notice in `warnings` says why.
 from dataclasses import dataclass
 
 from solvers.arrays import FloatArray
+from solvers.coupling.inputs import Coupling
 from solvers.notices import Notice
 
 
@@ -172,7 +173,7 @@ class Limits:
 
 @dataclass(frozen=True, slots=True)
 class CouplingResult:
-    """Everything about one operating point."""
+    """Everything about one operating point; `derived` is the coupling with its proportions filled in."""
 
     geometry: Geometry
     kinematics: Kinematics
@@ -181,6 +182,7 @@ class CouplingResult:
     axial_thrust: AxialThrust
     losses: Losses
     limits: Limits
+    derived: Coupling
     warnings: tuple[Notice, ...]
 
 
@@ -260,4 +262,5 @@ class Recommendation:
     at_min: RecommendedPoint | None
     at_max: RecommendedPoint | None
     scan: CrowningScan
+    derived: Coupling
     warnings: tuple[Notice, ...]

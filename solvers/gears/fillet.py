@@ -11,8 +11,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from solvers.compiled import kernel
+from solvers.gears.gear import Gear, rack_tip_radius
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.gears.pair import Gear, full_rack_tip_radius
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
 
@@ -75,12 +75,12 @@ def fillet_sector_area(fillet: RackFillet, end: float) -> float:
 def root_profile(pair: GearPairInputs, teeth: GearTeeth, gear: Gear) -> RootProfile:
     """Root of one gear of the pair; where it is undercut, the union of what rack tip and rack flank sweep."""
     module, angle = pair.normal_module, pair.normal_pressure_angle
-    tip = min(pair.rack_tip_radius, full_rack_tip_radius(teeth.dedendum, angle)) * module
+    tip = rack_tip_radius(pair, teeth) * module
     centre_y = (teeth.profile_shift - teeth.dedendum) * module + tip
     straight_y = centre_y - tip * sin(angle) - teeth.profile_shift * module
     centre_x = pi * module / 4 + straight_y * tan(angle) - tip * cos(angle)
     fillet = RackFillet(gear.reference_radius, centre_x, centre_y, tip, cos(pair.helix_angle), pi / 2 - angle)
-    roll = gear.form_roll_length
+    roll = gear.usable_roll_length
     if gear.undercut:
         end, roll = _undercut_start(fillet, gear)
         fillet = fillet._replace(end=end)

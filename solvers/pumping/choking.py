@@ -12,7 +12,7 @@ from solvers.notices import Notice
 from solvers.pumping.checks import check_speed
 from solvers.pumping.gas_dynamics import CELL_STEP_LIMIT
 from solvers.pumping.inputs import ChokingInputs, Flow, rpm
-from solvers.pumping.results import ChokingCurves, ChokingSpeeds
+from solvers.pumping.results import ChokingCurves, ChokingSpeeds, Derived
 from solvers.pumping.spaces import Mesh, Space, flow_at, prepare
 
 _COARSENING = 4  # of the slices while the speeds are bracketed
@@ -49,7 +49,8 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
         for name, speed in (("radial gap", radial), ("axial exit", axial))
         if speed is None
     ]
-    return ChokingSpeeds(radial, axial, _curves(mesh, rough, scan), (*mesh.notices, *notices))
+    derived = Derived(mesh.pair.centre_distance, slices)
+    return ChokingSpeeds(radial, axial, _curves(mesh, rough, scan), derived, (*mesh.notices, *notices))
 
 
 class _Demand:

@@ -15,6 +15,7 @@ from solvers.pumping.nozzle import Gas
 from solvers.pumping.pulsation import Pulsation, pulsation
 from solvers.pumping.results import (
     Balance,
+    Derived,
     FaceProfile,
     GasField,
     MeshGeometry,
@@ -52,6 +53,7 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
         lead_correction=correction,
         pulsation=_pulsation(mesh, flows, speed, frequency),
         slices=sum(part.cells for part in face_stretches(inputs.setup, slices)),
+        derived=Derived(mesh.pair.centre_distance, slices),
         warnings=(
             *mesh.notices,
             *speed_notices(mesh.pair, mesh.gas, speed),

@@ -104,6 +104,14 @@ class Totals:
 
 
 @dataclass(frozen=True, slots=True)
+class Derived:
+    """What follows from the inputs before any physics: centre distance [m], slices without the grooves' parts."""
+
+    centre_distance: float
+    slices: int
+
+
+@dataclass(frozen=True, slots=True)
 class PumpingResult:
     """One operating point. `slices` is the number in force; `lead_correction` is for the pinion, wall response 1."""
 
@@ -114,6 +122,7 @@ class PumpingResult:
     lead_correction: LeadCorrection | None
     pulsation: Pulsation
     slices: int
+    derived: Derived
     warnings: tuple[Notice, ...]
 
 
@@ -133,4 +142,5 @@ class ChokingSpeeds:
     radial_choking_speed: float | None
     axial_choking_speed: float | None
     curves: ChokingCurves
+    derived: Derived
     warnings: tuple[Notice, ...]

@@ -11,7 +11,8 @@ from typing import NamedTuple
 
 from solvers.errors import InvalidInput
 from solvers.gears.fillet import RootProfile, root_profile
-from solvers.gears.pair import Gear, GearPair
+from solvers.gears.gear import Gear
+from solvers.gears.pair import GearPair
 from solvers.notices import Notice
 from solvers.pumping.inputs import Gap
 

@@ -9,7 +9,7 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.errors import InvalidInput
-from solvers.scuffing.path_of_contact import ContactPlane, PathOfContact
+from solvers.gears.path_of_contact import ContactPlane, PathOfContact
 
 COINCIDENT = 1e-9  # base pitches; breakpoints nearer than this are one
 LEAST_STEPS = 8  # between two breakpoints, however close

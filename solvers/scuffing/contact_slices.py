@@ -6,10 +6,11 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
+from solvers.gears.path_of_contact import ContactPlane
 from solvers.scuffing.contact_lines import line_count, line_ends
 from solvers.scuffing.modification import Gap, gap_at
-from solvers.scuffing.path_of_contact import ContactPlane
-from solvers.scuffing.tooth_stiffness import PairCompliance, line_load, tabulated
+from solvers.scuffing.tables import tabulated
+from solvers.scuffing.tooth_stiffness import PairCompliance, line_load
 
 # Rows of the slice table
 X, Y, LENGTH, GAP, CONSTANT, LIMIT, OMEGA, LOAD, LINE = range(9)

@@ -1,28 +1,26 @@
-"""The feature line Psi from A1 to E2, the paper's short cut across the flank, and all its points need for scuffing."""
+"""What scuffing needs to know of points of the flank, and the feature line Psi from A1 to E2, the paper's short cut."""
+
+from dataclasses import fields
 
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.contact import hertz
+from solvers.gears.path_of_contact import PathOfContact, reduced_radius
 from solvers.scuffing.flank import contact_pressure
 from solvers.scuffing.load_balance import LoadBalance, line_loads
 from solvers.scuffing.load_sharing import iso_load_sharing
-from solvers.scuffing.path_of_contact import PathOfContact, reduced_radius
-from solvers.scuffing.results import FeatureLine
+from solvers.scuffing.results import ContactPoints, FeatureLine
 
 
-def feature_line(
-    path: PathOfContact, balance: LoadBalance, pinion_speed: float, tangential_force: float, modulus: float, points: int
-) -> FeatureLine:
-    """Line load, radius and speeds at equidistant psi in 0..1, x = psi g_alpha, y = psi b; F_bt [N], E' [Pa]."""
-    psi = np.linspace(0.0, 1.0, points)
-    x = psi * path.length
-    load = line_loads(balance, x, psi * path.plane.face_width)
+def contact_points(
+    path: PathOfContact, balance: LoadBalance, x: FloatArray, y: FloatArray, pinion_speed: float, modulus: float
+) -> ContactPoints:
+    """Load, radius and speeds at points (x, y) [m] of the plane, arrays of one shape; E' [Pa]."""
+    load = line_loads(balance, x, y)
     radius = reduced_radius(path.plane, x)
     pinion, wheel = path.surface_speeds(x, pinion_speed)
-    sharing = iso_load_sharing(path, x)
-    return FeatureLine(
-        psi=frozen(psi),
+    return ContactPoints(
         gamma=frozen(path.profile_parameter(x)),
         line_load=frozen(load),
         pressure=frozen(contact_pressure(balance, x, load, modulus)),
@@ -30,8 +28,21 @@ def feature_line(
         radius=frozen(radius),
         pinion_speed=frozen(pinion),
         wheel_speed=frozen(wheel),
-        sliding=frozen(pinion - wheel),
-        load_sharing=None if tangential_force == 0.0 else frozen(_load_sharing(path, load, tangential_force)),
+    )
+
+
+def feature_line(
+    path: PathOfContact, balance: LoadBalance, pinion_speed: float, tangential_force: float, modulus: float, points: int
+) -> FeatureLine:
+    """The points at equidistant psi in 0..1, x = psi g_alpha, y = psi b; F_bt [N], E' [Pa]."""
+    psi = np.linspace(0.0, 1.0, points)
+    x = psi * path.length
+    line = contact_points(path, balance, x, psi * path.plane.face_width, pinion_speed, modulus)
+    sharing = iso_load_sharing(path, x)
+    return FeatureLine(
+        **{item.name: getattr(line, item.name) for item in fields(line)},
+        psi=frozen(psi),
+        load_sharing=None if tangential_force == 0.0 else frozen(_load_sharing(path, line.line_load, tangential_force)),
         iso_load_sharing=None if sharing is None else frozen(sharing),
     )
 

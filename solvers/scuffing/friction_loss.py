@@ -1,8 +1,8 @@
 """Friction loss of the mesh at a constant coefficient of friction."""
 
+from solvers.gears.path_of_contact import PathOfContact
 from solvers.scuffing.inputs import Load
 from solvers.scuffing.load_balance import LoadBalance
-from solvers.scuffing.path_of_contact import PathOfContact
 from solvers.scuffing.results import FrictionLoss
 from solvers.scuffing.transmission_error import period_mean
 

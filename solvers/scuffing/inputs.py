@@ -9,6 +9,12 @@ from solvers.gears.inputs import GearPairInputs
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 
+ToothModel = Literal["ishikawa", "parabola"]
+ContactModel = Literal["hertzian", "linear"]
+ToothSection = Literal["normal", "transverse"]
+LoadConvention = Literal["exact", "paper"]
+Lubrication = Literal["thermal_ehl", "closed_form"]
+
 
 @dataclass(frozen=True, slots=True)
 class Load:
@@ -34,6 +40,17 @@ def angular_speed(revolutions_per_minute: float) -> float:
 
 
 @dataclass(frozen=True, slots=True)
+class LeadCurve:
+    """Any gap [m] over the face: linear between rising positions [m] from the end that meshes first, constant outside.
+
+    Positive where material is missing, along the transverse line of action.
+    """
+
+    position: tuple[float, ...]
+    gap: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Modifications:
     """Gaps [m] along the transverse line of action; positive where material is missing.
 
@@ -41,6 +58,7 @@ class Modifications:
     do shaft deviations over the face, in the plane of the shafts and out of it.
     tip_relief acts at E (pinion tip and gear root), root_relief at A; the caller adds the two members. Relief lengths
     run along the line of action, end relief length along the face [m]; None is the default of `modification.gap`.
+    lead_curve adds whatever else the gap does over the face.
     """
 
     profile_crowning: float = 0.0
@@ -56,6 +74,7 @@ class Modifications:
     end_relief: float = 0.0
     end_relief_length: float | None = None
     relief_exponent: float = 1.0
+    lead_curve: LeadCurve | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,11 +87,11 @@ class Model:
     "paper" (Eq. 1) F_bt.
     """
 
-    tooth_stiffness: Literal["ishikawa", "parabola"] = "ishikawa"
+    tooth_stiffness: ToothModel = "ishikawa"
     parabola_end_ratio: float = 0.757
-    contact: Literal["hertzian", "linear"] = "hertzian"
-    section: Literal["normal", "transverse"] = "normal"
-    load_convention: Literal["exact", "paper"] = "exact"
+    contact: ContactModel = "hertzian"
+    section: ToothSection = "normal"
+    load_convention: LoadConvention = "exact"
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,6 +146,6 @@ class ScuffingInputs:
     distribution: LoadDistributionInputs
     lubricant: Lubricant = field(default_factory=Lubricant)
     temperatures: Temperatures = field(default_factory=Temperatures)
-    lubrication: Literal["thermal_ehl", "closed_form"] = "thermal_ehl"
+    lubrication: Lubrication = "thermal_ehl"
     film: ehl.Model = field(default_factory=ehl.Model)
     path_points: int = 50

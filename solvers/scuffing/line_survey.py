@@ -7,9 +7,9 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
+from solvers.gears.path_of_contact import reduced_radius
 from solvers.scuffing.contact_lines import COINCIDENT, line_count, line_ends
 from solvers.scuffing.contact_slices import GAP, LENGTH, LIMIT, LINE, LOAD, Mesh, X, Y, load_at
-from solvers.scuffing.path_of_contact import reduced_radius
 
 
 class Survey(NamedTuple):

@@ -13,6 +13,7 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.errors import NoSolution
+from solvers.gears.path_of_contact import ContactPlane
 from solvers.scuffing.contact_lines import RollPositions, line_count
 from solvers.scuffing.contact_slices import (
     CONSTANT,
@@ -27,7 +28,6 @@ from solvers.scuffing.contact_slices import (
     load_at,
 )
 from solvers.scuffing.line_survey import Survey, empty_survey, survey_ends, survey_slices
-from solvers.scuffing.path_of_contact import ContactPlane
 from solvers.scuffing.tooth_stiffness import line_load
 
 MAX_STEPS = 60

@@ -7,7 +7,7 @@ the standard and were not read again.
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.scuffing.path_of_contact import PathOfContact
+from solvers.gears.path_of_contact import PathOfContact
 
 
 def iso_load_sharing(path: PathOfContact, x: FloatArray) -> FloatArray | None:

@@ -7,8 +7,8 @@ import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.gears.pair import GearPair
+from solvers.gears.path_of_contact import PathOfContact
 from solvers.scuffing.load_balance import LoadBalance
-from solvers.scuffing.path_of_contact import PathOfContact
 from solvers.scuffing.results import Stiffness, StiffnessCurves
 from solvers.scuffing.tooth_stiffness import single_stiffness
 from solvers.scuffing.transmission_error import period_mean

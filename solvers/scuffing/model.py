@@ -1,23 +1,26 @@
 """The load distribution of a helical or spur gear pair with modification and misalignment."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from solvers.arrays import frozen
 from solvers.contact.hertz import reduced_modulus
-from solvers.scuffing.contact_lines import ContactLengths, contact_lengths, roll_positions
+from solvers.gears.path_of_contact import PathOfContact, meshing_path
+from solvers.scuffing.contact_lines import ContactLengths, RollPositions, contact_lengths, roll_positions
 from solvers.scuffing.contact_slices import Mesh
 from solvers.scuffing.feature_line import feature_line
 from solvers.scuffing.flank import face_load_factor, flank
 from solvers.scuffing.friction_loss import friction_loss
-from solvers.scuffing.inputs import LoadDistributionInputs
+from solvers.scuffing.inputs import Load, LoadDistributionInputs
 from solvers.scuffing.line_survey import Peak, largest
 from solvers.scuffing.load_balance import LoadBalance, balance_load
 from solvers.scuffing.mesh_stiffness import stiffness
-from solvers.scuffing.modification import gap
+from solvers.scuffing.modification import Gap, gap
 from solvers.scuffing.notices import geometry_notices, load_notices, model_notices
-from solvers.scuffing.path_of_contact import PathOfContact, meshing_path
 from solvers.scuffing.results import (
     ContactLines,
+    Derived,
     Flank,
     Geometry,
     LengthCurves,
@@ -30,31 +33,63 @@ from solvers.scuffing.tooth_stiffness import pair_compliance
 from solvers.scuffing.transmission_error import transmission_error
 
 
+@dataclass(frozen=True, slots=True)
+class PreparedMesh:
+    """All of a load distribution that its gap does not change: path and lengths of contact, mesh, roll positions.
+
+    tangential_force is F_bt, force the one in balance [N]; the gap of `mesh` is that of the inputs.
+    """
+
+    path: PathOfContact
+    lengths: ContactLengths
+    mesh: Mesh
+    rolls: RollPositions
+    tangential_force: float
+    force: float
+
+
+def mesh_of(inputs: LoadDistributionInputs) -> PreparedMesh:
+    """The mesh ready to be loaded.
+
+    Raises InvalidInput where the pair cannot mesh (see `gear_pair`, `path_of_contact`, `contact_lengths`) or options
+    exclude each other (`pair_compliance`).
+    """
+    path = meshing_path(inputs.gears)
+    compliance = pair_compliance(path, inputs.pinion_material, inputs.wheel_material, inputs.model)
+    tangential_force = inputs.load.pinion_torque / path.pair.pinion.base_radius
+    normal_force = tangential_force / path.plane.cos_base_helix
+    return PreparedMesh(
+        path=path,
+        lengths=contact_lengths(path),
+        mesh=Mesh(path.plane, compliance, gap(inputs.modifications, path)),
+        rolls=roll_positions(path.plane, inputs.resolution.roll_positions),
+        tangential_force=tangential_force,
+        force=normal_force if inputs.model.load_convention == "exact" else tangential_force,
+    )
+
+
 def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
     """Load, pressure, transmission error and loss over the plane of action.
 
-    Raises InvalidInput where the pair cannot mesh (see `gear_pair`, `path_of_contact`, `contact_lengths`) or options
-    exclude each other (`pair_compliance`); NoSolution if the load balance does not converge.
+    Raises what `mesh_of` raises; NoSolution if the load balance does not converge.
     """
-    pinion, wheel, resolution = inputs.pinion_material, inputs.wheel_material, inputs.resolution
-    path = meshing_path(inputs.gears)
-    lengths = contact_lengths(path)
-    mesh = Mesh(path.plane, pair_compliance(path, pinion, wheel, inputs.model), gap(inputs.modifications, path))
-    rolls = roll_positions(path.plane, resolution.roll_positions)
+    prepared = mesh_of(inputs)
+    balance = balance_load(prepared.mesh, prepared.rolls, prepared.force, inputs.resolution.slices)
+    return distribution(inputs, prepared, balance)
 
-    tangential_force = inputs.load.pinion_torque / path.pair.pinion.base_radius
-    normal_force = tangential_force / path.plane.cos_base_helix
-    force = normal_force if inputs.model.load_convention == "exact" else tangential_force
-    balance = balance_load(mesh, rolls, force, resolution.slices)
 
-    modulus = reduced_modulus(pinion, wheel)
+def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance: LoadBalance) -> LoadDistribution:
+    """What a balance says, of the inputs' own gap or of another."""
+    path, lengths, resolution = prepared.path, prepared.lengths, inputs.resolution
+    modulus = reduced_modulus(inputs.pinion_material, inputs.wheel_material)
     loads = flank(balance, modulus, resolution.profile_points, resolution.face_points)
+    tangential_force = prepared.tangential_force
     return LoadDistribution(
         path_of_contact=path,
         balance=balance,
         geometry=_geometry(path),
         contact_lines=_contact_lines(lengths, balance),
-        stiffness=stiffness(path, balance, force / lengths.mean, tangential_force),
+        stiffness=stiffness(path, balance, balance.force / lengths.mean, tangential_force),
         transmission_error=transmission_error(balance),
         load=_load_on_flank(path, balance, loads, inputs.load.pinion_torque, tangential_force),
         pressure=_pressure(path, balance, modulus),
@@ -63,6 +98,7 @@ def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
             path, balance, inputs.load.pinion_speed, tangential_force, modulus, resolution.feature_points
         ),
         flank=loads,
+        derived=_derived(path, balance.mesh.gap, inputs.load),
         warnings=(
             *geometry_notices(path, lengths),
             *model_notices(path, inputs.model),
@@ -84,6 +120,18 @@ def _geometry(path: PathOfContact) -> Geometry:
         overlap_ratio=path.overlap_ratio,
         total_contact_ratio=path.total_contact_ratio,
         undercut=pair.pinion.undercut or pair.wheel.undercut,
+    )
+
+
+def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
+    """What the inputs left open."""
+    return Derived(
+        pinion_torque=load.pinion_torque,
+        power=load.power,
+        centre_distance=path.pair.centre_distance,
+        tip_relief_length=form.tip_relief_length,
+        root_relief_length=form.root_relief_length,
+        end_relief_length=form.end_relief_length,
     )
 
 

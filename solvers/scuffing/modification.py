@@ -7,12 +7,19 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.scuffing.inputs import Modifications
-from solvers.scuffing.path_of_contact import PathOfContact
+from solvers.errors import InvalidInput
+from solvers.gears.path_of_contact import PathOfContact
+from solvers.scuffing.inputs import LeadCurve, Modifications
+from solvers.scuffing.tables import tabulated
+
+LEAD_POINTS = 401
 
 
 class Gap(NamedTuple):
-    """Gap Delta(x, y) along the transverse line of action; amplitudes and lengths [m], all lengths resolved."""
+    """Gap Delta(x, y) along the transverse line of action; amplitudes and lengths [m], all lengths resolved.
+
+    `lead` is a gap [m] at equidistant points of the face, both ends among them.
+    """
 
     path_length: float
     face_width: float
@@ -27,6 +34,7 @@ class Gap(NamedTuple):
     end_relief: float
     end_relief_length: float
     exponent: float
+    lead: FloatArray
 
 
 def gap(modifications: Modifications, path: PathOfContact) -> Gap:
@@ -53,7 +61,22 @@ def gap(modifications: Modifications, path: PathOfContact) -> Gap:
         m.end_relief,
         0.1 * width if m.end_relief_length is None else m.end_relief_length,
         float(m.relief_exponent),
+        np.zeros(2) if m.lead_curve is None else lead_table(m.lead_curve, width),
     )
+
+
+def lead_table(curve: LeadCurve, face_width: float) -> FloatArray:
+    """The curve at equidistant points of the face.
+
+    Raises InvalidInput lead_curve where it has fewer than two points, or they do not rise within the face.
+    """
+    position, value = np.asarray(curve.position), np.asarray(curve.gap)
+    rising = position.size >= 2 and bool(np.all(np.diff(position) > 0.0))
+    if not rising or position.size != value.size or position[0] < 0.0 or position[-1] > face_width * (1 + 1e-9):
+        raise InvalidInput(
+            "lead_curve", "give two points or more, rising from 0 to the face width, and one gap each", "lead_curve"
+        )
+    return np.asarray(np.interp(np.linspace(0.0, face_width, LEAD_POINTS), position, value))
 
 
 def misalignment_slope(in_plane: float, out_of_plane: float, working_pressure_angle: float) -> float:
@@ -82,6 +105,7 @@ def gap_at(form: Gap, x: float, y: float) -> float:
     value += form.profile_slope * xi + form.helix_slope * eta
     value += _relief(form.tip_relief, form.tip_relief_length, form.path_length - x, form.exponent)
     value += _relief(form.root_relief, form.root_relief_length, x, form.exponent)
+    value += tabulated(form.lead, (form.lead.size - 1) / form.face_width, y)
     return value + _relief(form.end_relief, form.end_relief_length, min(y, form.face_width - y), form.exponent)
 
 

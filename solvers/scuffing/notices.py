@@ -5,51 +5,23 @@ from math import degrees
 import numpy as np
 
 from solvers.gears.inputs import GearPairInputs
-from solvers.gears.pair import full_rack_tip_radius
+from solvers.gears.notices import pair_notices
+from solvers.gears.path_of_contact import PathOfContact, reduced_radius
 from solvers.notices import Notice
 from solvers.scuffing.contact_lines import ContactLengths
 from solvers.scuffing.inputs import Model
 from solvers.scuffing.load_balance import LoadBalance
-from solvers.scuffing.path_of_contact import PathOfContact, reduced_radius
 
 LEAST_TEETH = 8
 PRESSURE_ANGLES = (14.5, 30.0)  # degrees
 LARGEST_HELIX = 45.0  # degrees
 TRANSVERSE_HELIX = 15.0  # degrees
-THIN_TIP = 0.2  # normal modules
 LEAST_LENGTH_RATIO = 0.2
 
 
 def geometry_notices(path: PathOfContact, lengths: ContactLengths) -> list[Notice]:
-    """Undercut, thin tips, shortened path, pitch point outside it, uneven contact length, ranges of the model."""
-    notices = _range_notices(path.pair.inputs)
-    for gear, name in ((path.pair.pinion, "pinion"), (path.pair.wheel, "wheel")):
-        if gear.undercut:
-            notices.append(
-                Notice(
-                    "undercut",
-                    f"the {name} is undercut; its involute counts from the base circle up, so contact near it is less "
-                    "than computed",
-                    f"{name}.profile_shift",
-                )
-            )
-        tip = 2 * gear.tip_radius * gear.half_tooth_angle(gear.tip_radius) / path.pair.inputs.normal_module
-        if tip < THIN_TIP:
-            notices.append(
-                Notice(
-                    "thin_tip",
-                    f"the {name}'s tip is {tip:.2f} modules thick; at least 0.2 is usual, 0.4 case-hardened",
-                    f"{name}.addendum",
-                )
-            )
-    notices += [
-        Notice(
-            "path_shortened",
-            f"the mate's tip reaches the {name}'s fillet; the path of contact ends where its involute begins",
-            f"{name}.dedendum",
-        )
-        for name in path.shortened_by
-    ]
+    """What is said of the pair, ranges of the model, pitch point outside the path, uneven contact length."""
+    notices = [*pair_notices(path), *_range_notices(path.pair.inputs)]
     if not path.start <= path.pitch_point <= path.end:
         notices.append(
             Notice("pitch_point_outside", "the path of contact does not hold the pitch point", "profile_shift")
@@ -66,18 +38,9 @@ def geometry_notices(path: PathOfContact, lengths: ContactLengths) -> list[Notic
 
 
 def _range_notices(inputs: GearPairInputs) -> list[Notice]:
-    """Rack tip and the ranges of teeth, pressure angle and helix angle the model was made for."""
+    """The ranges of teeth, pressure angle and helix angle the model was made for."""
     notices = []
     for teeth, name in ((inputs.pinion, "pinion"), (inputs.wheel, "wheel")):
-        room = full_rack_tip_radius(teeth.dedendum, inputs.normal_pressure_angle)
-        if inputs.rack_tip_radius > room:
-            notices.append(
-                Notice(
-                    "rack_tip_radius",
-                    f"the {name}'s rack has room for a tip radius of {room:.3f} modules only; that is used",
-                    "rack_tip_radius",
-                )
-            )
         if teeth.teeth < LEAST_TEETH:
             notices.append(Notice("teeth_range", "the model is meant for 8 teeth and more", f"{name}.teeth"))
     pressure_angle, helix_angle = degrees(inputs.normal_pressure_angle), degrees(inputs.helix_angle)

@@ -5,10 +5,10 @@ x runs along the path from A to E, y along the face from the end that meshes fir
 
 from dataclasses import dataclass
 
-from solvers.arrays import FloatArray
+from solvers.arrays import BoolArray, FloatArray, frozen
+from solvers.gears.path_of_contact import PathOfContact
 from solvers.notices import Notice
 from solvers.scuffing.load_balance import LoadBalance
-from solvers.scuffing.path_of_contact import PathOfContact
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,14 +138,12 @@ class FrictionLoss:
 
 
 @dataclass(frozen=True, slots=True)
-class FeatureLine:
-    """Along the feature line: line load [N/m], Hertz pressure [Pa], half width and reduced radius [m], speeds [m/s].
+class ContactPoints:
+    """At points of the flank: line load [N/m], Hertz pressure [Pa], half width and reduced radius [m], speeds [m/s].
 
-    pressure is NaN where the reduced radius vanishes; load sharing is None without load, the standard's also where it
-    has no diagram.
+    pressure is NaN where the reduced radius vanishes.
     """
 
-    psi: FloatArray
     gamma: FloatArray
     line_load: FloatArray
     pressure: FloatArray
@@ -153,7 +151,23 @@ class FeatureLine:
     radius: FloatArray
     pinion_speed: FloatArray
     wheel_speed: FloatArray
-    sliding: FloatArray
+
+    @property
+    def sliding(self) -> FloatArray:
+        """Sliding velocity u_1 - u_2 [m/s]."""
+        return frozen(self.pinion_speed - self.wheel_speed)
+
+    @property
+    def in_contact(self) -> BoolArray:
+        """Where the flanks touch and move, so that film and flash temperature have a meaning."""
+        return (self.line_load > 0.0) & (self.half_width > 0.0) & (self.pinion_speed + self.wheel_speed > 0.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class FeatureLine(ContactPoints):
+    """Points along the feature line; load sharing is None without load, the standard's also where it has no diagram."""
+
+    psi: FloatArray
     load_sharing: FloatArray | None
     iso_load_sharing: FloatArray | None
 
@@ -167,6 +181,18 @@ class Flank:
     modification: FloatArray
     line_load: FloatArray
     pressure: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Derived:
+    """What follows from the inputs before any physics: torque [N m], power [W], lengths [m]."""
+
+    pinion_torque: float
+    power: float
+    centre_distance: float
+    tip_relief_length: float
+    root_relief_length: float
+    end_relief_length: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,4 +210,5 @@ class LoadDistribution:
     friction_loss: FrictionLoss
     feature_line: FeatureLine
     flank: Flank
+    derived: Derived
     warnings: tuple[Notice, ...]

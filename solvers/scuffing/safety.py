@@ -15,9 +15,9 @@ from solvers.contact.hertz import reduced_modulus
 from solvers.errors import InvalidInput
 from solvers.notices import Notice
 from solvers.scuffing.feature_line import feature_line
-from solvers.scuffing.inputs import ScuffingInputs, Temperatures
+from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs, Temperatures
 from solvers.scuffing.model import solve
-from solvers.scuffing.results import FeatureLine
+from solvers.scuffing.results import ContactPoints, FeatureLine
 from solvers.scuffing.safety_results import ContactTemperature, Film, Flash, Safety, Scuffing, ScuffingPath
 from solvers.scuffing.thermal_path import ThermalPath, thermal_path
 
@@ -40,7 +40,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
         modulus,
         inputs.path_points,
     )
-    loaded = (line.line_load > 0.0) & (line.half_width > 0.0) & (line.pinion_speed + line.wheel_speed > 0.0)
+    loaded = line.in_contact
     path = _closed_form_path(inputs, line, loaded, modulus)
     warnings = distribution.warnings
     if inputs.lubrication == "thermal_ehl":
@@ -92,21 +92,27 @@ def _safety(temperatures: Temperatures, contact: ContactTemperature) -> Safety |
     )
 
 
+def blok_flash(given: LoadDistributionInputs, points: ContactPoints) -> FloatArray:
+    """Blok's flash temperature [K] (Eq. 25) at the points; 0 where nothing touches or moves."""
+    flash, touching = np.zeros(points.line_load.shape), points.in_contact
+    flash[touching] = blok_flash_temperature(
+        friction=given.friction_coefficient,
+        line_load=points.line_load[touching],
+        speed_1=points.pinion_speed[touching],
+        speed_2=points.wheel_speed[touching],
+        half_width=points.half_width[touching],
+        solid_1=given.pinion_material,
+        solid_2=given.wheel_material,
+    )
+    return flash
+
+
 def _closed_form_path(inputs: ScuffingInputs, line: FeatureLine, loaded: BoolArray, modulus: float) -> ScuffingPath:
     """Flash temperature (Eq. 25) and film (Eqs. 27, 28) along the feature line."""
     given, lubricant = inputs.distribution, inputs.lubricant
     pinion, wheel = given.pinion_material, given.wheel_material
-    flash, film = np.zeros(line.psi.size), np.full(line.psi.size, np.nan)
+    film = np.full(line.psi.size, np.nan)
     speed_1, speed_2, load = line.pinion_speed[loaded], line.wheel_speed[loaded], line.line_load[loaded]
-    flash[loaded] = blok_flash_temperature(
-        friction=given.friction_coefficient,
-        line_load=load,
-        speed_1=speed_1,
-        speed_2=speed_2,
-        half_width=line.half_width[loaded],
-        solid_1=pinion,
-        solid_2=wheel,
-    )
     film[loaded] = dowson_higginson_minimum(
         viscosity=lubricant.viscosity_at(0.0, inputs.temperatures.bulk),
         pressure_viscosity=lubricant.pressure_viscosity,
@@ -118,7 +124,7 @@ def _closed_form_path(inputs: ScuffingInputs, line: FeatureLine, loaded: BoolArr
     return ScuffingPath(
         psi=line.psi,
         status=tuple("ok" if point else "unloaded" for point in loaded),
-        blok_flash=frozen(flash),
+        blok_flash=frozen(blok_flash(given, line)),
         dowson_higginson=frozen(film),
         thickness_ratio=frozen(thickness_ratio(film, pinion.roughness, wheel.roughness)),
     )

@@ -1,4 +1,4 @@
-"""The thermal EHL solution along the feature line: film, flash temperatures and friction under the local load."""
+"""The thermal EHL solution along a line of the flank: film, flash temperatures and friction under the local load."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -10,7 +10,7 @@ from solvers.contact import ehl
 from solvers.errors import InvalidInput
 from solvers.notices import Notice
 from solvers.scuffing.inputs import ScuffingInputs
-from solvers.scuffing.results import FeatureLine
+from solvers.scuffing.results import ContactPoints
 from solvers.scuffing.safety_results import PointStatus
 
 # What a contact is given, by the name of the scuffing input that decides it; other names are the same.
@@ -40,21 +40,21 @@ class ThermalPath:
     film_max_temperature: FloatArray
 
 
-def thermal_path(inputs: ScuffingInputs, line: FeatureLine, loaded: BoolArray) -> ThermalPath:
-    """Solve every loaded point of the feature line, each from its neighbour; oil enters at bulk temperature.
+def thermal_path(inputs: ScuffingInputs, points: ContactPoints, loaded: BoolArray) -> ThermalPath:
+    """Solve every loaded point of a line, each from its neighbour; oil enters at bulk temperature.
 
     A point outside the range of the solver is "refused", one without convergence "no_solution"; neither stops the
     others. Raises the solver's InvalidInput where it refuses every point.
     """
-    contacts = {point: _contact(inputs, line, point) for point in np.flatnonzero(loaded).tolist()}
+    contacts = {point: _contact(inputs, points, point) for point in np.flatnonzero(loaded).tolist()}
     refusals = {point: refusal for point, contact in contacts.items() if (refusal := _refusal(contact)) is not None}
     if refusals and len(refusals) == len(contacts):
         first = next(iter(refusals.values()))
         raise InvalidInput(first.code, first.message, _field(first.field))
     solvable = [point for point in contacts if point not in refusals]
     results = dict(zip(solvable, ehl.solve_path([contacts[point] for point in solvable]), strict=True))
-    status: list[PointStatus] = ["unloaded"] * line.psi.size
-    values = np.full((7, line.psi.size), np.nan)
+    status: list[PointStatus] = ["unloaded"] * loaded.size
+    values = np.full((7, loaded.size), np.nan)
     for point in refusals:
         status[point] = "refused"
     for point, result in results.items():
@@ -65,14 +65,14 @@ def thermal_path(inputs: ScuffingInputs, line: FeatureLine, loaded: BoolArray) -
     return ThermalPath(tuple(status), warnings, *(frozen(row) for row in values))
 
 
-def _contact(inputs: ScuffingInputs, line: FeatureLine, point: int) -> ehl.LineContactInputs:
+def _contact(inputs: ScuffingInputs, points: ContactPoints, point: int) -> ehl.LineContactInputs:
     given, bulk = inputs.distribution, inputs.temperatures.bulk
     return ehl.LineContactInputs(
         contact=ehl.Contact(
-            line_load=float(line.line_load[point]),
-            radius=float(line.radius[point]),
-            speed_1=float(line.pinion_speed[point]),
-            speed_2=float(line.wheel_speed[point]),
+            line_load=float(points.line_load[point]),
+            radius=float(points.radius[point]),
+            speed_1=float(points.pinion_speed[point]),
+            speed_2=float(points.wheel_speed[point]),
         ),
         surface_1=given.pinion_material,
         surface_2=given.wheel_material,

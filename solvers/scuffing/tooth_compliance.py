@@ -1,15 +1,16 @@
 """Compliance of one tooth: Ishikawa's rectangle and trapezium (Eqs. 5-6), per unit width, along the load."""
 
 from dataclasses import dataclass
-from math import cos, pi, sin, sqrt, tan
+from math import cos, pi, sin, sqrt
 from typing import Literal
 
 import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.errors import InvalidInput
-from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.gears.pair import Gear, GearPair, full_rack_tip_radius, involute
+from solvers.gears.gear import Gear, virtual_gear
+from solvers.gears.inputs import GearTeeth
+from solvers.gears.pair import GearPair
 from solvers.materials import Solid
 
 
@@ -38,26 +39,7 @@ class ToothShape:
 
 def section_gear(pair: GearPair, gear: Gear, teeth: GearTeeth, section: Literal["normal", "transverse"]) -> Gear:
     """The gear whose teeth are bent: itself, or the virtual spur gear of z / (cos^2 beta_b cos beta) teeth."""
-    return gear if section == "transverse" else _virtual_gear(pair.inputs, gear, teeth, pair.base_helix_angle)
-
-
-def _virtual_gear(inputs: GearPairInputs, gear: Gear, teeth: GearTeeth, base_helix_angle: float) -> Gear:
-    """The virtual spur gear of the normal section, cut by the same rack."""
-    module, angle = inputs.normal_module, inputs.normal_pressure_angle
-    virtual_teeth = teeth.teeth / (cos(base_helix_angle) ** 2 * cos(inputs.helix_angle))
-    radius = module * virtual_teeth / 2
-    rack_tip = min(inputs.rack_tip_radius, full_rack_tip_radius(teeth.dedendum, angle)) * (1.0 - sin(angle))
-    straight_depth = module * (teeth.dedendum - teeth.profile_shift - rack_tip)
-    return Gear(
-        teeth=gear.teeth,
-        reference_radius=radius,
-        base_radius=radius * cos(angle),
-        tip_radius=radius + (teeth.profile_shift + teeth.addendum) * module,
-        root_radius=radius + (teeth.profile_shift - teeth.dedendum) * module,
-        reference_half_angle=(module * pi / 2 + 2 * teeth.profile_shift * module * tan(angle)) / (2 * radius),
-        reference_involute=involute(angle),
-        form_roll_length=radius * sin(angle) - straight_depth / sin(angle),
-    )
+    return gear if section == "transverse" else virtual_gear(pair.inputs, teeth, pair.base_helix_angle)
 
 
 def tooth_shape(gear: Gear) -> ToothShape:

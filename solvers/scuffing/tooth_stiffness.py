@@ -17,10 +17,10 @@ from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.contact.hertz import reduced_modulus
 from solvers.errors import InvalidInput
-from solvers.gears.pair import Gear
+from solvers.gears.gear import Gear
+from solvers.gears.path_of_contact import PathOfContact, reduced_radius
 from solvers.materials import Solid
 from solvers.scuffing.inputs import Model
-from solvers.scuffing.path_of_contact import PathOfContact, reduced_radius
 from solvers.scuffing.tooth_compliance import bending_compliance, load_points, section_gear, tooth_shape
 
 TABLE_POINTS = 801
@@ -117,15 +117,6 @@ def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tu
 def _parabola(fraction: FloatArray, end_ratio: float) -> FloatArray:
     """1 - (1 - r)(2 xi - 1)^2, calibrated to the paper's load maxima with r = 0.757."""
     return np.asarray(1 - (1 - end_ratio) * (2 * fraction - 1) ** 2)
-
-
-@kernel
-def tabulated(table: FloatArray, points_per_metre: float, x: float) -> float:
-    """Linear interpolation in an equidistant table that begins at x = 0."""
-    position = x * points_per_metre
-    index = min(max(int(position), 0), table.size - 2)
-    low, high = float(table[index]), float(table[index + 1])
-    return low + (position - index) * (high - low)
 
 
 @kernel

@@ -8,7 +8,7 @@ import pytest
 from pydantic import BaseModel
 
 from app.calculations import CALCULATIONS
-from app.units import split_unit
+from app.contract.units import split_unit
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,7 @@ import sys
 COUNT_COLD = """
 import gc
 from numba.core.registry import CPUDispatcher
-from app.answers import answer
+from app.formats.json import answer
 from app.calculations import CALCULATIONS
 from app.library import examples
 from app.warm_up import warm_up

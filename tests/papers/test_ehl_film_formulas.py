@@ -64,7 +64,7 @@ def test_compression_thins_the_centre_of_the_film(w: float) -> None:
     assert thin.film.central is not None
     assert thick.film.central is not None
     oil = Lubricant()
-    compression = oil.density_at(thin.hertz.maximum_pressure, oil.reference_temperature) / oil.density
+    compression = oil.density_at(thin.hertz.max_pressure, oil.reference_temperature) / oil.density
     assert 0.98 < compression * thin.film.central / thick.film.central < 1.05
 
 

@@ -79,7 +79,7 @@ def test_isothermal_spike_sharpens_with_the_mesh_at_one_place() -> None:
 def test_hertz_contact() -> None:
     result = point_a()
     assert result.hertz.half_width == pytest.approx(0.1110e-3, rel=5e-4)
-    assert result.hertz.maximum_pressure == pytest.approx(1.5652e9, rel=1e-4)
+    assert result.hertz.max_pressure == pytest.approx(1.5652e9, rel=1e-4)
     assert result.dimensionless.moes_m == pytest.approx(14.73, abs=0.005)
     assert result.dimensionless.moes_l == pytest.approx(22.39, abs=0.005)
 

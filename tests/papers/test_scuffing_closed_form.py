@@ -15,11 +15,11 @@ from solvers.contact.film import dowson_higginson_minimum, thickness_ratio, thic
 from solvers.contact.flash import blok_flash_temperature
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.path_of_contact import reduced_radius
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 from solvers.scuffing import solve_load_distribution, solve_scuffing
 from solvers.scuffing.inputs import ScuffingInputs, Temperatures
-from solvers.scuffing.path_of_contact import reduced_radius
 from solvers.scuffing.safety import safety_factor
 from solvers.scuffing.safety_results import Scuffing
 from tests.gear_pairs import PAPER_SPEED, paper_gears, paper_pair

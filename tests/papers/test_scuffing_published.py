@@ -12,28 +12,20 @@ from solvers.contact import hertz
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
+from solvers.gears.path_of_contact import path_of_contact, reduced_radius
 from solvers.materials import Solid
 from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, Resolution, angular_speed
 from solvers.scuffing.load_balance import line_loads
 from solvers.scuffing.mesh_stiffness import standard_stiffness
-from solvers.scuffing.path_of_contact import path_of_contact, reduced_radius
 from solvers.scuffing.tooth_stiffness import linear_contact_compliance
-from tests.gear_pairs import PAPER_LOAD, paper_pair, with_torque
+from tests.gear_pairs import FZG_A, PAPER_LOAD, paper_pair, with_torque
 
 STEEL = Solid()
 MODULUS = hertz.reduced_modulus(STEEL, STEEL)
 UNIFORM = Model(tooth_stiffness="parabola", parabola_end_ratio=1.0, contact="linear")
 
-# FZG test gears type A (ISO 14635-1): tip diameters 88.8 and 112.5 mm, centre distance 91.5 mm, which its rounded
-# shifts make 91.50008 mm without backlash.
-FZG_A = GearPairInputs(
-    GearTeeth(16, 0.8532, addendum=88.8 / 9 - 8 - 0.8532),
-    GearTeeth(24, -0.5, addendum=112.5 / 9 - 12 + 0.5),
-    4.5e-3,
-    20e-3,
-    rack_tip_radius=0.38,
-)
+# FZG type A (ISO 14635-1)
 STAGES = (
     (3.3, 144.8),
     (13.7, 295.0),

@@ -12,11 +12,11 @@ from scipy.optimize import brentq
 from solvers.contact.hertz import half_width, reduced_modulus
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
+from solvers.gears.path_of_contact import path_of_contact, reduced_radius
 from solvers.materials import Solid
 from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.inputs import Model, Modifications, Resolution
 from solvers.scuffing.modification import gap, gaps_at, misalignment_slope
-from solvers.scuffing.path_of_contact import path_of_contact, reduced_radius
 from solvers.scuffing.tooth_compliance import bending_compliance, load_points, root_rotation, section_gear, tooth_shape
 from solvers.scuffing.tooth_stiffness import line_load, pair_compliance, single_stiffness
 from tests.gear_pairs import PAPER_MODIFICATIONS, paper_gears, paper_pair

@@ -1,16 +1,18 @@
 """The lubricated line contact: pressure, film, temperature and friction, isothermal or thermal."""
 
 from solvers.contact.ehl.checks import check
-from solvers.contact.ehl.inputs import Contact, LineContactInputs, Model, Temperatures
+from solvers.contact.ehl.inputs import Contact, LineContactInputs, Model, Rheology, Temperatures
 from solvers.contact.ehl.model import solve, warm_up
 from solvers.contact.ehl.path import solve_path
-from solvers.contact.ehl.results import LineContactResult
+from solvers.contact.ehl.results import LineContactResult, Stage
 
 __all__ = [
     "Contact",
     "LineContactInputs",
     "LineContactResult",
     "Model",
+    "Rheology",
+    "Stage",
     "Temperatures",
     "check",
     "solve",

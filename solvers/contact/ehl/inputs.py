@@ -6,6 +6,8 @@ from typing import Literal
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 
+Rheology = Literal["ree_eyring", "newtonian"]
+
 
 @dataclass(frozen=True, slots=True)
 class Contact:
@@ -48,7 +50,7 @@ class Model:
     """
 
     thermal: bool = True
-    rheology: Literal["ree_eyring", "newtonian"] = "ree_eyring"
+    rheology: Rheology = "ree_eyring"
     eyring_stress: float = 5e6
     nodes: int = 121
     film_nodes: int = 21

@@ -19,6 +19,7 @@ from solvers.contact.ehl.notices import failure_notice, input_notices, result_no
 from solvers.contact.ehl.problem import Problem, peclet_number, problem
 from solvers.contact.ehl.results import (
     Convergence,
+    Derived,
     Dimensionless,
     FilmThickness,
     HertzContact,
@@ -79,6 +80,7 @@ def result(
         convergence=convergence,
         curves=None,
         field=None,
+        derived=Derived(inputs.contact.entrainment_speed, scales.reduced_modulus),
         warnings=tuple(notices),
     )
     if not (attempt.converged and balanced and convergence.load_error < WORST_LOAD):

@@ -12,10 +12,10 @@ Stage = Literal["isothermal", "coupling", "heat_balance"]
 
 @dataclass(frozen=True, slots=True)
 class HertzContact:
-    """Dry contact: half_width [m], maximum_pressure [Pa]."""
+    """Dry contact: half_width [m], max_pressure [Pa]."""
 
     half_width: float
-    maximum_pressure: float
+    max_pressure: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,6 +154,14 @@ class ContactField:
 
 
 @dataclass(frozen=True, slots=True)
+class Derived:
+    """What follows from the inputs before any physics: mean surface speed [m/s], reduced modulus E' [Pa]."""
+
+    entrainment_speed: float
+    reduced_modulus: float
+
+
+@dataclass(frozen=True, slots=True)
 class LineContactResult:
     """A lubricated line contact; what was not solved is None, and then status is no_solution."""
 
@@ -168,6 +176,7 @@ class LineContactResult:
     convergence: Convergence
     curves: ContactCurves | None
     field: ContactField | None
+    derived: Derived
     warnings: tuple[Notice, ...]
 
     @property

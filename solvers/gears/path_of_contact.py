@@ -7,7 +7,7 @@ from typing import NamedTuple, TypeVar
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.errors import InvalidInput
+from solvers.gears.checks import check_path, check_usable_flank
 from solvers.gears.inputs import GearPairInputs
 from solvers.gears.pair import GearPair, gear_pair
 
@@ -16,8 +16,7 @@ Real = TypeVar("Real", float, FloatArray)
 # A helix whose overlap is below this is a spur gear: its contact line would enter within rounding of one roll position.
 LEAST_OVERLAP = 1e-9
 LEAST_RADIUS = 1e-6  # normal modules
-# Published pairs print a centre distance and profile shifts rounded to four digits: FZG type A overlaps by 1e-6 of it.
-ROUNDED_SHIFTS = 1e-5
+ROUNDING = 1e-9  # of the line of action
 
 
 class ContactPlane(NamedTuple):
@@ -121,34 +120,22 @@ class PathOfContact:
 
 
 def meshing_path(gears: GearPairInputs) -> PathOfContact:
-    """The path of contact of a pair; raises what `gear_pair` and `path_of_contact` raise.
-
-    Backlash does not enter the model, so that a centre distance may be below the backlash-free one by rounding.
-    """
-    return path_of_contact(gear_pair(gears, slack=ROUNDED_SHIFTS))
+    """The path of contact of a pair; raises what `gear_pair` and `path_of_contact` raise."""
+    return path_of_contact(gear_pair(gears))
 
 
 def path_of_contact(pair: GearPair) -> PathOfContact:
     """The path between the tip circles, cut short where an involute begins only after it.
 
-    Raises InvalidInput: form_diameter (a fillet reaches the gear's own tip), involute_interference (the fillets leave
-    nothing of the path), no_contact (the tips do not reach the line of action).
+    Raises InvalidInput: form_diameter (a fillet reaches the gear's own tip), no_contact (the tips do not reach the
+    line of action), involute_interference (the fillets leave nothing of the path).
     """
     whole = pair.line_of_action
-    starts = []
-    for gear, name in ((pair.pinion, "pinion"), (pair.wheel, "wheel")):
-        starts.append(max(gear.form_roll_length, 0.0))
-        if starts[-1] >= gear.tip_roll_length:
-            raise InvalidInput(
-                "form_diameter", f"the {name}'s fillet reaches its tip; no involute is left", f"{name}.profile_shift"
-            )
+    check_usable_flank(pair.pinion, "pinion")
+    check_usable_flank(pair.wheel, "wheel")
     tip_start, tip_end = whole - pair.wheel.tip_roll_length, pair.pinion.tip_roll_length
-    if tip_end <= tip_start:
-        raise InvalidInput("no_contact", "the tips do not reach the line of action", "centre_distance")
-    start, end = max(tip_start, starts[0]), min(tip_end, whole - starts[1])
-    if end <= start:
-        raise InvalidInput(
-            "involute_interference", "the tips meet fillets only; no path of contact is left", "profile_shift"
-        )
-    shortened = (("pinion", start > tip_start), ("wheel", end < tip_end))
-    return PathOfContact(pair, start, end, tuple(name for name, short in shortened if short))
+    start = max(tip_start, pair.pinion.usable_roll_length)
+    end = min(tip_end, whole - pair.wheel.usable_roll_length)
+    check_path(tip_start, tip_end, start, end)
+    lost = {"pinion": start - tip_start, "wheel": tip_end - end}
+    return PathOfContact(pair, start, end, tuple(name for name, length in lost.items() if length > ROUNDING * whole))

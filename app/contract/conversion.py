@@ -1,0 +1,113 @@
+"""From request fields to SI arguments, from SI results to response fields, by name and unit."""
+
+from dataclasses import dataclass
+from functools import cache
+from types import UnionType
+from typing import Annotated, Any, Union, get_args, get_origin
+
+import numpy as np
+
+from app.contract.quantities import Detail, Documented, Output
+from app.contract.units import Unit, split_unit
+
+LEVELS: tuple[Detail, ...] = ("summary", "curves", "fields")
+
+
+@dataclass(frozen=True, slots=True)
+class _Field:
+    """How one field of a schema maps to the solver."""
+
+    name: str
+    si_name: str
+    unit: Unit | None
+    level: int
+    group: type[Documented] | None
+
+
+@cache
+def _fields(model: type[Documented]) -> tuple[_Field, ...]:
+    return tuple(_field(name, info.annotation, info.metadata) for name, info in model.model_fields.items())
+
+
+def _field(name: str, annotation: Any, metadata: list[Any]) -> _Field:
+    si_name, unit = split_unit(name)
+    output = next((item for item in metadata if isinstance(item, Output)), None)
+    return _Field(name, si_name, unit, LEVELS.index(output.detail) if output else 0, group_of(annotation))
+
+
+def group_of(annotation: Any) -> type[Documented] | None:
+    """The group or section that a field holds, alone, optional or as the item of a list; None for plain values."""
+    if isinstance(annotation, type) and issubclass(annotation, Documented):
+        return annotation
+    if get_origin(annotation) in {Union, UnionType, list, Annotated}:
+        return next((group for kind in get_args(annotation) if (group := group_of(kind))), None)
+    return None
+
+
+def to_si(section: Documented) -> dict[str, Any]:
+    """The section's plain fields by their solver names, in SI; nested sections are left to the caller."""
+    return {
+        field.si_name: _scaled(getattr(section, field.name), field.unit)
+        for field in _fields(type(section))
+        if field.group is None
+    }
+
+
+def _scaled(value: Any, unit: Unit | None) -> Any:
+    match value:
+        case None | bool() | str():
+            return value
+        case list() | tuple():
+            return tuple(_scaled(item, unit) for item in value)
+        case _:
+            return value if unit is None else value * unit.scale + unit.offset
+
+
+def from_si(
+    group: type[Documented],
+    result: Any,
+    detail: Detail,
+    *,
+    unit: Unit | None = None,
+    skip: frozenset[str] = frozenset(),
+) -> dict[str, Any]:
+    """The fields of a response group read from the solver's result, in the units of their names.
+
+    Fields above the level of detail are left out, as are those to `skip`. A group whose name carries a unit hands it
+    down to its members.
+    """
+    level = LEVELS.index(detail)
+    return {
+        field.name: _leaf_or_group(field, getattr(result, field.si_name), detail, field.unit or unit)
+        for field in _fields(group)
+        if field.level <= level and field.name not in skip
+    }
+
+
+def _leaf_or_group(field: _Field, value: Any, detail: Detail, unit: Unit | None) -> Any:
+    if field.group is not None and value is not None:
+        return from_si(field.group, value, detail, unit=unit)
+    return _displayed(value, unit)
+
+
+def _displayed(value: Any, unit: Unit | None) -> Any:
+    """A value in the unit of its field; NaN inside an array marks a point without a value and becomes None."""
+    match value:
+        case None | bool() | str():
+            return value
+        case np.ndarray():
+            return _displayed_array(value, unit)
+        case tuple() | list():
+            return [_displayed(item, unit) for item in value]
+        case _:
+            return value if unit is None else (value - unit.offset) / unit.scale
+
+
+def _displayed_array(values: np.ndarray[Any, Any], unit: Unit | None) -> list[Any]:
+    if unit is not None:
+        values = (values - unit.offset) / unit.scale
+    if values.dtype.kind == "f" and np.isnan(values).any():
+        missing = np.isnan(values)
+        values = values.astype(object)
+        values[missing] = None
+    return values.tolist()  # type: ignore[no-any-return]

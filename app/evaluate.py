@@ -1,0 +1,88 @@
+"""From a validated request to its answer: every view starts from here."""
+
+from collections.abc import Iterator
+from functools import cache
+from typing import Any
+
+from app.calculations import Calculation
+from app.contract.cases import case_of
+from app.contract.conversion import from_si, group_of
+from app.contract.names import field_path
+from app.contract.quantities import Input
+from app.problems import Unprocessable
+from app.requests.common import Request, Section
+from app.responses.common import MODEL_VERSION, Assumption, Notice, Response
+from solvers import notices
+from solvers.errors import InvalidInput, NoSolution
+
+_COMMON = frozenset(Response.model_fields) - {"derived"}
+
+
+def evaluate(calculation: Calculation, request: Request) -> Response:
+    """The answer to a request, whatever will be made of it.
+
+    Raises Unprocessable where the solver finds the input impossible, and a validation error (never an answer) where
+    a result is not finite.
+    """
+    try:
+        result = calculation.solve(request.inputs())
+    except InvalidInput as error:
+        path = field_path(request, error.field) if error.field else None
+        raise Unprocessable(error.code, error.message, path) from error
+    except NoSolution as failure:
+        warning = Notice(code=failure.code, message=failure.message)
+        content: dict[str, Any] = {
+            "status": "no_solution",
+            "warnings": [warning],
+            "residuals": failure.residuals,
+        }
+    else:
+        warnings = [_notice(request, warning) for warning in result.warnings]
+        content = from_si(calculation.response, result, request.detail, skip=_COMMON)
+        content |= {"status": "ok_with_warnings" if warnings else "ok", "warnings": warnings}
+        if getattr(result, "status", None) == "no_solution":
+            content |= {"status": "no_solution", "residuals": result.residuals}
+    inputs = request.model_dump(exclude={"detail"})
+    content |= {
+        "assumptions": _assumptions(request, content.get("derived") or {}),
+        "model_version": MODEL_VERSION,
+        "model": request.options(),
+        "inputs": inputs,
+        "case": case_of(calculation.path, inputs, MODEL_VERSION),
+    }
+    return calculation.response.model_validate(content)
+
+
+def _notice(request: Request, warning: notices.Notice) -> Notice:
+    field = field_path(request, warning.field) if warning.field else None
+    return Notice(code=warning.code, message=warning.message, field=field)
+
+
+def _assumptions(request: Request, derived: dict[str, Any]) -> list[Assumption]:
+    """The defaults marked as ours that the result rests on; what a null stands for is found in `derived`."""
+    unused = request.unused_defaults()
+    return [
+        Assumption(field=path, value=derived.get(path.rpartition(".")[2]) if value is None else value, reason=reason)
+        for path, value, reason in _assumed(request, "")
+        if not any(path == name or path.startswith(f"{name}.") for name in unused)
+    ]
+
+
+def _assumed(section: Section, prefix: str) -> Iterator[tuple[str, Any, str]]:
+    for name, reason in _reasons(type(section)).items():
+        value = getattr(section, name)
+        if isinstance(value, Section):
+            yield from _assumed(value, f"{prefix}{name}.")
+        elif reason and (value is None or name not in section.model_fields_set):
+            yield f"{prefix}{name}", value, reason
+
+
+@cache
+def _reasons(section: type[Section]) -> dict[str, str | None]:
+    """The reason behind each default that is ours, and the sections that may hold more."""
+    reasons = {}
+    for name, info in section.model_fields.items():
+        reason = next((item.assumed for item in info.metadata if isinstance(item, Input)), None)
+        if reason or group_of(info.annotation):
+            reasons[name] = reason
+    return reasons

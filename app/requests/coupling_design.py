@@ -1,0 +1,260 @@
+"""A gear coupling's own data: teeth, operation, oil and friction."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from app.contract.quantities import Input
+from app.requests.common import Section
+from solvers.coupling import inputs as si
+
+PAHL = "Pahl 1978"
+FIG_8 = "Pahl 1978, Fig. 8"
+FIG_9 = "Pahl 1978, Fig. 9"
+FIG_10 = "Pahl 1978, Fig. 10"
+FIG_13 = "Pahl 1978, Fig. 13"
+
+
+class CouplingDesign(Section):
+    """The coupling without its crowning."""
+
+    teeth: Annotated[int, Input("number of teeth", "z", PAHL, ge=6, le=400)]
+    module_mm: Annotated[float, Input("module", "m", PAHL, ge=0.1, le=100)]
+    pressure_angle_deg: Annotated[
+        float, Input("pressure angle", "α", ge=1, lt=45, assumed="the usual rack; the paper gives none")
+    ] = 20.0
+    face_width_mm: Annotated[
+        float | None,
+        Input(
+            "hub tooth face width",
+            "b",
+            ge=0.1,
+            le=2000,
+            default_text="8 modules",
+            assumed="8 modules; the paper gives none",
+            tolerance=0.1,
+        ),
+    ] = None
+    tooth_height_mm: Annotated[
+        float | None,
+        Input(
+            "load-carrying tooth height",
+            "h_trag",
+            FIG_8,
+            text="load-carrying tooth height, the length of the contact line",
+            ge=0.05,
+            le=200,
+            default_text="2 modules",
+            assumed="2 modules; the paper gives none",
+            tolerance=0.05,
+        ),
+    ] = None
+    hub_distance_mm: Annotated[
+        float,
+        Input(
+            "distance of the tooth planes",
+            "l_H",
+            FIG_13,
+            text="distance of the two tooth planes",
+            ge=1,
+            le=20000,
+            assumed="order of magnitude",
+            tolerance=0.5,
+        ),
+    ] = 200.0
+    tooth_stiffness_n_per_um: Annotated[
+        float,
+        Input(
+            "tooth pair stiffness",
+            "c_t",
+            text="tangential stiffness of one tooth pair",
+            ge=0.1,
+            le=1e5,
+            assumed="order of magnitude of ISO 6336-1: 14 N/(mm µm) over 20 mm of effective width",
+        ),
+    ] = 280.0
+    sleeve_mass_kg: Annotated[
+        float,
+        Input(
+            "sleeve mass per mesh",
+            "m_s",
+            text="mass carried by one mesh, half the sleeve",
+            ge=1e-3,
+            le=1e4,
+            assumed="order of magnitude",
+        ),
+    ] = 4.0
+    pitch_errors_um: Annotated[
+        list[float] | None,
+        Field(min_length=1, max_length=1000),
+        Input(
+            "pitch errors",
+            "p_i",
+            "Pahl 1978, Fig. 4",
+            text="pitch errors, one per tooth, positive = early, carries more",
+            ge=-1e4,
+            le=1e4,
+            default_text="none",
+        ),
+    ] = None
+    youngs_modulus_gpa: Annotated[float, Input("Young's modulus of the teeth", "E", ge=1, le=2000, assumed="steel")] = (
+        206.0
+    )
+    poisson_ratio: Annotated[float, Input("Poisson's ratio of the teeth", "ν", ge=0, lt=0.5, assumed="steel")] = 0.3
+
+
+class CrownedCoupling(CouplingDesign):
+    """The coupling."""
+
+    crowning_ratio: Annotated[
+        float,
+        Input("crowning ratio", "ε", PAHL, text="crowning radius over pitch radius, 1: heavy", ge=0.2, le=1e3),
+    ] = 1.0
+
+
+class CouplingLoad(Section):
+    """Torque, speed and arrangement."""
+
+    torque_n_m: Annotated[float, Input("transmitted torque", "T", PAHL, ge=0, le=1e8)]
+    speed_rpm: Annotated[
+        float, Input("speed", "n", PAHL, text="speed; the sign is the sense of rotation", ge=-1e5, le=1e5)
+    ]
+    axial_velocity_mm_per_s: Annotated[
+        float,
+        Input(
+            "axial velocity",
+            "v_ax",
+            PAHL,
+            text="axial speed hub against sleeve at each mesh; positive: shafts move apart",
+            ge=-1e4,
+            le=1e4,
+        ),
+    ] = 0.0
+    arrangement: Annotated[
+        si.Arrangement,
+        Input("arrangement", None, FIG_13, text="one mesh; two with parallel offset (Z); two with an angle (M)"),
+    ] = "single"
+
+
+class CouplingOperation(CouplingLoad):
+    """Operating point."""
+
+    misalignment_deg: Annotated[
+        float,
+        Input(
+            "misalignment", "δ_HS", PAHL, text="tilt of hub against sleeve at one mesh", ge=-6, le=6, tolerance=0.005
+        ),
+    ]
+
+
+class CouplingOperationRange(CouplingLoad):
+    """Operating point with a range of misalignment."""
+
+    misalignment_range_deg: Annotated[
+        list[float],
+        Field(min_length=2, max_length=2),
+        Input("range of misalignment", "δ_HS", PAHL, text="smallest and largest tilt of hub in sleeve", ge=1e-4, le=6),
+    ]
+
+
+class CouplingLubricant(Section):
+    """Oil at the teeth."""
+
+    viscosity_pa_s: Annotated[
+        float,
+        Input("oil viscosity at the teeth", "η", FIG_8, ge=1e-5, le=100, assumed="ISO VG 46 near 50 °C"),
+    ] = si.Lubricant().viscosity
+    reference_film_um: Annotated[
+        float,
+        Input(
+            "reference film thickness",
+            "h_0",
+            FIG_8,
+            text="film thickness at which the load capacity is stated",
+            ge=1e-3,
+            le=1000,
+        ),
+    ] = 1.0
+
+
+class MixedFrictionTable(Section):
+    """Measured mixed friction against sliding velocity, held constant outside; a single point is a constant."""
+
+    sliding_velocity_m_per_s: Annotated[
+        list[float],
+        Field(min_length=1, max_length=1000),
+        Input("table of sliding velocities", "v_G", text="sliding velocities, rising", ge=0, le=1000),
+    ]
+    coefficient: Annotated[
+        list[float],
+        Field(min_length=1, max_length=1000),
+        Input("table of friction coefficients", "μ", text="friction coefficients", ge=1e-4, le=2),
+    ]
+
+
+_CURVE = si.MixedFrictionCurve()
+
+
+class MixedFrictionCurve(Section):
+    """Our law of mixed friction: it falls to its lowest value at one sliding velocity and rises again beyond."""
+
+    highest: Annotated[
+        float,
+        Input(
+            "highest mixed friction",
+            "μ_max",
+            FIG_9,
+            text="coefficient at rest, and the most at high velocity",
+            ge=1e-4,
+            le=2,
+        ),
+    ] = _CURVE.highest
+    lowest: Annotated[
+        float, Input("lowest mixed friction", "μ_min", FIG_9, text="least coefficient", ge=1e-4, le=2)
+    ] = _CURVE.lowest
+    velocity_m_per_s: Annotated[
+        float,
+        Input(
+            "velocity of least friction",
+            "v_G,min",
+            FIG_10,
+            text="largest sliding velocity at which the coefficient is least",
+            ge=1e-4,
+            le=1000,
+            assumed="a calibration: it puts the friction minimum of the paper's heavily crowned coupling at 0.4° and "
+            "200 1/s; the points of Fig. 10 and the speed of Fig. 11 are not in the text",
+        ),
+    ] = _CURVE.velocity
+
+
+class CouplingFriction(Section):
+    """Friction between the teeth."""
+
+    coefficient: Annotated[
+        float | None,
+        Input(
+            "coefficient of friction",
+            "μ",
+            FIG_9,
+            ge=0,
+            le=2,
+            default_text="the law of the friction regime",
+            assumed="no coefficient given: the law of the friction regime, ours inside the paper's bands",
+        ),
+    ] = None
+    static_coefficient: Annotated[
+        float | None,
+        Input("coefficient of friction at rest", "μ_s", PAHL, ge=0, le=2, default_text="the coefficient in use"),
+    ] = None
+    mixed_law: Annotated[
+        MixedFrictionTable | None,
+        Input(
+            "table of mixed friction",
+            None,
+            FIG_10,
+            text="table that replaces the mixed-lubrication branch of the law, `mixed_curve`",
+        ),
+    ] = None
+    mixed_curve: Annotated[
+        MixedFrictionCurve, Input("curve of mixed friction", None, FIG_10, text="mixed-lubrication branch of the law")
+    ] = MixedFrictionCurve()

@@ -1,0 +1,186 @@
+"""The loaded gear pair: request of /v1/scuffing/load-distribution."""
+
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
+
+from app.contract.conversion import to_si
+from app.contract.quantities import Input
+from app.requests.common import Request, Section
+from app.requests.flank_modifications import FlankModifications
+from app.requests.gears import Gears
+from app.requests.materials import XUE, Surface
+from solvers.scuffing import inputs as si
+
+_DEFAULTS = si.Model()
+
+
+class ScuffingGears(Gears):
+    """The gear pair."""
+
+    rack_tip_radius: Annotated[
+        float,
+        Input(
+            "rack tip radius coefficient",
+            "ρ_fP*",
+            "ISO 53",
+            text="tip radius coefficient of the rack",
+            ge=0,
+            le=0.6,
+            assumed="rack A of ISO 53; the paper gives none",
+        ),
+    ] = 0.38
+
+
+class ScuffingLoad(Section):
+    """Torque or power, and speed; exactly one of torque and power is given."""
+
+    exclusive: ClassVar = (("pinion_torque_n_m", "power_kw"),)
+
+    pinion_torque_n_m: Annotated[float | None, Input("pinion torque", "T_1", XUE, ge=0, le=1e7)] = None
+    power_kw: Annotated[float | None, Input("transmitted power", "P", f"{XUE}, Eq. 1", ge=0, le=1e6)] = None
+    pinion_speed_rpm: Annotated[float, Input("pinion speed", "n_1", XUE, ge=0.1, le=2e5)]
+
+    @model_validator(mode="after")
+    def torque_or_power(self) -> Self:
+        """Refuse both and neither."""
+        if (self.pinion_torque_n_m is None) == (self.power_kw is None):
+            raise PydanticCustomError("torque_or_power", "Give either pinion_torque_n_m or power_kw")
+        return self
+
+    def load(self) -> si.Load:
+        """The solver's load."""
+        fields = to_si(self)
+        torque, power, speed = fields["pinion_torque"], fields["power"], fields["pinion_speed"]
+        return si.Load(si.torque_from_power(power, speed) if torque is None else torque, speed)
+
+
+class GearMaterial(Surface):
+    """Material and finish of one gear."""
+
+    roughness_um: Annotated[
+        float,
+        Input(
+            "roughness",
+            "Ra",
+            f"{XUE}, Eq. 28",
+            text="arithmetic mean roughness",
+            ge=0.001,
+            le=100,
+            assumed="ground flanks; the paper gives none",
+            tolerance=0.1,
+        ),
+    ] = 0.4
+
+
+class GearMaterials(Section):
+    """Materials of the pair."""
+
+    pinion: Annotated[GearMaterial, Input("pinion material")] = GearMaterial()
+    wheel: Annotated[GearMaterial, Input("wheel material")] = GearMaterial()
+
+
+class LoadDistributionModel(Section):
+    """Choices where the paper leaves room."""
+
+    tooth_stiffness: Annotated[
+        si.ToothModel,
+        Input(
+            "tooth stiffness model",
+            "k",
+            f"{XUE}, Eqs. 5-7",
+            text="Ishikawa's tooth, or a parabola calibrated to the paper's load maxima",
+            advanced=True,
+        ),
+    ] = _DEFAULTS.tooth_stiffness
+    parabola_end_ratio: Annotated[
+        float,
+        Input(
+            "end ratio of the stiffness parabola",
+            "r",
+            XUE,
+            text="stiffness at the ends of the path over its maximum",
+            ge=0.01,
+            le=1,
+            advanced=True,
+        ),
+    ] = _DEFAULTS.parabola_end_ratio
+    contact: Annotated[
+        si.ContactModel,
+        Input(
+            "contact flattening",
+            "δ_PV",
+            f"{XUE}, Eq. 6",
+            text="flattening of the contact: Weber's half-space, or the paper's linear term",
+            assumed="with the paper's term the mesh is 15 to 31 % stiffer than ISO 6336-1",
+            advanced=True,
+        ),
+    ] = _DEFAULTS.contact
+    section: Annotated[
+        si.ToothSection,
+        Input(
+            "section of the tooth",
+            text="where the tooth is cut for its compliance",
+            assumed="the paper does not say; keeps the agreement with ISO 6336-1 at every helix angle",
+            advanced=True,
+        ),
+    ] = _DEFAULTS.section
+    load_convention: Annotated[
+        si.LoadConvention,
+        Input(
+            "force in the balance",
+            "W_sum",
+            f"{XUE}, Eq. 1",
+            text="balance of the normal force, or of the tangential force as printed",
+            advanced=True,
+        ),
+    ] = _DEFAULTS.load_convention
+    feature_points: Annotated[int, Input("points of the feature line", None, XUE, ge=2, le=1001, advanced=True)] = (
+        si.Resolution().feature_points
+    )
+
+
+class LoadDistributionRequest(Request):
+    """A loaded, modified, misaligned gear pair."""
+
+    gears: Annotated[ScuffingGears, Input("gear pair")]
+    load: Annotated[ScuffingLoad, Input("load", text="torque or power, and speed")]
+    modifications: Annotated[FlankModifications, Input("modifications", text="modification and misalignment")] = (
+        FlankModifications()
+    )
+    materials: Annotated[GearMaterials, Input("materials", text="materials of the pair")] = GearMaterials()
+    friction_coefficient: Annotated[
+        float, Input("coefficient of friction", "μ_m", f"{XUE}, Eq. 25", ge=0, le=1, tolerance=0.01)
+    ] = 0.06
+    model: Annotated[
+        LoadDistributionModel, Input("model", text="choices where the paper leaves room", advanced=True)
+    ] = LoadDistributionModel()
+
+    def inputs(self) -> Any:
+        """The solver's inputs."""
+        return self.distribution()
+
+    def distribution(self) -> si.LoadDistributionInputs:
+        """The solver's inputs of the load distribution."""
+        model = to_si(self.model)
+        options = {name: model[name] for name in si.Model.__dataclass_fields__}
+        return si.LoadDistributionInputs(
+            gears=self.gears.pair(self.gears.rack_tip_radius),
+            load=self.load.load(),
+            modifications=si.Modifications(**to_si(self.modifications)),
+            pinion_material=self.materials.pinion.solid(),
+            wheel_material=self.materials.wheel.solid(),
+            friction_coefficient=self.friction_coefficient,
+            model=si.Model(**options),
+            resolution=si.Resolution(feature_points=self.model.feature_points),
+        )
+
+    def options(self) -> dict[str, Any]:
+        """The model section."""
+        return self.model.model_dump()
+
+    def unused_defaults(self) -> frozenset[str]:
+        """Of reliefs that are zero; roughness, which loads do not depend on."""
+        roughness = {"materials.pinion.roughness_um", "materials.wheel.roughness_um"}
+        return self.modifications.unused_defaults("modifications") | roughness

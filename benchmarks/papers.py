@@ -1,0 +1,25 @@
+"""python -m benchmarks.papers: what papers, books and standards say beside what is computed."""
+
+from app.published import STATEMENTS, Row
+
+COLUMNS = ("statement", "source", "printed", "computed", "unit", "deviation", "remark")
+
+
+def main() -> None:
+    """Print one table a model."""
+    for model, statements in STATEMENTS.items():
+        print(f"\n## {model}\n")
+        print("| " + " | ".join(COLUMNS) + " |")
+        print("|" + "---|" * len(COLUMNS))
+        for statement in statements:
+            print(_line(statement.row()))
+
+
+def _line(row: Row) -> str:
+    deviation = "" if row.deviation is None else f"{row.deviation:+.2%}"
+    cells = (row.statement, row.source, row.printed, f"{row.computed:.5g}", row.unit, deviation, row.remark)
+    return "| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |"
+
+
+if __name__ == "__main__":
+    main()
