@@ -6,6 +6,7 @@ from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
 
 import numpy as np
+from pydantic.fields import FieldInfo
 
 from app.contract.quantities import Detail, Documented, Output
 from app.contract.units import Unit, split_unit
@@ -26,13 +27,13 @@ class _Field:
 
 @cache
 def _fields(model: type[Documented]) -> tuple[_Field, ...]:
-    return tuple(_field(name, info.annotation, info.metadata) for name, info in model.model_fields.items())
+    return tuple(_field(model, name, info) for name, info in model.model_fields.items())
 
 
-def _field(name: str, annotation: Any, metadata: list[Any]) -> _Field:
-    si_name, unit = split_unit(name)
-    output = next((item for item in metadata if isinstance(item, Output)), None)
-    return _Field(name, si_name, unit, LEVELS.index(output.detail) if output else 0, group_of(annotation))
+def _field(model: type[Documented], name: str, info: FieldInfo) -> _Field:
+    output = next((item for item in info.metadata if isinstance(item, Output)), None)
+    level = LEVELS.index(output.detail) if output else 0
+    return _Field(name, split_unit(name)[0], model.unit_of(name), level, group_of(info.annotation))
 
 
 def group_of(annotation: Any) -> type[Documented] | None:
@@ -63,31 +64,21 @@ def _scaled(value: Any, unit: Unit | None) -> Any:
             return value if unit is None else value * unit.scale + unit.offset
 
 
-def from_si(
-    group: type[Documented],
-    result: Any,
-    detail: Detail,
-    *,
-    unit: Unit | None = None,
-    skip: frozenset[str] = frozenset(),
-) -> dict[str, Any]:
+def from_si(group: type[Documented], result: Any, detail: Detail, skip: frozenset[str] = frozenset()) -> dict[str, Any]:
     """The fields of a response group read from the solver's result, in the units of their names.
 
-    Fields above the level of detail are left out, as are those to `skip`. A group whose name carries a unit hands it
-    down to its members.
+    Fields above the level of detail are left out, as are those to `skip`.
     """
     level = LEVELS.index(detail)
-    return {
-        field.name: _leaf_or_group(field, getattr(result, field.si_name), detail, field.unit or unit)
-        for field in _fields(group)
-        if field.level <= level and field.name not in skip
-    }
-
-
-def _leaf_or_group(field: _Field, value: Any, detail: Detail, unit: Unit | None) -> Any:
-    if field.group is not None and value is not None:
-        return from_si(field.group, value, detail, unit=unit)
-    return _displayed(value, unit)
+    content: dict[str, Any] = {}
+    for field in _fields(group):
+        if field.level <= level and field.name not in skip:
+            value, unit = getattr(result, field.si_name), field.unit
+            if field.group is not None and value is not None:
+                content[field.name] = from_si(field.group, value, detail)
+            else:
+                content[field.name] = value if unit is None and type(value) is float else _displayed(value, unit)
+    return content
 
 
 def _displayed(value: Any, unit: Unit | None) -> Any:

@@ -7,7 +7,7 @@ from pydantic import BaseModel, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from app.contract.units import split_unit
+from app.contract.units import Unit, split_unit
 
 Detail = Literal["summary", "curves", "fields"]
 
@@ -100,6 +100,11 @@ class Output:
     limit: str | float | None = None
 
     @property
+    def axes(self) -> tuple[str, ...]:
+        """The fields it runs over, in the order of its dimensions."""
+        return (self.axis,) if isinstance(self.axis, str) else self.axis or ()
+
+    @property
     def description(self) -> str:
         """The text, else the title."""
         return self.text or self.title
@@ -135,12 +140,19 @@ def _documented(schema: JsonSchemaValue, meaning: Input | Output) -> JsonSchemaV
 
 
 class Documented(BaseModel):
-    """A model whose JSON schema states the unit of every field whose name, or whose group's name, carries one.
+    """A model whose JSON schema states the unit of every field that has one.
 
-    `exclusive` lists groups of fields of which at most one is given.
+    `exclusive` lists groups of fields of which at most one is given. `member_unit` is the unit of the fields whose own
+    names carry none: a group `mass_flow_g_per_s` says it once for its members.
     """
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    member_unit: ClassVar[Unit | None] = None
+
+    @classmethod
+    def unit_of(cls, name: str) -> Unit | None:
+        """The unit of a field."""
+        return split_unit(name)[1] or cls.member_unit
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
@@ -148,11 +160,8 @@ class Documented(BaseModel):
         document = handler(schema)
         definition = handler.resolve_ref_schema(document)
         for name, field in definition.get("properties", {}).items():
-            _, unit = split_unit(name)
-            if unit is not None:
+            if (unit := cls.unit_of(name)) is not None:
                 field["x-unit"] = unit.symbol
-                for member in handler.resolve_ref_schema(field).get("properties", {}).values():
-                    member["x-unit"] = unit.symbol
         if cls.exclusive:
             definition["x-exclusive"] = [list(group) for group in cls.exclusive]
         return document

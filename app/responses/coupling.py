@@ -33,6 +33,12 @@ class CouplingResponse(Response):
     derived: Annotated[CouplingDerived | None, Output("proportions used")] = None
 
 
+class SleeveOrbitDerived(Derived):
+    """The circle on which the teeth stand."""
+
+    pitch_radius_mm: Annotated[float, Output("pitch radius", "r_o", PAHL)]
+
+
 class SleeveOrbit(Group):
     """Path of the sleeve centre."""
 
@@ -82,8 +88,9 @@ class SleeveOrbitResponse(Response):
     max_displacement_um: Annotated[float | None, Output("largest displacement", "e_max", headline=1)] = None
     sweeps: Annotated[int | None, Output("sweeps", text="sweeps over the revolution until it repeated")] = None
     change_um: Annotated[
-        float | None, Output("change in the last sweep", text="how far the last sweep still moved the path")
+        float | None, Output("change in the last sweep", "Δe", text="how far the last sweep still moved the path")
     ] = None
+    derived: Annotated[SleeveOrbitDerived | None, Output("radius used")] = None
 
 
 class RecommendedPoint(Group):

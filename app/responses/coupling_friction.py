@@ -117,10 +117,12 @@ class CouplingThrust(Group):
         float, Output("thrust under uniform load", "F_ax,u", text="closed form of one mesh, all teeth loaded alike")
     ]
     lower_bound_n: Annotated[
-        float, Output("lower bound of the thrust", text="least thrust where friction at rest is indeterminate")
+        float,
+        Output("lower bound of the thrust", "F_ax,lo", text="least thrust where friction at rest is indeterminate"),
     ]
     upper_bound_n: Annotated[
-        float, Output("upper bound of the thrust", text="largest thrust where friction at rest is indeterminate")
+        float,
+        Output("upper bound of the thrust", "F_ax,up", text="largest thrust where friction at rest is indeterminate"),
     ]
     indeterminate: Annotated[
         bool,

@@ -114,6 +114,7 @@ class ContactConvergence(Group):
         float | None,
         Output(
             "last change of temperature",
+            "Δθ",
             text="last change of temperature; null if isothermal or no step could be taken",
         ),
     ]
@@ -130,6 +131,7 @@ class ContactConvergence(Group):
         float | None,
         Output(
             "Eyring stress reached",
+            "τ_0",
             text="Eyring stress that a continuation without solution reached; null where none was tried",
         ),
     ]

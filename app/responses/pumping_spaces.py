@@ -1,8 +1,9 @@
 """What happens in the tooth spaces of one gear."""
 
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from app.contract.quantities import Output
+from app.contract.units import UNITS
 from app.responses.common import Group
 
 MILIAN = "Milian 2004"
@@ -47,6 +48,8 @@ class PumpingStroke(Group):
 
 class PumpingMassFlow(Group):
     """Net mass flow out of the tooth spaces, by exit; the five sum to zero."""
+
+    member_unit: ClassVar = UNITS["g_per_s"]
 
     front: Annotated[float, Output("net mass flow at the front", "m_f", text="at the end that meshes first")]
     rear: Annotated[float, Output("net mass flow at the rear", "m_r", text="at the end that meshes last")]

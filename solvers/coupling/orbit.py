@@ -11,7 +11,7 @@ from solvers.coupling.checks import check_inputs
 from solvers.coupling.geometry import tooth_geometry
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.kinematics import mesh_motion, revolution, tooth_positions
-from solvers.coupling.results import InertiaForce, Orbit, OrbitResult
+from solvers.coupling.results import Geometry, InertiaForce, Orbit, OrbitResult
 from solvers.coupling.tooth_loads import ToothLoads, floating_loads
 from solvers.errors import InvalidInput, NoSolution
 
@@ -57,7 +57,7 @@ def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
 
     settled = _settled_path(balanced, np.zeros((angles.size, 2)), coupling.sleeve_mass * operation.speed**2)
     _check_holding(settled.force, safe_force)
-    return _result(angles, settled)
+    return _result(angles, settled, geometry)
 
 
 def _settled_path(balanced: Callable[[FloatArray], ToothLoads], force: FloatArray, inertia: float) -> _SettledPath:
@@ -116,7 +116,7 @@ def _harmonics(force: FloatArray) -> FloatArray:
     return amplitude[: HIGHEST_ORDER + 1]
 
 
-def _result(angles: FloatArray, settled: _SettledPath) -> OrbitResult:
+def _result(angles: FloatArray, settled: _SettledPath, geometry: Geometry) -> OrbitResult:
     """The converged orbit."""
     path, x, y = settled.path, settled.force[:, 0], settled.force[:, 1]
     return OrbitResult(
@@ -127,5 +127,6 @@ def _result(angles: FloatArray, settled: _SettledPath) -> OrbitResult:
         max_displacement=float(np.hypot(path[:, 0], path[:, 1]).max()),
         sweeps=settled.sweeps,
         change=settled.change,
+        derived=geometry,
         warnings=(),
     )

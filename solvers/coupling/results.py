@@ -212,7 +212,7 @@ class InertiaForce:
 class OrbitResult:
     """One revolution of a floating sleeve under its own inertia.
 
-    `sweeps` over the revolution until it repeated to `change` [m].
+    `sweeps` over the revolution until it repeated to `change` [m]; `derived` is the tooth that moves.
     """
 
     orbit: Orbit
@@ -220,6 +220,7 @@ class OrbitResult:
     max_displacement: float
     sweeps: int
     change: float
+    derived: Geometry
     warnings: tuple[Notice, ...]
 
 
