@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 from app.calculations import Calculation
-from app.contract.fields import Leaf, outputs_of
+from app.contract.fields import Leaf, headlines
 from app.studies.errors import StudyRefused
-from app.studies.plan import did_you_mean
+from app.studies.fields import scalar_at
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,18 +26,14 @@ class ChosenOutputs:
 
 def chosen(calculation: Calculation, wanted: list[str] | None) -> ChosenOutputs:
     """The outputs asked for, by default the headline numbers; StudyRefused for what the answer does not have."""
-    known = outputs_of(calculation.response)
     if wanted is None:
-        headlines = sorted((leaf for leaf in known.values() if leaf.headline), key=lambda leaf: leaf.headline or 0)
-        return ChosenOutputs(headlines)
-    found = []
+        return ChosenOutputs(list(headlines(calculation.response)))
     for place, path in enumerate(wanted):
-        pointer = f"/outputs/{place}"
-        if path not in known:
-            if any(name.startswith(f"{path}.") for name in known):
-                raise StudyRefused(pointer, "not_scalar", f"{path} is a group; name one of its numbers")
-            raise StudyRefused(pointer, "unknown_output", f"unknown output {path}{did_you_mean(path, known)}")
-        if wanted.count(path) > 1:
-            raise StudyRefused(pointer, "duplicate_path", f"{path} is asked for twice")
-        found.append(known[path])
-    return ChosenOutputs(found)
+        if path in wanted[:place]:
+            raise StudyRefused(f"/outputs/{place}", "duplicate_path", f"{path} is asked for twice")
+    return ChosenOutputs(
+        [
+            scalar_at(calculation.response, path, f"/outputs/{place}", "unknown_output")
+            for place, path in enumerate(wanted)
+        ]
+    )

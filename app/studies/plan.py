@@ -1,9 +1,6 @@
 """Which points a sweep has: the field paths checked against the schema, the overrides of every point."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from difflib import get_close_matches
-from itertools import product
 from math import prod
 from typing import Any
 
@@ -11,10 +8,10 @@ import numpy as np
 from scipy.stats import qmc
 
 from app.contract.fields import Leaf
+from app.contract.quantities import Documented
 from app.studies.errors import StudyRefused
+from app.studies.fields import fault, scalar_at
 from app.studies.requests import Axis, Overrides, Sample, Scalar, SweepRequest
-
-LEAST_BASE = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,29 +57,24 @@ class Plan:
             return at
         return {path: value for axis, value in zip(self.axes, at, strict=True) for path in axis.paths}
 
-    def coordinates(self) -> Iterator[list[Scalar] | Overrides]:
-        """The points' coordinates in order."""
-        return (self.at(index) for index in range(self.total))
-
-
-def plan(sweep: SweepRequest, leaves: dict[str, Leaf], most: int) -> Plan:
-    """The points of a sweep; at most `most`.
+def plan(sweep: SweepRequest, model: type[Documented], most: int) -> Plan:
+    """The points of a sweep over requests of this model; at most `most`.
 
     Raises StudyRefused with a pointer into the sweep for whatever the schema already tells to be impossible.
     """
     if sweep.cases is not None:
         _check_count(len(sweep.cases), most, "/cases")
-        for index, case in enumerate(sweep.cases):
+        for place, case in enumerate(sweep.cases):
             for path, value in case.items():
-                _check_value(_leaf(path, leaves, f"/cases/{index}"), value, f"/cases/{index}")
+                _check_value(_leaf(path, model, f"/cases/{place}"), value, f"/cases/{place}")
         return Plan([], len(sweep.cases), sweep.cases, None)
     if sweep.sample is not None:
         _check_count(sweep.sample.count, most, "/sample/count")
-        return _sampled(sweep.sample, leaves)
+        return _sampled(sweep.sample, model)
     assert sweep.vary is not None
     _check_count(prod(_length(axis, place) for place, axis in enumerate(sweep.vary)), most, "/vary")
     _check_distinct([path for axis in sweep.vary for path in axis.paths], "/vary")
-    axes = [_planned(axis, leaves, f"/vary/{place}") for place, axis in enumerate(sweep.vary)]
+    axes = [_planned(axis, model, f"/vary/{place}") for place, axis in enumerate(sweep.vary)]
     return Plan(axes, prod(len(axis.values or ()) for axis in axes), None, None)
 
 
@@ -107,8 +99,8 @@ def _length(axis: Axis, place: int) -> int:
     raise StudyRefused(f"/vary/{place}", "values_or_range", "give either values, or start, stop and count")
 
 
-def _planned(axis: Axis, leaves: dict[str, Leaf], pointer: str) -> PlannedAxis:
-    fields = [_leaf(path, leaves, f"{pointer}/path") for path in axis.paths]
+def _planned(axis: Axis, model: type[Documented], pointer: str) -> PlannedAxis:
+    fields = [_leaf(path, model, f"{pointer}/path") for path in axis.paths]
     values = axis.values if axis.values is not None else _spread(axis, pointer)
     for field in fields:
         for value in values:
@@ -130,13 +122,13 @@ def _spread(axis: Axis, pointer: str) -> list[Scalar]:
     return [float(value) for value in np.linspace(axis.start, axis.stop, axis.count)]
 
 
-def _sampled(sample: Sample, leaves: dict[str, Leaf]) -> Plan:
+def _sampled(sample: Sample, model: type[Documented]) -> Plan:
     """The random points, the same for the same seed."""
     _check_distinct([each.path for each in sample.ranges], "/sample/ranges")
     fields = []
     for place, each in enumerate(sample.ranges):
         pointer = f"/sample/ranges/{place}"
-        field = _leaf(each.path, leaves, f"{pointer}/path")
+        field = _leaf(each.path, model, f"{pointer}/path")
         if field.kind == "integer":
             raise StudyRefused(pointer, "not_integer", f"{each.path} takes whole numbers; vary it or list cases")
         for value in (each.min, each.max):
@@ -154,30 +146,20 @@ def _unit_cube(sample: Sample, dimensions: int) -> np.ndarray[Any, Any]:
     """Points in the unit cube."""
     if sample.method == "sobol":
         exponent = sample.count.bit_length() - 1
-        if sample.count != LEAST_BASE**exponent:
+        if sample.count != 1 << exponent:
             raise StudyRefused("/sample/count", "not_power_of_two", "a Sobol sample needs a power of two of points")
         return np.asarray(qmc.Sobol(dimensions, rng=sample.seed).random_base2(exponent))
     return np.asarray(qmc.LatinHypercube(dimensions, rng=sample.seed).random(sample.count))
 
 
-def _leaf(path: str, leaves: dict[str, Leaf], pointer: str) -> Leaf:
-    """The scalar field of a request that a path names."""
-    if path in leaves:
-        return leaves[path]
-    if any(name.startswith(f"{path}.") for name in leaves):
-        raise StudyRefused(pointer, "not_scalar", f"{path} is a section, not a single value; name one of its fields")
-    raise StudyRefused(pointer, "unknown_path", f"unknown field {path}{did_you_mean(path, leaves)}")
-
-
-def did_you_mean(path: str, known: dict[str, Any]) -> str:
-    """The nearest known path as a question, or nothing."""
-    near = get_close_matches(path, known, n=1)
-    return f"; did you mean {near[0]}?" if near else ""
+def _leaf(path: str, model: type[Documented], pointer: str) -> Leaf:
+    """The single value of a request that a path names."""
+    return scalar_at(model, path, pointer, "unknown_path")
 
 
 def _check_value(field: Leaf, value: Scalar, pointer: str) -> None:
     """Refuse a value that the field's schema does not take."""
-    fault = field.fault(value)
-    if fault is not None:
-        code, message = fault
+    found = fault(field, value)
+    if found is not None:
+        code, message = found
         raise StudyRefused(pointer, code, f"{field.path}: {message}")

@@ -7,11 +7,14 @@ from typing import Any, Literal, NamedTuple
 
 from pydantic import ValidationError
 
-from app.calculations import Calculation
-from app.contract.fields import leaves, read, write
+from app.calculations import CALCULATIONS, Calculation
+from app.contract.fields import leaf_at
 from app.evaluate import evaluate
 from app.problems import Unprocessable, field_errors
+from app.studies.fields import clear, read, write
 from app.studies.requests import Overrides
+
+BY_PATH = {calculation.path: calculation for calculation in CALCULATIONS}
 
 Status = Literal["ok", "ok_with_warnings", "no_solution", "refused", "failed"]
 
@@ -34,10 +37,11 @@ class Chunk(NamedTuple):
 
 
 def solve_chunk(
-    calculation: Calculation, base: dict[str, Any], overrides: Sequence[Overrides], outputs: Sequence[str]
+    endpoint: str, base: dict[str, Any], overrides: Sequence[Overrides], outputs: Sequence[str]
 ) -> Chunk:
-    """Solve consecutive points; the first one also tells its assumptions."""
+    """Solve consecutive points of an endpoint."""
     started = time.perf_counter()
+    calculation = BY_PATH[endpoint]
     points = [solve_point(calculation, with_overrides(calculation, base, each), outputs) for each in overrides]
     return Chunk(points, time.perf_counter() - started)
 
@@ -59,10 +63,10 @@ def solve_point(calculation: Calculation, body: dict[str, Any], outputs: Sequenc
 def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Overrides) -> dict[str, Any]:
     """The base request with a point's values; an override on an exclusive field clears its fellows."""
     body = copy.deepcopy(base)
-    known = leaves(calculation.request, base)
     for path, value in overrides.items():
-        for fellow in known[path].exclusive:
-            write(body, fellow, None)
+        leaf = leaf_at(calculation.request, path)
+        for fellow in leaf.exclusive if leaf and value is not None else ():
+            clear(body, fellow)
         write(body, path, value)
     body["detail"] = "summary"
     return body

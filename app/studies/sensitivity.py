@@ -8,6 +8,7 @@ from app.calculations import Calculation
 from app.contract.cases import case_of
 from app.contract.fields import Leaf
 from app.responses.common import MODEL_VERSION
+from app.studies.fields import fault
 from app.studies.engine import Pool, Work, in_order
 from app.studies.outputs import ChosenOutputs
 from app.studies.points import Point, solve_chunk
@@ -50,12 +51,13 @@ def _step(leaf: Leaf, value: float) -> float:
         return KELVIN_STEP
     if value != 0.0:
         return RELATIVE_STEP * abs(value)
-    return RELATIVE_STEP * (leaf.maximum - leaf.minimum) if leaf.maximum is not None and leaf.minimum is not None else 0.0
+    low, high = (leaf.bounds.get(key) for key in ("ge", "le"))
+    return 0.0 if low is None or high is None else RELATIVE_STEP * (high - low)
 
 
 def _inside(leaf: Leaf, value: float) -> float | None:
     moved = int(value) if leaf.kind == "integer" else value
-    return moved if leaf.fault(moved) is None else None
+    return moved if fault(leaf, moved) is None else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,8 @@ from app.studies.engine import Pool, Work, in_order
 from app.studies.errors import StudyRefused
 from app.studies.lines import point_line
 from app.studies.outputs import ChosenOutputs
-from app.studies.plan import Plan, did_you_mean
+from app.studies.fields import did_you_mean
+from app.studies.plan import Plan
 from app.studies.points import solve_chunk
 from app.studies.requests import Best, SweepRequest
 from app.studies.stream import Clock, Line
@@ -67,6 +68,5 @@ def check_best(best: Best | None, outputs: ChosenOutputs) -> None:
     judged += [(f"/best/where/{place}/output", bound.output) for place, bound in enumerate(best.where)]
     for pointer, path in judged:
         if path not in outputs.paths:
-            known = dict.fromkeys(outputs.paths)
-            message = f"{path} is not among the outputs of the sweep{did_you_mean(path, known)}"
+            message = f"{path} is not among the outputs of the sweep{did_you_mean(path, outputs.paths)}"
             raise StudyRefused(pointer, "unknown_output", message)
