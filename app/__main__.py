@@ -1,13 +1,16 @@
 """python -m app: start the service; --help lists every setting."""
 
 import argparse
-import logging
+import os
+import socket
 import sys
 from io import TextIOWrapper
 
-import uvicorn
+from pydantic.fields import FieldInfo
 
 from app.settings import Settings, settings
+
+INTERRUPTED = 130
 
 
 def main() -> None:
@@ -22,32 +25,38 @@ def main() -> None:
 
 
 def serve(factory: str) -> None:
-    """Run the application that `factory` ("module:function") creates, with the options it is meant to run with."""
-    limits = settings()
+    """Run the application that `factory` ("module:function") creates; the port is open before anything is loaded."""
     assert isinstance(sys.stdout, TextIOWrapper)
     sys.stdout.reconfigure(line_buffering=True)
-    logging.basicConfig(level=limits.log_level.upper(), format="%(message)s", stream=sys.stderr)
-    print(f"tribodrive: docs at http://{limits.host}:{limits.port}/docs", flush=True)  # noqa: T201
-    uvicorn.run(
-        factory,
-        factory=True,
-        host=limits.host,
-        port=limits.port,
-        loop="uvloop",
-        http="httptools",
-        access_log=False,
-        server_header=False,
-        log_level="warning",
-        timeout_graceful_shutdown=limits.shutdown_s,
-    )
+    limits = settings()
+    try:
+        listener = _listener(limits)
+    except OSError as error:
+        reason = error.strerror if isinstance(error, socket.gaierror) else os.strerror(error.errno or 0)
+        sys.exit(f"tribodrive: cannot listen on port {limits.port} of {limits.host}: {reason}")
+    try:
+        from app.server import run  # noqa: PLC0415  a second of imports, for which the port need not wait
+
+        run(factory, listener)
+    except KeyboardInterrupt:
+        sys.exit(INTERRUPTED)
+
+
+def _listener(limits: Settings) -> socket.socket:
+    family, _, _, _, address = socket.getaddrinfo(limits.host, limits.port, type=socket.SOCK_STREAM)[0]
+    return socket.create_server(address[:2], family=family, backlog=1024)
 
 
 def _documentation() -> str:
     """The settings, one line each."""
     rows = ["environment variables:"]
     for name, field in Settings.model_fields.items():
-        rows.append(f"  TRIBODRIVE_{name.upper():<18} {field.description} (default {field.default})")
+        rows.append(f"  TRIBODRIVE_{name.upper():<18} {field.description} (default {_default(field)})")
     return "\n".join(rows)
+
+
+def _default(field: FieldInfo) -> object:
+    return field.default if field.default_factory is None else "follows from the descriptor limit"
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ from app.contract.names import field_path
 from app.contract.quantities import Input
 from app.problems import Unprocessable
 from app.requests.common import Request, Section
-from app.responses.common import MODEL_VERSION, Assumption, Notice, Response
+from app.responses.common import MODEL_VERSION, Notice, Response
 from solvers import notices
 from solvers.errors import InvalidInput, NoSolution
 
@@ -44,7 +44,7 @@ def evaluate(calculation: Calculation, request: Request) -> Response:
             content |= {"status": "no_solution", "residuals": result.residuals}
     inputs = request.model_dump(exclude={"detail"})
     content |= {
-        "assumptions": _assumptions(request, content.get("derived") or {}),
+        "assumptions": list(_assumptions(request, request.unused_defaults(), content.get("derived", {}))),
         "model_version": MODEL_VERSION,
         "model": request.options(),
         "inputs": inputs,
@@ -58,23 +58,18 @@ def _notice(request: Request, warning: notices.Notice) -> Notice:
     return Notice(code=warning.code, message=warning.message, field=field)
 
 
-def _assumptions(request: Request, derived: dict[str, Any]) -> list[Assumption]:
-    """The defaults marked as ours that the result rests on; what a null stands for is found in `derived`."""
-    unused = request.unused_defaults()
-    return [
-        Assumption(field=path, value=derived.get(path.rpartition(".")[2]) if value is None else value, reason=reason)
-        for path, value, reason in _assumed(request, "")
-        if not any(path == name or path.startswith(f"{name}.") for name in unused)
-    ]
-
-
-def _assumed(section: Section, prefix: str) -> Iterator[tuple[str, Any, str]]:
+def _assumptions(
+    section: Section, unused: frozenset[str], derived: dict[str, Any], prefix: str = ""
+) -> Iterator[dict[str, Any]]:
+    """The defaults marked as ours that the result rests on, with the value used where `derived` tells it."""
     for name, reason in _reasons(type(section)).items():
-        value = getattr(section, name)
+        path, value = prefix + name, getattr(section, name)
+        if path in unused:
+            continue
         if isinstance(value, Section):
-            yield from _assumed(value, f"{prefix}{name}.")
+            yield from _assumptions(value, unused, derived, f"{path}.")
         elif reason and (value is None or name not in section.model_fields_set):
-            yield f"{prefix}{name}", value, reason
+            yield {"field": path, "value": derived.get(name, value), "reason": reason}
 
 
 @cache

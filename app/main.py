@@ -1,21 +1,20 @@
 """Wires the application together."""
 
-import sys
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
-import anyio
 from fastapi import FastAPI
 from fastapi_offline import FastAPIOffline
 
 from app import problems
-from app.compute import Runner
 from app.protection import Protection
 from app.responses.common import MODEL_VERSION
-from app.routes import calculations, service
+from app.routes import calculations, figures, service
 from app.settings import Settings
 from app.settings import settings as settings_from_environment
-from app.warm_up import warm_up
+from app.start_up import StartUp
+from app.workers.admission import Runner
+from app.workers.pool import Pool
 
 DESCRIPTION = """Tribology of high-speed drive trains: gear couplings (Pahl), air-oil pumping between gear teeth
 (Milian, Distretti, Leoni, Velex), load distribution and scuffing of helical gears (Xue, Zhang, Wang).
@@ -25,14 +24,14 @@ Units are in the field names; every example below runs as it stands."""
 def create_app(settings: Settings | None = None) -> FastAPI:
     """The service; settings come from the environment unless given."""
     settings = settings or settings_from_environment()
-    runner = Runner(settings, warm_up)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        app.state.runner = runner
-        # Kernels not yet in the cache are compiled once, in a process that takes the compiler's memory with it.
-        await anyio.run_process([sys.executable, "-m", "app.warm_up"], check=False)
-        async with runner.started():
+        app.state.pool = Pool(settings.workers, settings.worker_memory_mb)
+        app.state.start_up = StartUp(app.state.pool)
+        app.state.settings = settings
+        app.state.runner = Runner(settings, app.state.pool)
+        async with app.state.pool.running(), app.state.start_up.running():
             yield
 
     app = FastAPIOffline(
@@ -42,7 +41,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         lifespan=lifespan,
         redoc_url=None,
     )
-    for routes in (calculations, service):
+    for routes in (calculations, figures, service):
         app.include_router(routes.router)
     problems.install(app)
     app.add_middleware(Protection, settings=settings)

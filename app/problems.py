@@ -16,10 +16,10 @@ from pydantic.json_schema import models_json_schema
 from starlette.exceptions import HTTPException
 
 from app.contract.quantities import Output
+from app.reading import MOST_FIELD_ERRORS, InvalidBody, Unreadable
 
 MEDIA_TYPE = "application/problem+json"
 LONGEST_POINTER_PART = 100
-MOST_FIELD_ERRORS = 100
 
 logger = logging.getLogger("tribodrive")
 
@@ -46,6 +46,14 @@ class WorkerLost(Exception):
     """The worker process died while it computed."""
 
 
+class WarmingUp(Exception):
+    """The kernels of this calculation are still being compiled."""
+
+    def __init__(self, detail: str) -> None:
+        super().__init__(detail)
+        self.detail = detail
+
+
 class ClientGone(Exception):
     """The client closed the connection; its calculation was ended."""
 
@@ -60,12 +68,12 @@ class Kind(NamedTuple):
 
 
 PROBLEMS: dict[type[Exception], Kind] = {
+    WarmingUp: Kind(503, "warming_up", "The kernels of this calculation are still being compiled; try again", 2),
     QueueFull: Kind(503, "queue_full", "Too many calculations are waiting; try again later", 1),
     WorkerLost: Kind(503, "worker_lost", "The calculation was lost with its process; try again", 1),
     MemoryError: Kind(503, "memory_limit", "The calculation needs more memory than a worker may use; make it smaller"),
     DeadlineExceeded: Kind(504, "deadline_exceeded", "The calculation took too long; make it smaller"),
     ClientGone: Kind(499, "client_gone", "The client closed the connection"),
-    Exception: Kind(500, "internal_error", "Something went wrong in the service; the log has the cause"),
 }
 
 
@@ -96,7 +104,8 @@ MEANINGS = {
     422: "the input cannot be computed; `errors` names the fields",
     431: "the request headers are too large",
     500: "something went wrong in the service",
-    503: "too many calculations are waiting, or the calculation was lost with its process",
+    415: "the content type is not application/json",
+    503: "too many calculations are waiting, kernels are being compiled, or the calculation was lost with its process",
     504: "the calculation took too long",
 }
 
@@ -110,6 +119,8 @@ def documented(*statuses: int) -> dict[int | str, dict[str, Any]]:
 def install(app: FastAPI) -> None:
     """Answer every exception with a problem document."""
     app.add_exception_handler(RequestValidationError, _invalid_request)
+    app.add_exception_handler(InvalidBody, _invalid_body)
+    app.add_exception_handler(Unreadable, _unreadable)
     app.add_exception_handler(Unprocessable, _unprocessable)
     app.add_exception_handler(HTTPException, _http_exception)
     for kind in PROBLEMS:
@@ -161,10 +172,24 @@ def problem(
 def _invalid_request(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, RequestValidationError)
     errors = [
-        {"pointer": _pointer(item["loc"]), "code": item["type"], "message": _message(item)}
-        for item in error.errors()[:MOST_FIELD_ERRORS]
+        {"pointer": _pointer(item["loc"]), "code": item["type"], "message": str(item["msg"])}
+        for item in error.errors()[:MOST_FIELD_ERRORS]  # of an address: a body is read in a worker
     ]
     return _unprocessable_response(request, "invalid_request", errors)
+
+
+def _invalid_body(request: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, InvalidBody)
+    errors = [
+        {"pointer": _pointer(("body", *item["loc"])), "code": item["type"], "message": item["msg"]}
+        for item in error.errors
+    ]
+    return _unprocessable_response(request, "invalid_request", errors)
+
+
+def _unreadable(request: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, Unreadable)
+    return problem(_instance(request), 400, "bad_request", "Bad Request", detail=error.detail)
 
 
 def _unprocessable(request: Request, error: Exception) -> JSONResponse:
@@ -182,16 +207,8 @@ def _unprocessable_response(request: Request, code: str, errors: list[dict[str, 
 
 def _pointer(location: tuple[str | int, ...]) -> str:
     """RFC 6901 pointer of a validation error's location, safe to send whatever the request's keys were."""
-    if location[-1:] and isinstance(location[-1], int) and len(location) == 2:
-        return ""
     parts = (str(part).encode(errors="replace").decode()[:LONGEST_POINTER_PART] for part in location[1:])
     return "".join("/" + part.replace("~", "~0").replace("/", "~1") for part in parts)
-
-
-def _message(item: dict[str, Any]) -> str:
-    if item["type"] == "json_invalid":
-        return f"The body is no JSON: {item['ctx']['error']} at position {item['loc'][-1]}"
-    return str(item["msg"])
 
 
 def _http_exception(request: Request, error: Exception) -> JSONResponse:
@@ -204,10 +221,15 @@ def _http_exception(request: Request, error: Exception) -> JSONResponse:
 
 def _known_problem(request: Request, error: Exception) -> JSONResponse:
     kind = next(PROBLEMS[base] for base in type(error).__mro__ if base in PROBLEMS)
-    if kind.status == HTTPStatus.INTERNAL_SERVER_ERROR:
-        logger.error("request %s failed", _instance(request), exc_info=error)
     headers = {"Retry-After": str(kind.retry_after_s)} if kind.retry_after_s is not None else None
-    return problem(_instance(request), kind.status, kind.code, kind.title, headers=headers)
+    detail = getattr(error, "detail", None)
+    return problem(_instance(request), kind.status, kind.code, kind.title, detail=detail, headers=headers)
+
+
+def internal_error(instance: str, error: Exception) -> JSONResponse:
+    """The answer to what nobody expected; the log has the cause."""
+    logger.error("request %s failed", instance, exc_info=error)
+    return problem(instance, 500, "internal_error", "Something went wrong in the service; the log has the cause")
 
 
 def _instance(request: Request) -> str:

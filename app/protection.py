@@ -1,40 +1,18 @@
-"""The outermost layer, pure ASGI: request id, limits on headers and body, security headers, timing, log, metrics."""
+"""The outermost layer, pure ASGI: request id, limits on bodies, security headers, timing, log, metrics, the 500."""
 
 import asyncio
-import logging
-import re
-import sys
 import time
-from functools import lru_cache
-from secrets import token_hex
 
-from prometheus_client import Counter, Histogram
 from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from app.metrics import DURATION, REQUESTS
-from app.problems import problem
-from app.settings import Settings
+from app.books import own_headers, record, request_id
+from app.problems import internal_error, problem
+from app.settings import MEBIBYTE, Settings
 
-ACCEPTABLE_ID = re.compile(rb"[A-Za-z0-9._-]{1,128}")
-CONTENT_POLICY = (
-    b"default-src 'self'; img-src 'self' data:; style-src 'self' 'unsafe-inline'; "
-    b"script-src 'self' 'unsafe-inline'; frame-ancestors 'none'"
-)
-SECURITY_HEADERS = (
-    (b"x-content-type-options", b"nosniff"),
-    (b"x-frame-options", b"DENY"),
-    (b"referrer-policy", b"no-referrer"),
-    (b"cache-control", b"no-store"),
-    (b"content-security-policy", CONTENT_POLICY),
-)
-
-# Written by hand and straight to standard output: nothing in it needs escaping, and a JSON encoder and a log record
-# would double the cost of this layer.
-LOG_LINE = '{"time": %.3f, "request_id": "%s", "method": "%s", "endpoint": "%s", "status": %d, "duration_ms": %.3f}\n'
-
-logger = logging.getLogger("tribodrive")
+CLIENT_GONE = 499
 
 
 class Protection:
@@ -43,85 +21,103 @@ class Protection:
     def __init__(self, app: ASGIApp, settings: Settings) -> None:
         self._app = app
         self._settings = settings
+        self._arriving = 0  # bytes of bodies that are not complete
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one request."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
-        started = time.perf_counter()
-        headers: dict[bytes, bytes] = dict(scope["headers"])
-        request_id = _request_id(headers)
-        scope.setdefault("state", {})["request_id"] = request_id
-        status = 499
+        await _Request(self, scope, receive, send).serve(self._app)
 
-        async def send_decorated(message: Message) -> None:
-            nonlocal status
-            if message["type"] == "http.response.start":
-                status = message["status"]
-                duration = f"total;dur={(time.perf_counter() - started) * 1e3:.1f}"
-                own = ((b"x-request-id", request_id.encode()), (b"server-timing", duration.encode()))
-                message["headers"] = [*message.get("headers", ()), *own, *SECURITY_HEADERS]
-            await send(message)
 
+class _Request:
+    """One request on its way through the layer."""
+
+    def __init__(self, layer: Protection, scope: Scope, receive: Receive, send: Send) -> None:
+        self._layer = layer
+        self._limits = layer._settings  # noqa: SLF001
+        self._started = time.perf_counter()
+        self._headers: dict[bytes, bytes] = dict(scope["headers"])
+        self._identifier = request_id(self._headers.get(b"x-request-id", b""))
+        self._state = scope.setdefault("state", {})
+        self._state["request_id"] = self._identifier
+        # What a GET answers, a HEAD answers too; the server leaves the body out.
+        self._scope = {**scope, "method": "GET"} if scope["method"] == "HEAD" else scope
+        self._method = scope["method"]
+        self._receive = receive
+        self._send = send
+        self._status = CLIENT_GONE
+        self._due = asyncio.get_running_loop().time() + self._limits.body_deadline_s
+        self._received = 0
+        self._complete = False
+
+    async def serve(self, application: ASGIApp) -> None:
+        """Answer, whatever happens, and write the books."""
         try:
-            application = self._refusal(scope, headers, request_id) or self._app
-            await application(scope, self._limited(receive), send_decorated)
+            await (self._refusal() or application)(self._scope, self._receive_within_limits, self._send_decorated)
+        except ClientDisconnect:
+            pass
+        except asyncio.CancelledError:  # the server stops and waits no longer; this task ends with its answer
+            await self._say_goodbye()
+        except Exception as error:
+            answer = internal_error(self._identifier, error)
+            if self._status != CLIENT_GONE:
+                raise  # too late for another answer: the connection is cut
+            await answer(self._scope, self._receive, self._send_decorated)
         finally:
-            _record(scope, status, request_id, time.perf_counter() - started)
+            self._forget_body()
+            endpoint = getattr(self._scope.get("route"), "path", "unmatched")
+            status = self._state.get("answered", self._status)  # by the protocol, in our place
+            record(self._identifier, self._method, endpoint, status, time.perf_counter() - self._started)
 
-    def _refusal(self, scope: Scope, headers: dict[bytes, bytes], request_id: str) -> JSONResponse | None:
-        """The answer to a request whose headers alone are too much, or announce too much."""
-        if sum(len(name) + len(value) for name, value in scope["headers"]) > self._settings.max_header_bytes:
-            return problem(request_id, 431, "headers_too_large", "The request headers are too large")
-        announced = headers.get(b"content-length", b"")
-        if announced.isdigit() and int(announced) > self._settings.max_body_bytes:
-            return problem(request_id, 413, "content_too_large", self._too_large())
+    async def _say_goodbye(self) -> None:
+        if self._status == CLIENT_GONE:
+            answer = problem(self._identifier, 503, "shutting_down", "The service stops", headers={"Retry-After": "5"})
+            await answer(self._scope, self._receive, self._send_decorated)
+
+    async def _send_decorated(self, message: Message) -> None:
+        if message["type"] == "http.response.start":
+            self._status = message["status"]
+            given = message.get("headers", ())
+            said = {name.lower() for name, _ in given}
+            own = own_headers(self._identifier, time.perf_counter() - self._started)
+            message["headers"] = [*given, *(header for header in own if header[0] not in said)]
+        await self._send(message)
+
+    def _refusal(self) -> JSONResponse | None:
+        """The answer to a request that announces too much."""
+        announced = self._headers.get(b"content-length", b"")
+        if announced.isdigit() and int(announced) > self._limits.max_body_bytes:
+            return problem(self._identifier, 413, "content_too_large", self._too_large())
         return None
 
-    def _limited(self, receive: Receive) -> Receive:
-        """`receive` that gives up on a body that takes too long or grows too large."""
-        due = asyncio.get_running_loop().time() + self._settings.body_deadline_s
-        received = 0
-        complete = False
+    async def _receive_within_limits(self) -> Message:
+        """The next message; gives up on a body that takes too long or grows too large."""
+        if self._complete:
+            return await self._receive()
+        try:
+            async with asyncio.timeout_at(self._due):
+                message = await self._receive()
+        except TimeoutError as error:
+            raise HTTPException(408, "The request body took too long to arrive") from error
+        self._count(len(message.get("body", b"")))
+        self._complete = not message.get("more_body", False)
+        if self._complete:
+            self._forget_body()
+        return message
 
-        async def receive_within_limits() -> Message:
-            nonlocal received, complete
-            if complete:
-                return await receive()
-            try:
-                async with asyncio.timeout_at(due):
-                    message = await receive()
-            except TimeoutError as error:
-                raise HTTPException(408, "The request body took too long to arrive") from error
-            received += len(message.get("body", b""))
-            if received > self._settings.max_body_bytes:
-                raise HTTPException(413, self._too_large())
-            complete = not message.get("more_body", False)
-            return message
+    def _count(self, size: int) -> None:
+        self._received += size
+        self._layer._arriving += size  # noqa: SLF001
+        if self._received > self._limits.max_body_bytes:
+            raise HTTPException(413, self._too_large())
+        if self._layer._arriving > self._limits.body_memory_mb * MEBIBYTE:  # noqa: SLF001
+            raise HTTPException(503, "Too many request bodies are arriving at once", {"Retry-After": "1"})
 
-        return receive_within_limits
+    def _forget_body(self) -> None:
+        self._layer._arriving -= self._received  # noqa: SLF001
+        self._received = 0
 
     def _too_large(self) -> str:
-        return f"The request body is larger than {self._settings.max_body_bytes} bytes"
-
-
-def _request_id(headers: dict[bytes, bytes]) -> str:
-    """The client's request id if it is a decent one, else a new one."""
-    sent = headers.get(b"x-request-id", b"")
-    return sent.decode() if ACCEPTABLE_ID.fullmatch(sent) else token_hex(16)
-
-
-def _record(scope: Scope, status: int, request_id: str, seconds: float) -> None:
-    """One log line and the metrics of a finished request."""
-    endpoint = getattr(scope.get("route"), "path", "unmatched")
-    requests, duration = _meters(endpoint, status)
-    requests.inc()
-    duration.observe(seconds)
-    if logger.isEnabledFor(logging.INFO):
-        sys.stdout.write(LOG_LINE % (time.time(), request_id, scope["method"], endpoint, status, seconds * 1e3))
-
-
-@lru_cache(maxsize=1024)
-def _meters(endpoint: str, status: int) -> tuple[Counter, Histogram]:
-    return REQUESTS.labels(endpoint, status), DURATION.labels(endpoint)
+        return f"The request body is larger than {self._limits.max_body_bytes} bytes"

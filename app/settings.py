@@ -6,7 +6,10 @@ from functools import lru_cache
 from pydantic import Field
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
+from app.processes import descriptor_limit
+
 MEBIBYTE = 2**20
+RESERVED_DESCRIPTORS = 96  # for workers, files and sockets of the service itself
 
 
 class Settings(BaseSettings):
@@ -22,7 +25,14 @@ class Settings(BaseSettings):
     worker_memory_mb: int = Field(2048, ge=512, description="memory a worker may allocate, MiB")
     max_body_bytes: int = Field(MEBIBYTE, ge=1024, description="largest request body; beyond it 413")
     body_deadline_s: float = Field(10.0, gt=0, description="longest time for a request body to arrive; then 408")
+    body_memory_mb: int = Field(64, ge=1, description="memory for request bodies that still arrive, MiB; then 503")
     max_header_bytes: int = Field(16384, ge=1024, description="largest sum of request headers; beyond it 431")
+    header_deadline_s: float = Field(10.0, gt=0, description="longest time for request headers to arrive; then 408")
+    max_connections: int = Field(
+        default_factory=lambda: max(16, min(10_000, descriptor_limit() - RESERVED_DESCRIPTORS)),
+        ge=1,
+        description="open connections; one more is answered 503",
+    )
     shutdown_s: int = Field(30, ge=0, description="time for requests in flight to finish at shutdown")
     log_level: str = Field("info", pattern="^(debug|info|warning|error)$", description="least level that is logged")
 

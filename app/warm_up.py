@@ -1,36 +1,102 @@
-"""The examples that between them touch every compiled kernel, so that no request pays for loading one."""
+"""The stages in which kernels are compiled and loaded: examples that between them touch every one.
 
+`python -m app.warm_up` compiles all of them and keeps the machine code on disk; with names of stages, only those.
+"""
+
+import sys
+from dataclasses import dataclass
 from functools import cache
 
+from numba.core import event
+
 from app.calculations import CALCULATIONS
+from app.figures.rendering import render
 from app.formats.json import answer
 from app.library import examples
+from app.processes import end_with_parent
+from solvers.kernel_cache import mark_complete
 
-WARMING = (
-    "pahl-axial-displacement",
-    "pahl-sleeve-orbit",
-    "pahl-z-arrangement",
-    "milian-case-1",
-    "milian-case-1-choking",
-    "milian-case-1-groove",
-    "milian-case-1-pocket-chain",
-    "milian-table-1-incompressible",
-    "fzg-type-a",
-    "xue-line-contact",
-    "xue-line-contact-isothermal",
-    "xue-pair-1-modified",
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """A part of a model that becomes ready as a whole; `kernels` is about how many compilations it takes."""
+
+    name: str
+    kernels: int
+    examples: tuple[str, ...]
+
+
+COUPLING = Stage("coupling", 8, ("pahl-axial-displacement",))
+SLEEVE = Stage("coupling sleeve", 70, ("pahl-sleeve-orbit", "pahl-z-arrangement"))
+LOADS = Stage("load distribution", 32, ("fzg-type-a", "xue-pair-1-modified"))
+PUMPING = Stage(
+    "pumping",
+    96,
+    (
+        "milian-case-1",
+        "milian-case-1-choking",
+        "milian-case-1-groove",
+        "milian-case-1-pocket-chain",
+        "milian-table-1-incompressible",
+    ),
 )
+LINE_CONTACT = Stage("line contact", 153, ("xue-line-contact", "xue-line-contact-isothermal", "xue-pair-1-thermal"))
+
+# What two cores compile side by side, each in this order; no stage needs kernels of one in the other track.
+TRACKS = ((COUPLING, SLEEVE, LOADS, PUMPING), (LINE_CONTACT,))
+STAGES = tuple(stage for track in TRACKS for stage in track)
+
+DRAWN = COUPLING.examples[0]  # loads what draws figures
+
+
+def content() -> str:
+    """What a cache holds that is complete."""
+    return " ".join(name for stage in STAGES for name in stage.examples)
+
+
+def needed_for(endpoint: str) -> Stage:
+    """The stage after which an endpoint answers: the first with an example of it, else the last of all."""
+    return _first_stages().get(endpoint, STAGES[-1])
 
 
 @cache
-def warm_up() -> None:
-    """Answer them, once in a process; runs in each worker as it starts."""
-    calculations = {calculation.path: calculation for calculation in CALCULATIONS}
-    for name in WARMING:
-        example = examples()[name]
-        calculation = calculations[example.endpoint]
-        answer(calculation, calculation.request.model_validate(example.request))
+def _first_stages() -> dict[str, Stage]:
+    return {examples()[name].endpoint: stage for stage in reversed(STAGES) for name in reversed(stage.examples)}
+
+
+def calculate(name: str) -> None:
+    """Answer one example."""
+    example = examples()[name]
+    calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
+    request = calculation.request.model_validate(example.request)
+    answer(calculation, request)
+    if name == DRAWN:
+        render(calculation, calculation.figures[0], request, "svg", "light")
+
+
+class _Ticks(event.Listener):
+    """Prints a line for every kernel compiled, for the service to count."""
+
+    def on_start(self, event: object) -> None:
+        """A compilation begins: nothing to tell."""
+
+    def on_end(self, _event: object) -> None:
+        """A kernel is compiled."""
+        print("kernel", flush=True)  # noqa: T201
+
+
+def main(names: list[str]) -> None:
+    """Compile these stages, or all."""
+    end_with_parent()
+    event.register("numba:compile", _Ticks())
+    for stage in STAGES:
+        if not names or stage.name in names:
+            for name in stage.examples:
+                calculate(name)
+            print("stage", stage.name, flush=True)  # noqa: T201
+    if not names:
+        mark_complete(content())
 
 
 if __name__ == "__main__":
-    warm_up()
+    main(sys.argv[1:])

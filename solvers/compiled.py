@@ -1,14 +1,47 @@
-"""The one way kernels are compiled: by numba, typed by use, cached on disk, IEEE division."""
+"""The one way kernels are compiled: by numba, typed by use, kept on disk, IEEE division.
+
+A kernel that only other kernels call needs no wrapper that turns Python objects into numbers and back, and making
+wrappers is a third of the time that compilation takes. Each kernel is therefore two dispatchers: the one that Python
+sees, and behind it the bare one that other kernels are compiled against.
+"""
 
 from collections.abc import Callable
-from typing import ParamSpec, TypeVar, cast
+from typing import Any, ParamSpec, TypeVar, cast
 
-from numba import njit
+from numba.core.registry import CPUDispatcher
+
+from solvers.kernel_cache import KernelCache
 
 P = ParamSpec("P")
 R = TypeVar("R")
+OPTIONS = {"nopython": True, "boundscheck": None, "error_model": "numpy", "nogil": True}
+BARE = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
 def kernel(function: Callable[P, R]) -> Callable[P, R]:
     """Compile a function of scalars and arrays; division by zero follows IEEE instead of raising."""
-    return cast("Callable[P, R]", njit(cache=True, error_model="numpy", nogil=True)(function))
+    return cast("Callable[P, R]", Kernel(function))
+
+
+class _Cached(CPUDispatcher):
+    """A compiled function whose machine code is kept; `variant` tells it from others of the same source."""
+
+    def __init__(self, function: Callable[..., Any], variant: str, **options: Any) -> None:
+        super().__init__(function, **options)
+        self._cache = KernelCache(function, variant)
+
+
+class Kernel(_Cached):
+    """A compiled function that Python can call."""
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        super().__init__(function, "", targetoptions=OPTIONS)
+        self._bare = _Cached(function, "-bare", targetoptions=OPTIONS | BARE)
+
+    def get_call_template(self, args: Any, kws: Any) -> Any:
+        """How another kernel calls this one: numba asks while it infers types."""
+        return self._bare.get_call_template(args, kws)
+
+    def get_overload(self, sig: Any) -> Any:
+        """What another kernel calls: numba asks while it generates code."""
+        return self._bare.get_overload(sig)

@@ -1,17 +1,19 @@
-"""Starts the service as a process of its own."""
+"""Starts the service as a process of its own, and looks at its processes from outside."""
 
 import os
+import signal
 import socket
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 import httpx
 
+ROOT = Path(__file__).parents[1]
 START_UP_S = 400.0  # kernels are compiled the first time
 
 
@@ -23,44 +25,111 @@ def free_port() -> int:
 
 
 @contextmanager
+def started_server(
+    command: list[str] | None = None,
+    *,
+    log: Path | int | None = None,
+    environment: dict[str, str] | None = None,
+    **settings: object,
+) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """A server process and its address, whatever it answers yet; settings become environment variables."""
+    port = free_port()
+    variables = {f"TRIBODRIVE_{name.upper()}": str(value) for name, value in settings.items()}
+    output = log if isinstance(log, int) else (log or Path(os.devnull)).open("w")
+    process = subprocess.Popen(
+        command or [sys.executable, "-m", "app"],
+        env={**os.environ, **variables, **(environment or {}), "TRIBODRIVE_PORT": str(port)},
+        cwd=ROOT,
+        stdout=output,
+        stderr=output if log else None,
+        text=True,
+    )
+    try:
+        yield process, f"http://127.0.0.1:{port}"
+    finally:
+        process.terminate()
+        with suppress(subprocess.TimeoutExpired):
+            process.wait(40)
+        process.kill()
+        process.wait()
+        if not isinstance(output, int):
+            output.close()
+
+
+@contextmanager
 def running_server(
     command: list[str] | None = None, *, log: Path | None = None, **settings: object
 ) -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """A server process and its address; settings become environment variables."""
-    port = free_port()
-    environment = {f"TRIBODRIVE_{name.upper()}": str(value) for name, value in settings.items()}
-    with (log or Path(os.devnull)).open("w") as output:
-        process = subprocess.Popen(
-            command or [sys.executable, "-m", "app"],
-            env={**os.environ, **environment, "TRIBODRIVE_PORT": str(port)},
-            cwd=Path(__file__).parents[1],
-            stdout=output,
-            text=True,
-        )
-        try:
-            yield process, _ready(process, f"http://127.0.0.1:{port}")
-        finally:
-            process.terminate()
-            process.wait(40)
+    """The same, once everything is warm."""
+    with started_server(command, log=log, **settings) as (process, address):
+        wait_until_warm(process, address)
+        yield process, address
 
 
-def _ready(process: subprocess.Popen[str], address: str) -> str:
-    end = time.monotonic() + START_UP_S
+def wait_until_warm(process: subprocess.Popen[str], address: str, seconds: float = START_UP_S) -> None:
+    end = time.monotonic() + seconds
     while time.monotonic() < end and process.poll() is None:
-        try:
-            if httpx.get(f"{address}/readyz", timeout=START_UP_S).status_code == httpx.codes.OK:
-                return address
-        except httpx.TransportError:
-            time.sleep(0.1)
+        with suppress(httpx.TransportError):
+            if httpx.get(f"{address}/readyz", timeout=seconds).status_code == httpx.codes.OK:
+                return
+        time.sleep(0.1)
     raise RuntimeError(f"the service did not start: exit code {process.poll()}")
 
 
-def children(process: subprocess.Popen[Any]) -> list[int]:
+def children(pid: int) -> list[int]:
+    """Process ids of the children of a process."""
+    with suppress(OSError):
+        return [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text("ascii").split()]
+    return []
+
+
+def template(process: subprocess.Popen[Any]) -> int:
+    """Process id of the fork server: the child that has been told so."""
+    return next(child for child in children(process.pid) if "app.workers.template" in command_line(child))
+
+
+def workers(process: subprocess.Popen[Any]) -> list[int]:
     """Process ids of the workers."""
-    return [int(pid) for pid in Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text("ascii").split()]
+    return children(template(process))
+
+
+def descendants(pid: int) -> set[int]:
+    """Every process below a process."""
+    found = set(children(pid))
+    return found.union(*map(descendants, found))
+
+
+def command_line(pid: int) -> str:
+    with suppress(OSError):
+        return Path(f"/proc/{pid}/cmdline").read_text().replace("\0", " ")
+    return ""
+
+
+def is_alive(pid: int) -> bool:
+    """Whether the process runs: neither gone nor a zombie."""
+    with suppress(OSError):
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    return False
+
+
+def descriptors(pid: int) -> int:
+    """How many files and sockets a process has open."""
+    return len(list(Path(f"/proc/{pid}/fd").iterdir()))
 
 
 def memory_mb(pid: int) -> float:
     """Resident memory of one process [MiB]."""
     pages = int(Path(f"/proc/{pid}/statm").read_text("ascii").split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE") / 2**20
+
+
+def private_memory_mb(pid: int) -> float:
+    """Memory of one process that it shares with no other [MiB]."""
+    lines = Path(f"/proc/{pid}/smaps_rollup").read_text("ascii").splitlines()
+    return sum(int(line.split()[1]) for line in lines if line.startswith("Private_")) / 1024
+
+
+def send_signal(pid: int, number: signal.Signals) -> None:
+    """Signal a process that may have gone meanwhile."""
+    with suppress(ProcessLookupError):
+        os.kill(pid, number)

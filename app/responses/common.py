@@ -19,17 +19,19 @@ class Group(Documented):
 class Notice(Group):
     """A value outside its range of validity, or without meaning."""
 
-    code: Annotated[str, Output("stable name of the warning, meant for programs")]
-    message: Annotated[str, Output("what is out of which range, and what follows")]
-    field: Annotated[str | None, Output("dotted name of the request field it is about")] = None
+    code: Annotated[str, Output("code of the warning", text="stable name, meant for programs")]
+    message: Annotated[str, Output("message of the warning", text="what is out of which range, and what follows")]
+    field: Annotated[
+        str | None, Output("field of the warning", text="dotted name of the request field it is about")
+    ] = None
 
 
 class Assumption(Group):
     """A default that this result used and that is ours, not the paper's."""
 
-    field: Annotated[str, Output("dotted name of the assumed request field")]
-    value: Annotated[Any, Output("the value used")]
-    reason: Annotated[str, Output("why this value")]
+    field: Annotated[str, Output("assumed field", text="dotted name of the request field")]
+    value: Annotated[Any, Output("assumed value", text="the value used")]
+    reason: Annotated[str, Output("reason of the assumption", text="why this value")]
 
 
 class Derived(Group):
@@ -41,21 +43,27 @@ class Response(Group):
 
     status: Annotated[
         Literal["ok", "ok_with_warnings", "no_solution"],
-        Output("whether the calculation succeeded", text="with no_solution, `residuals` says how far it came"),
+        Output("status", text="whether the calculation succeeded; with no_solution, `residuals` says how far it came"),
     ]
-    warnings: Annotated[list[Notice], Output("limits of validity that this result touches")]
-    residuals: Annotated[dict[str, float] | None, Output("how far an iteration without a solution came")] = None
-    assumptions: Annotated[list[Assumption], Output("defaults used that are ours and not the paper's")]
-    model_version: Annotated[str, Output("version of the model that computed this result")]
+    warnings: Annotated[list[Notice], Output("warnings", text="limits of validity that this result touches")]
+    residuals: Annotated[
+        dict[str, float] | None, Output("residuals", text="how far an iteration without a solution came")
+    ] = None
+    assumptions: Annotated[
+        list[Assumption], Output("assumptions", text="defaults used that are ours and not the paper's")
+    ]
+    model_version: Annotated[str, Output("model version", text="version of the model that computed this result")]
     model: Annotated[dict[str, Any], Output("options in force")]
-    derived: Annotated[Derived | None, Output("what follows from the request before any physics")] = None
+    derived: Annotated[Derived | None, Output("derived", text="what follows from the request before any physics")] = (
+        None
+    )
     inputs: Annotated[
         dict[str, Any],
-        Output("the request with its defaults", text="the request with its defaults, to be posted"),
+        Output("inputs", text="the request with its defaults, to be posted"),
     ]
     case: Annotated[
         str,
-        Output("name of the case", text="SHA-256 of endpoint, inputs and model version; equal for equal numbers"),
+        Output("case", text="SHA-256 of endpoint, inputs and model version; equal for equal numbers"),
     ]
 
     @classmethod

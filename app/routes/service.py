@@ -7,10 +7,11 @@ from fastapi.responses import RedirectResponse
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 from pydantic import BaseModel
 
-from app.compute import Runner
 from app.contract.quantities import Output
 from app.library import Example, ExampleSummary, examples
-from app.problems import documented
+from app.problems import WarmingUp, WorkerLost, documented
+from app.start_up import StartUp
+from app.workers.pool import Pool
 
 router = APIRouter(tags=["service"])
 
@@ -19,6 +20,14 @@ class Health(BaseModel):
     """That the service lives."""
 
     status: Annotated[Literal["ok"], Output("always ok: an answer is the message")] = "ok"
+
+
+class Readiness(BaseModel):
+    """What is ready."""
+
+    status: Annotated[Literal["ok"], Output("always ok: an answer is the message")] = "ok"
+    warm: Annotated[list[str], Output("models, or parts of them, whose kernels are loaded")]
+    workers: Annotated[int, Output("worker processes that calculate or could")]
 
 
 @router.get("/", include_in_schema=False)
@@ -48,12 +57,16 @@ async def healthz() -> Health:
     return Health()
 
 
-@router.get("/readyz", responses=documented(503, 504))
-async def readyz(http: Request) -> Health:
-    """Whether a worker process computes."""
-    runner: Runner = http.app.state.runner
-    await runner.ping()
-    return Health()
+@router.get("/readyz", responses=documented(503))
+async def readyz(http: Request) -> Readiness:
+    """Whether every calculation answers at once; 503 says how far the warm-up is. Never waits for a calculation."""
+    start_up: StartUp = http.app.state.start_up
+    pool: Pool = http.app.state.pool
+    if not start_up.complete:
+        raise WarmingUp(f"Kernels are being loaded or compiled: {start_up.report()}")
+    if pool.workers_alive == 0:
+        raise WorkerLost
+    return Readiness(warm=start_up.warm, workers=pool.workers_alive)
 
 
 @router.get("/metrics", response_class=Response, include_in_schema=False)

@@ -7,6 +7,7 @@ from math import asin, pi
 import numpy as np
 
 from solvers.arrays import FloatArray
+from solvers.coupling.friction_sums import FrictionSums, friction_sums
 from solvers.coupling.inputs import Coupling, CouplingInputs
 from solvers.coupling.kinematics import MeshMotion, ToothPositions, positions_per_pitch, tooth_positions
 from solvers.coupling.tooth_loads import mesh_loads
@@ -26,12 +27,13 @@ class RotorSamples:
 
 @dataclass(frozen=True, slots=True)
 class LoadedMesh:
-    """One mesh over a pitch: its motion, where its teeth stand, their tangential forces (rows, teeth) [N]."""
+    """One mesh over a pitch: its motion, where its teeth stand, their tangential forces (rows, teeth) [N], sums."""
 
     motion: MeshMotion
     weight: FloatArray
     teeth: ToothPositions
     tangential_force: FloatArray
+    friction: FrictionSums
 
     def mean_sum(self, values: FloatArray) -> float:
         """Sum over the teeth of values (rows, teeth), averaged over rotor angles."""
@@ -76,4 +78,6 @@ def loaded_mesh(inputs: CouplingInputs, mesh: MeshMotion) -> LoadedMesh:
     samples = rotor_samples(inputs.coupling, mesh, inputs.operation.axial_velocity)
     floating = inputs.model.sleeve == "floating"
     loads = mesh_loads(inputs.coupling, mesh, samples.teeth, inputs.operation.torque, floating=floating)
-    return LoadedMesh(mesh, samples.weight, samples.teeth, loads.tangential_force)
+    force, teeth, weight = loads.tangential_force, samples.teeth, samples.weight
+    sums = friction_sums(force, teeth.sine, teeth.cosine, weight, mesh.sliding, inputs.operation.axial_velocity)
+    return LoadedMesh(mesh, weight, teeth, force, sums)

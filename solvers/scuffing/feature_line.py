@@ -24,7 +24,7 @@ def contact_points(
         gamma=frozen(path.profile_parameter(x)),
         line_load=frozen(load),
         pressure=frozen(contact_pressure(balance, x, load, modulus)),
-        half_width=frozen(hertz.half_width(load, np.maximum(radius, 0.0), modulus)),
+        half_width=frozen(hertz.half_width(load, np.where(radius < path.plane.least_radius, 0.0, radius), modulus)),
         radius=frozen(radius),
         pinion_speed=frozen(pinion),
         wheel_speed=frozen(wheel),
@@ -32,10 +32,14 @@ def contact_points(
 
 
 def feature_line(
-    path: PathOfContact, balance: LoadBalance, pinion_speed: float, tangential_force: float, modulus: float, points: int
+    path: PathOfContact,
+    balance: LoadBalance,
+    pinion_speed: float,
+    tangential_force: float,
+    modulus: float,
+    psi: FloatArray,
 ) -> FeatureLine:
-    """The points at equidistant psi in 0..1, x = psi g_alpha, y = psi b; F_bt [N], E' [Pa]."""
-    psi = np.linspace(0.0, 1.0, points)
+    """The points at psi in 0..1 (n,), x = psi g_alpha, y = psi b; F_bt [N], E' [Pa]."""
     x = psi * path.length
     line = contact_points(path, balance, x, psi * path.plane.face_width, pinion_speed, modulus)
     sharing = iso_load_sharing(path, x)

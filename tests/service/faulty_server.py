@@ -1,5 +1,7 @@
-"""The service with two more endpoints that misbehave on demand, run as `python -m tests.service.faulty_server`."""
+"""The service with more endpoints that misbehave on demand, run as `python -m tests.service.faulty_server`."""
 
+import os
+import signal
 import time
 
 import numpy as np
@@ -11,6 +13,15 @@ from app.main import create_app
 
 def sleep(seconds: float) -> float:
     time.sleep(seconds)
+    return seconds
+
+
+def spin(seconds: float) -> float:
+    """Busy, and deaf to everything but SIGKILL."""
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        pass
     return seconds
 
 
@@ -26,10 +37,24 @@ def create_faulty_app() -> FastAPI:
         result: float = await app.state.runner.run(http.receive, sleep, seconds)
         return result
 
+    @app.post("/spin/{seconds}")
+    async def _(http: Request, seconds: float) -> float:
+        result: float = await app.state.runner.run(http.receive, spin, seconds)
+        return result
+
     @app.post("/allocate/{mebibytes}")
     async def _(http: Request, mebibytes: int) -> int:
         result: int = await app.state.runner.run(http.receive, allocate, mebibytes)
         return result
+
+    @app.post("/worker")
+    async def _(http: Request) -> int:
+        result: int = await app.state.runner.run(http.receive, os.getpid)
+        return result
+
+    @app.post("/bug")
+    async def _() -> None:
+        raise RuntimeError("a bug")
 
     return app
 

@@ -1,6 +1,5 @@
-"""Faults cost only their own request: killed workers, disconnects, deadlines, slow bodies, full queues, shutdown."""
+"""Faults of workers and clients cost only their own request: deaths, stops, disconnects, deadlines, full queues."""
 
-import os
 import random
 import signal
 import socket
@@ -17,7 +16,17 @@ import httpx
 import pytest
 
 from app.library import examples
-from tests.server import children, running_server
+from tests.server import (
+    descendants,
+    descriptors,
+    is_alive,
+    memory_mb,
+    private_memory_mb,
+    running_server,
+    send_signal,
+    template,
+    workers,
+)
 
 pytestmark = pytest.mark.service
 
@@ -82,9 +91,9 @@ def outcomes_while_killing(process: subprocess.Popen[str], address: str) -> Coun
         loads = [pool.submit(load) for _ in range(3)]
         for _ in range(KILLS):
             time.sleep(KILL_EVERY_S)
-            workers = children(process)
-            if workers:
-                os.kill(random.choice(workers), signal.SIGKILL)
+            alive = workers(process)
+            if alive:
+                send_signal(random.choice(alive), signal.SIGKILL)
         done.set()
         for each in loads:
             each.result()
@@ -154,6 +163,121 @@ def test_health_while_all_workers_are_busy(faulty: tuple[subprocess.Popen[str], 
     assert len(durations) > 200
     assert durations[int(0.99 * len(durations))] < 0.020
     assert_recovers(address)
+
+
+def test_a_new_worker_is_there_at_once(faulty: tuple[subprocess.Popen[str], str]) -> None:
+    process, address = faulty
+    before = set(workers(process))
+    started = time.monotonic()
+    for worker in before:
+        send_signal(worker, signal.SIGKILL)
+    while len(set(workers(process)) - before) < len(before):
+        time.sleep(0.002)
+        assert time.monotonic() - started < 5
+    assert time.monotonic() - started < 0.5  # 0.05 s on quiet cores
+    assert all(not is_alive(worker) for worker in before)
+    assert_recovers(address)
+
+
+def test_a_worker_shares_the_memory_of_its_template(faulty: tuple[subprocess.Popen[str], str]) -> None:
+    process, address = faulty
+    worker = int(httpx.post(f"{address}/worker", timeout=20).text)
+    assert worker in workers(process)
+    assert private_memory_mb(worker) < 40
+
+
+@pytest.mark.parametrize("busy", [False, True])
+def test_a_stopped_worker_is_noticed_and_replaced(faulty: tuple[subprocess.Popen[str], str], busy: bool) -> None:
+    process, address = faulty
+    before = set(workers(process))
+    with ThreadPoolExecutor(2) as pool:
+        flights = [pool.submit(httpx.post, f"{address}/sleep/4", timeout=20) for _ in range(2 if busy else 0)]
+        time.sleep(0.3)
+        for worker in before:
+            send_signal(worker, signal.SIGSTOP)
+        end = time.monotonic() + 3
+        while set(workers(process)) & before:
+            assert time.monotonic() < end
+            time.sleep(0.05)
+        assert {flight.result().status_code for flight in flights} <= {503}
+    assert httpx.post(f"{address}/sleep/0", timeout=5).status_code == 200
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
+def test_a_lost_fork_server_is_started_again(faulty: tuple[subprocess.Popen[str], str], number: signal.Signals) -> None:
+    process, address = faulty
+    old = template(process)
+    flight_worker = workers(process)
+    with ThreadPoolExecutor(1) as pool:
+        flight = pool.submit(httpx.post, f"{address}/sleep/1", timeout=20)
+        time.sleep(0.3)
+        send_signal(old, number)
+        assert flight.result().status_code == 200  # workers outlive the process that they were copied from
+    end = time.monotonic() + 60
+    while is_alive(old) or httpx.get(f"{address}/readyz", timeout=5).status_code != 200:
+        assert time.monotonic() < end
+        time.sleep(0.1)
+    for worker in flight_worker:
+        send_signal(worker, signal.SIGKILL)
+    assert_recovers(address, 60)
+    assert template(process) != old
+
+
+def test_a_storm_of_disconnects_leaves_nothing_behind(faulty: tuple[subprocess.Popen[str], str]) -> None:
+    process, address = faulty
+    assert_recovers(address)
+    before = len(descendants(process.pid)), descriptors(process.pid), memory_mb(process.pid)
+    done = threading.Event()
+    answered = 0
+
+    def leave() -> None:
+        while not done.is_set():
+            with pytest.raises(httpx.ReadTimeout):
+                httpx.post(f"{address}/sleep/5", timeout=httpx.Timeout(5, read=0.1))
+
+    with ThreadPoolExecutor(1) as pool, httpx.Client(base_url=address, timeout=20) as client:
+        storm = pool.submit(leave)
+        end = time.monotonic() + 10
+        while time.monotonic() < end:
+            answered += client.post("/sleep/0.01").status_code == 200
+        done.set()
+        storm.result()
+    assert answered > 50
+    assert_recovers(address)
+    time.sleep(1)
+    assert len(descendants(process.pid)) <= before[0]
+    assert descriptors(process.pid) <= before[1] + 2
+    assert memory_mb(process.pid) < before[2] + 20
+
+
+def test_death_of_the_service_takes_everything_along() -> None:
+    with running_server(FAULTY, workers=2, log_level="error") as (process, address), ThreadPoolExecutor(1) as pool:
+        flight = pool.submit(httpx.post, f"{address}/spin/20", timeout=20)
+        time.sleep(0.5)
+        family = descendants(process.pid)
+        assert len(family) >= 3
+        process.kill()
+        with pytest.raises(httpx.TransportError):
+            flight.result()
+        end = time.monotonic() + 2
+        while any(map(is_alive, family)):
+            assert time.monotonic() < end
+            time.sleep(0.05)
+
+
+def test_interrupt_does_not_wait_for_a_calculation() -> None:
+    with running_server(FAULTY, workers=2, log_level="error") as (process, address), ThreadPoolExecutor(1) as pool:
+        flight = pool.submit(httpx.post, f"{address}/spin/20", timeout=20)
+        time.sleep(0.5)
+        family = descendants(process.pid)
+        process.send_signal(signal.SIGINT)
+        started = time.monotonic()
+        process.wait(10)
+        assert time.monotonic() - started < 2.5
+        time.sleep(0.2)
+        assert not any(map(is_alive, family))
+        assert flight.result().status_code == 503
+        assert flight.result().json()["type"].endswith("shutting_down")
 
 
 def test_shutdown_finishes_what_is_in_flight() -> None:

@@ -1,14 +1,26 @@
-"""One line of JSON for every request, and nothing of its content."""
+"""The books are true: one line of JSON for every answer, nothing of its content, and nobody waits for the reader."""
 
 import json
+import os
+import sys
+import time
 from pathlib import Path
+from urllib.parse import urlsplit
 
 import httpx
 import pytest
 
-from tests.server import running_server
+from tests.server import running_server, started_server, wait_until_warm
+from tests.service.test_floods import answer_to, connected
 
 pytestmark = pytest.mark.service
+
+FAULTY = [sys.executable, "-m", "tests.service.faulty_server"]
+
+
+def lines_of(log: Path) -> list[dict[str, object]]:
+    lines = [json.loads(line) for line in log.read_text("utf-8").splitlines() if line.startswith("{")]
+    return [line for line in lines if line["endpoint"] != "/readyz"]
 
 
 def test_one_json_line_a_request(tmp_path: Path) -> None:
@@ -17,14 +29,84 @@ def test_one_json_line_a_request(tmp_path: Path) -> None:
         httpx.get(f"{address}/healthz", headers={"X-Request-ID": "first"})
         httpx.post(f"{address}/v1/coupling", json={"secret": 1}, headers={"X-Request-ID": "second"})
         httpx.get(f"{address}/nothing?token=hidden", headers={"X-Request-ID": 'a"b'})
-    lines = [json.loads(line) for line in log.read_text("utf-8").splitlines() if line.startswith("{")]
-    mine = [line for line in lines if line["endpoint"] != "/readyz"]
+        httpx.head(f"{address}/healthz")
+    mine = lines_of(log)
     assert [(line["method"], line["endpoint"], line["status"]) for line in mine] == [
         ("GET", "/healthz", 200),
         ("POST", "/v1/coupling", 422),
         ("GET", "unmatched", 404),
+        ("HEAD", "/healthz", 200),
     ]
     assert [line["request_id"] for line in mine[:2]] == ["first", "second"]
-    assert all(line["duration_ms"] >= 0 for line in mine)
+    assert all(float(str(line["duration_ms"])) >= 0 for line in mine)
     assert "secret" not in log.read_text("utf-8")
     assert "hidden" not in log.read_text("utf-8")
+
+
+def test_internal_and_parser_errors_are_in_the_books(tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    with running_server(FAULTY, log=log, workers=1) as (_, address):
+        bug = httpx.post(f"{address}/bug")
+        assert bug.status_code == 500
+        assert bug.headers["content-type"] == "application/problem+json"
+        assert bug.headers["x-content-type-options"] == "nosniff"
+        assert bug.json()["instance"] == bug.headers["x-request-id"]
+        with connected(address) as connection:
+            connection.sendall(b"NONSENSE\r\n\r\n")
+            head, _, body = answer_to(connection).partition(b"\r\n\r\n")
+        assert head.startswith(b"HTTP/1.1 400")
+        assert b"x-content-type-options: nosniff" in head
+        metrics = httpx.get(f"{address}/metrics").text
+    identifiers = [bug.json()["instance"], json.loads(body)["instance"]]
+    mine = [line for line in lines_of(log) if line["request_id"] in identifiers]
+    assert [(line["method"], line["endpoint"], line["status"]) for line in mine] == [
+        ("POST", "/bug", 500),
+        ("-", "unparsed", 400),
+    ]
+    assert 'tribodrive_requests_total{endpoint="/bug",status="500"} 1.0' in metrics
+    assert 'tribodrive_requests_total{endpoint="unparsed",status="400"} 1.0' in metrics
+    assert "RuntimeError: a bug" in log.read_text("utf-8")
+
+
+def test_a_log_that_nobody_reads_costs_lines_and_nothing_else() -> None:
+    reader, writer = os.pipe()
+    try:
+        with started_server(log=writer, workers=1) as (process, address):
+            wait_until_warm(process, address)
+            slowest = 0.0
+            with httpx.Client(base_url=address) as client:
+                for _ in range(13_000):  # the pipe holds some hundred lines, the queue ten thousand
+                    started = time.monotonic()
+                    assert client.get("/healthz").status_code == 200
+                    slowest = max(slowest, time.monotonic() - started)
+                dropped = next(
+                    line
+                    for line in client.get("/metrics").text.splitlines()
+                    if line.startswith("tribodrive_log_lines_dropped_total")
+                )
+            assert slowest < 1.0
+            assert float(dropped.split()[1]) > 100
+            process.terminate()
+            process.wait(5)
+    finally:
+        os.close(reader)
+        os.close(writer)
+
+
+def test_ready_does_not_queue_behind_calculations() -> None:
+    with running_server(FAULTY, workers=1, log_level="error") as (_, address):
+        target = urlsplit(address)
+        busy = []
+        for _ in range(5):
+            connection = connected(address)
+            connection.sendall(f"POST /sleep/2 HTTP/1.1\r\nHost: {target.netloc}\r\nContent-Length: 0\r\n\r\n".encode())
+            busy.append(connection)
+        time.sleep(0.3)
+        started = time.monotonic()
+        answer = httpx.get(f"{address}/readyz", timeout=5)
+        assert answer.status_code == 200
+        assert answer.json()["workers"] == 1
+        assert "coupling" in answer.json()["warm"]
+        assert time.monotonic() - started < 1
+        for connection in busy:
+            connection.close()

@@ -1,0 +1,44 @@
+"""Progress bars on a terminal; one line for each finished part where the output is no terminal."""
+
+import sys
+
+from app.log import WRITER
+
+WIDTH = 30
+
+
+class Progress:
+    """One bar for each part."""
+
+    def __init__(self, parts: list[str]) -> None:
+        self._parts = parts
+        self._terminal = sys.stderr.isatty()
+        self._drawn = False
+        self._done: set[str] = set()
+
+    def show(self, shares: dict[str, float]) -> None:
+        """Draw how far each part is."""
+        if self._terminal:
+            self._draw(shares)
+        else:
+            for part in self._parts:
+                if shares[part] >= 1 and part not in self._done:
+                    self._write(f"tribodrive: {part} is warm\n")
+        self._done |= {part for part in self._parts if shares[part] >= 1}
+
+    def finish(self, message: str) -> None:
+        """Say that all is done."""
+        self._write(message + "\n")
+
+    def _draw(self, shares: dict[str, float]) -> None:
+        up = f"\x1b[{len(self._parts)}A" if self._drawn else ""
+        self._drawn = True
+        width = max(map(len, self._parts))
+        lines = (
+            f"\x1b[2K  {part:<{width}} {'█' * round(WIDTH * shares[part]):░<{WIDTH}} {shares[part]:>4.0%}\n"
+            for part in self._parts
+        )
+        self._write(up + "".join(lines))
+
+    def _write(self, text: str) -> None:
+        WRITER.write(sys.stderr.fileno(), text)

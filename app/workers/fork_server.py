@@ -1,0 +1,156 @@
+"""The service's end of the template process: starts it, has it fork workers, replaces it when it fails."""
+
+import asyncio
+import contextlib
+import os
+import pickle
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import Callable
+from typing import Any, cast
+
+from app.processes import is_stopped
+from app.workers.worker import LENGTH, framed
+
+FORK_TIMEOUT_S = 10.0
+ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+class WorkerDied(Exception):
+    """The process ended, or was ended, before its outcome arrived."""
+
+
+class TemplateLost(Exception):
+    """The template process died or does not answer."""
+
+
+class Worker(asyncio.Protocol):
+    """One worker process: makes one call at a time."""
+
+    def __init__(self, pid: int, ended: Callable[["Worker"], None]) -> None:
+        self.pid = pid
+        self.alive = True
+        self._ended = ended
+        self._outcome: asyncio.Future[bytes] | None = None
+        self._received = bytearray()
+        self._transport: asyncio.Transport
+
+    async def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        """What the function returns or raises in the process; WorkerDied if that ends first."""
+        if not self.alive:
+            raise WorkerDied
+        self._outcome = asyncio.get_running_loop().create_future()
+        self._transport.write(framed(pickle.dumps((function, arguments), pickle.HIGHEST_PROTOCOL)))
+        try:
+            succeeded, result = pickle.loads(await self._outcome)  # noqa: S301  from a process of ours
+        finally:
+            self._outcome = None
+        if succeeded:
+            return result
+        raise result
+
+    def kill(self) -> None:
+        """End the process; `ended` follows."""
+        if self.alive:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(self.pid, signal.SIGKILL)
+            self._transport.abort()
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """The process listens."""
+        self._transport = cast("asyncio.Transport", transport)
+
+    def data_received(self, data: bytes) -> None:
+        """A piece of an outcome."""
+        self._received += data
+        if len(self._received) < LENGTH.size:
+            return
+        size = LENGTH.size + LENGTH.unpack_from(self._received)[0]
+        if len(self._received) >= size:
+            content = bytes(self._received[LENGTH.size : size])
+            self._received.clear()
+            if self._outcome is not None and not self._outcome.done():
+                self._outcome.set_result(content)
+
+    def connection_lost(self, _exc: Exception | None) -> None:
+        """The process ended, or its socket was closed."""
+        self.alive = False
+        if self._outcome is not None and not self._outcome.done():
+            self._outcome.set_exception(WorkerDied())
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(self.pid, signal.SIGKILL)  # not reaped yet: still this process and no other
+        self._ended(self)
+
+
+class ForkServer:
+    """A running template process."""
+
+    def __init__(self, process: subprocess.Popen[bytes], control: socket.socket) -> None:
+        self._process = process
+        self._control = control
+        self._lock = asyncio.Lock()
+
+    @classmethod
+    def start(cls) -> "ForkServer":
+        """Start the process; it answers once it has imported what it needs."""
+        ours, theirs = socket.socketpair()
+        ours.setblocking(False)
+        environment = {**os.environ, **dict.fromkeys(ONE_THREAD, "1")}
+        with theirs:
+            command = [sys.executable, "-m", "app.workers.template"]
+            process = subprocess.Popen(command, stdin=theirs.fileno(), env=environment)  # noqa: S603
+        return cls(process, ours)
+
+    @property
+    def lost(self) -> bool:
+        """Whether it died or was stopped."""
+        return self._process.poll() is not None or is_stopped(self._process.pid)
+
+    async def fork(self, memory_mb: int, ended: Callable[[Worker], None]) -> Worker:
+        """A new worker process."""
+        ours, theirs = socket.socketpair()
+        with theirs:
+            try:
+                pid = int(await self._command(f"fork {memory_mb}", theirs, FORK_TIMEOUT_S))
+            except BaseException:
+                ours.close()
+                raise
+        _, worker = await asyncio.get_running_loop().create_unix_connection(lambda: Worker(pid, ended), sock=ours)
+        return worker
+
+    async def reap(self, pid: int) -> None:
+        """Forget a process that was ended."""
+        await self._command(f"reap {pid}", None, FORK_TIMEOUT_S)
+
+    async def warm(self, example: str) -> None:
+        """Load the kernels that this example needs."""
+        await self._command(f"warm {example}", None, None)
+
+    def close(self) -> None:
+        """End the process."""
+        self._process.kill()
+        self._process.wait()
+        self._control.close()
+
+    async def _command(self, command: str, descriptor: socket.socket | None, timeout_s: float | None) -> str:
+        """The template's answer; a command once sent is waited for even if the caller has left."""
+        return await asyncio.shield(asyncio.ensure_future(self._exchange(command, descriptor, timeout_s)))
+
+    async def _exchange(self, command: str, descriptor: socket.socket | None, timeout_s: float | None) -> str:
+        loop = asyncio.get_running_loop()
+        passed = os.dup(descriptor.fileno()) if descriptor else None
+        try:
+            async with self._lock, asyncio.timeout(timeout_s):
+                socket.send_fds(self._control, [command.encode()], [passed] if passed is not None else [])
+                answer = await loop.sock_recv(self._control, 64)
+        except (OSError, TimeoutError, ValueError) as error:
+            self._process.kill()
+            raise TemplateLost from error
+        finally:
+            if passed is not None:
+                os.close(passed)
+        if not answer:
+            raise TemplateLost
+        return answer.decode().strip()

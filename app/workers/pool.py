@@ -1,0 +1,210 @@
+"""A fixed number of workers. One that dies, is stopped or is no longer wanted costs its own call and is replaced."""
+
+import asyncio
+import contextlib
+import logging
+import os
+from collections import deque
+from collections.abc import AsyncIterator, Callable, Coroutine
+from contextlib import asynccontextmanager
+from typing import Any
+
+from app.metrics import WORKERS_LOST
+from app.problems import WorkerLost
+from app.processes import is_stopped
+from app.workers.fork_server import ForkServer, TemplateLost, Worker, WorkerDied
+
+SUPERVISION_S = 0.25
+PING_EVERY_S = 2.0
+PING_TIMEOUT_S = 5.0
+
+logger = logging.getLogger("tribodrive")
+
+
+class Pool:
+    """Workers forked from one template, and who waits for them."""
+
+    def __init__(self, size: int, memory_mb: int) -> None:
+        self._size = size
+        self._memory_mb = memory_mb
+        self._template: ForkServer | None = None
+        self._warm: list[str] = []
+        self._workers: set[Worker] = set()
+        self._stale: set[Worker] = set()
+        self._idle: list[Worker] = []
+        self._waiting: deque[asyncio.Future[Worker]] = deque()
+        self._starting = 0
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._closed = False
+
+    @asynccontextmanager
+    async def running(self) -> AsyncIterator[None]:
+        """The template runs and is supervised while the context is open; afterwards no process is left."""
+        self._template = ForkServer.start()
+        self._spawn_task(self._repeat(SUPERVISION_S, self._supervise))
+        self._spawn_task(self._repeat(PING_EVERY_S, self._ping))
+        try:
+            yield
+        finally:
+            self._closed = True
+            for task in self._tasks:
+                task.cancel()
+            for worker in list(self._workers):
+                worker.kill()
+            self._template.close()
+
+    @property
+    def workers_alive(self) -> int:
+        """How many workers can calculate."""
+        return len(self._workers)
+
+    async def warm(self, example: str) -> None:
+        """Have the template load what the example needs, and replace the workers that lack it."""
+        while True:
+            template = self._running_template()
+            with contextlib.suppress(TemplateLost):
+                await template.warm(example)
+                break
+            await asyncio.sleep(SUPERVISION_S)
+        self._warm.append(example)
+
+    def renew(self) -> None:
+        """Replace every worker, the busy ones after their call, by copies of the template as it is now."""
+        for worker in self._idle:
+            worker.kill()
+        self._stale = self._workers - set(self._idle)
+        self._idle.clear()
+        self._fill()
+
+    async def run(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        """The function's result; a caller that is cancelled takes its worker's process along.
+
+        Raises WorkerLost, and what the function raises.
+        """
+        worker = await self._acquire()
+        try:
+            return await worker.call(function, *arguments)
+        except asyncio.CancelledError:
+            worker.kill()
+            raise
+        except WorkerDied as error:
+            WORKERS_LOST.inc()
+            logger.warning("worker %d was lost while it calculated", worker.pid)
+            raise WorkerLost from error
+        finally:
+            self._release(worker)
+
+    async def _acquire(self) -> Worker:
+        while self._idle:
+            worker = self._idle.pop()
+            if worker.alive:
+                return worker
+        place: asyncio.Future[Worker] = asyncio.get_running_loop().create_future()
+        self._waiting.append(place)
+        try:
+            return await place
+        except asyncio.CancelledError:
+            if place.done() and not place.cancelled():
+                self._release(place.result())
+            raise
+
+    def _release(self, worker: Worker) -> None:
+        if worker in self._stale:
+            worker.kill()
+        if not worker.alive or worker not in self._workers:
+            return
+        while self._waiting:
+            place = self._waiting.popleft()
+            if not place.done():
+                place.set_result(worker)
+                return
+        self._idle.append(worker)
+
+    def _ended(self, worker: Worker) -> None:
+        """A worker's socket closed: the process is dead or about to be."""
+        self._workers.discard(worker)
+        self._stale.discard(worker)
+        if worker in self._idle:
+            self._idle.remove(worker)
+        if not self._closed:
+            self._spawn_task(self._reap(worker.pid))
+            self._fill()
+
+    async def _reap(self, pid: int) -> None:
+        with contextlib.suppress(TemplateLost):
+            await self._running_template().reap(pid)
+
+    def _fill(self) -> None:
+        """Start as many workers as are missing."""
+        if not self._warm or self._closed:
+            return
+        for _ in range(self._size - len(self._workers - self._stale) - self._starting):
+            self._starting += 1
+            self._spawn_task(self._start_worker())
+
+    async def _start_worker(self) -> None:
+        try:
+            worker = await self._running_template().fork(self._memory_mb, self._ended)
+        except TemplateLost:
+            return
+        finally:
+            self._starting -= 1
+        self._workers.add(worker)
+        if worker.alive:
+            self._release(worker)
+        else:
+            self._ended(worker)
+
+    async def _repeat(self, every_s: float, duty: Callable[[], Coroutine[Any, Any, None]]) -> None:
+        """A duty that is never given up."""
+        while True:
+            await asyncio.sleep(every_s)
+            try:
+                await duty()
+            except Exception:
+                logger.exception("supervision of the workers failed; it goes on")
+
+    async def _supervise(self) -> None:
+        """Miss nobody: a stopped worker is ended, a lost template started again, a missing worker replaced."""
+        for worker in [worker for worker in self._workers if is_stopped(worker.pid)]:
+            logger.warning("worker %d was stopped; it is replaced", worker.pid)
+            worker.kill()
+        if self._running_template().lost:
+            logger.warning("the template process was lost; it is started again")
+            await self._restart_template()
+        self._fill()
+
+    async def _restart_template(self) -> None:
+        self._running_template().close()
+        self._template = ForkServer.start()
+        with contextlib.suppress(TemplateLost):
+            for example in list(self._warm):
+                await self._template.warm(example)
+
+    async def _ping(self) -> None:
+        """Ask idle workers for a sign of life."""
+        for worker in list(self._idle):
+            if worker in self._idle:
+                self._idle.remove(worker)
+                await self._sign_of_life(worker)
+
+    async def _sign_of_life(self, worker: Worker) -> None:
+        try:
+            async with asyncio.timeout(PING_TIMEOUT_S):
+                await worker.call(os.getpid)
+        except TimeoutError:
+            logger.warning("worker %d does not answer; it is replaced", worker.pid)
+            worker.kill()
+        except WorkerDied:
+            pass
+        finally:
+            self._release(worker)
+
+    def _running_template(self) -> ForkServer:
+        assert self._template is not None
+        return self._template
+
+    def _spawn_task(self, coroutine: Coroutine[Any, Any, None]) -> None:
+        task = asyncio.get_running_loop().create_task(coroutine)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)

@@ -1,0 +1,218 @@
+"""Limits where bytes arrive: headers, trailers, bodies, connections, time. Every flood is bounded in size."""
+
+import json
+import socket
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, suppress
+from urllib.parse import urlsplit
+
+import httpx
+import pytest
+
+from tests.server import memory_mb, running_server
+
+pytestmark = pytest.mark.service
+
+FLOOD = 30 * 2**20
+PIECE = b"x" * 65536
+SMALL_LIMITS = {
+    "workers": 2,
+    "header_deadline_s": 1.5,
+    "body_deadline_s": 1.5,
+    "body_memory_mb": 8,
+    "log_level": "error",
+}
+
+
+@pytest.fixture(scope="module")
+def small() -> Iterator[tuple[subprocess.Popen[str], str]]:
+    with running_server(**SMALL_LIMITS) as server:
+        yield server
+
+
+def connected(address: str) -> socket.socket:
+    target = urlsplit(address)
+    return socket.create_connection((target.hostname, target.port), timeout=10)
+
+
+def answer_to(connection: socket.socket) -> bytes:
+    """Everything the service sends until it closes the connection."""
+    received = b""
+    with suppress(OSError):
+        while piece := connection.recv(65536):
+            received += piece
+    return received
+
+
+def flood(address: str, opening: bytes, piece: bytes) -> tuple[int, bytes]:
+    """Send until the service stops taking it: how much it took, what it answered."""
+    sent = 0
+    with connected(address) as connection:
+        connection.sendall(opening)
+        with suppress(OSError):
+            while sent < FLOOD:
+                connection.sendall(piece)
+                sent += len(piece)
+        return sent, answer_to(connection)
+
+
+OPENINGS = {
+    "one header without end": (b"GET /healthz HTTP/1.1\r\nHost: x\r\nX-Padding: ", PIECE),
+    "headers without end": (b"GET /healthz HTTP/1.1\r\nHost: x\r\n", b"X-Padding: 1234567890\r\n" * 3000),
+    "an address without end": (b"GET /", PIECE),
+    "trailers without end": (
+        b"POST /v1/coupling HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n2\r\n{}\r\n0\r\n",
+        b"X-Padding: 1234567890\r\n" * 3000,
+    ),
+    "a chunk size without end": (
+        b"POST /v1/coupling HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n2;extension=",
+        PIECE,
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", OPENINGS)
+def test_flood_is_cut_off_before_it_costs_memory(small: tuple[subprocess.Popen[str], str], kind: str) -> None:
+    process, address = small
+    before = memory_mb(process.pid)
+    sent, answer = flood(address, *OPENINGS[kind])
+    assert sent < FLOOD
+    assert memory_mb(process.pid) < before + 10
+    status = answer[:12]
+    assert status in {b"", b"HTTP/1.1 431", b"HTTP/1.1 400"}  # a reset can overtake the answer
+    assert httpx.get(f"{address}/healthz", timeout=2).status_code == 200
+
+
+def test_refusal_of_headers_is_a_problem_with_books(small: tuple[subprocess.Popen[str], str]) -> None:
+    _, address = small
+    with connected(address) as connection:
+        connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\nX-Padding: " + b"x" * 17_000 + b"\r\n\r\n")
+        head, _, body = answer_to(connection).partition(b"\r\n\r\n")
+    assert head.startswith(b"HTTP/1.1 431")
+    assert b"x-content-type-options: nosniff" in head
+    assert json.loads(body)["instance"].encode() in head
+    assert 'endpoint="unparsed",status="431"' in httpx.get(f"{address}/metrics").text
+
+
+def test_half_sent_headers_time_out(small: tuple[subprocess.Popen[str], str]) -> None:
+    _, address = small
+    with connected(address) as silent, connected(address) as slow:
+        slow.sendall(b"GET /healthz HTTP/1.1\r\nHost:")
+        started = time.monotonic()
+        assert answer_to(slow).startswith(b"HTTP/1.1 408")
+        assert answer_to(silent) == b""
+        assert time.monotonic() - started == pytest.approx(1.5, abs=1.0)
+
+
+def test_half_sent_second_request_times_out(small: tuple[subprocess.Popen[str], str]) -> None:
+    _, address = small
+    with connected(address) as connection:
+        connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\n\r\n")
+        assert connection.recv(65536).startswith(b"HTTP/1.1 200")
+        connection.sendall(b"GET /heal")
+        assert answer_to(connection).startswith(b"HTTP/1.1 408")
+
+
+def test_a_body_that_drips_times_out(small: tuple[subprocess.Popen[str], str]) -> None:
+    _, address = small
+    opening = b"POST /v1/coupling HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 99\r\n\r\n"
+    with connected(address) as connection:
+        connection.sendall(opening)
+        started = time.monotonic()
+
+        def drip() -> None:
+            with suppress(OSError):
+                for _ in range(40):
+                    connection.sendall(b" ")
+                    time.sleep(0.1)
+
+        dripping = threading.Thread(target=drip)
+        dripping.start()
+        assert connection.recv(65536).startswith(b"HTTP/1.1 408")
+        assert time.monotonic() - started == pytest.approx(1.5, abs=1.0)
+        dripping.join()
+
+
+def test_unfinished_bodies_share_a_budget(small: tuple[subprocess.Popen[str], str]) -> None:
+    process, address = small
+    before = memory_mb(process.pid)
+    opening = (
+        b"POST /v1/coupling HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 900000\r\n\r\n"
+    )
+    with ExitStack() as stack:
+        connections = [stack.enter_context(connected(address)) for _ in range(60)]
+        for connection in connections:
+            with suppress(OSError):
+                connection.sendall(opening + b" " * 800_000)
+        time.sleep(0.3)
+        assert memory_mb(process.pid) < before + 8 + 40
+        assert httpx.get(f"{address}/healthz", timeout=2).status_code == 200
+        statuses = {connection.recv(65536)[:12] for connection in connections}
+    assert statuses == {b"HTTP/1.1 503", b"HTTP/1.1 408"}
+    response = httpx.post(f"{address}/v1/coupling", json={}, timeout=10)  # the budget is given back
+    assert response.status_code == 422
+
+
+def test_many_unknown_fields_do_not_hold_up_the_others(small: tuple[subprocess.Popen[str], str]) -> None:
+    _, address = small
+    body = json.dumps({f"k{number}": 0 for number in range(80_000)})
+    slowest = 0.0
+    done = threading.Event()
+    answers = []
+
+    def load() -> None:
+        while not done.is_set():
+            answers.append(
+                httpx.post(
+                    f"{address}/v1/coupling", content=body, headers={"Content-Type": "application/json"}, timeout=30
+                )
+            )
+
+    loads = [threading.Thread(target=load) for _ in range(4)]
+    for each in loads:
+        each.start()
+    with httpx.Client(base_url=address) as client:
+        for _ in range(100):
+            started = time.monotonic()
+            assert client.get("/healthz").status_code == 200
+            slowest = max(slowest, time.monotonic() - started)
+    done.set()
+    for each in loads:
+        each.join()
+    assert {answer.status_code for answer in answers} == {422}
+    assert answers[0].json()["errors"][0]["code"] == "too_many_fields"
+    assert slowest < 0.5
+
+
+def test_pipelined_requests_are_bounded(small: tuple[subprocess.Popen[str], str]) -> None:
+    process, address = small
+    before = memory_mb(process.pid)
+    with connected(address) as connection:
+        with suppress(OSError):
+            connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\n\r\n" * 20_000)
+        answer_to(connection)
+    assert memory_mb(process.pid) < before + 10
+    assert httpx.get(f"{address}/healthz", timeout=2).status_code == 200
+
+
+def test_few_descriptors() -> None:
+    """Idle connections beyond the limit are refused, and nothing breaks while they are there or afterwards."""
+    command = ["bash", "-c", f"ulimit -n 256; exec {sys.executable} -m app"]
+    with (
+        running_server(command, workers=2, header_deadline_s=3, log_level="error") as (_, address),
+        ExitStack() as stack,
+    ):
+        for _ in range(300):
+            with suppress(OSError):
+                stack.enter_context(connected(address)).sendall(b"GET /")
+        refused = httpx.get(f"{address}/healthz", timeout=5)
+        assert refused.status_code == 503
+        assert refused.json()["type"].endswith("service_unavailable")
+        time.sleep(4)
+        for _ in range(20):
+            assert httpx.get(f"{address}/readyz", timeout=5).status_code == 200
+            assert httpx.post(f"{address}/v1/coupling", json={}, timeout=5).status_code == 422

@@ -1,0 +1,125 @@
+"""The first start: open at once, coupling first, stoppable at any moment; and a cache in every state of disrepair."""
+
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+from contextlib import suppress
+from pathlib import Path
+
+import httpx
+import pytest
+
+from app.library import examples
+from tests.server import ROOT, descendants, is_alive, started_server, wait_until_warm
+from tests.service.caches import complete_cache
+
+pytestmark = pytest.mark.service
+
+COUPLING = examples()["pahl-axial-displacement"]
+LINE_CONTACT = examples()["xue-line-contact"]
+
+
+def wait_until_open(address: str, seconds: float = 20.0) -> float:
+    """How long the port took to answer [s]."""
+    started = time.monotonic()
+    while time.monotonic() - started < seconds:
+        with suppress(httpx.TransportError):
+            if httpx.get(f"{address}/healthz", timeout=seconds).status_code == 200:
+                return time.monotonic() - started
+        time.sleep(0.02)
+    raise AssertionError("the port did not open")
+
+
+def test_cold_start_answers_coupling_first(tmp_path: Path) -> None:
+    with started_server(environment={"NUMBA_CACHE_DIR": str(tmp_path)}, log_level="error") as (process, address):
+        wait_until_open(address)
+        waiting = httpx.post(address + LINE_CONTACT.endpoint, json=LINE_CONTACT.request, timeout=20)
+        assert waiting.status_code == 503
+        assert waiting.json()["type"].endswith("warming_up")
+        assert int(waiting.headers["retry-after"]) > 0
+        assert "line contact 0 %" in waiting.json()["detail"]
+        ready = httpx.get(f"{address}/readyz", timeout=5)
+        assert ready.status_code == 503
+        assert "coupling" in ready.json()["detail"]
+        end = time.monotonic() + 60  # 10 s on quiet cores
+        while httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=20).status_code != 200:
+            assert time.monotonic() < end
+            time.sleep(0.2)
+        assert httpx.get(f"{address}/readyz", timeout=5).status_code == 503  # the rest is not warm yet
+        family = descendants(process.pid)
+        process.send_signal(signal.SIGINT)
+        process.wait(2.5)
+        time.sleep(0.2)
+        assert not any(map(is_alive, family))
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+@pytest.mark.parametrize("after_s", [0.3, 1.5, 5.0])
+def test_ends_at_any_moment_of_a_cold_start(tmp_path: Path, number: signal.Signals, after_s: float) -> None:
+    with started_server(environment={"NUMBA_CACHE_DIR": str(tmp_path)}) as (process, _):
+        time.sleep(after_s)
+        family = descendants(process.pid)
+        process.send_signal(number)
+        process.wait(2.5)
+        end = time.monotonic() + 1
+        while any(map(is_alive, family)):
+            assert time.monotonic() < end
+            time.sleep(0.02)
+
+
+def test_port_in_use_is_said_at_once() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        started = time.monotonic()
+        outcome = subprocess.run(
+            [sys.executable, "-m", "app"],
+            env={**os.environ, "TRIBODRIVE_PORT": str(port)},
+            cwd=ROOT,
+            check=False,
+            capture_output=True,
+            text=True,
+        )
+    assert time.monotonic() - started < 5
+    assert outcome.returncode == 1
+    assert outcome.stderr == f"tribodrive: cannot listen on port {port} of 127.0.0.1: Address already in use\n"
+    assert outcome.stdout == ""
+
+
+def damaged(folder: Path, target: Path, size: int) -> int:
+    """A copy of the cache in which every file of one model is cut to `size` bytes; how many."""
+    shutil.copytree(folder, target)
+    files = [path for pattern in ("*.nbi", "*.nbc") for path in target.glob(f"tooth_balance-*/{pattern}")]
+    for path in files:
+        path.write_bytes(path.read_bytes()[:size])
+    return len(files)
+
+
+@pytest.mark.parametrize("size", [0, 100])
+def test_broken_cache_files_are_compiled_again(tmp_path: Path, size: int) -> None:
+    log = tmp_path / "log"
+    assert damaged(complete_cache(), tmp_path / "cache", size) > 5
+    with started_server(environment={"NUMBA_CACHE_DIR": str(tmp_path / "cache")}, log=log) as (process, address):
+        wait_until_warm(process, address, 120)
+        assert httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=20).status_code == 200
+    lines = [line for line in log.read_text("utf-8").splitlines() if "broken kernel cache" in line]
+    assert lines
+    assert all("tooth_balance-" in line for line in lines)
+    with started_server(environment={"NUMBA_CACHE_DIR": str(tmp_path / "cache")}, log=log) as (process, address):
+        wait_until_warm(process, address, 60)
+    assert "broken" not in log.read_text("utf-8")
+
+
+def test_read_only_cache_is_used(tmp_path: Path) -> None:
+    cache = tmp_path / "cache"
+    shutil.copytree(complete_cache(), cache)
+    files_before = sorted(path.relative_to(cache) for path in cache.rglob("*"))
+    for folder in [cache, *(path for path in cache.iterdir() if path.is_dir())]:
+        folder.chmod(0o555)
+    with started_server(environment={"NUMBA_CACHE_DIR": str(cache)}) as (process, address):
+        wait_until_warm(process, address, 60)
+        assert not any("app.warm_up" in Path(f"/proc/{pid}/cmdline").read_text() for pid in descendants(process.pid))
+    assert sorted(path.relative_to(cache) for path in cache.rglob("*")) == files_before
