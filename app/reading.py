@@ -3,11 +3,9 @@
 import json
 from typing import Any, TypeVar
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 
-from app.requests.common import Request
-
-R = TypeVar("R", bound=Request)
+M = TypeVar("M", bound=BaseModel)
 MOST_MEMBERS = 1000
 MOST_FIELD_ERRORS = 100
 
@@ -28,21 +26,16 @@ class InvalidBody(Exception):
         self.errors = errors
 
 
-def read(model: type[R], body: bytes) -> R:
+def read(model: type[M], body: bytes) -> M:
     """The request in the body.
 
     Raises Unreadable and InvalidBody.
     """
-    if not body:
-        raise InvalidBody([_fault("missing", "Field required")])
-    try:
-        content = json.loads(body, object_pairs_hook=_members)
-    except json.JSONDecodeError as error:
-        raise InvalidBody(
-            [_fault("json_invalid", f"The body is no JSON: {error.msg} at position {error.pos}")]
-        ) from None
-    except (ValueError, RecursionError):  # bytes that are no text, numbers without end, brackets without end
-        raise Unreadable("The body cannot be read as JSON") from None
+    return validated(model, _content(body))
+
+
+def validated(model: type[M], content: Any) -> M:
+    """The request of this content, or InvalidBody."""
     try:
         return model.model_validate(content)
     except ValidationError as error:
@@ -50,6 +43,20 @@ def read(model: type[R], body: bytes) -> R:
         raise InvalidBody(
             [{"loc": each["loc"], "type": each["type"], "msg": each["msg"]} for each in found[:MOST_FIELD_ERRORS]]
         ) from None
+
+
+def _content(body: bytes) -> Any:
+    """What the JSON of a body says."""
+    if not body:
+        raise InvalidBody([_fault("missing", "Field required")])
+    try:
+        return json.loads(body, object_pairs_hook=_members)
+    except json.JSONDecodeError as error:
+        raise InvalidBody(
+            [_fault("json_invalid", f"The body is no JSON: {error.msg} at position {error.pos}")]
+        ) from None
+    except (ValueError, RecursionError):  # bytes that are no text, numbers without end, brackets without end
+        raise Unreadable("The body cannot be read as JSON") from None
 
 
 def _members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from app.problems import DeadlineExceeded, WorkerLost
-from app.studies.points import Chunk, Point
+from app.studies.points import CHUNK_SECONDS, Chunk, Point, Question, solve_chunk
+from app.studies.requests import Overrides
 
-CHUNK_SECONDS = 0.25
 CHUNKS_PER_SLOT = 2
 MOST_POINTS_IN_A_CHUNK = 1000
 
@@ -18,10 +18,15 @@ MOST_POINTS_IN_A_CHUNK = 1000
 class Pool(Protocol):
     """Where chunks are solved: the service's own worker processes, or a cluster."""
 
-    slots: int
+    @property
+    def slots(self) -> int:
+        """How many calls run at once."""
 
-    def submit(self, function: Callable[..., Chunk], *args: Any) -> "asyncio.Future[Chunk]":
-        """Begin as soon as a process is free; cancelling takes back what has not begun and lets finish what has."""
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
+        """Begin as soon as a process is free; cancelling takes back what has not begun and lets finish what has.
+
+        The future raises WorkerLost, DeadlineExceeded, PoolLost, and what the function raises.
+        """
 
 
 class PoolLost(Exception):
@@ -30,18 +35,26 @@ class PoolLost(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Work:
-    """Solves points: `solve(indices) -> Chunk`, given as a function that pickles and its arguments."""
+    """The points to solve."""
 
-    function: Callable[..., Chunk]
-    arguments: Callable[[range], tuple[Any, ...]]
-    outputs: int
+    question: Question
+    overrides: Callable[[int], Overrides]
+    total: int
 
-    def failed(self, code: str, message: str) -> Point:
-        """A point that could not be solved for no fault of its request."""
-        return Point("failed", [None] * self.outputs, [], {"pointer": "", "code": code, "message": message}, None)
+    def begin(self, pool: Pool, indices: range) -> asyncio.Future[Chunk]:
+        """Send points to the pool."""
+        return pool.submit(solve_chunk, self.question, [self.overrides(index) for index in indices])
 
 
-async def in_order(pool: Pool, work: Work, total: int) -> AsyncIterator[tuple[range, list[Point]]]:
+async def twice_if_lost(pool: Pool, function: Callable[..., Any], *arguments: Any) -> Any:
+    """A single call; once more if its process is lost."""
+    try:
+        return await pool.submit(function, *arguments)
+    except WorkerLost:
+        return await pool.submit(function, *arguments)
+
+
+async def in_order(pool: Pool, work: Work) -> AsyncIterator[tuple[range, list[Point]]]:
     """Runs of points with their indices, in order; a chunk that loses its process is solved again point by point.
 
     Leaving the iteration takes back the chunks that have not begun and waits for none.
@@ -49,48 +62,52 @@ async def in_order(pool: Pool, work: Work, total: int) -> AsyncIterator[tuple[ra
     pending: deque[tuple[range, asyncio.Future[Chunk]]] = deque()
     size, begun = 1, 0
     try:
-        while begun < total or pending:
-            while begun < total and len(pending) < CHUNKS_PER_SLOT * pool.slots:
-                indices = range(begun, min(begun + size, total))
-                pending.append((indices, pool.submit(work.function, *work.arguments(indices))))
+        while begun < work.total or pending:
+            while begun < work.total and len(pending) < CHUNKS_PER_SLOT * pool.slots:
+                indices = range(begun, begun + _fair(size, work.total - begun, pool.slots))
+                pending.append((indices, work.begin(pool, indices)))
                 begun = indices.stop
             indices, future = pending.popleft()
-            chunk = await _solved(pool, work, indices, future)
-            size = _next_size(len(indices), chunk.seconds)
-            yield indices, chunk.points
+            try:
+                chunk = await future
+            except (WorkerLost, DeadlineExceeded) as error:
+                chunk = await _solved_singly(pool, work, indices, error)
+            done, left = indices[: len(chunk.points)], indices[len(chunk.points) :]
+            if left:
+                pending.appendleft((left, work.begin(pool, left)))
+            size = _next_size(len(done), chunk.seconds)
+            yield done, chunk.points
     finally:
         for _, future in pending:
             future.cancel()
 
 
 def _next_size(points: int, seconds: float) -> int:
-    """As many points as take about a quarter of a second."""
+    """As many points as take about a chunk's time."""
     each = max(seconds / points, CHUNK_SECONDS / MOST_POINTS_IN_A_CHUNK)
-    return max(1, min(MOST_POINTS_IN_A_CHUNK, round(CHUNK_SECONDS / each)))
+    return max(1, round(CHUNK_SECONDS / each))
 
 
-async def _solved(pool: Pool, work: Work, indices: range, future: "asyncio.Future[Chunk]") -> Chunk:
-    """The chunk; if its process died or took too long, its points one by one, a second time."""
-    try:
-        return await future
-    except (WorkerLost, DeadlineExceeded) as error:
-        if len(indices) == 1:
-            return await _second_try(pool, work, indices, error)
+def _fair(size: int, left: int, slots: int) -> int:
+    """Smaller chunks towards the end, so that all processes finish together."""
+    return max(1, min(size, -(-left // (2 * slots))))
+
+
+async def _solved_singly(pool: Pool, work: Work, indices: range, error: Exception) -> Chunk:
+    """The points of a lost chunk one by one, a second time; one alone that took too long gets no second chance."""
+    if len(indices) == 1 and isinstance(error, DeadlineExceeded):
+        return Chunk([_late(work)], CHUNK_SECONDS)
     started = time.perf_counter()
     points: list[Point] = []
     for index in indices:
-        one = range(index, index + 1)
-        points += (await _solved(pool, work, one, pool.submit(work.function, *work.arguments(one)))).points
+        try:
+            points += (await work.begin(pool, range(index, index + 1))).points
+        except WorkerLost:
+            points.append(work.question.failed("worker_lost", "the point was lost with its process, twice"))
+        except DeadlineExceeded:
+            points.append(_late(work))
     return Chunk(points, time.perf_counter() - started)
 
 
-async def _second_try(pool: Pool, work: Work, indices: range, error: Exception) -> Chunk:
-    """A single point once more after its process died; never after a missed deadline."""
-    if isinstance(error, WorkerLost):
-        try:
-            return await pool.submit(work.function, *work.arguments(indices))
-        except WorkerLost:
-            return Chunk([work.failed("worker_lost", "the point was lost with its process, twice")], CHUNK_SECONDS)
-        except DeadlineExceeded:
-            pass
-    return Chunk([work.failed("deadline_exceeded", "the point took longer than one calculation may")], CHUNK_SECONDS)
+def _late(work: Work) -> Point:
+    return work.question.failed("deadline_exceeded", "the point took longer than one calculation may")

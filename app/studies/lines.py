@@ -1,23 +1,30 @@
-"""A study's answer, line by line: as JSON objects, or as a table."""
+"""How a study's lines are written: as JSON, or as a table."""
 
 import csv
 import io
 import json
-from collections.abc import Iterator
+from collections.abc import AsyncGenerator, Callable
+from contextlib import aclosing
 from typing import Any
 
+from app.contract.fields import Leaf
+from app.studies.plan import Plan
 from app.studies.points import Point
-from app.studies.requests import Scalar
+from app.studies.stream import Line, Lines
 
 FORMULA_SIGNS = ("=", "+", "-", "@", "\t", "\r")
 
 
-def json_line(line: dict[str, Any]) -> bytes:
+class StudyBroke(Exception):
+    """A table cannot say that it is not whole; its connection is cut instead."""
+
+
+def json_line(line: Line) -> bytes:
     """One line of newline-delimited JSON."""
     return json.dumps(line, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode() + b"\n"
 
 
-def point_line(index: int, at: Any, point: Point) -> dict[str, Any]:
+def point_line(index: int, at: Any, point: Point) -> Line:
     """The line of a point."""
     line = {
         "type": "point",
@@ -27,34 +34,44 @@ def point_line(index: int, at: Any, point: Point) -> dict[str, Any]:
         "out": point.out,
         "warnings": point.warnings,
     }
-    if point.error is not None:
-        line["error"] = point.error
-    return line
+    return line if point.error is None else {**line, "error": point.error}
+
+
+async def encoded(lines: Lines, encode: Callable[[Line], bytes]) -> AsyncGenerator[bytes, None]:
+    """The lines as bytes, those that come together in one piece."""
+    async with aclosing(lines):
+        async for group in lines:
+            if piece := b"".join(map(encode, group)):
+                yield piece
 
 
 class Table:
     """A sweep as comma-separated values: a header with units, then a row a point."""
 
-    def __init__(self, header: dict[str, Any], columns: list[str]) -> None:
-        self._coordinates = columns
-        axes = [
-            _heading(path, axis["unit"])
-            for axis in header["axes"]
-            for path in (axis["path"] if isinstance(axis["path"], list) else [axis["path"]])
-        ] or columns
-        outputs = [_heading(output["path"], output["unit"]) for output in header["outputs"]]
-        self.header = _row(["index", *axes, "status", *outputs, "warnings", "error"])
+    def __init__(self, plan: Plan, varied: tuple[Leaf, ...], outputs: tuple[Leaf, ...]) -> None:
+        self._plan = plan
+        self._varied = [leaf.path for leaf in varied]
+        names = [f"{leaf.path} [{leaf.unit}]" if leaf.unit else leaf.path for leaf in (*varied, *outputs)]
+        self._heading = ["index", *names[: len(varied)], "status", *names[len(varied) :], "warnings", "error"]
 
-    def row(self, line: dict[str, Any], coordinates: dict[str, Scalar]) -> bytes:
-        """The row of a point."""
+    def encode(self, line: Line) -> bytes:
+        """The row or rows of a line; those of progress and end have none."""
+        match line["type"]:
+            case "sweep":
+                return _row(self._heading)
+            case "point":
+                return _row(self._cells(line))
+            case "error":
+                raise StudyBroke(line["message"])
+            case _:
+                return b""
+
+    def _cells(self, line: Line) -> list[Any]:
+        overrides = self._plan.overrides(line["index"])
+        at = [overrides.get(path) for path in self._varied]
         error = line.get("error")
-        at = [coordinates.get(path) for path in self._coordinates]
-        tail = [" ".join(line["warnings"]), f"{error['code']}: {error['message']}" if error else None]
-        return _row([line["index"], *at, line["status"], *line["out"], *tail])
-
-
-def _heading(path: str, unit: str | None) -> str:
-    return f"{path} [{unit}]" if unit else path
+        message = f"{error['code']}: {error['message']}" if error else None
+        return [line["index"], *at, line["status"], *line["out"], " ".join(line["warnings"]), message]
 
 
 def _row(cells: list[Any]) -> bytes:
@@ -70,15 +87,3 @@ def _cell(value: Any) -> Any:
     if isinstance(value, str) and value.startswith(FORMULA_SIGNS):
         return f"'{value}"
     return value
-
-
-def columns_of(header: dict[str, Any], cases: list[dict[str, Scalar]] | None) -> list[str]:
-    """The varied fields, in the order of the axes or of their first appearance in the cases."""
-    return list(_paths(header, cases))
-
-
-def _paths(header: dict[str, Any], cases: list[dict[str, Scalar]] | None) -> Iterator[str]:
-    if cases is not None:
-        yield from dict.fromkeys(path for case in cases for path in case)
-    for axis in header["axes"]:
-        yield from axis["path"] if isinstance(axis["path"], list) else [axis["path"]]

@@ -1,18 +1,18 @@
-"""Which numbers of an answer a study tells."""
+"""Which values of an answer a study tells."""
 
 from dataclasses import dataclass
 
 from app.calculations import Calculation
 from app.contract.fields import Leaf, headlines
-from app.studies.errors import StudyRefused
+from app.problems import Unprocessable
 from app.studies.fields import scalar_at
 
 
 @dataclass(frozen=True, slots=True)
-class ChosenOutputs:
+class Outputs:
     """The outputs in the order of the answer's columns."""
 
-    leaves: list[Leaf]
+    leaves: tuple[Leaf, ...]
 
     @property
     def paths(self) -> list[str]:
@@ -20,20 +20,22 @@ class ChosenOutputs:
         return [leaf.path for leaf in self.leaves]
 
     def header(self) -> list[dict[str, str | None]]:
-        """How the first line of a study names them."""
+        """What they are: path, unit, title."""
         return [{"path": leaf.path, "unit": leaf.unit, "title": leaf.title} for leaf in self.leaves]
 
 
-def chosen(calculation: Calculation, wanted: list[str] | None) -> ChosenOutputs:
-    """The outputs asked for, by default the headline numbers; StudyRefused for what the answer does not have."""
+def chosen(calculation: Calculation, wanted: list[str] | None) -> Outputs:
+    """The outputs asked for, by default the headline numbers; Unprocessable for what the answer does not have."""
     if wanted is None:
-        return ChosenOutputs(list(headlines(calculation.response)))
-    for place, path in enumerate(wanted):
-        if path in wanted[:place]:
-            raise StudyRefused(f"/outputs/{place}", "duplicate_path", f"{path} is asked for twice")
-    return ChosenOutputs(
-        [
-            scalar_at(calculation.response, path, f"/outputs/{place}", "unknown_output")
-            for place, path in enumerate(wanted)
-        ]
-    )
+        return Outputs(headlines(calculation.response))
+    return Outputs(tuple(_output(calculation, path, place, wanted) for place, path in enumerate(wanted)))
+
+
+def _output(calculation: Calculation, path: str, place: int, wanted: list[str]) -> Leaf:
+    where = f"outputs.{place}"
+    if path in wanted[:place]:
+        raise Unprocessable("duplicate_path", f"{path} is asked for twice", where)
+    leaf = scalar_at(calculation.response, path, where, "unknown_output")
+    if leaf.detail != "summary":
+        raise Unprocessable("not_scalar", f"{path} belongs to a curve or field, which a study does not tell", where)
+    return leaf

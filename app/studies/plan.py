@@ -2,15 +2,14 @@
 
 from dataclasses import dataclass
 from math import prod
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.stats import qmc
 
 from app.contract.fields import Leaf
 from app.contract.quantities import Documented
-from app.studies.errors import StudyRefused
-from app.studies.fields import fault, scalar_at
+from app.problems import Unprocessable
+from app.studies.fields import fault, is_reachable, scalar_at
 from app.studies.requests import Axis, Overrides, Sample, Scalar, SweepRequest
 
 
@@ -19,13 +18,13 @@ class PlannedAxis:
     """One axis: its fields, and its values where they are the same at every point."""
 
     path: str | list[str]
-    unit: str | None
+    leaves: tuple[Leaf, ...]
     values: list[Scalar] | None
 
-    @property
-    def paths(self) -> list[str]:
-        """The fields that take the values."""
-        return self.path if isinstance(self.path, list) else [self.path]
+    def header(self) -> dict[str, Any]:
+        """What the first line says of it; fields that move together in different units have none in common."""
+        units = {leaf.unit for leaf in self.leaves}
+        return {"path": self.path, "unit": units.pop() if len(units) == 1 else None, "values": self.values}
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,15 +33,16 @@ class Plan:
 
     axes: list[PlannedAxis]
     total: int
-    cases: list[Overrides] | None
-    sample: np.ndarray[Any, Any] | None
+    cases: list[Overrides] | None = None
+    sample: np.ndarray[Any, Any] | None = None
 
     def at(self, index: int) -> list[Scalar] | Overrides:
         """Coordinates of a point, or its overrides in a list of cases."""
         if self.cases is not None:
             return self.cases[index]
         if self.sample is not None:
-            return [float(value) for value in self.sample[index]]
+            values: list[Scalar] = self.sample[index].tolist()
+            return values
         at: list[Scalar] = []
         for axis in reversed(self.axes):
             assert axis.values is not None
@@ -55,111 +55,132 @@ class Plan:
         at = self.at(index)
         if isinstance(at, dict):
             return at
-        return {path: value for axis, value in zip(self.axes, at, strict=True) for path in axis.paths}
+        return {leaf.path: value for axis, value in zip(self.axes, at, strict=True) for leaf in axis.leaves}
 
-def plan(sweep: SweepRequest, model: type[Documented], most: int) -> Plan:
+
+class _Request(NamedTuple):
+    """The request that a sweep varies."""
+
+    model: type[Documented]
+    base: dict[str, Any]
+
+    def leaf(self, path: str, place: str) -> Leaf:
+        """The single value that a path names, if it can be set."""
+        leaf = scalar_at(self.model, path, place, "unknown_path")
+        if not is_reachable(self.base, path):
+            raise Unprocessable("unknown_path", f"the request has no {path}: its list is shorter", place)
+        return leaf
+
+
+def planned(sweep: SweepRequest, model: type[Documented], most: int) -> Plan:
     """The points of a sweep over requests of this model; at most `most`.
 
-    Raises StudyRefused with a pointer into the sweep for whatever the schema already tells to be impossible.
+    Raises Unprocessable with a path into the sweep for whatever the schema already tells to be impossible.
     """
+    request = _Request(model, sweep.request)
     if sweep.cases is not None:
-        _check_count(len(sweep.cases), most, "/cases")
-        for place, case in enumerate(sweep.cases):
-            for path, value in case.items():
-                _check_value(_leaf(path, model, f"/cases/{place}"), value, f"/cases/{place}")
-        return Plan([], len(sweep.cases), sweep.cases, None)
+        return _listed(sweep.cases, request, most)
     if sweep.sample is not None:
-        _check_count(sweep.sample.count, most, "/sample/count")
-        return _sampled(sweep.sample, model)
+        check_count(sweep.sample.count, most, "sample.count")
+        return _sampled(sweep.sample, request)
     assert sweep.vary is not None
-    _check_count(prod(_length(axis, place) for place, axis in enumerate(sweep.vary)), most, "/vary")
-    _check_distinct([path for axis in sweep.vary for path in axis.paths], "/vary")
-    axes = [_planned(axis, model, f"/vary/{place}") for place, axis in enumerate(sweep.vary)]
-    return Plan(axes, prod(len(axis.values or ()) for axis in axes), None, None)
+    check_count(prod(_length(axis, f"vary.{place}") for place, axis in enumerate(sweep.vary)), most, "vary")
+    _check_distinct([path for axis in sweep.vary for path in axis.paths], "vary")
+    axes = [_axis(axis, request, f"vary.{place}") for place, axis in enumerate(sweep.vary)]
+    return Plan(axes, prod(len(axis.values or ()) for axis in axes))
 
 
-def _check_count(count: int, most: int, pointer: str) -> None:
+def check_count(count: int, most: int, place: str) -> None:
+    """Refuse a study of too many points."""
     if count > most:
-        raise StudyRefused(pointer, "too_many_points", f"the sweep has {count} points; at most {most} are allowed")
+        raise Unprocessable("too_many_points", f"the study has {count} points; at most {most} are allowed", place)
 
 
-def _check_distinct(paths: list[str], pointer: str) -> None:
+def _check_distinct(paths: list[str], place: str) -> None:
     for path in paths:
         if paths.count(path) > 1:
-            raise StudyRefused(pointer, "duplicate_path", f"{path} is varied twice")
+            raise Unprocessable("duplicate_path", f"{path} is varied twice", place)
 
 
-def _length(axis: Axis, place: int) -> int:
+def _check_value(leaf: Leaf, value: Scalar, place: str) -> None:
+    """Refuse a value that the field's schema does not take."""
+    found = fault(leaf, value)
+    if found is not None:
+        code, message = found
+        raise Unprocessable(code, f"{leaf.path}: {message}", place)
+
+
+def _listed(cases: list[Overrides], request: _Request, most: int) -> Plan:
+    """The points of a list of cases."""
+    check_count(len(cases), most, "cases")
+    leaves: dict[str, Leaf] = {}
+    for number, case in enumerate(cases):
+        for path, value in case.items():
+            if path not in leaves:
+                leaves[path] = request.leaf(path, f"cases.{number}")
+            _check_value(leaves[path], value, f"cases.{number}")
+    return Plan([], len(cases), cases=cases)
+
+
+def _length(axis: Axis, place: str) -> int:
     """How many values an axis has; either they are listed, or they are spread."""
     spread = (axis.start, axis.stop, axis.count)
     if axis.values is not None and all(part is None for part in spread):
         return len(axis.values)
     if axis.values is None and axis.count is not None and all(part is not None for part in spread):
         return axis.count
-    raise StudyRefused(f"/vary/{place}", "values_or_range", "give either values, or start, stop and count")
+    raise Unprocessable("values_or_range", "give either values, or start, stop and count", place)
 
 
-def _planned(axis: Axis, model: type[Documented], pointer: str) -> PlannedAxis:
-    fields = [_leaf(path, model, f"{pointer}/path") for path in axis.paths]
-    values = axis.values if axis.values is not None else _spread(axis, pointer)
-    for field in fields:
+def _axis(axis: Axis, request: _Request, place: str) -> PlannedAxis:
+    leaves = tuple(request.leaf(path, f"{place}.path") for path in axis.paths)
+    values = axis.values if axis.values is not None else _spread(axis, place)
+    for leaf in leaves:
         for value in values:
-            _check_value(field, value, pointer)
-    whole = all(field.kind == "integer" for field in fields)
-    if whole:
+            _check_value(leaf, value, place)
+    if all(leaf.kind == "integer" for leaf in leaves):
         values = [int(value) if isinstance(value, float) else value for value in values]
-    return PlannedAxis(axis.path, fields[0].unit, values)
+    return PlannedAxis(axis.path, leaves, values)
 
 
-def _spread(axis: Axis, pointer: str) -> list[Scalar]:
+def _spread(axis: Axis, place: str) -> list[Scalar]:
+    """Even steps, or even ratios, from start to stop."""
     assert axis.start is not None
     assert axis.stop is not None
     assert axis.count is not None
-    if axis.scale == "log":
-        if min(axis.start, axis.stop) <= 0.0:
-            raise StudyRefused(pointer, "log_needs_positive", "a logarithmic axis needs start and stop above zero")
-        return [float(value) for value in np.geomspace(axis.start, axis.stop, axis.count)]
-    return [float(value) for value in np.linspace(axis.start, axis.stop, axis.count)]
+    if axis.scale == "linear":
+        return list(np.linspace(axis.start, axis.stop, axis.count).tolist())
+    if min(axis.start, axis.stop) <= 0.0:
+        raise Unprocessable("log_needs_positive", "a logarithmic axis needs start and stop above zero", place)
+    return list(np.geomspace(axis.start, axis.stop, axis.count).tolist())
 
 
-def _sampled(sample: Sample, model: type[Documented]) -> Plan:
+def _sampled(sample: Sample, request: _Request) -> Plan:
     """The random points, the same for the same seed."""
-    _check_distinct([each.path for each in sample.ranges], "/sample/ranges")
-    fields = []
-    for place, each in enumerate(sample.ranges):
-        pointer = f"/sample/ranges/{place}"
-        field = _leaf(each.path, model, f"{pointer}/path")
-        if field.kind == "integer":
-            raise StudyRefused(pointer, "not_integer", f"{each.path} takes whole numbers; vary it or list cases")
+    _check_distinct([each.path for each in sample.ranges], "sample.ranges")
+    leaves = []
+    for number, each in enumerate(sample.ranges):
+        place = f"sample.ranges.{number}"
+        leaf = request.leaf(each.path, f"{place}.path")
+        if leaf.kind == "integer":
+            raise Unprocessable("not_integer", f"{each.path} takes whole numbers; vary it or list cases", place)
         for value in (each.min, each.max):
-            _check_value(field, value, pointer)
+            _check_value(leaf, value, place)
         if each.min > each.max:
-            raise StudyRefused(pointer, "out_of_range", f"{each.path}: min lies above max")
-        fields.append(field)
-    axes = [PlannedAxis(field.path, field.unit, None) for field in fields]
-    lower = np.array([each.min for each in sample.ranges])
-    width = np.array([each.max for each in sample.ranges]) - lower
-    return Plan(axes, sample.count, None, lower + width * _unit_cube(sample, len(fields)))
+            raise Unprocessable("out_of_range", f"{each.path}: min is above max", place)
+        leaves.append(leaf)
+    axes = [PlannedAxis(leaf.path, (leaf,), None) for leaf in leaves]
+    low, high = (np.array([getattr(each, end) for each in sample.ranges]) for end in ("min", "max"))
+    return Plan(axes, sample.count, sample=low + (high - low) * _unit_cube(sample, len(leaves)))
 
 
 def _unit_cube(sample: Sample, dimensions: int) -> np.ndarray[Any, Any]:
     """Points in the unit cube."""
-    if sample.method == "sobol":
-        exponent = sample.count.bit_length() - 1
-        if sample.count != 1 << exponent:
-            raise StudyRefused("/sample/count", "not_power_of_two", "a Sobol sample needs a power of two of points")
-        return np.asarray(qmc.Sobol(dimensions, rng=sample.seed).random_base2(exponent))
-    return np.asarray(qmc.LatinHypercube(dimensions, rng=sample.seed).random(sample.count))
+    from scipy.stats import qmc  # noqa: PLC0415  half a second that only random samples need
 
-
-def _leaf(path: str, model: type[Documented], pointer: str) -> Leaf:
-    """The single value of a request that a path names."""
-    return scalar_at(model, path, pointer, "unknown_path")
-
-
-def _check_value(field: Leaf, value: Scalar, pointer: str) -> None:
-    """Refuse a value that the field's schema does not take."""
-    found = fault(field, value)
-    if found is not None:
-        code, message = found
-        raise StudyRefused(pointer, code, f"{field.path}: {message}")
+    if sample.method == "latin_hypercube":
+        return np.asarray(qmc.LatinHypercube(dimensions, rng=sample.seed).random(sample.count))
+    exponent = sample.count.bit_length() - 1
+    if sample.count != 1 << exponent:
+        raise Unprocessable("not_power_of_two", "a Sobol sample needs a power of two of points", "sample.count")
+    return np.asarray(qmc.Sobol(dimensions, rng=sample.seed).random_base2(exponent))

@@ -1,14 +1,19 @@
-"""A study as a stream of lines: progress while nothing else comes, an end that says so when it is not the planned one."""
+"""A study as a stream of lines: progress while nothing else comes, and an error line where it ends before its time."""
 
 import asyncio
+import logging
 import time
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncGenerator
+from contextlib import aclosing
 from typing import Any
 
 from app.studies.engine import PoolLost
 
 Line = dict[str, Any]
+Lines = AsyncGenerator[list[Line], None]
 PROGRESS_SECONDS = 2.0
+
+logger = logging.getLogger("tribodrive")
 
 
 class Clock:
@@ -24,51 +29,48 @@ class Clock:
         """Seconds since the study began, to the millisecond."""
         return round(time.perf_counter() - self._started, 3)
 
+    def line(self) -> Line:
+        """How far the study has come."""
+        return {"type": "progress", "done": self.done, "total": self.total, "elapsed_s": self.elapsed_s}
 
-async def guarded(lines: AsyncIterator[list[Line]], clock: Clock, seconds: float) -> AsyncIterator[list[Line]]:
+    def error(self, code: str, message: str) -> Line:
+        """The line that ends a study before its time."""
+        return {"type": "error", "code": code, "message": message, "done": self.done}
+
+
+async def guarded(lines: Lines, clock: Clock, seconds: float) -> Lines:
     """The lines, with progress between them; a study that breaks off or takes too long ends with an error line."""
-    upcoming = asyncio.ensure_future(anext(lines))
+    async with aclosing(lines):
+        upcoming = asyncio.ensure_future(anext(lines, None))
+        try:
+            while True:
+                left = seconds - clock.elapsed_s
+                if left <= 0.0:
+                    yield [clock.error("study_deadline", f"the study took longer than {seconds:g} s; make it smaller")]
+                    return
+                done, _ = await asyncio.wait({upcoming}, timeout=min(PROGRESS_SECONDS, left))
+                if not done:
+                    if left > PROGRESS_SECONDS:
+                        yield [clock.line()]
+                    continue
+                group, end = _outcome(upcoming, clock)
+                if group:
+                    yield group
+                if end:
+                    return
+                upcoming = asyncio.ensure_future(anext(lines, None))
+        finally:
+            upcoming.cancel()
+            await asyncio.gather(upcoming, return_exceptions=True)
+
+
+def _outcome(upcoming: asyncio.Future[list[Line] | None], clock: Clock) -> tuple[list[Line], bool]:
+    """The next lines, and whether they are the last."""
     try:
-        while True:
-            left = seconds - clock.elapsed_s
-            if left <= 0.0:
-                yield [_error(clock, "study_deadline", f"the study took longer than {seconds:g} s; make it smaller")]
-                return
-            done, _ = await asyncio.wait({upcoming}, timeout=min(PROGRESS_SECONDS, left))
-            if not done:
-                yield [_progress(clock)]
-                continue
-            try:
-                yield upcoming.result()
-            except StopAsyncIteration:
-                return
-            except PoolLost as error:
-                yield [_error(clock, "scheduler_lost", str(error))]
-                return
-            upcoming = asyncio.ensure_future(anext(lines))
-    finally:
-        await _closed(upcoming)
-
-
-async def _closed(upcoming: "asyncio.Future[Any]") -> None:
-    """Stop waiting for the next line and let its generator clean up."""
-    upcoming.cancel()
-    await asyncio.wait({upcoming})
-    if not upcoming.cancelled():
-        upcoming.exception()
-
-
-def _progress(clock: Clock) -> Line:
-    return {"type": "progress", "done": clock.done, "total": clock.total, "elapsed_s": clock.elapsed_s}
-
-
-def _error(clock: Clock, code: str, message: str) -> Line:
-    return {"type": "error", "code": code, "message": message, "done": clock.done}
-
-
-async def encoded(lines: AsyncIterator[list[Line]], encode: Callable[[Line], bytes]) -> AsyncIterator[bytes]:
-    """The lines as bytes, those that come together in one piece."""
-    async for group in lines:
-        piece = b"".join(map(encode, group))
-        if piece:
-            yield piece
+        group = upcoming.result()
+    except PoolLost as error:
+        return [clock.error("scheduler_lost", str(error))], True
+    except Exception:
+        logger.exception("a study failed")
+        return [clock.error("internal_error", "something went wrong in the service; the log has the cause")], True
+    return group or [], group is None

@@ -1,11 +1,11 @@
-"""What a sweep says at its end: ranges, quantiles, rank correlation and the best point."""
+"""What a sweep says at its end: counts, ranges, the best point, and for random samples their statistics."""
 
+import operator
+from array import array
 from collections import Counter
-from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.stats import spearmanr
 
 from app.studies.plan import Plan
 from app.studies.points import Point
@@ -13,96 +13,127 @@ from app.studies.requests import Best
 
 QUANTILES = (0.05, 0.5, 0.95)
 LEAST_CORRELATED = 3
-SOLVED = ("ok", "ok_with_warnings")
+NOTHING = float("nan")
 
 
-@dataclass
+class Extreme(NamedTuple):
+    """A value as the answer has it, and the point where it is."""
+
+    value: float
+    point: int
+
+
 class Summary:
-    """Gathers points as they pass; numbers only, so that its memory is that of the outputs."""
+    """Gathers points as they pass; of a grid it keeps the extremes only, of a sample every number."""
 
-    plan: Plan
-    outputs: list[str]
-    best: Best | None
-    counts: Counter[str] = field(default_factory=Counter)
-    assumptions: list[dict[str, Any]] | None = None
-    _values: list[list[float | None]] = field(default_factory=list)
+    def __init__(self, plan: Plan, outputs: list[str], best: Best | None) -> None:
+        self._plan = plan
+        self._outputs = outputs
+        self._best = best
+        self._counts: Counter[str] = Counter()
+        self._ranges: dict[str, dict[str, Extreme]] = {}
+        self._chosen: tuple[Extreme, list[Any]] | None = None
+        self._assumptions: dict[str, dict[str, Any]] = {}
+        self._values = array("d")
+        self._count = 0
 
     def add(self, point: Point) -> None:
         """Take in the next point, in order."""
-        self.counts[point.status] += 1
-        self._values.append([_number(value) for value in point.out])
-        if self.assumptions is None and point.assumptions is not None:
-            self.assumptions = point.assumptions
+        index, self._count = self._count, self._count + 1
+        self._counts[point.status] += 1
+        for path, value in zip(self._outputs, point.out, strict=True):
+            if _is_number(value):
+                self._widen(path, Extreme(value, index))
+        if self._best is not None:
+            self._choose(self._best, index, point.out)
+        if self._plan.sample is not None:
+            self._values.extend(value if _is_number(value) else NOTHING for value in point.out)
+        for each in point.assumptions:
+            self._assume(each)
 
-    def line(self, elapsed_s: float) -> dict[str, Any]:
+    @property
+    def values(self) -> np.ndarray[Any, Any] | None:
+        """The outputs of a random sample, a row a point, NaN where there is none."""
+        if self._plan.sample is None:
+            return None
+        return np.array(self._values).reshape(self._count, len(self._outputs))
+
+    def line(self, statistics: dict[str, Any], elapsed_s: float) -> dict[str, Any]:
         """The last line of the answer."""
-        table = np.array(self._values, dtype=float).reshape(len(self._values), len(self.outputs))
-        sampled = self.plan.sample is not None
         return {
             "type": "end",
-            "points": len(self._values),
-            "counts": dict(sorted(self.counts.items())),
-            "ranges": {name: _range(table[:, column]) for column, name in enumerate(self.outputs)},
-            "quantiles": self._by_output(table, _quantiles) if sampled else None,
-            "rank_correlation": self._by_output(table, self._correlation) if sampled else None,
-            "best": self._best(table),
-            "assumptions": self.assumptions or [],
+            "points": self._count,
+            "counts": dict(sorted(self._counts.items())),
+            "ranges": self._ranges,
+            **statistics,
+            "best": self._best_point(),
+            "assumptions": list(self._assumptions.values()),
             "elapsed_s": elapsed_s,
         }
 
-    def _by_output(self, table: np.ndarray[Any, Any], function: Any) -> dict[str, Any]:
-        return {name: function(table[:, column]) for column, name in enumerate(self.outputs)}
+    def _widen(self, path: str, found: Extreme) -> None:
+        known = self._ranges.setdefault(path, {"min": found, "max": found})
+        if found.value < known["min"].value:
+            known["min"] = found
+        if found.value > known["max"].value:
+            known["max"] = found
 
-    def _correlation(self, values: np.ndarray[Any, Any]) -> dict[str, float | None]:
-        """Spearman's rank correlation of an output with each sampled field."""
-        assert self.plan.sample is not None
-        there = ~np.isnan(values)
-        found: dict[str, float | None] = {}
-        for column, axis in enumerate(self.plan.axes):
-            x, y = self.plan.sample[: values.size, column][there], values[there]
-            varied = y.size >= LEAST_CORRELATED and np.ptp(y) > 0.0 and np.ptp(x) > 0.0
-            found[axis.paths[0]] = float(spearmanr(x, y).statistic) if varied else None
-        return found
+    def _choose(self, best: Best, index: int, out: list[Any]) -> None:
+        """Keep the point if it is the best so far inside all limits; of equals the first."""
+        values = dict(zip(self._outputs, out, strict=True))
+        value = values[best.output]
+        limited = all(
+            _is_number(values[bound.output])
+            and (bound.min is None or values[bound.output] >= bound.min)
+            and (bound.max is None or values[bound.output] <= bound.max)
+            for bound in best.where
+        )
+        better = operator.lt if best.minimise else operator.gt
+        if limited and _is_number(value) and (self._chosen is None or better(value, self._chosen[0].value)):
+            self._chosen = Extreme(value, index), out
 
-    def _best(self, table: np.ndarray[Any, Any]) -> dict[str, Any] | None:
-        """The solved point with the smallest or largest output inside all bounds."""
-        if self.best is None:
+    def _best_point(self) -> dict[str, Any] | None:
+        if self._chosen is None:
             return None
-        allowed = np.ones(len(table), dtype=bool)
-        for bound in self.best.where:
-            values = table[:, self.outputs.index(bound.output)]
-            allowed &= ~np.isnan(values)
-            allowed &= values >= (-np.inf if bound.min is None else bound.min)
-            allowed &= values <= (np.inf if bound.max is None else bound.max)
-        wanted = self.best.minimise or self.best.maximise
-        assert wanted is not None
-        values = table[:, self.outputs.index(wanted)]
-        allowed &= ~np.isnan(values)
-        if not allowed.any():
-            return None
-        ranked = np.where(allowed, values if self.best.minimise else -values, np.inf)
-        index = int(np.argmin(ranked))
-        return {"index": index, "at": self.plan.at(index), "out": [_json(value) for value in table[index]]}
+        (_, index), out = self._chosen
+        return {"index": index, "at": self._plan.at(index), "out": out}
+
+    def _assume(self, assumption: dict[str, Any]) -> None:
+        """Each assumption once; a value that differs between points is null."""
+        known = self._assumptions.setdefault(assumption["field"], assumption)
+        if known["value"] != assumption["value"]:
+            self._assumptions[assumption["field"]] = {**known, "value": None}
 
 
-def _number(value: Any) -> float | None:
-    """A number or truth value as a number; words and nulls have none."""
-    return float(value) if isinstance(value, int | float) else None
+def _is_number(value: Any) -> bool:
+    """Whether it can be compared; true counts as 1."""
+    return isinstance(value, int | float)
 
 
-def _json(value: float) -> float | None:
-    return None if np.isnan(value) else float(value)
+NO_STATISTICS: dict[str, Any] = {"quantiles": None, "rank_correlation": None}
 
 
-def _range(values: np.ndarray[Any, Any]) -> dict[str, list[float | int]] | None:
-    """Smallest and largest value with their points; None where no point has the output."""
-    if not values.size or np.isnan(values).all():
+def statistics(
+    inputs: np.ndarray[Any, Any], outputs: np.ndarray[Any, Any], input_paths: list[str], output_paths: list[str]
+) -> dict[str, Any]:
+    """Quantiles and rank correlation of a random sample, a row a point; runs in a worker."""
+    there = {path: ~np.isnan(outputs[:, place]) for place, path in enumerate(output_paths)}
+    columns = {path: outputs[there[path], place] for place, path in enumerate(output_paths) if there[path].any()}
+    return {
+        "quantiles": {path: np.quantile(values, QUANTILES).tolist() for path, values in columns.items()},
+        "rank_correlation": {
+            path: {
+                name: _rank_correlation(inputs[there[path], place], values) for place, name in enumerate(input_paths)
+            }
+            for path, values in columns.items()
+        },
+    }
+
+
+def _rank_correlation(x: np.ndarray[Any, Any], y: np.ndarray[Any, Any]) -> float | None:
+    """Spearman's coefficient; none of fewer than three points, or where either does not vary."""
+    from scipy.stats import spearmanr  # noqa: PLC0415  half a second that only random samples need
+
+    if y.size < LEAST_CORRELATED or np.ptp(x) == 0.0 or np.ptp(y) == 0.0:
         return None
-    low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
-    return {"min": [float(values[low]), low], "max": [float(values[high]), high]}
-
-
-def _quantiles(values: np.ndarray[Any, Any]) -> list[float] | None:
-    """5, 50 and 95 % quantiles of the points that have the output."""
-    there = values[~np.isnan(values)]
-    return [float(value) for value in np.quantile(there, QUANTILES)] if there.size else None
+    return float(spearmanr(x, y).statistic)
