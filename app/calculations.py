@@ -105,3 +105,5 @@ CALCULATIONS = (
         response=LineContactResponse,
     ),
 )
+
+BY_PATH = {calculation.path: calculation for calculation in CALCULATIONS}

@@ -9,10 +9,11 @@ from fastapi_offline import FastAPIOffline
 from app import problems
 from app.protection import Protection
 from app.responses.common import MODEL_VERSION
-from app.routes import calculations, figures, service
+from app.routes import calculations, figures, service, studies
 from app.settings import Settings
 from app.settings import settings as settings_from_environment
 from app.start_up import StartUp
+from app.studies.office import Office
 from app.workers.admission import Runner
 from app.workers.pool import Pool
 
@@ -31,7 +32,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         app.state.start_up = StartUp(app.state.pool)
         app.state.settings = settings
         app.state.runner = Runner(settings, app.state.pool)
-        async with app.state.pool.running(), app.state.start_up.running():
+        app.state.office = Office(settings, app.state.pool)
+        async with app.state.pool.running(), app.state.start_up.running(), app.state.office.open():
             yield
 
     app = FastAPIOffline(
@@ -41,7 +43,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         lifespan=lifespan,
         redoc_url=None,
     )
-    for routes in (calculations, figures, service):
+    for routes in (calculations, figures, studies, service):
         app.include_router(routes.router)
     problems.install(app)
     app.add_middleware(Protection, settings=settings)
