@@ -154,7 +154,7 @@ def mass_flow(_: PumpingRequest, answer: PumpingResponse) -> Figure:
     """What leaves and enters the tooth spaces of each gear at the ends, and the net flow out by exit."""
     exits = {gear: _exits(space) for gear, space in spaces(answer)}
     still = all(abs(row.value) < NO_FLOW for rows in exits.values() for row in rows)
-    x = Axis("mass flow out (negative: in)", "g/s", limits=(0.0, 1.0) if still else None)
+    x = Axis("mass flow (net: out; negative: in)", "g/s", limits=(0.0, 1.0) if still else None)
     panels = tuple(Panel(x=x, y=Axis("exit"), title=f"spaces of the {gear}", rows=rows) for gear, rows in exits.items())
     flows = [space.mass_flow_g_per_s for _, space in spaces(answer)]
     net = sum(flow.front + flow.rear for flow in flows)
@@ -169,13 +169,13 @@ def _exits(space: PumpingSpaces) -> tuple[Row, ...]:
     flow, known = space.mass_flow_g_per_s, space.mass_flow_g_per_s.net_uncertainty
     return (
         Row("first end: out", flow.front_out, Hue.BLUE),
-        Row("first end: in", -flow.front_in, Hue.BLUE),
+        Row("first end: in", flow.front_in, Hue.BLUE),
         Row("first end: net", flow.front, Hue.BLUE, (flow.front - known, flow.front + known)),
         Row("last end: out", flow.rear_out, Hue.VERMILLION),
-        Row("last end: in", -flow.rear_in, Hue.VERMILLION),
+        Row("last end: in", flow.rear_in, Hue.VERMILLION),
         Row("last end: net", flow.rear, Hue.VERMILLION, (flow.rear - known, flow.rear + known)),
-        Row("radial clearances", flow.radial, Hue.GREEN),
-        Row("grooves", flow.grooves, Hue.ORANGE),
+        Row("radial clearances: net", flow.radial, Hue.GREEN),
+        Row("grooves: net", flow.grooves, Hue.ORANGE),
         Row("given back between strokes", flow.reset, Hue.GREY),
     )
 

@@ -232,7 +232,7 @@ def section(space: ToothSpace, angle: float) -> tuple[float, float, float, float
     """Area [m^2], left and right clearance [m], area of gas that the flanks have carried out so far [m^2].
 
     `angle` [rad] of the owner; only differences of what is carried have a meaning. The flanks of the coast side roll
-    through the section fixed on the line of action: out of the space where the owner drives, into it where it is driven.
+    through the section fixed on the line of action: out of the space where the owner drives, else into it.
     """
     mate_angle = angle * space.ratio + space.offset
     left_gap = 0.0 if space.owner_drives else space.backlash_gap
