@@ -4,6 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from app.figures.declaration import Declaration
+from app.figures.registry import FIGURES
 from app.requests.common import Request
 from app.requests.coupling import CouplingRequest, RecommendationRequest, SleeveOrbitRequest
 from app.requests.line_contact import LineContactRequest
@@ -30,6 +32,11 @@ class Calculation:
     request: type[Request]
     solve: Callable[[Any], Any]
     response: type[Response]
+
+    @property
+    def figures(self) -> tuple[Declaration, ...]:
+        """Its figures."""
+        return FIGURES.get(self.path, ())
 
 
 CALCULATIONS = (

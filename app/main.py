@@ -9,7 +9,7 @@ from fastapi_offline import FastAPIOffline
 from app import problems
 from app.protection import Protection
 from app.responses.common import MODEL_VERSION
-from app.routes import calculations, service
+from app.routes import calculations, figures, service
 from app.settings import Settings
 from app.settings import settings as settings_from_environment
 from app.start_up import StartUp
@@ -40,7 +40,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         lifespan=lifespan,
         redoc_url=None,
     )
-    for routes in (calculations, service):
+    for routes in (calculations, figures, service):
         app.include_router(routes.router)
     problems.install(app)
     app.add_middleware(Protection, settings=settings)

@@ -1,0 +1,289 @@
+"""Figures of a gear coupling at one operating point."""
+
+from math import exp, inf, log
+
+import numpy as np
+
+from app.figures.data import (
+    Area,
+    Axis,
+    Bars,
+    Figure,
+    Hue,
+    Level,
+    Line,
+    Mark,
+    Panel,
+    Ribbon,
+    Role,
+    Row,
+    Span,
+    Values,
+    values,
+)
+from app.figures.declaration import Declaration, present
+from app.figures.wording import number, percent
+from app.requests.coupling import CouplingRequest
+from app.responses.coupling import CouplingResponse
+from solvers.coupling.friction import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES, friction_regime
+
+QUARTERS = (0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0, 360.0)
+TOOTH = Axis("tooth position φ (tilt at 90° and 270°)", "°", limits=(0.0, 360.0), ticks=QUARTERS, magnitude=False)
+TILTS = (Span(82.0, 98.0, ""), Span(262.0, 278.0, ""))
+MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}
+
+
+def friction_regime_figure(_: CouplingRequest, answer: CouplingResponse) -> Figure:
+    """Supply of oil against strength of film, with the nine areas and the distance to the next."""
+    lubrication = present(answer.lubrication)
+    regime = lubrication.regime
+    overlap, capacity = _shown(lubrication.contact_overlap), _shown(lubrication.load_capacity_coefficient)
+    x = Axis(
+        "contact surface overlap Pu (right: worse supply of oil)",
+        log=True,
+        limits=_around("overlap", overlap),
+        ticks=_ticks(*OVERLAP_BOUNDARIES),
+    )
+    y = Axis(
+        "load capacity coefficient Tr (up: stronger film)",
+        log=True,
+        limits=_around("capacity", capacity),
+        ticks=_ticks(*CAPACITY_BOUNDARIES),
+    )
+    assert x.limits is not None
+    assert y.limits is not None
+    at = min(max(overlap, x.limits[0]), x.limits[1]), min(max(capacity, y.limits[0]), y.limits[1])
+    distance = regime.distance_to_boundary
+    away = "" if distance is None else f", a factor {number(exp(distance))} from the next area"
+    return Figure(
+        finding=f"area {regime.area}, {regime.name}{away}; μ = {number(lubrication.friction_coefficient)}",
+        panels=(
+            Panel(
+                x=x,
+                y=y,
+                areas=_areas(x.limits, y.limits),
+                lines=() if distance is None else (_way_out(*at, distance),),
+                marks=(Mark(*at, _at(lubrication.contact_overlap, lubrication.load_capacity_coefficient)),),
+            ),
+        ),
+    )
+
+
+def _shown(coordinate: float | None) -> float:
+    """A coordinate without an end stands at the edge of the map."""
+    return inf if coordinate is None else coordinate
+
+
+def _around(which: str, value: float) -> tuple[float, float]:
+    """Ends of the map that hold the point, if a map can."""
+    low, high = MAP_ENDS[which]
+    if not 0.0 < value < inf:
+        return low, high
+    return min(low, 10.0 ** np.floor(np.log10(value / 1.2))), max(high, 10.0 ** np.ceil(np.log10(value * 1.2)))
+
+
+def _ticks(low: float, high: float) -> tuple[float, ...]:
+    """The boundaries and the decades that do not crowd them."""
+    decades = (10.0**exponent for exponent in range(-12, 13))
+    far = (decade for decade in decades if decade <= low / 1.9 or decade >= high * 1.9)
+    return tuple(sorted({low, high, *far}))
+
+
+def _at(overlap: float | None, capacity: float | None) -> str:
+    texts = ("∞" if value is None else number(value) for value in (overlap, capacity))
+    return "Pu = {}\nTr = {}".format(*texts)
+
+
+def _areas(x: tuple[float, float], y: tuple[float, float]) -> tuple[Area, ...]:
+    """The nine areas with what the model itself says of each."""
+    columns = list(zip((x[0], *OVERLAP_BOUNDARIES), (*OVERLAP_BOUNDARIES, x[1]), strict=True))
+    rows = list(zip((y[0], *CAPACITY_BOUNDARIES), (*CAPACITY_BOUNDARIES, y[1]), strict=True))
+    return tuple(_one_area(column, row) for row in rows for column in columns)
+
+
+def _one_area(x: tuple[float, float], y: tuple[float, float]) -> Area:
+    regime = friction_regime((x[0] * x[1]) ** 0.5, (y[0] * y[1]) ** 0.5)
+    band = _band(regime.friction_min, regime.friction_max)
+    words = {"transition from mixed to boundary lubrication": "transition", "mixed lubrication, unstable": "unstable"}
+    name = words.get(regime.name, regime.name.replace(" lubrication", "").replace("predominantly ", ""))
+    return Area(*x, *y, "\n".join([regime.area, *name.split(" or ", 1)[:1], band]).strip(), _tint(regime.name))
+
+
+def _band(low: float | None, high: float | None) -> str:
+    if low is None and high is None:
+        return ""
+    if low is None or high is None:
+        return f"μ < {high:g}" if high is not None else f"μ > {low:g}"
+    return f"μ ≈ {low:g}" if low == high else f"μ {low:g} to {high:g}"
+
+
+def _tint(name: str) -> Hue:
+    for word, hue in (
+        ("full", Hue.GREEN),
+        ("unstable", Hue.PURPLE),
+        ("transition", Hue.ORANGE),
+        ("boundary", Hue.VERMILLION),
+    ):
+        if word in name:
+            return hue
+    return Hue.SKY
+
+
+def _way_out(overlap: float, capacity: float, distance: float) -> Line:
+    """From the point to the nearest boundary, along an axis."""
+    for boundary in OVERLAP_BOUNDARIES:
+        if 0.0 < overlap < inf and abs(abs(log(overlap / boundary)) - distance) < 1e-9:
+            return _reference([overlap, boundary], [capacity, capacity])
+    nearest = min(CAPACITY_BOUNDARIES, key=lambda boundary: abs(abs(log(capacity / boundary)) - distance))
+    return _reference([overlap, overlap], [capacity, nearest])
+
+
+def _reference(x: list[float], y: list[float]) -> Line:
+    return Line("to the next area", values(x), values(y), Hue.GREY, Role.REFERENCE, named=False)
+
+
+def tooth_loads(request: CouplingRequest, answer: CouplingResponse) -> Figure:
+    """Tangential force of each tooth, mean and largest; the pitch errors behind it."""
+    load = present(answer.load_distribution)
+    curves = present(load.curves)
+    angle, force = values(curves.angle_deg), values(curves.tangential_force_n)
+    largest = int(np.argmax(force))
+    teeth = f"{load.loaded_teeth} of {force.size} teeth carry"
+    tilt = f"at {number(abs(request.operation.misalignment_deg))}° tilt"
+    panels = [
+        Panel(
+            x=TOOTH,
+            y=Axis("tangential force", "N"),
+            bars=(Bars("tangential force", angle, force, Hue.BLUE, strong=largest),),
+            levels=(Level(load.mean_tangential_force_n, f"mean {number(load.mean_tangential_force_n, 'N')}"),),
+            marks=(Mark(float(angle[largest]), float(force[largest]), number(float(force[largest]), "N")),),
+        )
+    ]
+    if request.coupling.pitch_errors_um is not None:
+        error = Axis("pitch error (positive: carries more)", "µm", magnitude=False)
+        bars = Bars("pitch error", angle, values(request.coupling.pitch_errors_um), Hue.VERMILLION)
+        panels.append(Panel(x=TOOTH, y=error, bars=(bars,)))
+    concentration = load.load_concentration
+    share = "" if concentration is None else f"; the highest loaded takes {number(concentration)} times the mean {tilt}"
+    return Figure(f"{teeth}{share}", tuple(panels))
+
+
+def tooth_motion(_: CouplingRequest, answer: CouplingResponse) -> Figure:
+    """What wears, what builds the film and what loads a tooth over a revolution."""
+    kinematics, limits = present(answer.kinematics), present(answer.limits)
+    curves = present(kinematics.curves)
+    angle, limit = values(curves.angle_deg), limits.sliding_velocity_limit_m_per_s
+    sliding = values(curves.sliding_velocity_m_per_s)
+    share = kinematics.max_sliding_velocity_m_per_s / limit
+    top = int(np.argmax(sliding))
+    panels = (
+        Panel(
+            x=TOOTH,
+            y=Axis("sliding velocity, that wears", "m/s"),
+            lines=(Line("sliding velocity", angle, sliding, Hue.VERMILLION, named=False),),
+            levels=(Level(limit, f"lasting limit {number(limit, 'm/s')}", limit=True),),
+            marks=(Mark(float(angle[top]), float(sliding[top]), number(float(sliding[top]), "m/s"), Hue.VERMILLION),),
+            spans=TILTS,
+        ),
+        _motion(
+            "hydrodynamic velocity, that builds the film", "m/s", angle, curves.hydrodynamic_velocity_m_per_s, Hue.BLUE
+        ),
+        _motion(
+            "tangential displacement, that loads the tooth", "µm", angle, curves.tangential_displacement_um, Hue.GREEN
+        ),
+    )
+    finding = f"sliding reaches {percent(share)} of its lasting limit; least film velocity near the tilt positions"
+    return Figure(finding, panels)
+
+
+def _motion(title: str, unit: str, angle: Values, items: list[float], hue: Hue) -> Panel:
+    line = Line(title.split(",", maxsplit=1)[0], angle, values(items), hue, named=False)
+    return Panel(x=TOOTH, y=Axis(title, unit), lines=(line,), spans=TILTS)
+
+
+def contact_track(_: CouplingRequest, answer: CouplingResponse) -> Figure:
+    """Where the contact is on the face, and how wide."""
+    curves, lubrication = present(present(answer.kinematics).curves), present(answer.lubrication)
+    angle, position = values(curves.angle_deg), values(curves.contact_position_mm)
+    half, width = lubrication.hertz_half_width_mm, present(answer.derived).face_width_mm
+    edge = width / 2.0
+    reach = float(np.abs(position).max()) + half
+    panel = Panel(
+        x=TOOTH,
+        y=Axis("position on the hub tooth from its middle", "mm", magnitude=False),
+        lines=(Line("middle", angle, position, Hue.BLUE),),
+        ribbons=(Ribbon("contact", angle, position - half, position + half),),
+        levels=(Level(edge, "edge of the face", limit=True), Level(-edge, "edge of the face", limit=True)),
+    )
+    overlap = lubrication.contact_overlap
+    supply = "without travel no oil comes in" if overlap is None else f"overlap Pu = {number(overlap)}"
+    finding = f"contact reaches {number(reach, 'mm')} of {number(edge, 'mm')} to the edge; {supply}"
+    return Figure(finding, (panel,))
+
+
+def axial_thrust(request: CouplingRequest, answer: CouplingResponse) -> Figure:
+    """Which teeth slide which way, and the thrust that is left of the coaxial one."""
+    thrust, curves = present(answer.axial_thrust), present(present(answer.kinematics).curves)
+    axial = request.operation.axial_velocity_mm_per_s / 1e3
+    sliding = values(curves.sliding_velocity_m_per_s)
+    opposed = float(np.mean(sliding[:-1] > abs(axial)))
+    rows = [
+        Row("thrust", thrust.force_n, Hue.BLUE, (thrust.lower_bound_n, thrust.upper_bound_n)),
+        Row("if all teeth carried alike", thrust.uniform_load_force_n, Hue.GREY),
+        Row("breakaway, coaxial at rest", thrust.breakaway_force_n, Hue.ORANGE),
+    ]
+    if thrust.self_induced is not None:
+        rows += [
+            Row("self-induced", thrust.self_induced.force_n, Hue.PURPLE),
+            Row("self-induced, one-pair model", thrust.self_induced.simple_model_force_n, Hue.GREY),
+        ]
+    limit = Level(thrust.coaxial_limit_n, "coaxial limit", limit=True, vertical=True)
+    motion = Panel(
+        x=TOOTH,
+        y=Axis("velocity along the tooth", "m/s"),
+        lines=(Line("sliding by tilt", values(curves.angle_deg), sliding, Hue.VERMILLION),),
+        levels=(Level(axial, f"axial velocity {number(axial * 1e3, 'mm/s')}"),) if axial else (),
+    )
+    share = (
+        "no limit without load or friction"
+        if thrust.fraction_of_limit is None
+        else f"{percent(thrust.fraction_of_limit)} of the coaxial limit"
+    )
+    state = (
+        "friction at rest is indeterminate"
+        if thrust.indeterminate
+        else f"{percent(opposed)} of the revolution slides against the axial motion"
+    )
+    finding = f"{share}; {state}" if axial or thrust.indeterminate else share
+    return Figure(
+        finding,
+        (Panel(x=Axis("thrust", "N"), y=Axis("thrust"), rows=tuple(rows), levels=(limit,)), motion),
+    )
+
+
+def losses(_: CouplingRequest, answer: CouplingResponse) -> Figure:
+    """Moments on shaft and bearings, and the power that becomes heat."""
+    loss = present(answer.losses)
+    moments = (
+        Row("friction", loss.friction_moment_n_m, Hue.VERMILLION),
+        Row("shift of the contacts", loss.contact_shift_moment_n_m, Hue.BLUE),
+        Row("bending of the hub, resultant", loss.hub_bending_moment_n_m, Hue.GREY),
+    )
+    power = (Row("friction power of one mesh", loss.friction_power_w, Hue.VERMILLION),)
+    bending = number(loss.hub_bending_moment_n_m, "N m")
+    finding = f"{number(loss.friction_power_w, 'W')} of heat and {bending} of bending in one mesh"
+    panels = (
+        Panel(x=Axis("moment", "N m"), y=Axis("moment"), rows=moments),
+        Panel(x=Axis("power", "W"), y=Axis("power"), rows=power),
+    )
+    return Figure(finding, panels)
+
+
+FIGURES = (
+    Declaration("friction-regime", "Friction regime of the coupling", "Pahl 1978, Fig. 9", friction_regime_figure),
+    Declaration("tooth-loads", "Load on the coupling teeth", "Pahl 1978, Figs. 3, 4", tooth_loads),
+    Declaration("tooth-motion", "Motion of one tooth over a revolution", "Pahl 1978, Figs. 6, 12", tooth_motion),
+    Declaration("contact-track", "Track of the contact on the face", "Pahl 1978, Fig. 7", contact_track),
+    Declaration("axial-thrust", "Axial thrust of the coupling", "Pahl 1978, Fig. 14", axial_thrust),
+    Declaration("losses", "Moments and losses of one mesh", "Pahl 1978", losses, detail="summary"),
+)

@@ -1,0 +1,239 @@
+"""What a figure shows, without how it looks: panels of lines, bars, rows and maps with their limits and marks.
+
+Every number is in the unit of its axis and equals the answer's; NaN is a point without a value, and a gap.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+Values = NDArray[np.float64]
+NO_BREAK = "\u00a0"
+
+
+class Hue(StrEnum):
+    """Colours of Okabe and Ito; a theme says which shade of each it draws and writes in."""
+
+    BLUE = "blue"
+    VERMILLION = "vermillion"
+    GREEN = "green"
+    SKY = "sky"
+    ORANGE = "orange"
+    PURPLE = "purple"
+    GREY = "grey"
+
+
+ORDER = (Hue.BLUE, Hue.VERMILLION, Hue.GREEN, Hue.PURPLE, Hue.ORANGE, Hue.SKY, Hue.GREY)
+
+
+class Role(StrEnum):
+    """Why a line is there: the result, something known to hold it against, or another case."""
+
+    RESULT = "result"
+    REFERENCE = "reference"
+    VARIANT = "variant"
+
+
+def values(items: Sequence[float | None] | Values) -> Values:
+    """A read-only array; None, a point without a value, becomes NaN."""
+    array = np.array([np.nan if item is None else item for item in items], dtype=np.float64)
+    array.flags.writeable = False
+    return array
+
+
+def matrix(rows: Sequence[Sequence[float | None]]) -> Values:
+    """A read-only array of rows; None becomes NaN."""
+    array = np.array(rows, dtype=np.float64)
+    array.flags.writeable = False
+    return array
+
+
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """A quantity along an axis; a magnitude's axis starts at zero where its values allow."""
+
+    title: str
+    unit: str | None = None
+    log: bool = False
+    magnitude: bool = True
+    limits: tuple[float, float] | None = None
+    ticks: tuple[float, ...] | None = None
+
+    @property
+    def label(self) -> str:
+        """Title and unit as they stand at the axis."""
+        return f"{self.title}, {self.unit}" if self.unit else self.title
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Line:
+    """A curve; a line that is not named needs no label, because its axis says what it is."""
+
+    title: str
+    x: Values
+    y: Values
+    hue: Hue = Hue.BLUE
+    role: Role = Role.RESULT
+    named: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ribbon:
+    """A band between two curves over one abscissa."""
+
+    title: str
+    x: Values
+    low: Values
+    high: Values
+    hue: Hue = Hue.BLUE
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bars:
+    """Bars side by side over an abscissa; those of `strong` are the extreme ones."""
+
+    title: str
+    x: Values
+    height: Values
+    hue: Hue = Hue.BLUE
+    strong: int | None = None
+    role: Role = Role.RESULT
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A named value drawn as a lying bar, with its bounds where it is indeterminate."""
+
+    name: str
+    value: float
+    hue: Hue = Hue.BLUE
+    bounds: tuple[float, float] | None = None
+    role: Role = Role.RESULT
+
+
+class Scale(StrEnum):
+    """How a map is coloured: from its least value up, around 1 by ratio, or around 0."""
+
+    MAGNITUDE = "magnitude"
+    RATIO = "ratio"
+    SIGNED = "signed"
+
+
+@dataclass(frozen=True, slots=True)
+class Critical:
+    """A value of a map where something happens; drawn as a dashed contour with its name at the colour bar."""
+
+    value: float
+    name: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Map:
+    """Values over two coordinates, `[y][x]`.
+
+    Maps that are compared share the `range` of the colours, and the last of them shows the `bar`.
+    """
+
+    title: str
+    unit: str | None
+    x: Values
+    y: Values
+    values: Values
+    scale: Scale = Scale.MAGNITUDE
+    critical: tuple[Critical, ...] = ()
+    range: tuple[float, float] | None = None
+    bar: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """A straight line across the panel: a limit, or a reference; `vertical` stands at an abscissa."""
+
+    value: float
+    name: str
+    limit: bool = False
+    vertical: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A range of the abscissa that is shaded, with its reason; of the ordinate if not `vertical`."""
+
+    start: float
+    stop: float
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """A point with a text, usually the extreme with its value."""
+
+    x: float
+    y: float
+    text: str
+    hue: Hue = Hue.BLUE
+
+
+@dataclass(frozen=True, slots=True)
+class Area:
+    """A rectangle of the plane with a text in its middle."""
+
+    left: float
+    right: float
+    bottom: float
+    top: float
+    text: str
+    hue: Hue
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Panel:
+    """One pair of axes and all that is drawn in it; `equal` axes show a path without distortion."""
+
+    x: Axis
+    y: Axis
+    title: str | None = None
+    lines: tuple[Line, ...] = ()
+    ribbons: tuple[Ribbon, ...] = ()
+    bars: tuple[Bars, ...] = ()
+    rows: tuple[Row, ...] = ()
+    map: Map | None = None
+    areas: tuple[Area, ...] = ()
+    levels: tuple[Level, ...] = ()
+    spans: tuple[Span, ...] = ()
+    marks: tuple[Mark, ...] = ()
+    equal: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Figure:
+    """Panels under a title that says what and a finding that says what of it; `beside` puts them in a row.
+
+    Title and source are those of the declaration, unless the case calls for a title of its own.
+    """
+
+    finding: str
+    panels: tuple[Panel, ...]
+    title: str = ""
+    source: str = ""
+    beside: bool = False
+    unsolved: int = 0
+
+    @property
+    def subtitle(self) -> str:
+        """Finding, number of points without solution, and source."""
+        gaps = f"{self.unsolved} point{'s' * (self.unsolved > 1)} without solution" if self.unsolved else ""
+        return " · ".join(part for part in (gaps, self.finding, self.source.replace(" ", NO_BREAK)) if part)
+
+
+class NoFigure(Exception):
+    """The case lacks what the figure shows; `field` is the dotted request field that decides it."""
+
+    def __init__(self, code: str, message: str, field: str | None = None) -> None:
+        super().__init__(code, message, field)
+        self.code = code
+        self.message = message
+        self.field = field

@@ -1,0 +1,133 @@
+"""Figures of one lubricated line contact."""
+
+import numpy as np
+
+from app.figures.data import Axis, Figure, Hue, Line, Map, Mark, NoFigure, Panel, Role, Row, Span, matrix, values
+from app.figures.declaration import Declaration, present
+from app.figures.wording import number, percent
+from app.requests.line_contact import LineContactRequest
+from app.responses.line_contact import LineContactResponse
+
+ACROSS = "position across the contact, along the flow"
+THICK = 3.0  # film beyond so many central films is inlet and outlet, not contact
+
+
+def contact(_: LineContactRequest, answer: LineContactResponse) -> Figure:
+    """Pressure with Hertz, film and temperatures across the contact."""
+    curves, film, hertz = present(answer.curves), present(answer.film), present(answer.hertz)
+    x_mm = values(curves.x_mm)
+    x = Axis(ACROSS, "mm", magnitude=False)
+    zone = (Span(-hertz.half_width_mm, hertz.half_width_mm, "Hertz contact"),)
+    plain = (Span(-hertz.half_width_mm, hertz.half_width_mm, ""),)
+    thickness, central = values(curves.film_um), present(film.central_um)
+    thinnest = int(np.argmin(thickness))
+    ceiling = THICK * central
+    panels = [
+        Panel(
+            x=x,
+            y=Axis("pressure", "MPa"),
+            lines=(
+                Line("film", x_mm, values(curves.pressure_mpa)),
+                Line("Hertz", x_mm, values(curves.hertz_pressure_mpa), Hue.GREY, Role.REFERENCE),
+            ),
+            spans=zone,
+        ),
+        Panel(
+            x=x,
+            y=Axis("film thickness", "µm", limits=(0.0, ceiling)),
+            lines=(Line("film thickness", x_mm, thickness, Hue.GREEN, named=False),),
+            marks=(
+                Mark(
+                    float(x_mm[thinnest]),
+                    float(thickness[thinnest]),
+                    number(float(thickness[thinnest]), "µm"),
+                    Hue.GREEN,
+                ),
+            ),
+            spans=plain,
+        ),
+    ]
+    finding = f"film {number(central, 'µm')} in the middle, {number(present(film.minimum_um), 'µm')} at the thinnest"
+    if answer.temperature is not None:
+        lines = tuple(
+            Line(title, x_mm, values(present(items)), hue)
+            for title, items, hue in (
+                ("mid film", curves.mid_film_temperature_c, Hue.VERMILLION),
+                ("surface 1", curves.surface_1_temperature_c, Hue.BLUE),
+                ("surface 2", curves.surface_2_temperature_c, Hue.SKY),
+            )
+        )
+        panels.append(Panel(x=x, y=Axis("temperature", "°C", magnitude=False), lines=lines, spans=plain))
+        finding += f"; up to {number(answer.temperature.film_max_c, '°C')}"
+    if answer.friction is not None:
+        finding += f"; μ = {number(answer.friction.coefficient)}"
+    return Figure(finding, tuple(panels))
+
+
+def film_temperature(_: LineContactRequest, answer: LineContactResponse) -> Figure:
+    """Temperature over contact and film."""
+    field = answer.field
+    if field is None or answer.temperature is None:
+        raise _isothermal()
+    grid = matrix(field.temperature_c).T
+    row, column = np.unravel_index(int(np.argmax(grid)), grid.shape)
+    hottest = float(grid[row, column])
+    chart = Map(
+        "temperature",
+        "°C",
+        values(field.x_mm),
+        values(field.film_fraction),
+        grid,
+        range=(float(grid.min()), hottest),
+    )
+    panel = Panel(
+        x=Axis(ACROSS, "mm", magnitude=False),
+        y=Axis("height in the film (0: surface 1, 1: surface 2)"),
+        map=chart,
+        marks=(Mark(float(chart.x[column]), float(chart.y[row]), number(hottest, "°C")),),
+    )
+    surfaces = answer.temperature
+    finding = (
+        f"film to {number(surfaces.film_max_c, '°C')}, surface 1 to {number(surfaces.surface_1_max_c, '°C')}, "
+        f"surface 2 to {number(surfaces.surface_2_max_c, '°C')}"
+    )
+    return Figure(finding, (panel,))
+
+
+def heat(_: LineContactRequest, answer: LineContactResponse) -> Figure:
+    """What shear and compression make, and where it goes."""
+    books = answer.heat
+    if books is None:
+        raise _isothermal()
+    unit = "W/mm"
+    source = (
+        Row("shear", books.generated_w_per_mm, Hue.VERMILLION),
+        Row("compression", books.compression_w_per_mm, Hue.ORANGE),
+    )
+    sink = (
+        Row("into surface 1", books.to_surface_1_w_per_mm, Hue.BLUE),
+        Row("into surface 2", books.to_surface_2_w_per_mm, Hue.SKY),
+        Row("carried out by the oil", books.convected_w_per_mm, Hue.GREEN),
+    )
+    ends = [0.0, *(row.value for row in (*source, *sink))]
+    x = Axis("heat per length of contact", unit, limits=(min(ends), max(ends)) if max(ends) > min(ends) else None)
+    made = books.generated_w_per_mm + books.compression_w_per_mm
+    shares = [row.value / made for row in sink[:2]] if made else [0.0, 0.0]
+    taken = f"surface 1 takes {percent(shares[0])}, surface 2 {percent(shares[1])}"
+    finding = f"{number(books.generated_w_per_mm, unit)} by shear; {taken}"
+    panels = (
+        Panel(x=x, y=Axis("heat"), title="made", rows=source),
+        Panel(x=x, y=Axis("heat"), title="gone", rows=sink),
+    )
+    return Figure(finding, panels)
+
+
+def _isothermal() -> NoFigure:
+    return NoFigure("isothermal", "An isothermal contact has no temperatures and no heat", "model.thermal")
+
+
+FIGURES = (
+    Declaration("contact", "Lubricated line contact", "Xue 2020, Fig. 20", contact),
+    Declaration("film-temperature", "Temperature in the film", "Xue 2020, Fig. 21", film_temperature, detail="fields"),
+    Declaration("heat", "Where the heat of the contact goes", "Xue 2020, Eqs. 23, 24", heat, detail="summary"),
+)

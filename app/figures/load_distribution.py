@@ -1,0 +1,179 @@
+"""Figures of a loaded gear pair: over the roll, along the path of contact, between the pairs of teeth."""
+
+from itertools import cycle
+
+import numpy as np
+
+from app.figures.data import ORDER, Axis, Bars, Figure, Hue, Level, Line, Mark, Panel, Role, Values, values
+from app.figures.declaration import Declaration, present
+from app.figures.flank_maps import MAPS
+from app.figures.wording import number
+from app.requests.load_distribution import LoadDistributionRequest
+from app.responses.load_distribution import LoadDistributionResponse
+
+ROLL = Axis("roll position", "base pitches", limits=(0.0, 1.0), magnitude=False)
+PATH = Axis("path of contact Ψ (0: A, pinion root; 1: E, pinion tip)", limits=(0.0, 1.0), magnitude=False)
+PAIRS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
+NO_LOAD = "no load"
+
+
+def transmission_error(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
+    """Transmission error and length of contact over the roll, and the orders of the error."""
+    error, lines = present(answer.transmission_error), present(answer.contact_lines)
+    curves, lengths = present(error.curves), present(lines.curves)
+    order = values([float(order) for order in range(1, len(error.harmonics_um) + 1)])
+    panels = (
+        Panel(
+            x=ROLL,
+            y=Axis("transmission error", "µm", magnitude=False),
+            lines=(Line("transmission error", values(curves.roll_position), values(curves.error_um), named=False),),
+            levels=(Level(error.mean_um, f"mean {number(error.mean_um, 'µm')}"),),
+        ),
+        Panel(
+            x=ROLL,
+            y=Axis("total length of the contact lines", "mm"),
+            lines=(Line("length", values(lengths.roll_position), values(lengths.length_mm), Hue.GREEN, named=False),),
+        ),
+        Panel(
+            x=Axis("order of the mesh", magnitude=False, ticks=tuple(order.tolist())),
+            y=Axis("amplitude of the transmission error", "µm"),
+            bars=(Bars("amplitude", order, values(error.harmonics_um)),),
+        ),
+    )
+    contact = f"contact from {number(lines.min_length_mm)} to {number(lines.max_length_mm, 'mm')}"
+    finding = f"peak to peak {number(error.peak_to_peak_um, 'µm')}; {contact}"
+    return Figure(finding, panels)
+
+
+def path_of_contact(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
+    """Line load, pressure and sliding along the feature line."""
+    curves, load, pressure = present(answer.feature_line), present(answer.load), present(answer.pressure)
+    psi = values(curves.psi)
+    points = path_points(psi, values(curves.gamma))
+    stresses, sliding = values(curves.pressure_mpa), np.abs(values(curves.sliding_m_per_s))
+    panels = (
+        _along(psi, "line load", "N/mm", values(curves.line_load_n_per_mm), Hue.BLUE, points, "N/mm"),
+        _along(psi, "Hertz pressure", "MPa", stresses, Hue.VERMILLION, unnamed(points), "MPa"),
+        _along(psi, "sliding speed, magnitude", "m/s", sliding, Hue.GREEN, unnamed(points), None),
+    )
+    loaded = load.max_at is not None
+    finding = (
+        f"on the whole flank up to {number(load.max_line_load_n_per_mm, 'N/mm')} and {number(pressure.max_mpa, 'MPa')}"
+    )
+    gaps = int(np.isnan(stresses).sum())
+    return Figure(finding if loaded else NO_LOAD, panels, unsolved=gaps)
+
+
+def _along(
+    psi: Values, title: str, unit: str, y: Values, hue: Hue, points: tuple[Level, ...], marked: str | None
+) -> Panel:
+    name = title.split(",", maxsplit=1)[0]
+    marks: tuple[Mark, ...] = ()
+    if marked is not None and np.nanmax(y, initial=0.0) > 0.0:
+        top = int(np.nanargmax(y))
+        marks = (Mark(float(psi[top]), float(y[top]), number(float(y[top]), marked), hue),)
+    return Panel(x=PATH, y=Axis(title, unit), lines=(Line(name, psi, y, hue, named=False),), levels=points, marks=marks)
+
+
+def path_points(psi: Values, gamma: Values) -> tuple[Level, ...]:
+    """The pitch point C; A and E are the ends of the path."""
+    if not gamma[0] < 0.0 < gamma[-1]:
+        return ()
+    return (Level(float(np.interp(0.0, gamma, psi)), "C, pitch point", vertical=True),)
+
+
+def unnamed(levels: tuple[Level, ...]) -> tuple[Level, ...]:
+    """The same lines without their names, for the panels below."""
+    return tuple(Level(level.value, "", level.limit, level.vertical) for level in levels)
+
+
+def stiffness(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
+    """Stiffness of one pair along the path beside the standard's."""
+    stiff = present(answer.stiffness)
+    curves = present(stiff.curves)
+    gamma, single = values(curves.gamma), values(curves.single_n_per_mm_um)
+    unit = "N/(mm µm)"
+    levels = [
+        Level(stiff.standard_single_n_per_mm_um, f"ISO 6336-1, one pair: {number(stiff.standard_single_n_per_mm_um)}")
+    ]
+    if stiff.mean_mesh_n_per_mm_um is not None:
+        levels.append(
+            Level(stiff.mean_mesh_n_per_mm_um, f"mean of the loaded mesh: {number(stiff.mean_mesh_n_per_mm_um)}")
+        )
+    if gamma[0] < 0.0 < gamma[-1]:
+        levels.append(Level(0.0, "C, pitch point", vertical=True))
+    panel = Panel(
+        x=Axis("profile parameter Γ (A left, C at 0, E right)", magnitude=False),
+        y=Axis("stiffness of one pair per face width", unit),
+        lines=(Line("one pair", gamma, single, named=False),),
+        levels=tuple(levels),
+        marks=(Mark(stiff.max_at_gamma, stiff.max_n_per_mm_um, number(stiff.max_n_per_mm_um, unit)),),
+    )
+    highest = f"highest {number(stiff.max_n_per_mm_um)} at Γ = {number(stiff.max_at_gamma)}"
+    ends = f"{number(stiff.approach_n_per_mm_um)} at A, {number(stiff.recess_n_per_mm_um, unit)} at E"
+    finding = f"{highest}, {ends}"
+    return Figure(finding, (panel,))
+
+
+def load_sharing(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
+    """Load sharing factor beside the standard's diagram."""
+    curves = present(answer.feature_line)
+    psi = values(curves.psi)
+    lines = []
+    if curves.load_sharing is not None:
+        lines.append(Line("this mesh", psi, values(curves.load_sharing)))
+    if curves.iso_load_sharing is not None:
+        lines.append(Line("ISO 13989-1", psi, values(curves.iso_load_sharing), Hue.GREY, Role.REFERENCE))
+    finding = NO_LOAD
+    marks: tuple[Mark, ...] = ()
+    if curves.load_sharing is not None:
+        top = int(np.argmax(lines[0].y))
+        value = float(lines[0].y[top])
+        finding = f"at most {number(value)} of the force on one line, at Ψ = {number(float(psi[top]))}"
+        marks = (Mark(float(psi[top]), value, number(value)),)
+    panel = Panel(
+        x=PATH,
+        y=Axis("load sharing factor X_Γ = w b / F_bt"),
+        lines=tuple(lines),
+        levels=path_points(psi, values(curves.gamma)),
+        marks=marks,
+    )
+    return Figure(finding, (panel,))
+
+
+def pair_share(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
+    """Share of the force on each line of contact over the roll."""
+    load, curves = present(answer.load), present(present(answer.transmission_error).curves)
+    roll, shares = values(curves.roll_position), present(load.pair_share)
+    lines = tuple(
+        Line(f"{name} line", roll, values(share), hue)
+        for name, share, hue in zip(PAIRS, shares, cycle(ORDER), strict=False)
+        if np.any(np.asarray(share) != 0.0) or load.max_at is None
+    )
+    panel = Panel(
+        x=ROLL,
+        y=Axis("share of the normal force", limits=(0.0, 1.05), ticks=(0.0, 0.2, 0.4, 0.6, 0.8, 1.0)),
+        lines=lines,
+    )
+    most = max(float(line.y.max()) for line in lines)
+    finding = f"one line of contact carries up to {number(100.0 * most, '%')}" if load.max_at is not None else NO_LOAD
+    return Figure(finding, (panel,))
+
+
+FIGURES = (
+    *MAPS,
+    Declaration(
+        "transmission-error", "Transmission error and length of contact", "Xue 2020, Figs. 5, 12", transmission_error
+    ),
+    Declaration(
+        "path-of-contact",
+        "Load, pressure and sliding along the path of contact",
+        "Xue 2020, Figs. 11, 13, 18",
+        path_of_contact,
+    ),
+    Declaration("stiffness", "Stiffness of a pair of teeth along the path", "Xue 2020, Fig. 8", stiffness),
+    Declaration("load-sharing", "Load sharing along the path of contact", "Xue 2020, Fig. 19", load_sharing),
+    Declaration(
+        "pair-share", "Share of each pair of teeth over the roll", "Xue 2020, section II", pair_share, detail="fields"
+    ),
+)

@@ -1,0 +1,15 @@
+"""The figures of each endpoint."""
+
+from app.figures import choking, coupling, coupling_companions, line_contact, load_distribution, pumping, scuffing
+from app.figures.declaration import Declaration
+
+FIGURES: dict[str, tuple[Declaration, ...]] = {
+    "/v1/coupling": coupling.FIGURES,
+    "/v1/coupling/sleeve-orbit": coupling_companions.ORBIT_FIGURES,
+    "/v1/coupling/recommendation": coupling_companions.RECOMMENDATION_FIGURES,
+    "/v1/pumping": pumping.FIGURES,
+    "/v1/pumping/choking-speed": choking.FIGURES,
+    "/v1/scuffing/load-distribution": load_distribution.FIGURES,
+    "/v1/scuffing": (*scuffing.FIGURES, *load_distribution.FIGURES),
+    "/v1/scuffing/line-contact": line_contact.FIGURES,
+}

@@ -1,0 +1,48 @@
+"""From a request to the bytes of one of its figures; runs in a worker process."""
+
+from typing import Any, Literal
+
+from app.calculations import Calculation
+from app.evaluate import evaluate
+from app.figures.data import Figure, NoFigure
+from app.figures.declaration import Declaration
+from app.figures.tables import table
+from app.problems import Unprocessable
+from app.requests.common import Request
+
+Format = Literal["svg", "png", "pdf", "csv"]
+MEDIA_TYPES: dict[Format, str] = {
+    "svg": "image/svg+xml",
+    "png": "image/png",
+    "pdf": "application/pdf",
+    "csv": "text/csv; charset=utf-8",
+}
+
+
+def render(
+    calculation: Calculation,
+    declaration: Declaration,
+    request: Request,
+    image_format: Format,
+    theme: Literal["light", "dark"],
+) -> bytes:
+    """Solve the request and write the figure; raises Unprocessable as `evaluate` does and where there is no figure."""
+    asked = request.model_copy(update={"detail": declaration.detail})
+    return written(figure_of(declaration, asked, evaluate(calculation, asked)), image_format, theme)
+
+
+def figure_of(declaration: Declaration, request: Request, response: Any) -> Figure:
+    """The data of a figure; raises Unprocessable where the case has none."""
+    try:
+        return declaration.figure(request, response)
+    except NoFigure as reason:
+        raise Unprocessable(reason.code, reason.message, reason.field) from reason
+
+
+def written(figure: Figure, image_format: Format, theme: Literal["light", "dark"]) -> bytes:
+    """The figure as an image, or its numbers."""
+    if image_format == "csv":
+        return table(figure)
+    from app.figures.drawing import draw  # noqa: PLC0415  only workers draw: half a second and 70 MB
+
+    return draw(figure, image_format, theme)

@@ -1,0 +1,44 @@
+"""Numbers and counts as they stand in titles, marks and at ticks."""
+
+from math import floor, log10
+
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+PLAIN = (1e-3, 1e6)  # magnitudes written without a power of ten
+
+
+def number(value: float, unit: str = "", digits: int = 3) -> str:
+    """The value with so many significant digits, a true minus sign and its unit; integers keep all their digits."""
+    text = _plain(value, digits) if value == 0.0 or PLAIN[0] <= abs(value) < PLAIN[1] else _power(value, digits)
+    glue = "" if unit in {"", "°"} else " "
+    return f"{text.replace('-', '−')}{glue}{unit}"
+
+
+def _plain(value: float, digits: int) -> str:
+    if abs(value) >= 10.0 ** (digits - 1):
+        whole = f"{value:.0f}" if abs(value) >= 10.0**digits else f"{value:.{digits}g}"
+        return f"{float(whole):,.0f}".replace(",", " ") if abs(value) >= 1e4 else whole
+    return f"{value:.{digits}g}"
+
+
+def _power(value: float, digits: int) -> str:
+    exponent = floor(log10(abs(value)))
+    mantissa = f"{value / 10.0**exponent:.{digits}g}"
+    if mantissa.lstrip("-") == "10":
+        mantissa, exponent = mantissa.replace("10", "1"), exponent + 1
+    power = f"10{str(exponent).translate(SUPERSCRIPTS)}"
+    return {"1": power, "-1": f"-{power}"}.get(mantissa, f"{mantissa}·{power}")
+
+
+def percent(fraction: float) -> str:
+    """A fraction in per cent; a rounding error is none."""
+    return number(0.0 if abs(fraction) < 1e-9 else 100.0 * fraction, "%")
+
+
+def ratio(value: float) -> str:
+    """A ratio around 1, with as many digits as show how far from it."""
+    return number(value, digits=3 if abs(value - 1.0) > 0.01 else 6)
+
+
+def listed(names: list[str]) -> str:
+    """Names in a sentence."""
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

@@ -1,0 +1,380 @@
+"""Every figure exists, shows the answer's numbers, and is written as declared."""
+
+import csv
+import io
+import re
+from collections.abc import Callable, Iterator
+from functools import cache
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+from pydantic import BaseModel
+
+from app.calculations import CALCULATIONS
+from app.contract.units import split_unit
+from app.evaluate import evaluate
+from app.figures.comparison import compared
+from app.figures.data import Figure, NoFigure, Role
+from app.figures.drawing import draw
+from app.figures.tables import table
+from app.library import examples
+
+Post = Callable[[str, object], httpx.Response]
+
+# The table of interface.md section 2.
+FIGURES = {
+    "/v1/coupling": {"friction-regime", "tooth-loads", "tooth-motion", "contact-track", "axial-thrust", "losses"},
+    "/v1/coupling/sleeve-orbit": {"orbit", "inertia-force", "orders"},
+    "/v1/coupling/recommendation": {"crowning-scan"},
+    "/v1/pumping": {
+        "stroke",
+        "heating",
+        "peak-pressure",
+        "pressure-map",
+        "mach-map",
+        "temperature-map",
+        "lead-correction",
+        "pulsation",
+        "mass-flow",
+    },
+    "/v1/pumping/choking-speed": {"choking"},
+    "/v1/scuffing/load-distribution": {
+        "flank-load",
+        "flank-pressure",
+        "modification",
+        "transmission-error",
+        "path-of-contact",
+        "stiffness",
+        "load-sharing",
+        "pair-share",
+    },
+    "/v1/scuffing": {"contact-temperature", "film", "friction"},
+    "/v1/scuffing/line-contact": {"contact", "film-temperature", "heat"},
+}
+CALCULATION = {calculation.path: calculation for calculation in CALCULATIONS}
+# One ordinary case of each endpoint, drawn in the default run.
+CASES = {
+    "/v1/coupling": "pahl-heavily-crowned",
+    "/v1/coupling/sleeve-orbit": "pahl-sleeve-orbit",
+    "/v1/coupling/recommendation": "pahl-recommended-crowning",
+    "/v1/pumping": "milian-case-1-groove",
+    "/v1/scuffing/load-distribution": "xue-pair-4-helix-slope-40",
+    "/v1/scuffing": "xue-pair-1-scuffing",
+    "/v1/scuffing/line-contact": "xue-line-contact",
+}
+# Examples whose physics leaves a figure out, and why.
+WITHOUT = {
+    ("milian-table-1-incompressible", "heating"): "no_temperature",
+    ("milian-table-1-incompressible", "temperature-map"): "no_temperature",
+    ("milian-table-1-incompressible", "lead-correction"): "no_lead_correction",
+    ("xue-line-contact-isothermal", "film-temperature"): "isothermal",
+    ("xue-line-contact-isothermal", "heat"): "isothermal",
+}
+CLOSED_FORM = ("friction", "closed_form")
+QUICK = sorted(name for name in examples() if not name.endswith(("-thermal", "-choking")))
+
+
+@cache
+def solved(name: str) -> tuple[Any, Any]:
+    example = examples()[name]
+    calculation = CALCULATION[example.endpoint]
+    request = calculation.request.model_validate({**example.request, "detail": "fields"})
+    return request, evaluate(calculation, request)
+
+
+@cache
+def figure(name: str, which: str) -> Figure:
+    request, answer = solved(name)
+    declared = {each.name: each for each in CALCULATION[examples()[name].endpoint].figures}
+    return declared[which].figure(request, answer)
+
+
+def figures(name: str) -> Iterator[tuple[str, Figure]]:
+    """All figures of an example; those that it may lack are checked for their reason."""
+    for declaration in CALCULATION[examples()[name].endpoint].figures:
+        try:
+            yield declaration.name, figure(name, declaration.name)
+        except NoFigure as reason:
+            expected = WITHOUT.get((name, declaration.name)) or dict([CLOSED_FORM]).get(declaration.name)
+            assert reason.code == expected  # noqa: PT017
+
+
+def arrays(model: BaseModel, unit: str | None = None) -> Iterator[tuple[str | None, np.ndarray[Any, Any]]]:
+    """Every array of an answer with the symbol of its unit; a group hands its unit down."""
+    for name in type(model).model_fields:
+        value, symbol = getattr(model, name), split_unit(name)[1]
+        own = symbol.symbol if symbol else unit
+        if isinstance(value, BaseModel):
+            yield from arrays(value, own)
+        elif isinstance(value, list) and value and isinstance(value[0], int | float | list | type(None)):
+            yield own, np.array(value, dtype=float)
+
+
+def scalars(model: BaseModel, unit: str | None = None) -> Iterator[tuple[str | None, float]]:
+    for name in type(model).model_fields:
+        value, symbol = getattr(model, name), split_unit(name)[1]
+        own = symbol.symbol if symbol else unit
+        if isinstance(value, BaseModel):
+            yield from scalars(value, own)
+        elif isinstance(value, float):
+            yield own, value
+
+
+def answered(answer: BaseModel, unit: str | None, shown: np.ndarray[Any, Any]) -> bool:
+    """Whether an array of the answer in this unit holds the numbers shown, a closing point or a gap aside."""
+    known = shown[np.isfinite(shown)]
+    for own, array in arrays(answer):
+        if own != unit:
+            continue
+        for candidate in array if array.ndim > shown.ndim else (array,):
+            flat = candidate[np.isfinite(candidate)]
+            closed = flat.size + 1 == known.size and known[-1] == known[0]
+            if flat.size and np.array_equal(flat, known[:-1] if closed else known):
+                return True
+    return False
+
+
+def test_every_figure_of_the_table_exists() -> None:
+    for path, names in FIGURES.items():
+        declared = {each.name for each in CALCULATION[path].figures}
+        assert names <= declared, path
+    assert {each.name for each in CALCULATION["/v1/scuffing"].figures} >= FIGURES["/v1/scuffing/load-distribution"]
+    for calculation in CALCULATIONS:
+        assert calculation.figures, calculation.path
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_examples_give_figures_with_finite_numbers_and_findings(name: str) -> None:
+    for which, data in figures(name):
+        assert data.title, which
+        assert data.finding, which
+        assert data.source, which
+        for panel in data.panels:
+            assert panel.lines or panel.bars or panel.rows or panel.map or panel.areas, which
+            shown = [line.y for line in panel.lines] + [bars.height for bars in panel.bars]
+            for series in shown:
+                assert np.isfinite(series).any(), which
+            for mark in panel.marks:
+                assert np.isfinite([mark.x, mark.y]).all(), which
+        assert not re.search(r"\bnan\b", data.subtitle)
+
+
+# Lines that are no array of the answer: bulk plus flash, magnitudes, ways drawn between points.
+COMPUTED = {"pinion", "wheel", "Blok", "sliding speed", "to the next area", "pitch error"}
+
+
+@pytest.mark.parametrize("name", CASES.values())
+def test_curves_and_maps_are_the_answers_numbers_in_the_unit_of_their_axis(name: str) -> None:
+    _, answer = solved(name)
+    seen = 0
+    for which, data in figures(name):
+        for panel in data.panels:
+            series = [(line.title, line.y) for line in panel.lines] + [(bar.title, bar.height) for bar in panel.bars]
+            if panel.map is not None:
+                series.append((panel.map.title, panel.map.values))
+            for title, shown in series:
+                unit = panel.map.unit if panel.map is not None else panel.y.unit
+                if which == "contact-temperature" or title in COMPUTED - {"pinion", "wheel"}:
+                    continue
+                if which == "film-temperature":
+                    shown = shown.T  # noqa: PLW2901  the answer's field is [x][film]
+                assert answered(answer, unit, np.asarray(shown)), (which, title)
+                seen += 1
+    assert seen
+
+
+@pytest.mark.parametrize(
+    "name", ["pahl-axial-displacement", "pahl-z-arrangement", "milian-case-1-groove", "xue-line-contact"]
+)
+def test_rows_and_levels_are_the_answers_numbers(name: str) -> None:
+    request, answer = solved(name)
+    known = {(unit, value) for model in (request, answer) for unit, value in scalars(model)}
+    rows = [(panel, row) for _, data in figures(name) for panel in data.panels for row in panel.rows]
+    assert rows
+    for panel, row in rows:
+        assert (panel.x.unit, row.value) in known, row.name
+
+
+def test_contact_temperature_is_bulk_plus_flash() -> None:
+    request, answer = solved("xue-pair-1-scuffing")
+    (panel,) = figure("xue-pair-1-scuffing", "contact-temperature").panels
+    (blok,) = panel.lines
+    assert blok.y.max() == pytest.approx(answer.contact_temperature.blok_max_c, rel=1e-12)
+    assert np.array_equal(
+        blok.y - request.temperatures.bulk_c, np.array(answer.path.blok_flash_k) + 0.0
+    ) or np.allclose(blok.y, request.temperatures.bulk_c + np.array(answer.path.blok_flash_k), rtol=1e-15)
+    limits = {level.value for level in panel.levels if level.limit}
+    assert limits == {request.temperatures.scuffing_c}
+
+
+def test_film_has_the_roughness_as_its_limit() -> None:
+    _, answer = solved("xue-pair-1-scuffing")
+    (panel,) = figure("xue-pair-1-scuffing", "film").panels
+    (limit,) = [level.value for level in panel.levels if level.limit]
+    ratios = np.array(answer.path.thickness_ratio, dtype=float)
+    assert np.allclose(panel.lines[0].y / limit, ratios, rtol=1e-12)
+
+
+def test_friction_map_has_nine_areas_and_holds_the_point() -> None:
+    _, answer = solved("pahl-heavily-crowned")
+    (panel,) = figure("pahl-heavily-crowned", "friction-regime").panels
+    (mark,) = panel.marks
+    assert {area.text.split("\n")[0] for area in panel.areas} == {
+        f"{row}.{column}" for row in "123" for column in "123"
+    }
+    (home,) = [area for area in panel.areas if area.left <= mark.x < area.right and area.bottom <= mark.y < area.top]
+    assert home.text.startswith(answer.lubrication.regime.area)
+    assert (mark.x, mark.y) == (answer.lubrication.contact_overlap, answer.lubrication.load_capacity_coefficient)
+    (way,) = panel.lines
+    length = abs(np.log(way.x[1] / way.x[0])) + abs(np.log(way.y[1] / way.y[0]))
+    assert length == pytest.approx(answer.lubrication.regime.distance_to_boundary)
+
+
+def test_contact_track_is_as_wide_as_the_hertz_contact() -> None:
+    _, answer = solved("pahl-heavily-crowned")
+    (panel,) = figure("pahl-heavily-crowned", "contact-track").panels
+    (ribbon,) = panel.ribbons
+    assert np.allclose((ribbon.high - ribbon.low) / 2, answer.lubrication.hertz_half_width_mm)
+    assert {level.value for level in panel.levels} == {
+        answer.derived.face_width_mm / 2,
+        -answer.derived.face_width_mm / 2,
+    }
+
+
+def test_choking_scan_repeats_the_pumping_endpoint_and_crosses_its_limits_at_the_speeds_found() -> None:
+    request, answer = solved("milian-case-1-choking")
+    (declaration,) = CALCULATION["/v1/pumping/choking-speed"].figures
+    data = declaration.figure(request, answer)
+    for panel, found in zip(
+        data.panels, (answer.axial_choking_speed_rpm, answer.radial_choking_speed_rpm), strict=True
+    ):
+        (line,) = panel.lines
+        (limit,) = [level.value for level in panel.levels if level.limit]
+        assert line.x.size >= 24
+        assert np.interp(found, line.x, line.y) == pytest.approx(limit, rel=5e-3)
+    pressure = data.panels[1].lines[0]
+    body = {**examples()["milian-case-1-choking"].request, "operation": {"pinion_speed_rpm": float(pressure.x[3])}}
+    pumping = CALCULATION["/v1/pumping"]
+    spaces = evaluate(pumping, pumping.request.model_validate({**body, "detail": "summary"}))
+    peaks = [spaces.pinion_spaces.peak_pressure_ratio, spaces.wheel_spaces.peak_pressure_ratio]
+    assert pressure.y[3] == pytest.approx(max(peaks), rel=1e-9)
+
+
+def partly_unsolved() -> tuple[Any, Any]:
+    """A thermal path with two unsolved points, one of them alone between solved ones, and two warned ones."""
+    request, answer = solved("xue-pair-1-scuffing")
+    count = len(answer.path.psi)
+    status = ["ok"] * count
+    film: list[float | None] = [0.3 + 0.001 * index for index in range(count)]
+    for index in (4, 6):
+        status[index], film[index] = "no_solution", None
+    status[20] = status[21] = "ok_with_warnings"
+    flash = [None if each is None else 40.0 * each for each in film]
+    path = answer.path.model_copy(
+        update={
+            "status": status,
+            "minimum_film_um": film,
+            "central_film_um": film,
+            "pinion_flash_k": flash,
+            "wheel_flash_k": flash,
+            "friction_coefficient": film,
+            "max_pressure_mpa": flash,
+        }
+    )
+    thinnest = answer.film.model_copy(update={"thickness_ratio": None, "thickness_regime": None})
+    return request, answer.model_copy(update={"path": path, "film": thinnest, "unsolved_points": 2})
+
+
+def test_unsolved_points_are_gaps_counted_in_the_subtitle() -> None:
+    request, answer = partly_unsolved()
+    declared = {each.name: each for each in CALCULATION["/v1/scuffing"].figures}
+    for which in ("contact-temperature", "film", "friction"):
+        data = declared[which].figure(request, answer)
+        assert "2 points without solution" in data.subtitle
+        line = data.panels[0].lines[0]
+        assert np.flatnonzero(np.isnan(line.y)).tolist() == [4, 6]
+        (span,) = data.panels[0].spans
+        psi = answer.path.psi
+        assert psi[19] < span.start < psi[20] < psi[21] < span.stop < psi[22]
+        draw(data, "svg")
+        cells = [row[1] for row in csv.reader(io.StringIO(table(data).decode()))]
+        assert cells[5] == cells[7] == ""
+
+
+def test_a_case_without_solution_has_no_figure() -> None:
+    request, answer = solved("pahl-heavily-crowned")
+    unsolved = answer.model_copy(update={"status": "no_solution"})
+    for declaration in CALCULATION["/v1/coupling"].figures:
+        with pytest.raises(NoFigure, match="no solution") as reason:
+            declaration.figure(request, unsolved)
+        assert reason.value.code == "no_solution"
+
+
+@pytest.mark.parametrize(("image_format", "start"), [("svg", b"<?xml"), ("png", b"\x89PNG"), ("pdf", b"%PDF")])
+@pytest.mark.parametrize(
+    ("name", "which"), [("pahl-heavily-crowned", "tooth-motion"), ("milian-case-1-groove", "pressure-map")]
+)
+def test_equal_figures_give_equal_bytes_without_a_date(name: str, which: str, image_format: str, start: bytes) -> None:
+    first = draw(figure(name, which), image_format)
+    assert first == draw(figure(name, which), image_format)
+    assert first.startswith(start)
+    assert not re.search(rb"<dc:date>|/CreationDate|/ModDate|[0-9]{4}-[0-9]{2}-[0-9]{2}T", first)
+
+
+def test_svg_keeps_its_text_and_themes_differ() -> None:
+    light, dark = (draw(figure("pahl-heavily-crowned", "losses"), "svg", theme) for theme in ("light", "dark"))  # type: ignore[arg-type]
+    assert b"friction power of one mesh" in light
+    assert b"#ffffff" in light.lower()
+    assert b"#ffffff" not in dark.lower()
+
+
+def test_csv_holds_the_numbers_with_units_in_the_header() -> None:
+    _, answer = solved("pahl-heavily-crowned")
+    rows = list(csv.reader(io.StringIO(table(figure("pahl-heavily-crowned", "tooth-loads")).decode())))
+    assert rows[0][1] == "tangential force [N]"
+    assert [float(row[1]) for row in rows[1:]] == answer.load_distribution.curves.tangential_force_n
+    grid = list(csv.reader(io.StringIO(table(figure("xue-pair-4-helix-slope-40", "flank-load")).decode())))
+    assert grid[0][:3] == [
+        "profile (0: A, 1: E) [-]",
+        "face (0: end that meshes first) [-]",
+        "line load [N/mm]",
+    ]
+    _, flank = solved("xue-pair-4-helix-slope-40")
+    assert [float(row[2]) for row in grid[1:]] == [each for row in flank.flank.line_load_n_per_mm for each in row]
+
+
+def test_comparison_draws_the_variant_dashed_in_the_same_hue() -> None:
+    own, other = (figure(name, "tooth-motion") for name in ("pahl-heavily-crowned", "pahl-slightly-crowned"))
+    both = compared(own, other, "variant A")
+    assert "dashed: variant A" in both.subtitle
+    for panel, first, second in zip(both.panels, own.panels, other.panels, strict=True):
+        result, variant = panel.lines
+        assert result is first.lines[0]
+        assert variant.role is Role.VARIANT
+        assert variant.hue is result.hue
+        assert np.array_equal(variant.y, second.lines[0].y)
+    assert draw(both, "svg") != draw(own, "svg")
+    maps = compared(
+        *(figure(name, "flank-pressure") for name in ("xue-pair-4-helix-slope-40", "xue-pair-4-modified")), "A"
+    )
+    assert len(maps.panels) == 2
+    first, second = (panel.map for panel in maps.panels)
+    assert first is not None
+    assert second is not None
+    assert first.range == second.range
+
+
+@pytest.mark.parametrize("name", CASES.values())
+def test_every_figure_of_a_case_is_drawn(name: str) -> None:
+    for which, data in figures(name):
+        assert len(draw(data, "svg")) > 5_000, which
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", sorted(examples()))
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_every_figure_of_every_example_is_drawn(name: str, theme: Any) -> None:
+    for which, data in figures(name):
+        assert len(draw(data, "png", theme)) > 5_000, which
