@@ -18,6 +18,7 @@ class ExampleSummary(BaseModel):
     title: Annotated[str, Output("what it shows")]
     source: Annotated[str, Output("where the case comes from")]
     endpoint: Annotated[str, Output("where to post its request")]
+    starter: Annotated[bool, Output("whether it is a task of practice to start from")] = False
 
 
 class Example(ExampleSummary):
@@ -28,10 +29,11 @@ class Example(ExampleSummary):
 
 @lru_cache(maxsize=1)
 def examples() -> dict[str, Example]:
-    """Every example by name, in alphabetical order."""
+    """Every example by name: those to start from first, then in alphabetical order."""
     folder = files("app").joinpath("examples")
     texts = {path.name.removesuffix(".json"): path.read_text("utf-8") for path in folder.iterdir()}
-    return {name: Example(name=name, **json.loads(texts[name])) for name in sorted(texts)}
+    found = [Example(name=name, **json.loads(texts[name])) for name in sorted(texts)]
+    return {example.name: example for example in sorted(found, key=lambda example: not example.starter)}
 
 
 def body_of(endpoint: str) -> Any:

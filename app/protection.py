@@ -73,7 +73,9 @@ class _Request:
         if message["type"] == "http.response.start":
             self._status = message["status"]
             own = own_headers(self._identifier, time.perf_counter() - self._started)
-            message["headers"] = [*message.get("headers", ()), *own]
+            given = list(message.get("headers", ()))
+            names = {name.lower() for name, _ in given}
+            message["headers"] = [*given, *((name, value) for name, value in own if name not in names)]
         await self._send(message)
 
     def _refusal(self) -> JSONResponse | None:

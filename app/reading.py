@@ -43,6 +43,11 @@ def read(model: type[R], body: bytes) -> R:
         ) from None
     except (ValueError, RecursionError):  # bytes that are no text, numbers without end, brackets without end
         raise Unreadable("The body cannot be read as JSON") from None
+    return validated(model, content)
+
+
+def validated(model: type[R], content: Any) -> R:
+    """The request that the content is; raises InvalidBody."""
     try:
         return model.model_validate(content)
     except ValidationError as error:

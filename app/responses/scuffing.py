@@ -29,7 +29,7 @@ class ContactTemperatureResult(Group):
     """Largest contact temperature, bulk plus flash."""
 
     blok_max_c: Annotated[
-        float, Output("contact temperature by Blok", "θ_B,max", f"{XUE}, Eq. 16", headline=2, limit=SCUFFING)
+        float, Output("contact temperature by Blok", "θ_B,max", f"{XUE}, Eq. 16", headline=2, limit=SCUFFING, bound="upper")
     ]
     thermal_ehl_max_c: Annotated[
         float | None,
@@ -38,6 +38,7 @@ class ContactTemperatureResult(Group):
             "θ_B,max,EHL",
             text="by the thermal EHL solution; null in closed form",
             limit=SCUFFING,
+            bound="upper",
         ),
     ]
 
@@ -62,6 +63,7 @@ class ThinnestFilm(Group):
             text="minimum film over the roughness of both flanks",
             headline=3,
             limit=1.0,
+            bound="lower",
         ),
     ]
     thickness_regime: Annotated[
@@ -83,7 +85,9 @@ class ScuffingSafety(Group):
             f"{XUE}, Eq. 26",
             text="scuffing safety by Blok; null where the teeth stay as cool as the oil",
             headline=1,
+            needs=SCUFFING,
             limit=1.0,
+            bound="lower",
         ),
     ]
     thermal_ehl_factor: Annotated[
@@ -93,6 +97,7 @@ class ScuffingSafety(Group):
             "S_B,EHL",
             text="by the thermal EHL solution; null in closed form",
             limit=1.0,
+            bound="lower",
         ),
     ]
 
@@ -136,6 +141,7 @@ class ScuffingPathCurves(Group):
             text="film over roughness; null without load",
             axis="psi",
             limit=1.0,
+            bound="lower",
         ),
     ]
 

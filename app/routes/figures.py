@@ -6,7 +6,7 @@ from fastapi import APIRouter, Depends, HTTPException, Path, Query, Request, Res
 from pydantic import BaseModel
 
 from app.calculations import CALCULATIONS, Calculation
-from app.compute import Runner
+from app.workers.admission import Runner
 from app.contract.quantities import Output
 from app.figures.declaration import Declaration
 from app.figures.rendering import MEDIA_TYPES, Format, render
