@@ -48,7 +48,9 @@ def _safety(answer: ScuffingResponse) -> str:
         return f"safety against scuffing {', '.join(factors)}"
     if contact.thermal_ehl_max_c is not None:
         return f"up to {number(contact.thermal_ehl_max_c, '°C')} by thermal EHL"
-    return f"up to {number(contact.blok_max_c, '°C')} by Blok"
+    if contact.blok_max_c is not None:
+        return f"up to {number(contact.blok_max_c, '°C')} by Blok"
+    return "the hottest point is not known"
 
 
 def _hottest(lines: list[Line]) -> tuple[Mark, ...]:
