@@ -10,6 +10,7 @@ from functools import cache
 from numba.core import event
 
 from app.calculations import CALCULATIONS
+from app.figures.rendering import render
 from app.formats.json import answer
 from app.library import examples
 from app.processes import end_with_parent
@@ -44,6 +45,8 @@ LINE_CONTACT = Stage("line contact", 153, ("xue-line-contact", "xue-line-contact
 TRACKS = ((COUPLING, SLEEVE, LOADS, PUMPING), (LINE_CONTACT,))
 STAGES = tuple(stage for track in TRACKS for stage in track)
 
+DRAWN = COUPLING.examples[0]  # loads what draws figures
+
 
 def needed_for(endpoint: str) -> Stage:
     """The stage after which an endpoint answers: the first with an example of it, else the last of all."""
@@ -59,7 +62,10 @@ def calculate(name: str) -> None:
     """Answer one example."""
     example = examples()[name]
     calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
-    answer(calculation, calculation.request.model_validate(example.request))
+    request = calculation.request.model_validate(example.request)
+    answer(calculation, request)
+    if name == DRAWN:
+        render(calculation, calculation.figures[0], request, "svg", "light")
 
 
 class _Ticks(event.Listener):

@@ -45,6 +45,7 @@ UNITS = {
     "kw": Unit("kW", 1e3),
     "j": Unit("J", 1.0),
     "w_per_mm": Unit("W/mm", 1e3),
+    "w_per_mm2": Unit("W/mm²", 1e6),
     "c": Unit("°C", 1.0, 273.15),
     "k": Unit("K", 1.0),
     "kg_per_m3": Unit("kg/m³", 1.0),

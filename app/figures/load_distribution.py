@@ -1,19 +1,16 @@
 """Figures of a loaded gear pair: over the roll, along the path of contact, between the pairs of teeth."""
 
-from itertools import cycle
-
 import numpy as np
 
-from app.figures.data import ORDER, Axis, Bars, Figure, Hue, Level, Line, Mark, Panel, Role, Values, values
+from app.figures.data import ORDER, Axis, Bars, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Role, Values, values
 from app.figures.declaration import Declaration, present
 from app.figures.flank_maps import MAPS
-from app.figures.wording import number
+from app.figures.wording import number, percent
 from app.requests.load_distribution import LoadDistributionRequest
 from app.responses.load_distribution import LoadDistributionResponse
 
 ROLL = Axis("roll position", "base pitches", limits=(0.0, 1.0), magnitude=False)
 PATH = Axis("path of contact Ψ (0: A, pinion root; 1: E, pinion tip)", limits=(0.0, 1.0), magnitude=False)
-PAIRS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
 NO_LOAD = "no load"
 
 
@@ -144,20 +141,22 @@ def load_sharing(_: LoadDistributionRequest, answer: LoadDistributionResponse) -
 def pair_share(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
     """Share of the force on each line of contact over the roll."""
     load, curves = present(answer.load), present(present(answer.transmission_error).curves)
-    roll, shares = values(curves.roll_position), present(load.pair_share)
+    if load.pair_share is None:
+        raise NoFigure("no_load", "Without load no pair of teeth carries a share of it", "load")
+    roll, shares = values(curves.roll_position), load.pair_share
+    carrying = [values(share) for share in shares if np.any(np.asarray(share) != 0.0)]
     lines = tuple(
-        Line(f"{name} line", roll, values(share), hue)
-        for name, share, hue in zip(PAIRS, shares, cycle(ORDER), strict=False)
-        if np.any(np.asarray(share) != 0.0) or load.max_at is None
+        Line(f"line {index + 1}", roll, share, ORDER[index % len(ORDER)], _role(index))
+        for index, share in enumerate(carrying)
     )
-    panel = Panel(
-        x=ROLL,
-        y=Axis("share of the normal force", limits=(0.0, 1.05), ticks=(0.0, 0.2, 0.4, 0.6, 0.8, 1.0)),
-        lines=lines,
-    )
+    panel = Panel(x=ROLL, y=Axis("share of the normal force"), lines=lines)
     most = max(float(line.y.max()) for line in lines)
-    finding = f"one line of contact carries up to {number(100.0 * most, '%')}" if load.max_at is not None else NO_LOAD
-    return Figure(finding, (panel,))
+    return Figure(f"one line of contact carries up to {percent(most)} of the force", (panel,))
+
+
+def _role(index: int) -> Role:
+    """Lines beyond the hues are dotted."""
+    return Role.RESULT if index < len(ORDER) else Role.REFERENCE
 
 
 FIGURES = (

@@ -77,8 +77,8 @@ def _linear_ends(axis: Axis, finite: Values, levels: Iterable[float], *, snug: b
     if grounded:
         low, high = min(low, 0.0), max(high, 0.0)
     if high - low <= 1e-9 * max(abs(low), abs(high)):
-        margin = 0.5 * max(abs(low), abs(high), 1e-12)
-        low, high = (0.0, high + margin) if grounded and low >= 0.0 and high > 0.0 else (low - margin, high + margin)
+        margin = 0.5 * max(abs(low), abs(high)) or 1.0
+        low, high = (0.0, high + margin) if grounded and low >= 0.0 else (low - margin, high + margin)
         return low, high
     if snug:
         return low, high

@@ -41,17 +41,16 @@ def contact_temperature(request: ScuffingRequest, answer: ScuffingResponse) -> F
 
 
 def _safety(answer: ScuffingResponse) -> str:
-    safety, contact = present(answer.safety), present(answer.contact_temperature)
-    factors = []
-    if safety.thermal_ehl_factor is not None:
-        factors.append(f"{number(safety.thermal_ehl_factor)} by thermal EHL")
-    if safety.blok_factor is not None:
-        factors.append(f"{number(safety.blok_factor)} by Blok")
+    safety, contact = answer.safety, present(answer.contact_temperature)
+    known = () if safety is None else ((safety.thermal_ehl_factor, "thermal EHL"), (safety.blok_factor, "Blok"))
+    factors = [f"{number(factor)} by {method}" for factor, method in known if factor is not None]
     if factors:
         return f"safety against scuffing {', '.join(factors)}"
     if contact.thermal_ehl_max_c is not None:
-        return f"up to {number(contact.thermal_ehl_max_c, '°C')}; without a scuffing temperature no safety"
-    return f"up to {number(contact.blok_max_c, '°C')} by Blok"
+        return f"up to {number(contact.thermal_ehl_max_c, '°C')} by thermal EHL"
+    if contact.blok_max_c is not None:
+        return f"up to {number(contact.blok_max_c, '°C')} by Blok"
+    return "the hottest point is not known"
 
 
 def _hottest(lines: list[Line]) -> tuple[Mark, ...]:

@@ -8,6 +8,7 @@ PLAIN = (1e-3, 1e6)  # magnitudes written without a power of ten
 
 def number(value: float, unit: str = "", digits: int = 3) -> str:
     """The value with so many significant digits, a true minus sign and its unit; integers keep all their digits."""
+    value += 0.0  # no negative zero
     text = _plain(value, digits) if value == 0.0 or PLAIN[0] <= abs(value) < PLAIN[1] else _power(value, digits)
     glue = "" if unit in {"", "°"} else " "
     return f"{text.replace('-', '−')}{glue}{unit}"

@@ -6,7 +6,8 @@ from markupsafe import Markup, escape
 
 from app.figures.wording import number
 
-_SUBSCRIPT = re.compile(r"([^\s_/]+)_([^\s/*]+?)(\*?)(?=,? |/|$)")
+_SUBSCRIPT = re.compile(r"([^\W\d_]+[^\s_/]*)_([^\s/*]+?)(\*?)(?=,? |/|$)")
+_LETTER = re.compile(r"[^\W\d_]{1,2}\*?")
 NO_VALUE = "–"
 
 
@@ -14,7 +15,8 @@ def symbol(text: str | None) -> Markup:
     """`h_aP*` with a subscript; letters slanted, as symbols of quantities are."""
     if not text:
         return Markup("")
-    marked = _SUBSCRIPT.sub(r"<i>\1</i><sub>\2</sub>\3", str(escape(text)))
+    plain = str(escape(text))
+    marked = f"<i>{plain}</i>" if _LETTER.fullmatch(plain) else _SUBSCRIPT.sub(r"<i>\1</i><sub>\2</sub>\3", plain)
     return Markup('<span class="symbol">{}</span>').format(Markup(marked))  # noqa: S704  escaped before
 
 

@@ -120,6 +120,8 @@ class _CouplingRequest(Request):
             unused.add("model.inlet")
         if self.friction.coefficient is not None or self.friction.mixed_law is not None:
             unused.add("friction.mixed_curve")
+        if self.friction.coefficient is not None:
+            unused.add("friction.static_coefficient")
         if self.operation.arrangement == "single":
             unused.add("coupling.hub_distance_mm")
         if self.operation.arrangement != "parallel_offset":
@@ -176,8 +178,8 @@ class RecommendationRequest(_CouplingRequest):
     operation: Annotated[CouplingOperationRange, Input("operating point", text="with a range of misalignment")]
 
     def unused_defaults(self) -> frozenset[str]:
-        """Also the one-pair model of self-induced thrust, which only a result at one operating point shows."""
-        return super().unused_defaults() | {"model.simple_thrust_factor"}
+        """Also what only a result at one operating point shows: the one-pair model of thrust, breakaway."""
+        return super().unused_defaults() | {"model.simple_thrust_factor", "friction.static_coefficient"}
 
     def inputs(self) -> si.RecommendationInputs:
         """The solver's inputs."""

@@ -79,7 +79,15 @@ class CouplingFriction(Section):
     ] = None
     static_coefficient: Annotated[
         float | None,
-        Input("coefficient of friction at rest", "μ_s", PAHL, ge=0, le=2, default_text="the coefficient in use"),
+        Input(
+            "coefficient of friction at rest",
+            "μ_s",
+            PAHL,
+            ge=0,
+            le=2,
+            default_text="the coefficient given, else that of the law at rest without film",
+            assumed="0.16, the law of the friction regime at rest without film",
+        ),
     ] = None
     mixed_law: Annotated[
         MixedFrictionTable | None,

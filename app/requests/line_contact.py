@@ -79,6 +79,14 @@ class FilmModel(Section):
         ),
     ] = 5.0
     nodes: Annotated[int, Input("nodes along the contact", "N", ge=61, le=481, advanced=True)] = _DEFAULTS.nodes
+    refine_mesh: Annotated[
+        bool,
+        Input(
+            "refine the mesh",
+            text="add nodes, up to 481, until the estimated error of the mesh is below 2 %",
+            advanced=True,
+        ),
+    ] = _DEFAULTS.refine
     film_nodes: Annotated[int, Input("nodes across the film", "N_z", ge=7, le=61, advanced=True)] = _DEFAULTS.film_nodes
 
     def film(self) -> ehl.Model:
@@ -88,6 +96,7 @@ class FilmModel(Section):
             eyring_stress=to_si(self)["eyring_stress"],
             nodes=self.nodes,
             film_nodes=self.film_nodes,
+            refine=self.refine_mesh,
         )
 
     def unused_film_defaults(self, section: str) -> frozenset[str]:

@@ -86,6 +86,22 @@ class SleeveOrbitResponse(Response):
     orbit: Annotated[SleeveOrbit | None, Output("path of the sleeve centre", detail="curves")] = None
     inertia_force: Annotated[SleeveInertia | None, Output("inertia force")] = None
     max_displacement_um: Annotated[float | None, Output("largest displacement", "e_max", headline=1)] = None
+    displacement_uncertainty_um: Annotated[
+        float | None,
+        Output(
+            "uncertainty of the displacement",
+            "Δe_max",
+            text="change of the largest displacement with twice the orders and rotor angles",
+        ),
+    ] = None
+    harmonics_uncertainty_n: Annotated[
+        float | None,
+        Output(
+            "uncertainty of the harmonics",
+            "ΔF_k",
+            text="largest change of a harmonic with twice the orders and rotor angles",
+        ),
+    ] = None
     sweeps: Annotated[int | None, Output("sweeps", text="sweeps over the revolution until it repeated")] = None
     change_um: Annotated[
         float | None, Output("change in the last sweep", "Δe", text="how far the last sweep still moved the path")

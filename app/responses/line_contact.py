@@ -124,7 +124,7 @@ class ContactConvergence(Group):
         ehl.Stage,
         Output(
             "last stage",
-            text="where the iteration ended: the isothermal film, film and temperatures together, the books on heat",
+            text="where it ended: isothermal film, film and temperatures, the books on heat, the check of the state",
         ),
     ]
     eyring_stress_mpa: Annotated[
@@ -135,6 +135,30 @@ class ContactConvergence(Group):
             text="Eyring stress that a continuation without solution reached; null where none was tried",
         ),
     ]
+    departure_k: Annotated[
+        float | None,
+        Output(
+            "departure of the finished state",
+            "Δθ_check",
+            text="what an independent check of the finished temperatures finds, at most 0.1; null if isothermal",
+        ),
+    ]
+
+
+class MeshErrors(Group):
+    """Estimated error that the mesh leaves, relative; small friction and flash temperatures over 0.001 and 25 K."""
+
+    central_film: Annotated[float, Output("mesh error of the central film", text="of the film at x = 0")]
+    minimum_film: Annotated[float, Output("mesh error of the minimum film")]
+    centre_pressure: Annotated[float, Output("mesh error of the centre pressure", text="of the pressure at x = 0")]
+    friction: Annotated[float, Output("mesh error of friction", text="of the coefficient of friction")]
+    surface_1_flash: Annotated[
+        float | None, Output("mesh error of flash temperature 1", text="of surface 1; null if isothermal")
+    ]
+    surface_2_flash: Annotated[
+        float | None, Output("mesh error of flash temperature 2", text="of surface 2; null if isothermal")
+    ]
+    generated_heat: Annotated[float | None, Output("mesh error of the heat", text="heat by shear; null if isothermal")]
 
 
 class ContactCurves(Group):
@@ -147,6 +171,12 @@ class ContactCurves(Group):
     mid_film_temperature_c: Annotated[list[float] | None, Output("mid-film temperature", "θ_mid", axis="x_mm")]
     surface_1_temperature_c: Annotated[list[float] | None, Output("temperature of surface 1", "θ_1", axis="x_mm")]
     surface_2_temperature_c: Annotated[list[float] | None, Output("temperature of surface 2", "θ_2", axis="x_mm")]
+    surface_1_heat_flux_w_per_mm2: Annotated[
+        list[float] | None, Output("heat flux into surface 1", "q_1", XUE, axis="x_mm")
+    ]
+    surface_2_heat_flux_w_per_mm2: Annotated[
+        list[float] | None, Output("heat flux into surface 2", "q_2", XUE, axis="x_mm")
+    ]
 
 
 class ContactField(Group):
@@ -171,6 +201,10 @@ class LineContactResponse(Response):
     )
     friction: Annotated[FilmFriction | None, Output("friction")] = None
     heat: Annotated[FilmHeat | None, Output("heat", text="heat; null if isothermal")] = None
+    mesh_error: Annotated[
+        MeshErrors | None,
+        Output("estimated mesh error", text="estimated relative error of the mesh; null where it is not known"),
+    ] = None
     convergence: Annotated[ContactConvergence | None, Output("convergence", text="how the iteration ended")] = None
     curves: Annotated[ContactCurves | None, Output("along the contact", detail="curves")] = None
     field: Annotated[ContactField | None, Output("film map", text="temperature in the film", detail="fields")] = None

@@ -49,7 +49,16 @@ class LeadCurves(Group):
 
     position_mm: Annotated[Values, Output("position on the pinion", "z", text="from the end that meshes first")]
     growth_um: Annotated[
-        Values, Output("thermal growth", "u_n", text="thermal growth normal to the flank", axis="position_mm")
+        Values,
+        Output(
+            "thermal growth",
+            "d",
+            text="thermal growth along the transverse line of action, of radius and length",
+            axis="position_mm",
+        ),
+    ]
+    radial_only_um: Annotated[
+        Values, Output("radial thermal growth", "d_r", text="the part of the larger radius alone", axis="position_mm")
     ]
     correction_um: Annotated[Values, Output("lead correction", "C", text="what undoes the growth", axis="position_mm")]
 

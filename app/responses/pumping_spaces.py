@@ -47,7 +47,7 @@ class PumpingStroke(Group):
 
 
 class PumpingMassFlow(Group):
-    """Net mass flow out of the tooth spaces, by exit; the five sum to zero."""
+    """Mass flow out of the tooth spaces: net by exit, the first five sum to zero; gross at the ends."""
 
     member_unit: ClassVar = UNITS["g_per_s"]
 
@@ -64,6 +64,18 @@ class PumpingMassFlow(Group):
             "mass flow of the reset",
             "m_0",
             text="given back when a slice's stroke ends and begins, with its idle neighbours",
+        ),
+    ]
+    front_out: Annotated[float, Output("mass flow out of the front", "m_f,out", text="while gas leaves there")]
+    front_in: Annotated[float, Output("mass flow into the front", "m_f,in", text="while gas enters there")]
+    rear_out: Annotated[float, Output("mass flow out of the rear", "m_r,out", text="while gas leaves there")]
+    rear_in: Annotated[float, Output("mass flow into the rear", "m_r,in", text="while gas enters there")]
+    net_uncertainty: Annotated[
+        float,
+        Output(
+            "uncertainty of the net mass flows",
+            "Δm",
+            text="of front and rear, small differences of out and in: their change at half the resolution",
         ),
     ]
 

@@ -17,7 +17,15 @@ SCUFFING = "temperatures.scuffing_c"
 class FlashTemperature(Group):
     """Largest flash temperature; thermal EHL values are null in closed form."""
 
-    blok_max_k: Annotated[float, Output("largest flash temperature by Blok", "Δθ_fl,B", f"{XUE}, Eq. 25")]
+    blok_max_k: Annotated[
+        float | None,
+        Output(
+            "largest flash temperature by Blok",
+            "Δθ_fl,B",
+            f"{XUE}, Eq. 25",
+            text="by Blok; null where a loaded point has none",
+        ),
+    ]
     blok_at_psi: Annotated[
         float | None, Output("place of the largest flash by Blok", "Ψ_B", text="where; null without load")
     ]
@@ -29,7 +37,19 @@ class ContactTemperatureResult(Group):
     """Largest contact temperature, bulk plus flash."""
 
     blok_max_c: Annotated[
+<<<<<<< HEAD
         float, Output("contact temperature by Blok", "θ_B,max", f"{XUE}, Eq. 16", headline=2, limit=SCUFFING, bound="upper")
+=======
+        float | None,
+        Output(
+            "contact temperature by Blok",
+            "θ_B,max",
+            f"{XUE}, Eq. 16",
+            text="by Blok; null where a loaded point has none",
+            headline=2,
+            limit=SCUFFING,
+        ),
+>>>>>>> figures
     ]
     thermal_ehl_max_c: Annotated[
         float | None,
@@ -114,7 +134,10 @@ class ScuffingPathCurves(Group):
             axis="psi",
         ),
     ]
-    blok_flash_k: Annotated[Values, Output("flash temperature by Blok", "Δθ_fl,B", FIG_22, axis="psi")]
+    blok_flash_k: Annotated[
+        Gaps,
+        Output("flash temperature by Blok", "Δθ_fl,B", FIG_22, text="by Blok; null at a base circle", axis="psi"),
+    ]
     pinion_flash_k: Annotated[Gaps | None, Output("flash temperature of the pinion", "Δθ_fl1", FIG_22, axis="psi")]
     wheel_flash_k: Annotated[Gaps | None, Output("flash temperature of the wheel", "Δθ_fl2", FIG_22, axis="psi")]
     dowson_higginson_um: Annotated[
@@ -156,6 +179,6 @@ class ScuffingResponse(LoadDistributionResponse):
         ScuffingSafety | None, Output("safety", text="safety factors; null without a scuffing temperature")
     ] = None
     path: Annotated[ScuffingPathCurves | None, Output("scuffing check along the feature line", detail="curves")] = None
-    unsolved_points: Annotated[int | None, Output("unsolved points", text="points of the path without a solution")] = (
-        None
-    )
+    unsolved_points: Annotated[
+        int | None, Output("unsolved points", text="points of the path without a solution or refused")
+    ] = None

@@ -6,14 +6,18 @@ from fastapi import APIRouter, Depends, HTTPException, Path, Query, Request, Res
 from pydantic import BaseModel
 
 from app.calculations import CALCULATIONS, Calculation
-from app.workers.admission import Runner
 from app.contract.quantities import Output
 from app.figures.declaration import Declaration
 from app.figures.rendering import MEDIA_TYPES, Format, render
-from app.library import body_of
 from app.problems import documented
+from app.reading import read
+from app.routes.calculations import require_json
+from app.start_up import StartUp
+from app.workers.admission import Runner
 
 FORMATS: tuple[Format, ...] = get_args(Format)
+# A figure fetched alone runs nothing and loads nothing; its styles and images are its own.
+ALONE = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
 router = APIRouter(tags=["figures"])
 
 
@@ -37,6 +41,19 @@ async def list_figures() -> list[FigureSummary]:
     ]
 
 
+def figure_of_body(path: str, name: str, body: bytes, image_format: Format, theme: Literal["light", "dark"]) -> bytes:
+    """A figure of an endpoint from the bytes of a request; runs in a worker."""
+    calculation = next(each for each in CALCULATIONS if each.path == path)
+    declaration = next(each for each in calculation.figures if each.name == name)
+    return render(calculation, declaration, read(calculation.request, body), image_format, theme)
+
+
+def _documented_body(calculation: Calculation) -> dict[str, Any]:
+    """The body that the worker reads, as the calculation's own endpoint declares it."""
+    schema = {"$ref": f"#/components/schemas/{calculation.request.__name__}"}
+    return {"required": True, "content": {"application/json": {"schema": schema}}}
+
+
 def _add(calculation: Calculation) -> None:
     figures = {figure.name: figure for figure in calculation.figures}
 
@@ -53,17 +70,19 @@ def _add(calculation: Calculation) -> None:
     async def show(
         http: Request,
         which: Annotated[tuple[Declaration, Format], Depends(declared)],
-        body: Any,
         theme: Annotated[
             Literal["light", "dark"], Query(description="dark lines on white, or light ones on black")
         ] = "light",
     ) -> Response:
+        require_json(http)
+        start_up: StartUp = http.app.state.start_up
+        start_up.require(calculation.path)
         runner: Runner = http.app.state.runner
         declaration, image_format = which
-        content = await runner.run(http.receive, render, calculation, declaration, body, image_format, theme)
-        return Response(content, media_type=MEDIA_TYPES[image_format])
+        asked = calculation.path, declaration.name, await http.body(), image_format, theme
+        content = await runner.run(http.receive, figure_of_body, *asked)
+        return Response(content, 200, {"Content-Security-Policy": ALONE}, media_type=MEDIA_TYPES[image_format])
 
-    show.__annotations__["body"] = Annotated[calculation.request, body_of(calculation.path)]
     _, _, model, *parts = calculation.path.split("/")
     router.add_api_route(
         calculation.path + "/figures/{name}.{format}",
@@ -73,7 +92,8 @@ def _add(calculation: Calculation) -> None:
         summary=f"Figures: {calculation.summary}",
         description="The body is that of the calculation; its `detail` is ignored. Points without a solution are gaps.",
         response_class=Response,
-        responses=documented(400, 404, 408, 413, 422, 431, 500, 503, 504)
+        openapi_extra={"requestBody": _documented_body(calculation)},
+        responses=documented(400, 404, 408, 413, 415, 422, 431, 500, 503, 504)
         | {
             200: {
                 "description": "the figure, or its numbers with their units in the header",

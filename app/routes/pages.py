@@ -113,7 +113,8 @@ async def _answer(
         if not clean and http.scope["method"] == "GET":
             return RedirectResponse(quote(link(place, asked.pairs, **asked.views), safe="/?&=%,:.*+-_~"), 303)
         start_up: StartUp = http.app.state.start_up
-        start_up.require(calculation.path)
+        if asked.pairs:
+            start_up.require(calculation.path)
         shown = await _shown(http, asked, view, arguments)
     except (*PROBLEMS, Unreadable) as error:
         if is_page:

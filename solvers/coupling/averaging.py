@@ -11,6 +11,7 @@ from solvers.coupling.inputs import Coupling, CouplingInputs
 from solvers.coupling.kinematics import MeshMotion, ToothPositions, positions_per_pitch, tooth_positions
 from solvers.coupling.tooth_loads import mesh_loads
 
+ROUNDING = 1e-12
 _PITCH_PARTS = 3
 _PITCH_NODES = 8
 _gauss_rule = cache(np.polynomial.legendre.leggauss)
@@ -36,6 +37,11 @@ class LoadedMesh:
     def mean_sum(self, values: FloatArray) -> float:
         """Sum over the teeth of values (rows, teeth), averaged over rotor angles."""
         return float(self.weight @ values.sum(axis=1))
+
+
+def without_rounding(value: float, scale: float) -> float:
+    """The value, or zero where it is below 1e-12 of what its parts may add up to: the rounding of their sum."""
+    return 0.0 if abs(value) < ROUNDING * abs(scale) else value
 
 
 def friction_reversals(mesh: MeshMotion, axial_velocity: float) -> list[float]:

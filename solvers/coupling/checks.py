@@ -33,6 +33,7 @@ _OPERATION_RANGES: tuple[_Range, ...] = (
     ("torque", 0.0, True, inf),
     ("speed", -inf, False, inf),
     ("axial_velocity", -inf, False, inf),
+    ("shaft_diameter", 0.0, False, inf),
 )
 _LUBRICANT_RANGES: tuple[_Range, ...] = (("viscosity", 0.0, False, inf), ("reference_film", 0.0, False, inf))
 _FRICTION_RANGES: tuple[_Range, ...] = (("coefficient", 0.0, True, inf), ("static_coefficient", 0.0, True, inf))

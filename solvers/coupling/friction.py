@@ -57,16 +57,22 @@ def mixed_friction(law: MixedFrictionCurve | MixedFrictionTable, sliding_velocit
     return min(law.highest, law.lowest + 0.02 * log(ratio) ** 2)
 
 
+def lowest_mixed_friction(law: MixedFrictionCurve | MixedFrictionTable) -> float:
+    """The least that mixed friction comes to at any sliding velocity."""
+    return min(law.coefficient) if isinstance(law, MixedFrictionTable) else law.lowest
+
+
 def _interpolate_logarithm(x: float, points: tuple[tuple[float, float], ...]) -> float:
     """Linear interpolation of ln(y) in x, constant outside."""
     return exp(float(np.interp(x, [p[0] for p in points], [log(p[1]) for p in points])))
 
 
-def _well_supplied(load_capacity_coefficient: float, mixed: float) -> float:
-    """Friction at an overlap below 1."""
+def _well_supplied(load_capacity_coefficient: float, mixed: float, lowest: float) -> float:
+    """Friction at an overlap below 1: from the mixed friction in use through its least to that of a full film."""
+    full_film = min(0.01, lowest)
     if load_capacity_coefficient > 0.8:
-        return max(0.003, 0.008 / load_capacity_coefficient)
-    return _interpolate_logarithm(load_capacity_coefficient, ((0.0, mixed), (0.2, 0.05), (0.8, 0.01)))
+        return min(full_film, max(0.003, 0.008 / load_capacity_coefficient))
+    return _interpolate_logarithm(load_capacity_coefficient, ((0.0, mixed), (0.2, lowest), (0.8, full_film)))
 
 
 def _poorly_supplied(overlap: float, load_capacity_coefficient: float) -> float:
@@ -76,15 +82,16 @@ def _poorly_supplied(overlap: float, load_capacity_coefficient: float) -> float:
     return _interpolate_logarithm(load_capacity_coefficient, points)
 
 
-def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: float) -> float:
-    """Coefficient of friction anywhere on the map, continuous, given that of mixed friction.
+def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: float, lowest: float) -> float:
+    """Coefficient of friction anywhere on the map, continuous, given that of mixed friction and its `lowest` value.
 
     The paper states bands; this law keeps to their end values and lies inside those of areas 1.1, 1.3, 2.1, 2.2, 2.3
-    and 3.1. Across 1.2 it blends, and it may leave 3.2 near overlap 1: the paper calls the boundaries fluid.
+    and 3.1. Across 1.2 it blends, and it may leave 3.2 near overlap 1: the paper calls the boundaries fluid. It never
+    rises with the load capacity coefficient.
     """
     if overlap > 2.0:
         return _poorly_supplied(overlap, load_capacity_coefficient)
-    well = _well_supplied(load_capacity_coefficient, mixed)
+    well = _well_supplied(load_capacity_coefficient, mixed, lowest)
     if overlap < 1.0:
         return well
     poor = _poorly_supplied(2.0, load_capacity_coefficient)
@@ -97,5 +104,13 @@ def friction_coefficient(
     """The user's coefficient, or that of the regime at the largest sliding velocity [m/s]."""
     if friction.coefficient is not None:
         return friction.coefficient
-    mixed = mixed_friction(friction.mixed_law, sliding_velocity)
-    return regime_friction(overlap, load_capacity_coefficient, mixed)
+    law = friction.mixed_law
+    mixed = mixed_friction(law, sliding_velocity)
+    return regime_friction(overlap, load_capacity_coefficient, mixed, lowest_mixed_friction(law))
+
+
+def static_friction(friction: Friction) -> float:
+    """The user's coefficient at rest, else the user's coefficient, else that of the regime at rest without film."""
+    if friction.static_coefficient is not None:
+        return friction.static_coefficient
+    return friction_coefficient(friction, overlap=inf, load_capacity_coefficient=0.0, sliding_velocity=0.0)

@@ -57,6 +57,7 @@ class Operation:
     `torque` [N m] >= 0. Signed: `speed` [rad/s] (sense of rotation), `misalignment` [rad] of hub against sleeve at
     one mesh, `axial_velocity` [m/s] per mesh, positive where the shafts move apart. `arrangement`: `single` is one
     mesh, `parallel_offset` (Z) two hubs tilted alike against the sleeve, `angular` (M) two hubs tilted oppositely.
+    `shaft_diameter` [m] is that of the customary thrust 0.25 T/D; None asks for none.
     """
 
     torque: float
@@ -64,6 +65,7 @@ class Operation:
     misalignment: float
     axial_velocity: float = 0.0
     arrangement: Arrangement = "single"
+    shaft_diameter: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +104,7 @@ class MixedFrictionTable:
 class Friction:
     """Coefficients of friction: None means the law of the friction regime.
 
-    `static_coefficient` None means the coefficient in use.
+    `static_coefficient` None means the user's coefficient, without one that of the regime at rest without film.
     """
 
     coefficient: float | None = None

@@ -50,9 +50,9 @@ def positions_per_pitch(teeth: int) -> int:
     return ceil(_LEAST_ROTOR_POSITIONS / teeth)
 
 
-def revolution(teeth: int) -> FloatArray:
+def revolution(teeth: int, refinement: int = 1) -> FloatArray:
     """Rotor angles [rad] of one revolution from zero, evenly spaced, a whole number a tooth pitch."""
-    return np.linspace(0.0, 2.0 * pi, positions_per_pitch(teeth) * teeth, endpoint=False)
+    return np.linspace(0.0, 2.0 * pi, refinement * positions_per_pitch(teeth) * teeth, endpoint=False)
 
 
 def tooth_positions(rotor_angles: FloatArray, teeth: int) -> ToothPositions:

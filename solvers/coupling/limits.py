@@ -3,6 +3,7 @@
 from dataclasses import replace
 from math import cos, pi, sqrt
 
+from solvers.coupling.geometry import pitch_radius
 from solvers.coupling.inputs import Coupling, CouplingInputs
 from solvers.coupling.kinematics import displacement_peak_to_peak, mesh_motion
 from solvers.coupling.results import Geometry, Limits
@@ -12,15 +13,20 @@ SLIDING_VELOCITY_LIMIT = 0.12
 GRAVITY = 9.80665
 
 
-def allowable_misalignment(speed: float, pitch_radius: float) -> float | None:
+def coaxial_limit(coupling: Coupling, torque: float, friction: float) -> float:
+    """F_max = mu T/(r_o cos alpha) [N]: every tooth slides the same way."""
+    return friction * torque / (pitch_radius(coupling) * cos(coupling.pressure_angle))
+
+
+def allowable_misalignment(speed: float, radius: float) -> float | None:
     """Misalignment at the limit of sliding velocity, 0.12/(omega r_o) [rad]; None where no angle reaches it."""
-    rolling = abs(speed) * pitch_radius
+    rolling = abs(speed) * radius
     return SLIDING_VELOCITY_LIMIT / rolling if pi / 2 * rolling > SLIDING_VELOCITY_LIMIT else None
 
 
-def sleeve_centring_torque(coupling: Coupling, pitch_radius: float) -> float:
+def sleeve_centring_torque(coupling: Coupling, radius: float) -> float:
     """Torque that holds a horizontal sleeve of weight W a mesh with every tooth loaded, 2 W r_o cos(alpha) [N m]."""
-    return 2.0 * coupling.sleeve_mass * GRAVITY * pitch_radius * cos(coupling.pressure_angle)
+    return 2.0 * coupling.sleeve_mass * GRAVITY * radius * cos(coupling.pressure_angle)
 
 
 def unloading_misalignment(inputs: CouplingInputs, geometry: Geometry) -> float:

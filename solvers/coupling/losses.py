@@ -1,37 +1,63 @@
 """Friction power and the moments that bend the hub, one mesh, means over the rotor angles."""
 
-from math import cos, hypot
+from math import cos, hypot, pi
 
 import numpy as np
 
-from solvers.coupling.averaging import LoadedMesh
+from solvers.arrays import FloatArray
+from solvers.coupling.averaging import LoadedMesh, without_rounding
 from solvers.coupling.inputs import CouplingInputs
-from solvers.coupling.kinematics import contact_position, flank_normals, sliding_velocity
+from solvers.coupling.kinematics import contact_position, flank_normals, relative_velocity
 from solvers.coupling.results import Geometry, Losses
 
 
 def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, friction: float) -> Losses:
-    """Power P = sum mu F_n |v_G| [W] and moments [N m] of the mesh of the driving hub.
+    """Power P = sum mu F_n |v_r| [W] and moments [N m] of the mesh of the driving hub, v_r = v_ax + v_G.
 
-    The friction moment M_f = r_o sum mu F_n |sin phi| acts about the pivot direction; P = M_f omega delta. The power
-    balance leaves M_f - T delta/2 of it to bend the driving hub, whatever the load distribution.
+    Friction's moment about the pivot direction, against the tilting motion, is M_f = r_o sum mu F_n sgn(v_r)
+    sgn(v_G1) sin phi with v_G1 the sliding velocity at 90 degrees: P = M_f omega delta + F_ax v_ax. It is zero where
+    nothing tilts, and where nothing slides at all it is open. The power balance leaves M_f - T delta/2 of it to bend
+    the driving hub, whatever the load distribution.
     """
-    operation = inputs.operation
+    operation, axial_velocity = inputs.operation, inputs.operation.axial_velocity
     scale = friction / cos(inputs.coupling.pressure_angle)
-    sliding = np.abs(sliding_velocity(loaded.motion, loaded.teeth))
-    friction_moment = (
-        scale * geometry.pitch_radius * loaded.mean_sum(loaded.tangential_force * np.abs(loaded.teeth.sine))
-    )
+    speed = np.abs(relative_velocity(loaded.motion, loaded.teeth, axial_velocity))
+    friction_moment = friction_moment_about(loaded.teeth.sine, inputs, geometry, loaded, friction)
     shift_moment = contact_shift_moment(inputs, geometry, loaded)
-    tilting_moment = shift_moment + pivoting_friction_moment(inputs, geometry, loaded, friction)
+    tilting_moment = shift_moment
+    if inputs.model.kinematics == "spatial":
+        tilting_moment -= friction_moment_about(loaded.teeth.cosine, inputs, geometry, loaded, friction)
     return Losses(
-        friction_power=scale * loaded.mean_sum(loaded.tangential_force * sliding),
+        friction_power=scale * loaded.mean_sum(loaded.tangential_force * speed),
         friction_moment=friction_moment,
         contact_shift_moment=shift_moment,
         hub_bending_moment=hypot(
             friction_moment - operation.torque * abs(operation.misalignment) / 2.0, tilting_moment
         ),
     )
+
+
+def equal_loads_friction_moment(coaxial_limit: float, pitch_radius: float) -> float:
+    """(2/pi) mu T/cos(alpha) [N m], friction's moment against a tilt with equal tooth loads.
+
+    `coaxial_limit` is that of the thrust, mu T/(r_o cos alpha) [N].
+    """
+    return 2.0 / pi * pitch_radius * coaxial_limit
+
+
+def friction_moment_about(
+    arm: FloatArray, inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, friction: float
+) -> float:
+    """r_o sum mu F_n sgn(v_r) sgn(v_G1) arm [N m], by the arm of each tooth over r_o.
+
+    sin(phi) gives the moment about the pivot direction, cos(phi) that about the tilt axis, which the hub feels only
+    with the pivoting motion of `spatial`.
+    """
+    scale = friction / cos(inputs.coupling.pressure_angle) * geometry.pitch_radius
+    velocity = relative_velocity(loaded.motion, loaded.teeth, inputs.operation.axial_velocity)
+    direction = np.sign(velocity) * np.sign(loaded.motion.sliding)
+    largest = loaded.mean_sum(loaded.tangential_force)
+    return scale * without_rounding(loaded.mean_sum(loaded.tangential_force * direction * arm), largest)
 
 
 def contact_shift_moment(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh) -> float:
@@ -49,11 +75,3 @@ def contact_shift_moment(inputs: CouplingInputs, geometry: Geometry, loaded: Loa
         arm -= inputs.operation.misalignment * geometry.pitch_radius * teeth.cosine
         normal_x = flank_normals(loaded.motion, teeth)[:, 0]
     return abs(loaded.mean_sum(loaded.tangential_force * arm * normal_x))
-
-
-def pivoting_friction_moment(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, friction: float) -> float:
-    """Friction's moment about the tilt axis [N m], -r_o sum mu F_n cos(phi) sgn(sin phi); none in `tangential`."""
-    if inputs.model.kinematics == "tangential":
-        return 0.0
-    scale = friction / cos(inputs.coupling.pressure_angle) * geometry.pitch_radius
-    return -scale * loaded.mean_sum(loaded.tangential_force * loaded.teeth.cosine * np.sign(loaded.teeth.sine))

@@ -62,12 +62,15 @@ def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -
 def inlet_length(model: ModelOptions, face_width: float, max_travel: float) -> float:
     """Length b_I of converging gap ahead of the contact [m]; the paper does not define it.
 
-    `face` is the face left ahead of the contact at its reversal, where the paper finds the thickest film.
+    `face` is the face left ahead of the contact at its reversal, where the paper finds the thickest film. A contact
+    that has left the tooth has none, whatever limits it before.
     """
+    if max_travel >= face_width / 2.0:
+        return 0.0
     if model.inlet_length is not None:
         return model.inlet_length
     if model.inlet == "face":
-        return max(0.0, face_width / 2.0 - max_travel)
+        return face_width / 2.0 - max_travel
     return max_travel if model.inlet == "travel" else inf
 
 

@@ -49,7 +49,7 @@ def solve(inputs: CouplingInputs) -> CouplingResult:
         limits=bounds,
         derived=inputs.coupling,
         warnings=(
-            *motion_notices(inputs, motion, thrust, bounds),
+            *motion_notices(inputs, geometry, motion, thrust, bounds),
             *load_notices(inputs, load, thrust, bounds),
             *contact_notices(inputs, motion, lubrication),
         ),

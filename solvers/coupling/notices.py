@@ -7,12 +7,18 @@ from solvers.coupling.checks import MAX_MISALIGNMENT
 from solvers.coupling.friction import UNSTABLE_AREA
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.limits import SLIDING_VELOCITY_LIMIT
-from solvers.coupling.results import AxialThrust, Kinematics, Limits, LoadDistribution, Lubrication
+from solvers.coupling.losses import equal_loads_friction_moment
+from solvers.coupling.results import AxialThrust, Geometry, Kinematics, Limits, LoadDistribution, Lubrication
 from solvers.notices import Notice
+
+ORBIT_RESOLUTION = 0.01
+"""Uncertainty of an orbit over its largest value that is worth a notice."""
+LEAST_ORBIT = 1e-10
+"""Largest displacement [m] below which an orbit is none: perfect teeth leave rounding."""
 
 
 def motion_notices(
-    inputs: CouplingInputs, kinematics: Kinematics, thrust: AxialThrust, limits: Limits
+    inputs: CouplingInputs, geometry: Geometry, kinematics: Kinematics, thrust: AxialThrust, limits: Limits
 ) -> Iterator[Notice]:
     """Notices about misalignment, speed and sliding."""
     operation, sliding = inputs.operation, kinematics.max_sliding_velocity
@@ -36,6 +42,10 @@ def motion_notices(
     elif thrust.self_induced is not None and sliding == 0.0:
         message = "nothing slides by itself: the direction of self-induced thrust is open, zero is reported"
         yield Notice("friction_indeterminate", message, "misalignment")
+    if sliding == operation.axial_velocity == 0.0 < thrust.coaxial_limit:
+        bound = equal_loads_friction_moment(thrust.coaxial_limit, geometry.pitch_radius)
+        message = f"nothing slides: friction may hold any moment up to {bound:.4g} N m against a tilt, zero is reported"
+        yield Notice("indeterminate_moment", message, "speed" if operation.speed == 0.0 else "misalignment")
 
 
 def load_notices(
@@ -64,7 +74,10 @@ def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication:
     half_face = inputs.coupling.face_width / 2.0
     if lubrication.hertz_half_width > half_face:
         yield Notice("wide_contact", "the contact at rest is wider than the tooth face", "face_width")
-    if kinematics.max_contact_travel + lubrication.hertz_half_width > half_face:
+    if kinematics.max_contact_travel >= half_face:
+        message = f"the contact travels {kinematics.max_contact_travel * 1e3:.3g} mm and leaves the tooth: no oil film"
+        yield Notice("edge_contact", message, "face_width")
+    elif kinematics.max_contact_travel + lubrication.hertz_half_width > half_face:
         reach = kinematics.max_contact_travel + lubrication.hertz_half_width
         message = f"the contact reaches {reach * 1e3:.3g} mm from the middle of the face, beyond its end"
         yield Notice("edge_contact", message, "face_width")
@@ -73,3 +86,26 @@ def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication:
     if lubrication.regime.area == UNSTABLE_AREA:
         message = "the friction is unstable here: the paper states no coefficient for area 3.3"
         yield Notice("unstable_regime", message, "misalignment")
+
+
+def orbit_notices(
+    fewest_teeth: int, displacement: tuple[float, float | None], harmonics: tuple[float, float | None]
+) -> Iterator[Notice]:
+    """Notices about the place and the resolution of an orbit; each value with its uncertainty."""
+    if fewest_teeth < 3:
+        message = "at some rotor angle fewer than three teeth carry: the place of the sleeve is not unique there"
+        yield Notice("sleeve_position", message, "torque")
+    if displacement[0] < LEAST_ORBIT:
+        return
+    if displacement[1] is None or harmonics[1] is None:
+        message = "with twice the orders the orbit does not settle: how certain it is cannot be told"
+        yield Notice("orbit_resolution", message, "speed")
+        return
+    uncertain = (
+        (displacement[1] / displacement[0], "largest displacement"),
+        (harmonics[1] / harmonics[0] if harmonics[0] > 0.0 else 0.0, "largest harmonic of the force"),
+    )
+    share, name = max(uncertain)
+    if share > ORBIT_RESOLUTION:
+        message = f"teeth that load and unload leave the {name} uncertain by {100.0 * share:.2g} %"
+        yield Notice("orbit_resolution", message, "misalignment")

@@ -1,6 +1,5 @@
 """Orbit of the floating sleeve under its own inertia over one revolution (Fig. 5)."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import cos, pi
 
@@ -8,11 +7,13 @@ import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.coupling.checks import check_inputs
-from solvers.coupling.geometry import tooth_geometry
+from solvers.coupling.geometry import pitch_radius, tooth_geometry
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.kinematics import mesh_motion, revolution, tooth_positions
+from solvers.coupling.load_distribution import LOADED
+from solvers.coupling.notices import orbit_notices
 from solvers.coupling.results import Geometry, InertiaForce, Orbit, OrbitResult
-from solvers.coupling.tooth_loads import ToothLoads, floating_loads
+from solvers.coupling.tooth_loads import floating_loads
 from solvers.errors import InvalidInput, NoSolution
 
 MAX_SWEEPS = 50
@@ -22,12 +23,26 @@ HIGHEST_ORDER = 12
 
 @dataclass(frozen=True, slots=True)
 class _SettledPath:
-    """Path (rows, 2) [m], its inertia force (rows, 2) [N], the sweeps it took and the change [m] in the last one."""
+    """Path (rows, 2) [m] and its inertia force (rows, 2) [N].
+
+    `sweeps` it took, `change` [m] in the last of them, and how few teeth carry where the `fewest` do.
+    """
 
     path: FloatArray
     force: FloatArray
     sweeps: int
     change: float
+    fewest: int
+
+    @property
+    def farthest(self) -> float:
+        """Largest displacement [m]."""
+        return float(np.hypot(self.path[:, 0], self.path[:, 1]).max())
+
+    @property
+    def harmonics(self) -> FloatArray:
+        """Amplitudes of the inertia force in x and y (2, orders 0 to 12) [N]."""
+        return np.stack([_harmonics(self.force[:, axis]) for axis in (0, 1)])
 
 
 def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
@@ -35,47 +50,60 @@ def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
 
     m_s omega^2 d2e/dtheta2 = sum F_n n: each sweep balances the sleeve at every rotor angle under the inertia force of
     the sweep before, derived in Fourier space with orders up to 12, until the path repeats to 1e-12 m. Contracts while
-    m_s (k omega)^2 stays well below the lateral stiffness.
+    m_s (k omega)^2 stays well below the lateral stiffness. A second path with twice the orders and rotor angles,
+    started from the first, says how certain it is.
 
     Raises InvalidInput as `solve` and torque_too_low (the tooth forces cannot hold the sleeve), NoSolution
     `sleeve_orbit` if the path does not repeat within 50 sweeps, or some position is left without balance.
     """
     check_inputs(inputs)
-    coupling, operation = inputs.coupling, inputs.operation
-    if operation.torque == 0.0:
+    if inputs.operation.torque == 0.0:
         raise InvalidInput("torque_too_low", "without torque nothing centres the sleeve", "torque")
-    geometry = tooth_geometry(coupling)
-    mesh = mesh_motion(coupling, geometry, operation, inputs.model.kinematics)
-    angles = revolution(coupling.teeth)
-    teeth = tooth_positions(angles, coupling.teeth)
-    holding_force = operation.torque / (geometry.pitch_radius * cos(coupling.pressure_angle))
-    # A lateral force that the teeth hold at every rotor angle, whatever the sweeps ask for on their way.
-    safe_force = 0.999 * cos(pi / coupling.teeth) * holding_force
-
-    def balanced(force: FloatArray) -> ToothLoads:
-        return floating_loads(coupling, mesh, teeth, operation.torque, _limited(force, safe_force))
-
-    settled = _settled_path(balanced, np.zeros((angles.size, 2)), coupling.sleeve_mass * operation.speed**2)
-    _check_holding(settled.force, safe_force)
-    return _result(angles, settled, geometry)
+    angles = revolution(inputs.coupling.teeth)
+    settled = _settled_path(inputs, angles, np.zeros((angles.size, 2)), HIGHEST_ORDER)
+    _check_holding(settled.force, _safe_force(inputs))
+    return _result(angles, settled, _finer_path(inputs, settled), tooth_geometry(inputs.coupling))
 
 
-def _settled_path(balanced: Callable[[FloatArray], ToothLoads], force: FloatArray, inertia: float) -> _SettledPath:
-    """Sweep from an inertia force (rows, 2) [N] until the path repeats; `inertia` is m_s omega^2 [N/m].
+def _finer_path(inputs: CouplingInputs, settled: _SettledPath) -> _SettledPath | None:
+    """The path with twice the rotor angles and orders; None where that one does not settle."""
+    angles = revolution(inputs.coupling.teeth, refinement=2)
+    spectrum = np.fft.rfft(settled.force, axis=0)
+    force = 2.0 * np.fft.irfft(spectrum, n=angles.size, axis=0)
+    try:
+        return _settled_path(inputs, angles, force, 2 * HIGHEST_ORDER)
+    except NoSolution:
+        return None
+
+
+def _safe_force(inputs: CouplingInputs) -> float:
+    """A lateral force [N] that the teeth hold at every rotor angle, whatever the sweeps ask for on their way."""
+    coupling = inputs.coupling
+    holding_force = inputs.operation.torque / (pitch_radius(coupling) * cos(coupling.pressure_angle))
+    return 0.999 * cos(pi / coupling.teeth) * holding_force
+
+
+def _settled_path(inputs: CouplingInputs, angles: FloatArray, force: FloatArray, highest_order: int) -> _SettledPath:
+    """Sweep from an inertia force (rows, 2) [N] until the path repeats.
 
     The change from sweep to sweep may grow for a dozen of them, while teeth come under load, and still die out.
     """
+    coupling, operation = inputs.coupling, inputs.operation
+    mesh = mesh_motion(coupling, tooth_geometry(coupling), operation, inputs.model.kinematics)
+    teeth = tooth_positions(angles, coupling.teeth)
+    inertia, limit = coupling.sleeve_mass * operation.speed**2, _safe_force(inputs)
     path = np.zeros_like(force)
     for sweep in range(1, MAX_SWEEPS + 1):
         previous = path
-        loads = balanced(force)
+        loads = floating_loads(coupling, mesh, teeth, operation.torque, _limited(force, limit))
         path = loads.displacement
-        force = -inertia * _second_derivative(path)
+        force = -inertia * _second_derivative(path, highest_order)
         change = float(np.abs(path - previous).max())
         if loads.iterations.min() < 0:
             break
         if change < REPEAT_TOLERANCE:
-            return _SettledPath(path, force, sweep, change)
+            loaded = loads.tangential_force > LOADED * loads.tangential_force.mean()
+            return _SettledPath(path, force, sweep, change, int(loaded.sum(axis=1).min()))
     raise NoSolution(
         "sleeve_orbit",
         "the orbit does not settle: the sleeve's inertia is no longer small against the mesh stiffness; "
@@ -84,11 +112,11 @@ def _settled_path(balanced: Callable[[FloatArray], ToothLoads], force: FloatArra
     )
 
 
-def _second_derivative(path: FloatArray) -> FloatArray:
-    """d2e/dtheta2 of a path (rows, 2) over one revolution, orders up to 12."""
+def _second_derivative(path: FloatArray, highest_order: int) -> FloatArray:
+    """d2e/dtheta2 of a path (rows, 2) over one revolution, orders up to the highest."""
     spectrum = np.fft.rfft(path, axis=0)
     order = np.arange(spectrum.shape[0])
-    factor = np.where(order <= HIGHEST_ORDER, -(order.astype(float) ** 2), 0.0)
+    factor = np.where(order <= highest_order, -(order.astype(float) ** 2), 0.0)
     return np.fft.irfft(spectrum * factor[:, None], n=path.shape[0], axis=0)
 
 
@@ -116,17 +144,32 @@ def _harmonics(force: FloatArray) -> FloatArray:
     return amplitude[: HIGHEST_ORDER + 1]
 
 
-def _result(angles: FloatArray, settled: _SettledPath, geometry: Geometry) -> OrbitResult:
-    """The converged orbit."""
-    path, x, y = settled.path, settled.force[:, 0], settled.force[:, 1]
+def _result(angles: FloatArray, settled: _SettledPath, finer: _SettledPath | None, geometry: Geometry) -> OrbitResult:
+    """The converged orbit, and how far the finer one lies from it."""
+    harmonics = settled.harmonics
+    displacement_uncertainty = harmonics_uncertainty = None
+    if finer is not None:
+        displacement_uncertainty = abs(finer.farthest - settled.farthest)
+        harmonics_uncertainty = float(np.abs(finer.harmonics - harmonics).max())
     return OrbitResult(
-        orbit=Orbit(rotor_angle=frozen(angles), x=frozen(path[:, 0]), y=frozen(path[:, 1])),
+        orbit=Orbit(rotor_angle=frozen(angles), x=frozen(settled.path[:, 0]), y=frozen(settled.path[:, 1])),
         inertia_force=InertiaForce(
-            x=frozen(x), y=frozen(y), harmonics_x=frozen(_harmonics(x)), harmonics_y=frozen(_harmonics(y))
+            x=frozen(settled.force[:, 0]),
+            y=frozen(settled.force[:, 1]),
+            harmonics_x=frozen(harmonics[0]),
+            harmonics_y=frozen(harmonics[1]),
         ),
-        max_displacement=float(np.hypot(path[:, 0], path[:, 1]).max()),
+        max_displacement=settled.farthest,
+        displacement_uncertainty=displacement_uncertainty,
+        harmonics_uncertainty=harmonics_uncertainty,
         sweeps=settled.sweeps,
         change=settled.change,
         derived=geometry,
-        warnings=(),
+        warnings=tuple(
+            orbit_notices(
+                fewest_teeth=settled.fewest,
+                displacement=(settled.farthest, displacement_uncertainty),
+                harmonics=(float(harmonics.max()), harmonics_uncertainty),
+            )
+        ),
     )

@@ -133,12 +133,16 @@ class AxialThrust:
     `force`: of one mesh in the sense of the axial velocity (`single`), or on one shaft, positive = shafts pulled
     together. The bounds differ from `force` only where friction is `indeterminate` (nothing slides).
     `fraction_of_limit` is force over `coaxial_limit`; None without load. `breakaway_force` starts coaxial shafts
-    sliding. `uniform_load_force` is the closed form of one mesh with equal tooth loads.
+    sliding from rest, where no film carries. `uniform_load_force` is the closed form of one mesh with equal tooth
+    loads. A thrust bearing must hold `design_force`, the larger of |force| and breakaway; `customary_force` is beside
+    it what practice reckons with, None without a shaft diameter.
     """
 
     force: float
     coaxial_limit: float
     breakaway_force: float
+    design_force: float
+    customary_force: float | None
     fraction_of_limit: float | None
     uniform_load_force: float
     lower_bound: float
@@ -149,7 +153,11 @@ class AxialThrust:
 
 @dataclass(frozen=True, slots=True)
 class Losses:
-    """Friction power [W] and moments [N m] of one mesh, means over one tooth pitch (revolution with pitch errors)."""
+    """Friction power [W] and moments [N m] of one mesh, means over one tooth pitch (revolution with pitch errors).
+
+    Axial velocity included: power is friction moment times tilting speed plus thrust times axial velocity. Where
+    nothing slides the friction moment is open and reported as zero.
+    """
 
     friction_power: float
     friction_moment: float
@@ -212,12 +220,16 @@ class InertiaForce:
 class OrbitResult:
     """One revolution of a floating sleeve under its own inertia.
 
-    `sweeps` over the revolution until it repeated to `change` [m]; `derived` is the tooth that moves.
+    `sweeps` over the revolution until it repeated to `change` [m]. The uncertainties are how far the largest
+    displacement [m] and any harmonic of the force [N] move with twice the rotor angles and orders; None where that
+    path does not settle. `derived` is the tooth that moves.
     """
 
     orbit: Orbit
     inertia_force: InertiaForce
     max_displacement: float
+    displacement_uncertainty: float | None
+    harmonics_uncertainty: float | None
     sweeps: int
     change: float
     derived: Geometry

@@ -9,7 +9,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.coupling.tooth_balance import float_sleeve, solve_symmetric
+from solvers.coupling.tooth_balance import float_sleeve, solve_loaded
 
 MAX_ITERATIONS = 150
 SUBSTITUTIONS = 5
@@ -19,33 +19,31 @@ FORCE_TOLERANCE = 1e-9
 
 @kernel
 def add_friction_moment(
-    interference: FloatArray,
+    ahead: FloatArray,
     normal: FloatArray,
     arm: FloatArray,
-    state: FloatArray,
-    system: FloatArray,
+    hessian: FloatArray,
     sense: float,
     moment: FloatArray,
     slope: FloatArray,
 ) -> None:
     """Add sum F_t sgn(v_r) e_r of one mesh to `moment` (2), and its slope by the force on the left mesh to `slope`.
 
-    `arm` (2, teeth) holds sgn(v_r) e_r; `system` the mesh's Hessian as float_sleeve left it; `sense` is +1 or -1
+    `arm` (2, teeth) holds sgn(v_r) e_r; `ahead` and `hessian` the mesh as float_sleeve left it; `sense` is +1 or -1
     where the mesh feels the force or its opposite.
     """
     weighted = np.zeros((2, 3))
-    row = np.empty(3)
-    for i in range(interference.size):
-        u = state[0] + interference[i] - state[1] * normal[0, i] - state[2] * normal[1, i]
-        if u > 0.0:
+    row, free = np.empty(3), np.empty(2)
+    for i in range(ahead.size):
+        if ahead[i] > 0.0:
             for axis in range(2):
-                moment[axis] += arm[axis, i] * u
+                moment[axis] += arm[axis, i] * ahead[i]
                 weighted[axis, 0] += arm[axis, i]
                 weighted[axis, 1] -= arm[axis, i] * normal[0, i]
                 weighted[axis, 2] -= arm[axis, i] * normal[1, i]
     for axis in range(2):
         # The Hessian is symmetric: its inverse times the weights is the derivative by (torque, force).
-        solve_symmetric(system, weighted[axis], row)
+        solve_loaded(hessian, weighted[axis], row, free)
         slope[axis, 0] += sense * row[1]
         slope[axis, 1] += sense * row[2]
 
@@ -58,21 +56,24 @@ def unbalanced_force(
     lever: float,
     force: FloatArray,
     state: FloatArray,
+    ahead: FloatArray,
     gap: FloatArray,
     slope: FloatArray,
 ) -> float:
     """Phi(g) - g into `gap` (2), g - Phi(g) differentiated by g into `slope` (2, 2); returns |gap|.
 
-    Balances both meshes under the force g and its opposite, from and into `state` (2, 3); inf where one cannot hold it.
+    Balances both meshes under the force g and its opposite, from and into `state` (2, 3), with the interference left
+    in `ahead` (2, teeth); inf where one cannot hold it.
     """
-    system = np.empty((3, 4))
+    hessian = np.empty((3, 3))
     gap[:] = 0.0
     slope[:, :] = 0.0
     for mesh in range(2):
         sense = 1.0 - 2.0 * mesh
-        if float_sleeve(interference[mesh], normal[mesh], sense * force, state[mesh], system) < 0:
+        met = float_sleeve(interference[mesh], normal[mesh], sense * force, state[mesh], ahead[mesh], hessian)
+        if met < 0:
             return np.inf
-        add_friction_moment(interference[mesh], normal[mesh], arm[mesh], state[mesh], system, sense, gap, slope)
+        add_friction_moment(ahead[mesh], normal[mesh], arm[mesh], hessian, sense, gap, slope)
     gap[:] = lever * gap - force
     slope *= -lever
     slope[0, 0] += 1.0
@@ -89,17 +90,18 @@ def balance_sleeve(
     force_limit: float,
     force: FloatArray,
     state: FloatArray,
+    ahead: FloatArray,
 ) -> float:
     """Solve Phi(g) = g at one rotor angle from and into `force` g (2) and `state` (2, 3); returns |Phi(g) - g|.
 
-    interference (2, teeth), normal and arm (2, 2, teeth); `lever` is (mu/cos alpha)(r_o/l_H). Newton's method with
-    steps shortened until the residual falls; some damped substitutions where that fails, for Phi is piecewise linear
-    (teeth come under load) and Newton may cycle between its pieces.
+    interference and ahead (2, teeth), normal and arm (2, 2, teeth); `lever` is (mu/cos alpha)(r_o/l_H). Newton's
+    method with steps shortened until the residual falls; some damped substitutions where that fails, for Phi is
+    piecewise linear (teeth come under load) and Newton may cycle between its pieces.
     """
     gap, step, accepted, slope = np.empty(2), np.zeros(2), np.zeros(2), np.empty((2, 2))
     accepted_residual, length, substitutions = np.inf, 1.0, 0
     for _ in range(MAX_ITERATIONS):
-        residual = unbalanced_force(interference, normal, arm, lever, force, state, gap, slope)
+        residual = unbalanced_force(interference, normal, arm, lever, force, state, ahead, gap, slope)
         if residual < FORCE_TOLERANCE or residual == np.inf:
             return residual
         if substitutions > 0 or residual <= (1.0 - 0.1 * length) * accepted_residual:
@@ -132,23 +134,26 @@ def balance_rows(
     arm: FloatArray,
     lever: float,
     force_limit: float,
-    state: FloatArray,
+    share: FloatArray,
 ) -> float:
     """Balance the sleeve at every rotor angle, each started from the one before, then from rest if that fails.
 
-    Returns the largest residual, that of the first angle without balance if there is one: no later angle is tried.
+    Leaves the tooth forces in `share` (rows, 2, teeth). Returns the largest residual, that of the first angle without
+    balance if there is one: no later angle is tried.
     """
-    force = np.zeros(2)
+    force, state = np.zeros(2), np.zeros((2, 3))
     largest = 0.0
     for row in range(interference.shape[0]):
-        if row > 0:
-            state[row] = state[row - 1]
-        residual = balance_sleeve(interference[row], normal[row], arm[row], lever, force_limit, force, state[row])
+        tooth, flank, friction = interference[row], normal[row], arm[row]
+        residual = balance_sleeve(tooth, flank, friction, lever, force_limit, force, state, share[row])
         if residual >= FORCE_TOLERANCE:
             force[:] = 0.0
-            state[row] = 0.0
-            residual = balance_sleeve(interference[row], normal[row], arm[row], lever, force_limit, force, state[row])
+            state[:, :] = 0.0
+            residual = balance_sleeve(tooth, flank, friction, lever, force_limit, force, state, share[row])
         largest = max(largest, residual)
         if residual >= FORCE_TOLERANCE:
             break
+        for mesh in range(2):
+            for i in range(share.shape[2]):
+                share[row, mesh, i] = max(0.0, share[row, mesh, i])
     return largest

@@ -12,12 +12,13 @@ from math import cos, hypot, pi
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.coupling.averaging import RotorSamples, rotor_samples
+from solvers.coupling.averaging import RotorSamples, rotor_samples, without_rounding
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.kinematics import MeshMotion, flank_normals, mesh_motion, relative_velocity
+from solvers.coupling.limits import coaxial_limit
 from solvers.coupling.results import Geometry
 from solvers.coupling.sleeve_balance import FORCE_TOLERANCE, balance_rows
-from solvers.coupling.tooth_loads import elastic_rotation, interference_at_rest, shares
+from solvers.coupling.tooth_loads import elastic_rotation, interference_at_rest
 from solvers.errors import NoSolution
 
 _LIMIT_MARGIN = 0.9999
@@ -66,9 +67,11 @@ def sleeve_equilibrium(
     friction_force = friction / cos(coupling.pressure_angle) * force * direction
     both = friction_force.sum(axis=1)
     moment_x, moment_y = (samples.weight @ (both * axis).sum(axis=1) for axis in (teeth.sine, teeth.cosine))
+    limit = coaxial_limit(coupling, torque, friction)
+    thrust = -float(samples.weight @ friction_force[:, 0].sum(axis=1))
     return SleeveEquilibrium(
-        thrust=-float(samples.weight @ friction_force[:, 0].sum(axis=1)),
-        overturning_moment=geometry.pitch_radius * hypot(moment_x, moment_y),
+        thrust=without_rounding(thrust, limit),
+        overturning_moment=geometry.pitch_radius * without_rounding(hypot(moment_x, moment_y), limit),
     )
 
 
@@ -92,8 +95,8 @@ def _tooth_forces(
     lever = friction / cosine * geometry.pitch_radius / coupling.hub_distance
     # The largest lateral force that the normals of z teeth, a regular polygon, hold at every rotor angle.
     force_limit = _LIMIT_MARGIN * cos(pi / coupling.teeth) / cosine
-    state = np.zeros((direction.shape[0], 2, 3))
-    residual = balance_rows(interference, normal, arm, lever, force_limit, state)
+    share = np.zeros_like(interference)
+    residual = balance_rows(interference, normal, arm, lever, force_limit, share)
     if residual >= FORCE_TOLERANCE:
         raise NoSolution(
             "sleeve_equilibrium",
@@ -101,5 +104,4 @@ def _tooth_forces(
             "lengthen the hub distance or lower the friction",
             {"lateral_force": min(residual, 1.0)},
         )
-    share = [shares(interference[:, mesh], normal[:, mesh], state[:, mesh]) for mesh in (0, 1)]
-    return unit * coupling.tooth_stiffness * np.stack(share, axis=1)
+    return unit * coupling.tooth_stiffness * share

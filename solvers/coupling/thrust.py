@@ -4,30 +4,28 @@ from math import asin, copysign, cos, pi, tan
 
 import numpy as np
 
-from solvers.coupling.averaging import LoadedMesh
-from solvers.coupling.geometry import pitch_radius
-from solvers.coupling.inputs import Coupling, CouplingInputs
+from solvers.coupling.averaging import LoadedMesh, without_rounding
+from solvers.coupling.friction import static_friction
+from solvers.coupling.inputs import Coupling, CouplingInputs, Operation
 from solvers.coupling.kinematics import relative_velocity
+from solvers.coupling.limits import coaxial_limit
 from solvers.coupling.results import AxialThrust, Geometry, SelfInducedThrust
 from solvers.coupling.sleeve_equilibrium import sleeve_equilibrium
-
-
-def coaxial_limit(coupling: Coupling, torque: float, friction: float) -> float:
-    """F_max = mu T/(r_o cos alpha) [N]: every tooth slides the same way."""
-    return friction * torque / (pitch_radius(coupling) * cos(coupling.pressure_angle))
 
 
 def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> tuple[float, float]:
     """F_ax = sum mu F_n sgn(v_r), the paper's general expression, and its slack [N], both averaged over rotor angles.
 
     A tooth without relative velocity may carry any friction between -mu F_n and mu F_n: it counts as zero, and as
-    mu F_n towards the slack.
+    mu F_n towards the slack. Without axial velocity the force is zero: half a turn later every tooth meets the same
+    load under the opposite sliding.
     """
     velocity = relative_velocity(loaded.motion, loaded.teeth, axial_velocity)
     scale = friction / cos(loaded.motion.pressure_angle)
+    largest = loaded.mean_sum(loaded.tangential_force)
     force = loaded.mean_sum(loaded.tangential_force * np.sign(velocity))
     slack = loaded.mean_sum(loaded.tangential_force * (velocity == 0.0))
-    return scale * force, scale * slack
+    return scale * without_rounding(force, largest) * (axial_velocity != 0.0), scale * slack
 
 
 def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocity: float) -> float:
@@ -40,6 +38,11 @@ def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocit
     if abs(axial_velocity) >= max_sliding_velocity:
         return copysign(limit, axial_velocity)
     return limit * 2.0 / pi * asin(axial_velocity / max_sliding_velocity)
+
+
+def customary_thrust(operation: Operation) -> float | None:
+    """0.25 T/D [N] with the shaft diameter D, None without one (API 617 and 671 practice, quoted from memory)."""
+    return None if operation.shaft_diameter is None else 0.25 * operation.torque / operation.shaft_diameter
 
 
 def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: float, factor: float) -> float:
@@ -70,11 +73,13 @@ def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh,
         force = induced.force
         if operation.axial_velocity != 0.0:
             force = sleeve_equilibrium(inputs, geometry, friction, operation.axial_velocity).thrust
-    static = inputs.friction.static_coefficient
+    breakaway = coaxial_limit(coupling, operation.torque, static_friction(inputs.friction))
     return AxialThrust(
         force=force,
         coaxial_limit=limit,
-        breakaway_force=coaxial_limit(coupling, operation.torque, friction if static is None else static),
+        breakaway_force=breakaway,
+        design_force=max(abs(force), breakaway),
+        customary_force=customary_thrust(operation),
         fraction_of_limit=force / limit if limit > 0.0 else None,
         uniform_load_force=uniform_load_thrust(limit, operation.axial_velocity, abs(loaded.motion.sliding)),
         lower_bound=force - slack,

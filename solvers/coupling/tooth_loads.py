@@ -41,12 +41,6 @@ def elastic_rotation(coupling: Coupling, torque: float) -> float:
     return torque / (pitch_radius(coupling) * coupling.tooth_stiffness)
 
 
-def shares(interference: FloatArray, normal: FloatArray, state: FloatArray) -> FloatArray:
-    """Tooth forces (rows, teeth) over T/r_o of a floating sleeve; normal (rows, 2, teeth), state (rows, 3)."""
-    ahead = interference - state[:, 1:2] * normal[:, 0] - state[:, 2:3] * normal[:, 1]
-    return np.maximum(0.0, state[:, :1] + ahead)
-
-
 def centred_loads(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, torque: float) -> ToothLoads:
     """Loads of a sleeve held centred on the hub: exact for any torque >= 0."""
     interference = interference_at_rest(coupling, mesh, teeth)
@@ -72,9 +66,8 @@ def floating_loads(
     interference = interference_at_rest(coupling, mesh, teeth) / unit
     normal = flank_normals(mesh, teeth)
     rows = interference.shape[0]
-    state, iterations = np.zeros((rows, 3)), np.zeros(rows, dtype=np.int64)
-    floating_rows(interference, normal, force / unit_force, state, iterations)
-    share = shares(interference, normal, state)
+    share, state, iterations = np.zeros_like(interference), np.zeros((rows, 3)), np.zeros(rows, dtype=np.int64)
+    floating_rows(interference, normal, force / unit_force, share, state, iterations)
     return ToothLoads(unit_force * share, unit * state[:, 0], unit * state[:, 1:], iterations)
 
 

@@ -10,10 +10,9 @@ from solvers.arrays import frozen
 from solvers.errors import InvalidInput
 from solvers.notices import Notice
 from solvers.pumping.checks import check_speed
-from solvers.pumping.gas_dynamics import CELL_STEP_LIMIT
 from solvers.pumping.inputs import ChokingInputs, Flow, rpm
 from solvers.pumping.results import ChokingCurves, ChokingSpeeds, Derived
-from solvers.pumping.spaces import Mesh, Space, flow_at, prepare
+from solvers.pumping.spaces import CELL_STEP_LIMIT, Mesh, Space, flow_at, prepare
 
 _COARSENING = 4  # of the slices while the speeds are bracketed
 _BRACKET = log(1.1)  # around the coarse speed, logarithmic as all speeds here

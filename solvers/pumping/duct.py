@@ -74,12 +74,26 @@ def wall_values(duct: Duct, z: float, angle: float) -> tuple[float, float, float
 @kernel
 def active_range(duct: Duct, angle: float) -> tuple[int, int]:
     """First active cell and the one after the last: those whose centre's phase lies in the stroke."""
-    end = duct.first_angle + duct.angle_step * (duct.table.shape[0] - 1)
     low, high = 0, 0
     for i in range(duct.cells):
         phase = angle - duct.lag * (duct.start + (i + 0.5) * duct.width)
-        if phase > end:
+        if phase > stroke_end(duct):
             low = i + 1
         if phase >= duct.first_angle:
             high = i + 1
     return low, max(low, high)
+
+
+@kernel
+def stroke_end(duct: Duct) -> float:
+    """Phase at which the stroke ends [rad]."""
+    end: float = duct.first_angle + duct.angle_step * (duct.table.shape[0] - 1)
+    return end
+
+
+@kernel
+def stroke_share(duct: Duct, z: float, angle: float, turn: float) -> float:
+    """Share of a step of `turn` from `angle` [rad] in which the place z [m] is in its stroke."""
+    phase = angle - duct.lag * z
+    inside = min(phase + turn, stroke_end(duct)) - max(phase, duct.first_angle)
+    return min(max(inside / turn, 0.0), 1.0)

@@ -1,6 +1,6 @@
 """The face width between its grooves: stretches of tooth space that end in the ambient, cut into slices."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -25,6 +25,11 @@ class Stretch:
     def centres(self) -> FloatArray:
         """Positions of the slices' centres [m]."""
         return np.linspace(self.start + 0.5 * self.width, self.start + (self.cells - 0.5) * self.width, self.cells)
+
+    def halved(self) -> "Stretch":
+        """The same stretch in half as many slices."""
+        cells = max(self.cells // 2, 1)
+        return replace(self, cells=cells, width=self.width * self.cells / cells)
 
 
 def stretches(face_width: float, grooves: tuple[Groove, ...], slices: int, least: int) -> list[Stretch]:

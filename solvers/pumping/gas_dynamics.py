@@ -1,22 +1,20 @@
 """Quasi-one-dimensional gas dynamics of a tooth space: the grid-convergent flow model."""
 
-from math import ceil, sqrt
+from math import ceil
 
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.errors import InvalidInput, NoSolution
+from solvers.errors import NoSolution
 from solvers.pumping.duct import Duct, empty_record
 from solvers.pumping.face import Stretch
 from solvers.pumping.flow import March, SpaceFlow, space_flow
 from solvers.pumping.gas_march import COURANT, march
 from solvers.pumping.gas_step import empty_cells
-from solvers.pumping.inputs import rpm
 from solvers.pumping.nozzle import Gas
 from solvers.pumping.stroke import StrokeTable
 
 LEAST_SLICES = 4
-CELL_STEP_LIMIT = 5_000_000  # some ten seconds
 _HASTE = 2.5  # steps may be this much shorter than sound at rest asks for
 _ANGLES = 201
 
@@ -41,17 +39,15 @@ def duct(table: StrokeTable, stretch: Stretch, lag: float, speed: float, dischar
     )
 
 
-def gas_dynamics(
-    gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray, *, cell_step_limit: int = CELL_STEP_LIMIT
-) -> SpaceFlow:
+def gas_dynamics(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray) -> SpaceFlow:
     """March every stretch of a tooth space through its stroke.
 
-    Raises InvalidInput: too_many_steps (speed too low for so many slices); NoSolution: unphysical_state.
+    Raises NoSolution: unphysical_state.
     """
-    budget = _check_cost(gas, [part for _, part in ducts], angle, cell_step_limit)
+    room = ceil(_HASTE * max(_steps(gas, part, angle) for _, part in ducts)) + 8 * angle.size
     marches = []
     for stretch, part in ducts:
-        record = empty_record(gas, angle.size, part.cells, budget)
+        record = empty_record(gas, angle.size, part.cells, room)
         steps = march(gas, part, empty_cells(part.cells), angle, record, 2)
         if steps < 0:
             reason = "the step limit was reached" if steps == -1 else "no step length gave a physical state"
@@ -62,17 +58,10 @@ def gas_dynamics(
     return space_flow(angle, marches, conserves_energy=True)
 
 
-def _check_cost(gas: Gas, ducts: list[Duct], angle: FloatArray, limit: int) -> int:
-    """Most steps a march may take; refuses what would take too long, naming what would fit."""
-    turn = float(angle[-1] - angle[0])
-    steps = [turn / duct.speed * gas.sound_speed / (COURANT * duct.width) for duct in ducts]
-    cost = sum(duct.cells * count for duct, count in zip(ducts, steps, strict=True))
-    if cost > limit:
-        excess = cost / limit
-        cells = sum(duct.cells for duct in ducts)
-        message = (
-            f"{cells} slices need too many steps at this speed: use at least {rpm(ducts[0].speed) * excess:.3g} rpm of "
-            f"the gear, or at most {int(cells / sqrt(excess))} slices, or the pocket chain"
-        )
-        raise InvalidInput("too_many_steps", message, "pinion_speed")
-    return ceil(_HASTE * max(steps)) + 8 * angle.size
+def cell_steps(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray) -> float:
+    """Cells times steps of a march, while sound is near that of gas at rest."""
+    return sum(part.cells * _steps(gas, part, angle) for _, part in ducts)
+
+
+def _steps(gas: Gas, part: Duct, angle: FloatArray) -> float:
+    return float(angle[-1] - angle[0]) / part.speed * gas.sound_speed / (COURANT * part.width)

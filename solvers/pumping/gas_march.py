@@ -4,12 +4,14 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.pumping.duct import Duct, Record, active_range, wall_values
+from solvers.pumping.duct import Duct, Record, stroke_end, stroke_share, wall_values
 from solvers.pumping.gas_step import Cells, set_walls, step
 from solvers.pumping.nozzle import Gas
+from solvers.pumping.riemann import front_face
 
 COURANT = 0.7
 _RETRIES = 12
+_STEEP = 0.5  # share of a cell's density or pressure below which nothing is extrapolated from it
 
 
 @kernel
@@ -26,7 +28,7 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
             turn = (angles[k] - angle) / pieces
             done = False
             for retry in range(_RETRIES):
-                new_low, new_high = active_range(duct, angle + 0.5 * turn)
+                new_low, new_high = _taking_part(gas, duct, angle, turn)
                 if new_high == new_low:
                     done = True
                     break
@@ -46,7 +48,7 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
             low, high = new_low, new_high
             if high > low:
                 record.ends[taken, 0] = (angle + 0.5 * turn - angles[0]) / duct.speed
-                _book_ends(duct, cells, record, low, high, dt, taken)
+                _book_ends(duct, cells, record, low, high, angle, turn, taken)
                 _book_cells(gas, duct, cells, record, low, high, dt)
                 taken += 1
             angle += turn
@@ -55,6 +57,27 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
         _sample(gas, cells, record, low, high, k)
     _empty(duct, cells, record, low, high, 0, 0)
     return taken
+
+
+@kernel
+def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, int]:
+    """First cell that takes part in a step of `turn` from `angle` [rad], and the one after the last.
+
+    A cell does while its centre is in its stroke, the first also while its outer end is, the last likewise: whatever
+    leaves through an end leaves while that end is open. Walls and books count the share of the step in the stroke.
+    Where the stroke runs along the face faster than sound, cells come a width early: gas that the one behind them
+    pushes on would pile up at the border, and in truth does not reach it.
+    """
+    low, high, rear = 0, 0, duct.cells - 1
+    early = duct.lag * duct.width if duct.speed >= duct.lag * gas.sound_speed else 0.0
+    for i in range(duct.cells):
+        centre = (i + 0.5) * duct.width
+        first, last = 0.0 if i == 0 else centre, duct.cells * duct.width if i == rear else centre
+        if angle - duct.lag * (duct.start + last) >= stroke_end(duct):
+            low = i + 1
+        if angle + turn - duct.lag * (duct.start + first) + early > duct.first_angle:
+            high = i + 1
+    return low, max(low, high)
 
 
 @kernel
@@ -69,13 +92,29 @@ def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> fl
 
 @kernel
 def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int, new_high: int, angle: float) -> None:
-    """Ambient gas at rest in the cells whose stroke begins."""
+    """The gas of the border in the cells whose stroke begins."""
+    rho, u, p = _border(gas, duct, cells, low, high)
     for i in range(new_low, new_high):
         if i < low or i >= high:
             area = wall_values(duct, duct.start + (i + 0.5) * duct.width, angle)[0]
-            cells.content[i, 0], cells.content[i, 1] = gas.density * area, 0.0
-            cells.content[i, 2] = gas.pressure * area / (gas.exponent - 1.0)
-            cells.state[i, 0], cells.state[i, 1], cells.state[i, 2] = gas.density, 0.0, gas.pressure
+            cells.content[i, 0], cells.content[i, 1] = rho * area, rho * u * area
+            cells.content[i, 2] = (p / (gas.exponent - 1.0) + 0.5 * rho * u * u) * area
+            cells.state[i, 0], cells.state[i, 1], cells.state[i, 2] = rho, u, p
+
+
+@kernel
+def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> tuple[float, float, float]:
+    """State of the border to the slices that come next, where their centres are: a cell's width ahead of the last.
+
+    Ambient gas at rest where no cell is active yet.
+    """
+    if not low < high < duct.cells:
+        return gas.density, 0.0, gas.pressure
+    last, before = cells.state[high - 1], cells.state[max(high - 2, low)]
+    rho, p = 2.0 * last[0] - before[0], 2.0 * last[2] - before[2]
+    if rho < _STEEP * last[0] or p < _STEEP * last[2]:
+        return front_face(gas, duct.speed / duct.lag, last[0], last[1], last[2])
+    return front_face(gas, duct.speed / duct.lag, rho, 2.0 * last[1] - before[1], p)
 
 
 @kernel
@@ -97,16 +136,25 @@ def _enter(duct: Duct, cells: Cells, record: Record, low: int, high: int, new_lo
 
 
 @kernel
-def _book_ends(duct: Duct, cells: Cells, record: Record, low: int, high: int, dt: float, taken: int) -> None:
-    """Book what left through both ends of the active cells: ends of the duct, or borders to idle slices."""
+def _book_ends(
+    duct: Duct, cells: Cells, record: Record, low: int, high: int, angle: float, turn: float, taken: int
+) -> None:
+    """Book what left through both ends of the active cells: ends of the duct, or borders to idle slices.
+
+    The end of the duct counts as one for the share of the step in which it is in its stroke itself.
+    """
+    dt = turn / duct.speed
     for end in range(2):
         face, outward = (low, -1.0) if end == 0 else (high, 1.0)
         open_end = (low == 0) if end == 0 else (high == duct.cells)
-        entry = 2 + end if open_end else 5
-        record.mass[entry] += outward * cells.flux[face, 0] * dt
-        record.energy[entry] += outward * cells.flux[face, 2] * dt
-        if open_end:
-            record.ends[taken, 1 + end] = outward * cells.flux[face, 0] * dt
+        share = stroke_share(duct, duct.start + face * duct.width, angle, turn) if open_end else 0.0
+        mass, energy = outward * cells.flux[face, 0] * dt, outward * cells.flux[face, 2] * dt
+        record.mass[2 + end] += share * mass
+        record.energy[2 + end] += share * energy
+        record.mass[5] += (1.0 - share) * mass
+        record.energy[5] += (1.0 - share) * energy
+        record.ends[taken, 1 + end] = share * mass
+        if share > 0.0:
             record.extremes[2] = max(record.extremes[2], cells.ends[end, 1])
             record.extremes[3] = max(record.extremes[3], abs(cells.ends[end, 2]))
             record.extremes[4] = max(record.extremes[4], cells.ends[end, 0])
@@ -121,11 +169,12 @@ def _book_cells(gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, hi
         record.mass[4] += loss[i, 0] * duct.width
         record.energy[4] += loss[i, 1] * duct.width
         record.energy[6] += loss[i, 2] * duct.width
+        share = cells.share[i]
         static = 0.5 * (old[i, 2] / old[i, 0] + new[i, 2] / new[i, 0]) / gas.constant
         dynamic = 0.25 * (old[i, 1] ** 2 + new[i, 1] ** 2) / gas.heat_capacity
-        profile[i, 0] += static * dt
-        profile[i, 1] += (static + dynamic) * dt
-        profile[i, 2] += dt
+        profile[i, 0] += static * dt * share
+        profile[i, 1] += (static + dynamic) * dt * share
+        profile[i, 2] += dt * share
         profile[i, 3] = max(profile[i, 3], new[i, 2])
         extremes[0], extremes[1] = max(extremes[0], new[i, 2]), min(extremes[1], new[i, 2])
         speed = abs(new[i, 1])

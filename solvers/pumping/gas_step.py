@@ -14,10 +14,10 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.pumping.duct import Duct, wall_values
+from solvers.pumping.duct import Duct, stroke_share, wall_values
 from solvers.pumping.leakage import Stage, Walls, implicit_stage
 from solvers.pumping.nozzle import Gas
-from solvers.pumping.riemann import hllc, reservoir_face
+from solvers.pumping.riemann import front_face, hllc, reservoir_face
 
 _DIAGONAL = 1.0 - np.sqrt(0.5)  # of the two-stage method
 
@@ -29,7 +29,8 @@ class Cells(NamedTuple):
     step and `next_walls` at its end (area, clearance, transport); `slope` and `half` of the state; `loss` over the
     step (leaked mass, energy lost to the walls, gauge work done by them; per metre); `face_area` and `flux` at the
     half step; `ends` (2, 3) of the low and the high end: Mach number asked for, Mach number, velocity outwards [m/s];
-    `leak` (cells,) the latest leakage, a first guess for the next [kg/(s m)].
+    `leak` (cells,) the latest leakage, a first guess for the next [kg/(s m)]; `share` (cells,) of the step in which a
+    cell's centre is in its stroke: outside it the walls stand still and nothing leaks.
     """
 
     content: FloatArray
@@ -45,12 +46,13 @@ class Cells(NamedTuple):
     flux: FloatArray
     ends: FloatArray
     leak: FloatArray
+    share: FloatArray
 
 
 def empty_cells(cells: int) -> Cells:
     """Arrays for a duct of so many cells."""
     wide, faces = (cells, 3), cells + 1
-    shapes = [wide, wide, wide, wide, wide, wide, wide, wide, wide, (faces,), (faces, 3), (2, 3), (cells,)]
+    shapes = [wide, wide, wide, wide, wide, wide, wide, wide, wide, (faces,), (faces, 3), (2, 3), (cells,), (cells,)]
     return Cells(*[np.zeros(shape) for shape in shapes])
 
 
@@ -60,8 +62,11 @@ def set_walls(duct: Duct, cells: Cells, low: int, high: int, angle: float, turn:
     for i in range(low, high):
         z = duct.start + (i + 0.5) * duct.width
         now, after = wall_values(duct, z, angle), wall_values(duct, z, angle + turn)
-        for k in range(3):
-            cells.walls[i, k], cells.next_walls[i, k] = now[k], after[k]
+        share = stroke_share(duct, z, angle, turn)
+        cells.share[i] = share
+        cells.walls[i, 0], cells.next_walls[i, 0] = now[0], after[0]
+        for k in range(1, 3):
+            cells.walls[i, k], cells.next_walls[i, k] = share * now[k], share * after[k]
     for i in range(low, high + 1):
         cells.face_area[i] = wall_values(duct, duct.start + i * duct.width, angle + 0.5 * turn)[0]
 
@@ -72,7 +77,7 @@ def step(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float, ord
     _set_slopes(cells, low, high, order)
     if not _predict(gas, duct, cells, low, high, dt):
         return False
-    _set_fluxes(gas, cells, low, high)
+    _set_fluxes(gas, duct, cells, low, high)
     return _correct(gas, duct, cells, low, high, dt)
 
 
@@ -149,7 +154,7 @@ def _edge(w: FloatArray, s: FloatArray, i: int, side: float) -> tuple[float, flo
 
 
 @kernel
-def _set_fluxes(gas: Gas, cells: Cells, low: int, high: int) -> None:
+def _set_fluxes(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> None:
     """Fluxes through all faces, times their areas."""
     half, slope, flux, area = cells.half, cells.slope, cells.flux, cells.face_area
     for i in range(low + 1, high):
@@ -158,7 +163,10 @@ def _set_fluxes(gas: Gas, cells: Cells, low: int, high: int) -> None:
         mass, momentum, energy = hllc(gas.exponent, rho_l, u_l, p_l, rho_r, u_r, p_r)
         flux[i, 0], flux[i, 1], flux[i, 2] = area[i] * mass, area[i] * momentum, area[i] * energy
     _set_end(gas, cells, low, low, 0)
-    _set_end(gas, cells, high - 1, high, 1)
+    if high < duct.cells:
+        _set_front(gas, duct, cells, high)
+    else:
+        _set_end(gas, cells, high - 1, high, 1)
 
 
 @kernel
@@ -171,6 +179,17 @@ def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
     cells.flux[face, 1] = area * (rho_f * v * v + p_f)
     cells.flux[face, 2] = outward * area * v * (g / (g - 1.0) * p_f + 0.5 * rho_f * v * v)
     cells.ends[end, 0], cells.ends[end, 1], cells.ends[end, 2] = mach, v / np.sqrt(g * p_f / rho_f), v
+
+
+@kernel
+def _set_front(gas: Gas, duct: Duct, cells: Cells, high: int) -> None:
+    """Flux through the border to slices whose stroke is to begin, at the state with which they will begin."""
+    rho, u, p = _edge(cells.half, cells.slope, high - 1, 0.5)
+    rho_f, v, p_f = front_face(gas, duct.speed / duct.lag, rho, u, p)
+    area, g = cells.face_area[high], gas.exponent
+    cells.flux[high, 0] = area * rho_f * v
+    cells.flux[high, 1] = area * (rho_f * v * v + p_f)
+    cells.flux[high, 2] = area * v * (g / (g - 1.0) * p_f + 0.5 * rho_f * v * v)
 
 
 @kernel

@@ -10,13 +10,16 @@ from solvers.pumping.nozzle import Gas
 from solvers.pumping.stroke import StrokeTable
 
 
-def incompressible(gas: Gas, table: StrokeTable, face_width: float, speed: float, discharge: float) -> SpaceFlow:
+def incompressible(
+    gas: Gas, table: StrokeTable, face_width: float, pinion_speed: float, speed_ratio: float, discharge: float
+) -> SpaceFlow:
     """Every opening passes the same velocity U = -(dV/dt) / [C_d (2 S + L b)], and p - p_e = rho U |U| / 2.
 
-    The middle of each table interval counts. Temperatures are None: what heats the gas is the work, in no place.
+    `speed_ratio` of the owner to the pinion. The middle of each table interval counts.
+    Temperatures are None: what heats the gas is the work, in no place.
     Raises InvalidInput: incompressible_vacuum (suction would exceed the ambient pressure).
     """
-    time = (table.angle - table.angle[0]) / speed
+    time = (table.angle - table.angle[0]) / (pinion_speed * speed_ratio)
     step = np.diff(time)
     area = 0.5 * (table.area[1:] + table.area[:-1])
     clearance = table.clearance_left + table.clearance_right
@@ -26,8 +29,10 @@ def incompressible(gas: Gas, table: StrokeTable, face_width: float, speed: float
     gauge = 0.5 * gas.density * velocity * np.abs(velocity)
     pressure = gas.pressure + gauge
     if pressure.min() <= 0.0:
-        slower = rpm(speed) * float(np.sqrt(-gas.pressure / gauge.min()))
-        message = f"suction exceeds the ambient pressure: stay below {slower:.6g} rpm of the gear, or use gas dynamics"
+        slower = rpm(pinion_speed) * float(np.sqrt(-gas.pressure / gauge.min()))
+        message = (
+            f"suction exceeds the ambient pressure: stay below {slower:.6g} rpm of the pinion, or use gas dynamics"
+        )
         raise InvalidInput("incompressible_vacuum", message, "pinion_speed")
     out = gas.density * velocity * discharge * step
     front, radial = out * area, out * gap

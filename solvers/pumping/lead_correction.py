@@ -1,7 +1,15 @@
-"""Thermal growth of the pinion's flanks along the face, and the lead correction that undoes it (own derivation)."""
+"""Thermal growth of the pinion's flanks along the face, and the lead correction that undoes it (own derivation).
+
+A hot body is a similar body: every point moves by eps times its distance from the axis and from the end z = 0, and no
+angle changes. Along the transverse line of action that is
+
+ d(z) = eps(z) s_C + tan(beta_b) integral_0^z eps dz',    eps = alpha_L dT,    s_C = r_w sin(alpha_wt).
+
+The first term is the larger radius. The second is the longer body, which turns its own helix.
+"""
 
 from dataclasses import dataclass
-from math import cos, sin
+from math import sin, tan
 
 import numpy as np
 
@@ -13,10 +21,11 @@ EXPANSION = 12e-6  # of steel, 1/K
 
 @dataclass(frozen=True, slots=True)
 class LeadCurves:
-    """Growth normal to the flank and its correction at positions along the face [m], each (slices,)."""
+    """Along the face, each (slices,) [m]: positions, growth d, its radial part alone, the correction."""
 
     position: FloatArray
     growth: FloatArray
+    radial_only: FloatArray
     correction: FloatArray
 
 
@@ -33,19 +42,14 @@ class LeadCorrection:
     curves: LeadCurves
 
 
-def growth_per_kelvin(pair: GearPair) -> float:
-    """Growth of a pinion flank in its normal at the pitch point [m/K]: that of the blank and of half the tooth."""
-    radius, angle = pair.pinion_working_radius, pair.working_pressure_angle
-    half_thickness = radius * pair.pinion.half_tooth_angle(radius)
-    return EXPANSION * (radius * sin(angle) + half_thickness * cos(angle))
-
-
 def lead_correction(pair: GearPair, position: FloatArray, temperature_rise: FloatArray) -> LeadCorrection:
     """Correction for metal that warms as much as the gas; position [m] and rise [K] are (slices,).
 
     It scales with the wall's response, which only measurements give.
     """
-    growth = growth_per_kelvin(pair) * temperature_rise
+    strain = EXPANSION * temperature_rise
+    radial = strain * pair.pinion_working_radius * sin(pair.working_pressure_angle)
+    growth = radial + tan(pair.base_helix_angle) * _elongation(position, strain)
     correction = -(growth - growth.min())
     place = position / pair.inputs.face_width - 0.5
     degree = min(position.size - 1, 2)
@@ -54,5 +58,15 @@ def lead_correction(pair: GearPair, position: FloatArray, temperature_rise: Floa
         range=float(np.ptp(growth)),
         slope=float(slope),
         crown=float(-curvature / 4),
-        curves=LeadCurves(frozen(position), frozen(growth), frozen(correction)),
+        curves=LeadCurves(frozen(position), frozen(growth), frozen(radial), frozen(correction)),
     )
+
+
+def _elongation(position: FloatArray, strain: FloatArray) -> FloatArray:
+    """Integral of the strain from the end of the face to each position [m]: linear between positions and over grooves.
+
+    Between the end and the first position the strain is that of the first.
+    """
+    parts = 0.5 * (strain[1:] + strain[:-1]) * np.diff(position)
+    elongation: FloatArray = strain[0] * position[0] + np.concatenate([[0.0], np.cumsum(parts)])
+    return elongation

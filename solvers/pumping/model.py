@@ -7,10 +7,10 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.notices import Notice
 from solvers.pumping.checks import check_speed
-from solvers.pumping.flow import ExitMasses, SpaceFlow
+from solvers.pumping.flow import SpaceFlow
 from solvers.pumping.inputs import PumpingInputs
 from solvers.pumping.lead_correction import LeadCorrection, lead_correction
-from solvers.pumping.notices import flow_notices, speed_notices
+from solvers.pumping.notices import flow_notices, net_flow_notices, speed_notices
 from solvers.pumping.nozzle import Gas
 from solvers.pumping.pulsation import Pulsation, pulsation
 from solvers.pumping.results import (
@@ -18,15 +18,16 @@ from solvers.pumping.results import (
     Derived,
     FaceProfile,
     GasField,
+    MassFlow,
     MeshGeometry,
     PumpingResult,
     SpacesResult,
     Stroke,
     Totals,
 )
-from solvers.pumping.spaces import Mesh, Space, face_stretches, flow_at, prepare
+from solvers.pumping.spaces import Mesh, Space, face_stretches, flow_at, halved_flow_at, prepare
 from solvers.pumping.stroke import StrokeTable
-from solvers.pumping.tooth_space import normal_backlash, transverse_contact_ratio
+from solvers.pumping.tooth_space import normal_backlash
 
 
 def solve(inputs: PumpingInputs) -> PumpingResult:
@@ -41,7 +42,11 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
     frequency = mesh.pair.pinion.teeth * speed / (2 * pi)
 
     flows = [flow_at(mesh, space, speed, slices) for space in mesh.spaces]
-    results = [_spaces_result(mesh.gas, space, flow, frequency) for space, flow in zip(mesh.spaces, flows, strict=True)]
+    halved = [halved_flow_at(mesh, space, speed, slices) for space in mesh.spaces]
+    results = [
+        _spaces_result(mesh.gas, space, flow, coarse, frequency)
+        for space, flow, coarse in zip(mesh.spaces, flows, halved, strict=True)
+    ]
     of_gear = {space.of_pinion: result for space, result in zip(mesh.spaces, results, strict=True)}
     correction = _pinion_correction(mesh, of_gear.get(True))
     total = _totals(mesh, speed, frequency, sum(result.pumping_power for result in results))
@@ -58,6 +63,7 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
             *mesh.notices,
             *speed_notices(mesh.pair, mesh.gas, speed),
             *_flow_notices(inputs, results),
+            *net_flow_notices([result.mass_flow for result in results]),
             *_missing(results[0], total, correction),
         ),
     )
@@ -76,13 +82,13 @@ def _geometry(mesh: Mesh) -> MeshGeometry:
         centre_distance=pair.centre_distance,
         backlash_free_centre_distance=pair.backlash_free_centre_distance,
         working_pressure_angle=pair.working_pressure_angle,
-        transverse_contact_ratio=transverse_contact_ratio(pair),
+        transverse_contact_ratio=mesh.path.transverse_contact_ratio,
         normal_backlash=normal_backlash(pair, mesh.setup.normal_backlash),
         undercut=pair.pinion.undercut or pair.wheel.undercut,
     )
 
 
-def _spaces_result(gas: Gas, space: Space, flow: SpaceFlow, frequency: float) -> SpacesResult:
+def _spaces_result(gas: Gas, space: Space, flow: SpaceFlow, halved: SpaceFlow, frequency: float) -> SpacesResult:
     """Ratios to the ambient state, and rates of one stroke per mesh period."""
     profile = FaceProfile(
         position=flow.position,
@@ -90,7 +96,7 @@ def _spaces_result(gas: Gas, space: Space, flow: SpaceFlow, frequency: float) ->
         static_temperature_rise=_rise(gas, flow.mean_temperature),
         peak_pressure_ratio=frozen(flow.peak_pressure / gas.pressure),
     )
-    rise = profile.temperature_rise
+    hottest = _hottest(flow.position, profile.temperature_rise)
     return SpacesResult(
         stroke=_stroke(space.table),
         peak_pressure_ratio=flow.largest_pressure / gas.pressure,
@@ -99,11 +105,11 @@ def _spaces_result(gas: Gas, space: Space, flow: SpaceFlow, frequency: float) ->
         peak_axial_velocity=flow.largest_velocity,
         radial_choked=flow.largest_pressure * gas.critical_ratio > gas.pressure,
         axial_choked=flow.exit_demand > 1.0,
-        max_temperature_rise=None if rise is None else float(rise.max()),
-        hottest_position=None if rise is None else float(flow.position[int(np.argmax(rise))]),
+        max_temperature_rise=hottest[1],
+        hottest_position=hottest[0],
         pumping_power=frequency * flow.work,
         work_per_space=flow.work,
-        mass_flow=_rates(flow.masses, frequency),
+        mass_flow=_mass_flow(flow, halved, frequency),
         balance=Balance(flow.mass_error, flow.energy_error),
         profile=profile,
         field=GasField(
@@ -121,14 +127,36 @@ def _rise(gas: Gas, temperature: FloatArray | None) -> FloatArray | None:
     return None if temperature is None else frozen(temperature - gas.temperature)
 
 
-def _rates(masses: ExitMasses, frequency: float) -> ExitMasses:
-    """Mass flows [kg/s] of strokes that follow one another at the meshing frequency."""
-    return ExitMasses(
+def _hottest(position: FloatArray, rise: FloatArray | None) -> tuple[float | None, float | None]:
+    """Position [m] and value [K] of the largest rise, the vertex of a parabola through the three highest slices."""
+    if rise is None:
+        return None, None
+    top = int(np.argmax(rise))
+    if not 0 < top < rise.size - 1:
+        return float(position[top]), float(rise[top])
+    before, here, after = (float(value) for value in rise[top - 1 : top + 2])
+    ahead, bend = 0.5 * (after - before), before - 2.0 * here + after
+    back, apart = (float(step) for step in np.diff(position[top - 1 : top + 2]))
+    if bend == 0.0 or abs(apart - back) > 1e-6 * apart:  # next to a groove slices are not evenly spaced
+        return float(position[top]), here
+    return float(position[top]) - apart * ahead / bend, here - 0.5 * ahead**2 / bend
+
+
+def _mass_flow(flow: SpaceFlow, halved: SpaceFlow, frequency: float) -> MassFlow:
+    """Of strokes that follow one another at the meshing frequency, its uncertainty from half the resolution."""
+    masses, ends = flow.masses, flow.ends
+    change = max(abs(masses.front - halved.masses.front), abs(masses.rear - halved.masses.rear))
+    return MassFlow(
         front=frequency * masses.front,
         rear=frequency * masses.rear,
         radial=frequency * masses.radial,
         grooves=frequency * masses.grooves,
         reset=frequency * masses.reset,
+        front_out=frequency * float(np.maximum(ends.front, 0.0).sum()),
+        front_in=frequency * float(np.maximum(-ends.front, 0.0).sum()),
+        rear_out=frequency * float(np.maximum(ends.rear, 0.0).sum()),
+        rear_in=frequency * float(np.maximum(-ends.rear, 0.0).sum()),
+        net_uncertainty=frequency * change,
     )
 
 

@@ -1,23 +1,34 @@
 """What a result has to say about its own validity: too coarse, unresolved, or beyond what was ever checked."""
 
-from math import pi
+from math import inf, pi
 
+from solvers.gears.notices import pair_notices
 from solvers.gears.pair import GearPair
+from solvers.gears.path_of_contact import PathOfContact
 from solvers.notices import Notice
 from solvers.pumping.inputs import Flow, PumpingSetup
 from solvers.pumping.nozzle import Gas
+from solvers.pumping.results import MassFlow
 
 FEW_TEETH = 12
 TIP_SPEED_SHARE = 0.8  # of the ambient speed of sound
 PITCH_LINE_SPEED = 250.0  # m/s
 FEW_SLICES = 20  # in the stroke at one time
 INCOMPRESSIBLE_MACH = 0.3
+NET_UNCERTAINTY = 0.1  # of the net flow
 LEAST_GAUGE_PRESSURE = 1e-6  # of the ambient pressure
 
 
-def setup_notices(setup: PumpingSetup, active_slices: float) -> list[Notice]:
-    """Few teeth, a helix without slices, gas dynamics with few `active_slices` in the stroke at one time."""
-    notices = []
+def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float) -> list[Notice]:
+    """What is said of the pair, few teeth, no seal between two pairs of teeth, too few slices.
+
+    `active_slices` are in the stroke at one time.
+    """
+    notices = pair_notices(path)
+    ratio = path.transverse_contact_ratio
+    if ratio < 1.0:
+        message = f"the transverse contact ratio is {ratio:.3f}: below 1 nothing seals the space between two pairs"
+        notices.append(Notice("contact_ratio_below_one", message, "addendum"))
     for gear, name in ((setup.gears.pinion, "pinion"), (setup.gears.wheel, "wheel")):
         if gear.teeth < FEW_TEETH:
             message = f"the {name} has {gear.teeth} teeth: below {FEW_TEETH} the model was never checked"
@@ -46,6 +57,24 @@ def flow_notices(flow: Flow, largest_mach: float, largest_gauge_pressure: float)
         )
         return [Notice("pressure_not_resolved", message, "pinion_speed")]
     return []
+
+
+def net_flow_notices(flows: list[MassFlow]) -> list[Notice]:
+    """Net flows out of the ends that are small differences of what leaves and what enters."""
+    shares = [
+        (flow.net_uncertainty / abs(net) if net else inf, net, flow)
+        for flow in flows
+        for net in (flow.front, flow.rear)
+        if flow.net_uncertainty > 0.0
+    ]
+    share, net, flow = max(shares, key=lambda entry: entry[0], default=(0.0, 0.0, None))
+    if flow is None or share <= NET_UNCERTAINTY:
+        return []
+    message = (
+        f"a net flow of {1e3 * net:.3g} g/s out of an end, a small difference of what leaves and what enters, is known "
+        f"to {1e3 * flow.net_uncertainty:.2g} g/s; more slices tell it better"
+    )
+    return [Notice("net_flow_uncertain", message, "slices")]
 
 
 def speed_notices(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]:

@@ -16,12 +16,14 @@ STEPS = 2000  # at least
 _REFINEMENTS = (1, 2, 4, 8)  # of the steps, until Newton's method converges in all of them
 
 
-def pocket_chain(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray, closure: Closure) -> SpaceFlow:
-    """March every stretch of a tooth space through its stroke.
+def pocket_chain(
+    gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray, closure: Closure, steps: int = STEPS
+) -> SpaceFlow:
+    """March every stretch of a tooth space through its stroke in at least so many steps.
 
     Raises NoSolution: newton_not_converged.
     """
-    substeps = ceil(STEPS / (angle.size - 1))
+    substeps = ceil(steps / (angle.size - 1))
     marches = [_march(gas, stretch, duct, angle, closure, substeps) for stretch, duct in ducts]
     return space_flow(angle, marches, conserves_energy=closure is Closure.ENERGY)
 

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 from solvers.arrays import FloatArray
 from solvers.notices import Notice
-from solvers.pumping.flow import ExitMasses
 from solvers.pumping.lead_correction import LeadCorrection
 from solvers.pumping.pulsation import Pulsation
 from solvers.pumping.stroke import StrokeTable
@@ -33,6 +32,26 @@ class Stroke:
     max_area: float
     min_area: float
     curves: StrokeTable
+
+
+@dataclass(frozen=True, slots=True)
+class MassFlow:
+    """Mass flow out of the spaces of one gear [kg/s].
+
+    Net by exit: the first five sum to nought, see `ExitMasses`. What leaves and what enters at each end. And how far
+    the net flow of an end, a small difference of these two, may be off: its change at half the resolution.
+    """
+
+    front: float
+    rear: float
+    radial: float
+    grooves: float
+    reset: float
+    front_out: float
+    front_in: float
+    rear_out: float
+    rear_in: float
+    net_uncertainty: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +101,7 @@ class SpacesResult:
     hottest_position: float | None
     pumping_power: float
     work_per_space: float
-    mass_flow: ExitMasses
+    mass_flow: MassFlow
     balance: Balance
     profile: FaceProfile
     field: GasField

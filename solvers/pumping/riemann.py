@@ -73,6 +73,33 @@ def reservoir_face(gas: Gas, rho: float, v: float, p: float) -> tuple[float, flo
 
 
 @kernel
+def front_face(gas: Gas, speed: float, rho: float, v: float, p: float) -> tuple[float, float, float]:
+    """State of the border to gas at rest that the stroke runs over at `speed` [m/s], from the cell behind it.
+
+    Seen from the border the gas ahead comes in at that speed: the border is a reservoir face in its own frame, the
+    reservoir at the stagnation state of this head wind. Above the speed of sound nothing runs ahead of the border and
+    it meets the ambient state. Ambient pressure or gas at rest, one alone or in turn, are no such border: the first
+    draws a jet along, and both together reflect rho c u, a pressure in proportion to the speed instead of its square.
+    """
+    if speed >= gas.sound_speed:
+        return gas.density, 0.0, gas.pressure
+    g = gas.exponent
+    warming = 1.0 + 0.5 * (g - 1.0) * (speed / gas.sound_speed) ** 2
+    wind = Gas(
+        g,
+        gas.constant,
+        gas.heat_capacity,
+        gas.pressure * warming ** (g / (g - 1.0)),
+        gas.temperature * warming,
+        gas.density * warming ** (1.0 / (g - 1.0)),
+        gas.sound_speed * np.sqrt(warming),
+        gas.critical_ratio,
+    )
+    rho_f, v_f, p_f, _ = reservoir_face(wind, rho, v - speed, p)
+    return rho_f, v_f + speed, p_f
+
+
+@kernel
 def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> tuple[float, float, float]:
     """Inflow from rest that meets the gas of the cell at one pressure and velocity, at most sonic.
 
@@ -85,6 +112,6 @@ def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> tuple[float,
     root = np.sqrt(jet * (slope**2 + jet - invariant**2))
     ratio = max((slope * invariant + root) / (slope**2 + jet), np.sqrt(2.0 / (g + 1.0)))
     c = stagnation * ratio
-    v = -np.sqrt(jet * (1.0 - ratio**2))
+    v = -np.sqrt(max(jet * (1.0 - ratio**2), 0.0))  # at rest the root may round beyond one
     rho = gas.density * ratio ** (2.0 / (g - 1.0))
     return rho, v, rho * c * c / g

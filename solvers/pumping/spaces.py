@@ -3,19 +3,24 @@
 from dataclasses import dataclass
 from math import tan
 
-from solvers.gears.pair import GearPair, gear_pair
+from solvers.arrays import FloatArray
+from solvers.gears.pair import GearPair
+from solvers.gears.path_of_contact import PathOfContact, meshing_path
 from solvers.notices import Notice
-from solvers.pumping.checks import check_setup
+from solvers.pumping.checks import check_setup, check_tips_meet_involutes, refuse_cost
+from solvers.pumping.duct import Duct
 from solvers.pumping.face import Stretch, stretches
 from solvers.pumping.flow import SpaceFlow
-from solvers.pumping.gas_dynamics import CELL_STEP_LIMIT, LEAST_SLICES, duct, gas_dynamics, sample_angles
+from solvers.pumping.gas_dynamics import LEAST_SLICES, cell_steps, duct, gas_dynamics, sample_angles
 from solvers.pumping.incompressible import incompressible
 from solvers.pumping.inputs import Flow, PumpingSetup, Spaces
 from solvers.pumping.notices import setup_notices
 from solvers.pumping.nozzle import Gas, gas
-from solvers.pumping.pocket_chain import pocket_chain
+from solvers.pumping.pocket_chain import STEPS, pocket_chain
 from solvers.pumping.stroke import StrokeTable, stroke_table
-from solvers.pumping.tooth_space import check_flanks, tooth_space
+from solvers.pumping.tooth_space import tooth_space
+
+CELL_STEP_LIMIT = 5_000_000  # some ten seconds
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,29 +38,34 @@ class Mesh:
     """All that does not depend on the speed."""
 
     setup: PumpingSetup
-    pair: GearPair
+    path: PathOfContact
     gas: Gas
     spaces: tuple[Space, ...]
     notices: tuple[Notice, ...]
+
+    @property
+    def pair(self) -> GearPair:
+        """The gear pair."""
+        return self.path.pair
 
 
 def prepare(setup: PumpingSetup) -> Mesh:
     """Geometry, stroke tables and the notices they call for.
 
-    Raises InvalidInput with the codes of `gear_pair`, `check_setup`, `check_flanks`, `tooth_space`, `stroke_table` and
-    `stretches`.
+    Raises InvalidInput with the codes of `check_setup`, `meshing_path`, `check_tips_meet_involutes`, `tooth_space`,
+    `stroke_table` and `stretches`.
     """
     check_setup(setup)
-    pair = gear_pair(setup.gears)
-    flank_notices = check_flanks(pair)
+    path = meshing_path(setup.gears)
+    check_tips_meet_involutes(path)
     wanted = setup.model.spaces
     spaces = []
     if wanted is not Spaces.WHEEL:
-        spaces.append(_space(setup, pair, of_pinion=True))
+        spaces.append(_space(setup, path.pair, of_pinion=True))
     if wanted is not Spaces.PINION:
-        spaces.append(_space(setup, pair, of_pinion=False))
+        spaces.append(_space(setup, path.pair, of_pinion=False))
     active = min(_active_share(space, setup.gears.face_width) for space in spaces) * setup.model.slice_count
-    return Mesh(setup, pair, gas(setup.ambient), tuple(spaces), (*flank_notices, *setup_notices(setup, active)))
+    return Mesh(setup, path, gas(setup.ambient), tuple(spaces), tuple(setup_notices(setup, path, active)))
 
 
 def _active_share(space: Space, face_width: float) -> float:
@@ -86,18 +96,64 @@ def flow_at(
 ) -> SpaceFlow:
     """One stroke of the spaces of one gear at a pinion speed [rad/s].
 
-    Raises InvalidInput: too_many_steps; NoSolution: unphysical_state, newton_not_converged.
+    Raises InvalidInput: too_many_steps, narrow_land; NoSolution: unphysical_state, newton_not_converged.
     """
-    setup, model = mesh.setup, mesh.setup.model
-    speed, width = pinion_speed * space.speed_ratio, setup.gears.face_width
-    if model.flow is Flow.INCOMPRESSIBLE:
-        return incompressible(mesh.gas, space.table, width, speed, model.discharge_coefficient)
-    transport = model.flow is Flow.GAS_DYNAMICS and model.wall_transport
-    ducts = [
-        (part, duct(space.table, part, space.lag, speed, model.discharge_coefficient, transport=transport))
-        for part in face_stretches(setup, slices)
-    ]
-    angle = sample_angles(space.table, space.lag, width)
-    if model.flow is Flow.POCKET_CHAIN:
-        return pocket_chain(mesh.gas, ducts, angle, model.closure)
-    return gas_dynamics(mesh.gas, ducts, angle, cell_step_limit=cell_step_limit)
+    if mesh.setup.model.flow is Flow.INCOMPRESSIBLE:
+        return _single_pocket(mesh, space, pinion_speed, space.table)
+    parts = face_stretches(mesh.setup, slices)
+    if mesh.setup.model.flow is Flow.POCKET_CHAIN:
+        return _chain(mesh, space, pinion_speed, parts, STEPS)
+    _check_cost(mesh, pinion_speed, parts, cell_step_limit)
+    return _gas(mesh, space, pinion_speed, parts)
+
+
+def halved_flow_at(mesh: Mesh, space: Space, pinion_speed: float, slices: int) -> SpaceFlow:
+    """The same at half the resolution: slices of gas dynamics, steps of the chain, positions of the single pocket.
+
+    The slices of the chain are no resolution: they are a constant of that model. Raises as `flow_at` does but
+    for the cost.
+    """
+    if mesh.setup.model.flow is Flow.INCOMPRESSIBLE:
+        return _single_pocket(mesh, space, pinion_speed, space.table.halved())
+    parts = face_stretches(mesh.setup, slices)
+    if mesh.setup.model.flow is Flow.POCKET_CHAIN:
+        return _chain(mesh, space, pinion_speed, parts, STEPS // 2)
+    return _gas(mesh, space, pinion_speed, [part.halved() for part in parts])
+
+
+def _single_pocket(mesh: Mesh, space: Space, pinion_speed: float, table: StrokeTable) -> SpaceFlow:
+    width, discharge = mesh.setup.gears.face_width, mesh.setup.model.discharge_coefficient
+    return incompressible(mesh.gas, table, width, pinion_speed, space.speed_ratio, discharge)
+
+
+def _chain(mesh: Mesh, space: Space, pinion_speed: float, parts: list[Stretch], steps: int) -> SpaceFlow:
+    ducts = [(part, _duct(mesh, space, pinion_speed, part, transport=False)) for part in parts]
+    return pocket_chain(mesh.gas, ducts, _angles(mesh, space), mesh.setup.model.closure, steps)
+
+
+def _gas(mesh: Mesh, space: Space, pinion_speed: float, parts: list[Stretch]) -> SpaceFlow:
+    return gas_dynamics(mesh.gas, _gas_ducts(mesh, space, pinion_speed, parts), _angles(mesh, space))
+
+
+def _gas_ducts(mesh: Mesh, space: Space, pinion_speed: float, parts: list[Stretch]) -> list[tuple[Stretch, Duct]]:
+    transport = mesh.setup.model.wall_transport
+    return [(part, _duct(mesh, space, pinion_speed, part, transport=transport)) for part in parts]
+
+
+def _check_cost(mesh: Mesh, pinion_speed: float, parts: list[Stretch], limit: int) -> None:
+    """Refuse a speed at which any of the spaces would take too long."""
+    dearest = max(
+        cell_steps(mesh.gas, _gas_ducts(mesh, space, pinion_speed, parts), _angles(mesh, space))
+        for space in mesh.spaces
+    )
+    if dearest > limit:
+        refuse_cost(pinion_speed, parts, dearest / limit)
+
+
+def _duct(mesh: Mesh, space: Space, pinion_speed: float, part: Stretch, *, transport: bool) -> Duct:
+    discharge = mesh.setup.model.discharge_coefficient
+    return duct(space.table, part, space.lag, pinion_speed * space.speed_ratio, discharge, transport=transport)
+
+
+def _angles(mesh: Mesh, space: Space) -> FloatArray:
+    return sample_angles(space.table, space.lag, mesh.setup.gears.face_width)

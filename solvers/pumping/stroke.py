@@ -34,6 +34,11 @@ class StrokeTable:
         transport = self.wall_transport if wall_transport else np.zeros_like(self.wall_transport)
         return np.column_stack([self.area, self.clearance_left + self.clearance_right, transport])
 
+    def halved(self) -> "StrokeTable":
+        """Every other position of the same stroke."""
+        columns = (self.angle, self.area, self.clearance_left, self.clearance_right, self.wall_transport)
+        return StrokeTable(self.limits, *(frozen(column[::2].copy()) for column in columns))
+
 
 def stroke_table(space: ToothSpace, *, minimum_gap: float = 0.0, positions: int = POSITIONS) -> StrokeTable:
     """Tabulate the space over its stroke.

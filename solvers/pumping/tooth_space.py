@@ -6,14 +6,12 @@ The left side leads away from the motion: it is the driving flank where the owne
 """
 
 from dataclasses import dataclass
-from math import acos, cos, hypot, pi, sin
+from math import acos, cos, pi, sin
 from typing import NamedTuple
 
 from solvers.errors import InvalidInput
 from solvers.gears.fillet import RootProfile, root_profile
-from solvers.gears.gear import Gear
 from solvers.gears.pair import GearPair
-from solvers.notices import Notice
 from solvers.pumping.inputs import Gap
 
 
@@ -76,12 +74,6 @@ def _thinning(pair: GearPair, normal_backlash: float) -> float:
     return normal_backlash / (cos(pair.base_helix_angle) * cos(pair.working_pressure_angle))
 
 
-def transverse_contact_ratio(pair: GearPair) -> float:
-    """Path of contact over base pitch."""
-    path = pair.pinion.tip_roll_length + pair.wheel.tip_roll_length - pair.line_of_action
-    return path / pair.transverse_base_pitch
-
-
 def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: bool) -> ToothSpace:
     """The pinion's or the wheel's space with the other gear's tooth, thinned by the extra backlash, in it.
 
@@ -135,37 +127,3 @@ def stroke_limits(space: ToothSpace) -> StrokeLimits:
         contact_end=phi_e if space.owner_drives else -phi_a,
         end=(reach - space.offset) / space.ratio,
     )
-
-
-def check_flanks(pair: GearPair) -> list[Notice]:
-    """Notices of undercut teeth and of a contact ratio below one.
-
-    Raises InvalidInput: involute_interference, form_diameter.
-    """
-    notices = _check_flank(pair, pair.pinion, pair.wheel, "pinion") + _check_flank(
-        pair, pair.wheel, pair.pinion, "wheel"
-    )
-    ratio = transverse_contact_ratio(pair)
-    if ratio < 1.0:
-        message = f"the transverse contact ratio is {ratio:.3f}: below 1 nothing seals the space between two pairs"
-        notices.append(Notice("contact_ratio_below_one", message, "addendum"))
-    return notices
-
-
-def _check_flank(pair: GearPair, gear: Gear, mate: Gear, name: str) -> list[Notice]:
-    active_roll = pair.line_of_action - mate.tip_roll_length
-    mate_name = "wheel" if name == "pinion" else "pinion"
-    if active_roll < 0.0:
-        message = f"the {mate_name}'s tip reaches past the {name}'s base tangent point; reduce its addendum"
-        raise InvalidInput("involute_interference", message, f"{mate_name}.addendum")
-    teeth = pair.inputs.pinion if name == "pinion" else pair.inputs.wheel
-    start = root_profile(pair.inputs, teeth, gear).involute_roll
-    active_radius, form_radius = hypot(gear.base_radius, active_roll), hypot(gear.base_radius, start)
-    where = f"the {name}'s active flank starts at {2e3 * active_radius:.3f} mm diameter"
-    if gear.undercut:
-        below = f"; {where}, below the undercut's {2e3 * form_radius:.3f} mm" if active_roll < start else ""
-        return [Notice("undercut", f"the {name} is undercut{below}", f"{name}.profile_shift")]
-    if active_roll < start * (1 - 1e-9):
-        message = f"{where}, below the end of the fillet at {2e3 * form_radius:.3f} mm; reduce the mate's addendum"
-        raise InvalidInput("form_diameter", message, f"{mate_name}.addendum")
-    return []

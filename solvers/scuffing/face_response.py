@@ -10,10 +10,10 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.scuffing.contact_lines import line_count
-from solvers.scuffing.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, ROWS, Mesh, Y, gather
-from solvers.scuffing.load_balance import LoadBalance
-from solvers.scuffing.tooth_stiffness import line_load
+from solvers.errors import NoSolution
+from solvers.scuffing.contact_lines import RollPositions, line_count
+from solvers.scuffing.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, LOAD, OMEGA, ROWS, Mesh, Y, gather
+from solvers.scuffing.load_balance import TOLERANCE, newton, solve_position
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,70 +21,112 @@ class FaceResponse:
     """Transverse `force` [N] at the stations, mean over a base pitch, and its derivative [N/m] by the gap there.
 
     At every roll position the force over the whole face stays what it is, so rows and columns of the derivative add up
-    to 0.
+    to 0. `error` and `omega`, approach of the flanks and state of the slices by roll position, start the next response
+    of the same mesh under a gap that is little different.
     """
 
     force: FloatArray
     derivative: FloatArray
+    error: FloatArray
+    omega: FloatArray
 
 
-def face_response(balance: LoadBalance, slices: int, stations: int) -> FaceResponse:
-    """Force at `stations` equidistant points from y = 0 to b, both included, and its derivative by the gap there."""
-    phase = balance.rolls.phase
-    share = np.zeros(phase.size)
-    share[:-1] += np.diff(phase) / 2
-    share[1:] += np.diff(phase) / 2
-    force, derivative = _response(
-        balance.mesh,
-        phase,
-        balance.rolls.side,
-        share / phase[-1] * balance.mesh.plane.cos_base_helix,
-        balance.transmission_error,
-        balance.force > 0.0,
-        slices,
-        stations,
-    )
-    return FaceResponse(force, derivative)
+def face_response(
+    mesh: Mesh, rolls: RollPositions, force: float, slices: int, stations: int, start: FaceResponse | None = None
+) -> FaceResponse:
+    """Force at `stations` equidistant points from y = 0 to b, both included, and its derivative by the gap there.
+
+    Raises NoSolution load_balance as `balance_load` does.
+    """
+    share = np.zeros(rolls.phase.size)
+    share[:-1] += np.diff(rolls.phase) / 2
+    share[1:] += np.diff(rolls.phase) / 2
+    share *= mesh.plane.cos_base_helix / rolls.phase[-1]
+    if start is None:
+        error = np.full(share.size, np.nan)
+        omega = np.zeros((share.size, line_count(mesh.plane) * slices))
+    else:
+        error, omega = start.error.copy(), start.omega.copy()
+    spread, derivative = np.zeros(stations), np.zeros((stations, stations))
+    if force > 0.0:
+        worst = _respond(mesh, rolls.phase, rolls.side, share, force, slices, error, omega, spread, derivative)
+        if not worst <= TOLERANCE:
+            raise NoSolution("load_balance", "the load balance did not converge", {"relative_force": worst})
+    return FaceResponse(spread, derivative, error, omega)
 
 
 @kernel
-def _response(
+def _respond(
     mesh: Mesh,
     phase: FloatArray,
     side: FloatArray,
     share: FloatArray,
-    error: FloatArray,
-    loaded: bool,
+    force: float,
     slices: int,
-    stations: int,
-) -> tuple[FloatArray, FloatArray]:
-    """Sums of w dl hat and, with P_ab = sum (dw/ddelta) dl hat_a hat_b and k = P 1, of k k^T / (1^T k) - P."""
-    force, derivative = np.zeros(stations), np.zeros((stations, stations))
-    table = np.zeros((ROWS, line_count(mesh.plane) * slices))
-    steps_per_metre = (stations - 1) / mesh.plane.face_width
-    for i in range(phase.size if loaded else 0):
+    error: FloatArray,
+    omega: FloatArray,
+    spread: FloatArray,
+    derivative: FloatArray,
+) -> float:
+    """Sums of w dl hat and, with P_ab = sum (dw/ddelta) dl hat_a hat_b and k = P 1, of k k^T / (1^T k) - P.
+
+    Returns the largest relative residual of the balance.
+    """
+    table, worst = np.zeros((ROWS, line_count(mesh.plane) * slices)), 0.0
+    springs = np.zeros(spread.size)
+    for i in range(phase.size):
         count, _ = gather(mesh, phase[i], side[i], slices, table)
-        whole, omega = np.zeros(stations), 0.0
-        for n in range(count):
-            load, stiffness, omega = line_load(
-                error[i] - table[GAP, n], table[CONSTANT, n], mesh.compliance.logarithmic, table[LIMIT, n], omega
-            )
-            position = table[Y, n] * steps_per_metre
-            low = min(int(position), stations - 2)
-            high = position - low
-            length = table[LENGTH, n] * share[i]
-            force[low] += load * length * (1.0 - high)
-            force[low + 1] += load * length * high
-            spring = stiffness * length
-            whole[low] += spring * (1.0 - high)
-            whole[low + 1] += spring * high
-            derivative[low, low] -= spring * (1.0 - high) ** 2
-            derivative[low + 1, low + 1] -= spring * high**2
-            derivative[low, low + 1] -= spring * high * (1.0 - high)
-            derivative[low + 1, low] -= spring * high * (1.0 - high)
-        total = whole.sum()
-        for a in range(stations):
-            if whole[a] > 0.0:
-                for b in range(stations):
-                    derivative[a, b] += whole[a] * whole[b] / total
-    return force, derivative
+        table[OMEGA, :count] = omega[i, :count]
+        residual = np.inf
+        if error[i] == error[i]:
+            error[i], residual, _ = newton(table, count, mesh.compliance.logarithmic, force, error[i])
+        if not residual <= TOLERANCE:
+            error[i], residual, _ = solve_position(table, count, mesh.compliance.logarithmic, force)
+        omega[i, :count] = table[OMEGA, :count]
+        worst = max(worst, residual)
+        springs[:] = 0.0
+        _spread(mesh, table, count, error[i], share[i], spread, derivative, springs)
+        total = springs.sum()
+        for a in range(springs.size):
+            if springs[a] > 0.0:
+                for b in range(springs.size):
+                    derivative[a, b] += springs[a] * springs[b] / total
+    return worst
+
+
+@kernel
+def _spread(
+    mesh: Mesh,
+    table: FloatArray,
+    count: int,
+    error: float,
+    share: float,
+    spread: FloatArray,
+    derivative: FloatArray,
+    springs: FloatArray,
+) -> None:
+    """Add a roll position's loads and stiffness, as its balance left them, to the stations.
+
+    dw/ddelta = 1/C of linear contact, 1/(a (omega - 1)) of half-spaces, 1/(a omega) where their compliance is held.
+    """
+    steps_per_metre = (spread.size - 1) / mesh.plane.face_width
+    logarithmic = mesh.compliance.logarithmic
+    for n in range(count):
+        if table[LOAD, n] <= 0.0:
+            continue
+        compliance = table[CONSTANT, n]
+        if logarithmic > 0.0:
+            held = error - table[GAP, n] > table[LIMIT, n]
+            compliance = logarithmic * (table[OMEGA, n] - (0.0 if held else 1.0))
+        position = table[Y, n] * steps_per_metre
+        low = min(int(position), spread.size - 2)
+        high = position - low
+        load, spring = table[LOAD, n] * table[LENGTH, n] * share, table[LENGTH, n] * share / compliance
+        spread[low] += load * (1.0 - high)
+        spread[low + 1] += load * high
+        springs[low] += spring * (1.0 - high)
+        springs[low + 1] += spring * high
+        derivative[low, low] -= spring * (1.0 - high) ** 2
+        derivative[low + 1, low + 1] -= spring * high**2
+        derivative[low, low + 1] -= spring * high * (1.0 - high)
+        derivative[low + 1, low] -= spring * high * (1.0 - high)

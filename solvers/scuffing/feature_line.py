@@ -32,10 +32,14 @@ def contact_points(
 
 
 def feature_line(
-    path: PathOfContact, balance: LoadBalance, pinion_speed: float, tangential_force: float, modulus: float, points: int
+    path: PathOfContact,
+    balance: LoadBalance,
+    pinion_speed: float,
+    tangential_force: float,
+    modulus: float,
+    psi: FloatArray,
 ) -> FeatureLine:
-    """The points at equidistant psi in 0..1, x = psi g_alpha, y = psi b; F_bt [N], E' [Pa]."""
-    psi = np.linspace(0.0, 1.0, points)
+    """The points at psi in 0..1 (n,), x = psi g_alpha, y = psi b; F_bt [N], E' [Pa]."""
     x = psi * path.length
     line = contact_points(path, balance, x, psi * path.plane.face_width, pinion_speed, modulus)
     sharing = iso_load_sharing(path, x)

@@ -112,9 +112,8 @@ def _press(table: FloatArray, count: int, logarithmic: float, error: float) -> t
 
 
 @kernel
-def _solve_position(table: FloatArray, count: int, logarithmic: float, force: float) -> tuple[float, float, float]:
-    """TE [m], relative residual and steps at one roll position."""
-    error = _secant_start(table, count, logarithmic, force)
+def newton(table: FloatArray, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
+    """TE [m] from a start, relative residual and steps at one roll position; loads and omegas stay in the table."""
     residual, steps = np.inf, 0.0
     while steps < MAX_STEPS:
         carried, slope = _press(table, count, logarithmic, error)
@@ -124,6 +123,12 @@ def _solve_position(table: FloatArray, count: int, logarithmic: float, force: fl
             break
         error -= (carried - force) / slope
     return error, residual, steps
+
+
+@kernel
+def solve_position(table: FloatArray, count: int, logarithmic: float, force: float) -> tuple[float, float, float]:
+    """TE [m], relative residual and steps at one roll position, without a start."""
+    return newton(table, count, logarithmic, force, _secant_start(table, count, logarithmic, force))
 
 
 @kernel
@@ -139,7 +144,7 @@ def _balance(
         count, unloaded[i] = gather(mesh, phase[i], side[i], slices, table)
         error[i] = unloaded[i]
         if force > 0.0:
-            error[i], residual[i], steps[i] = _solve_position(table, count, mesh.compliance.logarithmic, force)
+            error[i], residual[i], steps[i] = solve_position(table, count, mesh.compliance.logarithmic, force)
         survey_slices(mesh, table, count, error[i], survey, i)
         survey_ends(mesh, phase[i], side[i], error[i], survey, i)
     return error, unloaded, residual, steps, survey

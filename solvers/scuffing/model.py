@@ -95,7 +95,12 @@ def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance
         pressure=_pressure(path, balance, modulus),
         friction_loss=friction_loss(path, balance, inputs.load, inputs.friction_coefficient),
         feature_line=feature_line(
-            path, balance, inputs.load.pinion_speed, tangential_force, modulus, resolution.feature_points
+            path,
+            balance,
+            inputs.load.pinion_speed,
+            tangential_force,
+            modulus,
+            np.linspace(0.0, 1.0, resolution.feature_points),
         ),
         flank=loads,
         derived=_derived(path, balance.mesh.gap, inputs.load),

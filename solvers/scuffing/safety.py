@@ -8,18 +8,20 @@ from dataclasses import fields, replace
 
 import numpy as np
 
-from solvers.arrays import BoolArray, FloatArray, frozen
-from solvers.contact.film import dowson_higginson_minimum, thickness_ratio, thickness_regime
+from solvers.arrays import FloatArray, frozen
+from solvers.contact.film import dowson_higginson_minimum, thickness_ratio
 from solvers.contact.flash import blok_flash_temperature
 from solvers.contact.hertz import reduced_modulus
 from solvers.errors import InvalidInput
-from solvers.notices import Notice
 from solvers.scuffing.feature_line import feature_line
 from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs, Temperatures
 from solvers.scuffing.model import solve
-from solvers.scuffing.results import ContactPoints, FeatureLine
-from solvers.scuffing.safety_results import ContactTemperature, Film, Flash, Safety, Scuffing, ScuffingPath
-from solvers.scuffing.thermal_path import ThermalPath, thermal_path
+from solvers.scuffing.results import ContactPoints, FeatureLine, LoadDistribution
+from solvers.scuffing.safety_results import ContactTemperature, Safety, Scuffing, ScuffingPath
+from solvers.scuffing.thermal_path import CURVES, ThermalPath, thermal_path
+from solvers.scuffing.verdict import largest_flash, path_notices, thinnest_film, unknown_points, without_verdict
+
+SURVEY_POINTS = 4001  # of the formulas along the feature line, to find where they are largest and smallest
 
 
 def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
@@ -31,39 +33,62 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     given, temperatures = inputs.distribution, inputs.temperatures
     _check_temperatures(temperatures)
     distribution = solve(given)
-    modulus = reduced_modulus(given.pinion_material, given.wheel_material)
-    line = feature_line(
-        distribution.path_of_contact,
-        distribution.balance,
-        given.load.pinion_speed,
-        distribution.load.tangential_force,
-        modulus,
-        inputs.path_points,
-    )
-    loaded = line.in_contact
-    path = _closed_form_path(inputs, line, loaded, modulus)
+    line = _checked_line(inputs, distribution)
+    path = _closed_form_path(inputs, line, distribution.path_of_contact.plane.least_radius)
+    thermal: ThermalPath | None = None
     warnings = distribution.warnings
     if inputs.lubrication == "thermal_ehl":
-        thermal = thermal_path(inputs, line, loaded)
+        thermal = thermal_path(inputs, line, np.isin(path.status, "ok"))
         path = _with_thermal(inputs, path, thermal)
         warnings += thermal.warnings
-    flash = _largest_flash(path)
+    unknown = unknown_points(path, thermal)
+    flash, film = largest_flash(path), thinnest_film(path)
+    if unknown:
+        flash, film = without_verdict(path, flash, film)
     contact_temperature = ContactTemperature(
-        blok_max=temperatures.bulk + flash.blok_max,
+        blok_max=None if flash.blok_max is None else temperatures.bulk + flash.blok_max,
         thermal_ehl_max=None if flash.thermal_ehl_max is None else temperatures.bulk + flash.thermal_ehl_max,
     )
     safety = _safety(temperatures, contact_temperature)
     found = {item.name: getattr(distribution, item.name) for item in fields(distribution)}
-    found["warnings"] = warnings + _notices(path, safety)
+    found["warnings"] = warnings + path_notices(path, safety, unknown)
     return Scuffing(
         **found,
         flash=flash,
         contact_temperature=contact_temperature,
-        film=_thinnest_film(path),
+        film=film,
         safety=safety,
         path=path,
-        unsolved_points=path.status.count("no_solution"),
+        unsolved_points=path.status.count("no_solution") + path.status.count("refused"),
     )
+
+
+def _checked_line(inputs: ScuffingInputs, distribution: LoadDistribution) -> FeatureLine:
+    """The feature line at equidistant points and where the formulas are largest and smallest.
+
+    Without the latter, a maximum would depend on the number of points.
+    """
+    given = inputs.distribution
+    modulus = reduced_modulus(given.pinion_material, given.wheel_material)
+
+    def line_at(psi: FloatArray) -> FeatureLine:
+        return feature_line(
+            distribution.path_of_contact,
+            distribution.balance,
+            given.load.pinion_speed,
+            distribution.load.tangential_force,
+            modulus,
+            psi,
+        )
+
+    least_radius = distribution.path_of_contact.plane.least_radius
+    survey = _closed_form_path(inputs, line_at(np.linspace(0.0, 1.0, SURVEY_POINTS)), least_radius)
+    psi = [*np.linspace(0.0, 1.0, inputs.path_points)]
+    if "ok" in survey.status:
+        psi += [survey.psi[np.nanargmax(survey.blok_flash)], survey.psi[np.nanargmin(survey.dowson_higginson)]]
+    if "refused" in survey.status:
+        psi.append(survey.psi[survey.status.index("refused")])
+    return line_at(np.unique(psi))
 
 
 def safety_factor(scuffing: float, oil: float, contact: float) -> float | None:
@@ -84,12 +109,11 @@ def _safety(temperatures: Temperatures, contact: ContactTemperature) -> Safety |
     if temperatures.scuffing is None:
         return None
     limit, oil = temperatures.scuffing, temperatures.oil
-    return Safety(
-        blok_factor=safety_factor(limit, oil, contact.blok_max),
-        thermal_ehl_factor=(
-            None if contact.thermal_ehl_max is None else safety_factor(limit, oil, contact.thermal_ehl_max)
-        ),
+    blok, thermal = (
+        None if hottest is None else safety_factor(limit, oil, hottest)
+        for hottest in (contact.blok_max, contact.thermal_ehl_max)
     )
+    return Safety(blok_factor=blok, thermal_ehl_factor=thermal)
 
 
 def blok_flash(given: LoadDistributionInputs, points: ContactPoints) -> FloatArray:
@@ -107,24 +131,29 @@ def blok_flash(given: LoadDistributionInputs, points: ContactPoints) -> FloatArr
     return flash
 
 
-def _closed_form_path(inputs: ScuffingInputs, line: FeatureLine, loaded: BoolArray, modulus: float) -> ScuffingPath:
-    """Flash temperature (Eq. 25) and film (Eqs. 27, 28) along the feature line."""
+def _closed_form_path(inputs: ScuffingInputs, line: FeatureLine, least_radius: float) -> ScuffingPath:
+    """Flash temperature (Eq. 25) and film (Eqs. 27, 28) along the feature line.
+
+    A loaded point has neither if its reduced radius is below the least that has a meaning: it is "refused".
+    """
     given, lubricant = inputs.distribution, inputs.lubricant
     pinion, wheel = given.pinion_material, given.wheel_material
+    undefined = (line.line_load > 0.0) & (line.radius < least_radius)
+    defined = line.in_contact & ~undefined
     film = np.full(line.psi.size, np.nan)
-    speed_1, speed_2, load = line.pinion_speed[loaded], line.wheel_speed[loaded], line.line_load[loaded]
-    film[loaded] = dowson_higginson_minimum(
+    speed_1, speed_2, load = line.pinion_speed[defined], line.wheel_speed[defined], line.line_load[defined]
+    film[defined] = dowson_higginson_minimum(
         viscosity=lubricant.viscosity_at(0.0, inputs.temperatures.bulk),
         pressure_viscosity=lubricant.pressure_viscosity,
         mean_speed=(speed_1 + speed_2) / 2,
-        radius=line.radius[loaded],
+        radius=line.radius[defined],
         line_load=load,
-        modulus=modulus,
+        modulus=reduced_modulus(pinion, wheel),
     )
     return ScuffingPath(
         psi=line.psi,
-        status=tuple("ok" if point else "unloaded" for point in loaded),
-        blok_flash=frozen(blok_flash(given, line)),
+        status=tuple(np.where(defined, "ok", np.where(undefined, "refused", "unloaded")).tolist()),
+        blok_flash=frozen(np.where(undefined, np.nan, blok_flash(given, line))),
         dowson_higginson=frozen(film),
         thickness_ratio=frozen(thickness_ratio(film, pinion.roughness, wheel.roughness)),
     )
@@ -134,66 +163,8 @@ def _with_thermal(inputs: ScuffingInputs, path: ScuffingPath, thermal: ThermalPa
     """The path with everything the thermal EHL solution knows, its film judged instead of the formula's."""
     given = inputs.distribution
     ratio = thickness_ratio(thermal.minimum_film, given.pinion_material.roughness, given.wheel_material.roughness)
-    return replace(
-        path,
-        status=thermal.status,
-        thickness_ratio=frozen(ratio),
-        pinion_flash=thermal.pinion_flash,
-        wheel_flash=thermal.wheel_flash,
-        minimum_film=thermal.minimum_film,
-        central_film=thermal.central_film,
-        max_pressure=thermal.max_pressure,
-        friction_coefficient=thermal.friction_coefficient,
-        film_max_temperature=thermal.film_max_temperature,
+    status = tuple(
+        formula if formula == "refused" else solved for formula, solved in zip(path.status, thermal.status, strict=True)
     )
-
-
-def _largest_flash(path: ScuffingPath) -> Flash:
-    """Largest flash temperature by Blok, and by the thermal EHL solution on either flank."""
-    hottest = int(np.argmax(path.blok_flash))
-    flash = Flash(
-        blok_max=float(path.blok_flash[hottest]),
-        blok_at_psi=float(path.psi[hottest]) if path.blok_flash[hottest] > 0.0 else None,
-    )
-    if path.pinion_flash is None or path.wheel_flash is None or not _any_number(path.pinion_flash):
-        return flash
-    either = np.fmax(path.pinion_flash, path.wheel_flash)
-    hottest = int(np.nanargmax(either))
-    return replace(flash, thermal_ehl_max=float(either[hottest]), thermal_ehl_at_psi=float(path.psi[hottest]))
-
-
-def _thinnest_film(path: ScuffingPath) -> Film:
-    """The thinnest film, judged by the thermal EHL solution where there is one."""
-    if not _any_number(path.dowson_higginson):
-        return Film()
-    formula = float(np.nanmin(path.dowson_higginson))
-    judged = path.dowson_higginson if path.minimum_film is None else path.minimum_film
-    if not _any_number(judged):
-        return Film(dowson_higginson_min=formula)
-    thinnest = int(np.nanargmin(judged))
-    ratio = float(path.thickness_ratio[thinnest])
-    return Film(
-        dowson_higginson_min=formula,
-        min_at_psi=float(path.psi[thinnest]),
-        thickness_ratio=ratio,
-        thickness_regime=thickness_regime(ratio),
-        thermal_ehl_min=None if path.minimum_film is None else float(judged[thinnest]),
-    )
-
-
-def _any_number(values: FloatArray) -> bool:
-    return not bool(np.isnan(values).all())
-
-
-def _notices(path: ScuffingPath, safety: Safety | None) -> tuple[Notice, ...]:
-    """Points without a film, and a safety without a meaning."""
-    notices = []
-    if np.any(np.isnan(path.dowson_higginson)):
-        cause = "modifications" if _any_number(path.dowson_higginson) else "pinion_torque"
-        message = "there is no film where the feature line is not loaded or does not move"
-        notices.append(Notice("no_film", message, cause))
-    if safety is not None and safety.blok_factor is None:
-        notices.append(
-            Notice("no_safety", "the teeth stay as cool as the oil; the safety factor has no meaning", "temperatures")
-        )
-    return tuple(notices)
+    curves = {name: getattr(thermal, name) for name in CURVES}
+    return replace(path, status=status, thickness_ratio=frozen(ratio), **curves)

@@ -12,9 +12,12 @@ PointStatus = Literal["ok", "ok_with_warnings", "no_solution", "refused", "unloa
 
 @dataclass(frozen=True, slots=True)
 class Flash:
-    """Largest flash temperature [K] and where; no place without load, no thermal EHL value in closed form."""
+    """Largest flash temperature [K] and where; no place without load, no thermal EHL value in closed form.
 
-    blok_max: float
+    Neither is stated where loaded points that may decide have no value.
+    """
+
+    blok_max: float | None
     blok_at_psi: float | None
     thermal_ehl_max: float | None = None
     thermal_ehl_at_psi: float | None = None
@@ -22,15 +25,15 @@ class Flash:
 
 @dataclass(frozen=True, slots=True)
 class ContactTemperature:
-    """Largest contact temperature t_B = t_M + t_f [K] (Eq. 16)."""
+    """Largest contact temperature t_B = t_M + t_f [K] (Eq. 16); None where the flash temperature is."""
 
-    blok_max: float
+    blok_max: float | None
     thermal_ehl_max: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Film:
-    """Thinnest film [m], where, and against roughness; None where no point is loaded."""
+    """Thinnest film [m], where, and against roughness; None if no point is loaded, or one without a film may decide."""
 
     dowson_higginson_min: float | None = None
     min_at_psi: float | None = None
@@ -41,7 +44,7 @@ class Film:
 
 @dataclass(frozen=True, slots=True)
 class Safety:
-    """Safety against scuffing (Eq. 26); None where the teeth stay as cool as the oil."""
+    """Safety against scuffing (Eq. 26); None where the teeth stay as cool as the oil, or the temperature is unknown."""
 
     blok_factor: float | None
     thermal_ehl_factor: float | None = None
@@ -51,10 +54,11 @@ class Safety:
 class ScuffingPath:
     """Along the feature line: Blok's flash temperature [K], film [m] and its ratio to roughness.
 
-    Where nothing is loaded or nothing moves the status is "unloaded", film and ratio are NaN and Blok's flash
-    temperature is 0. What only the thermal EHL solution knows is None in closed form and NaN at points it did not
-    solve ("no_solution") or would not take ("refused"). The thickness ratio is that of the thermal film if there is
-    one.
+    psi is equidistant but for the places where Blok's flash temperature is largest and the film of the formula
+    thinnest. Where nothing is loaded or nothing moves the status is "unloaded", film and ratio are NaN and Blok's flash
+    temperature is 0; where the reduced radius vanishes under load it is "refused" and all is NaN. What only the thermal
+    EHL solution knows is None in closed form and NaN at points it did not solve ("no_solution") or would not take
+    ("refused"). The thickness ratio is that of the thermal film if there is one.
     """
 
     psi: FloatArray

@@ -21,16 +21,29 @@ FIELDS = {
     "temperatures": "temperatures.bulk",
 }
 
+CURVES = (
+    "pinion_flash",
+    "wheel_flash",
+    "minimum_film",
+    "central_film",
+    "max_pressure",
+    "friction_coefficient",
+    "film_max_temperature",
+)
+
 
 @dataclass(frozen=True, slots=True)
 class ThermalPath:
     """Point by point: status, flash temperatures of both flanks [K], films [m], pressure [Pa], friction, film [K].
 
-    What was not solved is NaN.
+    What was not solved is NaN. A point refused because its load is too light has bounds instead: it is no hotter
+    (flash_bound [K]) and its film no thinner (film_bound [m]) than under the lightest load that the solver takes.
     """
 
     status: tuple[PointStatus, ...]
     warnings: tuple[Notice, ...]
+    flash_bound: FloatArray
+    film_bound: FloatArray
     pinion_flash: FloatArray
     wheel_flash: FloatArray
     minimum_film: FloatArray
@@ -46,26 +59,32 @@ def thermal_path(inputs: ScuffingInputs, points: ContactPoints, loaded: BoolArra
     A point outside the range of the solver is "refused", one without convergence "no_solution"; neither stops the
     others. Raises the solver's InvalidInput where it refuses every point.
     """
-    contacts = {point: _contact(inputs, points, point) for point in np.flatnonzero(loaded).tolist()}
+    contacts = {point: contact_at(inputs, points, point) for point in np.flatnonzero(loaded).tolist()}
     refusals = {point: refusal for point, contact in contacts.items() if (refusal := _refusal(contact)) is not None}
     if refusals and len(refusals) == len(contacts):
         first = next(iter(refusals.values()))
         raise InvalidInput(first.code, first.message, _field(first.field))
-    solvable = [point for point in contacts if point not in refusals]
-    results = dict(zip(solvable, ehl.solve_path([contacts[point] for point in solvable]), strict=True))
+    light = {point: ehl.lightest(contacts[point]) for point, why in refusals.items() if why.code == "load_range"}
+    solvable = {
+        point: contact for point, contact in (contacts | light).items() if point in light or point not in refusals
+    }
+    results = dict(zip(solvable, ehl.solve_path(list(solvable.values())), strict=True))
     status: list[PointStatus] = ["unloaded"] * loaded.size
-    values = np.full((7, loaded.size), np.nan)
-    for point in refusals:
-        status[point] = "refused"
+    curves = {name: np.full(loaded.size, np.nan) for name in (*CURVES, "flash_bound", "film_bound")}
     for point, result in results.items():
         status[point] = result.status
         if result.status != "no_solution":
-            values[:, point] = _values(result)
-    warnings = _notices(list(results.values()), list(refusals.values()))
-    return ThermalPath(tuple(status), warnings, *(frozen(row) for row in values))
+            for name, value in (_bounds(result) if point in light else _values(result)).items():
+                curves[name][point] = value
+    for point in refusals:
+        status[point] = "refused"
+    solved = [result for point, result in results.items() if point not in light]
+    warnings = _notices(solved, list(refusals.values()))
+    return ThermalPath(tuple(status), warnings, **{name: frozen(values) for name, values in curves.items()})
 
 
-def _contact(inputs: ScuffingInputs, points: ContactPoints, point: int) -> ehl.LineContactInputs:
+def contact_at(inputs: ScuffingInputs, points: ContactPoints, point: int) -> ehl.LineContactInputs:
+    """One of the points as the line contact it is."""
     given, bulk = inputs.distribution, inputs.temperatures.bulk
     return ehl.LineContactInputs(
         contact=ehl.Contact(
@@ -91,20 +110,27 @@ def _refusal(contact: ehl.LineContactInputs) -> InvalidInput | None:
     return None
 
 
-def _values(result: ehl.LineContactResult) -> tuple[float | None, ...]:
-    """The rows of a path, in the order of `ThermalPath`."""
+def _values(result: ehl.LineContactResult) -> dict[str, float | None]:
+    """What a point adds to the curves of a path."""
     assert result.temperature is not None
     assert result.pressure is not None
     assert result.friction is not None
-    return (
-        result.temperature.surface_1_flash,
-        result.temperature.surface_2_flash,
-        result.film.minimum,
-        result.film.central,
-        result.pressure.maximum,
-        result.friction.coefficient,
-        result.temperature.film_max,
-    )
+    return {
+        "pinion_flash": result.temperature.surface_1_flash,
+        "wheel_flash": result.temperature.surface_2_flash,
+        "minimum_film": result.film.minimum,
+        "central_film": result.film.central,
+        "max_pressure": result.pressure.maximum,
+        "friction_coefficient": result.friction.coefficient,
+        "film_max_temperature": result.temperature.film_max,
+    }
+
+
+def _bounds(result: ehl.LineContactResult) -> dict[str, float | None]:
+    """What a point under more than its load says about the point itself."""
+    assert result.temperature is not None
+    flash = max(result.temperature.surface_1_flash, result.temperature.surface_2_flash)
+    return {"flash_bound": flash, "film_bound": result.film.minimum}
 
 
 def _notices(results: Sequence[ehl.LineContactResult], refusals: Sequence[InvalidInput]) -> tuple[Notice, ...]:

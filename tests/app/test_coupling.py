@@ -298,6 +298,7 @@ OF_CONTACT = {
     "model.inlet",
     "model.film_angle_deg",
 }
+AT_REST = {"friction.static_coefficient"}
 OF_SPRINGS = {"coupling.pressure_angle_deg", "coupling.tooth_stiffness_n_per_um", "coupling.sleeve_mass_kg"}
 
 
@@ -316,8 +317,8 @@ def assumed(post: Post, path: str, body: dict[str, Any]) -> dict[str, str]:
 def test_assumptions_of_an_arrangement(post: Post, arrangement: str, more: set[str]) -> None:
     operation = {"torque_n_m": 3000, "speed_rpm": 1910, "misalignment_deg": 0.1, "arrangement": arrangement}
     body = {"coupling": {"teeth": 52, "module_mm": 3}, "operation": operation}
-    assert set(assumed(post, "/v1/coupling", body)) == OF_CONTACT | OF_SPRINGS | more
-    # The recommendation shows the thrust on the shafts, not the one-pair model of it.
+    assert set(assumed(post, "/v1/coupling", body)) == OF_CONTACT | OF_SPRINGS | AT_REST | more
+    # The recommendation shows the thrust on the shafts, not the one-pair model of it, and no breakaway.
     del operation["misalignment_deg"]
     operation["misalignment_range_deg"] = [0.1, 0.3]  # type: ignore[assignment]
     expected = (OF_CONTACT | OF_SPRINGS | more) - {"model.simple_thrust_factor"}
@@ -352,7 +353,11 @@ def test_an_orbit_assumes_and_reports_only_what_it_uses(post: Post) -> None:
     [
         ({"model": {"inlet_length_mm": 5}}, {"model.inlet"}),
         ({"model": {"film_angle_deg": 90}}, {"model.film_angle_deg"}),
-        ({"friction": {"coefficient": 0.1}}, {"friction.coefficient", "friction.mixed_curve.velocity_m_per_s"}),
+        (
+            {"friction": {"coefficient": 0.1}},
+            {"friction.coefficient", "friction.mixed_curve.velocity_m_per_s", "friction.static_coefficient"},
+        ),
+        ({"friction": {"static_coefficient": 0.2}}, {"friction.static_coefficient"}),
         (
             {"friction": {"mixed_law": {"sliding_velocity_m_per_s": [0.1], "coefficient": [0.1]}}},
             {"friction.mixed_curve.velocity_m_per_s"},
@@ -364,7 +369,7 @@ def test_a_choice_drops_the_assumptions_it_replaces(
     post: Post, changes: dict[str, dict[str, Any]], dropped: set[str]
 ) -> None:
     fields = set(assumed(post, "/v1/coupling", request("pahl-heavily-crowned", **changes)))
-    assert fields == (OF_CONTACT | OF_SPRINGS) - dropped
+    assert fields == (OF_CONTACT | OF_SPRINGS | AT_REST) - dropped
 
 
 def test_the_friction_law_is_explained_where_no_coefficient_is_given(post: Post) -> None:
@@ -391,9 +396,9 @@ def test_the_mixed_friction_curve_reaches_the_coefficient(post: Post) -> None:
     body = request("pahl-heavily-crowned", friction={"mixed_curve": {"lowest": 0.06, "highest": 0.06}})
     body["operation"]["misalignment_deg"] = 1.0
     film = post("/v1/coupling", body).json()["lubrication"]
-    # ln mu is linear in Tr from the curve's value at 0 to 0.05 at 0.2.
-    share = film["load_capacity_coefficient"] / 0.2
-    assert film["friction_coefficient"] == pytest.approx(0.06 ** (1 - share) * 0.05**share, rel=1e-9)
+    # The curve's value at Tr 0, its lowest value at 0.2: no less and no more between them.
+    assert 0.0 < film["load_capacity_coefficient"] < 0.2
+    assert film["friction_coefficient"] == pytest.approx(0.06, rel=1e-9)
 
 
 def test_the_thrust_factor_reaches_the_one_pair_model(post: Post) -> None:

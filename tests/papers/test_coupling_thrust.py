@@ -77,8 +77,10 @@ def test_figure_14c_thrust_vanishes_once_only_fast_sliding_teeth_carry() -> None
 
 
 def test_curve_1_is_zero_without_axial_velocity() -> None:
+    # Exactly: 52 and 51 teeth used to leave -6.8e-14 N and a millionth of the limit.
     for misalignment in (0.01, 0.1, 0.5):
-        assert thrust(pahl_coupling(misalignment)).force == pytest.approx(0.0, abs=1e-9)
+        for teeth in (51, 52):
+            assert thrust(pahl_coupling(misalignment, teeth=teeth)).force == 0.0
 
 
 def test_uniform_closed_form() -> None:
@@ -91,6 +93,16 @@ def test_breakaway_takes_static_friction() -> None:
     inputs = pahl_coupling(0.0, axial_velocity=CREEP)
     inputs = replace(inputs, friction=replace(inputs.friction, static_coefficient=0.3))
     assert thrust(inputs).breakaway_force == pytest.approx(0.3 * 3000 / (PITCH_RADIUS * cos(radians(20))), rel=1e-12)
+
+
+@pytest.mark.parametrize(("friction", "static"), [(None, 0.16), (0.2, 0.2)])
+def test_breakaway_from_rest_knows_no_film(friction: float | None, static: float) -> None:
+    # The running coefficient of this good film is 0.0084: breakaway came out as 344 N.
+    result = thrust(pahl_coupling(0.1, crowning_ratio=11.0, friction=friction))
+    assert result.breakaway_force == pytest.approx(static * 3000 / (PITCH_RADIUS * cos(radians(20))), rel=1e-12)
+    if friction is None:
+        assert result.breakaway_force == pytest.approx(6550.0, abs=2.0)
+        assert result.coaxial_limit == pytest.approx(344.0, abs=0.5)
 
 
 def test_figure_17_self_induced_thrust_grows_as_the_square_of_friction() -> None:

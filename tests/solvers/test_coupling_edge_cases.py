@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import fields, is_dataclass, replace
-from math import cos, inf, isfinite, nan, pi, radians
+from math import cos, degrees, inf, isfinite, nan, pi, radians
 
 import numpy as np
 import pytest
@@ -92,6 +92,16 @@ def test_no_torque_no_forces(arrangement: Arrangement, sleeve: str) -> None:
     assert result.axial_thrust.self_induced is None or result.axial_thrust.self_induced.force == 0.0
     assert result.losses.hub_bending_moment == 0.0
     assert "no_load" in codes(result)
+
+
+def test_a_tooth_with_a_billionth_of_the_load_does_not_count_as_loaded() -> None:
+    # The unloading misalignment leaves the pivot teeth with rounding, or with as little as one likes.
+    limit = degrees(solve(pahl_coupling(0.2)).load_distribution.unloading_misalignment)
+    load = solve(pahl_coupling(limit * (1.0 - 1e-10))).load_distribution
+    assert 0.0 < load.min_tangential_force < 1e-6 * load.mean_tangential_force
+    assert load.loaded_teeth == 50
+    assert solve(pahl_coupling(limit * (1.0 - 1e-5))).load_distribution.loaded_teeth == 52
+    assert solve(pahl_coupling(limit)).load_distribution.min_tangential_force == 0.0
 
 
 def test_standing_coupling() -> None:
@@ -189,6 +199,7 @@ INVALID = [
     ("operation", "misalignment", radians(6.1)),
     ("operation", "misalignment", nan),
     ("operation", "axial_velocity", nan),
+    ("operation", "shaft_diameter", 0.0),
     ("lubricant", "viscosity", 0.0),
     ("lubricant", "reference_film", 0.0),
     ("friction", "coefficient", -0.1),
@@ -242,9 +253,7 @@ def test_a_friction_table_of_one_point_is_a_constant() -> None:
         for speed in (20.0, 200.0)
     ]
     assert [film.regime.area for film in films] == ["1.1", "1.1"]
-    slow, fast = (film.friction_coefficient for film in films)
-    assert slow == pytest.approx(0.07, rel=1e-2)
-    assert slow > fast > 0.05
+    assert [film.friction_coefficient for film in films] == pytest.approx([0.07, 0.07], rel=1e-12)
 
 
 @pytest.mark.parametrize(

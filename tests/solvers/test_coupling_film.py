@@ -11,10 +11,13 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from solvers.coupling import solve
-from solvers.coupling.friction import friction_regime, mixed_friction, regime_friction
-from solvers.coupling.inputs import InletModel, MixedFrictionCurve, ModelOptions
+from solvers.coupling.friction import friction_coefficient, friction_regime, mixed_friction, regime_friction
+from solvers.coupling.inputs import Friction, InletModel, MixedFrictionCurve, MixedFrictionTable, ModelOptions
 from solvers.coupling.lubrication import UNBOUNDED_LOAD, inlet_factor
 from tests.couplings import pahl_coupling
+
+INLETS: tuple[InletModel, ...] = ("face", "travel", "infinite")
+LOWEST = 0.05  # of the default curve of mixed friction
 
 
 def integrated_load(inlet: float) -> float:
@@ -64,12 +67,20 @@ def test_inlet_models(inlet: InletModel) -> None:
     assert own.inlet_ratio == pytest.approx(5e-3 / np.sqrt(2 * radius * 1e-6), rel=1e-12)
 
 
-def test_no_face_left_leaves_no_film() -> None:
-    result = solve(pahl_coupling(1.5, crowning_ratio=4.0))
+@pytest.mark.parametrize(
+    "options", [ModelOptions(inlet=inlet) for inlet in INLETS] + [ModelOptions(inlet_length=3e-3)], ids=str
+)
+@pytest.mark.parametrize(("ratio", "misalignment"), [(11.0, 1.0), (4.0, 1.5)])
+def test_a_contact_that_has_left_the_tooth_has_no_film(
+    ratio: float, misalignment: float, options: ModelOptions
+) -> None:
+    result = solve(pahl_coupling(misalignment, crowning_ratio=ratio, model=options))
     assert result.kinematics.max_contact_travel > 12e-3
-    assert result.lubrication.hydrodynamic_capacity == 0.0
-    assert result.lubrication.load_capacity_coefficient == 0.0
-    assert "edge_contact" in [notice.code for notice in result.warnings]
+    film = result.lubrication
+    assert film.hydrodynamic_capacity == film.load_capacity_coefficient == film.inlet_factor == 0.0
+    assert film.regime.area.startswith("1.")
+    edge = next(notice for notice in result.warnings if notice.code == "edge_contact")
+    assert "leaves the tooth" in edge.message
 
 
 def test_capacity_is_proportional_to_viscosity_and_inverse_to_the_film() -> None:
@@ -111,10 +122,10 @@ def test_lubrication_belongs_to_the_tilt_position_whatever_the_rotor_angle() -> 
     step=st.floats(-1e-7, 1e-7),
 )
 def test_friction_is_continuous(overlap: float, capacity: float, mixed: float, step: float) -> None:
-    here = regime_friction(overlap, capacity, mixed)
+    here = regime_friction(overlap, capacity, mixed, LOWEST)
     for near in (
-        regime_friction(overlap * (1 + step), capacity, mixed),
-        regime_friction(overlap, capacity * (1 + step), mixed),
+        regime_friction(overlap * (1 + step), capacity, mixed, LOWEST),
+        regime_friction(overlap, capacity * (1 + step), mixed, LOWEST),
     ):
         assert near == pytest.approx(here, rel=1e-5)
 
@@ -122,8 +133,35 @@ def test_friction_is_continuous(overlap: float, capacity: float, mixed: float, s
 @pytest.mark.parametrize("overlap", [1.0, 2.0])
 @pytest.mark.parametrize("capacity", [0.0, 0.1, 0.2, 0.5, 0.8, 1.6, 5.0])
 def test_friction_is_continuous_across_the_overlap_boundaries(overlap: float, capacity: float) -> None:
-    below, above = (regime_friction(overlap * exp(step), capacity, 0.07) for step in (-1e-9, 1e-9))
+    below, above = (regime_friction(overlap * exp(step), capacity, 0.07, LOWEST) for step in (-1e-9, 1e-9))
     assert below == pytest.approx(above, rel=1e-7)
+
+
+@given(
+    overlap=st.floats(0.01, 10.0),
+    capacity=st.floats(0.0, 5.0),
+    better=st.floats(0.0, 2.0),
+    lowest=st.floats(1e-3, 0.3),
+    above=st.floats(1.0, 5.0),
+)
+def test_friction_never_rises_while_the_film_improves(
+    overlap: float, capacity: float, better: float, lowest: float, above: float
+) -> None:
+    here = regime_friction(overlap, capacity, lowest * above, lowest)
+    assert regime_friction(overlap, capacity + better, lowest * above, lowest) <= here * (1 + 1e-12)
+
+
+@pytest.mark.parametrize("lowest", [0.003, 0.02, 0.05, 0.08])
+def test_a_film_lowers_friction_from_the_least_of_the_mixed_curve_in_use(lowest: float) -> None:
+    # 0.02: it used to rise to 0.05 at a load capacity coefficient of 0.2.
+    for law in (MixedFrictionCurve(lowest=lowest), MixedFrictionTable((0.01, 0.11, 1.0), (0.1, lowest, 0.1))):
+        assert mixed_friction(law, 0.11) == pytest.approx(lowest, rel=1e-12)
+        friction = Friction(mixed_law=law)
+        values = [friction_coefficient(friction, 0.5, capacity, 0.11) for capacity in (0.0, 0.1, 0.2, 0.5, 0.8, 1.6)]
+        assert values[:3] == pytest.approx([lowest] * 3, rel=1e-12)
+        assert np.diff(values).max() < 1e-15
+        assert values[4] == pytest.approx(min(0.01, lowest), rel=1e-12)
+        assert values[5] == pytest.approx(min(0.005, lowest), rel=1e-12)
 
 
 def test_mixed_friction_is_continuous_and_lowest_at_its_velocity() -> None:

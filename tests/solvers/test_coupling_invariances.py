@@ -73,11 +73,11 @@ def test_sense_of_rotation_does_not_matter_to_magnitudes(inputs: CouplingInputs)
 
 
 @given(couplings())
-def test_friction_power_is_friction_moment_times_tilting_speed(inputs: CouplingInputs) -> None:
-    losses, operation = solve(inputs).losses, inputs.operation
-    assert losses.friction_power == pytest.approx(
-        losses.friction_moment * abs(operation.speed * operation.misalignment), rel=1e-9
-    )
+def test_friction_power_is_moment_times_tilting_speed_plus_thrust_times_axial_velocity(inputs: CouplingInputs) -> None:
+    result, operation = solve(inputs), inputs.operation
+    tilting = result.losses.friction_moment * abs(operation.speed * operation.misalignment)
+    axial = result.axial_thrust.force * operation.axial_velocity
+    assert result.losses.friction_power == pytest.approx(tilting + axial, rel=1e-9)
 
 
 @given(couplings())

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solvers.coupling import orbit, solve, solve_orbit
+from solvers.coupling import kinematics, orbit, solve, solve_orbit
 from solvers.coupling.geometry import tooth_geometry
 from solvers.coupling.kinematics import flank_normals, mesh_motion, tooth_positions
 from solvers.coupling.tooth_loads import ToothLoads, floating_loads
@@ -85,7 +85,7 @@ def test_low_torque_cannot_centre_the_sleeve(torque: float) -> None:
 
 def test_inertia_beyond_the_mesh_stiffness_has_no_solution() -> None:
     with pytest.raises(NoSolution) as caught:
-        solve_orbit(pahl_coupling(0.1, speed=12000.0, torque=1e6, tooth_height=1.0, pitch_errors=ERRORS))
+        solve_orbit(pahl_coupling(0.1, speed=20000.0, torque=1e6, tooth_height=1.0, pitch_errors=ERRORS))
     assert caught.value.code == "sleeve_orbit"
     assert caught.value.residuals["change"] > 1e-12
     assert caught.value.residuals["sweeps"] == 50.0
@@ -107,3 +107,42 @@ def test_an_orbit_with_a_position_left_without_balance_is_no_solution(monkeypatc
 def test_an_orbit_takes_about_as_many_positions_whatever_the_teeth(teeth: int, positions: int) -> None:
     result = solve_orbit(pahl_coupling(0.1, speed=100.0, teeth=teeth, module=0.156 / teeth))
     assert len(result.orbit.rotor_angle) == positions
+
+
+@pytest.mark.parametrize("misalignment", [0.1, 0.3, 0.5])
+def test_an_orbit_states_how_certain_it_is(misalignment: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    inputs = pahl_coupling(misalignment, speed=1000.0, pitch_errors=ERRORS)
+    result = solve_orbit(inputs)
+    assert result.warnings == ()
+    monkeypatch.setattr(orbit, "HIGHEST_ORDER", 2 * orbit.HIGHEST_ORDER)
+    monkeypatch.setattr(kinematics, "_LEAST_ROTOR_POSITIONS", 416)
+    finer = solve_orbit(inputs)
+    for axis in ("harmonics_x", "harmonics_y"):
+        change = np.abs(getattr(finer.inertia_force, axis)[:13] - getattr(result.inertia_force, axis)).max()
+        assert result.harmonics_uncertainty is not None
+        assert change <= result.harmonics_uncertainty + 1e-6
+    moved = abs(finer.max_displacement - result.max_displacement)
+    assert moved == pytest.approx(result.displacement_uncertainty, abs=1e-12)
+
+
+def test_an_orbit_that_twice_the_orders_unsettle_says_so() -> None:
+    result = solve_orbit(pahl_coupling(1.0, speed=1000.0, pitch_errors=ERRORS))
+    assert result.displacement_uncertainty is None
+    assert result.harmonics_uncertainty is None
+    assert [(notice.code, notice.field) for notice in result.warnings] == [("orbit_resolution", "speed")]
+
+
+def test_a_sleeve_that_moves_between_few_teeth_has_an_uncertain_orbit() -> None:
+    errors = random_pitch_errors(1)
+    result = solve_orbit(pahl_coupling(3.0, torque=100.0, speed=5.0, pitch_errors=errors))
+    (notice,) = result.warnings
+    assert (notice.code, notice.field) == ("orbit_resolution", "misalignment")
+    assert result.harmonics_uncertainty is not None
+    largest = max(result.inertia_force.harmonics_x.max(), result.inertia_force.harmonics_y.max())
+    share = 100 * result.harmonics_uncertainty / largest
+    assert notice.message.endswith(f"largest harmonic of the force uncertain by {share:.2g} %")
+
+
+def test_an_orbit_on_two_teeth_has_no_place_of_its_own() -> None:
+    result = solve_orbit(pahl_coupling(2.0, teeth=6, module=26e-3, torque=10.0, speed=1.0))
+    assert [notice.code for notice in result.warnings] == ["sleeve_position"]

@@ -11,7 +11,7 @@ from scipy.optimize import root
 
 from solvers.coupling import solve
 from solvers.coupling.averaging import rotor_samples
-from solvers.coupling.geometry import tooth_geometry
+from solvers.coupling.geometry import offset_misalignment, tooth_geometry
 from solvers.coupling.inputs import Arrangement, CouplingInputs, KinematicModel, ModelOptions
 from solvers.coupling.kinematics import (
     flank_normals,
@@ -100,7 +100,7 @@ def test_mean_of_one_mesh_agrees_with_many_midpoints(misalignment: float, errors
     result = solve(inputs)
     # A midpoint rule misses up to half a step of a jump of 2 mu F_n.
     assert result.axial_thrust.force == pytest.approx(mean, abs=0.2 * result.lubrication.max_normal_force / 500)
-    sliding = np.abs(sliding_velocity(mesh, teeth))
+    sliding = np.abs(2e-3 + sliding_velocity(mesh, teeth))
     power = 0.2 / cos(ALPHA) * (loads.tangential_force * sliding).sum() / rows
     assert result.losses.friction_power == pytest.approx(power, rel=1e-5)
 
@@ -127,7 +127,7 @@ def test_mean_over_a_revolution_is_as_good_with_few_and_with_many_teeth(teeth: i
         tangential = centred_loads(inputs.coupling, mesh, positions, 3000.0).tangential_force
         sliding = sliding_velocity(mesh, positions)
         force += 0.2 / cos(ALPHA) * (tangential * np.sign(2e-3 + sliding)).sum() / rows
-        power += 0.2 / cos(ALPHA) * (tangential * np.abs(sliding)).sum() / rows
+        power += 0.2 / cos(ALPHA) * (tangential * np.abs(2e-3 + sliding)).sum() / rows
     result = solve(inputs)
     assert result.axial_thrust.force == pytest.approx(force, abs=2e-4 * result.axial_thrust.coaxial_limit)
     assert result.losses.friction_power == pytest.approx(power, rel=1e-4)
@@ -230,6 +230,35 @@ def test_thrust_never_exceeds_its_coaxial_limit(
     result = solve(inputs).axial_thrust
     assert abs(result.force) <= result.coaxial_limit * (1 + 1e-9)
     assert result.lower_bound == result.force == result.upper_bound
+
+
+@pytest.mark.parametrize(
+    ("arrangement", "velocity", "static", "expected"),
+    [
+        ("single", 0.0, None, 8186.0),  # at rest friction may hold the whole limit though it turns without thrust
+        ("single", 0.1, 0.1, 8186.0),  # all teeth slide axially: running thrust beyond breakaway
+        ("parallel_offset", -0.1, 0.1, 8186.0),
+        ("single", 0.1, 0.3, 12279.0),
+    ],
+)
+def test_the_bearing_is_designed_for_the_larger_of_thrust_and_breakaway(
+    arrangement: Arrangement, velocity: float, static: float | None, expected: float
+) -> None:
+    inputs = pahl_coupling(0.1, axial_velocity=velocity, arrangement=arrangement)
+    result = solve(replace(inputs, friction=replace(inputs.friction, static_coefficient=static))).axial_thrust
+    assert result.design_force == pytest.approx(expected, abs=0.1)
+
+
+def test_customary_thrust_needs_a_shaft() -> None:
+    inputs = pahl_coupling(0.1)
+    assert solve(inputs).axial_thrust.customary_force is None
+    shaft = replace(inputs, operation=replace(inputs.operation, shaft_diameter=0.1))
+    assert solve(shaft).axial_thrust.customary_force == 7500.0  # 0.25 x 3000 N m/0.1 m
+
+
+def test_parallel_offset_tilts_both_hubs() -> None:
+    assert offset_misalignment(0.35e-3, 0.2) == pytest.approx(radians(0.10027), rel=1e-4)
+    assert offset_misalignment(-0.35e-3, 0.2) == -offset_misalignment(0.35e-3, 0.2)
 
 
 def test_overturned_sleeve_is_no_solution() -> None:

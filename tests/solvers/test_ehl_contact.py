@@ -108,7 +108,10 @@ def test_isothermal_contacts(rheology: str, pressure: float, speed: float, visco
 @pytest.mark.parametrize("thermal", [True, False])
 def test_film_thickness_converges_with_second_order(thermal: bool) -> None:
     """Intervals 90, 180, 360 of one grading."""
-    films = [solve(LineContactInputs(POINT, model=Model(thermal=thermal, nodes=n))).film for n in (91, 181, 361)]
+    films = [
+        solve(LineContactInputs(POINT, model=Model(thermal=thermal, nodes=n, refine=False))).film
+        for n in (91, 181, 361)
+    ]
     for values in ([f.central for f in films], [f.minimum for f in films]):
         coarse, middle, fine = (value or 0.0 for value in values)
         assert np.log2((middle - coarse) / (fine - middle)) == pytest.approx(2.0, abs=0.4)

@@ -56,12 +56,12 @@ def test_failed_point_neither_stops_nor_fills(monkeypatch: pytest.MonkeyPatch) -
     def failing(attempt: Attempt) -> Attempt:
         return replace(attempt, converged=False)
 
-    warm, cold = path.solve_from, path.solve_cold
+    warm, cold = path.polish, path.solve_cold
     third = contacts()[2].contact.speed_1
 
     monkeypatch.setattr(
         path,
-        "solve_from",
+        "polish",
         lambda p, *rest: failing(warm(p, *rest)) if p.speed_1 == pytest.approx(third) else warm(p, *rest),
     )
 

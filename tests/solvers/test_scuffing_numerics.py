@@ -10,13 +10,14 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from solvers.contact.hertz import half_width, reduced_modulus
+from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
 from solvers.gears.path_of_contact import path_of_contact, reduced_radius
 from solvers.materials import Solid
 from solvers.scuffing import solve_load_distribution
-from solvers.scuffing.inputs import Model, Modifications, Resolution
-from solvers.scuffing.modification import gap, gaps_at, misalignment_slope
+from solvers.scuffing.inputs import LeadCurve, Model, Modifications, Resolution
+from solvers.scuffing.modification import gap, gaps_at, lead_table, misalignment_slope
 from solvers.scuffing.tooth_compliance import bending_compliance, load_points, root_rotation, section_gear, tooth_shape
 from solvers.scuffing.tooth_stiffness import line_load, pair_compliance, single_stiffness
 from tests.gear_pairs import PAPER_MODIFICATIONS, paper_gears, paper_pair
@@ -266,3 +267,45 @@ def test_working_pressure_angle_solves_the_involute_equation() -> None:
         np.tan(pair.transverse_pressure_angle) - pair.transverse_pressure_angle + 2 * 0.7 * np.tan(radians(20)) / 53
     )
     assert pair.working_pressure_angle == pytest.approx(brentq(lambda a: np.tan(a) - a - target, 0.1, 1.0), rel=1e-10)
+
+
+def test_a_lead_curve_is_a_gap_over_the_face() -> None:
+    """A straight and a parabolic curve are helix slope and lead crowning; stations stay what they are."""
+    stations = np.linspace(0.0, 20e-3, 41)
+    eta = stations / 20e-3 - 0.5
+    curve = LeadCurve(tuple(stations), tuple(15e-6 * eta + 40e-6 * eta**2))
+    by_curve = solve_load_distribution(paper_pair(1, Modifications(lead_curve=curve)))
+    by_name = solve_load_distribution(paper_pair(1, Modifications(helix_slope=15e-6, lead_crowning=10e-6)))
+    # The parabola is a polygon of 40 sides: 40 um / 40^2 / 4 = 0.006 um of 10.
+    assert by_curve.transmission_error.mean == pytest.approx(by_name.transmission_error.mean, abs=0.007e-6)
+    assert by_curve.load.max_line_load == pytest.approx(by_name.load.max_line_load, rel=1e-3)
+    table = lead_table(curve, 20e-3)
+    assert np.interp(stations, np.linspace(0, 20e-3, table.size), table) == pytest.approx(curve.gap, abs=1e-20)
+
+
+def test_a_lead_curve_holds_its_ends_and_adds_to_the_other_modifications() -> None:
+    path = path_of_contact(gear_pair(paper_gears(1)))
+    curve = LeadCurve((5e-3, 15e-3), (2e-6, 8e-6))
+    y = np.array([0.0, 5e-3, 10e-3, 15e-3, 20e-3])
+    both = gaps_at(gap(Modifications(lead_curve=curve, lead_crowning=4e-6), path), np.zeros(5), y)
+    crowned = gaps_at(gap(Modifications(lead_crowning=4e-6), path), np.zeros(5), y)
+    assert (both - crowned) * 1e6 == pytest.approx([2, 2, 5, 8, 8], rel=1e-9)
+
+
+def test_an_even_lead_curve_changes_nothing_but_the_transmission_error() -> None:
+    plain = solve_load_distribution(paper_pair(3, PAPER_MODIFICATIONS))
+    lifted = solve_load_distribution(
+        paper_pair(3, replace(PAPER_MODIFICATIONS, lead_curve=LeadCurve((0.0, 20e-3), (3e-6, 3e-6))))
+    )
+    assert lifted.transmission_error.mean == pytest.approx(plain.transmission_error.mean + 3e-6, rel=1e-12)
+    assert lifted.flank.line_load == pytest.approx(plain.flank.line_load, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("position", "amount"),
+    [((0.0,), (0.0,)), ((0.0, 0.0), (0.0, 1e-6)), ((0.0, 21e-3), (0.0, 0.0)), ((0.0, 1e-3), (0.0, 0.0, 0.0))],
+)
+def test_lead_curves_without_sense_are_refused(position: tuple[float, ...], amount: tuple[float, ...]) -> None:
+    with pytest.raises(InvalidInput, match="rising from 0") as caught:
+        solve_load_distribution(paper_pair(1, Modifications(lead_curve=LeadCurve(position, amount))))
+    assert caught.value.code == "lead_curve"

@@ -1,6 +1,6 @@
 """The lubricated line contact: pressure, film, temperature and friction, isothermal or thermal."""
 
-from solvers.contact.ehl.checks import check
+from solvers.contact.ehl.checks import check, lightest
 from solvers.contact.ehl.inputs import Contact, LineContactInputs, Model, Rheology, Temperatures
 from solvers.contact.ehl.model import solve, warm_up
 from solvers.contact.ehl.path import solve_path
@@ -15,6 +15,7 @@ __all__ = [
     "Stage",
     "Temperatures",
     "check",
+    "lightest",
     "solve",
     "solve_path",
     "warm_up",

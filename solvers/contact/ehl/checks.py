@@ -1,6 +1,9 @@
 """What cannot be computed as an elastohydrodynamic line contact: one refusal for every range left."""
 
-from math import log
+from dataclasses import replace
+from math import exp, log
+
+from scipy.optimize import brentq
 
 from solvers.contact.ehl.dimensionless import expected_gap, groups
 from solvers.contact.ehl.inputs import LineContactInputs
@@ -29,6 +32,20 @@ def check(inputs: LineContactInputs) -> None:
     _check_resolution(inputs)
     _check_oil(inputs)
     _check_load(inputs)
+
+
+def lightest(inputs: LineContactInputs) -> LineContactInputs:
+    """The same contact under the least load that is not refused as too light (`load_range`)."""
+
+    def excess(logarithm: float) -> float:
+        loaded = replace(inputs, contact=replace(inputs.contact, line_load=exp(logarithm)))
+        return log(min(expected_gap(loaded), 1e300) / (0.999 * THICKEST_FILM))
+
+    low = high = log(inputs.contact.line_load)
+    while excess(high) > 0.0:
+        low, high = high, high + log(10.0)
+    load = exp(brentq(excess, low, high)) if high > low else inputs.contact.line_load
+    return replace(inputs, contact=replace(inputs.contact, line_load=load))
 
 
 def _check_motion(inputs: LineContactInputs) -> None:

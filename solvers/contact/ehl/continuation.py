@@ -58,11 +58,6 @@ def _distance(attempt: Attempt) -> tuple[int, float]:
     return -attempt.grid.x.size, change if np.isfinite(change) else np.inf
 
 
-def solve_from(problem: Problem, resolution: Resolution, grid: Grid, guess: State, budget: Budget) -> Attempt:
-    """Solve on `grid` from the state given, which is changed."""
-    return _polish(problem, resolution, grid, guess, TIGHT, budget)
-
-
 def _attempts(problem: Problem, resolution: Resolution, budget: Budget) -> Iterator[Attempt]:
     """Ways to a solution, cheapest first."""
     coarse = _start(problem, resolution, budget)
@@ -96,7 +91,7 @@ def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
     budget.charge(resolution, grid.x.size, int(state.history[0]))
     if resolution.thermal:
         march_temperatures(problem, grid, state, work)
-        budget.remaining -= MARCH * price(resolution, grid.x.size)
+        budget.pay(MARCH * price(resolution, grid.x.size))
     return Attempt(grid, state, work, converged=converged, stage="isothermal")
 
 
@@ -130,13 +125,13 @@ def _climb(problem: Problem, resolution: Resolution, start: Attempt, levels: Seq
             continue
         state = attempt.state if same else interpolate(attempt.state, attempt.grid.x, grid.x)
         tolerances = TIGHT if nodes == levels[-1] else LOOSE
-        attempt = _polish(problem, resolution, grid, state, tolerances, budget)
+        attempt = polish(problem, resolution, grid, state, tolerances, budget)
         if not np.all(np.isfinite(attempt.state.pressure)):
             break
     return attempt
 
 
-def _polish(
+def polish(
     problem: Problem,
     resolution: Resolution,
     grid: Grid,
@@ -144,7 +139,7 @@ def _polish(
     tolerances: tuple[float, float],
     budget: Budget,
 ) -> Attempt:
-    """Newton on one mesh."""
+    """Newton on one mesh, from the state given, which is changed."""
     work = work_arrays(grid.x.size, resolution.film_nodes)
     steps = budget.steps(resolution, grid.x.size)
     state.history[:] = no_steps()
@@ -159,12 +154,13 @@ def _polish(
 
 def interpolate(state: State, x: FloatArray, onto: FloatArray) -> State:
     """The state on another mesh, linear between nodes."""
+    right = np.searchsorted(x, onto).clip(1, x.size - 1)
+    share = ((onto - x[right - 1]) / (x[right] - x[right - 1])).clip(0.0, 1.0)[:, None]
     pressure = np.interp(onto, x, state.pressure)
-    columns = [np.interp(onto, x, state.temperature[:, k]) for k in range(state.temperature.shape[1])]
     return State(
         pressure=pressure,
         separation=state.separation.copy(),
-        temperature=np.ascontiguousarray(np.stack(columns, axis=1)),
+        temperature=state.temperature[right - 1] * (1.0 - share) + state.temperature[right] * share,
         cavitated=(pressure <= 0.0) & (onto > 0.0),
         history=no_steps(),
     )
@@ -183,7 +179,7 @@ def _from_slow_film(problem: Problem, resolution: Resolution, budget: Budget) ->
         )
         if attempt is None:
             attempt = _start(slower, resolution, budget)
-        attempt = _polish(slower, resolution, attempt.grid, attempt.state, LOOSE, budget)
+        attempt = polish(slower, resolution, attempt.grid, attempt.state, LOOSE, budget)
     assert attempt is not None
     return _climb(problem, resolution, attempt, _levels(resolution.nodes, 1.25), budget)
 
@@ -198,7 +194,7 @@ def _from_soft_film(problem: Problem, resolution: Resolution, budget: Budget) ->
         softer = problem._replace(newtonian=0, eyring_stress=stress)
         if attempt is None:
             attempt = _start(softer, resolution, budget)
-        attempt = _polish(softer, resolution, attempt.grid, attempt.state, LOOSE, budget)
+        attempt = polish(softer, resolution, attempt.grid, attempt.state, LOOSE, budget)
         if not attempt.converged:
             attempt.eyring_stress = reached
             return attempt

@@ -46,6 +46,7 @@ class Temperatures:
 class Model:
     """Physics and resolution; eyring_stress [Pa], `nodes` along the contact, `film_nodes` across the film.
 
+    `refine` adds nodes until the estimated error of the mesh is below 2 %.
     The paper's film is Newtonian; near pure rolling its friction is not physical, so Ree-Eyring is the default.
     """
 
@@ -54,6 +55,7 @@ class Model:
     eyring_stress: float = 5e6
     nodes: int = 121
     film_nodes: int = 21
+    refine: bool = True
 
 
 @dataclass(frozen=True, slots=True)

@@ -97,11 +97,11 @@ def mid_film(t: FloatArray) -> FloatArray:
 
 def friction(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> ContactFriction:
     """Traction of the film: mid-film stress, and that on each face, from which it differs by half of h dp/dx."""
-    grid, work, contact = attempt.grid, attempt.work, inputs.contact
+    work, contact = attempt.work, inputs.contact
     p = attempt.state.pressure * problem.maximum_pressure
     gradient = work.height * problem.gap_scale * work.gradient * problem.maximum_pressure / problem.half_width
     stress = work.film.mid_stress
-    share = grid.weights * work.heat.fluid_fraction * problem.half_width / contact.line_load
+    share = _share(problem, attempt, inputs)
     middle, first, second = (abs(float(share @ s)) for s in (stress, stress - 0.5 * gradient, stress + 0.5 * gradient))
     loaded = p > 0.1 * min(problem.maximum_pressure, float(p.max()))
     return ContactFriction(
@@ -115,11 +115,27 @@ def friction(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> C
     )
 
 
+def friction_coefficient(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> float:
+    """Coefficient of friction from the mid-film stress alone."""
+    return abs(float(_share(problem, attempt, inputs) @ attempt.work.film.mid_stress))
+
+
+def _share(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> FloatArray:
+    """What a stress at each node adds to the coefficient of friction (n,) [1/Pa]."""
+    width = attempt.grid.weights * problem.half_width
+    return width * attempt.work.heat.fluid_fraction / inputs.contact.line_load
+
+
+def generated_heat(problem: Problem, attempt: Attempt) -> float:
+    """Heat by shear in all columns but the first [W/m]."""
+    return float(attempt.grid.weights[1:] @ attempt.work.heat.generated[1:]) * problem.half_width
+
+
 def heat(problem: Problem, attempt: Attempt) -> ContactHeat:
     """The heat balance of all columns but the first, whose temperatures are given."""
     heats, t = attempt.work.heat, attempt.state.temperature
     width = attempt.grid.weights[1:] * problem.half_width
-    generated = float(width @ heats.generated[1:])
+    generated = generated_heat(problem, attempt)
     compression = float(width @ heats.compression[1:])
     to_surfaces = [float(width @ flux[1:]) for flux in (heats.flux_1, heats.flux_2)]
     inlet = np.diff(_layer_edges(0.5 * (attempt.work.film.stream[0] + attempt.work.film.stream[1])))
@@ -156,6 +172,8 @@ def curves(problem: Problem, attempt: Attempt, thermal: bool) -> ContactCurves:
         mid_film_temperature=frozen(mid_film(t)) if thermal else None,
         surface_1_temperature=frozen(t[:, 0].copy()) if thermal else None,
         surface_2_temperature=frozen(t[:, -1].copy()) if thermal else None,
+        surface_1_heat_flux=frozen(attempt.work.heat.flux_1) if thermal else None,
+        surface_2_heat_flux=frozen(attempt.work.heat.flux_2) if thermal else None,
     )
 
 

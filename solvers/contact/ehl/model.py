@@ -3,8 +3,8 @@
 from dataclasses import replace
 from math import isfinite
 
-from solvers.contact.ehl import measures
-from solvers.contact.ehl.budget import Resolution, budget_for
+from solvers.contact.ehl import measures, verification
+from solvers.contact.ehl.budget import STEPS_TO_REFINE, Budget, Resolution, budget_for, refinement_budget
 from solvers.contact.ehl.checks import check
 from solvers.contact.ehl.continuation import TIGHT, Attempt, solve_cold
 from solvers.contact.ehl.dimensionless import (
@@ -15,8 +15,9 @@ from solvers.contact.ehl.dimensionless import (
     groups,
 )
 from solvers.contact.ehl.inputs import Contact, LineContactInputs, Model
-from solvers.contact.ehl.notices import failure_notice, input_notices, result_notices
+from solvers.contact.ehl.notices import failure_notice, input_notices, mesh_notices, result_notices
 from solvers.contact.ehl.problem import Problem, peclet_number, problem
+from solvers.contact.ehl.refinement import refined
 from solvers.contact.ehl.results import (
     Convergence,
     Derived,
@@ -24,11 +25,13 @@ from solvers.contact.ehl.results import (
     FilmThickness,
     HertzContact,
     LineContactResult,
+    Stage,
 )
 from solvers.lubricants import Lubricant
 
 WORST_BALANCE = 1e-3
 WORST_LOAD = 1e-9
+WORST_DEPARTURE = 0.1  # K
 
 
 def solve(inputs: LineContactInputs) -> LineContactResult:
@@ -37,18 +40,18 @@ def solve(inputs: LineContactInputs) -> LineContactResult:
     Raises InvalidInput as `inputs.check` does; what cannot be converged is a result with status no_solution.
     """
     check(inputs)
-    scales = groups(inputs)
-    constants = problem(inputs, scales)
-    resolution = resolution_for(inputs, expected_gap(inputs))
+    constants = problem(inputs, groups(inputs))
+    resolution = resolution_for(inputs)
     budget = budget_for(resolution)
-    return result(inputs, scales, constants, solve_cold(constants, resolution, budget), budget.spent)
+    attempt = solve_cold(constants, resolution, budget)
+    return conclude(inputs, constants, resolution, attempt, budget.spent, refinement_budget(1))
 
 
-def resolution_for(inputs: LineContactInputs, gap: float) -> Resolution:
-    """Mesh of the contact, graded for a film of `gap` (in b^2/R)."""
+def resolution_for(inputs: LineContactInputs) -> Resolution:
+    """Mesh of the contact, graded for the film to expect."""
     model = inputs.model
     return Resolution(
-        gap=gap,
+        gap=expected_gap(inputs),
         entry_temperature=entry_temperature(inputs),
         nodes=model.nodes,
         film_nodes=model.film_nodes,
@@ -56,50 +59,85 @@ def resolution_for(inputs: LineContactInputs, gap: float) -> Resolution:
     )
 
 
-def result(
-    inputs: LineContactInputs, scales: Groups, constants: Problem, attempt: Attempt, iterations: int
+def conclude(
+    inputs: LineContactInputs,
+    constants: Problem,
+    resolution: Resolution,
+    attempt: Attempt,
+    iterations: int,
+    for_refinement: Budget,
 ) -> LineContactResult:
-    """Everything read off an attempt: all of it if the attempt meets every criterion, else why not."""
-    thermal = inputs.model.thermal
+    """Everything read off an attempt, on a finer mesh if it needs one; why not, if it fails any criterion.
+
+    `iterations` led to the attempt; `for_refinement` is what finer meshes may take.
+    """
+    scales = groups(inputs)
     dimensionless = _dimensionless(inputs, scales)
     notices = input_notices(inputs, dimensionless)
-    if attempt.converged:
-        measures.settle(constants, attempt, thermal)
-    heat = measures.heat(constants, attempt) if thermal and attempt.converged else None
-    balanced = heat is None or heat.balance_error < WORST_BALANCE or measures.temperature_range(attempt) < TIGHT[1]
-    convergence = _convergence(attempt, iterations, thermal, balanced)
     unsolved = LineContactResult(
         status="no_solution",
-        hertz=HertzContact(scales.half_width, scales.maximum_pressure),
+        hertz=HertzContact(constants.half_width, constants.maximum_pressure),
         dimensionless=dimensionless,
         film=FilmThickness(None, None, None, dowson_higginson_film(inputs)),
         pressure=None,
         temperature=None,
         friction=None,
         heat=None,
-        convergence=convergence,
+        mesh_error=None,
+        convergence=_convergence(inputs, attempt, iterations),
         curves=None,
         field=None,
         derived=Derived(inputs.contact.entrainment_speed, scales.reduced_modulus),
         warnings=tuple(notices),
     )
-    if not (attempt.converged and balanced and convergence.load_error < WORST_LOAD):
-        return replace(unsolved, warnings=(*notices, failure_notice(convergence)))
-    film = _film(inputs, constants, attempt)
-    friction = measures.friction(constants, attempt, inputs)
-    notices += result_notices(film, friction, heat)
+    if not attempt.converged:
+        return replace(unsolved, warnings=(*notices, failure_notice(unsolved.convergence)))
+    measures.settle(constants, attempt, inputs.model.thermal)
+    steps = for_refinement.part(STEPS_TO_REFINE)
+    attempt, error = refined(inputs, constants, resolution, attempt, steps)
+    convergence = _convergence(inputs, attempt, iterations + steps.spent)
+    found = _read(inputs, constants, attempt, replace(unsolved, convergence=convergence))
+    stage = _failed_criterion(attempt, found)
+    if stage is not None:
+        convergence = replace(found.convergence, stage=stage)
+        return replace(unsolved, convergence=convergence, warnings=(*notices, failure_notice(convergence)))
+    assert found.friction is not None
+    notices += result_notices(found.film, found.friction, found.heat)
+    notices += mesh_notices(error)
+    return replace(found, status="ok_with_warnings" if notices else "ok", mesh_error=error, warnings=tuple(notices))
+
+
+def _read(
+    inputs: LineContactInputs, constants: Problem, attempt: Attempt, unsolved: LineContactResult
+) -> LineContactResult:
+    """The result with every quantity of a settled state."""
+    thermal = inputs.model.thermal
+    curves = measures.curves(constants, attempt, thermal)
+    field = measures.field(constants, attempt) if thermal else None
+    departure = verification.departure(inputs, curves, field) if field is not None else None
     return replace(
         unsolved,
-        status="ok_with_warnings" if notices else "ok",
-        film=film,
+        film=_film(inputs, constants, attempt),
         pressure=measures.pressure(constants, attempt),
         temperature=measures.temperature(constants, attempt) if thermal else None,
-        friction=friction,
-        heat=heat,
-        curves=measures.curves(constants, attempt, thermal),
-        field=measures.field(constants, attempt) if thermal else None,
-        warnings=tuple(notices),
+        friction=measures.friction(constants, attempt, inputs),
+        heat=measures.heat(constants, attempt) if thermal else None,
+        convergence=replace(unsolved.convergence, departure=departure),
+        curves=curves,
+        field=field,
     )
+
+
+def _failed_criterion(attempt: Attempt, found: LineContactResult) -> Stage | None:
+    """What a converged state violates, if anything: the load, the books on heat, or what it was solved for."""
+    convergence, heat = found.convergence, found.heat
+    if convergence.load_error >= WORST_LOAD:
+        return convergence.stage
+    if heat is not None and heat.balance_error >= WORST_BALANCE and measures.temperature_range(attempt) >= TIGHT[1]:
+        return "heat_balance"
+    if convergence.departure is not None and not convergence.departure < WORST_DEPARTURE:
+        return "verification"
+    return None
 
 
 def _dimensionless(inputs: LineContactInputs, scales: Groups) -> Dimensionless:
@@ -113,16 +151,17 @@ def _dimensionless(inputs: LineContactInputs, scales: Groups) -> Dimensionless:
     )
 
 
-def _convergence(attempt: Attempt, iterations: int, thermal: bool, balanced: bool) -> Convergence:
+def _convergence(inputs: LineContactInputs, attempt: Attempt, iterations: int) -> Convergence:
     changes = [float(change) if isfinite(change) else None for change in attempt.state.history[1:]]
     return Convergence(
         iterations=iterations,
         pressure_change=changes[0],
-        temperature_change=changes[1] if thermal else None,
+        temperature_change=changes[1] if inputs.model.thermal else None,
         load_error=measures.load_error(attempt),
         nodes=attempt.grid.x.size,
-        stage=attempt.stage if balanced else "heat_balance",
+        stage=attempt.stage,
         eyring_stress=attempt.eyring_stress,
+        departure=None,
     )
 
 

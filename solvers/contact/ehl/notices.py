@@ -1,7 +1,15 @@
 """What limits a result of the line contact: one notice for every range it leaves."""
 
 from solvers.contact.ehl.inputs import LineContactInputs
-from solvers.contact.ehl.results import ContactFriction, ContactHeat, Convergence, Dimensionless, FilmThickness, Stage
+from solvers.contact.ehl.results import (
+    ContactFriction,
+    ContactHeat,
+    Convergence,
+    Dimensionless,
+    FilmThickness,
+    MeshError,
+    Stage,
+)
 from solvers.notices import Notice
 
 LOWEST_PECLET = 5.0
@@ -9,10 +17,12 @@ NEWTONIAN_SLIDE_ROLL_RATIO = 0.3
 TRACTION_RATIO = 0.1
 THIN_FILM = 0.05e-6  # m
 BALANCE_ERROR = 1e-4
+LARGEST_MESH_ERROR = 0.02
 FAILURES: dict[Stage, str] = {
     "isothermal": "the isothermal film did not converge",
     "coupling": "pressures and temperatures did not converge together",
     "heat_balance": "the solution leaves the heat balance open",
+    "verification": "the solution contradicts the heat that flows into its surfaces or the oil that enters",
 }
 
 
@@ -67,6 +77,18 @@ def result_notices(film: FilmThickness, friction: ContactFriction, heat: Contact
             Notice("heat_balance", f"the heat balance is open by {heat.balance_error:.1e}, above 1e-4", "nodes")
         )
     return notices
+
+
+def mesh_notices(error: MeshError | None) -> list[Notice]:
+    """What the mesh leaves uncertain."""
+    if error is None:
+        return [Notice("mesh_error", "the error of the mesh could not be estimated; compare with more nodes", "nodes")]
+    if error.largest <= LARGEST_MESH_ERROR:
+        return []
+    worst = [
+        f"{name.replace('_', ' ')} {value:.1%}" for name, value in error.known.items() if value > LARGEST_MESH_ERROR
+    ]
+    return [Notice("mesh_error", f"the mesh leaves more than 2 % of error: {', '.join(worst)}; raise nodes", "nodes")]
 
 
 def failure_notice(convergence: Convergence) -> Notice:

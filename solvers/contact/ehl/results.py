@@ -7,7 +7,7 @@ from solvers.arrays import FloatArray
 from solvers.notices import Notice
 
 Status = Literal["ok", "ok_with_warnings", "no_solution"]
-Stage = Literal["isothermal", "coupling", "heat_balance"]
+Stage = Literal["isothermal", "coupling", "heat_balance", "verification"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,11 +103,39 @@ class ContactHeat:
 
 
 @dataclass(frozen=True, slots=True)
+class MeshError:
+    """Estimated error that the mesh leaves in what is reported, relative; temperatures and heat None if isothermal.
+
+    Friction below 0.001 and flash temperatures below 25 K are compared with those. Local maxima (of pressure, shear
+    stress, film temperature) have none: where they are sharp, no mesh resolves them.
+    """
+
+    central_film: float
+    minimum_film: float
+    centre_pressure: float
+    friction: float
+    surface_1_flash: float | None = None
+    surface_2_flash: float | None = None
+    generated_heat: float | None = None
+
+    @property
+    def known(self) -> dict[str, float]:
+        """By name, without what an isothermal contact does not have."""
+        return {name: value for name in self.__slots__ if (value := getattr(self, name)) is not None}
+
+    @property
+    def largest(self) -> float:
+        """The largest of them."""
+        return max(self.known.values())
+
+
+@dataclass(frozen=True, slots=True)
 class Convergence:
     """Newton steps in all, last changes of P and of temperature [K], load error (relative), nodes of the last mesh.
 
     `stage` is where it ended; `eyring_stress` [Pa] what continuation reached, where it was tried and failed. A change
-    is None where there was none: isothermal, or no step left in the budget.
+    is None where there was none: isothermal, or no step left in the budget. `departure` [K] is what
+    `verification.departure` finds in a finished thermal state.
     """
 
     iterations: int
@@ -117,6 +145,7 @@ class Convergence:
     nodes: int
     stage: Stage
     eyring_stress: float | None
+    departure: float | None
 
     @property
     def residuals(self) -> dict[str, float]:
@@ -125,13 +154,17 @@ class Convergence:
             "pressure_change": self.pressure_change,
             "temperature_change": self.temperature_change,
             "load_error": self.load_error,
+            "departure": self.departure,
         }
         return {name: value for name, value in known.items() if value is not None}
 
 
 @dataclass(frozen=True, slots=True)
 class ContactCurves:
-    """Along the contact, (n,): x [m], pressures [Pa], film [m], temperatures [K] (None if isothermal)."""
+    """Along the contact, (n,): x [m], pressures [Pa], film [m]; None if isothermal: temperatures [K], heat fluxes.
+
+    Fluxes [W/m^2] are those into the surfaces, linear between the nodes.
+    """
 
     x: FloatArray
     pressure: FloatArray
@@ -142,6 +175,8 @@ class ContactCurves:
     mid_film_temperature: FloatArray | None
     surface_1_temperature: FloatArray | None
     surface_2_temperature: FloatArray | None
+    surface_1_heat_flux: FloatArray | None
+    surface_2_heat_flux: FloatArray | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,6 +208,7 @@ class LineContactResult:
     temperature: ContactTemperature | None
     friction: ContactFriction | None
     heat: ContactHeat | None
+    mesh_error: MeshError | None
     convergence: Convergence
     curves: ContactCurves | None
     field: ContactField | None

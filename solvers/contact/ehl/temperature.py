@@ -112,14 +112,16 @@ def temperature_step(
 
 @kernel
 def inlet_step(problem: Problem, work: Work, temperature: FloatArray, step: FloatArray) -> None:
-    """First column of `step`: oil enters at the inlet temperature, and leaves at that of the column behind it.
+    """First column of `step`: walls at bulk temperature, oil that enters at that of the inlet.
 
-    Which is which follows from the flux and a uniform viscosity, so that it cannot change with the temperatures it
-    decides on.
+    Oil that leaves has the temperature of the column behind. Which does what follows from the flux and a uniform
+    viscosity, so that it cannot change with the temperatures it decides on.
     """
     nodes = step.shape[1]
     u1, u2 = problem.speed_1, problem.speed_2
     mean = work.film.stream[0, nodes - 1] / (problem.laws.density * work.height[0] * problem.gap_scale)
+    step[0, 0] = problem.bulk_1 - temperature[0, 0]
+    step[0, nodes - 1] = problem.bulk_2 - temperature[0, nodes - 1]
     for k in range(1, nodes - 1):
         zeta = k / (nodes - 1)
         speed = u1 * (1.0 - zeta) + u2 * zeta + 6.0 * (mean - 0.5 * (u1 + u2)) * zeta * (1.0 - zeta)

@@ -1,0 +1,110 @@
+"""How bearings yield: the short plain bearing's film (DuBois and Ocvirk, NACA 1157, 1953), springs, rigid ones."""
+
+from dataclasses import dataclass
+from math import atan2, cos, hypot, pi, sin, sqrt
+
+import numpy as np
+from scipy.optimize import brentq
+
+from solvers.arrays import FloatArray
+from solvers.drive_train.inputs import Bearing, JournalBearing, LinearBearing
+from solvers.errors import NoSolution
+
+LARGEST_ECCENTRICITY = 0.999
+
+
+@dataclass(frozen=True, slots=True)
+class BearingState:
+    """A loaded bearing: displacement [m] of the shaft without the bore's offset, and its derivative [m/N].
+
+    Of a plain bearing also the eccentricity ratio, the attitude angle of the displacement against the load [rad], the
+    thinnest film [m], load per projected area [Pa] and friction power [W]; None else.
+    """
+
+    load: FloatArray
+    displacement: FloatArray
+    flexibility: FloatArray
+    eccentricity_ratio: float | None = None
+    attitude: float | None = None
+    minimum_film: float | None = None
+    specific_pressure: float | None = None
+    friction_power: float = 0.0
+
+
+def load_number(eccentricity: float) -> float:
+    """Load of the short bearing over eta omega (D/2) L^3 / (4 c^2), with the film where pressure is positive (pi)."""
+    square = eccentricity**2
+    return eccentricity / (1 - square) ** 2 * sqrt(pi**2 * (1 - square) + 16 * square)
+
+
+def attitude_angle(eccentricity: float) -> float:
+    """Angle of the displacement against the load, in the sense of rotation: tan phi = pi sqrt(1 - e^2) / (4 e)."""
+    return atan2(pi * sqrt(1 - eccentricity**2), 4 * eccentricity)
+
+
+def film_force(bearing: JournalBearing, speed: float) -> float:
+    """Eta omega (D/2) L^3 / (4 c^2) [N] at the shaft's speed [rad/s]."""
+    return bearing.viscosity * speed * bearing.diameter / 2 * bearing.width**3 / (4 * bearing.clearance**2)
+
+
+def bearing_state(bearing: Bearing, load: FloatArray, speed: float, rotation: float) -> BearingState:
+    """The bearing under a load (X, Y) [N] at the shaft's speed [rad/s] and sense of rotation.
+
+    Raises NoSolution journal where a film would have to be thinner than a thousandth of the clearance.
+    """
+    if isinstance(bearing, JournalBearing):
+        return _journal(bearing, load, speed, rotation)
+    if isinstance(bearing, LinearBearing):
+        flexibility = np.linalg.inv(np.array(bearing.stiffness))
+        return BearingState(load, flexibility @ load, flexibility)
+    return BearingState(load, np.zeros(2), np.zeros((2, 2)))
+
+
+def _journal(bearing: JournalBearing, load: FloatArray, speed: float, rotation: float) -> BearingState:
+    clearance, scale = bearing.clearance, film_force(bearing, speed)
+    force = hypot(load[0], load[1])
+    eccentricity = _eccentricity(force / scale)
+    attitude = attitude_angle(eccentricity)
+    turn = _turn(rotation * attitude)
+    direction = load / force if force > 0.0 else np.array([1.0, 0.0])
+    across = np.array([-direction[1], direction[0]])
+    slope, swing = 1.0 / (scale * _load_slope(eccentricity)), _attitude_slope(eccentricity)
+    along_load = slope * (turn + eccentricity * rotation * swing * turn @ _turn(pi / 2)) @ direction
+    secant = eccentricity / force if force > 0.0 else slope
+    flexibility = clearance * (np.outer(along_load, direction) + secant * np.outer(turn @ across, across))
+    friction = 2 * pi * bearing.viscosity * speed**2 * (bearing.diameter / 2) ** 3 * bearing.width
+    return BearingState(
+        load=load,
+        displacement=clearance * eccentricity * turn @ direction,
+        flexibility=flexibility,
+        eccentricity_ratio=eccentricity,
+        attitude=attitude,
+        minimum_film=clearance * (1 - eccentricity),
+        specific_pressure=force / (bearing.diameter * bearing.width),
+        friction_power=friction / (clearance * sqrt(1 - eccentricity**2)),
+    )
+
+
+def _eccentricity(load: float) -> float:
+    """The eccentricity ratio that carries a load number."""
+    if load > load_number(LARGEST_ECCENTRICITY):
+        message = "a plain bearing's film cannot carry its load; it would be thinner than a thousandth of the clearance"
+        raise NoSolution("journal", message, {"load_number": load})
+    return float(brentq(lambda e: load_number(e) - load, 0.0, LARGEST_ECCENTRICITY, xtol=1e-17, rtol=1e-15))
+
+
+def _load_slope(eccentricity: float) -> float:
+    """Derivative of `load_number`."""
+    rest, root = 1 - eccentricity**2, sqrt(pi**2 * (1 - eccentricity**2) + 16 * eccentricity**2)
+    return root / rest**2 + 4 * eccentricity**2 * root / rest**3 + eccentricity**2 * (16 - pi**2) / (rest**2 * root)
+
+
+def _attitude_slope(eccentricity: float) -> float:
+    """Derivative of `attitude_angle`."""
+    rest = 1 - eccentricity**2
+    return -4 * pi / (sqrt(rest) * (pi**2 * rest + 16 * eccentricity**2))
+
+
+def _turn(angle: float) -> FloatArray:
+    """Rotation matrix."""
+    return np.array([[cos(angle), -sin(angle)], [sin(angle), cos(angle)]])

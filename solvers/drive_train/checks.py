@@ -1,0 +1,104 @@
+"""What no drive train can be made of."""
+
+import numpy as np
+
+from solvers.drive_train.inputs import DriveTrainInputs, LinearBearing, Shaft
+from solvers.drive_train.shaft import COINCIDENT
+from solvers.errors import InvalidInput
+from solvers.gears.path_of_contact import PathOfContact
+
+NAMES = ("pinion_shaft", "wheel_shaft")
+COLLAR_BEYOND_TEETH = 3.0  # normal modules
+LEAST_BEARING_DISTANCE = 0.5  # face widths
+
+
+def check_inputs(inputs: DriveTrainInputs, path: PathOfContact) -> None:
+    """Refuse what cannot stand or turn.
+
+    Raises InvalidInput: bearing_count, bearing_outside, bearing_order, bearing_distance, face_outside,
+    torque_position, position_outside, section_diameter, stiffness_matrix, thrust_collar_radius, machine_side,
+    couplings_on_shaft.
+    """
+    for index, (shaft, name) in enumerate(zip(inputs.shafts, NAMES, strict=True)):
+        _check_sections(inputs, path, index, name)
+        _check_bearings(inputs, shaft, name)
+        _check_torque(inputs, index, name)
+    _check_couplings(inputs)
+    _check_collar(inputs, path)
+
+
+def _check_sections(inputs: DriveTrainInputs, path: PathOfContact, index: int, name: str) -> None:
+    shaft, tip = inputs.shafts[index], 2 * (path.pair.pinion, path.pair.wheel)[index].tip_radius
+    start, end = inputs.face_start, inputs.face_start + path.plane.face_width
+    if start < shaft.start - COINCIDENT or end > shaft.end + COINCIDENT:
+        raise InvalidInput("face_outside", "the face lies outside the shaft's sections", "face_start")
+    position = shaft.start
+    for k, section in enumerate(shaft.sections):
+        field = f"{name}.sections.{k}"
+        if section.inner_diameter >= section.outer_diameter:
+            message = f"the bore of section {k} leaves nothing of it"
+            raise InvalidInput("section_diameter", message, f"{field}.inner_diameter")
+        under_face = position < end - COINCIDENT and position + section.length > start + COINCIDENT
+        if under_face and section.outer_diameter > tip:
+            message = f"section {k} under the teeth is thicker than their tips; give the reference diameter"
+            raise InvalidInput("section_diameter", message, f"{field}.outer_diameter")
+        position += section.length
+
+
+def _check_bearings(inputs: DriveTrainInputs, shaft: Shaft, name: str) -> None:
+    if len(shaft.bearings) != 2:
+        raise InvalidInput("bearing_count", "a shaft runs in exactly two bearings", f"{name}.bearings")
+    for k, bearing in enumerate(shaft.bearings):
+        if not shaft.start <= bearing.position <= shaft.end:
+            message = f"bearing {k} lies outside the shaft"
+            raise InvalidInput("bearing_outside", message, f"{name}.bearings.{k}.position")
+        if isinstance(bearing, LinearBearing):
+            matrix = np.array(bearing.stiffness)
+            if np.linalg.eigvalsh((matrix + matrix.T) / 2).min() <= 0.0:
+                message = "the symmetric part of a bearing's stiffness must be positive definite"
+                raise InvalidInput("stiffness_matrix", message, f"{name}.bearings.{k}.stiffness")
+    distance = abs(shaft.bearings[0].position - shaft.bearings[1].position)
+    if distance <= COINCIDENT:
+        raise InvalidInput("bearing_order", "the bearings need different positions", f"{name}.bearings.1.position")
+    if distance < LEAST_BEARING_DISTANCE * inputs.mesh.distribution.gears.face_width:
+        message = "the bearings are nearer to each other than half the face width"
+        raise InvalidInput("bearing_distance", message, f"{name}.bearings.1.position")
+
+
+def _check_torque(inputs: DriveTrainInputs, index: int, name: str) -> None:
+    shaft, field = inputs.shafts[index], f"{name}.torque_position"
+    position = shaft.torque_position
+    if position is None:
+        own = [one.position for one in inputs.couplings if NAMES[index].startswith(one.shaft)]
+        if not own:
+            raise InvalidInput("torque_position", "say where torque enters a shaft without a coupling", field)
+        position = own[0]
+    if not shaft.start <= position <= shaft.end:
+        raise InvalidInput("torque_position", "torque must enter within the shaft", field)
+    if inputs.face_start < position < inputs.face_start + inputs.mesh.distribution.gears.face_width:
+        raise InvalidInput("torque_position", "torque must enter outside the face", field)
+
+
+def _check_couplings(inputs: DriveTrainInputs) -> None:
+    middle = inputs.face_start + inputs.mesh.distribution.gears.face_width / 2
+    names = [coupling.shaft for coupling in inputs.couplings]
+    for k, coupling in enumerate(inputs.couplings):
+        field = f"couplings.{k}"
+        if names.index(coupling.shaft) != k:
+            raise InvalidInput("couplings_on_shaft", "a shaft takes one coupling", f"{field}.shaft")
+        shaft = inputs.pinion_shaft if coupling.shaft == "pinion" else inputs.wheel_shaft
+        if not shaft.start <= coupling.position <= shaft.end:
+            raise InvalidInput("position_outside", "the hub lies outside its shaft", f"{field}.position")
+        if (coupling.position > middle) != (coupling.machine_side == "plus"):
+            message = "the machine would lie on the gears' side of the hub; turn machine_side or move the hub"
+            raise InvalidInput("machine_side", message, f"{field}.machine_side")
+
+
+def _check_collar(inputs: DriveTrainInputs, path: PathOfContact) -> None:
+    if inputs.collar_radius is None:
+        return
+    low = path.pair.pinion_working_radius
+    high = low + COLLAR_BEYOND_TEETH * path.pair.inputs.normal_module
+    if not low < inputs.collar_radius < high:
+        message = f"the collar meets the wheel between {low * 1e3:.2f} and {high * 1e3:.2f} mm"
+        raise InvalidInput("thrust_collar_radius", message, "collar_radius")

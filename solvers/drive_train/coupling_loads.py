@@ -1,0 +1,196 @@
+"""What a gear coupling does to the shaft it sits on: moments and forces by the tilts of both its hubs.
+
+Hub A is the unit's, hub B the machine's; the machine lies on the side `towards` (+1 along Z) at the hub distance l. The
+sleeve's slope is (c_B - c_A) / (towards l), and the tilt of a hub is its slope minus the sleeve's, a vector d = delta e
+in the planes X and Y. Loads are conjugate to slopes, m = -Z x M: with a = M_s + M_e and M_l
+    on the hub       m = -a e + s (M_l - s_d T delta / 2) Z x e
+    on its shaft     f = -a e / l + s (M_l + s_d T delta / 2) Z x e / l     times `towards`, of both hubs
+M_l dissipates, M_s and M_e straighten; s is the sense of rotation, s_d = +1 where the hub drives the sleeve. The sign
+of T delta / 2 differs between hub and sleeve because the torque bisects their axes.
+"""
+
+from dataclasses import dataclass, replace
+from math import acos, cos, hypot, pi, sin, sqrt
+
+import numpy as np
+
+from solvers import coupling as gear_coupling
+from solvers.arrays import FloatArray
+from solvers.coupling.geometry import pitch_radius
+from solvers.coupling.inputs import CouplingInputs, Operation
+from solvers.drive_train.inputs import CouplingFriction, UnitCoupling
+from solvers.errors import InvalidInput
+from solvers.notices import Notice
+
+STEP = 1e-4  # of the tilt, for differences
+LEAST_TILT = 1e-12  # rad; below it nothing is tilted
+
+
+@dataclass(frozen=True, slots=True)
+class HubMoments:
+    """Of one hub: straightening moment a = M_s + M_e and loss moment M_l [N m]; friction and thrust limit [N].
+
+    `sticks` where no tooth slides; `share` is the friction moment over the one of full sliding.
+    """
+
+    straightening: float
+    loss: float
+    friction_coefficient: float
+    thrust_limit: float
+    sticks: bool
+    share: float
+    warnings: tuple[Notice, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class CouplingPort:
+    """A coupling as the shaft meets it; torque [N m] and speed [rad/s] of its shaft, sense of rotation of its shaft.
+
+    The tilts of both hubs are `rest` + `lever` @ (U, V, slopes of the shaft at the hub).
+    """
+
+    inputs: UnitCoupling
+    index: int
+    law: CouplingFriction
+    torque: float
+    speed: float
+    rotation: float
+    rest: FloatArray
+    lever: FloatArray
+    softness: float = 1.0
+
+    @property
+    def length(self) -> float:
+        """Hub distance, negative where the machine lies towards -Z [m]."""
+        distance = self.inputs.coupling.hub_distance
+        return distance if self.inputs.machine_side == "plus" else -distance
+
+    @property
+    def driving(self) -> tuple[float, float]:
+        """S_d of the hubs A and B: the machine drives the pinion, the wheel drives its machine."""
+        return (-1.0, 1.0) if self.inputs.shaft == "pinion" else (1.0, -1.0)
+
+
+def coupling_port(
+    inputs: UnitCoupling,
+    index: int,
+    law: CouplingFriction,
+    torque: float,
+    speed: float,
+    rotation: float,
+    up: FloatArray,
+) -> CouplingPort:
+    """The coupling of a shaft; `up` points against gravity, where the machine's shaft grows to."""
+    offset = np.array(inputs.offset) + (0.0 if inputs.alignment is None else inputs.alignment.growth) * up
+    distance = inputs.coupling.hub_distance if inputs.machine_side == "plus" else -inputs.coupling.hub_distance
+    one, none = np.eye(2), np.zeros((2, 2))
+    return CouplingPort(
+        inputs=inputs,
+        index=index,
+        law=law,
+        torque=torque,
+        speed=speed,
+        rotation=rotation,
+        rest=np.concatenate([-offset / distance, np.array(inputs.slope) - offset / distance]),
+        lever=np.block([[one / distance, one], [one / distance, none]]),
+    )
+
+
+def sliding_tilt(port: CouplingPort, friction: float) -> float:
+    """Tilt delta_0 = kt mu T / (z r_o^2 cos alpha c_a) [rad] up to which the teeth yield instead of sliding."""
+    coupling = port.inputs.coupling
+    stiffness = port.inputs.axial_tooth_stiffness or coupling.tooth_stiffness
+    elastic = coupling.teeth * pitch_radius(coupling) ** 2 * cos(coupling.pressure_angle) * stiffness
+    return port.softness * axial_share(port) * friction * port.torque / elastic
+
+
+def axial_share(port: CouplingPort) -> float:
+    """Part of the friction left for tilting, kt = cos(pi tau / 2), where the part tau acts axially."""
+    return cos(pi * min(abs(port.inputs.thrust_fraction), 1.0) / 2)
+
+
+def elastic_plastic(ratio: float) -> tuple[float, float]:
+    """Loss and elastic moment over full sliding's, at beta = tilt over the tilt at which sliding begins.
+
+    First harmonic of the hysteresis of springs that slide at a limit once a turn.
+    """
+    if ratio <= 1.0:
+        return 0.0, pi * ratio / 4
+    angle = acos(1 - 2 / ratio)
+    return 1 - 1 / ratio, ratio / 4 * (angle - sin(2 * angle) / 2)
+
+
+def regularised(ratio: float) -> tuple[float, float]:
+    """Full sliding at any tilt but the smallest, without an elastic moment: for comparison."""
+    return ratio / sqrt(ratio**2 + 1), 0.0
+
+
+def hub_moments(port: CouplingPort, tilt: float) -> HubMoments:
+    """Moments of one hub at a tilt [rad] > 0. Raises what `coupling.solve` raises, its fields prefixed."""
+    unit = port.inputs
+    given = CouplingInputs(
+        unit.coupling, Operation(port.torque, port.speed, tilt), unit.lubricant, unit.friction, unit.model
+    )
+    try:
+        result = gear_coupling.solve(given)
+    except InvalidInput as refusal:
+        field = f"couplings.{port.index}" + ("" if refusal.field is None else f".{refusal.field}")
+        raise InvalidInput(refusal.code, refusal.message, field) from refusal
+    friction = result.lubrication.friction_coefficient
+    limit, full = sliding_tilt(port, friction), axial_share(port) * result.losses.friction_moment
+    loss, elastic, ratio = 0.0, 0.0, np.inf
+    if limit > 0.0:
+        ratio = tilt / limit
+        loss, elastic = elastic_plastic(ratio) if port.law == "elastic_plastic" else regularised(ratio)
+    return HubMoments(
+        straightening=result.losses.contact_shift_moment + full * elastic,
+        loss=full * loss,
+        friction_coefficient=friction,
+        thrust_limit=result.axial_thrust.coaxial_limit,
+        sticks=ratio < 1.0,
+        share=sqrt(loss**2 + elastic**2),
+        warnings=result.warnings,
+    )
+
+
+def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Loads (F_X, F_Y, m_X, m_Y) on the unit's shaft by both hubs' tilts (4,) [rad], and their derivative (4, 4)."""
+    loads, derivative = np.zeros(4), np.zeros((4, 4))
+    for hub, driving in enumerate(port.driving):
+        part = slice(2 * hub, 2 * hub + 2)
+        tilt = tilts[part]
+        size = max(hypot(*tilt), LEAST_TILT)
+        now, further = _moments(port, size), _moments(port, size * (1 + STEP))
+        slopes = (further - now) / (size * STEP)
+        sleeve, by_sleeve = _polar(tilt, now, slopes, port.rotation * driving * port.torque / 2)
+        loads[:2] += sleeve / port.length
+        derivative[:2, part] += by_sleeve / port.length
+        if hub == 0:
+            loads[2:], derivative[2:, part] = _polar(tilt, now, slopes, -port.rotation * driving * port.torque / 2)
+    return loads, derivative
+
+
+def _polar(tilt: FloatArray, moments: FloatArray, slopes: FloatArray, torque: float) -> tuple[FloatArray, FloatArray]:
+    """-a e + (b + torque delta) Z x e of a tilt delta e, and its derivative by the tilt's components.
+
+    `moments` holds a and b, `slopes` their derivatives by delta; below the least tilt both are proportional to it.
+    """
+    size = hypot(*tilt)
+    direction = tilt / size if size > 0.0 else np.array([1.0, 0.0])
+    across = np.array([-direction[1], direction[0]])
+    a, b = moments / max(size, LEAST_TILT)
+    along = -slopes[0] * direction + (slopes[1] + torque) * across
+    turning = -a * across - (b + torque) * direction
+    loads = size * (-a * direction + (b + torque) * across)
+    return loads, np.outer(along, direction) + np.outer(turning, across)
+
+
+def _moments(port: CouplingPort, tilt: float) -> FloatArray:
+    """Straightening a and loss moment, with the sense of rotation's sign, of a hub."""
+    hub = hub_moments(port, tilt)
+    return np.array([hub.straightening, port.rotation * hub.loss])
+
+
+def softened(port: CouplingPort, factor: float) -> CouplingPort:
+    """The same coupling with teeth that yield `factor` times as far before they slide."""
+    return replace(port, softness=factor)

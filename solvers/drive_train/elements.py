@@ -1,0 +1,111 @@
+"""Shafts and couplings as results: bearings, lines of deflection, thrust, the hubs' loads."""
+
+from math import hypot
+
+import numpy as np
+
+from solvers.arrays import FloatArray, frozen
+from solvers.drive_train.balance import Equilibrium
+from solvers.drive_train.bearings import BearingState
+from solvers.drive_train.coupling_loads import LEAST_TILT, HubMoments, hub_moments
+from solvers.drive_train.influence import ShaftPorts, Unit
+from solvers.drive_train.inputs import DriveTrainInputs, Vector2
+from solvers.drive_train.results import BearingResult, CouplingResult, ShaftCurves, ShaftResult
+from solvers.drive_train.thrust_budget import mesh_thrust, thrust_budget
+from solvers.gears.path_of_contact import PathOfContact
+
+
+def hubs_of(unit: Unit, found: Equilibrium) -> list[tuple[HubMoments, HubMoments]]:
+    """Moments of both hubs of every coupling at the tilts found."""
+    hubs = []
+    for k, port in enumerate(unit.couplings):
+        tilts = found.tilts[4 * k : 4 * k + 4]
+        sizes = [max(hypot(*tilts[part : part + 2]), LEAST_TILT) for part in (0, 2)]
+        hubs.append((hub_moments(port, sizes[0]), hub_moments(port, sizes[1])))
+    return hubs
+
+
+def coupling_results(
+    unit: Unit, found: Equilibrium, hubs: list[tuple[HubMoments, HubMoments]]
+) -> tuple[CouplingResult, ...]:
+    """Loads of the couplings on their shafts; the conjugate moments m = -Z x M turned back to M."""
+    results = []
+    for k, (port, pair) in enumerate(zip(unit.couplings, hubs, strict=True)):
+        tilts, loads = found.tilts[4 * k : 4 * k + 4], found.loads[unit.stations.size + 4 * k :][:4]
+        sizes = (hypot(tilts[0], tilts[1]), hypot(tilts[2], tilts[3]))
+        results.append(
+            CouplingResult(
+                tilt=sizes,
+                stuck=(pair[0].sticks, pair[1].sticks),
+                friction_share=(pair[0].share, pair[1].share),
+                moment=(-float(loads[3]), float(loads[2])),
+                force=(float(loads[0]), float(loads[1])),
+                friction_coefficient=min(hub.friction_coefficient for hub in pair),
+                thrust_limit=min(hub.thrust_limit for hub in pair),
+                friction_power=sum(hub.loss * port.speed * size for hub, size in zip(pair, sizes, strict=True)),
+            )
+        )
+    return tuple(results)
+
+
+def shaft_results(
+    inputs: DriveTrainInputs,
+    path: PathOfContact,
+    unit: Unit,
+    found: Equilibrium,
+    couplings: tuple[CouplingResult, ...],
+) -> tuple[ShaftResult, ShaftResult]:
+    """Bearings, thrust and deflection of both shafts."""
+    limits = [
+        sum(one.thrust_limit for port, one in zip(unit.couplings, couplings, strict=True) if port.inputs.shaft == name)
+        for name in ("pinion", "wheel")
+    ]
+    mesh = mesh_thrust(inputs, path, unit.frame)
+    diameters = (_hub_diameter(inputs, 0), _hub_diameter(inputs, 1))
+    thrusts = thrust_budget(inputs, mesh, (limits[0], limits[1]), diameters)
+    states = unit.bearings(found.loads)
+    shafts = []
+    for i, side in enumerate(unit.shafts):
+        own = states[2 * i : 2 * i + 2]
+        curves = _curves(side, found.loads, own, unit.offsets[4 * i : 4 * i + 4])
+        shafts.append(ShaftResult((_bearing(own[0]), _bearing(own[1])), thrusts[i], curves))
+    return shafts[0], shafts[1]
+
+
+def _hub_diameter(inputs: DriveTrainInputs, index: int) -> float | None:
+    """Diameter of the shaft under its hub [m]."""
+    shaft, name = inputs.shafts[index], ("pinion", "wheel")[index]
+    for coupling in inputs.couplings:
+        if coupling.shaft == name:
+            ends = shaft.start + np.cumsum([section.length for section in shaft.sections])
+            return shaft.sections[min(int(np.searchsorted(ends, coupling.position)), ends.size - 1)].outer_diameter
+    return None
+
+
+def _bearing(state: BearingState) -> BearingResult:
+    return BearingResult(
+        reaction=_pair(-state.load),
+        displacement=_pair(state.displacement),
+        eccentricity_ratio=state.eccentricity_ratio,
+        attitude=state.attitude,
+        minimum_film=state.minimum_film,
+        specific_pressure=state.specific_pressure,
+        friction_power=state.friction_power,
+    )
+
+
+def _curves(side: ShaftPorts, loads: FloatArray, bearings: list[BearingState], offsets: FloatArray) -> ShaftCurves:
+    """Elastic line of a shaft on its displaced bearings, and its twist."""
+    nodes = side.model.z.size
+    displacement = np.array([state.displacement for state in bearings]) + offsets.reshape(2, 2)
+    motion = side.motion(side.loads @ loads + side.fixed) + displacement.T @ side.model.bearing_share
+    return ShaftCurves(
+        z=frozen(side.model.z),
+        x=frozen(motion[0, :nodes]),
+        y=frozen(motion[1, :nodes]),
+        twist=frozen(side.model.torsion @ (side.torques @ loads)),
+    )
+
+
+def _pair(vector: FloatArray) -> Vector2:
+    return float(vector[0]), float(vector[1])

@@ -1,0 +1,64 @@
+"""The unit's frame: where the mesh force acts on both shafts and which way it points."""
+
+from dataclasses import dataclass
+from math import cos, sin
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.drive_train.inputs import Arrangement
+from solvers.gears.path_of_contact import PathOfContact
+
+Z_AXIS = np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """Directions and arms in X, Y, Z.
+
+    `rotation` is +1 where the pinion turns counter-clockwise about Z, -1 else; `face_direction` is +1 where the face
+    coordinate y, which begins at the end that meshes first, runs along Z. `radial` points from pinion to wheel,
+    `transverse_force` along the transverse force on the pinion; `force` is the force on the pinion per unit transverse
+    force. `arms` are those of the pitch point from the pinion's and the wheel's axis [m].
+    """
+
+    rotation: float
+    face_direction: float
+    radial: FloatArray
+    transverse_force: FloatArray
+    force: FloatArray
+    arms: tuple[FloatArray, FloatArray]
+    down: FloatArray
+
+    def shaft_rotation(self, shaft: int) -> float:
+        """Sense of rotation of the pinion's (0) and the wheel's (1) shaft."""
+        return self.rotation if shaft == 0 else -self.rotation
+
+    def positions(self, face_start: float, face_width: float, y: FloatArray) -> FloatArray:
+        """Z [m] of points of the face at distances y [m] from the end that meshes first."""
+        return face_start + y if self.face_direction > 0.0 else face_start + (face_width - y)
+
+
+def frame(arrangement: Arrangement, path: PathOfContact) -> Frame:
+    """The frame of a unit.
+
+    e_t = sigma Z x e_r is the velocity of the pinion at C; the flank force on the pinion opposes it,
+    n_t = -(cos a_wt e_t + sin a_wt e_r); a helix adds -tan beta_b along y, and y runs along -sigma h Z.
+    """
+    pair = path.pair
+    rotation = 1.0 if arrangement.rotation == "counterclockwise" else -1.0
+    hand = 1.0 if arrangement.hand == "right" else -1.0
+    radial = np.array([cos(arrangement.wheel_angle), sin(arrangement.wheel_angle), 0.0])
+    tangential = rotation * np.cross(Z_AXIS, radial)
+    angle = pair.working_pressure_angle
+    transverse_force = -(cos(angle) * tangential + sin(angle) * radial)
+    face_direction = -rotation * hand
+    return Frame(
+        rotation=rotation,
+        face_direction=face_direction,
+        radial=radial,
+        transverse_force=transverse_force,
+        force=transverse_force - path.plane.tan_base_helix * face_direction * Z_AXIS,
+        arms=(pair.pinion_working_radius * radial, -pair.wheel_working_radius * radial),
+        down=np.array([cos(arrangement.gravity_angle), sin(arrangement.gravity_angle)]),
+    )

@@ -1,0 +1,210 @@
+"""Shafts, bearings and couplings as one system with few ports: the gap at stations of the face, the couplings' hubs.
+
+A station's transverse force Q loads both shafts by force, tilting moment and torque; the same coefficients read the gap
+off their motions. So with A the coefficients and C the shafts' flexibility the elastic gap is A^T C A Q, symmetric and
+never negative, and Q A^T C A Q is twice the strain energy. The bearings are ports as well: they take L q and, displaced
+by u, move the ports by L^T u.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.drive_train.bearings import BearingState, bearing_state
+from solvers.drive_train.coupling_loads import CouplingPort, coupling_port
+from solvers.drive_train.frame import Frame, frame
+from solvers.drive_train.inputs import DriveTrainInputs, Shaft
+from solvers.drive_train.shaft import GRAVITY, ShaftModel, shaft_model
+from solvers.drive_train.thrust_budget import collar_force
+from solvers.gears.path_of_contact import PathOfContact
+
+
+@dataclass(frozen=True, slots=True)
+class ShaftPorts:
+    """One shaft and how its ports load its nodes: `loads` (2 planes, 2N, ports), `torques` (N, ports).
+
+    `mesh_loads` are the same of the stations' transverse forces alone. Loads that do not change, as vectors
+    (2 planes, 2N): `weight` with half a sleeve, `collar`.
+    """
+
+    model: ShaftModel
+    shaft: Shaft
+    speed: float
+    rotation: float
+    loads: FloatArray
+    mesh_loads: FloatArray
+    torques: FloatArray
+    weight: FloatArray
+    collar: FloatArray
+
+    @property
+    def fixed(self) -> FloatArray:
+        """All loads that do not change."""
+        return self.weight + self.collar
+
+    def motion(self, loads: FloatArray) -> FloatArray:
+        """Elastic motion (2 planes, 2N) of the nodes between bearings at rest."""
+        return np.asarray(loads @ self.model.flexibility)
+
+    def reading(self, motion: FloatArray) -> FloatArray:
+        """What the ports see of a motion of the nodes (2 planes, 2N)."""
+        return np.asarray(np.einsum("dnp,dn->p", self.loads, motion))
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """The system by its ports, the n stations of the face first, then four a coupling (U, V and the slopes there).
+
+    `elastic` (ports, ports) [m/N, ...] between bearings at rest, `rest` the motion of the ports under loads that do not
+    change; the bearings (pinion's two, wheel's two; X and Y) take `bearing_loads` @ q + `bearing_rest` [N].
+    """
+
+    frame: Frame
+    stations: FloatArray
+    shafts: tuple[ShaftPorts, ShaftPorts]
+    couplings: tuple[CouplingPort, ...]
+    elastic: FloatArray
+    rest: FloatArray
+    bearing_loads: FloatArray
+    bearing_rest: FloatArray
+    offsets: FloatArray
+
+    def bearings(self, loads: FloatArray) -> list[BearingState]:
+        """The four bearings under the loads of the ports."""
+        carried = self.bearing_loads @ loads + self.bearing_rest
+        return [
+            bearing_state(bearing, carried[4 * i + 2 * k : 4 * i + 2 * k + 2], side.speed, side.rotation)
+            for i, side in enumerate(self.shafts)
+            for k, bearing in enumerate(side.shaft.bearings)
+        ]
+
+    def motion(self, loads: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Motion of the ports under their loads, and its derivative (ports, ports)."""
+        states = self.bearings(loads)
+        displacement = np.concatenate([state.displacement for state in states]) + self.offsets
+        yielding = np.zeros((8, 8))
+        for i, state in enumerate(states):
+            yielding[2 * i : 2 * i + 2, 2 * i : 2 * i + 2] = state.flexibility
+        motion = self.elastic @ loads + self.rest + self.bearing_loads.T @ displacement
+        return motion, self.elastic + self.bearing_loads.T @ yielding @ self.bearing_loads
+
+
+def unit(inputs: DriveTrainInputs, path: PathOfContact) -> Unit:
+    """The unit's shafts, bearings and couplings ready to be loaded."""
+    directions, plane = frame(inputs.arrangement, path), path.plane
+    stations = np.linspace(0.0, plane.face_width, inputs.face_stations)
+    load = inputs.mesh.distribution.load
+    ratio = path.pair.pinion.teeth / path.pair.wheel.teeth
+    torques, speeds = (load.pinion_torque, load.pinion_torque / ratio), (load.pinion_speed, load.pinion_speed * ratio)
+    couplings = []
+    for k, coupling in enumerate(inputs.acting_couplings):
+        i = 0 if coupling.shaft == "pinion" else 1
+        couplings.append(
+            coupling_port(
+                coupling,
+                k,
+                inputs.coupling_friction,
+                torques[i],
+                speeds[i],
+                directions.shaft_rotation(i),
+                -directions.down,
+            )
+        )
+    collar = collar_force(inputs, path, directions, tuple(couplings))
+    sides = [_shaft_ports(inputs, path, directions, stations, tuple(couplings), speeds[i], collar, i) for i in range(2)]
+    elastic = sum(_elastic(side) for side in sides)
+    shares = [np.einsum("bn,dnp->bdp", side.model.bearing_share, side.loads) for side in sides]
+    rests = [np.einsum("bn,dn->bd", side.model.bearing_share, side.fixed) for side in sides]
+    offsets = [np.array([bearing.offset for bearing in side.shaft.bearings]) for side in sides]
+    return Unit(
+        frame=directions,
+        stations=stations,
+        shafts=(sides[0], sides[1]),
+        couplings=tuple(couplings),
+        elastic=np.asarray(elastic),
+        rest=np.asarray(sum(side.reading(side.motion(side.fixed)) for side in sides)),
+        bearing_loads=np.concatenate([share.reshape(4, -1) for share in shares]),
+        bearing_rest=np.concatenate([rest.ravel() for rest in rests]),
+        offsets=np.concatenate([offset.ravel() for offset in offsets]),
+    )
+
+
+def _elastic(side: ShaftPorts) -> FloatArray:
+    """Ports' own flexibility of one shaft: bending in both planes and torsion."""
+    bending = sum(plane.T @ side.model.flexibility @ plane for plane in side.loads)
+    return np.asarray(bending + side.torques.T @ side.model.torsion @ side.torques)
+
+
+def torque_position(inputs: DriveTrainInputs, index: int) -> float:
+    """Where torque enters a shaft [m]: as given, else at its coupling."""
+    given = inputs.shafts[index].torque_position
+    if given is not None:
+        return given
+    name = ("pinion", "wheel")[index]
+    return next(coupling.position for coupling in inputs.couplings if coupling.shaft == name)
+
+
+def _shaft_ports(
+    inputs: DriveTrainInputs,
+    path: PathOfContact,
+    directions: Frame,
+    stations: FloatArray,
+    couplings: tuple[CouplingPort, ...],
+    speed: float,
+    collar: float,
+    index: int,
+) -> ShaftPorts:
+    """One shaft's ports; its own part of the mesh force is +d on the pinion, -d on the wheel."""
+    shaft, name, sign = inputs.shafts[index], ("pinion", "wheel")[index], (1.0, -1.0)[index]
+    z = directions.positions(inputs.face_start, path.plane.face_width, stations)
+    hubs = [port.inputs.position for port in couplings if port.inputs.shaft == name]
+    model = shaft_model(shaft, torque_position(inputs, index), np.concatenate([z, hubs]))
+    nodes, count = model.z.size, stations.size + 4 * len(couplings)
+    loads, torques = np.zeros((2, 2 * nodes, count)), np.zeros((nodes, count))
+    mesh_loads = np.zeros((2, 2 * nodes, stations.size))
+    arm, force = directions.arms[index], directions.force
+    lever = float(directions.transverse_force @ np.cross([0.0, 0.0, 1.0], arm))
+    weight = inputs.arrangement.gravity_factor * np.multiply.outer(directions.down, model.weight)
+    for k, position in enumerate(z):
+        node = model.node(position)
+        mesh_loads[:, node, k] = sign * force[:2]
+        loads[:, nodes + node, k] = -sign * force[2] * arm[:2]
+        torques[node, k] = sign * lever
+    loads[:, :, : stations.size] += mesh_loads
+    for k, port in enumerate(couplings):
+        if port.inputs.shaft == name:
+            node, first = model.node(port.inputs.position), stations.size + 4 * k
+            loads[0, node, first] = loads[1, node, first + 1] = 1.0
+            loads[0, nodes + node, first + 2] = loads[1, nodes + node, first + 3] = 1.0
+            half_sleeve = GRAVITY * inputs.arrangement.gravity_factor * port.inputs.coupling.sleeve_mass
+            weight[:, node] += half_sleeve * directions.down
+    return ShaftPorts(
+        model=model,
+        shaft=shaft,
+        speed=speed,
+        rotation=directions.shaft_rotation(index),
+        loads=loads,
+        mesh_loads=mesh_loads,
+        torques=torques,
+        weight=weight,
+        collar=_collar_loads(inputs, path, directions, model, z[-1], collar, index),
+    )
+
+
+def _collar_loads(
+    inputs: DriveTrainInputs,
+    path: PathOfContact,
+    directions: Frame,
+    model: ShaftModel,
+    position: float,
+    collar: float,
+    index: int,
+) -> FloatArray:
+    """Tilting moment of the collar's axial force [N] on the pinion, -Z on the wheel, at its radius, y = b."""
+    loads = np.zeros((2, 2 * model.z.size))
+    if inputs.collar_radius is not None:
+        radius = inputs.collar_radius - (0.0 if index == 0 else path.pair.centre_distance)
+        sign = 1.0 if index == 0 else -1.0
+        loads[:, model.z.size + model.node(position)] = -sign * collar * radius * directions.radial[:2]
+    return loads

@@ -1,0 +1,53 @@
+"""What the unit loses, and the books of forces and moments on its shafts."""
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.drive_train.balance import Equilibrium
+from solvers.drive_train.influence import ShaftPorts, Unit
+from solvers.drive_train.inputs import DriveTrainInputs
+from solvers.drive_train.results import CouplingResult, ForceBalance, ShaftResult, TrainLosses
+
+
+def train_losses(
+    inputs: DriveTrainInputs,
+    mesh: float,
+    pumping: float,
+    shafts: tuple[ShaftResult, ShaftResult],
+    couplings: tuple[CouplingResult, ...],
+) -> TrainLosses:
+    """Losses [W] of all parts; `mesh` and `pumping` are the models' own."""
+    bearings = sum(bearing.friction_power for shaft in shafts for bearing in shaft.bearings)
+    coupling = sum(one.friction_power for one in couplings)
+    total = coupling + pumping + mesh + bearings
+    power = inputs.mesh.distribution.load.power
+    return TrainLosses(coupling, pumping, mesh, bearings, total, 1 - total / power if power > 0.0 else None)
+
+
+def force_balance(unit: Unit, found: Equilibrium, torques: tuple[float, float], force: float) -> ForceBalance:
+    """Sums of forces and moments of everything that acts on a shaft, in both planes and about Z.
+
+    `torques` [N m] are those that drive the pinion and brake the wheel, force F_bt [N].
+    """
+    if force == 0.0:
+        return ForceBalance(None, None)
+    states, width = unit.bearings(found.loads), unit.stations[-1]
+    forces, moments = [], []
+    for i, side in enumerate(unit.shafts):
+        sums, turns = _sums(side, found.loads, [-state.load for state in states[2 * i : 2 * i + 2]])
+        forces.append(np.abs(sums).max())
+        moments.append(np.abs(turns).max())
+        twisting = float((side.torques @ found.loads).sum())
+        moments.append(abs(twisting + unit.frame.rotation * torques[i]))
+    return ForceBalance(float(max(forces)) / force, float(max(moments)) / (force * width))
+
+
+def _sums(side: ShaftPorts, loads: FloatArray, reactions: list[FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """Forces and moments about Z = 0 in both planes, of all nodal loads and the bearings' reactions."""
+    nodal = side.loads @ loads + side.fixed
+    nodes = side.model.z.size
+    sums = nodal[:, :nodes].sum(axis=1) + sum(reactions)
+    turns = nodal[:, :nodes] @ side.model.z + nodal[:, nodes:].sum(axis=1)
+    for bearing, reaction in zip(side.shaft.bearings, reactions, strict=True):
+        turns = turns + reaction * bearing.position
+    return sums, turns

@@ -1,0 +1,81 @@
+"""What a drive train has to say about its own validity."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from solvers.drive_train.checks import NAMES
+from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing
+from solvers.drive_train.results import CouplingResult, FaceLoad, ShaftResult, TrainSafety
+from solvers.notices import Notice
+
+SHORT_BEARING = 0.7  # width over diameter
+THIN_FILM = 15e-6  # m
+LARGE_ECCENTRICITY = 0.9
+LIFTED = 0.9  # contact fraction
+CORNER = 0.98  # safety over the flank against the feature line's
+
+
+def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResult]) -> Iterator[Notice]:
+    """Films out of range, thrust that turns round or is too much, long overhangs."""
+    for shaft, result, name in zip(inputs.shafts, shafts, NAMES, strict=True):
+        for k, (bearing, state) in enumerate(zip(shaft.bearings, result.bearings, strict=True)):
+            field = f"{name}.bearings.{k}"
+            if isinstance(bearing, JournalBearing):
+                yield from _film_notices(bearing, state.eccentricity_ratio, state.minimum_film, field)
+        thrust = result.thrust
+        if thrust.reverses:
+            message = f"the coupling's friction can turn the thrust round: {thrust.lower:.0f} to {thrust.upper:.0f} N"
+            yield Notice("thrust_reversal", message, f"{name}.ultimate_thrust")
+        if thrust.use is not None and thrust.use > 1.0:
+            message = f"the thrust bearing is loaded to {thrust.use:.2f} times half its ultimate rating"
+            yield Notice("thrust_overload", message, f"{name}.ultimate_thrust")
+    for k, coupling in enumerate(inputs.couplings):
+        shaft = inputs.shafts[0 if coupling.shaft == "pinion" else 1]
+        places = [bearing.position for bearing in shaft.bearings]
+        if min(abs(coupling.position - place) for place in places) > max(places) - min(places):
+            message = "the hub overhangs its bearing by more than the bearings' distance"
+            yield Notice("long_overhang", message, f"couplings.{k}.position")
+
+
+def _film_notices(
+    bearing: JournalBearing, eccentricity: float | None, film: float | None, field: str
+) -> Iterator[Notice]:
+    if bearing.width > SHORT_BEARING * bearing.diameter:
+        ratio = bearing.width / bearing.diameter
+        message = f"width over diameter is {ratio:.2f}; beyond 0.7 the short bearing's film is too stiff"
+        yield Notice("short_bearing_range", message, f"{field}.width")
+    if film is not None and eccentricity is not None and (film < THIN_FILM or eccentricity > LARGE_ECCENTRICITY):
+        message = f"the film is {film * 1e6:.1f} um thin at eccentricity ratio {eccentricity:.2f}"
+        yield Notice("thin_film", message, f"{field}.radial_clearance")
+
+
+def load_notices(inputs: DriveTrainInputs, load: FaceLoad, safety: TrainSafety | None) -> Iterator[Notice]:
+    """Load at an end of the face or lifted off, the feature line's blind corners, what is assumed of the heat."""
+    if load.face_load_at in {0.0, 1.0}:
+        message = f"the face carries most at its end y/b = {load.face_load_at:.0f}"
+        yield Notice("edge_load", message, "mesh.distribution.modifications.helix_slope")
+    if load.contact_fraction < LIFTED:
+        message = f"only {load.contact_fraction:.2f} of the contact length is loaded"
+        yield Notice("lift_off", message, "mesh.distribution.modifications")
+    if safety is not None and (safety.blok_flank or 0.0) < CORNER * (safety.blok_feature or 0.0):
+        message = "the hottest point lies off the feature line, whose safety alone would be too high"
+        yield Notice("corner_missed", message)
+    if inputs.effects.thermal and inputs.heat.wall_response is None:
+        message = "the wall response is assumed (0.5); only measurements give it, between 0.2 and 1"
+        yield Notice("wall_response_assumed", message, "heat.wall_response")
+
+
+def coupling_notices(
+    inputs: DriveTrainInputs, couplings: tuple[CouplingResult, ...], own: list[tuple[Notice, ...]]
+) -> Iterator[Notice]:
+    """Hubs that stick, and what the coupling model itself says of them."""
+    for k, (coupling, said) in enumerate(zip(couplings, own, strict=True)):
+        field = f"couplings.{k}"
+        for name, stuck, share in zip(("unit", "machine"), coupling.stuck, coupling.friction_share, strict=True):
+            if stuck and inputs.coupling_friction == "elastic_plastic":
+                message = f"the {name}'s hub sticks; its friction moment is {share:.2f} of full sliding's"
+                yield Notice("hub_sticks", message, f"{field}.friction")
+        for notice in {one.code: one for one in said}.values():
+            code = "misalignment_limit" if notice.code == "sliding_velocity" else notice.code
+            where = field if notice.field is None else f"{field}.{notice.field}"
+            yield replace(notice, code=code, field=where)

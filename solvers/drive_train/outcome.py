@@ -1,0 +1,79 @@
+"""The few figures of a drive train that studies look at, without everything else a result holds."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.drive_train.balance import Equilibrium
+from solvers.drive_train.face_curves import face_slope
+from solvers.drive_train.inputs import DriveTrainInputs
+from solvers.drive_train.model import Prepared, prepare, settle
+from solvers.drive_train.safety import flank_heat
+from solvers.errors import InvalidInput
+from solvers.scuffing.model import distribution
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """K_H_beta, Blok's safety over the flank, pressure [Pa], slopes of the gap [m], peak-to-peak TE [m]; arrays apart.
+
+    `shares` is the load along the face over its mean, `temperature` Blok's over the flank [profile, face] [K]; `gap`
+    starts a similar unit.
+    """
+
+    face_load_factor: float | None
+    safety: float | None
+    max_pressure: float
+    max_line_load: float
+    shaft_slope: float
+    total_slope: float
+    transmission_error_peak_to_peak: float
+    shares: FloatArray
+    temperature: FloatArray
+    gap: FloatArray
+
+
+FIGURES = (
+    "face_load_factor",
+    "safety",
+    "max_pressure",
+    "max_line_load",
+    "shaft_slope",
+    "total_slope",
+    "transmission_error_peak_to_peak",
+)
+
+
+def check_figure(name: str) -> None:
+    """Raise InvalidInput unknown_figure for what an outcome does not hold."""
+    if name not in FIGURES:
+        raise InvalidInput("unknown_figure", f"there is no figure {name}; choose from {', '.join(FIGURES)}", name)
+
+
+def outcome(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Outcome:
+    """The figures of a unit, from the gap of a similar one where given. Raises what `model.solve` raises."""
+    prepared = prepare(inputs)
+    return outcome_of(inputs, prepared, settle(inputs, prepared, start))
+
+
+def outcome_of(inputs: DriveTrainInputs, prepared: Prepared, found: Equilibrium) -> Outcome:
+    """The figures of a unit whose gap is known; the thermal film is left out."""
+    spread = distribution(inputs.mesh.distribution, prepared.mesh.prepared, found.balance)
+    closed = replace(inputs, mesh=replace(inputs.mesh, lubrication="closed_form"))
+    heat = flank_heat(closed, spread, prepared.thermal)
+    shares = np.trapezoid(spread.flank.line_load, axis=0)
+    mean = float(np.trapezoid(shares) / (shares.size - 1))
+    slope = face_slope(found.gap)
+    return Outcome(
+        face_load_factor=spread.load.face_load_factor,
+        safety=None if heat.safety is None else heat.safety.blok_flank,
+        max_pressure=spread.pressure.max,
+        max_line_load=spread.load.max_line_load,
+        shaft_slope=slope,
+        total_slope=slope + face_slope(prepared.thermal.lead),
+        transmission_error_peak_to_peak=spread.transmission_error.peak_to_peak,
+        shares=np.asarray(shares) / (mean if mean > 0.0 else 1.0),
+        temperature=heat.temperature,
+        gap=found.gap,
+    )

@@ -1,0 +1,131 @@
+"""Shafts in two bearings: how their nodes yield to nodal loads, by statics and strain energy.
+
+Two bearings are statically determinate: shear V and bending moment M of every element follow from the loads alone, V
+constant and M linear between nodes. So the flexibility is the second derivative of the strain energy
+int [M^2 / (2 E I) + V^2 / (2 kappa G A)] dz (Timoshenko's beam), exact for stepped cylinders under nodal loads,
+symmetric and without negative eigenvalues by construction, however short an element is.
+"""
+
+from dataclasses import dataclass
+from math import pi, sqrt
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.drive_train.inputs import Shaft, ShaftSection
+
+GRAVITY = 9.80665
+COINCIDENT = 1e-9  # m; nodes nearer than this are one
+
+
+@dataclass(frozen=True, slots=True)
+class ShaftModel:
+    """A shaft by its N nodes at z [m]; deflections w [m] and slopes s [rad] of one plane stand in one vector (2N,).
+
+    Loads conjugate to them are forces [N] and moments [N m]. `flexibility` (2N, 2N) holds both bearings at rest;
+    `bearing_share` (2, 2N) is the load on the bearings under nodal loads and, transposed, the motion of the nodes under
+    displacements of the bearings. `torsion` (N, N) is the twist [rad] under nodal torques. `weight` (2N,).
+    """
+
+    z: FloatArray
+    flexibility: FloatArray
+    bearing_share: FloatArray
+    torsion: FloatArray
+    weight: FloatArray
+
+    def node(self, position: float) -> int:
+        """The node at a position [m]."""
+        return int(np.argmin(np.abs(self.z - position)))
+
+
+def shear_coefficient(poisson_ratio: float, bore_ratio: float) -> float:
+    """Kappa of a hollow circle by Cowper (1966), m = d_i/d_o."""
+    square = bore_ratio**2
+    plain = (7 + 6 * poisson_ratio) * (1 + square) ** 2
+    return 6 * (1 + poisson_ratio) * (1 + square) ** 2 / (plain + (20 + 12 * poisson_ratio) * square)
+
+
+def shaft_model(shaft: Shaft, torque_position: float, positions: FloatArray) -> ShaftModel:
+    """The shaft with nodes at section ends, bearings, where torque enters, and at `positions` [m]."""
+    ends = shaft.start + np.cumsum([0.0, *(section.length for section in shaft.sections)])
+    bearings = [bearing.position for bearing in shaft.bearings]
+    wanted = np.sort(np.concatenate([ends, bearings, [torque_position], positions]))
+    z = wanted[np.append(True, np.diff(wanted) > COINCIDENT)]
+    middles = (z[1:] + z[:-1]) / 2
+    index = np.clip(np.searchsorted(ends, middles) - 1, 0, len(shaft.sections) - 1)
+    elements = [shaft.sections[i] for i in index]
+    share = _bearing_share(z, bearings[0], bearings[1])
+    return ShaftModel(
+        z=z,
+        flexibility=_flexibility(shaft, z, elements, share, bearings),
+        bearing_share=share,
+        torsion=_torsion(shaft, z, elements, torque_position),
+        weight=_weight(shaft, z, elements),
+    )
+
+
+def area(section: ShaftSection) -> float:
+    """Cross-section [m^2]."""
+    return pi / 4 * (section.outer_diameter**2 - section.inner_diameter**2)
+
+
+def second_moment(section: ShaftSection) -> float:
+    """Second moment of area I [m^4]; the polar one is twice it."""
+    return pi / 64 * (section.outer_diameter**4 - section.inner_diameter**4)
+
+
+def _bearing_share(z: FloatArray, first: float, second: float) -> FloatArray:
+    """Loads on the bearings under unit nodal forces and moments: the levers of statics."""
+    lever, turn = (z - first) / (second - first), np.full(z.size, 1.0 / (second - first))
+    return np.array([np.concatenate([1.0 - lever, -turn]), np.concatenate([lever, turn])])
+
+
+def _flexibility(
+    shaft: Shaft, z: FloatArray, elements: list[ShaftSection], share: FloatArray, bearings: list[float]
+) -> FloatArray:
+    """G^T G, rows of G the roots of the energies of mean moment, its slope and shear of every element."""
+    nodes = z.size
+    forces = np.hstack([np.eye(nodes), np.zeros((nodes, nodes))])
+    for bearing, load in zip(bearings, share, strict=True):
+        forces[int(np.argmin(np.abs(z - bearing)))] -= load
+    moments = np.hstack([np.zeros((nodes, nodes)), np.eye(nodes)])
+    lengths = np.diff(z)[:, None]
+    shear = np.cumsum(forces, axis=0)[:-1]
+    rise = shear * lengths
+    middle = np.cumsum(rise, axis=0) - rise / 2 - np.cumsum(moments, axis=0)[:-1]
+    bending = shaft.youngs_modulus * np.array([second_moment(part) for part in elements])[:, None]
+    modulus = shaft.youngs_modulus / (2 * (1 + shaft.poisson_ratio))
+    shearing = [
+        modulus * area(part) * shear_coefficient(shaft.poisson_ratio, part.inner_diameter / part.outer_diameter)
+        for part in elements
+    ]
+    per_moment = np.sqrt(lengths / bending)
+    root = np.vstack(
+        [
+            per_moment * middle,
+            per_moment * rise / sqrt(12.0),
+            np.sqrt(lengths / np.array(shearing)[:, None]) * shear,
+        ]
+    )
+    return np.asarray(root.T @ root)
+
+
+def _torsion(shaft: Shaft, z: FloatArray, elements: list[ShaftSection], torque_position: float) -> FloatArray:
+    """Twist at node i by a torque at node j: that of the stretch both share, from where the torque enters."""
+    modulus = shaft.youngs_modulus / (2 * (1 + shaft.poisson_ratio))
+    twist = np.diff(z) / (2 * modulus * np.array([second_moment(part) for part in elements]))
+    path = np.append(0.0, np.cumsum(twist))
+    path -= path[int(np.argmin(np.abs(z - torque_position)))]
+    shared = np.minimum(np.abs(path[:, None]), np.abs(path[None, :]))
+    return np.where(path[:, None] * path[None, :] > 0.0, shared, 0.0)
+
+
+def _weight(shaft: Shaft, z: FloatArray, elements: list[ShaftSection]) -> FloatArray:
+    """Consistent nodal loads of the weight: q L / 2 and +-q L^2 / 12 at the ends of every element."""
+    lengths = np.diff(z)
+    load = GRAVITY * shaft.density * np.array([area(part) for part in elements]) * lengths
+    forces, moments = np.zeros(z.size), np.zeros(z.size)
+    for start, sign in ((0, 1.0), (1, -1.0)):
+        forces[start : start + lengths.size] += load / 2
+        moments[start : start + lengths.size] += sign * load * lengths / 12
+    return np.concatenate([forces, moments])

@@ -1,0 +1,102 @@
+"""What a path says as a whole: its largest flash temperature and thinnest film, or why it may not say them.
+
+A maximum over the points that happened to be solved is none: points without numbers must be shown not to matter.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.contact.film import thickness_regime
+from solvers.notices import Notice
+from solvers.scuffing.safety_results import Film, Flash, Safety, ScuffingPath
+from solvers.scuffing.thermal_path import ThermalPath
+
+
+def unknown_points(path: ScuffingPath, thermal: ThermalPath | None) -> int:
+    """Loaded points without numbers, unless bounds show that the largest and smallest values are elsewhere."""
+    missing = np.isin(path.status, ("no_solution", "refused"))
+    if thermal is None or missing.all() or not _any_number(thermal.minimum_film):
+        return int(missing.sum())
+    hottest = np.nanmax(np.fmax(thermal.pinion_flash, thermal.wheel_flash))
+    harmless = (thermal.flash_bound <= hottest) & (thermal.film_bound >= np.nanmin(thermal.minimum_film))
+    return int((missing & ~harmless).sum())
+
+
+def largest_flash(path: ScuffingPath) -> Flash:
+    """Largest flash temperature of the points that have one, by Blok and by the thermal EHL solution (either flank)."""
+    if not _any_number(path.blok_flash):
+        return Flash(None, None)
+    hottest = int(np.nanargmax(path.blok_flash))
+    flash = Flash(
+        blok_max=float(path.blok_flash[hottest]),
+        blok_at_psi=float(path.psi[hottest]) if path.blok_flash[hottest] > 0.0 else None,
+    )
+    if path.pinion_flash is None or path.wheel_flash is None or not _any_number(path.pinion_flash):
+        return flash
+    either = np.fmax(path.pinion_flash, path.wheel_flash)
+    hottest = int(np.nanargmax(either))
+    return replace(flash, thermal_ehl_max=float(either[hottest]), thermal_ehl_at_psi=float(path.psi[hottest]))
+
+
+def thinnest_film(path: ScuffingPath) -> Film:
+    """The thinnest film of all points that have one, judged by the thermal EHL solution where there is one."""
+    if not _any_number(path.dowson_higginson):
+        return Film()
+    formula = float(np.nanmin(path.dowson_higginson))
+    judged = path.dowson_higginson if path.minimum_film is None else path.minimum_film
+    if not _any_number(judged):
+        return Film(dowson_higginson_min=formula)
+    thinnest = int(np.nanargmin(judged))
+    ratio = float(path.thickness_ratio[thinnest])
+    return Film(
+        dowson_higginson_min=formula,
+        min_at_psi=float(path.psi[thinnest]),
+        thickness_ratio=ratio,
+        thickness_regime=thickness_regime(ratio),
+        thermal_ehl_min=None if path.minimum_film is None else float(judged[thinnest]),
+    )
+
+
+def without_verdict(path: ScuffingPath, flash: Flash, film: Film) -> tuple[Flash, Film]:
+    """What is left of extremes over a path that has loaded points without numbers: those that every point has."""
+    complete = not np.isnan(path.blok_flash).any()
+    return (
+        Flash(flash.blok_max, flash.blok_at_psi) if complete else Flash(None, None),
+        Film(dowson_higginson_min=film.dowson_higginson_min) if complete else Film(),
+    )
+
+
+def _any_number(values: FloatArray) -> bool:
+    return not bool(np.isnan(values).all())
+
+
+def path_notices(path: ScuffingPath, safety: Safety | None, unknown: int) -> tuple[Notice, ...]:
+    """Points without a film, a path without a verdict, and a safety without a meaning."""
+    notices = []
+    if "unloaded" in path.status:
+        cause = "modifications" if _any_number(path.dowson_higginson) else "pinion_torque"
+        message = "there is no film where the feature line is not loaded or does not move"
+        notices.append(Notice("no_film", message, cause))
+    undefined = int(np.isnan(path.blok_flash).sum())
+    if undefined:
+        message = (
+            "the loaded path reaches a base circle, where the reduced radius vanishes and pressure and flash "
+            "temperature have no limit: no largest one and no safety is stated"
+        )
+        notices.append(Notice("path_reaches_base_circle", message, "profile_shift"))
+    if unknown > undefined:
+        notices.append(
+            Notice(
+                "unsolved_points",
+                f"{path.status.count('no_solution')} of {len(path.status)} points have no solution and "
+                f"{path.status.count('refused')} are outside the range of the model; {unknown} of them may decide: no "
+                "largest flash temperature, thinnest film or safety is stated from the others",
+            )
+        )
+    if safety is not None and safety.blok_factor is None and not undefined:
+        notices.append(
+            Notice("no_safety", "the teeth stay as cool as the oil; the safety factor has no meaning", "temperatures")
+        )
+    return tuple(notices)

@@ -1,0 +1,148 @@
+"""Modified gear pairs drawn over the range that users have, and the check that a thermal path is its points.
+
+Turbo, industrial and slow pairs, every kind of modification and misalignment, Ree-Eyring and Newtonian films.
+"""
+
+from dataclasses import replace
+from math import log, radians
+
+import numpy as np
+
+from solvers.contact import ehl
+from solvers.contact.hertz import reduced_modulus
+from solvers.errors import InvalidInput
+from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.lubricants import Lubricant
+from solvers.scuffing import solve_scuffing
+from solvers.scuffing.feature_line import contact_points
+from solvers.scuffing.inputs import (
+    Load,
+    LoadDistributionInputs,
+    Modifications,
+    ScuffingInputs,
+    Temperatures,
+    angular_speed,
+)
+from solvers.scuffing.results import ContactPoints
+from solvers.scuffing.safety_results import Scuffing
+from solvers.scuffing.thermal_path import contact_at
+
+# Module [mm], pitch-line velocity [m/s], face width over pinion diameter, load intensity F_t/(b d_1) [N/mm^2],
+# viscosity [Pa s], bulk temperature [K]: lowest and highest of each kind of pair.
+KINDS = {
+    "turbo": ((4.0, 8.0), (60.0, 160.0), (0.5, 1.0), (0.7, 2.0), (0.008, 0.02), (343.15, 373.15)),
+    "industrial": ((2.0, 10.0), (3.0, 30.0), (0.3, 1.0), (1.0, 4.0), (0.02, 0.1), (323.15, 363.15)),
+    "slow": ((3.0, 20.0), (0.2, 2.0), (0.3, 0.8), (1.5, 5.0), (0.1, 0.5), (303.15, 343.15)),
+}
+PATH_POINTS = (25, 50, 100, 200)
+
+
+def random_pair(rng: np.random.Generator) -> ScuffingInputs:
+    """One pair of one kind under load, with up to four modifications, and the model of its film."""
+    module, velocity, width, intensity, viscosity, bulk = KINDS[str(rng.choice(list(KINDS)))]
+    teeth = int(rng.integers(18, 45))
+    normal_module, helix = _between(rng, *module) * 1e-3, radians(float(rng.choice([0.0, rng.uniform(6.0, 30.0)])))
+    diameter = teeth * normal_module / np.cos(helix)
+    face_width = _between(rng, *width) * diameter
+    gears = GearPairInputs(
+        GearTeeth(teeth), GearTeeth(int(teeth * rng.uniform(1.0, 4.0))), normal_module, face_width, helix_angle=helix
+    )
+    torque = _between(rng, *intensity) * 1e6 * face_width * diameter**2 / 2
+    load = Load(torque, 2 * _between(rng, *velocity) / diameter)
+    distribution = LoadDistributionInputs(gears, load, random_modifications(rng, face_width))
+    return ScuffingInputs(
+        distribution,
+        lubricant=Lubricant(viscosity=_between(rng, *viscosity)),
+        temperatures=Temperatures(bulk=rng.uniform(*bulk), oil=323.15, scuffing=523.15),
+        film=ehl.Model(rheology="newtonian" if rng.random() < 0.3 else "ree_eyring"),
+        path_points=int(rng.choice(PATH_POINTS)),
+    )
+
+
+def random_modifications(rng: np.random.Generator, face_width: float) -> Modifications:
+    """Reliefs, crownings, slopes and deviations of 2 to 50 um, each present with one chance in three."""
+
+    def amount(low: float = 2e-6, *, signed: bool = False) -> float:
+        value = _between(rng, low, 50e-6) * (rng.choice([-1.0, 1.0]) if signed else 1.0)
+        return float(value) if rng.random() < 1 / 3 else 0.0
+
+    return Modifications(
+        profile_crowning=amount(),
+        lead_crowning=amount(),
+        profile_slope=amount(signed=True),
+        helix_slope=amount(signed=True),
+        in_plane_deviation=amount(signed=True),
+        out_of_plane_deviation=amount(signed=True),
+        tip_relief=amount(),
+        root_relief=amount(),
+        end_relief=amount(),
+        end_relief_length=rng.uniform(0.05, 0.4) * face_width,
+        relief_exponent=float(rng.choice([1.0, 2.0, 1.5])),
+    )
+
+
+def _between(rng: np.random.Generator, low: float, high: float) -> float:
+    """A number drawn by its logarithm."""
+    return float(np.exp(rng.uniform(log(low), log(high))))
+
+
+def turbo_pair(helix_slope: float) -> ScuffingInputs:
+    """Twelve megawatts at 10,000 rpm: 39/130 teeth, module 6 mm, 11.5 degrees, 200 mm wide; helix slope [m]."""
+    gears = GearPairInputs(GearTeeth(39), GearTeeth(130), 6e-3, 0.2, helix_angle=radians(11.5))
+    speed = angular_speed(10000.0)
+    distribution = LoadDistributionInputs(gears, Load(12e6 / speed, speed), Modifications(helix_slope=helix_slope))
+    return ScuffingInputs(distribution, lubricant=Lubricant(viscosity=0.0095))
+
+
+def points_alone(inputs: ScuffingInputs, result: Scuffing, every: int = 1) -> dict[int, ehl.LineContactResult]:
+    """Each solved point of a path (or every so-manyth) as the contact it is, solved from nothing."""
+    solved = [k for k, status in enumerate(result.path.status) if status in {"ok", "ok_with_warnings"}]
+    points = points_of(inputs, result)
+    return {k: ehl.solve(contact_at(inputs, points, k)) for k in solved[::every]}
+
+
+def points_of(inputs: ScuffingInputs, result: Scuffing) -> ContactPoints:
+    """Load, radius and speeds at the points of a path."""
+    plane, psi, given = result.path_of_contact.plane, result.path.psi, inputs.distribution
+    modulus = reduced_modulus(given.pinion_material, given.wheel_material)
+    x, y = psi * plane.path_length, psi * plane.face_width
+    return contact_points(result.path_of_contact, result.balance, x, y, given.load.pinion_speed, modulus)
+
+
+def check_path(inputs: ScuffingInputs, every: int = 1) -> Scuffing:
+    """A path equals its points: film and friction 1 %, flash 0.5 K or 1 %; AssertionError with the case if not."""
+    result = solve_scuffing(inputs)
+    path = result.path
+    curves = (path.minimum_film, path.friction_coefficient, path.pinion_flash, path.wheel_flash)
+    assert all(curve is not None for curve in curves)
+    film, friction, pinion, wheel = (np.asarray(curve) for curve in curves)
+    for point, alone in points_alone(inputs, result, every).items():
+        if alone.status == "no_solution":
+            continue
+        assert alone.friction is not None
+        assert alone.temperature is not None
+        pairs = (
+            ("film", film[point], alone.film.minimum, 0.01, 0.0),
+            ("friction", friction[point], alone.friction.coefficient, 0.01, 1e-6),
+            ("pinion flash", pinion[point], alone.temperature.surface_1_flash, 0.01, 0.5),
+            ("wheel flash", wheel[point], alone.temperature.surface_2_flash, 0.01, 0.5),
+        )
+        for name, along, expected, relative, absolute in pairs:
+            assert abs(along - expected) <= max(relative * abs(expected), absolute), (
+                f"{name} at psi {path.psi[point]:.4f}: {along:.6g} along the path, {expected:.6g} alone; {inputs}"
+            )
+    return result
+
+
+def search_paths(rng: np.random.Generator) -> None:
+    """Draw one pair and check its path against every tenth of its points; a refused pair counts as checked."""
+    inputs = random_pair(rng)
+    try:
+        check_path(inputs, every=10)
+    except InvalidInput:
+        return
+
+
+def with_points(inputs: ScuffingInputs, points: int) -> ScuffingInputs:
+    """The same pair with another number of points along its path."""
+    return replace(inputs, path_points=points)

@@ -1,0 +1,210 @@
+"""Random pumping set-ups of the kind users have, and what must hold for each of them.
+
+Each `check_` draws one case from a numpy generator and raises AssertionError, the case printed, where it fails; a draw
+that no pair of gears can be is drawn again.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from math import radians
+
+import numpy as np
+from numpy.random import Generator
+
+from solvers.errors import InvalidInput
+from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.pair import gear_pair
+from solvers.pumping import Ambient, Flow, Gap, Groove, PumpingInputs, PumpingModel, PumpingResult, PumpingSetup, solve
+from solvers.pumping.results import SpacesResult
+from solvers.pumping.spaces import prepare
+
+BOOKS = 1e-10
+PITCH_LINE_SPEEDS = (15.0, 200.0)  # m/s
+
+
+def random_gears(draw: Generator) -> GearPairInputs:
+    """A pair as turbo and industrial gear units have them: shifts, full or short tips, spur in one case of five."""
+    module = draw.choice([1.5, 2.0, 3.0, 4.0, 5.0, 6.8, 7.0, 8.0, 10.0]) * 1e-3
+    pinion = int(draw.integers(18, 60))
+    wheel = int(draw.integers(pinion, 6 * pinion))
+    helix = 0.0 if draw.random() < 0.2 else radians(draw.uniform(5.0, 30.0))
+    return GearPairInputs(
+        _teeth(draw, pinion),
+        _teeth(draw, wheel),
+        module,
+        face_width=module * draw.uniform(6.0, 35.0),
+        normal_pressure_angle=radians(draw.choice([17.5, 20.0, 22.5, 25.0])),
+        helix_angle=helix,
+        rack_tip_radius=draw.uniform(0.2, 0.3),
+    )
+
+
+def _teeth(draw: Generator, count: int) -> GearTeeth:
+    addendum = draw.uniform(0.9, 1.05)
+    return GearTeeth(count, draw.uniform(-0.1, 0.4), addendum, addendum + draw.uniform(0.2, 0.4))
+
+
+def random_setup(draw: Generator, model: PumpingModel | None = None) -> PumpingSetup:
+    """A set-up whose gears and tooth spaces exist, the centre distance given with a little play."""
+    while True:
+        gears = random_gears(draw)
+        try:
+            apart = gear_pair(gears).backlash_free_centre_distance + gears.normal_module * draw.uniform(0.0, 0.03)
+            setup = PumpingSetup(
+                replace(gears, centre_distance=apart),
+                normal_backlash=gears.normal_module * draw.uniform(0.01, 0.06),
+                grooves=_grooves(draw, gears.face_width),
+                ambient=Ambient(temperature=draw.uniform(293.0, 373.0)),
+                model=model or PumpingModel(gap=Gap(draw.choice(list(Gap)))),
+            )
+            prepare(setup)
+        except InvalidInput:
+            continue
+        return setup
+
+
+def _grooves(draw: Generator, face_width: float) -> tuple[Groove, ...]:
+    if draw.random() < 0.7:
+        return ()
+    return (Groove(face_width * draw.uniform(0.3, 0.7), face_width * draw.uniform(0.03, 0.15)),)
+
+
+def random_speed(draw: Generator, setup: PumpingSetup) -> float:
+    """A pinion speed [rad/s] by its pitch line."""
+    return draw.uniform(*PITCH_LINE_SPEEDS) / gear_pair(setup.gears).pinion_working_radius
+
+
+def spaces_of(result: PumpingResult) -> Iterator[SpacesResult]:
+    """The spaces that were asked for."""
+    return (spaces for spaces in (result.pinion_spaces, result.wheel_spaces) if spaces is not None)
+
+
+def check_books(draw: Generator) -> None:
+    """Mass and energy close, net flows are out less in, power is work times frequency and is what heats the gas."""
+    flow = Flow(draw.choice([Flow.GAS_DYNAMICS, Flow.POCKET_CHAIN]))
+    setup = random_setup(draw, PumpingModel(flow=flow, slices=40 if flow is Flow.GAS_DYNAMICS else 8))
+    case = PumpingInputs(setup, random_speed(draw, setup))
+    result = solve(case)
+    for spaces in spaces_of(result):
+        flow_rate, balance = spaces.mass_flow, spaces.balance
+        gross = flow_rate.front_out + flow_rate.rear_out + abs(flow_rate.radial) + abs(flow_rate.reset)
+        net = flow_rate.front + flow_rate.rear + flow_rate.radial + flow_rate.grooves + flow_rate.reset
+        assert balance.mass_error < BOOKS, case
+        assert balance.energy_error is not None, case
+        assert balance.energy_error < BOOKS, case
+        assert abs(net) < BOOKS * gross, case
+        assert abs(flow_rate.front_out - flow_rate.front_in - flow_rate.front) < BOOKS * gross, case
+        assert abs(flow_rate.rear_out - flow_rate.rear_in - flow_rate.rear) < BOOKS * gross, case
+        power = result.total.meshing_frequency * spaces.work_per_space
+        assert abs(spaces.pumping_power - power) <= 1e-12 * abs(power), case
+    total = sum(spaces.pumping_power for spaces in spaces_of(result))
+    assert abs(result.total.pumping_power - total) <= 1e-12 * total, case
+
+
+def numbers(spaces: SpacesResult) -> dict[str, float]:
+    """The summary of one gear's spaces that a resolution could move; pressures as gauge pressures."""
+    assert spaces.max_temperature_rise is not None
+    flow = spaces.mass_flow
+    return {
+        "peak_pressure": spaces.peak_pressure_ratio - 1.0,
+        "min_pressure": 1.0 - spaces.min_pressure_ratio,
+        "mach": spaces.peak_axial_mach,
+        "power": spaces.pumping_power,
+        "temperature": spaces.max_temperature_rise,
+        "front_out": flow.front_out,
+        "rear_out": flow.rear_out,
+        "radial": flow.radial,
+    }
+
+
+def check_resolution(draw: Generator) -> None:
+    """Twice the slices move no number by more than 1 %, net flows by no more than their stated uncertainty."""
+    setup = random_setup(draw)
+    case = PumpingInputs(setup, random_speed(draw, setup))
+    finer = replace(case, setup=replace(setup, model=replace(setup.model, slices=200)))
+    for coarse, fine in zip(spaces_of(solve(case)), spaces_of(solve(finer)), strict=True):
+        after = numbers(fine)
+        for name, value in numbers(coarse).items():
+            assert abs(value - after[name]) <= 0.01 * abs(after[name]), (name, value, after[name], case)
+        for end in ("front", "rear"):
+            change = abs(getattr(coarse.mass_flow, end) - getattr(fine.mass_flow, end))
+            assert change <= coarse.mass_flow.net_uncertainty, (end, change, coarse.mass_flow, case)
+
+
+Change = Callable[[PumpingInputs, float], PumpingInputs]
+
+
+def _gears(case: PumpingInputs, **changes: object) -> PumpingInputs:
+    return replace(case, setup=replace(case.setup, gears=replace(case.setup.gears, **changes)))  # type: ignore[arg-type]
+
+
+def _centre_distance(case: PumpingInputs, by: float) -> PumpingInputs:
+    gears = case.setup.gears
+    assert gears.centre_distance is not None
+    return _gears(case, centre_distance=gears.centre_distance + 0.05 * by * gears.normal_module)
+
+
+def _groove(case: PumpingInputs, position: float, width: float) -> PumpingInputs:
+    b = case.setup.gears.face_width
+    return replace(case, setup=replace(case.setup, grooves=(Groove(b * position, b * width),)))
+
+
+def _ambient(case: PumpingInputs, **factors: float) -> PumpingInputs:
+    ambient = case.setup.ambient
+    changed = replace(ambient, **{name: factor * getattr(ambient, name) for name, factor in factors.items()})
+    return replace(case, setup=replace(case.setup, ambient=changed))
+
+
+def _shift(case: PumpingInputs, by: float) -> PumpingInputs:
+    teeth = case.setup.gears.pinion
+    return _gears(case, pinion=replace(teeth, profile_shift=teeth.profile_shift + 0.02 * by), centre_distance=None)
+
+
+# every continuous input, changed by a number from nought to one over the range that is scanned
+SCANS: dict[str, Change] = {
+    "speed": lambda case, by: replace(case, pinion_speed=case.pinion_speed * (1 + 0.1 * by)),
+    "backlash": lambda case, by: replace(
+        case, setup=replace(case.setup, normal_backlash=case.setup.normal_backlash * (1 + by))
+    ),
+    "centre_distance": _centre_distance,
+    "face_width": lambda case, by: _gears(case, face_width=case.setup.gears.face_width * (1 + 0.1 * by)),
+    "helix_angle": lambda case, by: _gears(
+        case, helix_angle=case.setup.gears.helix_angle * (1 + 0.05 * by), centre_distance=None
+    ),
+    "profile_shift": _shift,
+    "groove_position": lambda case, by: _groove(case, 0.4 + 0.2 * by, 0.08),
+    "groove_width": lambda case, by: _groove(case, 0.5, 0.04 + 0.08 * by),
+    "temperature": lambda case, by: _ambient(case, temperature=1 + 0.1 * by),
+    "pressure": lambda case, by: _ambient(case, pressure=1 + 0.5 * by),
+    "molar_mass": lambda case, by: _ambient(case, molar_mass=1 + 0.2 * by),
+    "isentropic_exponent": lambda case, by: _ambient(case, isentropic_exponent=1 + 0.03 * by),
+}  # fmt: skip
+POINTS = 41
+NOISE = 3e-3  # of a number: what a grid of 40 slices leaves in a scan
+JUMP = 10.0  # times the local change
+
+
+def scan(case: PumpingInputs, change: Change) -> dict[str, list[float]]:
+    """Numbers of the first spaces over a scan."""
+    rows = [numbers(next(spaces_of(solve(change(case, k / (POINTS - 1)))))) for k in range(POINTS)]
+    return {name: [row[name] for row in rows] for name in rows[0]}
+
+
+def jumps(values: list[float]) -> list[int]:
+    """Where a scan steps by more than ten times the changes around it, and by more than the noise of the grid."""
+    steps = np.abs(np.diff(values))
+    local = np.array([np.median(np.delete(steps[max(k - 4, 0) : k + 5], min(k, 4))) for k in range(steps.size)])
+    return list(np.flatnonzero((steps > JUMP * local) & (steps > NOISE * np.abs(values).max())))
+
+
+def check_no_jump(draw: Generator, name: str | None = None) -> None:
+    """A fine scan of one input (any, unless named) has no jump."""
+    setup = random_setup(draw, PumpingModel(slices=40, gap=Gap(draw.choice(list(Gap)))))
+    case = PumpingInputs(setup, random_speed(draw, setup))
+    scanned = name or str(draw.choice(list(SCANS)))
+    try:
+        found = scan(case, SCANS[scanned])
+    except InvalidInput:
+        return  # a scan that leaves what meshes
+    for number, values in found.items():
+        assert not jumps(values), (scanned, number, jumps(values), values, case)
