@@ -6,16 +6,14 @@ COPY app app
 COPY solvers solvers
 RUN python -m venv /opt/tribodrive && /opt/tribodrive/bin/pip install --no-cache-dir -c constraints.txt .
 WORKDIR /
-RUN NUMBA_CACHE_DIR=/opt/kernels MPLCONFIGDIR=/opt/fonts /opt/tribodrive/bin/python -m app.warm_up
+# Beside the installed sources, where the service finds the kernels and need not write.
+RUN /opt/tribodrive/bin/python -m app.warm_up
 
 FROM python:3.11-slim
 COPY --from=build /opt/tribodrive /opt/tribodrive
-COPY --from=build /opt/kernels /opt/kernels
-COPY --from=build /opt/fonts /opt/fonts
 USER nobody
-# The kernel cache must be writable for numba to read it; /dev/shm is, even where the root is not.
-ENV PATH=/opt/tribodrive/bin:$PATH PYTHONDONTWRITEBYTECODE=1 NUMBA_CACHE_DIR=/dev/shm/kernels MPLCONFIGDIR=/dev/shm/fonts TRIBODRIVE_HOST=0.0.0.0
+ENV PATH=/opt/tribodrive/bin:$PATH PYTHONDONTWRITEBYTECODE=1 TRIBODRIVE_HOST=0.0.0.0
 WORKDIR /opt/tribodrive
 EXPOSE 8000
 HEALTHCHECK --start-period=60s CMD ["python", "-c", "import httpx; httpx.get('http://127.0.0.1:8000/readyz').raise_for_status()"]
-CMD ["sh", "-c", "cp -r /opt/kernels /opt/fonts /dev/shm && exec python -m app"]
+CMD ["python", "-m", "app"]

@@ -1,9 +1,12 @@
 """python -m app: start the service; --help lists every setting."""
 
 import argparse
+import os
 import socket
 import sys
 from io import TextIOWrapper
+
+from pydantic.fields import FieldInfo
 
 from app.settings import Settings, settings
 
@@ -29,7 +32,8 @@ def serve(factory: str) -> None:
     try:
         listener = _listener(limits)
     except OSError as error:
-        sys.exit(f"tribodrive: cannot listen on port {limits.port} of {limits.host}: {error.strerror}")
+        reason = error.strerror if isinstance(error, socket.gaierror) else os.strerror(error.errno or 0)
+        sys.exit(f"tribodrive: cannot listen on port {limits.port} of {limits.host}: {reason}")
     try:
         from app.server import run  # noqa: PLC0415  a second of imports, for which the port need not wait
 
@@ -47,8 +51,12 @@ def _documentation() -> str:
     """The settings, one line each."""
     rows = ["environment variables:"]
     for name, field in Settings.model_fields.items():
-        rows.append(f"  TRIBODRIVE_{name.upper():<18} {field.description} (default {field.get_default()})")
+        rows.append(f"  TRIBODRIVE_{name.upper():<18} {field.description} (default {_default(field)})")
     return "\n".join(rows)
+
+
+def _default(field: FieldInfo) -> object:
+    return field.default if field.default_factory is None else "follows from the descriptor limit"
 
 
 if __name__ == "__main__":

@@ -61,7 +61,7 @@ def _notice(request: Request, warning: notices.Notice) -> Notice:
 def _assumptions(
     section: Section, unused: frozenset[str], derived: dict[str, Any], prefix: str = ""
 ) -> Iterator[dict[str, Any]]:
-    """The defaults marked as ours that the result rests on; what a null stands for is found in `derived`."""
+    """The defaults marked as ours that the result rests on, with the value used where `derived` tells it."""
     for name, reason in _reasons(type(section)).items():
         path, value = prefix + name, getattr(section, name)
         if path in unused:
@@ -69,7 +69,7 @@ def _assumptions(
         if isinstance(value, Section):
             yield from _assumptions(value, unused, derived, f"{path}.")
         elif reason and (value is None or name not in section.model_fields_set):
-            yield {"field": path, "value": derived.get(name) if value is None else value, "reason": reason}
+            yield {"field": path, "value": derived.get(name, value), "reason": reason}
 
 
 @cache

@@ -31,6 +31,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         app.state.pool = Pool(settings.workers, settings.worker_memory_mb)
         app.state.start_up = StartUp(app.state.pool)
+        app.state.settings = settings
         app.state.runner = Runner(settings, app.state.pool)
         app.state.answers = Answers(settings.answers_mb * MEBIBYTE)
         app.state.published = {}

@@ -58,6 +58,8 @@ class _Request:
             await (self._refusal() or application)(self._scope, self._receive_within_limits, self._send_decorated)
         except ClientDisconnect:
             pass
+        except asyncio.CancelledError:  # the server stops and waits no longer; this task ends with its answer
+            await self._say_goodbye()
         except Exception as error:
             answer = internal_error(self._identifier, error)
             if self._status != CLIENT_GONE:
@@ -69,13 +71,18 @@ class _Request:
             status = self._state.get("answered", self._status)  # by the protocol, in our place
             record(self._identifier, self._method, endpoint, status, time.perf_counter() - self._started)
 
+    async def _say_goodbye(self) -> None:
+        if self._status == CLIENT_GONE:
+            answer = problem(self._identifier, 503, "shutting_down", "The service stops", headers={"Retry-After": "5"})
+            await answer(self._scope, self._receive, self._send_decorated)
+
     async def _send_decorated(self, message: Message) -> None:
         if message["type"] == "http.response.start":
             self._status = message["status"]
+            given = message.get("headers", ())
+            said = {name.lower() for name, _ in given}
             own = own_headers(self._identifier, time.perf_counter() - self._started)
-            given = list(message.get("headers", ()))
-            names = {name.lower() for name, _ in given}
-            message["headers"] = [*given, *((name, value) for name, value in own if name not in names)]
+            message["headers"] = [*given, *(header for header in own if header[0] not in said)]
         await self._send(message)
 
     def _refusal(self) -> JSONResponse | None:

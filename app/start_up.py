@@ -12,7 +12,7 @@ from contextlib import asynccontextmanager
 
 from app.problems import WarmingUp
 from app.progress import Progress
-from app.warm_up import STAGES, TRACKS, Stage, needed_for
+from app.warm_up import STAGES, TRACKS, Stage, content, needed_for
 from app.workers.pool import Pool
 from solvers.kernel_cache import is_complete, mark_complete, writable_root
 
@@ -62,14 +62,14 @@ class StartUp:
 
     async def _run(self) -> None:
         try:
-            if is_complete(_content()):
+            if is_complete(content()):
                 await self._load_all()
             elif writable_root() is None:
                 logger.warning("no folder for compiled kernels can be written: they are compiled in memory")
                 await self._load_all()
             else:
                 await self._compile()
-                mark_complete(_content())
+                mark_complete(content())
             self._progress.finish(f"tribodrive: everything is warm after {time.monotonic() - self._began:.1f} s")
         except Exception:
             logger.exception("the warm-up failed")
@@ -126,8 +126,3 @@ class StartUp:
 
     def _show(self) -> None:
         self._progress.show({stage.name: self._share(stage) for stage in STAGES})
-
-
-def _content() -> str:
-    """What the cache holds when it is complete."""
-    return " ".join(name for stage in STAGES for name in stage.examples)

@@ -14,6 +14,7 @@ from app.figures.rendering import render
 from app.formats.json import answer
 from app.library import examples
 from app.processes import end_with_parent
+from solvers.kernel_cache import mark_complete
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +47,11 @@ TRACKS = ((COUPLING, SLEEVE, LOADS, PUMPING), (LINE_CONTACT,))
 STAGES = tuple(stage for track in TRACKS for stage in track)
 
 DRAWN = COUPLING.examples[0]  # loads what draws figures
+
+
+def content() -> str:
+    """What a cache holds that is complete."""
+    return " ".join(name for stage in STAGES for name in stage.examples)
 
 
 def needed_for(endpoint: str) -> Stage:
@@ -88,6 +94,8 @@ def main(names: list[str]) -> None:
             for name in stage.examples:
                 calculate(name)
             print("stage", stage.name, flush=True)  # noqa: T201
+    if not names:
+        mark_complete(content())
 
 
 if __name__ == "__main__":

@@ -1,27 +1,31 @@
-"""What the service survives: a load under wrk with a worker killed each second, faults, generated inputs. Needs wrk.
+"""What the service survives: a mixed load while workers are killed and stopped and clients leave, faults, random input.
 
 Prints the table of the README's section "Reliability". Run from the project's root: python -m benchmarks.reliability
+(a minute of load), or with --seconds 600 --faults 1000 for the long one.
 """
 
 import argparse
+import http.client
 import json
-import os
 import random
 import re
 import signal
+import socket
+import statistics
 import subprocess
 import sys
-import tempfile
 import threading
 import time
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from urllib.parse import urlsplit
 
 import httpx
 
 from app.library import examples
-from tests.server import children, memory_mb, running_server
+from tests.server import descendants, descriptors, memory_mb, running_server, send_signal, workers
 
 ROOT = Path(__file__).parents[1]
 MIX = (
@@ -30,117 +34,149 @@ MIX = (
     "pahl-recommended-crowning",
     "xue-pair-1-modified",
     "xue-line-contact",
+    "xue-pair-1-thermal",
     "milian-case-1",
 )
-CONNECTIONS = 4
+CLIENTS = 3
 JSON = {"Content-Type": "application/json"}
-SCRIPT = """
-local cases = {}
-%s
-local next_case, sent = 0, 0
-right, wrong, worker_lost, other = 0, 0, 0, 0
-threads = {}
-function setup(thread) table.insert(threads, thread) end
-function request()
-  sent = next_case %% #cases + 1
-  next_case = next_case + 1
-  return wrk.format("POST", cases[sent].path, {["Content-Type"] = "application/json"}, cases[sent].body)
-end
-function response(status, headers, body)
-  if status == 200 then
-    if body == cases[sent].answer then right = right + 1 else wrong = wrong + 1 end
-  elseif body:find("worker_lost", 1, true) then worker_lost = worker_lost + 1
-  else other = other + 1 end
-end
-function done()
-  local total = {right = 0, wrong = 0, worker_lost = 0, other = 0}
-  for _, thread in ipairs(threads) do
-    for name, count in pairs(total) do total[name] = count + thread:get(name) end
-  end
-  for name, count in pairs(total) do io.write("outcome ", name, " ", count, "\\n") end
-end
-"""
 
 
 @dataclass
 class Watch:
-    """What happened to the processes while the load ran."""
+    """What happened while the load ran."""
 
-    kills: int = 0
+    outcomes: Counter[str] = field(default_factory=Counter)
+    faults: Counter[str] = field(default_factory=Counter)
+    health_ms: list[float] = field(default_factory=list)
     memory_mb: list[float] = field(default_factory=list)
+    descriptors: list[int] = field(default_factory=list)
+    processes: list[int] = field(default_factory=list)
 
 
-def lua(text: str) -> str:
-    """A Lua long string."""
-    return f"[====[{text}]====]"
+@dataclass(frozen=True)
+class Case:
+    """A request and the bytes that answer it."""
+
+    path: str
+    body: bytes
+    answer: bytes
 
 
-def load_script(address: str) -> str:
-    """The wrk script: every case with the answer it must get."""
-    lines = []
+def cases(address: str) -> list[Case]:
+    """The mixed load with the answers of the service at rest."""
+    found = []
     for name in MIX:
         example = examples()[name]
-        body = json.dumps({**example.request, "detail": "summary"})
-        answer = httpx.post(address + example.endpoint, content=body, headers=JSON, timeout=60).raise_for_status().text
-        lines.append(
-            f"table.insert(cases, {{path = {lua(example.endpoint)}, body = {lua(body)}, answer = {lua(answer)}}})"
-        )
-    return SCRIPT % "\n".join(lines)
+        body = json.dumps({**example.request, "detail": "summary"}).encode()
+        response = httpx.post(address + example.endpoint, content=body, headers=JSON, timeout=60).raise_for_status()
+        found.append(Case(example.endpoint, body, response.content))
+    return found
 
 
-def kill_workers(process: subprocess.Popen[str], done: threading.Event, watch: Watch) -> None:
-    """Kill a random worker every second."""
-    while not done.wait(1.0):
-        workers = children(process)
-        if workers:
-            os.kill(random.choice(workers), signal.SIGKILL)
-            watch.kills += 1
-        watch.memory_mb.append(memory_mb(process.pid))
+def outcome(connection: http.client.HTTPConnection, case: Case) -> str:
+    """Right, wrong, or the code of the problem."""
+    connection.request("POST", case.path, case.body, JSON)
+    response = connection.getresponse()
+    content = response.read()
+    if response.status == 200:
+        return "right" if content == case.answer else "wrong"
+    return str(json.loads(content)["type"].rsplit(":", 1)[1])
 
 
-def under_load(seconds: int) -> Iterator[tuple[str, str]]:
-    """Rows of the table: a mixed load while workers are killed."""
+def load(netloc: str, mix: list[Case], seed: int, watch: Watch, done: threading.Event) -> None:
+    """One client that asks and checks."""
+    choice = random.Random(seed)
+    connection = http.client.HTTPConnection(netloc, timeout=60)
+    while not done.is_set():
+        try:
+            watch.outcomes[outcome(connection, choice.choice(mix))] += 1
+        except (OSError, http.client.HTTPException) as error:
+            watch.outcomes[type(error).__name__] += 1
+            connection.close()
+    connection.close()
+
+
+def leave(netloc: str, case: Case) -> None:
+    """A client that asks for something long and leaves."""
+    host, port = netloc.split(":")
+    with socket.create_connection((host, int(port)), timeout=10) as connection:
+        head = f"POST {case.path} HTTP/1.1\r\nHost: {netloc}\r\nContent-Type: application/json\r\n"
+        connection.sendall(f"{head}Content-Length: {len(case.body)}\r\n\r\n".encode() + case.body)
+        time.sleep(0.02)
+
+
+def health(netloc: str, watch: Watch, done: threading.Event) -> None:
+    """Ask for health 20 times a second."""
+    connection = http.client.HTTPConnection(netloc, timeout=60)
+    while not done.wait(0.05):
+        began = time.perf_counter()
+        connection.request("GET", "/healthz")
+        connection.getresponse().read()
+        watch.health_ms.append(1e3 * (time.perf_counter() - began))
+
+
+def disturb(process: subprocess.Popen[str], mix: list[Case], netloc: str, watch: Watch) -> None:
+    """One fault: a worker killed, a worker stopped, or a client that leaves, in turn; and a look at the processes."""
+    long = next(case for case in mix if case.path == "/v1/scuffing")
+    kind = ("killed", "left", "stopped", "left")[sum(watch.faults.values()) % 4]
+    alive = workers(process)
+    if kind == "left":
+        leave(netloc, long)
+    elif alive:
+        send_signal(random.choice(alive), signal.SIGKILL if kind == "killed" else signal.SIGSTOP)
+    watch.faults[kind] += 1
+    watch.memory_mb.append(memory_mb(process.pid))
+    watch.descriptors.append(descriptors(process.pid))
+    watch.processes.append(len(descendants(process.pid)))
+
+
+def under_load(seconds: int, faults: int) -> Iterator[tuple[str, str]]:
+    """Rows of the table: a mixed load while workers and clients fail."""
     watch, done = Watch(), threading.Event()
-    with (
-        running_server(log_level="error") as (process, address),
-        tempfile.NamedTemporaryFile("w", suffix=".lua") as script,
-    ):
-        script.write(load_script(address))
-        script.flush()
-        killer = threading.Thread(target=kill_workers, args=(process, done, watch))
-        killer.start()
-        command = [
-            "wrk",
-            f"-t{CONNECTIONS}",
-            f"-c{CONNECTIONS}",
-            f"-d{seconds}s",
-            "--timeout",
-            "60s",
-            "-s",
-            script.name,
-        ]
-        report = subprocess.run([*command, address], check=True, capture_output=True, text=True).stdout
+    with running_server(log_level="error") as (process, address):
+        netloc = urlsplit(address).netloc
+        mix = cases(address)
+        threads = [threading.Thread(target=load, args=(netloc, mix, seed, watch, done)) for seed in range(CLIENTS)]
+        threads.append(threading.Thread(target=health, args=(netloc, watch, done)))
+        for each in threads:
+            each.start()
+        began = time.monotonic()
+        for number in range(faults):
+            time.sleep(max(0.0, began + (number + 1) * seconds / faults - time.monotonic()))
+            disturb(process, mix, netloc, watch)
         done.set()
-        killer.join()
+        for each in threads:
+            each.join()
         time.sleep(1)
         recovered = httpx.get(f"{address}/readyz", timeout=60).is_success
-    outcomes = {name: int(count) for name, count in re.findall(r"outcome (\w+) (\d+)", report)}
-    yield "load", f"{seconds} s, {CONNECTIONS} connections, {len(MIX)} kinds of request, a worker killed each second"
-    yield "workers killed", str(watch.kills)
-    yield "right answers", str(outcomes["right"])
-    yield "wrong answers", str(outcomes["wrong"])
-    yield "requests lost with their worker (503)", str(outcomes["worker_lost"])
-    yield "any other failure", str(outcomes["other"])
-    yield "memory of the server, first and last", f"{watch.memory_mb[0]:.0f} MB, {watch.memory_mb[-1]:.0f} MB"
+        left_over = len(descendants(process.pid))
+    other = {name: count for name, count in watch.outcomes.items() if name not in {"right", "wrong", "worker_lost"}}
+    yield "load", f"{seconds} s, {CLIENTS} clients that check every byte, {len(MIX)} kinds of request"
+    yield (
+        "workers killed, workers stopped, clients that left",
+        ", ".join(str(watch.faults[kind]) for kind in ("killed", "stopped", "left")),
+    )
+    yield "answers equal to those at rest, bit for bit", str(watch.outcomes["right"])
+    yield "wrong answers", str(watch.outcomes["wrong"])
+    yield "requests lost with their worker (503)", str(watch.outcomes["worker_lost"])
+    yield "any other failure", ", ".join(f"{count} {name}" for name, count in other.items()) or "0"
+    yield (
+        "/healthz: median, 99th percentile",
+        (f"{statistics.median(watch.health_ms):.1f} ms, {statistics.quantiles(watch.health_ms, n=100)[-1]:.1f} ms"),
+    )
+    yield "memory of the server: first, last", f"{watch.memory_mb[0]:.0f} MB, {watch.memory_mb[-1]:.0f} MB"
+    yield "descriptors: first, most, last", f"{watch.descriptors[0]}, {max(watch.descriptors)}, {watch.descriptors[-1]}"
+    yield "processes: most, afterwards", f"{max(watch.processes)}, {left_over}"
     yield "answers afterwards", "yes" if recovered else "no"
 
 
 def under_faults() -> Iterator[tuple[str, str]]:
     """Rows of the table: every scenario of the fault suite."""
-    command = [sys.executable, "-m", "pytest", "-q", "-m", "service", "-rA", "tests/service/test_faults.py"]
+    suites = ["tests/service/test_faults.py", "tests/service/test_floods.py", "tests/service/test_log.py"]
+    command = [sys.executable, "-m", "pytest", "-q", "-m", "service", "-rA", *suites, "tests/service/test_start.py"]
     report = subprocess.run(command, cwd=ROOT, check=False, capture_output=True, text=True).stdout
-    for outcome, name in re.findall(r"^(PASSED|FAILED|ERROR) \S+::test_(\w+)", report, re.MULTILINE):
-        yield f"fault: {name.replace('_', ' ')}", "held" if outcome == "PASSED" else outcome.lower()
+    for result, name in re.findall(r"^(PASSED|FAILED|ERROR) \S+::test_(\w+)", report, re.MULTILINE):
+        yield f"fault: {name.replace('_', ' ')}", "held" if result == "PASSED" else result.lower()
 
 
 def under_generated_inputs(examples_per_operation: int) -> Iterator[tuple[str, str]]:
@@ -152,18 +188,21 @@ def under_generated_inputs(examples_per_operation: int) -> Iterator[tuple[str, s
             [*command, f"{address}/openapi.json"], cwd=ROOT, check=False, capture_output=True, text=True
         ).stdout
     operations = re.search(r"Tested: (\d+)", report)
-    cases = re.search(r"(\d+) generated(?:, (\d+) found)?", report)
-    if operations is None or cases is None:
+    generated = re.search(r"(\d+) generated(?:, (\d+) found)?", report)
+    if operations is None or generated is None:
         raise RuntimeError(report[-2000:])
     yield "operations tested with generated inputs", operations[1]
-    yield "generated inputs", cases[1]
-    yield "of them answered against the contract", cases[2] or "0"
+    yield "generated inputs", generated[1]
+    yield "of them answered against the contract", generated[2] or "0"
 
 
-def main(seconds: int, examples_per_operation: int) -> None:
+def main(seconds: int, faults: int, examples_per_operation: int, *, load_only: bool) -> None:
     """Run everything and print the table."""
     print("| tried | what held |\n|---|---|")
-    for rows in (under_load(seconds), under_faults(), under_generated_inputs(examples_per_operation)):
+    parts = [under_load(seconds, faults)]
+    if not load_only:
+        parts += [under_faults(), under_generated_inputs(examples_per_operation)]
+    for rows in parts:
         for what, figure in rows:
             print(f"| {what} | {figure} |", flush=True)
 
@@ -171,6 +210,8 @@ def main(seconds: int, examples_per_operation: int) -> None:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=int, default=60, help="duration of the load")
+    parser.add_argument("--faults", type=int, default=120, help="faults in it; half of them are clients that leave")
     parser.add_argument("--examples", type=int, default=100, help="generated inputs an operation, at least")
+    parser.add_argument("--load-only", action="store_true", help="leave out the fault suite and generated inputs")
     arguments = parser.parse_args()
-    main(arguments.seconds, arguments.examples)
+    main(arguments.seconds, arguments.faults, arguments.examples, load_only=arguments.load_only)

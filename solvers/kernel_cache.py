@@ -112,7 +112,7 @@ def roots() -> list[Path]:
     places = [PACKAGE / "__pycache__" / "kernels"]
     if home.is_absolute():
         places.append(home / "tribodrive" / "kernels")
-    return [*places, private] if _is_ours(private) else places  # anybody can create a folder of that name
+    return [*places, private] if _is_ours(private, 0o700) else places  # anybody can make a folder of that name
 
 
 @cache
@@ -121,10 +121,10 @@ def writable_root() -> Path | None:
     return next((root for root in roots() if root not in _unwritable and _is_ours(root)), None)
 
 
-def _is_ours(folder: Path) -> bool:
+def _is_ours(folder: Path, mode: int = 0o755) -> bool:
     """Whether the folder is there, made if need be, belongs to this user and takes files."""
     try:
-        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        folder.mkdir(mode, parents=True, exist_ok=True)
         return folder.lstat().st_uid == os.getuid() and os.access(folder, os.W_OK | os.X_OK)
     except OSError:
         return False
@@ -203,7 +203,7 @@ def _mark(content: str) -> str:
 
 @contextmanager
 def _locked(folder: Path) -> Iterator[None]:
-    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    folder.mkdir(parents=True, exist_ok=True)
     descriptor = os.open(folder, os.O_RDONLY)
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX)

@@ -6,72 +6,17 @@ Every check takes a generator, draws one case and raises AssertionError with the
 from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import replace
-from math import hypot, pi, radians
+from math import hypot
 from unittest.mock import patch
 
 import numpy as np
 from numpy.random import Generator
 
 from solvers.coupling import averaging, kinematics, recommend, recommendation, solve, solve_orbit
-from solvers.coupling.inputs import (
-    Coupling,
-    CouplingInputs,
-    Friction,
-    Lubricant,
-    ModelOptions,
-    Operation,
-    RecommendationInputs,
-)
+from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
 from solvers.coupling.results import CouplingResult
 from solvers.errors import SolverError
-
-
-def spread(random: Generator, low: float, high: float) -> float:
-    """A number between two bounds, every order of magnitude alike."""
-    return float(np.exp(random.uniform(np.log(low), np.log(high))))
-
-
-def random_coupling(random: Generator, *, errors: bool | None = None) -> Coupling:
-    """A gear coupling as they are built, with or without pitch errors (None: either)."""
-    teeth, module = int(random.integers(20, 90)), float(random.choice([1.0, 2.0, 2.5, 3.0, 4.0, 5.0, 8.0]) * 1e-3)
-    pitch_errors = None
-    if random.random() < 0.4 if errors is None else errors:
-        pitch_errors = tuple(spread(random, 0.2e-6, 10e-6) * random.normal(size=teeth))
-    return Coupling(
-        teeth=teeth,
-        module=module,
-        face_width=module * random.uniform(5.0, 12.0),
-        tooth_height=module * random.uniform(1.6, 2.2),
-        pressure_angle=radians(random.choice([14.5, 20.0, 20.0, 25.0, 30.0])),
-        crowning_ratio=spread(random, 0.5, 20.0),
-        hub_distance=teeth * module * spread(random, 0.7, 5.0),
-        tooth_stiffness=14e9 * module * random.uniform(5.0, 12.0),
-        sleeve_mass=1e6 * (teeth * module) ** 2 * module * random.uniform(0.02, 0.08),
-        pitch_errors=pitch_errors,
-    )
-
-
-def random_inputs(random: Generator, *, errors: bool | None = None, single: bool = False) -> CouplingInputs:
-    """A gear coupling at work: mean tooth pressures of 0.5 to 30 N/mm2, rim speeds of 1 to 150 m/s."""
-    coupling = random_coupling(random, errors=errors)
-    radius = coupling.module * coupling.teeth / 2.0
-    mean_force = spread(random, 0.5e6, 30e6) * coupling.tooth_height * coupling.face_width
-    operation = Operation(
-        torque=mean_force * coupling.teeth * radius,
-        speed=float(random.choice([-1.0, 1.0])) * spread(random, 1.0, 150.0) / radius,
-        misalignment=float(random.choice([-1.0, 1.0])) * radians(spread(random, 0.005, 1.5)),
-        axial_velocity=float(random.choice([0.0, -1.0, 1.0])) * spread(random, 1e-4, 3e-2),
-        arrangement="single" if single else str(random.choice(["single", "parallel_offset", "angular"])),
-    )
-    model = ModelOptions(
-        kinematics=str(random.choice(["tangential", "spatial"])),
-        sleeve=str(random.choice(["centred", "floating"])),
-        inlet=str(random.choice(["face", "face", "travel", "infinite"])),
-        rotor_angle=random.uniform(0.0, 2.0 * pi),
-    )
-    lubricant = Lubricant(viscosity=spread(random, 5e-3, 0.3), reference_film=spread(random, 0.3e-6, 2e-6))
-    friction = Friction(None if random.random() < 0.5 else random.uniform(0.02, 0.25))
-    return CouplingInputs(coupling, operation, lubricant, friction, model)
+from tests.couplings import random_inputs
 
 
 def numbers(result: CouplingResult) -> dict[str, tuple[float, float]]:

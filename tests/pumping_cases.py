@@ -118,9 +118,14 @@ def numbers(spaces: SpacesResult) -> dict[str, float]:
 
 
 def check_resolution(draw: Generator) -> None:
-    """Twice the slices move no number by more than 1 %, net flows by no more than their stated uncertainty."""
+    """Twice the slices move no number by more than 1 %, net flows by no more than their stated uncertainty.
+
+    A result that says itself that its slices do not resolve the flow is left out.
+    """
     setup = random_setup(draw)
     case = PumpingInputs(setup, random_speed(draw, setup))
+    if any(notice.code == "not_resolved" for notice in solve(case).warnings):
+        return
     finer = replace(case, setup=replace(setup, model=replace(setup.model, slices=200)))
     for coarse, fine in zip(spaces_of(solve(case)), spaces_of(solve(finer)), strict=True):
         after = numbers(fine)
@@ -178,7 +183,7 @@ SCANS: dict[str, Change] = {
     "pressure": lambda case, by: _ambient(case, pressure=1 + 0.5 * by),
     "molar_mass": lambda case, by: _ambient(case, molar_mass=1 + 0.2 * by),
     "isentropic_exponent": lambda case, by: _ambient(case, isentropic_exponent=1 + 0.03 * by),
-}  # fmt: skip
+}
 POINTS = 41
 NOISE = 3e-3  # of a number: what a grid of 40 slices leaves in a scan
 JUMP = 10.0  # times the local change

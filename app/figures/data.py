@@ -6,12 +6,16 @@ Every number is in the unit of its axis and equals the answer's; NaN is a point 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 Values = NDArray[np.float64]
 NO_BREAK = "\u00a0"
+
+
+ThemeName = Literal["light", "dark"]
 
 
 class Hue(StrEnum):

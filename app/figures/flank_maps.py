@@ -31,7 +31,13 @@ def flank_pressure(_: LoadDistributionRequest, answer: LoadDistributionResponse)
     pressure, flank = present(answer.pressure), present(answer.flank)
     grid = matrix(flank.pressure_mpa)
     panel = _panel(flank, "Hertz pressure", "MPa", grid, pressure.max_at, pressure.max_mpa)
-    finding = f"highest {number(pressure.max_mpa, 'MPa')} {_where(pressure.max_at)}" if pressure.max_at else "no load"
+    finding = (
+        f"highest {number(pressure.max_mpa, 'MPa')} {_where(pressure.max_at)}"
+        if pressure.max_mpa and pressure.max_at
+        else "no load"
+    )
+    if pressure.max_mpa is None:
+        finding = "no largest pressure: the path reaches a base circle"
     gaps = int(np.isnan(grid).sum())
     return Figure(finding, (panel,), unsolved=gaps)
 
@@ -54,7 +60,9 @@ def modification(_: LoadDistributionRequest, answer: LoadDistributionResponse) -
     return Figure(finding, (panel,))
 
 
-def _panel(flank: FlankFields, title: str, unit: str, grid: Values, at: FlankPlace | None, largest: float) -> Panel:
+def _panel(
+    flank: FlankFields, title: str, unit: str, grid: Values, at: FlankPlace | None, largest: float | None
+) -> Panel:
     seen = float(np.nanmax(grid, initial=0.0))
     chart = Map(
         title,
@@ -62,9 +70,11 @@ def _panel(flank: FlankFields, title: str, unit: str, grid: Values, at: FlankPla
         values(flank.face_fraction),
         values(flank.profile_fraction),
         grid,
-        range=(0.0, max(seen, largest) or 1.0),
+        range=(0.0, max(seen, largest or 0.0) or 1.0),
     )
-    marks = (Mark(at.face_fraction, at.profile_fraction, number(largest, unit)),) if at is not None else ()
+    marks: tuple[Mark, ...] = ()
+    if at is not None and largest is not None:
+        marks = (Mark(at.face_fraction, at.profile_fraction, number(largest, unit)),)
     return Panel(x=FACE, y=PROFILE, map=chart, marks=marks)
 
 

@@ -54,9 +54,9 @@ def path_of_contact(_: LoadDistributionRequest, answer: LoadDistributionResponse
         _along(psi, "sliding speed, magnitude", "m/s", sliding, Hue.GREEN, unnamed(points), None),
     )
     loaded = load.max_at is not None
-    finding = (
-        f"on the whole flank up to {number(load.max_line_load_n_per_mm, 'N/mm')} and {number(pressure.max_mpa, 'MPa')}"
-    )
+    finding = f"on the whole flank up to {number(load.max_line_load_n_per_mm, 'N/mm')}"
+    if pressure.max_mpa is not None:
+        finding += f" and {number(pressure.max_mpa, 'MPa')}"
     gaps = int(np.isnan(stresses).sum())
     return Figure(finding if loaded else NO_LOAD, panels, unsolved=gaps)
 

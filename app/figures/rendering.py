@@ -4,7 +4,7 @@ from typing import Any, Literal
 
 from app.calculations import Calculation
 from app.evaluate import evaluate
-from app.figures.data import Figure, NoFigure
+from app.figures.data import Figure, NoFigure, ThemeName
 from app.figures.declaration import Declaration
 from app.figures.tables import table
 from app.problems import Unprocessable
@@ -24,7 +24,7 @@ def render(
     declaration: Declaration,
     request: Request,
     image_format: Format,
-    theme: Literal["light", "dark"],
+    theme: ThemeName,
 ) -> bytes:
     """Solve the request and write the figure; raises Unprocessable as `evaluate` does and where there is no figure."""
     asked = request.model_copy(update={"detail": declaration.detail})
@@ -39,7 +39,7 @@ def figure_of(declaration: Declaration, request: Request, response: Any) -> Figu
         raise Unprocessable(reason.code, reason.message, reason.field) from reason
 
 
-def written(figure: Figure, image_format: Format, theme: Literal["light", "dark"]) -> bytes:
+def written(figure: Figure, image_format: Format, theme: ThemeName) -> bytes:
     """The figure as an image, or its numbers."""
     if image_format == "csv":
         return table(figure)

@@ -48,9 +48,7 @@ def _safety(answer: ScuffingResponse) -> str:
         return f"safety against scuffing {', '.join(factors)}"
     if contact.thermal_ehl_max_c is not None:
         return f"up to {number(contact.thermal_ehl_max_c, '°C')} by thermal EHL"
-    if contact.blok_max_c is not None:
-        return f"up to {number(contact.blok_max_c, '°C')} by Blok"
-    return "the hottest point is not known"
+    return "" if contact.blok_max_c is None else f"up to {number(contact.blok_max_c, '°C')} by Blok"
 
 
 def _hottest(lines: list[Line]) -> tuple[Mark, ...]:

@@ -2,14 +2,12 @@
 
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, Literal
+from typing import Any
 
 from matplotlib.font_manager import FontProperties, findfont, get_font
 from matplotlib.ft2font import LoadFlags
 
-from app.figures.data import Hue
-
-ThemeName = Literal["light", "dark"]
+from app.figures.data import Hue, ThemeName
 
 WIDTH = 6.4  # inches, as all lengths of a figure
 DPI = 160

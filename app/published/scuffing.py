@@ -138,7 +138,9 @@ def _example_stress() -> float:
 
 def _helix_slope_pressure(slope: float) -> float:
     modifications = replace(PRINTED_MODIFICATIONS, helix_slope=slope)
-    return pair(4, PRINTED_MODEL, modifications).pressure.max
+    largest = pair(4, PRINTED_MODEL, modifications).pressure.max
+    assert largest is not None
+    return largest
 
 
 STATEMENTS: tuple[Statement, ...] = (

@@ -82,7 +82,7 @@ class FlankModifications(Section):
             text="length along the line of action",
             ge=1e-3,
             le=1000,
-            default_text="to the single contact",
+            default_text="to the single contact, a tenth to half of the path",
             assumed=NO_LENGTHS,
         ),
     ] = _DEFAULTS.tip_relief_length
@@ -98,7 +98,7 @@ class FlankModifications(Section):
             text="length along the line of action",
             ge=1e-3,
             le=1000,
-            default_text="to the single contact",
+            default_text="to the single contact, a tenth to half of the path",
             assumed=NO_LENGTHS,
         ),
     ] = _DEFAULTS.root_relief_length

@@ -20,7 +20,7 @@ MAP = ("profile_fraction", "face_fraction")
 
 
 class ScuffingDerived(Derived):
-    """Load and lengths, where the request left them open."""
+    """Load and lengths where the request left them open, and what is used of the rack."""
 
     pinion_torque_n_m: Annotated[float, Output("pinion torque used", "T_1")]
     power_kw: Annotated[float, Output("power used", "P")]
@@ -28,6 +28,9 @@ class ScuffingDerived(Derived):
     tip_relief_length_mm: Annotated[float, Output("tip relief length used", "L_Ca")]
     root_relief_length_mm: Annotated[float, Output("root relief length used", "L_Cf")]
     end_relief_length_mm: Annotated[float, Output("end relief length used", "L_Ce")]
+    rack_tip_radius: Annotated[
+        float, Output("rack tip radius used", "ρ_fP*", text="in normal modules, as far as both racks have room for it")
+    ]
 
 
 class FlankPlace(Group):
@@ -76,10 +79,18 @@ class FlankPressure(Group):
     """Dry Hertz pressure."""
 
     max_mpa: Annotated[
-        float,
-        Output("largest Hertz pressure", "p_H", f"{XUE}, Eq. 14", text="largest over all roll positions", headline=1),
+        float | None,
+        Output(
+            "largest Hertz pressure",
+            "p_H",
+            f"{XUE}, Eq. 14",
+            text="largest over all roll positions; null where the loaded path reaches a base circle",
+            headline=1,
+        ),
     ]
-    max_at: Annotated[FlankPlace | None, Output("place of the largest pressure", text="where; null without load")]
+    max_at: Annotated[
+        FlankPlace | None, Output("place of the largest pressure", text="where; null without load or largest pressure")
+    ]
 
 
 class FeatureLineCurves(Group):

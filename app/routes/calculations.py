@@ -1,34 +1,56 @@
 """One POST endpoint for every row of the table of calculations."""
 
 from collections.abc import Callable, Coroutine
-from typing import Annotated, Any
+from functools import partial
+from typing import Annotated, Any, NamedTuple
 
 from fastapi import APIRouter, HTTPException, Request, Response
 from fastapi.routing import APIRoute
 
 from app.calculations import CALCULATIONS, Calculation
+from app.cost import refuse_endless
 from app.formats.json import answer
 from app.library import body_of
 from app.problems import documented
 from app.reading import read
+from app.requests.common import Request as Model
+from app.settings import Settings
 from app.start_up import StartUp
 from app.workers.admission import Runner
+
+
+class Work(NamedTuple):
+    """What a worker does with the body of a request for the endpoint at `path`, and the kind of the outcome.
+
+    `policy` is a content policy of its own, where the service's does not fit.
+    """
+
+    path: str
+    function: Callable[[bytes, float], bytes]
+    media_type: str
+    policy: str | None = None
 
 
 class CalculationRoute(APIRoute):
     """An endpoint as its signature documents it, whose body is read and validated where it is calculated."""
 
+    def work(self, _http: Request) -> Work:
+        """What is asked for."""
+        return Work(self.path, partial(answer_body, self.path), "application/json")
+
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         """What answers a request."""
-        path = self.path
 
         async def handle(http: Request) -> Response:
+            work = self.work(http)
             require_json(http)
             start_up: StartUp = http.app.state.start_up
-            start_up.require(path)
+            start_up.require(work.path)
             runner: Runner = http.app.state.runner
-            content = await runner.run(http.receive, answer_body, path, await http.body())
-            return Response(content, media_type="application/json")
+            limits: Settings = http.app.state.settings
+            content = await runner.run(http.receive, work.function, await http.body(), limits.deadline_s)
+            headers = {"Content-Security-Policy": work.policy} if work.policy else None
+            return Response(content, headers=headers, media_type=work.media_type)
 
         return handle
 
@@ -37,10 +59,17 @@ router = APIRouter(route_class=CalculationRoute, responses=documented(400, 408, 
 _BY_PATH = {calculation.path: calculation for calculation in CALCULATIONS}
 
 
-def answer_body(path: str, body: bytes) -> bytes:
+def answer_body(path: str, body: bytes, deadline_s: float) -> bytes:
     """The answer of an endpoint to the bytes of a request; runs in a worker."""
+    return answer(*read_case(path, body, deadline_s))
+
+
+def read_case(path: str, body: bytes, deadline_s: float) -> tuple[Calculation, Model]:
+    """The calculation and its request; raises what `read` raises, and Unprocessable for what cannot be finished."""
     calculation = _BY_PATH[path]
-    return answer(calculation, read(calculation.request, body))
+    request = read(calculation.request, body)
+    refuse_endless(request, deadline_s)
+    return calculation, request
 
 
 def require_json(http: Request) -> None:

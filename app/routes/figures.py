@@ -1,23 +1,26 @@
 """The figures of every endpoint: what there is, and each as an image or as numbers."""
 
+from functools import partial
 from typing import Annotated, Any, Literal, get_args
 
-from fastapi import APIRouter, Depends, HTTPException, Path, Query, Request, Response
+from fastapi import APIRouter, HTTPException, Path, Query, Request, Response
 from pydantic import BaseModel
 
 from app.calculations import CALCULATIONS, Calculation
 from app.contract.quantities import Output
-from app.figures.declaration import Declaration
 from app.figures.rendering import MEDIA_TYPES, Format, render
+from app.library import body_of
 from app.problems import documented
-from app.reading import read
-from app.routes.calculations import require_json
-from app.start_up import StartUp
-from app.workers.admission import Runner
+from app.reading import InvalidBody
+from app.routes.calculations import CalculationRoute, Work, read_case
 
+Theme = Literal["light", "dark"]
 FORMATS: tuple[Format, ...] = get_args(Format)
+THEMES: tuple[Theme, ...] = get_args(Theme)
 # A figure fetched alone runs nothing and loads nothing; its styles and images are its own.
 ALONE = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
+_FIGURES = {each.path: {figure.name: figure for figure in each.figures} for each in CALCULATIONS}
+
 router = APIRouter(tags=["figures"])
 
 
@@ -41,58 +44,52 @@ async def list_figures() -> list[FigureSummary]:
     ]
 
 
-def figure_of_body(path: str, name: str, body: bytes, image_format: Format, theme: Literal["light", "dark"]) -> bytes:
-    """A figure of an endpoint from the bytes of a request; runs in a worker."""
-    calculation = next(each for each in CALCULATIONS if each.path == path)
-    declaration = next(each for each in calculation.figures if each.name == name)
-    return render(calculation, declaration, read(calculation.request, body), image_format, theme)
+class FigureRoute(CalculationRoute):
+    """A figure as its signature documents it, read, validated, calculated and drawn in a worker."""
+
+    def work(self, http: Request) -> Work:
+        """What a worker does with the body, and the media type of the outcome."""
+        path = self.path.partition("/figures/")[0]
+        figures = _FIGURES[path]
+        name, image_format = http.path_params["name"], http.path_params["format"]
+        if name not in figures or image_format not in FORMATS:
+            raise HTTPException(404, f"There are {', '.join(figures)}, each as {', '.join(FORMATS)}")
+        theme = http.query_params.get("theme", "light")
+        if theme not in THEMES:
+            raise InvalidBody([{"loc": ("theme",), "type": "literal_error", "msg": "Input should be light or dark"}])
+        return Work(path, partial(figure_of, path, name, image_format, theme), MEDIA_TYPES[image_format], ALONE)
 
 
-def _documented_body(calculation: Calculation) -> dict[str, Any]:
-    """The body that the worker reads, as the calculation's own endpoint declares it."""
-    schema = {"$ref": f"#/components/schemas/{calculation.request.__name__}"}
-    return {"required": True, "content": {"application/json": {"schema": schema}}}
+def figure_of(path: str, name: str, image_format: Format, theme: Theme, body: bytes, deadline_s: float) -> bytes:
+    """The figure of the case in a body; runs in a worker."""
+    calculation, request = read_case(path, body, deadline_s)
+    return render(calculation, _FIGURES[path][name], request, image_format, theme)
 
 
 def _add(calculation: Calculation) -> None:
-    figures = {figure.name: figure for figure in calculation.figures}
+    names = list(_FIGURES[calculation.path])
 
-    def declared(
-        name: Annotated[str, Path(description="name of the figure", json_schema_extra={"enum": list(figures)})],
+    async def show(
+        name: Annotated[str, Path(description="name of the figure", json_schema_extra={"enum": names})],
         image_format: Annotated[
             str, Path(alias="format", description="format of the figure", json_schema_extra={"enum": list(FORMATS)})
         ],
-    ) -> tuple[Declaration, Format]:
-        if name not in figures or image_format not in FORMATS:
-            raise HTTPException(404, f"There are {', '.join(figures)}, each as {', '.join(FORMATS)}")
-        return figures[name], image_format
-
-    async def show(
-        http: Request,
-        which: Annotated[tuple[Declaration, Format], Depends(declared)],
-        theme: Annotated[
-            Literal["light", "dark"], Query(description="dark lines on white, or light ones on black")
-        ] = "light",
+        body: Any,
+        theme: Annotated[Theme, Query(description="dark lines on white, or light ones on black")] = "light",
     ) -> Response:
-        require_json(http)
-        start_up: StartUp = http.app.state.start_up
-        start_up.require(calculation.path)
-        runner: Runner = http.app.state.runner
-        declaration, image_format = which
-        asked = calculation.path, declaration.name, await http.body(), image_format, theme
-        content = await runner.run(http.receive, figure_of_body, *asked)
-        return Response(content, 200, {"Content-Security-Policy": ALONE}, media_type=MEDIA_TYPES[image_format])
+        raise NotImplementedError(name, image_format, body, theme)  # documents the endpoint; FigureRoute answers
 
+    show.__annotations__["body"] = Annotated[calculation.request, body_of(calculation.path)]
     _, _, model, *parts = calculation.path.split("/")
     router.add_api_route(
         calculation.path + "/figures/{name}.{format}",
         show,
         methods=["POST"],
+        route_class_override=FigureRoute,
         operation_id="_".join((model, *parts, "figure")).replace("-", "_"),
         summary=f"Figures: {calculation.summary}",
         description="The body is that of the calculation; its `detail` is ignored. Points without a solution are gaps.",
         response_class=Response,
-        openapi_extra={"requestBody": _documented_body(calculation)},
         responses=documented(400, 404, 408, 413, 415, 422, 431, 500, 503, 504)
         | {
             200: {

@@ -18,6 +18,7 @@ import signal
 import socket
 import sys
 
+import app.figures.drawing  # noqa: F401  half a second and 70 MB, which every worker shares
 from app.processes import end_with_parent
 from app.warm_up import calculate
 from app.workers import worker

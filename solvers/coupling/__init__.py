@@ -1,4 +1,8 @@
-"""Gear couplings after Pahl: kinematics, tooth loads, lubrication, friction, axial thrust, losses."""
+"""Gear couplings after Pahl.
+
+Data flow: inputs -> geometry -> kinematics -> tooth loads -> lubrication -> friction -> axial thrust -> losses; the
+sleeve's orbit needs the tooth loads alone, the recommended crowning the lubrication.
+"""
 
 from solvers.coupling.model import solve
 from solvers.coupling.orbit import solve_orbit

@@ -7,11 +7,11 @@ from math import asin, pi
 import numpy as np
 
 from solvers.arrays import FloatArray
+from solvers.coupling.friction_sums import FrictionSums, friction_sums
 from solvers.coupling.inputs import Coupling, CouplingInputs
 from solvers.coupling.kinematics import MeshMotion, ToothPositions, positions_per_pitch, tooth_positions
 from solvers.coupling.tooth_loads import mesh_loads
 
-ROUNDING = 1e-12
 _PITCH_PARTS = 3
 _PITCH_NODES = 8
 _gauss_rule = cache(np.polynomial.legendre.leggauss)
@@ -27,21 +27,17 @@ class RotorSamples:
 
 @dataclass(frozen=True, slots=True)
 class LoadedMesh:
-    """One mesh over a pitch: its motion, where its teeth stand, their tangential forces (rows, teeth) [N]."""
+    """One mesh over a pitch: its motion, where its teeth stand, their tangential forces (rows, teeth) [N], sums."""
 
     motion: MeshMotion
     weight: FloatArray
     teeth: ToothPositions
     tangential_force: FloatArray
+    friction: FrictionSums
 
     def mean_sum(self, values: FloatArray) -> float:
         """Sum over the teeth of values (rows, teeth), averaged over rotor angles."""
         return float(self.weight @ values.sum(axis=1))
-
-
-def without_rounding(value: float, scale: float) -> float:
-    """The value, or zero where it is below 1e-12 of what its parts may add up to: the rounding of their sum."""
-    return 0.0 if abs(value) < ROUNDING * abs(scale) else value
 
 
 def friction_reversals(mesh: MeshMotion, axial_velocity: float) -> list[float]:
@@ -82,4 +78,6 @@ def loaded_mesh(inputs: CouplingInputs, mesh: MeshMotion) -> LoadedMesh:
     samples = rotor_samples(inputs.coupling, mesh, inputs.operation.axial_velocity)
     floating = inputs.model.sleeve == "floating"
     loads = mesh_loads(inputs.coupling, mesh, samples.teeth, inputs.operation.torque, floating=floating)
-    return LoadedMesh(mesh, samples.weight, samples.teeth, loads.tangential_force)
+    force, teeth, weight = loads.tangential_force, samples.teeth, samples.weight
+    sums = friction_sums(force, teeth.sine, teeth.cosine, weight, mesh.sliding, inputs.operation.axial_velocity)
+    return LoadedMesh(mesh, weight, teeth, force, sums)

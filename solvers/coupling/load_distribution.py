@@ -5,7 +5,7 @@ from math import cos, pi
 import numpy as np
 
 from solvers.arrays import frozen
-from solvers.coupling.averaging import ROUNDING
+from solvers.coupling.friction_sums import ROUNDING
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.kinematics import MeshMotion, tooth_positions
 from solvers.coupling.limits import unloading_misalignment

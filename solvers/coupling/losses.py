@@ -4,10 +4,10 @@ from math import cos, hypot, pi
 
 import numpy as np
 
-from solvers.arrays import FloatArray
-from solvers.coupling.averaging import LoadedMesh, without_rounding
+from solvers.coupling.averaging import LoadedMesh
+from solvers.coupling.friction_sums import without_rounding
 from solvers.coupling.inputs import CouplingInputs
-from solvers.coupling.kinematics import contact_position, flank_normals, relative_velocity
+from solvers.coupling.kinematics import contact_position, flank_normals
 from solvers.coupling.results import Geometry, Losses
 
 
@@ -19,16 +19,17 @@ def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, frict
     nothing tilts, and where nothing slides at all it is open. The power balance leaves M_f - T delta/2 of it to bend
     the driving hub, whatever the load distribution.
     """
-    operation, axial_velocity = inputs.operation, inputs.operation.axial_velocity
+    operation, sums = inputs.operation, loaded.friction
     scale = friction / cos(inputs.coupling.pressure_angle)
-    speed = np.abs(relative_velocity(loaded.motion, loaded.teeth, axial_velocity))
-    friction_moment = friction_moment_about(loaded.teeth.sine, inputs, geometry, loaded, friction)
+    lever = scale * geometry.pitch_radius * float(np.sign(loaded.motion.sliding))
+    friction_moment = lever * without_rounding(sums.tilting, sums.load)
     shift_moment = contact_shift_moment(inputs, geometry, loaded)
     tilting_moment = shift_moment
     if inputs.model.kinematics == "spatial":
-        tilting_moment -= friction_moment_about(loaded.teeth.cosine, inputs, geometry, loaded, friction)
+        # Only the pivoting motion feels friction's moment about the tilt axis, -r_o sum mu F_n cos(phi) sgn.
+        tilting_moment -= lever * without_rounding(sums.pivoting, sums.load)
     return Losses(
-        friction_power=scale * loaded.mean_sum(loaded.tangential_force * speed),
+        friction_power=scale * sums.power,
         friction_moment=friction_moment,
         contact_shift_moment=shift_moment,
         hub_bending_moment=hypot(
@@ -43,21 +44,6 @@ def equal_loads_friction_moment(coaxial_limit: float, pitch_radius: float) -> fl
     `coaxial_limit` is that of the thrust, mu T/(r_o cos alpha) [N].
     """
     return 2.0 / pi * pitch_radius * coaxial_limit
-
-
-def friction_moment_about(
-    arm: FloatArray, inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, friction: float
-) -> float:
-    """r_o sum mu F_n sgn(v_r) sgn(v_G1) arm [N m], by the arm of each tooth over r_o.
-
-    sin(phi) gives the moment about the pivot direction, cos(phi) that about the tilt axis, which the hub feels only
-    with the pivoting motion of `spatial`.
-    """
-    scale = friction / cos(inputs.coupling.pressure_angle) * geometry.pitch_radius
-    velocity = relative_velocity(loaded.motion, loaded.teeth, inputs.operation.axial_velocity)
-    direction = np.sign(velocity) * np.sign(loaded.motion.sliding)
-    largest = loaded.mean_sum(loaded.tangential_force)
-    return scale * without_rounding(loaded.mean_sum(loaded.tangential_force * direction * arm), largest)
 
 
 def contact_shift_moment(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh) -> float:

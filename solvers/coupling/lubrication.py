@@ -5,6 +5,7 @@ from math import atan, cos, inf, pi, sin, sqrt, tan
 
 import numpy as np
 
+from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.contact.hertz import half_width, maximum_pressure
 from solvers.coupling.inputs import Coupling, CouplingInputs, ModelOptions
@@ -21,6 +22,7 @@ from solvers.coupling.results import Geometry
 from solvers.coupling.tooth_loads import mesh_loads
 from solvers.materials import Solid
 
+_PEAKS = 8
 UNBOUNDED_LOAD = 0.20395702057972376
 """W of an infinitely long inlet, whose exit lies at tan g = 0.47513; 12 of it is Pahl's 2.447."""
 
@@ -43,12 +45,29 @@ class FilmState:
 
 
 def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
-    """Largest normal tooth force with a tooth in the tilt position [N]; with pitch errors over a revolution."""
-    coupling, operation = inputs.coupling, inputs.operation
-    turns = np.zeros(1) if coupling.pitch_errors is None else revolution(coupling.teeth)
-    teeth = tooth_positions(pi / 2 + turns, coupling.teeth)
-    loads = mesh_loads(coupling, mesh, teeth, operation.torque, floating=inputs.model.sleeve == "floating")
-    return float(loads.tangential_force.max()) / cos(coupling.pressure_angle)
+    """Largest normal tooth force with a tooth in the tilt position [N]; with pitch errors over a revolution.
+
+    The revolution is searched again, in steps eight times as fine, around the rotor angles of the largest forces:
+    between few loaded teeth the largest lasts but a fraction of a pitch.
+    """
+    coupling = inputs.coupling
+    if coupling.pitch_errors is None:
+        return float(_largest_forces(inputs, mesh, np.array([pi / 2])).max())
+    angles = pi / 2 + revolution(coupling.teeth)
+    coarse = _largest_forces(inputs, mesh, angles)
+    peaks = angles[np.argsort(coarse)[-_PEAKS:]]
+    around = (angles[1] - angles[0]) * np.arange(-1.0, 1.125, 0.125)
+    fine = _largest_forces(inputs, mesh, (peaks[:, None] + around).ravel())
+    return float(max(coarse.max(), fine.max()))
+
+
+def _largest_forces(inputs: CouplingInputs, mesh: MeshMotion, angles: FloatArray) -> FloatArray:
+    """Largest normal tooth force [N] at each rotor angle [rad]."""
+    coupling = inputs.coupling
+    teeth = tooth_positions(angles, coupling.teeth)
+    loads = mesh_loads(coupling, mesh, teeth, inputs.operation.torque, floating=inputs.model.sleeve == "floating")
+    largest: FloatArray = loads.tangential_force.max(axis=1) / cos(coupling.pressure_angle)
+    return largest
 
 
 def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -> tuple[float, float]:

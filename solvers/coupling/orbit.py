@@ -60,7 +60,7 @@ def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
     if inputs.operation.torque == 0.0:
         raise InvalidInput("torque_too_low", "without torque nothing centres the sleeve", "torque")
     angles = revolution(inputs.coupling.teeth)
-    settled = _settled_path(inputs, angles, np.zeros((angles.size, 2)), HIGHEST_ORDER)
+    settled = _settled_path(inputs, angles, np.zeros((angles.size, 2)), HIGHEST_ORDER, MAX_SWEEPS)
     _check_holding(settled.force, _safe_force(inputs))
     return _result(angles, settled, _finer_path(inputs, settled), tooth_geometry(inputs.coupling))
 
@@ -71,7 +71,7 @@ def _finer_path(inputs: CouplingInputs, settled: _SettledPath) -> _SettledPath |
     spectrum = np.fft.rfft(settled.force, axis=0)
     force = 2.0 * np.fft.irfft(spectrum, n=angles.size, axis=0)
     try:
-        return _settled_path(inputs, angles, force, 2 * HIGHEST_ORDER)
+        return _settled_path(inputs, angles, force, 2 * HIGHEST_ORDER, MAX_SWEEPS // 2)
     except NoSolution:
         return None
 
@@ -83,7 +83,9 @@ def _safe_force(inputs: CouplingInputs) -> float:
     return 0.999 * cos(pi / coupling.teeth) * holding_force
 
 
-def _settled_path(inputs: CouplingInputs, angles: FloatArray, force: FloatArray, highest_order: int) -> _SettledPath:
+def _settled_path(
+    inputs: CouplingInputs, angles: FloatArray, force: FloatArray, highest_order: int, max_sweeps: int
+) -> _SettledPath:
     """Sweep from an inertia force (rows, 2) [N] until the path repeats.
 
     The change from sweep to sweep may grow for a dozen of them, while teeth come under load, and still die out.
@@ -93,7 +95,7 @@ def _settled_path(inputs: CouplingInputs, angles: FloatArray, force: FloatArray,
     teeth = tooth_positions(angles, coupling.teeth)
     inertia, limit = coupling.sleeve_mass * operation.speed**2, _safe_force(inputs)
     path = np.zeros_like(force)
-    for sweep in range(1, MAX_SWEEPS + 1):
+    for sweep in range(1, max_sweeps + 1):
         previous = path
         loads = floating_loads(coupling, mesh, teeth, operation.torque, _limited(force, limit))
         path = loads.displacement

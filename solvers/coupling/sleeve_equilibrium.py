@@ -12,7 +12,8 @@ from math import cos, hypot, pi
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.coupling.averaging import RotorSamples, rotor_samples, without_rounding
+from solvers.coupling.averaging import RotorSamples, rotor_samples
+from solvers.coupling.friction_sums import without_rounding
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.kinematics import MeshMotion, flank_normals, mesh_motion, relative_velocity
 from solvers.coupling.limits import coaxial_limit

@@ -2,12 +2,10 @@
 
 from math import asin, copysign, cos, pi, tan
 
-import numpy as np
-
-from solvers.coupling.averaging import LoadedMesh, without_rounding
+from solvers.coupling.averaging import LoadedMesh
 from solvers.coupling.friction import static_friction
+from solvers.coupling.friction_sums import without_rounding
 from solvers.coupling.inputs import Coupling, CouplingInputs, Operation
-from solvers.coupling.kinematics import relative_velocity
 from solvers.coupling.limits import coaxial_limit
 from solvers.coupling.results import AxialThrust, Geometry, SelfInducedThrust
 from solvers.coupling.sleeve_equilibrium import sleeve_equilibrium
@@ -20,12 +18,9 @@ def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> t
     mu F_n towards the slack. Without axial velocity the force is zero: half a turn later every tooth meets the same
     load under the opposite sliding.
     """
-    velocity = relative_velocity(loaded.motion, loaded.teeth, axial_velocity)
-    scale = friction / cos(loaded.motion.pressure_angle)
-    largest = loaded.mean_sum(loaded.tangential_force)
-    force = loaded.mean_sum(loaded.tangential_force * np.sign(velocity))
-    slack = loaded.mean_sum(loaded.tangential_force * (velocity == 0.0))
-    return scale * without_rounding(force, largest) * (axial_velocity != 0.0), scale * slack
+    scale, sums = friction / cos(loaded.motion.pressure_angle), loaded.friction
+    force = without_rounding(sums.axial, sums.load) if axial_velocity != 0.0 else 0.0
+    return scale * force, scale * sums.still
 
 
 def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocity: float) -> float:

@@ -24,7 +24,7 @@ class Outcome:
 
     face_load_factor: float | None
     safety: float | None
-    max_pressure: float
+    max_pressure: float | None
     max_line_load: float
     shaft_slope: float
     total_slope: float

@@ -77,7 +77,7 @@ class FaceLoad:
     face_load_factor: float | None
     face_load_at: float | None
     max_line_load: float
-    max_pressure: float
+    max_pressure: float | None
     contact_fraction: float
     transmission_error_peak_to_peak: float
 

@@ -15,7 +15,8 @@ Real = TypeVar("Real", float, FloatArray)
 
 # A helix whose overlap is below this is a spur gear: its contact line would enter within rounding of one roll position.
 LEAST_OVERLAP = 1e-9
-LEAST_RADIUS = 1e-6  # normal modules
+# Reduced radius over normal module below which neither Hertz nor Blok has a limit to offer.
+LEAST_RADIUS = 0.02
 ROUNDING = 1e-9  # of the line of action
 
 
@@ -23,7 +24,7 @@ class ContactPlane(NamedTuple):
     """Rectangle of the plane of action: x from A to E, y from the end that meshes first [m].
 
     Contact lines are x + y tan_base_helix = phase + j base_pitch. The pinion rolls on start + x of line_of_action;
-    where the reduced radius is below least_radius, a path that begins at a base circle, pressure has no meaning.
+    where the reduced radius is below least_radius, near a base circle, pressure and flash temperature have no meaning.
     """
 
     path_length: float

@@ -10,7 +10,7 @@ from solvers.pumping.checks import check_speed
 from solvers.pumping.flow import SpaceFlow
 from solvers.pumping.inputs import PumpingInputs
 from solvers.pumping.lead_correction import LeadCorrection, lead_correction
-from solvers.pumping.notices import flow_notices, net_flow_notices, speed_notices
+from solvers.pumping.notices import flow_notices, net_flow_notices, resolution_notices, speed_notices
 from solvers.pumping.nozzle import Gas
 from solvers.pumping.pulsation import Pulsation, pulsation
 from solvers.pumping.results import (
@@ -63,6 +63,7 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
             *mesh.notices,
             *speed_notices(mesh.pair, mesh.gas, speed),
             *_flow_notices(inputs, results),
+            *resolution_notices(inputs.setup.model.flow, _changes(mesh.gas, flows, halved)),
             *net_flow_notices([result.mass_flow for result in results]),
             *_missing(results[0], total, correction),
         ),
@@ -125,6 +126,29 @@ def _spaces_result(gas: Gas, space: Space, flow: SpaceFlow, halved: SpaceFlow, f
 
 def _rise(gas: Gas, temperature: FloatArray | None) -> FloatArray | None:
     return None if temperature is None else frozen(temperature - gas.temperature)
+
+
+def _changes(gas: Gas, flows: list[SpaceFlow], halved: list[SpaceFlow]) -> dict[str, float]:
+    """By how much half the resolution changes the summary, relatively; the largest over the spaces."""
+    changes: dict[str, float] = {}
+    for fine, coarse in zip(flows, halved, strict=True):
+        pairs = {
+            "peak pressure": (fine.largest_pressure - gas.pressure, coarse.largest_pressure - gas.pressure),
+            "lowest pressure": (gas.pressure - fine.smallest_pressure, gas.pressure - coarse.smallest_pressure),
+            "Mach number": (fine.largest_mach, coarse.largest_mach),
+            "power": (fine.work, coarse.work),
+            "radial flow": (fine.masses.radial, coarse.masses.radial),
+        }
+        if fine.mean_stagnation_temperature is not None and coarse.mean_stagnation_temperature is not None:
+            rises = [
+                float(flow.max()) - gas.temperature
+                for flow in (fine.mean_stagnation_temperature, coarse.mean_stagnation_temperature)
+            ]
+            pairs["temperature rise"] = (rises[0], rises[1])
+        for name, (value, other) in pairs.items():
+            if value != 0.0:
+                changes[name] = max(changes.get(name, 0.0), abs(other / value - 1.0))
+    return changes
 
 
 def _hottest(position: FloatArray, rise: FloatArray | None) -> tuple[float | None, float | None]:

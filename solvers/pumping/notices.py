@@ -15,6 +15,8 @@ TIP_SPEED_SHARE = 0.8  # of the ambient speed of sound
 PITCH_LINE_SPEED = 250.0  # m/s
 FEW_SLICES = 20  # in the stroke at one time
 INCOMPRESSIBLE_MACH = 0.3
+COARSE_CHANGE = 0.02  # by half the slices; twice as many change at most half of it, 1 %
+LARGEST_CHANGE = {"temperature rise": 0.01}  # one in an end slice moves with its centre, slowly
 NET_UNCERTAINTY = 0.1  # of the net flow
 LEAST_GAUGE_PRESSURE = 1e-6  # of the ambient pressure
 
@@ -75,6 +77,15 @@ def net_flow_notices(flows: list[MassFlow]) -> list[Notice]:
         f"to {1e3 * flow.net_uncertainty:.2g} g/s; more slices tell it better"
     )
     return [Notice("net_flow_uncertain", message, "slices")]
+
+
+def resolution_notices(flow: Flow, changes: dict[str, float]) -> list[Notice]:
+    """Numbers of gas dynamics that half the slices change: `changes` are relative."""
+    coarse = {name: change for name, change in changes.items() if change > LARGEST_CHANGE.get(name, COARSE_CHANGE)}
+    if flow is not Flow.GAS_DYNAMICS or not coarse:
+        return []
+    told = ", ".join(f"{name} by {100 * change:.1f} %" for name, change in coarse.items())
+    return [Notice("not_resolved", f"half the slices change {told}; more slices tell it better", "slices")]
 
 
 def speed_notices(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]:

@@ -77,14 +77,13 @@ def front_face(gas: Gas, speed: float, rho: float, v: float, p: float) -> tuple[
     """State of the border to gas at rest that the stroke runs over at `speed` [m/s], from the cell behind it.
 
     Seen from the border the gas ahead comes in at that speed: the border is a reservoir face in its own frame, the
-    reservoir at the stagnation state of this head wind. Above the speed of sound nothing runs ahead of the border and
-    it meets the ambient state. Ambient pressure or gas at rest, one alone or in turn, are no such border: the first
-    draws a jet along, and both together reflect rho c u, a pressure in proportion to the speed instead of its square.
+    reservoir at the stagnation state of this head wind. From the speed of sound on nothing runs ahead of the border;
+    the wind of that speed lets pass what the grid spreads. Ambient pressure or gas at rest, one alone or in turn, are
+    no such border: the first draws a jet along, and both together reflect rho c u, a pressure in proportion to the
+    speed instead of its square.
     """
-    if speed >= gas.sound_speed:
-        return gas.density, 0.0, gas.pressure
-    g = gas.exponent
-    warming = 1.0 + 0.5 * (g - 1.0) * (speed / gas.sound_speed) ** 2
+    g, head = gas.exponent, min(speed, gas.sound_speed)
+    warming = 1.0 + 0.5 * (g - 1.0) * (head / gas.sound_speed) ** 2
     wind = Gas(
         g,
         gas.constant,
@@ -95,8 +94,8 @@ def front_face(gas: Gas, speed: float, rho: float, v: float, p: float) -> tuple[
         gas.sound_speed * np.sqrt(warming),
         gas.critical_ratio,
     )
-    rho_f, v_f, p_f, _ = reservoir_face(wind, rho, v - speed, p)
-    return rho_f, v_f + speed, p_f
+    rho_f, v_f, p_f, _ = reservoir_face(wind, rho, v - head, p)
+    return rho_f, v_f + head, p_f
 
 
 @kernel

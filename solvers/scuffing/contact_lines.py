@@ -3,10 +3,11 @@
 from dataclasses import dataclass
 from itertools import pairwise
 from math import ceil, floor
+from typing import NamedTuple
 
 import numpy as np
 
-from solvers.arrays import FloatArray
+from solvers.arrays import BoolArray, FloatArray
 from solvers.compiled import kernel
 from solvers.errors import InvalidInput
 from solvers.gears.path_of_contact import ContactPlane, PathOfContact
@@ -63,34 +64,40 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
     return ContactLengths(least * length, most * length, transverse * length)
 
 
-@dataclass(frozen=True, slots=True)
-class RollPositions:
-    """Roll positions in one base pitch [m], ascending, breakpoints of the contact length included.
+class RollPositions(NamedTuple):
+    """Roll positions in one base pitch [m], ascending, among them those whose line meets a corner of the plane.
 
-    `side` is 0, except for spur gears, where the length jumps: each breakpoint then appears twice, as the limit from
-    below (-1) and from above (+1).
+    `corner` tells these, where loads may turn sharply. `side` is 0, except for spur gears, where the contact length
+    jumps: each corner then appears twice, as the limit from below (-1) and from above (+1).
     """
 
     phase: FloatArray
     side: FloatArray
+    corner: BoolArray
 
 
-def roll_positions(plane: ContactPlane, count: int) -> RollPositions:
-    """At least `count` roll positions, equidistant between the breakpoints {0, g, b tan, g + b tan} mod p."""
-    pitch, overlap = plane.base_pitch, plane.face_width * plane.tan_base_helix
-    corners = np.array([0.0, plane.path_length, overlap, plane.path_length + overlap])
-    breakpoints = np.unique(np.append(corners % pitch, pitch))
-    breakpoints = breakpoints[np.append(np.diff(breakpoints) > COINCIDENT * pitch, True)]
-    breakpoints[0] = 0.0
+def roll_positions(
+    plane: ContactPlane, count: int, along_path: tuple[float, ...] = (), along_face: tuple[float, ...] = ()
+) -> RollPositions:
+    """At least `count` roll positions, equidistant between the corners (x + y tan beta_b) mod p_bt.
+
+    Corners are those of the plane, {0, g, b tan, g + b tan} mod p_bt, and of the kinks of its gap along path and face.
+    """
+    pitch = plane.base_pitch
+    x = np.array([0.0, plane.path_length, *along_path])
+    y = np.array([0.0, plane.face_width, *along_face])
+    corners = np.unique(np.append(np.add.outer(x, y * plane.tan_base_helix).ravel() % pitch, pitch))
+    corners = corners[np.append(np.diff(corners) > COINCIDENT * pitch, True)]
+    corners[0] = 0.0
     phases, sides = [], []
-    for start, end in pairwise(breakpoints):
+    for start, end in pairwise(corners):
         steps = max(LEAST_STEPS, ceil(count * (end - start) / pitch))
         phases.append(np.linspace(start, end, steps + 1))
         sides.append(np.concatenate(([1.0], np.zeros(steps - 1), [-1.0])))
     if plane.tan_base_helix > 0.0:
-        phases = [part[:-1] for part in phases[:-1]] + phases[-1:]
-        return RollPositions(np.concatenate(phases), np.zeros(sum(part.size for part in phases)))
-    return RollPositions(np.concatenate(phases), np.concatenate(sides))
+        phases, sides = ([part[:-1] for part in parts[:-1]] + parts[-1:] for parts in (phases, sides))
+    phase, side = np.concatenate(phases), np.concatenate(sides)
+    return RollPositions(phase, side if plane.tan_base_helix == 0.0 else np.zeros(side.size), side != 0.0)
 
 
 @kernel

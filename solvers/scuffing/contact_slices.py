@@ -1,5 +1,6 @@
 """Slices of all contact lines at one roll position, as the compiled kernels share them."""
 
+from math import ceil
 from typing import NamedTuple
 
 import numpy as np
@@ -8,7 +9,8 @@ from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.gears.path_of_contact import ContactPlane
 from solvers.scuffing.contact_lines import line_count, line_ends
-from solvers.scuffing.modification import Gap, gap_at
+from solvers.scuffing.loaded_zones import LEAST_SAMPLES, MOST_ZONES, gap_on_line, loaded_zones, valley
+from solvers.scuffing.modification import MOST_EDGES, Gap, gap_at, smooth_parts
 from solvers.scuffing.tables import tabulated
 from solvers.scuffing.tooth_stiffness import PairCompliance, line_load
 
@@ -25,33 +27,101 @@ class Mesh(NamedTuple):
     gap: Gap
 
 
-@kernel
-def gather(mesh: Mesh, phase: float, side: float, slices: int, table: FloatArray) -> tuple[int, float]:
-    """Fill the columns of the slice table, one a slice (their middles); the number of slices and the least gap [m].
+class Cover(NamedTuple):
+    """The slices that cover the lines: their number and length [m], least and largest gap on them [m]."""
 
-    The least gap counts the lines' ends too.
+    slices: int
+    length: float
+    least: float
+    most: float
+
+
+@kernel
+def slice_table(mesh: Mesh, slices: int) -> FloatArray:
+    """A table with room for the slices of every line."""
+    return np.zeros((ROWS, line_count(mesh.plane) * (slices + MOST_EDGES * MOST_ZONES)))
+
+
+@kernel
+def _cut(mesh: Mesh, line: float, j: int, zone: FloatArray, slices: int, table: FloatArray, count: int) -> int:
+    """Add equal slices of a stretch of line j, given by its first and last y [m], to the table's columns."""
+    low, high = zone[0], zone[1]
+    step = (high - low) / slices
+    for i in range(slices):
+        y = low + (i + 0.5) * step
+        x = line - y * mesh.plane.tan_base_helix
+        table[X, count], table[Y, count], table[LINE, count] = x, y, j
+        table[LENGTH, count] = step / mesh.plane.cos_base_helix
+        table[GAP, count] = gap_at(mesh.gap, x, y)
+        table[CONSTANT, count] = tabulated(mesh.compliance.constant, mesh.compliance.points_per_metre, x)
+        table[LIMIT, count] = tabulated(mesh.compliance.limit, mesh.compliance.points_per_metre, x)
+        count += 1
+    return count
+
+
+@kernel
+def _parts(
+    mesh: Mesh, line: float, ends: tuple[float, float], slices: int, reach: float, zones: FloatArray
+) -> tuple[int, float]:
+    """Write the loaded stretches of a line, of which none holds a kink; their number and length in y [m]."""
+    edges = np.empty(MOST_EDGES)
+    last = smooth_parts(mesh.gap, line, mesh.plane.tan_base_helix, ends, edges) - 1
+    count, length = 0, 0.0
+    for k in range(last):
+        part = (edges[k], edges[k + 1])
+        if part[1] <= part[0]:
+            continue
+        if reach == np.inf:
+            zones[count, 0], zones[count, 1] = part
+            found = 1
+        else:
+            samples = max(LEAST_SAMPLES, ceil(slices * (part[1] - part[0]) / (ends[1] - ends[0])))
+            found = loaded_zones(mesh.gap, mesh.plane, line, part, samples, reach, zones[count:])
+        for zone in zones[count : count + found]:
+            length += zone[1] - zone[0]
+        count += found
+    return count, length
+
+
+@kernel
+def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, table: FloatArray) -> Cover:
+    """Fill the columns of the slice table, one a slice (their middles), where the gap lies below `reach` [m].
+
+    Every line has `slices` of them, and more only for stretches shorter than one; no slice holds a kink of the gap.
     """
-    plane = mesh.plane
-    count, least = 0, np.inf
+    plane, zones = mesh.plane, np.empty((MOST_EDGES * MOST_ZONES, 2))
+    count, length, least, most = 0, 0.0, np.inf, -np.inf
     for j in range(line_count(plane)):
         line = phase + j * plane.base_pitch
         low, high = line_ends(plane, line, side)
         if high <= low:
             continue
-        step = (high - low) / slices
-        for i in range(slices):
-            y = low + (i + 0.5) * step
-            x = line - y * plane.tan_base_helix
-            table[X, count], table[Y, count], table[LINE, count] = x, y, j
-            table[LENGTH, count] = step / plane.cos_base_helix
-            table[GAP, count] = gap_at(mesh.gap, x, y)
-            table[CONSTANT, count] = tabulated(mesh.compliance.constant, mesh.compliance.points_per_metre, x)
-            table[LIMIT, count] = tabulated(mesh.compliance.limit, mesh.compliance.points_per_metre, x)
-            least = min(least, table[GAP, count])
-            count += 1
-        for y in (low, high):
-            least = min(least, gap_at(mesh.gap, line - y * plane.tan_base_helix, y))
-    return count, least
+        stretches, loaded = _parts(mesh, line, (low, high), slices, reach, zones)
+        length += loaded / plane.cos_base_helix
+        for zone in zones[:stretches]:
+            pieces = ceil(slices * (zone[1] - zone[0]) / loaded - 1e-9)
+            first, count = count, _cut(mesh, line, j, zone, max(pieces, 1), table, count)
+            lowest, highest = _range(mesh, line, zone, table, first, count)
+            least, most = min(least, lowest), max(most, highest)
+    return Cover(count, length, least, most)
+
+
+@kernel
+def _range(mesh: Mesh, line: float, zone: FloatArray, table: FloatArray, first: int, last: int) -> tuple[float, float]:
+    """Least and largest gap [m] on a stretch that the columns from `first` to `last` cover."""
+    at_low = gap_on_line(mesh.gap, mesh.plane, line, zone[0])
+    at_high = gap_on_line(mesh.gap, mesh.plane, line, zone[1])
+    least, most = min(at_low, at_high), max(at_low, at_high)
+    lowest = first
+    for n in range(first, last):
+        most = max(most, table[GAP, n])
+        if table[GAP, n] < table[GAP, lowest]:
+            lowest = n
+    if table[GAP, lowest] < least:
+        step = (zone[1] - zone[0]) / (last - first)
+        y = valley(mesh.gap, mesh.plane, line, table[Y, lowest] - step, table[Y, lowest] + step)
+        least = min(table[GAP, lowest], gap_on_line(mesh.gap, mesh.plane, line, min(max(y, zone[0]), zone[1])))
+    return least, most
 
 
 @kernel

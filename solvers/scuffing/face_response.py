@@ -11,9 +11,10 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.errors import NoSolution
-from solvers.scuffing.contact_lines import RollPositions, line_count
-from solvers.scuffing.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, LOAD, OMEGA, ROWS, Mesh, Y, gather
-from solvers.scuffing.load_balance import TOLERANCE, newton, solve_position
+from solvers.scuffing.contact_lines import RollPositions
+from solvers.scuffing.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, LOAD, OMEGA, Mesh, Y, gather, slice_table
+from solvers.scuffing.load_balance import TOLERANCE
+from solvers.scuffing.position_balance import newton, solve_position
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +45,7 @@ def face_response(
     share *= mesh.plane.cos_base_helix / rolls.phase[-1]
     if start is None:
         error = np.full(share.size, np.nan)
-        omega = np.zeros((share.size, line_count(mesh.plane) * slices))
+        omega = np.zeros((share.size, slice_table(mesh, slices).shape[1]))
     else:
         error, omega = start.error.copy(), start.omega.copy()
     spread, derivative = np.zeros(stations), np.zeros((stations, stations))
@@ -72,10 +73,10 @@ def _respond(
 
     Returns the largest relative residual of the balance.
     """
-    table, worst = np.zeros((ROWS, line_count(mesh.plane) * slices)), 0.0
+    table, worst = slice_table(mesh, slices), 0.0
     springs = np.zeros(spread.size)
     for i in range(phase.size):
-        count, _ = gather(mesh, phase[i], side[i], slices, table)
+        count = gather(mesh, phase[i], side[i], slices, np.inf, table).slices
         table[OMEGA, :count] = omega[i, :count]
         residual = np.inf
         if error[i] == error[i]:

@@ -24,7 +24,7 @@ def contact_points(
         gamma=frozen(path.profile_parameter(x)),
         line_load=frozen(load),
         pressure=frozen(contact_pressure(balance, x, load, modulus)),
-        half_width=frozen(hertz.half_width(load, np.maximum(radius, 0.0), modulus)),
+        half_width=frozen(hertz.half_width(load, np.where(radius < path.plane.least_radius, 0.0, radius), modulus)),
         radius=frozen(radius),
         pinion_speed=frozen(pinion),
         wheel_speed=frozen(wheel),

@@ -1,4 +1,4 @@
-"""Modification, line load and pressure over the flank, and how the face shares the load."""
+"""Modification, line load and pressure over the flank."""
 
 import numpy as np
 
@@ -28,20 +28,10 @@ def flank(balance: LoadBalance, modulus: float, profile_points: int, face_points
 def contact_pressure(balance: LoadBalance, x: FloatArray, load: FloatArray, modulus: float) -> FloatArray:
     """Hertz pressure p_H [Pa] at x [m] under w [N/m].
 
-    0 without load; NaN where the reduced radius vanishes (a path that reaches a base circle), which has no pressure.
+    0 without load; NaN near a base circle, towards which the reduced radius vanishes and pressure has no limit.
     Eq. 14 prints pi/4 of it, the mean pressure, and calls it the maximum.
     """
     radius = reduced_radius(balance.mesh.plane, x)
     defined = radius >= balance.mesh.plane.least_radius
     pressure = hertz.maximum_pressure(load, np.where(defined, radius, 1.0), modulus)
     return np.where(defined, pressure, np.nan)
-
-
-def face_load_factor(load: FloatArray) -> float | None:
-    """K_H_beta = largest over mean of q(y) = int w dx / p_bt (the idea of ISO 6336-1, annex E).
-
-    `load` is the map [profile, face] of w; None without load.
-    """
-    shares = np.trapezoid(load, axis=0)
-    mean = np.trapezoid(shares) / (shares.size - 1)
-    return float(shares.max() / mean) if mean > 0.0 else None

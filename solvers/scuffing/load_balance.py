@@ -1,48 +1,51 @@
 """Load balance over the contact lines: the approach TE of the flanks at each roll position, and the loads it leaves.
 
 Each line is cut into slices at whose middles w = k max(TE - Delta, 0) is summed (Eq. 9 with one TE for all points of a
-roll position, slices dl = dy / cos beta_b, and w per length of contact line, so that the sum is F_bn). The paper's
+roll position, slices dl = dy / cos beta_b, and w per length of contact line, so that the sum is F_bn). Lines that are
+loaded in part are cut again, each time only where the last TE loads them, until TE settles: however small a contact
+is, it has all the slices. Roll positions are added where TE is not straight between them. The paper's
 iteration (Eq. 10) converges only while the mean relief in contact stays below TE/2; here F(TE), which is convex and
 increasing, is solved by Newton steps. With linear contact these end exactly after finitely many.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from solvers.arrays import FloatArray
+from solvers.arrays import FloatArray, IntArray
 from solvers.compiled import kernel
 from solvers.errors import NoSolution
 from solvers.gears.path_of_contact import ContactPlane
-from solvers.scuffing.contact_lines import RollPositions, line_count
+from solvers.scuffing.contact_lines import RollPositions
 from solvers.scuffing.contact_slices import (
-    CONSTANT,
-    GAP,
-    LENGTH,
-    LIMIT,
-    LOAD,
-    OMEGA,
-    ROWS,
+    Cover,
     Mesh,
     gather,
     load_at,
+    slice_table,
 )
 from solvers.scuffing.line_survey import Survey, empty_survey, survey_ends, survey_slices
-from solvers.scuffing.tooth_stiffness import line_load
+from solvers.scuffing.position_balance import solve_position
 
-MAX_STEPS = 60
-LEAST_OMEGA = 2.0  # of the start, whose compliance must stay positive
-ROUNDING = 1e-14  # relative force at which Newton has nothing left to gain
-NEAR_ROUNDING = 1e-12
+MAX_COVERS = 20  # of the lines of one roll position by slices
+SETTLED = 1e-6  # change of the approach between two covers
+STRAIGHT = 2e-3  # of the approach; how far TE may lie off the straight line between its neighbours
+MAX_HALVINGS = 8  # of the steps between roll positions
+MOST_ADDED = 1000  # roll positions
+LEAST_LINE_LOAD = 0.1  # N/m, mean; the approach it makes is near the rounding of large gaps
+LEAST_SPREAD = 1e-12  # m, of a kinematic error
 TOLERANCE = 1e-10  # relative force above which there is no solution
 
 
 @dataclass(frozen=True, slots=True)
 class LoadBalance:
-    """Loaded state of a mesh over one base pitch; arrays over the roll positions.
+    """Loaded state of a mesh over one base pitch; arrays over the roll positions, whose force is 0 or in balance.
 
     transmission_error and unloaded_error (least gap over the lines), both along the transverse line of action [m];
-    residual of the balance relative to the force [N]; steps of the iteration.
+    residual of the balance relative to the force [N]; steps of the iteration; `bent_steps` between roll positions were
+    left across which TE is not straight.
     """
 
     mesh: Mesh
@@ -53,13 +56,29 @@ class LoadBalance:
     residual: FloatArray
     steps: FloatArray
     survey: Survey
+    bent_steps: int = 0
 
 
 def balance_load(mesh: Mesh, rolls: RollPositions, force: float, slices: int) -> LoadBalance:
-    """TE over the roll positions under the force [N]; without a force, the kinematic error.
+    """TE over the roll positions, and over those added between, under the force [N]; the kinematic error without one.
 
-    Raises NoSolution load_balance if the iteration ends short of the force.
+    A force that presses the lines by less than `LEAST_LINE_LOAD` counts as none. Raises NoSolution load_balance if the
+    iteration ends short of the force.
     """
+    if force < LEAST_LINE_LOAD * mesh.plane.face_width:
+        force = 0.0
+    balance = _balanced(mesh, rolls, force, slices)
+    for _ in range(MAX_HALVINGS):
+        bent = _bent_steps(balance)
+        if bent.size == 0 or bent.size > MOST_ADDED:
+            break
+        phase = balance.rolls.phase
+        between = RollPositions((phase[bent] + phase[bent + 1]) / 2, np.zeros(bent.size), np.zeros(bent.size, bool))
+        balance = _merged(balance, _balanced(mesh, between, force, slices), bent + 1)
+    return replace(balance, bent_steps=_bent_steps(balance).size)
+
+
+def _balanced(mesh: Mesh, rolls: RollPositions, force: float, slices: int) -> LoadBalance:
     error, unloaded, residual, steps, survey = _balance(mesh, rolls.phase, rolls.side, force, slices)
     worst = float(np.max(residual))
     if not worst <= TOLERANCE:
@@ -67,68 +86,57 @@ def balance_load(mesh: Mesh, rolls: RollPositions, force: float, slices: int) ->
     return LoadBalance(mesh, rolls, force, error, unloaded, residual, steps, survey)
 
 
-@kernel
-def _secant_start(table: FloatArray, count: int, logarithmic: float, force: float) -> float:
-    """Exact TE of the linear problem; half-spaces take their secant compliance at the mean load, and keep its omega.
+def _bent_steps(balance: LoadBalance) -> IntArray:
+    """Indices of the steps between roll positions across which TE is not straight, ascending.
 
-    All slices pressed to a common TE, pulling included, reach the force to the right of the root of the convex F(TE);
-    Newton's steps descend from there through ever smaller contact sets.
+    What counts is how far a position lies off the line through its neighbours; corners may be sharp.
     """
-    log_mean = 0.0
-    if logarithmic > 0.0:
-        total = 0.0
-        for i in range(count):
-            total += table[LENGTH, i]
-        log_mean = np.log(force / total)
-        for i in range(count):
-            table[OMEGA, i] = max(table[CONSTANT, i] / logarithmic - log_mean, LEAST_OMEGA)
-    error = np.inf
-    for _ in range(MAX_STEPS):
-        stiffness, moment = 0.0, 0.0
-        for i in range(count):
-            if table[GAP, i] < error:
-                compliance = logarithmic * table[OMEGA, i] if logarithmic > 0.0 else table[CONSTANT, i]
-                stiffness += table[LENGTH, i] / compliance
-                moment += table[LENGTH, i] / compliance * table[GAP, i]
-        following = (force + moment) / stiffness
-        if following >= error:
-            break
-        error = following
-    return error
+    phase, error = balance.rolls.phase, balance.transmission_error
+    spread = np.full(error.size, max(float(np.ptp(error)), LEAST_SPREAD))
+    approach = error - balance.unloaded_error if balance.force > 0.0 else spread
+    before, after = np.diff(phase)[:-1], np.diff(phase)[1:]
+    inner = ~balance.rolls.corner[1:-1]
+    share = np.divide(before, before + after, out=np.zeros(inner.size), where=inner)
+    off = np.abs(error[1:-1] - error[:-2] - share * (error[2:] - error[:-2]))
+    least = np.minimum(np.minimum(approach[:-2], approach[1:-1]), approach[2:])
+    bent = np.flatnonzero(inner & (off > STRAIGHT * least))
+    return np.unique(np.concatenate((bent, bent + 1)))
+
+
+def _merged(balance: LoadBalance, added: LoadBalance, places: IntArray) -> LoadBalance:
+    """Two balances of one mesh as one, the added roll positions at their places among the others."""
+
+    def together(old: NDArray[Any], new: NDArray[Any]) -> NDArray[Any]:
+        return np.insert(old, places, new, axis=0)
+
+    return LoadBalance(
+        balance.mesh,
+        RollPositions(*map(together, balance.rolls, added.rolls)),
+        balance.force,
+        together(balance.transmission_error, added.transmission_error),
+        together(balance.unloaded_error, added.unloaded_error),
+        together(balance.residual, added.residual),
+        together(balance.steps, added.steps),
+        Survey(*map(together, balance.survey, added.survey)),
+    )
 
 
 @kernel
-def _press(table: FloatArray, count: int, logarithmic: float, error: float) -> tuple[float, float]:
-    """Force [N] at an approach [m] and its derivative [N/m]; notes each slice's load and omega."""
-    force, slope = 0.0, 0.0
-    for i in range(count):
-        load, stiffness, table[OMEGA, i] = line_load(
-            error - table[GAP, i], table[CONSTANT, i], logarithmic, table[LIMIT, i], table[OMEGA, i]
-        )
-        table[LOAD, i] = load
-        force += load * table[LENGTH, i]
-        slope += stiffness * table[LENGTH, i]
-    return force, slope
+def _settle(
+    mesh: Mesh, at: tuple[float, float], slices: int, force: float, least: float, error: float, table: FloatArray
+) -> tuple[Cover, float, float, float]:
+    """Slices, TE [m], relative residual and steps at a roll position (phase, side) whose lines are loaded in part.
 
-
-@kernel
-def newton(table: FloatArray, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
-    """TE [m] from a start, relative residual and steps at one roll position; loads and omegas stay in the table."""
-    residual, steps = np.inf, 0.0
-    while steps < MAX_STEPS:
-        carried, slope = _press(table, count, logarithmic, error)
-        steps += 1.0
-        before, residual = residual, abs(carried - force) / force
-        if residual <= ROUNDING or (residual <= NEAR_ROUNDING and residual >= before):
-            break
-        error -= (carried - force) / slope
-    return error, residual, steps
-
-
-@kernel
-def solve_position(table: FloatArray, count: int, logarithmic: float, force: float) -> tuple[float, float, float]:
-    """TE [m], relative residual and steps at one roll position, without a start."""
-    return newton(table, count, logarithmic, force, _secant_start(table, count, logarithmic, force))
+    Forces vanish at the ends of what is loaded, so that an error of TE moves the next one in second order only.
+    """
+    covers, steps, settled = 0, 0.0, False
+    while not settled:
+        cover = gather(mesh, at[0], at[1], slices, error, table)
+        before = error
+        error, residual, more = solve_position(table, cover.slices, mesh.compliance.logarithmic, force)
+        covers, steps = covers + 1, steps + more
+        settled = abs(error - before) <= SETTLED * (error - least) or covers == MAX_COVERS
+    return cover, error, residual, steps
 
 
 @kernel
@@ -139,13 +147,18 @@ def _balance(
     error, unloaded = np.empty(phase.size), np.empty(phase.size)
     residual, steps = np.zeros(phase.size), np.zeros(phase.size)
     survey = empty_survey(mesh, phase.size)
-    table = np.zeros((ROWS, line_count(mesh.plane) * slices))
+    table = slice_table(mesh, slices)
     for i in range(phase.size):
-        count, unloaded[i] = gather(mesh, phase[i], side[i], slices, table)
-        error[i] = unloaded[i]
+        cover = gather(mesh, phase[i], side[i], slices, np.inf, table)
+        survey.length[i], unloaded[i] = cover.length, cover.least
+        error[i] = cover.least
         if force > 0.0:
-            error[i], residual[i], steps[i] = solve_position(table, count, mesh.compliance.logarithmic, force)
-        survey_slices(mesh, table, count, error[i], survey, i)
+            error[i], residual[i], steps[i] = solve_position(table, cover.slices, mesh.compliance.logarithmic, force)
+            if error[i] < cover.most:
+                at = (phase[i], side[i])
+                cover, error[i], residual[i], steps[i] = _settle(mesh, at, slices, force, cover.least, error[i], table)
+            survey.loaded_length[i] = cover.length
+            survey_slices(mesh, table, cover.slices, error[i], survey, i)
         survey_ends(mesh, phase[i], side[i], error[i], survey, i)
     return error, unloaded, residual, steps, survey
 

@@ -6,22 +6,23 @@ import numpy as np
 
 from solvers.arrays import frozen
 from solvers.contact.hertz import reduced_modulus
+from solvers.gears.gear import rack_tip_radius
 from solvers.gears.path_of_contact import PathOfContact, meshing_path
 from solvers.scuffing.contact_lines import ContactLengths, RollPositions, contact_lengths, roll_positions
 from solvers.scuffing.contact_slices import Mesh
+from solvers.scuffing.face_load import face_load_factor
 from solvers.scuffing.feature_line import feature_line
-from solvers.scuffing.flank import face_load_factor, flank
+from solvers.scuffing.flank import flank
 from solvers.scuffing.friction_loss import friction_loss
 from solvers.scuffing.inputs import Load, LoadDistributionInputs
 from solvers.scuffing.line_survey import Peak, largest
 from solvers.scuffing.load_balance import LoadBalance, balance_load
 from solvers.scuffing.mesh_stiffness import stiffness
-from solvers.scuffing.modification import Gap, gap
-from solvers.scuffing.notices import geometry_notices, load_notices, model_notices
+from solvers.scuffing.modification import Gap, gap, kinks_along_face, kinks_along_path
+from solvers.scuffing.notices import geometry_notices, load_notices, model_notices, relief_notices
 from solvers.scuffing.results import (
     ContactLines,
     Derived,
-    Flank,
     Geometry,
     LengthCurves,
     LoadDistribution,
@@ -56,13 +57,16 @@ def mesh_of(inputs: LoadDistributionInputs) -> PreparedMesh:
     """
     path = meshing_path(inputs.gears)
     compliance = pair_compliance(path, inputs.pinion_material, inputs.wheel_material, inputs.model)
+    form = gap(inputs.modifications, path)
     tangential_force = inputs.load.pinion_torque / path.pair.pinion.base_radius
     normal_force = tangential_force / path.plane.cos_base_helix
     return PreparedMesh(
         path=path,
         lengths=contact_lengths(path),
-        mesh=Mesh(path.plane, compliance, gap(inputs.modifications, path)),
-        rolls=roll_positions(path.plane, inputs.resolution.roll_positions),
+        mesh=Mesh(path.plane, compliance, form),
+        rolls=roll_positions(
+            path.plane, inputs.resolution.roll_positions, kinks_along_path(form), kinks_along_face(form)
+        ),
         tangential_force=tangential_force,
         force=normal_force if inputs.model.load_convention == "exact" else tangential_force,
     )
@@ -91,7 +95,7 @@ def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance
         contact_lines=_contact_lines(lengths, balance),
         stiffness=stiffness(path, balance, balance.force / lengths.mean, tangential_force),
         transmission_error=transmission_error(balance),
-        load=_load_on_flank(path, balance, loads, inputs.load.pinion_torque, tangential_force),
+        load=_load_on_flank(path, balance, inputs.load.pinion_torque, tangential_force),
         pressure=_pressure(path, balance, modulus),
         friction_loss=friction_loss(path, balance, inputs.load, inputs.friction_coefficient),
         feature_line=feature_line(
@@ -107,7 +111,8 @@ def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance
         warnings=(
             *geometry_notices(path, lengths),
             *model_notices(path, inputs.model),
-            *load_notices(path, balance),
+            *relief_notices(path, inputs.modifications),
+            *load_notices(balance),
         ),
     )
 
@@ -129,7 +134,8 @@ def _geometry(path: PathOfContact) -> Geometry:
 
 
 def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
-    """What the inputs left open."""
+    """What the inputs left open, and what is used of them."""
+    pair = path.pair.inputs
     return Derived(
         pinion_torque=load.pinion_torque,
         power=load.power,
@@ -137,6 +143,7 @@ def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
         tip_relief_length=form.tip_relief_length,
         root_relief_length=form.root_relief_length,
         end_relief_length=form.end_relief_length,
+        rack_tip_radius=min(rack_tip_radius(pair, teeth) for teeth in (pair.pinion, pair.wheel)),
     )
 
 
@@ -152,9 +159,7 @@ def _contact_lines(lengths: ContactLengths, balance: LoadBalance) -> ContactLine
     )
 
 
-def _load_on_flank(
-    path: PathOfContact, balance: LoadBalance, loads: Flank, torque: float, tangential_force: float
-) -> LoadOnFlank:
+def _load_on_flank(path: PathOfContact, balance: LoadBalance, torque: float, tangential_force: float) -> LoadOnFlank:
     """Forces, the largest line load over all roll positions and how much of the flank is loaded."""
     peak = largest(balance.survey.peak_load)
     phase, loaded, length = balance.rolls.phase, balance.survey.loaded_length, balance.survey.length
@@ -165,7 +170,7 @@ def _load_on_flank(
         max_line_load=0.0 if peak is None else peak.value,
         max_at=_place(path, peak),
         contact_fraction=float(np.trapezoid(loaded, phase) / np.trapezoid(length, phase)),
-        face_load_factor=face_load_factor(loads.line_load),
+        face_load_factor=None if peak is None else face_load_factor(balance, peak.y),
         balance_error=float(balance.residual.max()),
         pair_share=frozen(balance.survey.line_forces.T / balance.force) if balance.force > 0.0 else None,
     )
@@ -173,6 +178,8 @@ def _load_on_flank(
 
 def _pressure(path: PathOfContact, balance: LoadBalance, modulus: float) -> Pressure:
     """Largest p_H = sqrt(E' w / (2 pi R_n)) over all roll positions."""
+    if np.any(balance.survey.undefined > 0.0):
+        return Pressure(None, None)
     peak = largest(balance.survey.peak_pressure)
     maximum = 0.0 if peak is None else float(np.sqrt(modulus * peak.value / (2 * np.pi)))
     return Pressure(maximum, _place(path, peak))

@@ -1,6 +1,6 @@
 """Modification and misalignment as one gap over the plane of action."""
 
-from math import cos, floor, sin
+from math import cos, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +13,7 @@ from solvers.scuffing.inputs import LeadCurve, Modifications
 from solvers.scuffing.tables import tabulated
 
 LEAD_POINTS = 401
+MOST_EDGES = 6
 
 
 class Gap(NamedTuple):
@@ -40,11 +41,11 @@ class Gap(NamedTuple):
 def gap(modifications: Modifications, path: PathOfContact) -> Gap:
     """The gap with its relief lengths.
 
-    The paper gives none. Defaults: tip and root relief reach (eps_alpha - n) p_bt, for 1 < eps_alpha < 2 the long
-    relief to D and B, but at least a tenth of the path; end relief a tenth of the face.
+    The paper gives none. Defaults: tip and root relief reach g_alpha - p_bt, the long relief to D and B, but at least a
+    tenth of the path and at most half of it; end relief a tenth of the face.
     """
-    ratio, width = path.transverse_contact_ratio, path.pair.inputs.face_width
-    long_relief = max((ratio - floor(ratio)) * path.pair.transverse_base_pitch, 0.1 * path.length)
+    width = path.pair.inputs.face_width
+    long_relief = min(max(path.length - path.pair.transverse_base_pitch, 0.1 * path.length), 0.5 * path.length)
     m = modifications
     shafts = misalignment_slope(m.in_plane_deviation, m.out_of_plane_deviation, path.pair.working_pressure_angle)
     return Gap(
@@ -79,6 +80,23 @@ def lead_table(curve: LeadCurve, face_width: float) -> FloatArray:
     return np.asarray(np.interp(np.linspace(0.0, face_width, LEAD_POINTS), position, value))
 
 
+def kinks_along_path(form: Gap) -> tuple[float, ...]:
+    """Distances from A [m] at which reliefs begin."""
+    starts = (
+        (form.root_relief, form.root_relief_length),
+        (form.tip_relief, form.path_length - form.tip_relief_length),
+    )
+    return tuple(x for amplitude, x in starts if amplitude != 0.0 and 0.0 < x < form.path_length)
+
+
+def kinks_along_face(form: Gap) -> tuple[float, ...]:
+    """Distances from the end that meshes first [m] at which end relief begins, or meets that of the other end."""
+    if form.end_relief == 0.0:
+        return ()
+    length = min(form.end_relief_length, form.face_width / 2)
+    return (length, form.face_width - length)
+
+
 def misalignment_slope(in_plane: float, out_of_plane: float, working_pressure_angle: float) -> float:
     """Helix slope [m] of shaft deviations [m] over the face (ISO/TR 10064-3).
 
@@ -107,6 +125,34 @@ def gap_at(form: Gap, x: float, y: float) -> float:
     value += _relief(form.root_relief, form.root_relief_length, x, form.exponent)
     value += tabulated(form.lead, (form.lead.size - 1) / form.face_width, y)
     return value + _relief(form.end_relief, form.end_relief_length, min(y, form.face_width - y), form.exponent)
+
+
+@kernel
+def smooth_parts(form: Gap, line: float, tan_base_helix: float, ends: tuple[float, float], edges: FloatArray) -> int:
+    """Write the ends of the contact line x = line - y tan_base_helix and its kinks between into `edges`, by rising y.
+
+    Returns their number, at most `MOST_EDGES`. What a lead curve does between its stations counts as smooth.
+    """
+    low, high = ends
+    length = min(form.end_relief_length, 0.5 * form.face_width)
+    edges[0], count = low, 1
+    if form.end_relief != 0.0:
+        for y in (length, form.face_width - length):
+            if low < y < high:
+                edges[count] = y
+                count += 1
+    if tan_base_helix > 0.0:
+        if form.root_relief != 0.0 and low < (line - form.root_relief_length) / tan_base_helix < high:
+            edges[count] = (line - form.root_relief_length) / tan_base_helix
+            count += 1
+        if form.tip_relief != 0.0:
+            y = (line - form.path_length + form.tip_relief_length) / tan_base_helix
+            if low < y < high:
+                edges[count] = y
+                count += 1
+    edges[count] = high
+    edges[: count + 1].sort()
+    return count + 1
 
 
 @kernel

@@ -6,10 +6,10 @@ import numpy as np
 
 from solvers.gears.inputs import GearPairInputs
 from solvers.gears.notices import pair_notices
-from solvers.gears.path_of_contact import PathOfContact, reduced_radius
+from solvers.gears.path_of_contact import PathOfContact
 from solvers.notices import Notice
 from solvers.scuffing.contact_lines import ContactLengths
-from solvers.scuffing.inputs import Model
+from solvers.scuffing.inputs import Model, Modifications
 from solvers.scuffing.load_balance import LoadBalance
 
 LEAST_TEETH = 8
@@ -81,22 +81,43 @@ def model_notices(path: PathOfContact, model: Model) -> list[Notice]:
     return notices
 
 
-def load_notices(path: PathOfContact, balance: LoadBalance) -> list[Notice]:
+def relief_notices(path: PathOfContact, modifications: Modifications) -> list[Notice]:
+    """Reliefs that are longer than what they relieve."""
+    m, face_width = modifications, path.plane.face_width
+    reliefs = (
+        ("tip_relief", m.tip_relief, m.tip_relief_length, path.length, "path of contact"),
+        ("root_relief", m.root_relief, m.root_relief_length, path.length, "path of contact"),
+        ("end_relief", m.end_relief, m.end_relief_length, face_width, "face"),
+    )
+    return [
+        Notice(
+            "relief_length",
+            f"{length * 1e3:.3f} mm of relief reach beyond the {place} of {whole * 1e3:.3f} mm; taken as given",
+            f"{name}_length",
+        )
+        for name, amplitude, length, whole, place in reliefs
+        if amplitude != 0.0 and length is not None and length > whole
+    ]
+
+
+def load_notices(balance: LoadBalance) -> list[Notice]:
     """Loads that were not applied, or not everywhere, or pressed beyond the half-space; pressures without meaning."""
     notices = []
     if balance.force == 0.0:
-        notices.append(
-            Notice("no_load", "without torque only the kinematic transmission error is computed", "pinion_torque")
+        message = "without a torque that presses the flanks only the kinematic transmission error is computed"
+        notices.append(Notice("no_load", message, "pinion_torque"))
+    if balance.bent_steps:
+        message = (
+            f"the contact is so light that between {balance.bent_steps} roll positions loads are interpolated roughly: "
+            "curves over the flank and the face load factor may be off by percents"
         )
-    ends = reduced_radius(path.plane, np.array([0.0, path.length]))
-    if np.any(ends < path.plane.least_radius):
-        notices.append(
-            Notice(
-                "pressure_undefined",
-                "the path reaches a base circle, where the reduced radius vanishes: no pressure there",
-                "profile_shift",
-            )
+        notices.append(Notice("light_contact", message, "pinion_torque"))
+    if np.any(balance.survey.undefined > 0.0):
+        message = (
+            "the loaded path reaches a base circle, towards which the reduced radius vanishes: pressure and flash "
+            "temperature have no maximum there"
         )
+        notices.append(Notice("path_reaches_base_circle", message, "profile_shift"))
     if np.any(balance.survey.held > 0.0):
         notices.append(
             Notice(

@@ -123,9 +123,12 @@ class LoadOnFlank:
 
 @dataclass(frozen=True, slots=True)
 class Pressure:
-    """Largest Hertz pressure [Pa] over all roll positions, and its place."""
+    """Largest Hertz pressure [Pa] over all roll positions, and its place.
 
-    max: float
+    None where the loaded path reaches a base circle, towards which pressure has no limit.
+    """
+
+    max: float | None
     max_at: Place | None
 
 
@@ -185,7 +188,10 @@ class Flank:
 
 @dataclass(frozen=True, slots=True)
 class Derived:
-    """What follows from the inputs before any physics: torque [N m], power [W], lengths [m]."""
+    """What follows from the inputs before any physics: torque [N m], power [W], lengths [m].
+
+    rack_tip_radius is what both racks have room for, in normal modules.
+    """
 
     pinion_torque: float
     power: float
@@ -193,6 +199,7 @@ class Derived:
     tip_relief_length: float
     root_relief_length: float
     end_relief_length: float
+    rack_tip_radius: float
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,6 +24,7 @@ from solvers.scuffing.inputs import Model
 from solvers.scuffing.tooth_compliance import bending_compliance, load_points, section_gear, tooth_shape
 
 TABLE_POINTS = 801
+LEAST_RADIUS = 1e-6  # normal modules; on a base circle it vanishes, and the half width with it
 SHALLOWEST = 2.0  # half-space depth over contact half width
 NEWTON_STEPS = 12
 NEWTON_SQUARE = 1e-14  # of omega^2; the step squared bounds what is left, so the next step would be rounding
@@ -102,7 +103,7 @@ def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tu
     delta_H / w = sum_i (1 - nu_i^2)/(pi E_i) [2 ln(2 d_i / b_H) - nu_i/(1 - nu_i)],  b_H^2 = 8 w R_n/(pi E').
     """
     modulus = reduced_modulus(members[0].material, members[1].material)
-    radius = np.maximum(reduced_radius(path.plane, x), path.plane.least_radius)
+    radius = np.maximum(reduced_radius(path.plane, x), LEAST_RADIUS * path.pair.inputs.normal_module)
     log_square = np.log(8 * radius / (pi * modulus))  # of b_H at 1 N/m
     slope = sum(member.material.plane_strain_compliance for member in members) / pi
     offset, least = np.zeros_like(x), 0.0

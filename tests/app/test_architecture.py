@@ -7,6 +7,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 ALLOWED = {"solvers", "numpy", "scipy", "numba"}
+KEEPS_FILES = {"solvers/kernel_cache.py"}  # the one module that knows of files and processes
 STANDARD = {"collections", "dataclasses", "enum", "functools", "itertools", "math", "operator", "typing"}
 
 
@@ -19,7 +20,8 @@ def imported(path: Path) -> set[str]:
 
 @pytest.mark.parametrize("path", sorted((ROOT / "solvers").rglob("*.py")), ids=lambda path: str(path.relative_to(ROOT)))
 def test_solvers_import_only_numerics(path: Path) -> None:
-    assert imported(path) <= ALLOWED | STANDARD
+    if str(path.relative_to(ROOT)) not in KEEPS_FILES:
+        assert imported(path) <= ALLOWED | STANDARD
 
 
 def test_every_solver_package_is_found() -> None:

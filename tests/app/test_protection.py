@@ -7,6 +7,7 @@ from urllib.parse import urlsplit
 import httpx
 import pytest
 
+from app.library import examples
 from app.settings import Settings
 
 
@@ -35,7 +36,7 @@ def test_announced_large_body(client: httpx.Client) -> None:
 
 def test_unannounced_large_body(client: httpx.Client) -> None:
     chunks = (b" " * 65536 for _ in range(Settings().max_body_bytes // 65536 + 2))
-    response = client.post("/v1/coupling", content=chunks)
+    response = client.post("/v1/coupling", content=chunks, headers={"Content-Type": "application/json"})
     assert response.status_code == 413
     assert response.headers["content-type"] == "application/problem+json"
 
@@ -49,6 +50,61 @@ def test_wrong_method(client: httpx.Client) -> None:
     response = client.get("/v1/coupling")
     assert response.status_code == 405
     assert response.headers["allow"] == "POST"
+
+
+@pytest.mark.parametrize("path", ["/healthz", "/readyz", "/v1/examples", "/docs", "/openapi.json", "/metrics"])
+def test_head_where_get_is(client: httpx.Client, path: str) -> None:
+    head, get = client.head(path), client.get(path)
+    assert head.status_code == get.status_code == 200
+    assert head.headers["content-type"] == get.headers["content-type"]
+    assert head.content == b""
+
+
+def test_head_where_get_is_not(client: httpx.Client) -> None:
+    assert client.head("/v1/coupling").status_code == 405
+
+
+@pytest.mark.parametrize("content_type", [None, "text/plain", "application/x-www-form-urlencoded", "json"])
+def test_body_must_be_declared_as_json(client: httpx.Client, content_type: str | None) -> None:
+    request = client.build_request("POST", "/v1/coupling", content=b"{}")
+    if content_type:
+        request.headers["Content-Type"] = content_type
+    response = client.send(request)
+    assert response.status_code == 415
+    assert response.json()["type"].endswith("unsupported_media_type")
+
+
+@pytest.mark.parametrize("content_type", ["application/json; charset=utf-8", "Application/JSON", "application/x+json"])
+def test_json_by_any_of_its_names(client: httpx.Client, content_type: str) -> None:
+    response = client.post("/v1/coupling", content=b"{}", headers={"Content-Type": content_type})
+    assert response.status_code == 422
+
+
+def test_duplicate_names_are_refused(client: httpx.Client) -> None:
+    response = client.post(
+        "/v1/coupling", content=b'{"operation": {"a": 1, "a": 2}}', headers={"Content-Type": "application/json"}
+    )
+    assert response.status_code == 400
+    assert "twice" in response.json()["detail"]
+
+
+@pytest.mark.parametrize(
+    ("example", "options", "field"),
+    [
+        ("xue-pair-1-thermal", {"path_points": 500, "nodes": 481, "film_nodes": 61}, "/model/path_points"),
+        ("milian-case-1-choking", {"flow": "pocket_chain", "slices": 1000}, "/model/slices"),
+    ],
+)
+def test_what_cannot_finish_is_refused_with_the_reason(
+    client: httpx.Client, example: str, options: dict[str, object], field: str
+) -> None:
+    case = examples()[example]
+    started = time.monotonic()
+    response = client.post(case.endpoint, json=case.request | {"model": options})
+    assert time.monotonic() - started < 5
+    assert response.status_code == 422
+    assert response.json()["type"].endswith("cannot_finish")
+    assert response.json()["errors"][0]["pointer"] == field
 
 
 def test_home_leads_to_the_docs(client: httpx.Client) -> None:
@@ -66,7 +122,9 @@ def test_slow_body(server: str) -> None:
     address = urlsplit(server)
     started = time.monotonic()
     with socket.create_connection((address.hostname, address.port), timeout=30) as connection:
-        connection.sendall(b"POST /v1/coupling HTTP/1.1\r\nHost: x\r\nContent-Length: 100\r\n\r\n{")
+        connection.sendall(
+            b"POST /v1/coupling HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{"
+        )
         answer = connection.recv(65536)
     assert answer.startswith(b"HTTP/1.1 408")
     assert time.monotonic() - started == pytest.approx(Settings().body_deadline_s, abs=2.0)

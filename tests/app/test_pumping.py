@@ -143,7 +143,7 @@ def test_total_is_the_sum_of_both_spaces(full: dict[str, Any]) -> None:
 
 def test_mass_flows_sum_to_zero(full: dict[str, Any]) -> None:
     flows = full["pinion_spaces"]["mass_flow_g_per_s"]
-    assert abs(sum(flows[end] for end in ("front", "rear", "radial", "grooves", "reset"))) < 1e-9
+    assert abs(sum(flows[name] for name in ("front", "rear", "radial", "grooves", "reset"))) < 1e-9
     for end in ("front", "rear"):
         assert flows[end] == pytest.approx(flows[f"{end}_out"] - flows[f"{end}_in"], abs=1e-9)
 

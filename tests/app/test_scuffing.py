@@ -205,7 +205,7 @@ def test_pressure_is_null_where_the_path_reaches_a_base_circle(post: Post) -> No
     assert result["geometry"]["undercut"] is True
     assert result["feature_line"]["pressure_mpa"][0] is None
     assert set(result["flank"]["pressure_mpa"][0]) == {None}
-    assert {"undercut", "pressure_undefined"} <= {warning["code"] for warning in result["warnings"]}
+    assert {"undercut", "path_reaches_base_circle"} <= {warning["code"] for warning in result["warnings"]}
 
 
 def test_without_load_what_has_no_meaning_is_null(post: Post) -> None:
@@ -250,3 +250,33 @@ def test_examples_cover_the_papers_cases() -> None:
     names = set(examples())
     assert {f"xue-pair-{pair}{suffix}" for pair in (1, 2, 3, 4) for suffix in ("", "-modified")} <= names
     assert {f"xue-pair-4-helix-slope-{slope}" for slope in (10, 20, 40)} <= names
+
+
+def test_the_rack_tip_radius_assumed_is_the_one_used(post: Post) -> None:
+    steep = request(gears={"pressure_angle_deg": 25})
+    steep["gears"].pop("rack_tip_radius", None)
+    result = post(DISTRIBUTION, steep).json()
+    assumed = {each["field"]: each["value"] for each in result["assumptions"]}
+    assert assumed["gears.rack_tip_radius"] == pytest.approx(0.31788, abs=5e-6)
+    assert "rack_tip_radius" in {warning["code"] for warning in result["warnings"]}
+    usual = post(DISTRIBUTION, request()).json()["assumptions"]
+    assert {each["value"] for each in usual if each["field"] == "gears.rack_tip_radius"} <= {0.38}
+
+
+@pytest.mark.parametrize("modified", [{}, {"tip_relief_um": 5, "lead_crowning_um": 10}])
+def test_a_tiny_torque_is_answered_and_named(post: Post, modified: dict[str, float]) -> None:
+    body = request(modifications=modified)
+    body["load"] = {"pinion_torque_n_m": 1e-30, "pinion_speed_rpm": 2000}
+    response = post(DISTRIBUTION, body)
+    assert response.status_code == 200
+    warnings = {warning["code"]: warning["field"] for warning in response.json()["warnings"]}
+    assert warnings["no_load"] == "load.pinion_torque_n_m"
+    body["load"] = {"power_kw": 0, "pinion_speed_rpm": 2000}
+    warnings = {each["code"]: each["field"] for each in post(DISTRIBUTION, body).json()["warnings"]}
+    assert warnings["no_load"] == "load.power_kw"
+
+
+def test_a_relief_beyond_the_path_points_at_its_length(post: Post) -> None:
+    body = request(modifications={"root_relief_um": 5, "root_relief_length_mm": 100})
+    warnings = {each["code"]: each["field"] for each in post(DISTRIBUTION, body).json()["warnings"]}
+    assert warnings["relief_length"] == "modifications.root_relief_length_mm"

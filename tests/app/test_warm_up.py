@@ -1,26 +1,29 @@
-"""After the warm-up of a worker no example finds a kernel cold."""
+"""The stages of the warm-up leave no kernel cold that an example needs, and every endpoint has a stage."""
 
 import subprocess
 import sys
 
+from app.calculations import CALCULATIONS
+from app.library import examples
+from app.warm_up import COUPLING, LINE_CONTACT, STAGES, needed_for
+
 COUNT_COLD = """
 import gc
 from numba.core.registry import CPUDispatcher
-from app.formats.json import answer
-from app.calculations import CALCULATIONS
 from app.library import examples
-from app.warm_up import warm_up
+from app.warm_up import STAGES, calculate
+from solvers.compiled import Kernel
 
 def compiled():
-    return {(each.py_func.__module__, each.py_func.__name__): len(each.signatures)
+    return {(each.py_func.__module__, each.py_func.__name__, isinstance(each, Kernel)): len(each.signatures)
             for each in gc.get_objects() if isinstance(each, CPUDispatcher)}
 
-warm_up()
+for stage in STAGES:
+    for name in stage.examples:
+        calculate(name)
 before = compiled()
-calculations = {each.path: each for each in CALCULATIONS}
-for example in examples().values():
-    calculation = calculations[example.endpoint]
-    answer(calculation, calculation.request.model_validate(example.request))
+for name in examples():
+    calculate(name)
 after = compiled()
 cold = {name: count for name, count in after.items() if before.get(name) != count}
 assert len(before) > 10, before
@@ -30,3 +33,14 @@ assert not cold, cold
 
 def test_every_kernel_is_warm_after_the_warm_up() -> None:
     subprocess.run([sys.executable, "-c", COUNT_COLD], check=True)
+
+
+def test_endpoints_open_stage_by_stage() -> None:
+    assert needed_for("/v1/coupling") is COUPLING
+    assert needed_for("/v1/scuffing") is LINE_CONTACT
+    assert needed_for("/v1/unheard-of") is STAGES[-1]
+    assert {needed_for(calculation.path) for calculation in CALCULATIONS} <= set(STAGES)
+
+
+def test_stages_name_examples_that_exist() -> None:
+    assert {name for stage in STAGES for name in stage.examples} <= set(examples())

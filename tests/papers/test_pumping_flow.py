@@ -263,14 +263,15 @@ def test_axial_meshing_speed(gears: GearPairInputs, speed: float, axial: float, 
 
 
 def test_thermal_lead_curve_of_case_1() -> None:
-    # 0.79 um/K, range 13.1 um, front 0, rear 10.3 um for wall response 1
+    # radius 0.722 um/K; with the longer body the range for wall response 1 is 19.1 um instead of 11.9 um
     lead = run(CASE_1, SPEED_1).lead_correction
     rise = pinion(run(CASE_1, SPEED_1)).profile.temperature_rise
     assert lead is not None
     assert rise is not None
-    assert np.ptp(lead.curves.growth) / np.ptp(rise) * 1e6 == pytest.approx(0.79, abs=0.005)
-    assert lead.range * 1e6 == pytest.approx(13.1, abs=0.15)
-    assert -lead.curves.correction[[0, -1]] * 1e6 == pytest.approx([0, 10.3], abs=0.1)
+    assert np.ptp(lead.curves.radial_only) / np.ptp(rise) * 1e6 == pytest.approx(0.722, abs=0.001)
+    assert np.ptp(lead.curves.radial_only) * 1e6 == pytest.approx(11.9, abs=0.15)
+    assert lead.range * 1e6 == pytest.approx(19.1, abs=0.2)
+    assert -lead.curves.correction[[0, -1]] * 1e6 == pytest.approx([0, 18.7], abs=0.2)
     assert lead.slope < 0
 
 

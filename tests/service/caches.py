@@ -3,7 +3,7 @@
 from functools import cache
 from pathlib import Path
 
-from app.start_up import _content
+from app.warm_up import content
 from solvers.kernel_cache import is_complete, roots
 from tests.server import running_server
 
@@ -12,5 +12,5 @@ from tests.server import running_server
 def complete_cache() -> Path:
     """The folder in which the warm-up has left every kernel."""
     with running_server(log_level="error"):
-        assert is_complete(_content())
+        assert is_complete(content())
     return next(root for root in roots() if root.is_dir() and any(root.glob("complete-*")))

@@ -1,5 +1,6 @@
 """Moments and forces of a coupling on its shaft: friction dissipates, the sleeve is in balance, hubs stick."""
 
+import itertools
 from dataclasses import replace
 from math import cos, hypot, pi
 
@@ -84,7 +85,7 @@ def jenkins(ratio: float) -> tuple[float, float]:
     steps, stretch, forces = 20000, 0.0, []
     angle = 2 * pi * np.arange(2 * steps) / steps
     place = ratio * np.cos(angle)
-    for before, after in zip(place[:-1], place[1:], strict=True):
+    for before, after in itertools.pairwise(place):
         stretch = min(max(stretch + after - before, -1.0), 1.0)
         forces.append(stretch)
     last, force = angle[steps:], np.array(forces[steps - 1 :])

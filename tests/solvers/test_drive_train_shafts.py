@@ -1,5 +1,6 @@
 """Shafts in two bearings against closed forms, and the influence of the face's load on its gap."""
 
+import itertools
 from dataclasses import replace
 from math import pi
 
@@ -57,7 +58,7 @@ def test_stepped_beam_under_a_load_off_its_middle() -> None:
     edges = np.unique([0.0, 0.2, 0.55, 0.8, load, at])
     nodes, weights = np.polynomial.legendre.leggauss(4)
     total = 0.0
-    for low, high in zip(edges[:-1], edges[1:], strict=True):
+    for low, high in itertools.pairwise(edges):
         z = (low + high) / 2 + (high - low) / 2 * nodes
         section = shaft.sections[int(np.searchsorted([0.2, 0.55], (low + high) / 2))]
         total += (high - low) / 2 * np.sum(weights * moment(z, load) * moment(z, at)) / (E * second_moment(section))
@@ -178,7 +179,7 @@ def _strain_energy(system: Unit, force: FloatArray) -> float:
         z, nodal = side.model.z, side.loads[:, :, :41] @ force
         torque = side.torques[:, :41] @ force
         entry = np.argmin(np.abs(z - (0.02 if side.rotation > 0 else 0.88)))
-        for e, (low, high) in enumerate(zip(z[:-1], z[1:], strict=True)):
+        for e, (low, high) in enumerate(itertools.pairwise(z)):
             ends = side.shaft.start + np.cumsum([section.length for section in side.shaft.sections])
             section = side.shaft.sections[int(np.searchsorted(ends, (low + high) / 2))]
             bending, modulus = E * second_moment(section), E / 2.6

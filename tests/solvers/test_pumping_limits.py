@@ -214,13 +214,20 @@ WARNED: list[tuple[PumpingSetup, set[str]]] = [
 ]
 
 
+OF_20_SLICES = {"not_resolved", "net_flow_uncertain"}
+
+
+def test_few_slices_say_what_they_do_not_resolve() -> None:
+    assert {notice.code for notice in solved(PLAIN, 3000.0).warnings} == OF_20_SLICES
+
+
 @pytest.mark.parametrize(("setup", "expected"), WARNED)
 def test_warned(setup: PumpingSetup, expected: set[str]) -> None:
-    assert {notice.code for notice in solved(setup, 3000.0).warnings} == expected
+    assert {notice.code for notice in solved(setup, 3000.0).warnings} - OF_20_SLICES == expected
 
 
 def test_speed_beyond_every_check_is_warned_of() -> None:
-    assert [notice.code for notice in solved(PLAIN, 15000.0).warnings] == ["high_speed"]
+    assert {notice.code for notice in solved(PLAIN, 15000.0).warnings} - OF_20_SLICES == {"high_speed"}
 
 
 def test_speed_beyond_every_check_is_finite() -> None:

@@ -137,7 +137,10 @@ def test_gears_of_another_size_under_the_same_stress_deform_alike(inputs: LoadDi
     assume(one.transmission_error.curves.error.size == other.transmission_error.curves.error.size)
     assert other.transmission_error.curves.error == pytest.approx(one.transmission_error.curves.error * size, rel=1e-8)
     assert other.load.max_line_load == pytest.approx(one.load.max_line_load * size, rel=1e-7)
-    assert other.pressure.max == pytest.approx(one.pressure.max, rel=1e-7)
+    if one.pressure.max is None:
+        assert other.pressure.max is None
+    else:
+        assert other.pressure.max == pytest.approx(one.pressure.max, rel=1e-7)
     if one.friction_loss.loss_factor is not None:
         assert other.friction_loss.loss_factor == pytest.approx(one.friction_loss.loss_factor, rel=1e-7)
 
@@ -206,7 +209,10 @@ def test_more_torque_presses_every_point_harder(inputs: LoadDistributionInputs) 
     heavier = replace(inputs, load=replace(inputs.load, pinion_torque=inputs.load.pinion_torque * 1.5))
     one, other = solve(inputs), solve(heavier)
     slack = 1e-9 * other.load.max_line_load
-    assert np.all(other.transmission_error.curves.error > one.transmission_error.curves.error)
+    pressed, less = other.transmission_error.curves, one.transmission_error.curves
+    common = np.intersect1d(pressed.roll_position, less.roll_position)  # a bent curve has more roll positions
+    errors = [curve.error[np.searchsorted(curve.roll_position, common)] for curve in (pressed, less)]
+    assert np.all(errors[0] > errors[1])
     assert np.all(other.flank.line_load >= one.flank.line_load - slack)
     assert other.load.contact_fraction >= one.load.contact_fraction - 1e-12
 

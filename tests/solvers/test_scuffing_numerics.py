@@ -152,24 +152,26 @@ def test_the_linear_balance_is_the_exact_root_by_sorting(pair: int) -> None:
             low = max(0.0, (line - plane.path_length) / plane.tan_base_helix)
             high = min(plane.face_width, line / plane.tan_base_helix)
             if high > low:
-                middles = low + (np.arange(100) + 0.5) * (high - low) / 100
+                middles = low + (np.arange(5000) + 0.5) * (high - low) / 5000
                 x.append(line - middles * plane.tan_base_helix)
                 y.append(middles)
-                length.append(np.full(100, (high - low) / 100 / plane.cos_base_helix))
+                length.append(np.full(5000, (high - low) / 5000 / plane.cos_base_helix))
         xs, ys, ls = (np.concatenate(part) for part in (x, y, length))
         gaps = gaps_at(mesh.gap, xs, ys)
         order = np.argsort(gaps)
         weight = (ls / np.interp(xs, table, mesh.compliance.constant))[order]
         roots = (result.load.normal_force + np.cumsum(weight * gaps[order])) / np.cumsum(weight)
         first = np.argmax(roots <= np.append(gaps[order][1:], np.inf))
-        assert result.transmission_error.curves.error[i] == pytest.approx(roots[first], rel=1e-12)
+        assert result.transmission_error.curves.error[i] == pytest.approx(roots[first], rel=5e-5)  # 100 slices
 
 
 @pytest.mark.parametrize("model", [Model(contact="linear"), Model()])
 def test_newton_needs_few_steps(model: Model) -> None:
-    shape = replace(PAPER_MODIFICATIONS, helix_slope=40e-6)
-    steps = solve_load_distribution(paper_pair(4, shape, model)).balance.steps
-    assert steps.max() <= 6
+    whole = solve_load_distribution(paper_pair(4, model=model)).balance.steps
+    assert whole.max() <= 4
+    # A line loaded in part is cut into slices twice or three times.
+    in_part = solve_load_distribution(paper_pair(4, replace(PAPER_MODIFICATIONS, helix_slope=40e-6), model))
+    assert in_part.balance.steps.max() <= 15
 
 
 @cache

@@ -46,12 +46,13 @@ class Heat(NamedTuple):
     compression: FloatArray
 
 
+AT_NODES = ("lower", "pivot", "upper", "residual", "from_left", "from_right")
+
+
 def heat_arrays(nodes: int, film_nodes: int) -> Heat:
     """Room for `nodes` columns."""
-    at_nodes = [np.zeros((nodes, film_nodes)) for _ in range(6)]
-    responses, edges = np.zeros((nodes, film_nodes, 4)), np.zeros((nodes, film_nodes + 1))
-    columns = [np.zeros(nodes) for _ in range(12)]
-    return Heat(*at_nodes, *[responses, edges], *columns)
+    across = dict.fromkeys(AT_NODES, (film_nodes,)) | {"responses": (film_nodes, 4), "edges": (film_nodes + 1,)}
+    return Heat(**{name: np.zeros((nodes, *across.get(name, ()))) for name in Heat._fields})
 
 
 @kernel

@@ -87,7 +87,7 @@ def conclude(
         convergence=_convergence(inputs, attempt, iterations),
         curves=None,
         field=None,
-        derived=Derived(inputs.contact.entrainment_speed, scales.reduced_modulus),
+        derived=Derived(inputs.contact.entrainment_speed, groups(inputs).reduced_modulus),
         warnings=tuple(notices),
     )
     if not attempt.converged:

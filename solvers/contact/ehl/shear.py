@@ -46,10 +46,13 @@ class Film(NamedTuple):
 
 def film_arrays(nodes: int, film_nodes: int) -> Film:
     """Room for `nodes` columns."""
-    intervals = [np.zeros((nodes, film_nodes - 1)) for _ in range(9)]
-    at_nodes = [np.zeros((nodes, film_nodes)) for _ in range(6)]
-    columns = [np.zeros(nodes) for _ in range(4)]
-    return Film(*intervals, *at_nodes, *columns)
+    shapes = dict.fromkeys(Film._fields, (nodes, film_nodes - 1))
+    shapes |= dict.fromkeys(AT_NODES, (nodes, film_nodes))
+    return Film(**{name: np.zeros(nodes if name in OF_COLUMNS else shape) for name, shape in shapes.items()})
+
+
+AT_NODES = ("stream", "couette", "poiseuille", "mid_by_temperature", "log_a_by_temperature", "b_by_temperature")
+OF_COLUMNS = ("mid_stress", "mid_by_p", "mid_by_g", "mid_by_h")
 
 
 @kernel

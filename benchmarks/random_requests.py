@@ -1,0 +1,173 @@
+"""Random valid requests to every endpoint, range ends included: no exception, no number that is none, none too late.
+
+In process, one seed a request, printed where something is found and enough to repeat it:
+python -m benchmarks.random_requests --count 100000; with --seed and --count 1, one request again.
+"""
+
+import argparse
+import copy
+import json
+import math
+import random
+import time
+import traceback
+from collections import Counter
+from typing import Any
+
+from app.calculations import CALCULATIONS
+from app.library import examples
+from app.problems import Unprocessable
+from app.reading import InvalidBody
+from app.routes.calculations import answer_body
+from app.settings import settings
+
+RANGE_END = 0.15
+FROM_NOTHING = 0.2
+MOST_CHANGES = 5
+LONGEST_LIST = 12
+Schema = dict[str, Any]
+
+
+class Draw:
+    """Draws values that a JSON schema allows."""
+
+    def __init__(self, document: Schema, choice: random.Random) -> None:
+        self._document = document
+        self._choice = choice
+
+    def resolved(self, schema: Schema) -> Schema:
+        """The schema behind a reference."""
+        while "$ref" in schema:
+            schema = self._document["$defs"][schema["$ref"].rsplit("/", 1)[1]]
+        return schema
+
+    def value(self, schema: Schema) -> Any:
+        """One value."""
+        schema = self.resolved(schema)
+        if "anyOf" in schema:
+            return self.value(self._choice.choice(schema["anyOf"]))
+        if "const" in schema:
+            return schema["const"]
+        if "enum" in schema:
+            return self._choice.choice(schema["enum"])
+        return getattr(self, f"_{schema['type']}")(schema)
+
+    def _array(self, schema: Schema) -> list[Any]:
+        return [self.value(schema["items"]) for _ in range(self._length(schema))]
+
+    def _boolean(self, _schema: Schema) -> bool:
+        return self._choice.random() < 0.5
+
+    def _null(self, _schema: Schema) -> None:
+        return None
+
+    def _string(self, schema: Schema) -> str:
+        return "x" * int(schema.get("minLength", 0))
+
+    def _integer(self, schema: Schema) -> int:
+        return round(self._number(schema))
+
+    def _object(self, schema: Schema) -> dict[str, Any]:
+        required = schema.get("required", ())
+        return {
+            name: self.value(field)
+            for name, field in schema.get("properties", {}).items()
+            if name in required or self._choice.random() < 0.3
+        }
+
+    def _length(self, schema: Schema) -> int:
+        low = schema.get("minItems", 0)
+        return self._choice.randint(low, max(low, min(schema.get("maxItems", LONGEST_LIST), LONGEST_LIST)))
+
+    def _number(self, schema: Schema) -> float:
+        low, high = self._range(schema)
+        if self._choice.random() < RANGE_END:
+            return self._choice.choice((low, high))
+        if low > 0 and high / low > 100:
+            return min(high, max(low, math.exp(self._choice.uniform(math.log(low), math.log(high)))))
+        return self._choice.uniform(low, high)
+
+    def _range(self, schema: Schema) -> tuple[float, float]:
+        whole = schema["type"] == "integer"
+        low, high = schema.get("minimum", -1e6), schema.get("maximum", 1e6)
+        if "exclusiveMinimum" in schema:
+            edge = schema["exclusiveMinimum"]
+            low = edge + 1 if whole else math.nextafter(edge, math.inf)
+        if "exclusiveMaximum" in schema:
+            edge = schema["exclusiveMaximum"]
+            high = edge - 1 if whole else math.nextafter(edge, -math.inf)
+        return low, high
+
+
+def leaves(schema: Schema, draw: Draw, path: tuple[str, ...] = ()) -> list[tuple[tuple[str, ...], Schema]]:
+    """Every field of a request that is no section, with its schema."""
+    schema = draw.resolved(schema)
+    if schema.get("type") != "object":
+        return [(path, schema)]
+    return [leaf for name, field in schema["properties"].items() for leaf in leaves(field, draw, (*path, name))]
+
+
+def request(seed: int) -> tuple[str, dict[str, Any]]:
+    """The endpoint and body that belong to a seed: an example with some fields drawn anew, or all drawn."""
+    choice = random.Random(seed)
+    calculation = choice.choice(CALCULATIONS)
+    document = calculation.request.model_json_schema()
+    draw = Draw(document, choice)
+    similar = [each for each in examples().values() if each.endpoint == calculation.path]
+    if not similar or choice.random() < FROM_NOTHING:
+        return calculation.path, draw.value(document)
+    body = copy.deepcopy(choice.choice(similar).request)
+    fields = leaves(document, draw)
+    for path, schema in choice.sample(fields, min(len(fields), choice.randint(1, MOST_CHANGES))):
+        section = body
+        for name in path[:-1]:
+            section = section.setdefault(name, {})
+        section[path[-1]] = draw.value(schema)
+    return calculation.path, body
+
+
+def refuse(constant: str) -> float:
+    """Called for NaN and Infinity in an answer."""
+    raise ValueError(f"{constant} in the answer")
+
+
+def tried(seed: int) -> tuple[str, float]:
+    """What became of a request: its status, "refused", or what went wrong; and how long it took [s]."""
+    path, body = request(seed)
+    began = time.perf_counter()
+    try:
+        content = answer_body(path, json.dumps(body).encode(), settings().deadline_s)
+        outcome = str(json.loads(content, parse_constant=refuse)["status"])
+    except Unprocessable as refusal:
+        outcome = f"refused: {refusal.code}"
+    except InvalidBody as refusal:
+        outcome = f"invalid: {refusal.errors[0]['type']}"
+    except Exception:  # noqa: BLE001  that is what is looked for
+        print(f"seed {seed}: {path} {json.dumps(body)}\n{traceback.format_exc()}", flush=True)
+        outcome = "FAILED"
+    return outcome, time.perf_counter() - began
+
+
+def main(first: int, count: int) -> None:
+    """Try them and print what was found."""
+    outcomes: Counter[str] = Counter()
+    late: list[tuple[float, int]] = []
+    print(f"seeds {first} to {first + count - 1}")
+    for seed in range(first, first + count):
+        outcome, seconds = tried(seed)
+        outcomes[outcome] += 1
+        late.append((seconds, seed))
+        if seconds > settings().deadline_s:
+            print(f"seed {seed}: beyond the deadline, {seconds:.1f} s", flush=True)
+            outcomes["LATE"] += 1
+    for outcome, number in outcomes.most_common():
+        print(f"{number:>8} {outcome}")
+    print("slowest: " + ", ".join(f"{seconds:.1f} s (seed {seed})" for seconds, seed in sorted(late)[:-6:-1]))
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seed", type=int, default=1, help="the first")
+    parser.add_argument("--count", type=int, default=1000, help="how many requests")
+    arguments = parser.parse_args()
+    main(arguments.seed, arguments.count)

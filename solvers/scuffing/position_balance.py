@@ -1,0 +1,77 @@
+"""Newton's solution for the approach TE at one roll position, over the slices of its lines."""
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.compiled import kernel
+from solvers.scuffing.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, LOAD, OMEGA
+from solvers.scuffing.tooth_stiffness import line_load
+
+MAX_STEPS = 60
+LEAST_OMEGA = 2.0  # of the start, whose compliance must stay positive
+ROUNDING = 1e-14  # relative force at which Newton has nothing left to gain
+NEAR_ROUNDING = 1e-12
+
+
+@kernel
+def _secant_start(table: FloatArray, count: int, logarithmic: float, force: float) -> float:
+    """Exact TE of the linear problem; half-spaces take their secant compliance at the mean load, and keep its omega.
+
+    All slices pressed to a common TE, pulling included, reach the force to the right of the root of the convex F(TE);
+    Newton's steps descend from there through ever smaller contact sets.
+    """
+    log_mean = 0.0
+    if logarithmic > 0.0:
+        total = 0.0
+        for i in range(count):
+            total += table[LENGTH, i]
+        log_mean = np.log(force / total)
+        for i in range(count):
+            table[OMEGA, i] = max(table[CONSTANT, i] / logarithmic - log_mean, LEAST_OMEGA)
+    error = np.inf
+    for _ in range(MAX_STEPS):
+        stiffness, moment = 0.0, 0.0
+        for i in range(count):
+            if table[GAP, i] < error:
+                compliance = logarithmic * table[OMEGA, i] if logarithmic > 0.0 else table[CONSTANT, i]
+                stiffness += table[LENGTH, i] / compliance
+                moment += table[LENGTH, i] / compliance * table[GAP, i]
+        following = (force + moment) / stiffness
+        if following >= error:
+            break
+        error = following
+    return error
+
+
+@kernel
+def _press(table: FloatArray, count: int, logarithmic: float, error: float) -> tuple[float, float]:
+    """Force [N] at an approach [m] and its derivative [N/m]; notes each slice's load and omega."""
+    force, slope = 0.0, 0.0
+    for i in range(count):
+        load, stiffness, table[OMEGA, i] = line_load(
+            error - table[GAP, i], table[CONSTANT, i], logarithmic, table[LIMIT, i], table[OMEGA, i]
+        )
+        table[LOAD, i] = load
+        force += load * table[LENGTH, i]
+        slope += stiffness * table[LENGTH, i]
+    return force, slope
+
+
+@kernel
+def newton(table: FloatArray, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
+    """TE [m] from a start, relative residual and steps at one roll position; loads and omegas stay in the table."""
+    residual, steps = np.inf, 0.0
+    while steps < MAX_STEPS:
+        carried, slope = _press(table, count, logarithmic, error)
+        steps += 1.0
+        before, residual = residual, abs(carried - force) / force
+        if residual <= ROUNDING or (residual <= NEAR_ROUNDING and residual >= before):
+            break
+        error -= (carried - force) / slope
+    return error, residual, steps
+
+
+@kernel
+def solve_position(table: FloatArray, count: int, logarithmic: float, force: float) -> tuple[float, float, float]:
+    """TE [m], relative residual and steps at one roll position."""
+    return newton(table, count, logarithmic, force, _secant_start(table, count, logarithmic, force))

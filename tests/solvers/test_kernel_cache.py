@@ -1,0 +1,87 @@
+"""Compiled kernels are never stale, whoever edits what; a broken or missing cache costs time and nothing else."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import solvers
+from solvers.compiled import kernel
+
+SOURCES = Path(solvers.__file__).parent
+PROGRAM = "from solvers.outer import outer; print(outer(1.0), len(outer.stats.cache_hits))"
+
+
+@kernel
+def inner(x: float) -> float:
+    return 2.0 * x
+
+
+@kernel
+def outer(x: float) -> float:
+    return inner(x) + 1.0
+
+
+def test_a_kernel_that_others_call_can_be_called_from_python_too() -> None:
+    assert outer(1.0) == 3.0
+    assert inner(1.0) == 2.0
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """A package of two kernels, one calling the other from another file."""
+    folder = tmp_path / "solvers"
+    folder.mkdir()
+    for name in ("__init__.py", "compiled.py", "kernel_cache.py"):
+        shutil.copy(SOURCES / name, folder)
+    head = "from solvers.compiled import kernel\n"
+    (folder / "inner.py").write_text(f"{head}@kernel\ndef inner(x):\n    return 2.0 * x\n")
+    (folder / "outer.py").write_text(
+        f"{head}from solvers.inner import inner\n@kernel\ndef outer(x):\n    return inner(x) + 1.0\n"
+    )
+    return folder
+
+
+def outcome(package: Path, cache: str | None = None) -> tuple[float, bool, str]:
+    """What the outer kernel answers, whether it came from the cache, and what was logged."""
+    environment = {name: value for name, value in os.environ.items() if name not in {"NUMBA_CACHE_DIR", "PYTHONPATH"}}
+    result = subprocess.run(
+        [sys.executable, "-c", PROGRAM],
+        cwd=package.parent,
+        env=environment | ({"NUMBA_CACHE_DIR": cache} if cache else {}),
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    value, hits = result.stdout.split()
+    return float(value), hits == "1", result.stderr
+
+
+def test_an_edit_of_a_called_kernel_is_seen(package: Path) -> None:
+    assert outcome(package)[:2] == (3.0, False)
+    assert outcome(package)[:2] == (3.0, True)
+    source = package / "inner.py"
+    source.write_text(source.read_text().replace("2.0", "5.0"))
+    assert outcome(package)[:2] == (6.0, False)
+
+
+@pytest.mark.parametrize("size", [0, 20])
+@pytest.mark.parametrize("kind", ["nbi", "nbc"])
+def test_broken_files_are_compiled_again_with_a_word(package: Path, kind: str, size: int) -> None:
+    outcome(package)
+    files = list((package / "__pycache__" / "kernels").glob(f"outer-*/*.{kind}"))
+    assert files
+    for file in files:
+        file.write_bytes(file.read_bytes()[:size])
+    value, cached, log = outcome(package)
+    assert (value, cached) == (3.0, False)
+    assert log.count("broken kernel cache") == 1
+    assert "outer-" in log
+    assert outcome(package) == (3.0, True, "")
+
+
+def test_without_any_place_kernels_live_in_memory(package: Path) -> None:
+    assert outcome(package, "/proc/no-such-place") == (3.0, False, "")
