@@ -37,9 +37,6 @@ class ContactTemperatureResult(Group):
     """Largest contact temperature, bulk plus flash."""
 
     blok_max_c: Annotated[
-<<<<<<< HEAD
-        float, Output("contact temperature by Blok", "θ_B,max", f"{XUE}, Eq. 16", headline=2, limit=SCUFFING, bound="upper")
-=======
         float | None,
         Output(
             "contact temperature by Blok",
@@ -48,8 +45,8 @@ class ContactTemperatureResult(Group):
             text="by Blok; null where a loaded point has none",
             headline=2,
             limit=SCUFFING,
+            bound="upper",
         ),
->>>>>>> figures
     ]
     thermal_ehl_max_c: Annotated[
         float | None,
