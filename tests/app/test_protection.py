@@ -108,7 +108,7 @@ def test_what_cannot_finish_is_refused_with_the_reason(
 
 
 def test_home_leads_to_the_docs(client: httpx.Client) -> None:
-    assert client.get("/").headers["location"] == "/docs"
+    assert "default-src" in client.get("/").headers["content-security-policy"]
 
 
 def test_metrics_count_requests(client: httpx.Client) -> None:
