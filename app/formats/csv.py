@@ -22,8 +22,14 @@ def curve(response: Response, path: str) -> bytes | None:
     if shape == 0:
         return None
     chosen = [leaf for leaf in wanted if leaf.dimensions == shape]
-    axes = [axis for name in dict.fromkeys(name for leaf in chosen for name in leaf.axes) if (axis := leaf_at(model, name))]
-    return _map(response, chosen, axes) if shape > 1 else _columns(response, list(dict.fromkeys([*axes, *chosen])))
+    axes = [
+        axis for name in dict.fromkeys(name for leaf in chosen for name in leaf.axes) if (axis := leaf_at(model, name))
+    ]
+    return (
+        _map(response, chosen, axes)
+        if shape > 1
+        else _columns(response, [*axes, *(leaf for leaf in chosen if leaf not in axes)])
+    )
 
 
 def _within(leaf: Leaf, path: str) -> bool:
@@ -59,5 +65,3 @@ def _written(rows: Iterable[Iterable[Any]]) -> bytes:
     text = StringIO(newline="")
     csv.writer(text).writerows(rows)
     return text.getvalue().encode()
-
-

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from app.figures.comparison import compared
-from app.figures.data import Bars, Figure, Line, NoFigure, Panel, Role, Values
+from app.figures.data import Bars, Figure, Line, NoFigure, Panel, Role, ThemeName, Values
 from app.figures.declaration import Declaration
 from app.figures.rendering import written
-from app.figures.style import WIDTH, ThemeName
+from app.figures.style import WIDTH
 from app.figures.tables import columns_of
 from app.pages.cases import Case
 
@@ -115,7 +115,7 @@ def _panel(slot: Any, height: float) -> dict[str, Any]:
         "range": [x.low, x.high, x.log],
         "name": panel.x.title,
         "unit": panel.x.unit or "",
-        "curves": [_curve(panel, series) for series in (*panel.lines, *panel.bars)],
+        "curves": [*(_curve(panel, line) for line in panel.lines), *(_curve(panel, bars) for bars in panel.bars)],
     }
 
 

@@ -115,7 +115,11 @@ def _options(leaf: Leaf, text: str) -> list[tuple[str, str]]:
     known = {value for value, _ in shown}
     empty = [] if default in known else [("", leaf.default_text or "choose …")]
     strange = [(text, text)] if text and text not in known else []
-    return [*empty, *((("" if value == default and text != value else value), label) for value, label in shown), *strange]
+    return [
+        *empty,
+        *((("" if value == default and text != value else value), label) for value, label in shown),
+        *strange,
+    ]
 
 
 def _help(leaf: Leaf, name: str, state: State) -> list[str]:

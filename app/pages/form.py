@@ -143,7 +143,7 @@ def _branch(branch: Branch, path: str, state: State, item: int | None = None) ->
         id=anchor(path),
         path=path,
         title=branch.title if item is None else f"{branch.title} {item + 1}",
-        description=branch.description if branch.description != branch.title else "",
+        description=branch.description if branch.description != branch.title and item is None else "",
         open=needed or given > 0 or state.faulty(path),
         given=given,
         assumed=state.assumptions(path),
@@ -218,7 +218,7 @@ def _choices(branch: Branch) -> dict[str, tuple[Field, ...]]:
     """Fields that exclude each other and nothing else, by the path of each of them."""
     fields = {_last(field.path): field for field in branch.fields}
     memberships = Counter(name for group in branch.model.exclusive for name in group)
-    found = {}
+    found: dict[str, tuple[Field, ...]] = {}
     for group in branch.model.exclusive:
         if all(name in fields and memberships[name] == 1 for name in group):
             members = tuple(fields[name] for name in group)

@@ -2,7 +2,8 @@
 
 from functools import cache
 
-from app.calculations import CALCULATIONS
+from app.calculations import CALCULATIONS, Calculation
+from app.library import Example
 from app.pages.about import ABOUT
 from app.pages.links import example_link, examples_of
 from app.pages.templating import model_of, page_path, rendered
@@ -12,7 +13,7 @@ from app.published import STATEMENTS, Row
 @cache
 def start_page() -> str:
     """What the models answer, a starter for each calculation."""
-    models = {}
+    models: dict[str, list[tuple[Calculation, str, list[tuple[Example, str]]]]] = {}
     for calculation in CALCULATIONS:
         examples = [(example, example_link(calculation, example)) for example in examples_of(calculation)]
         models.setdefault(model_of(calculation), []).append((calculation, page_path(calculation), examples))

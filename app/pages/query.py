@@ -103,7 +103,8 @@ def body_of(model: type[Documented], pairs: Pairs) -> dict[str, Any]:
         if parts[-1] in place:
             raise Unreadable("A field stands twice")
         place[parts[-1]] = _value(model, name, text)
-    return _with_lists(body)
+    content: dict[str, Any] = _with_lists(body)
+    return content
 
 
 def pairs_of(content: Any, prefix: str = "") -> Pairs:

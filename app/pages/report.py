@@ -8,10 +8,10 @@ from typing import Any
 from markupsafe import Markup
 
 from app.contract.fields import leaf_at
+from app.pages.about import about_of
 from app.pages.cases import Case
 from app.pages.results import flattened
 from app.pages.typesetting import shown, symbol
-from app.pages.about import about_of
 
 NAMES = ("project", "part", "author", "checker", "notes")
 LONGEST_TEXT = 200
@@ -32,7 +32,7 @@ class Input:
 def context(case: Case, views: dict[str, str], address: str, link: str) -> dict[str, Any]:
     """What the template needs beside the result."""
     request = {name: value for name, value in case.request.model_dump(exclude_unset=True).items() if name != "detail"}
-    body = json.dumps(request, ensure_ascii=True, indent=1)
+    body = json.dumps(request)
     return {
         "names": {name: views.get(name, "")[:LONGEST_TEXT] for name in NAMES},
         "paper": PAPERS.get(views.get("paper", ""), "A4"),

@@ -9,10 +9,14 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from app.calculations import CALCULATIONS, Calculation
 from app.pages.fields import anchor
-from app.pages.typesetting import shown, symbol, words
+from app.pages.typesetting import shown, symbol, typeset, words
 from app.responses.common import MODEL_VERSION
 
-ASSETS = {"style.css": "text/css; charset=utf-8", "page.js": "text/javascript; charset=utf-8", "icon.svg": "image/svg+xml"}
+ASSETS = {
+    "style.css": "text/css; charset=utf-8",
+    "page.js": "text/javascript; charset=utf-8",
+    "icon.svg": "image/svg+xml",
+}
 
 
 def rendered(template: str, **context: Any) -> str:
@@ -56,5 +60,5 @@ def _environment() -> Environment:
         "asset": asset_path,
         "anchor": anchor,
     }
-    environment.filters |= {"shown": shown, "symbol": symbol, "words": words}
+    environment.filters |= {"shown": shown, "symbol": symbol, "typeset": typeset, "words": words}
     return environment

@@ -6,18 +6,23 @@ from markupsafe import Markup, escape
 
 from app.figures.wording import number
 
-_SUBSCRIPT = re.compile(r"([^\W\d_]+[^\s_/]*)_([^\s/*]+?)(\*?)(?=,? |/|$)")
+# A letter or two, an underscore, letters and digits with commas between them.
+_SUBSCRIPT = re.compile(r"((?:[^\W\d_²³]){1,2})_([^\W_²³]+(?:,[^\W_²³]+)*)")
 _LETTER = re.compile(r"[^\W\d_]{1,2}\*?")
 NO_VALUE = "–"
 
 
+def typeset(text: str) -> Markup:
+    """A text in which `h_a` becomes a letter with a subscript."""
+    return Markup(_SUBSCRIPT.sub(r"<i>\1</i><sub>\2</sub>", str(escape(text))))  # noqa: S704  escaped before
+
+
 def symbol(text: str | None) -> Markup:
-    """`h_aP*` with a subscript; letters slanted, as symbols of quantities are."""
+    """The symbol of a quantity; letters slanted, as print sets them."""
     if not text:
         return Markup("")
-    plain = str(escape(text))
-    marked = f"<i>{plain}</i>" if _LETTER.fullmatch(plain) else _SUBSCRIPT.sub(r"<i>\1</i><sub>\2</sub>\3", plain)
-    return Markup('<span class="symbol">{}</span>').format(Markup(marked))  # noqa: S704  escaped before
+    marked = Markup("<i>{}</i>").format(text) if _LETTER.fullmatch(text) else typeset(text)
+    return Markup('<span class="symbol">{}</span>').format(marked)
 
 
 def shown(value: object, digits: int = 5) -> str:

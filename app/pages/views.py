@@ -6,9 +6,8 @@ from typing import Any, Literal
 from app.calculations import CALCULATIONS, Calculation
 from app.contract.fields import headlines, leaf_at
 from app.contract.tree import branches
-from app.figures.data import NoFigure
+from app.figures.data import NoFigure, ThemeName
 from app.figures.rendering import Format, written
-from app.figures.style import ThemeName
 from app.formats import csv
 from app.formats.json import written as json_written
 from app.pages import report as reports
@@ -82,12 +81,13 @@ def page(asked: Asked) -> Shown:
     variant, trouble = _variant(asked)
     figures, missing = charts(case, variant, asked.theme)
     before = variant.response if variant else None
-    state = State(dict(asked.pairs), {}, _resolved(case), _assumed(case))
+    resolved = _resolved(case)
+    state = State(dict(asked.pairs), {}, resolved, _assumed(case))
     shown = _page(
         asked,
         state,
         response=case.response,
-        cards=cards(case.response, state.resolved, before),
+        cards=cards(case.response, resolved, before),
         groups=groups(case.response, before),
         derived=_derived(case),
         charts=figures,
@@ -105,7 +105,9 @@ def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
     if media == "json":
         content = json_written(case.response, "curves")
     elif (path := asked.views.get("curve")) is None:
-        content = csv.values((e.path, e.leaf.title, e.value, e.leaf.unit or "") for _, e in entries(case.response) if e.leaf.is_scalar)
+        content = csv.values(
+            (e.path, e.leaf.title, e.value, e.leaf.unit or "") for _, e in entries(case.response) if e.leaf.is_scalar
+        )
     else:
         found = csv.curve(case.response, path)
         if found is None:
@@ -165,7 +167,7 @@ def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
         examples=[(example, example_link(calculation, example)) for example in examples_of(calculation)],
         formats=IMAGE_FORMATS,
         headlines=headlines(calculation.response),
-        field_link=lambda path: f"#{anchor(_nearest(calculation, path))}",
+        field_link=lambda path: _place(calculation, path),
         field_title=lambda path: _title(calculation, path),
         **context,
     )
@@ -223,12 +225,12 @@ def _curves(case: Case) -> list[str]:
     )
 
 
-def _nearest(calculation: Calculation, path: str) -> str:
-    """The path, or the next section above it that the form shows."""
+def _place(calculation: Calculation, path: str) -> str:
+    """Where on the page the field is, or the next section above it."""
     known = branches(calculation.request)
     while path and leaf_at(calculation.request, path) is None and path not in known:
         path = path.rpartition(".")[0]
-    return path or "form"
+    return f"#{anchor(path)}" if path else "#form"
 
 
 def _title(calculation: Calculation, path: str) -> str:

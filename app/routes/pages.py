@@ -12,24 +12,23 @@ from app.calculations import CALCULATIONS, Calculation
 from app.figures.rendering import MEDIA_TYPES
 from app.library import examples
 from app.pages import views
-from app.pages.links import LONGEST_QUERY, example_link
-from app.pages.overview import about_page, problem_page, rows_of, start_page
-from app.pages.query import Pairs, link, normalised, pairs_of_query, split_views
-from app.pages.templating import ASSETS, asset, model_of, page_path
 from app.pages.about import ABOUT
+from app.pages.links import example_link
+from app.pages.overview import about_page, problem_page, rows_of, start_page
+from app.pages.query import link, normalised, pairs_of_query, split_views
+from app.pages.templating import ASSETS, asset, page_path
 from app.problems import PROBLEMS
 from app.reading import Unreadable
 from app.start_up import StartUp
 from app.workers.admission import Runner
 
-PAGE_POLICY = (
-    "default-src 'self'; img-src 'self' data:; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
-)
+PAGE_POLICY = "default-src 'self'; img-src 'self' data:; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
 DOCUMENT_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'none'"
 HTML = "text/html; charset=utf-8"
 FORM = "application/x-www-form-urlencoded"
 FOREVER = "public, max-age=31536000, immutable"
 METHODS = ["GET", "POST"]
+TROUBLES: tuple[type[Exception], ...] = (*PROBLEMS, Unreadable)
 
 router = APIRouter(include_in_schema=False)
 
@@ -56,7 +55,7 @@ def _add_about(model: str) -> None:
             runner: Runner = http.app.state.runner
             try:
                 known[model] = await runner.run(http.receive, rows_of, model)
-            except tuple(PROBLEMS) as error:
+            except TROUBLES as error:
                 return _trouble(error)
         return _html(about_page(model, known[model]))
 
@@ -84,7 +83,7 @@ def _add(calculation: Calculation) -> None:
     async def figure(http: Request, name: str, image_format: str) -> Response:
         if name not in names or image_format not in MEDIA_TYPES:
             raise HTTPException(404, f"There are {', '.join(names)}, each as {', '.join(MEDIA_TYPES)}")
-        media = MEDIA_TYPES[image_format]  # type: ignore[index]  a format by the line above
+        media = {str(name): kind for name, kind in MEDIA_TYPES.items()}[image_format]
         place = f"{path}/figures/{name}.{image_format}"
         return await _answer(http, calculation, place, DOCUMENT_POLICY, media, views.figure, name, image_format)
 
@@ -116,7 +115,7 @@ async def _answer(
         if asked.pairs:
             start_up.require(calculation.path)
         shown = await _shown(http, asked, view, arguments)
-    except (*PROBLEMS, Unreadable) as error:
+    except TROUBLES as error:
         if is_page:
             return _trouble(error)
         raise

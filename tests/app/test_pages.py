@@ -78,6 +78,8 @@ def test_every_number_of_the_answer_is_on_the_page(name: str) -> None:
     numbers = dict(scalars({key: value for key, value in answer.items() if key not in NOT_RESULTS}))
     assert numbers
     for path, value in numbers.items():
+        if value is None and path not in shown:
+            continue  # a section that the case does not have
         text = unescape(shown[path]).replace("−", "-").replace(" ", "").replace("\u202f", "")
         if isinstance(value, float) and 1e-3 <= abs(value) < 1e6:
             assert float(text) == pytest.approx(value, rel=6e-5, abs=0.5 if abs(value) >= 1e5 else 0), path
@@ -261,7 +263,7 @@ def test_report_has_every_part(name: str) -> None:
 def test_reports_curl_is_the_request() -> None:
     example = examples()["milian-table-1"]
     html = views.report(asked("milian-table-1"), "http://host").content.decode()
-    body = re.search(r"<pre>curl -s http://host/v1/pumping .*? -d &#39;(.*)&#39;</pre>", html, re.DOTALL)
+    body = re.search(r"<pre>curl -s http://host/v1/pumping .*? -d '(.*)'</pre>", html, re.DOTALL)
     assert body
     assert json.loads(unescape(body[1])) == example.request
 
@@ -283,7 +285,9 @@ def test_pages_answer_by_get_with_their_policies(client: httpx.Client) -> None:
         answer = client.get(address)
         assert answer.status_code == 200, address
         (policy,) = answer.headers.get_list("content-security-policy")
-        assert policy.startswith("default-src 'self'; img-src 'self' data:" if address in strict else "default-src 'none'")
+        assert policy.startswith(
+            "default-src 'self'; img-src 'self' data:" if address in strict else "default-src 'none'"
+        )
         assert ("unsafe-inline" in policy) == (address in alone)
         head = client.head(address)
         assert head.status_code == 200
@@ -295,7 +299,9 @@ def test_empty_fields_are_dropped_by_a_redirect(client: httpx.Client) -> None:
     assert answer.status_code == 303
     assert answer.headers["location"] == "/coupling?coupling.teeth=52&theme=dark"
     example = client.get("/coupling?example=pahl-axial-displacement")
-    assert example.headers["location"] == "/coupling" + link("", pairs_of(examples()["pahl-axial-displacement"].request))
+    assert example.headers["location"] == "/coupling" + link(
+        "", pairs_of(examples()["pahl-axial-displacement"].request)
+    )
 
 
 def test_a_posted_form_is_the_same_page(client: httpx.Client) -> None:
@@ -314,7 +320,12 @@ def test_floods_of_fields_are_refused(client: httpx.Client) -> None:
 
 
 def test_unknown_views_are_problems(client: httpx.Client) -> None:
-    for address in ("/coupling/result.xml", "/coupling/figures/none.svg", "/coupling/figures/losses.bmp", "/static/none"):
+    for address in (
+        "/coupling/result.xml",
+        "/coupling/figures/none.svg",
+        "/coupling/figures/losses.bmp",
+        "/static/none",
+    ):
         assert client.get(address).status_code == 404, address
     assert client.get("/coupling/result.json?coupling.teeth=abc").headers["content-type"] == "application/problem+json"
 

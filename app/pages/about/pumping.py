@@ -28,10 +28,18 @@ ABOUT = About(
         Misprint("Eq. 6-2", "ρ′ = ρ (p/p′)^(1/γ)", "ρ′ = ρ (p′/p)^(1/γ)", "contradicts Eqs. 1 and 6-1"),
         Misprint("α, δ", "direction of flow fixed from 1 to N", "signed upwind flow", "it reverses in suction"),
         Misprint("tables", "“module”", "normal module", "the centre distances become 590 and 455 mm"),
-        Misprint("radial gap", "from the tip corner to the flank", "the narrowest place of the flank's channel, closed by the "
-                 "contact (option `tip`: as printed)", "as printed the flow stays far below sonic at the test speeds"),
-        Misprint("pocket chain", "N slices that each lose a velocity head", "gas dynamics (option `pocket_chain`: as printed)",
-                 "the chain does not converge with N"),
+        Misprint(
+            "radial gap",
+            "from the tip corner to the flank",
+            "the narrowest place of the flank's channel, closed by the contact (option `tip`: as printed)",
+            "as printed the flow stays far below sonic at the test speeds",
+        ),
+        Misprint(
+            "pocket chain",
+            "N slices that each lose a velocity head",
+            "gas dynamics (option `pocket_chain`: as printed)",
+            "the chain does not converge with N",
+        ),
     ),
     limits=(
         "The mist is one perfect gas; oil is in its molar mass and exponent only.",
