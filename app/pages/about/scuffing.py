@@ -9,7 +9,7 @@ ABOUT = About(
     answers=(
         "How a modified, misaligned pair carries its load over the flank, and what transmission error follows.",
         "Film, pressure, friction and temperatures of the line contact, solved with its heat.",
-        "How hot the contact becomes along the path, by Blok and by the solved film, and how far that is from scuffing.",
+        "How hot the contact becomes along the path, by Blok and by the solved film, and how far from scuffing.",
     ),
     equations=(
         Equation("Eq. 1", "force in the balance", "F_bn = T / (r_b cos β_b)"),
