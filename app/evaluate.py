@@ -9,6 +9,7 @@ from app.contract.cases import case_of
 from app.contract.conversion import from_si, group_of
 from app.contract.names import field_path
 from app.contract.quantities import Input
+from app.plausibility import unusual
 from app.problems import Unprocessable
 from app.requests.common import Request, Section
 from app.responses.common import MODEL_VERSION, Notice, Response
@@ -39,6 +40,7 @@ def evaluate(calculation: Calculation, request: Request) -> Response:
     else:
         warnings = [_notice(request, warning) for warning in result.warnings]
         content = from_si(calculation.response, result, request.detail, skip=_COMMON)
+        warnings += unusual(request, content)
         content |= {"status": "ok_with_warnings" if warnings else "ok", "warnings": warnings}
         if getattr(result, "status", None) == "no_solution":
             content |= {"status": "no_solution", "residuals": result.residuals}

@@ -13,7 +13,6 @@ from app.calculations import CALCULATIONS
 from app.figures.rendering import render
 from app.formats.json import answer
 from app.library import examples
-from app.processes import end_with_parent
 from solvers.kernel_cache import mark_complete
 
 
@@ -87,7 +86,6 @@ class _Ticks(event.Listener):
 
 def main(names: list[str]) -> None:
     """Compile these stages, or all."""
-    end_with_parent()
     event.register("numba:compile", _Ticks())
     for stage in STAGES:
         if not names or stage.name in names:

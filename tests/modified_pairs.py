@@ -22,6 +22,7 @@ from solvers.scuffing.inputs import (
     ScuffingInputs,
     Temperatures,
     angular_speed,
+    torque_from_power,
 )
 from solvers.scuffing.results import ContactPoints
 from solvers.scuffing.safety_results import Scuffing
@@ -84,6 +85,16 @@ def random_modifications(rng: np.random.Generator, face_width: float) -> Modific
 def _between(rng: np.random.Generator, low: float, high: float) -> float:
     """A number drawn by its logarithm."""
     return float(np.exp(rng.uniform(log(low), log(high))))
+
+
+def relieved_pair(points: int) -> ScuffingInputs:
+    """23/30 teeth, 50 kW, 30 um of tip and root relief, all else at its default."""
+    gears = GearPairInputs(GearTeeth(23), GearTeeth(30), 3e-3, 20e-3, helix_angle=radians(9.8), rack_tip_radius=0.38)
+    speed = angular_speed(2000.0)
+    distribution = LoadDistributionInputs(
+        gears, Load(torque_from_power(50e3, speed), speed), Modifications(tip_relief=30e-6, root_relief=30e-6)
+    )
+    return ScuffingInputs(distribution, temperatures=Temperatures(scuffing=573.15), path_points=points)
 
 
 def turbo_pair(helix_slope: float) -> ScuffingInputs:

@@ -115,14 +115,15 @@ class _CouplingRequest(Request):
 
     def unused_defaults(self) -> frozenset[str]:
         """What given values replace, and what the arrangement does without."""
-        unused = set()
+        unused = set(self.lubricant.unused_defaults("lubricant"))
         if self.model.inlet_length_mm is not None:
             unused.add("model.inlet")
         if self.friction.coefficient is not None or self.friction.mixed_law is not None:
             unused.add("friction.mixed_curve")
         if self.friction.coefficient is not None:
             unused.add("friction.static_coefficient")
-        if self.operation.arrangement == "single":
+        offset = getattr(self.operation, "parallel_offset_mm", None)
+        if self.operation.arrangement == "single" and offset is None:
             unused.add("coupling.hub_distance_mm")
         if self.operation.arrangement != "parallel_offset":
             unused.add("model.simple_thrust_factor")
@@ -138,7 +139,7 @@ class _CouplingRequest(Request):
         return si.CouplingInputs(
             coupling=si.proportioned(**to_si(self.coupling)),
             operation=si.Operation(**operation),
-            lubricant=si.Lubricant(**to_si(self.lubricant)),
+            lubricant=self.lubricant.lubricant(),
             friction=si.Friction(**friction),
             model=si.ModelOptions(**to_si(self.model)),
         )
@@ -152,7 +153,7 @@ class CouplingRequest(_CouplingRequest):
 
     def inputs(self) -> si.CouplingInputs:
         """The solver's inputs."""
-        return self._design(to_si(self.operation))
+        return self._design(self.operation.operation(to_si(self.coupling)["hub_distance"]))
 
 
 class SleeveOrbitRequest(CouplingRequest):

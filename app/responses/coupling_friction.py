@@ -111,6 +111,19 @@ class CouplingThrust(Group):
     breakaway_force_n: Annotated[
         float, Output("breakaway thrust", "F_ax,s", PAHL, text="thrust at which coaxial shafts start to slide")
     ]
+    design_force_n: Annotated[
+        float,
+        Output("thrust to be held", "F_ax,d", text="what a thrust bearing must hold: force or breakaway, the larger"),
+    ]
+    customary_force_n: Annotated[
+        float | None,
+        Output(
+            "customary thrust",
+            "0.25 T/D",
+            "API 671/617 practice, from memory",
+            text="0.25 T/D; null without a shaft diameter",
+        ),
+    ]
     fraction_of_limit: Annotated[
         float | None, Output("thrust over its limit", "F_ax/F_ax,max", text="force over coaxial limit", limit=1.0)
     ]

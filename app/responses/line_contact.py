@@ -3,14 +3,15 @@
 from typing import Annotated
 
 from app.contract.quantities import Output
-from app.responses.common import Derived, Group, Response
+from app.responses.common import Group, Response
+from app.responses.oil import OilDerived
 from solvers.contact import ehl
 
 XUE = "Xue 2020"
 
 
-class LineContactDerived(Derived):
-    """What load, curvature and speeds make of the two surfaces."""
+class LineContactDerived(OilDerived):
+    """What load, curvature and speeds make of the two surfaces, and the oil at the inlet."""
 
     entrainment_speed_m_per_s: Annotated[float, Output("mean surface speed", "u_m", XUE)]
     reduced_modulus_gpa: Annotated[float, Output("reduced modulus", "E'", XUE)]

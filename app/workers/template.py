@@ -1,4 +1,4 @@
-"""The fork server: one process that loads the kernels and is copied, run as `python -m app.workers.template`.
+"""The fork server: one process that loads the kernels and is copied.
 
 It has one thread, so that a copy holds no lock that nobody will release, and puts everything it has loaded beyond the
 reach of the garbage collector, so that the copies share its memory. Its standard input is a socket on which the service
@@ -19,7 +19,6 @@ import socket
 import sys
 
 import app.figures.drawing  # noqa: F401  half a second and 70 MB, which every worker shares
-from app.processes import end_with_parent
 from app.warm_up import calculate
 from app.workers import worker
 
@@ -30,7 +29,6 @@ logger = logging.getLogger("tribodrive")
 
 def main() -> None:
     """Obey commands until the service hangs up."""
-    end_with_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     with socket.socket(fileno=os.dup(sys.stdin.fileno())) as control:
         null = os.open(os.devnull, os.O_RDWR)

@@ -7,7 +7,7 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.drive_train.balance import Equilibrium, LoadedMesh, equilibrium
 from solvers.drive_train.checks import check_inputs
-from solvers.drive_train.elements import coupling_results, hubs_of, shaft_results
+from solvers.drive_train.elements import coupling_results, hubs_of, shaft_results, warnings_of
 from solvers.drive_train.influence import Unit, unit
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.losses import force_balance, train_losses
@@ -111,7 +111,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
         warnings=(
             *spread.warnings,
             *gas.warnings,
-            *coupling_notices(inputs, couplings, [(*pair[0].warnings, *pair[1].warnings) for pair in hubs]),
+            *coupling_notices(inputs, couplings, warnings_of(system, found)),
             *shaft_notices(inputs, shafts),
             *load_notices(inputs, load, heat.safety),
             *heat.warnings,

@@ -133,10 +133,10 @@ class CouplingResult:
 
 @dataclass(frozen=True, slots=True)
 class FlashPlaces:
-    """Largest Blok flash temperature [K] on the feature line and on the flank, and where on the flank."""
+    """Largest Blok flash temperature [K] on the feature line and on the flank, and where; None at a base circle."""
 
-    feature: float
-    flank: float
+    feature: float | None
+    flank: float | None
     flank_at: Place | None
 
 
@@ -144,7 +144,8 @@ class FlashPlaces:
 class TrainSafety:
     """Safety against scuffing: Blok on the feature line and over the flank, thermal EHL on two lines; None unknown.
 
-    The profile line runs from A to E through the flank's worst point by Blok. `minimum` is the smallest there is.
+    The profile line runs from A to E through the flank's worst point by Blok. `minimum` is the smallest of those
+    asked for, None where one is unknown.
     """
 
     blok_feature: float | None

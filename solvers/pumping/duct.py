@@ -13,7 +13,7 @@ class Duct(NamedTuple):
     """A stretch of a tooth space cut into equal cells.
 
     `start` [m] from the end that meshes first, `width` of a cell [m], `cells`; `lag` of the stroke per metre of face
-    [rad/m]; `speed` of the owner [rad/s]; `table` of area, total clearance and wall transport at `first_angle` +
+    [rad/m]; `speed` of the owner [rad/s]; `table` of area, total clearance and carried gas at `first_angle` +
     k `angle_step` [rad]; `discharge` coefficient of the radial gaps.
     """
 
@@ -61,7 +61,7 @@ def empty_record(gas: Gas, angles: int, cells: int, steps: int) -> Record:
 
 @kernel
 def wall_values(duct: Duct, z: float, angle: float) -> tuple[float, float, float]:
-    """Area, clearance and wall transport at z when the owner stands at `angle`; end values outside the stroke."""
+    """Area, clearance and gas carried out by the flanks at z with the owner at `angle`; end values outside the stroke."""
     position = (angle - duct.lag * z - duct.first_angle) / duct.angle_step
     last = duct.table.shape[0] - 1
     position = min(max(position, 0.0), float(last))

@@ -7,7 +7,7 @@ from solvers.arrays import FloatArray
 from solvers.gears.pair import GearPair
 from solvers.gears.path_of_contact import PathOfContact, meshing_path
 from solvers.notices import Notice
-from solvers.pumping.checks import check_setup, check_tips_meet_involutes, refuse_cost
+from solvers.pumping.checks import check_setup, refuse_cost
 from solvers.pumping.duct import Duct
 from solvers.pumping.face import Stretch, stretches
 from solvers.pumping.flow import SpaceFlow
@@ -52,12 +52,10 @@ class Mesh:
 def prepare(setup: PumpingSetup) -> Mesh:
     """Geometry, stroke tables and the notices they call for.
 
-    Raises InvalidInput with the codes of `check_setup`, `meshing_path`, `check_tips_meet_involutes`, `tooth_space`,
-    `stroke_table` and `stretches`.
+    Raises InvalidInput with the codes of `check_setup`, `meshing_path`, `tooth_space`, `stroke_table` and `stretches`.
     """
     check_setup(setup)
     path = meshing_path(setup.gears)
-    check_tips_meet_involutes(path)
     wanted = setup.model.spaces
     spaces = []
     if wanted is not Spaces.WHEEL:

@@ -18,9 +18,7 @@ def refuse(token: str) -> float:
 
 def test_list_and_single_examples_agree(client: httpx.Client) -> None:
     listed = client.get("/v1/examples").json()
-    assert [item["name"] for item in listed] == sorted(
-        examples(), key=lambda name: (not examples()[name].starter, name)
-    )
+    assert [item["name"] for item in listed] == list(examples())
     for item in listed:
         example = client.get(f"/v1/examples/{item['name']}").json()
         assert {key: example[key] for key in item} == item
@@ -35,11 +33,6 @@ def test_unknown_example_is_a_problem(client: httpx.Client) -> None:
 
 def test_every_calculation_has_an_example() -> None:
     assert {example.endpoint for example in examples().values()} == {each.path for each in CALCULATIONS}
-
-
-def test_every_calculation_has_a_task_to_start_from() -> None:
-    starters = [example for example in examples().values() if example.starter]
-    assert {example.endpoint for example in starters} == {each.path for each in CALCULATIONS}
 
 
 @pytest.mark.parametrize("detail", ["summary", "curves", "fields"])

@@ -18,7 +18,7 @@ pytestmark = pytest.mark.service
 CHROMIUM = "/usr/bin/chromium"
 OPTIONS = ["--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking", "--disable-sync"]
 CALCULATION = {each.path: each for each in CALCULATIONS}
-STARTERS = [name for name, example in examples().items() if example.starter]
+STARTERS = [example.name for example in examples().values() if example.starter]
 COUPLING = "pahl-axial-displacement"
 SCUFFING = "xue-pair-1-scuffing"
 PHONE = {"width": 360, "height": 740}
@@ -104,7 +104,7 @@ def test_live_result_keeps_what_is_typed_and_the_latest_wins(visit: Callable[...
 
 
 def test_follow_a_warning_to_its_field(visit: Callable[..., Page]) -> None:
-    page = visit(address_of("crowning-for-moving-shafts"))
+    page = visit(address_of("starter-coupling-at-its-limits"))
     link_to_field = page.locator(".warning a").first
     target = (link_to_field.get_attribute("href") or "").removeprefix("#")
     link_to_field.click()
