@@ -50,11 +50,16 @@ def faults_of(error: Exception) -> list[Fault]:
     """What a case was refused for."""
     match error:
         case InvalidBody():
-            return [Fault(".".join(str(part) for part in each["loc"]), each["msg"]) for each in error.errors]
+            return [Fault(_dotted(each.pointer), each.message) for each in error.faults]
         case Unprocessable():
             return [Fault(error.path or "", error.message)]
         case _:
             return [Fault("", str(error))]
+
+
+def _dotted(pointer: str) -> str:
+    """The path that a JSON Pointer means."""
+    return ".".join(part.replace("~1", "/").replace("~0", "~") for part in pointer.split("/")[1:])
 
 
 def _request(calculation: Calculation, pairs: Pairs) -> Request:
