@@ -27,6 +27,7 @@ class Calculation:
     """One endpoint."""
 
     path: str
+    title: str
     summary: str
     source: str
     request: type[Request]
@@ -42,6 +43,7 @@ class Calculation:
 CALCULATIONS = (
     Calculation(
         path="/v1/coupling",
+        title="Gear coupling",
         summary="Load, lubrication, friction, axial thrust and losses of a gear coupling",
         source="Pahl 1978",
         request=CouplingRequest,
@@ -50,6 +52,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/coupling/sleeve-orbit",
+        title="Sleeve orbit",
         summary="Path and inertia force of a floating sleeve over one revolution",
         source="Pahl 1978, Fig. 5",
         request=SleeveOrbitRequest,
@@ -58,6 +61,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/coupling/recommendation",
+        title="Crowning recommendation",
         summary="The crowning with the best film over a range of misalignment",
         source="Pahl 1978, conclusion",
         request=RecommendationRequest,
@@ -66,6 +70,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/pumping",
+        title="Pumping between gear teeth",
         summary="Air and mist pumped between the teeth: pressure, heating, power, mass flow, lead correction",
         source="Milian, Distretti, Leoni, Velex 2004",
         request=PumpingRequest,
@@ -74,6 +79,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/pumping/choking-speed",
+        title="Choking speed",
         summary="Speeds at which the flow out of the tooth spaces becomes sonic",
         source="Milian, Distretti, Leoni, Velex 2004, Eq. 7",
         request=ChokingSpeedRequest,
@@ -82,6 +88,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/scuffing/load-distribution",
+        title="Load distribution",
         summary="Load, pressure, transmission error and loss of a modified gear pair",
         source="Xue, Zhang, Wang 2020, section II",
         request=LoadDistributionRequest,
@@ -90,6 +97,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/scuffing",
+        title="Scuffing of gears",
         summary="Load distribution, flash temperature, film thickness and safety against scuffing of a gear pair",
         source="Xue, Zhang, Wang 2020",
         request=ScuffingRequest,
@@ -98,6 +106,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/scuffing/line-contact",
+        title="Line contact",
         summary="Film, pressure, temperature and friction of one thermal elastohydrodynamic line contact",
         source="Xue, Zhang, Wang 2020, sections III and IV",
         request=LineContactRequest,

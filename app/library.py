@@ -21,6 +21,11 @@ class ExampleSummary(BaseModel):
     source: Annotated[str, Output("where the case comes from")]
     endpoint: Annotated[str, Output("where to post its request")]
 
+    @property
+    def starter(self) -> bool:
+        """Whether it is a task of practice to start from."""
+        return self.name.startswith(STARTER)
+
 
 class Example(ExampleSummary):
     """A ready request body."""

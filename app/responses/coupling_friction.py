@@ -42,15 +42,15 @@ class CouplingLubrication(Group):
         ),
     ]
     hertz_half_width_mm: Annotated[float, Output("half width of the Hertzian contact", "a_HZ", FIG_7)]
-    hertz_pressure_mpa: Annotated[float, Output("largest Hertzian pressure", "p_H", limit=2000.0)]
-    contact_overlap: Annotated[float | None, Output("contact surface overlap", "Pu", FIG_7, limit=1.0)]
+    hertz_pressure_mpa: Annotated[float, Output("largest Hertzian pressure", "p_H", limit=2000.0, bound="upper")]
+    contact_overlap: Annotated[float | None, Output("contact surface overlap", "Pu", FIG_7, limit=1.0, bound="upper")]
     inlet_ratio: Annotated[
         float | None, Output("inlet ratio", "B", FIG_8, text="inlet length over its scale; null: infinite")
     ]
     inlet_factor: Annotated[float, Output("inlet factor", "f(B)", FIG_8, text="effect of the shortened inlet")]
     hydrodynamic_capacity_n: Annotated[float, Output("hydrodynamic load capacity", "F_HD", FIG_8)]
     load_capacity_coefficient: Annotated[
-        float | None, Output("load capacity coefficient", "Tr", PAHL, headline=2, limit=0.8)
+        float | None, Output("load capacity coefficient", "Tr", PAHL, headline=2, limit=0.8, bound="lower")
     ]
     regime: Annotated[FrictionRegime, Output("friction regime")]
     friction_coefficient: Annotated[float, Output("friction coefficient in use", "μ")]
@@ -102,6 +102,7 @@ class CouplingThrust(Group):
             text="thrust of one mesh, or with two meshes force on one shaft, positive: pulled together",
             headline=1,
             limit="axial_thrust.coaxial_limit_n",
+            bound="upper",
         ),
     ]
     coaxial_limit_n: Annotated[

@@ -21,7 +21,9 @@ class HertzContact(Group):
     """The dry contact."""
 
     half_width_mm: Annotated[float, Output("half width of the contact", "b")]
-    max_pressure_mpa: Annotated[float, Output("Hertz pressure", "p_H", f"{XUE}, Eq. 14 without its π/4", limit=4000.0)]
+    max_pressure_mpa: Annotated[
+        float, Output("Hertz pressure", "p_H", f"{XUE}, Eq. 14 without its π/4", limit=4000.0, bound="upper")
+    ]
 
 
 class ContactNumbers(Group):

@@ -59,6 +59,7 @@ class ContactTemperatureResult(Group):
             text="by Blok; null where a loaded point has none",
             headline=2,
             limit=SCUFFING,
+            bound="upper",
         ),
     ]
     thermal_ehl_max_c: Annotated[
@@ -68,6 +69,7 @@ class ContactTemperatureResult(Group):
             "θ_B,max,EHL",
             text="by the thermal EHL solution; null in closed form",
             limit=SCUFFING,
+            bound="upper",
         ),
     ]
 
@@ -92,6 +94,7 @@ class ThinnestFilm(Group):
             text="minimum film over the roughness of both flanks",
             headline=3,
             limit=1.0,
+            bound="lower",
         ),
     ]
     thickness_regime: Annotated[
@@ -123,7 +126,9 @@ class ScuffingSafety(Group):
             f"{XUE}, Eq. 26",
             text="scuffing safety by Blok; null where the teeth stay as cool as the oil",
             headline=1,
+            needs=SCUFFING,
             limit=1.0,
+            bound="lower",
         ),
     ]
     thermal_ehl_factor: Annotated[
@@ -133,6 +138,7 @@ class ScuffingSafety(Group):
             "S_B,EHL",
             text="by the thermal EHL solution; null in closed form",
             limit=1.0,
+            bound="lower",
         ),
     ]
 
@@ -179,6 +185,7 @@ class ScuffingPathCurves(Group):
             text="film over roughness; null without load",
             axis="psi",
             limit=1.0,
+            bound="lower",
         ),
     ]
 
