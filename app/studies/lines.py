@@ -76,7 +76,7 @@ class Table:
 
 def _row(cells: list[Any]) -> bytes:
     text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerow([_cell(cell) for cell in cells])
+    csv.writer(text).writerow([_cell(cell) for cell in cells])
     return text.getvalue().encode()
 
 
