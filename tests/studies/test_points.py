@@ -65,9 +65,11 @@ def test_what_physics_refuses_is_a_point() -> None:
     point = one({"gears.pinion.addendum": 3.0})
     assert (point.status, point.out) == ("refused", [None])
     assert point.error is not None
+    calculation = BY_PATH[LOADS.endpoint]
+    body = with_overrides(calculation, LOADS.request, {"gears.pinion.addendum": 3.0})
+    request = calculation.request.model_validate(body)
     with pytest.raises(Unprocessable) as caught:
-        body = with_overrides(BY_PATH[LOADS.endpoint], LOADS.request, {"gears.pinion.addendum": 3.0})
-        answer(BY_PATH[LOADS.endpoint], BY_PATH[LOADS.endpoint].request.model_validate(body))
+        answer(calculation, request)
     assert point.error["code"] == caught.value.code
 
 
