@@ -114,3 +114,5 @@ CALCULATIONS = (
         response=LineContactResponse,
     ),
 )
+
+BY_PATH = {calculation.path: calculation for calculation in CALCULATIONS}

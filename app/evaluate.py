@@ -46,7 +46,10 @@ def evaluate(calculation: Calculation, request: Request) -> Response:
             content |= {"status": "no_solution", "residuals": result.residuals}
     inputs = request.model_dump(exclude={"detail"})
     content |= {
-        "assumptions": list(_assumptions(request, request.unused_defaults(), content.get("derived", {}))),
+        "assumptions": [
+            *_assumptions(request, request.unused_defaults(), content.get("derived", {})),
+            *_model_assumptions(request),
+        ],
         "model_version": MODEL_VERSION,
         "model": request.options(),
         "inputs": inputs,
@@ -72,6 +75,13 @@ def _assumptions(
             yield from _assumptions(value, unused, derived, f"{path}.")
         elif reason and (value is None or name not in section.model_fields_set):
             yield {"field": path, "value": derived.get(name, value), "reason": reason}
+
+
+def _model_assumptions(request: Request) -> Iterator[dict[str, Any]]:
+    """What the options in force take for granted."""
+    for path, reason in request.assumed_by_the_model().items():
+        section, _, name = path.rpartition(".")
+        yield {"field": path, "value": getattr(getattr(request, section), name), "reason": reason}
 
 
 @cache

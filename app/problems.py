@@ -38,6 +38,18 @@ class QueueFull(Exception):
     """More requests wait than the settings allow."""
 
 
+class StudiesFull(Exception):
+    """As many studies run as the settings allow."""
+
+
+class SchedulerUnavailable(Exception):
+    """The cluster for studies cannot be used."""
+
+    def __init__(self, detail: str) -> None:
+        super().__init__(detail)
+        self.detail = detail
+
+
 class DeadlineExceeded(Exception):
     """The calculation took longer than the settings allow; its worker was ended."""
 
@@ -70,6 +82,8 @@ class Kind(NamedTuple):
 PROBLEMS: dict[type[Exception], Kind] = {
     WarmingUp: Kind(503, "warming_up", "The kernels of this calculation are still being compiled; try again", 2),
     QueueFull: Kind(503, "queue_full", "Too many calculations are waiting; try again later", 1),
+    StudiesFull: Kind(503, "studies_full", "Other studies are running; try again later", 5),
+    SchedulerUnavailable: Kind(503, "scheduler_unavailable", "The cluster for studies cannot be used; try later", 10),
     WorkerLost: Kind(503, "worker_lost", "The calculation was lost with its process; try again", 1),
     MemoryError: Kind(503, "memory_limit", "The calculation needs more memory than a worker may use; make it smaller"),
     DeadlineExceeded: Kind(504, "deadline_exceeded", "The calculation took too long; make it smaller"),
@@ -180,7 +194,7 @@ def _invalid_request(request: Request, error: Exception) -> JSONResponse:
 
 def _invalid_body(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, InvalidBody)
-    return _unprocessable_response(request, "invalid_request", [fault._asdict() for fault in error.faults])
+    return _unprocessable_response(request, "invalid_request", faults_of(error))
 
 
 def _unreadable(request: Request, error: Exception) -> JSONResponse:
@@ -190,9 +204,15 @@ def _unreadable(request: Request, error: Exception) -> JSONResponse:
 
 def _unprocessable(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, Unprocessable)
-    parts = error.path.split(".") if error.path else ()
-    errors = [{"pointer": pointer(parts), "code": error.code, "message": error.message}]
-    return _unprocessable_response(request, error.code, errors)
+    return _unprocessable_response(request, error.code, faults_of(error))
+
+
+def faults_of(error: InvalidBody | Unprocessable) -> list[dict[str, str]]:
+    """Pointer, code and message of every field at fault."""
+    if isinstance(error, Unprocessable):
+        parts = error.path.split(".") if error.path else ()
+        return [{"pointer": pointer(parts), "code": error.code, "message": error.message}]
+    return [fault._asdict() for fault in error.faults]
 
 
 def _unprocessable_response(request: Request, code: str, errors: list[dict[str, str]]) -> JSONResponse:

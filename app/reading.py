@@ -3,12 +3,11 @@
 import json
 from typing import Any, TypeVar
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 
 from app.contract.messages import Fault, faults
-from app.requests.common import Request
 
-R = TypeVar("R", bound=Request)
+M = TypeVar("M", bound=BaseModel)
 MOST_MEMBERS = 1000
 
 
@@ -28,30 +27,34 @@ class InvalidBody(Exception):
         self.faults = faults
 
 
-def read(model: type[R], body: bytes) -> R:
+def read(model: type[M], body: bytes) -> M:
     """The request in the body.
 
     Raises Unreadable and InvalidBody.
     """
-    if not body:
-        raise InvalidBody([Fault("", "missing", "the request needs a body")])
-    try:
-        content = json.loads(body, object_pairs_hook=_members)
-    except json.JSONDecodeError as error:
-        message = f"the body is no JSON: {error.msg} at position {error.pos}"
-        raise InvalidBody([Fault("", "json_invalid", message)]) from None
-    except (ValueError, RecursionError):  # bytes that are no text, numbers without end, brackets without end
-        raise Unreadable("The body cannot be read as JSON") from None
-    return validated(model, content)
+    return validated(model, _content(body))
 
 
-def validated(model: type[R], content: Any) -> R:
-    """The request that the content is; raises InvalidBody."""
+def validated(model: type[M], content: Any) -> M:
+    """The request of this content, or InvalidBody."""
     try:
         return model.model_validate(content)
     except ValidationError as error:
         found = error.errors(include_url=False)
         raise InvalidBody(faults(model, found)) from None  # type: ignore[arg-type]
+
+
+def _content(body: bytes) -> Any:
+    """What the JSON of a body says."""
+    if not body:
+        raise InvalidBody([Fault("", "missing", "the request needs a body")])
+    try:
+        return json.loads(body, object_pairs_hook=_members)
+    except json.JSONDecodeError as error:
+        message = f"the body is no JSON: {error.msg} at position {error.pos}"
+        raise InvalidBody([Fault("", "json_invalid", message)]) from None
+    except (ValueError, RecursionError):  # bytes that are no text, numbers without end, brackets without end
+        raise Unreadable("The body cannot be read as JSON") from None
 
 
 def _members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -106,10 +106,10 @@ def turbo_pair(helix_slope: float) -> ScuffingInputs:
 
 
 def points_alone(inputs: ScuffingInputs, result: Scuffing, every: int = 1) -> dict[int, ehl.LineContactResult]:
-    """Each solved point of a path (or every so-manyth) as the contact it is, solved from nothing."""
-    solved = [k for k, status in enumerate(result.path.status) if status in {"ok", "ok_with_warnings"}]
+    """Each point that the solver takes (or every so-manyth) as the contact it is, solved from nothing."""
+    taken = [k for k, status in enumerate(result.path.status) if status not in {"refused", "unloaded"}]
     points = points_of(inputs, result)
-    return {k: ehl.solve(contact_at(inputs, points, k)) for k in solved[::every]}
+    return {k: ehl.solve(contact_at(inputs, points, k)) for k in taken[::every]}
 
 
 def points_of(inputs: ScuffingInputs, result: Scuffing) -> ContactPoints:
@@ -121,7 +121,10 @@ def points_of(inputs: ScuffingInputs, result: Scuffing) -> ContactPoints:
 
 
 def check_path(inputs: ScuffingInputs, every: int = 1) -> Scuffing:
-    """A path equals its points: film and friction 1 %, flash 0.5 K or 1 %; AssertionError with the case if not."""
+    """A path equals its points: film and friction 1 %, flash 0.5 K or 1 %; AssertionError with the case if not.
+
+    What is solved alone is solved along the path. A path may solve more than its points alone: neighbours lead there.
+    """
     result = solve_scuffing(inputs)
     path = result.path
     curves = (path.minimum_film, path.friction_coefficient, path.pinion_flash, path.wheel_flash)
@@ -130,6 +133,8 @@ def check_path(inputs: ScuffingInputs, every: int = 1) -> Scuffing:
     for point, alone in points_alone(inputs, result, every).items():
         if alone.status == "no_solution":
             continue
+        where = f"at psi {path.psi[point]:.4f}"
+        assert path.status[point] != "no_solution", f"solved alone, not along the path, {where}; {inputs}"
         assert alone.friction is not None
         assert alone.temperature is not None
         pairs = (
@@ -140,7 +145,7 @@ def check_path(inputs: ScuffingInputs, every: int = 1) -> Scuffing:
         )
         for name, along, expected, relative, absolute in pairs:
             assert abs(along - expected) <= max(relative * abs(expected), absolute), (
-                f"{name} at psi {path.psi[point]:.4f}: {along:.6g} along the path, {expected:.6g} alone; {inputs}"
+                f"{name} {where}: {along:.6g} along the path, {expected:.6g} alone; {inputs}"
             )
     return result
 

@@ -51,7 +51,7 @@ def _fields_only(model: type[BaseModel], location: tuple[str | int, ...]) -> tup
     here: type[BaseModel] | None = model
     for place, part in enumerate(location):
         last = place == len(location) - 1
-        if isinstance(part, int) or (here is not None and part in here.model_fields) or (last and here is not None):
+        if isinstance(part, int) or here is None or last or part in here.model_fields:
             kept.append(part)
             if here is not None and isinstance(part, str) and part in here.model_fields:
                 here = group_of(here.model_fields[part].annotation)

@@ -45,3 +45,7 @@ class Request(Section):
     def unused_defaults(self) -> frozenset[str]:
         """Dotted names of fields or sections that the chosen options leave out of the result."""
         return frozenset()
+
+    def assumed_by_the_model(self) -> dict[str, str]:
+        """What the options in force take for granted whatever else is given: reasons by dotted names of options."""
+        return {}

@@ -15,6 +15,11 @@ MILIAN = "Milian 2004"
 _DEFAULTS = si.PumpingModel()
 _AMBIENT = si.Ambient()
 
+AXIAL_SPEED_ONLY = (
+    "the stagnation temperature counts the axial speed only; air drawn in from rest meets a tooth at the pitch-line "
+    "speed U, whose recovery is worth up to U²/(2 c_p) more"
+)
+
 
 class PumpingGears(Gears):
     """The gear pair."""
@@ -205,6 +210,10 @@ class _PumpingSetup(Request):
         if flow == "incompressible":
             unused.add("model.slices")
         return frozenset(unused)
+
+    def assumed_by_the_model(self) -> dict[str, str]:
+        """A flow with temperatures knows one speed only."""
+        return {} if self.model.flow == "incompressible" else {"model.flow": AXIAL_SPEED_ONLY}
 
     def _options(self) -> si.PumpingModel:
         return si.PumpingModel(**to_si(self.model))

@@ -61,7 +61,7 @@ def empty_record(gas: Gas, angles: int, cells: int, steps: int) -> Record:
 
 @kernel
 def wall_values(duct: Duct, z: float, angle: float) -> tuple[float, float, float]:
-    """Area, clearance and gas carried out by the flanks at z with the owner at `angle`; end values outside the stroke."""
+    """Area, clearance and carried gas at z when the owner stands at `angle`; end values outside the stroke."""
     position = (angle - duct.lag * z - duct.first_angle) / duct.angle_step
     last = duct.table.shape[0] - 1
     position = min(max(position, 0.0), float(last))

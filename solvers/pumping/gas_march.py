@@ -10,6 +10,7 @@ from solvers.pumping.nozzle import Gas
 from solvers.pumping.riemann import front_face
 
 COURANT = 0.7
+_ROUNDING = 1e-6  # of a step, by which it may be longer rather than leave so little
 _RETRIES = 12
 _STEEP = 0.5  # share of a cell's density or pressure below which nothing is extrapolated from it
 
@@ -18,14 +19,16 @@ _STEEP = 0.5  # share of a cell's density or pressure below which nothing is ext
 def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record, order: int) -> int:
     """March from the first of `angles` [rad] to the last, landing on each; the number of steps, negative if it failed.
 
+    Steps are as long as waves allow, the last before an angle is what remains: where one more is needed it is short at
+    first, and results change steadily with whatever the step length depends on.
     Fails with -1 where the record has no room for more steps, with -2 where no step length gives a physical state.
     """
     angle, taken, low, high = angles[0], 0, 0, 0
     for k in range(1, angles.size):
-        pieces = 1.0
-        while pieces > 0.0:
-            pieces = np.ceil((angles[k] - angle) / _longest_turn(gas, duct, cells, low, high))
-            turn = (angles[k] - angle) / pieces
+        landed = False
+        while not landed:
+            remaining, longest = angles[k] - angle, _longest_turn(gas, duct, cells, low, high)
+            turn = remaining if remaining <= (1.0 + _ROUNDING) * longest else longest
             done = False
             for retry in range(_RETRIES):
                 new_low, new_high = _taking_part(gas, duct, angle, turn)
@@ -38,7 +41,7 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
                 done = step(gas, duct, cells, new_low, new_high, dt, order if retry == 0 else 1)
                 if done:
                     break
-                turn, pieces = 0.5 * turn, 2.0 * pieces
+                turn *= 0.5
             if not done:
                 return -2
             if taken == record.ends.shape[0]:
@@ -51,9 +54,8 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
                 _book_ends(duct, cells, record, low, high, angle, turn, taken)
                 _book_cells(gas, duct, cells, record, low, high, dt)
                 taken += 1
-            angle += turn
-            if pieces <= 1.0:
-                angle, pieces = angles[k], 0.0
+            landed = turn == remaining
+            angle = angles[k] if landed else angle + turn
         _sample(gas, cells, record, low, high, k)
     _empty(duct, cells, record, low, high, 0, 0)
     return taken

@@ -178,15 +178,18 @@ def _flank_section(
 ) -> tuple[float, float, float, float, float]:
     """Section where the plane of action crosses a side, told as by `_corner_section`.
 
-    Beyond the end of one gear's involute it joins the other gear's flank to the nearest point of the first.
+    Beyond the end of one gear's involute it joins the other gear's flank to the nearest point of the first; where that
+    involute ends may be closer still.
     """
-    if roll < space.root.involute_roll:
+    start = space.root.involute_roll
+    if roll < start:
         clearance, r, psi, below = _from_mate(space, angle, mate_angle, mate_roll)
-        return clearance, r, psi, below, mate_roll
+        return min(clearance, _from_own(space, angle, mate_angle, start)[1]), r, psi, below, mate_roll
     r, psi = np.hypot(space.base_radius, roll), space.base_half_angle + _involute(roll, space.base_radius)
     foot, clearance = mate_roll, gap
     if mate_roll < 0.0:
         foot, clearance = _from_own(space, angle, mate_angle, roll)
+        clearance = min(clearance, _from_mate(space, angle, mate_angle, 0.0)[0])
     return clearance, r, psi, _sector_to_involute(space, roll), foot
 
 
@@ -217,10 +220,10 @@ def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tup
         clearance, r, psi, below, foot = _corner_section(space, angle, mate_angle)
         return _close(space, angle, mate_angle, r, psi, foot) - below, clearance, carried
     clearance, r, psi, below, foot = _flank_section(space, angle, mate_angle, roll, mate_roll, gap)
-    if gap > 0.0:
-        clearance = min(clearance, _corner_section(space, angle, mate_angle)[0])
-    elif roll >= 0.0 and mate_roll >= 0.0:
+    if gap == 0.0 and roll >= 0.0 and mate_roll >= 0.0:
         clearance = 0.0
+    else:
+        clearance = min(clearance, _corner_section(space, angle, mate_angle)[0])
     return _close(space, angle, mate_angle, r, psi, foot) - below, clearance, carried
 
 
@@ -228,8 +231,8 @@ def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tup
 def section(space: ToothSpace, angle: float) -> tuple[float, float, float, float]:
     """Area [m^2], left and right clearance [m], area of gas that the flanks have carried out so far [m^2].
 
-    `angle` [rad] of the owner; what is carried counts from anywhere. The flanks of the coast side roll through the
-    section fixed on the line of action: out of the space where the owner drives, into it where the owner is driven.
+    `angle` [rad] of the owner; only differences of what is carried have a meaning. The flanks of the coast side roll
+    through the section fixed on the line of action: out of the space where the owner drives, else into it.
     """
     mate_angle = angle * space.ratio + space.offset
     left_gap = 0.0 if space.owner_drives else space.backlash_gap

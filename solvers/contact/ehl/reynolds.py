@@ -95,6 +95,6 @@ def apply_pressure_step(
         if grid.x[i] > 0.0 and pressure[i] + scale * step[i] < 0.0 and not cavitated[i]:
             cavitated[i] = True
             joined = True
-        pressure[i] = trial[i]
+    pressure[:] = trial
     separation[0] += scale * step[n]
     return scale, joined
