@@ -54,6 +54,7 @@ class Leaf:
     limit: str | float | None
     bound: Bound | None
     needs: str | None
+    verdict: str | None
 
     @property
     def is_scalar(self) -> bool:
@@ -158,6 +159,7 @@ def _leaf(model: type[Documented], name: str, info: FieldInfo, meaning: Input | 
         limit=found.limit if found else None,
         bound=found.bound if found else None,
         needs=found.needs if found else None,
+        verdict=found.verdict if found else None,
     )
 
 

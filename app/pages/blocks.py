@@ -50,6 +50,7 @@ class Section:
     blocks: tuple["Block", ...]
     switch: FieldView | None = None
     needed: bool = False
+    advanced: bool = False
     kind: str = "section"
 
 

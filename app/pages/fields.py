@@ -8,6 +8,7 @@ from markupsafe import Markup
 
 from app.contract.fields import Leaf
 from app.contract.tree import Field
+from app.contract.units import split_unit
 from app.pages.query import text_of
 from app.pages.typesetting import symbol, words
 
@@ -54,6 +55,7 @@ class FieldView:
     help: tuple[str, ...]
     fault: str | None
     column: str = ""
+    excludes: tuple[str, ...] = ()
 
     @property
     def id(self) -> str:
@@ -83,6 +85,7 @@ def field_view(member: Field, name: str, state: State, column: str = "") -> Fiel
         help=tuple(_help(leaf, name, state)),
         fault=state.faults.get(name),
         column=column,
+        excludes=_excludes(leaf, name),
     )
 
 
@@ -92,6 +95,12 @@ def _widget(leaf: Leaf) -> Widget:
     if leaf.options or leaf.kind == "boolean":
         return "select"
     return "text" if leaf.kind in {"text", "other"} else "number"
+
+
+def _excludes(leaf: Leaf, name: str) -> tuple[str, ...]:
+    """The fields and sections that must be empty where this field is given."""
+    section = name.rpartition(".")[0]
+    return tuple(f"{section}.{fellow.rpartition('.')[2]}".lstrip(".") for fellow in leaf.exclusive)
 
 
 def _placeholder(leaf: Leaf, name: str, state: State) -> str:
@@ -129,9 +138,17 @@ def _help(leaf: Leaf, name: str, state: State) -> list[str]:
         lines.append(bounds)
     if leaf.assumed:
         lines.append(f"{'Assumed' if name in state.assumed else 'Our default'}: {leaf.assumed}.")
+    if leaf.exclusive:
+        fellows = ", ".join(_last_words(fellow) for fellow in leaf.exclusive)
+        lines.append(f"Instead of: {fellows}.")
     if leaf.source:
         lines.append(f"Source: {leaf.source}.")
     return lines
+
+
+def _last_words(path: str) -> str:
+    """The name of a field without its unit, as words."""
+    return words(split_unit(path.rpartition(".")[2])[0])
 
 
 def _sentence(text: str) -> str:

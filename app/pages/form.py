@@ -23,7 +23,7 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
     loose = tuple(field for field in root.fields if field.path != DETAIL)
     if loose:
         sections.append(_loose(loose, state))
-    return tuple(sorted(sections, key=lambda each: not each.needed))
+    return tuple(sorted(sections, key=lambda each: (not each.needed, each.advanced)))
 
 
 def _grouped(branches: tuple[Branch, ...]) -> Iterator[tuple[Branch, ...]]:
@@ -88,6 +88,7 @@ def _branch(branch: Branch, path: str, state: State, item: int | None = None) ->
         blocks=tuple(_blocks(branch, f"{path}.", state)),
         switch=_switch(branch, path, state),
         needed=needed,
+        advanced=branch.advanced,
     )
 
 

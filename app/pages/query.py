@@ -134,6 +134,8 @@ def _value(model: type[Documented], name: str, text: str) -> Any:
 
 
 def _scalar(leaf: Leaf, text: str) -> Any:
+    if leaf.options:
+        return next((option for option in leaf.options if text_of(option) == text), text)
     if leaf.kind == "boolean":
         return {"true": True, "false": False}.get(text, text)
     if leaf.kind in {"number", "integer"}:

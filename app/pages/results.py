@@ -1,4 +1,4 @@
-"""An answer as people read it: verdicts, warnings, every number with its name, what it rests on."""
+"""An answer as people read it: every number with its name, symbol and unit, beside those of a variant."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -6,12 +6,11 @@ from typing import Any
 
 from markupsafe import Markup
 
-from app.contract.fields import Leaf, headlines
+from app.contract.fields import Leaf
 from app.contract.quantities import Documented
 from app.contract.tree import Branch, Field, tree
 from app.pages.typesetting import percent_change, shown, symbol
 
-HEADLINE_DIGITS = 3
 NOT_RESULTS = frozenset(
     {"status", "warnings", "residuals", "assumptions", "model_version", "model", "derived", "inputs", "case"}
 )
@@ -47,21 +46,6 @@ class Group:
 
     title: str
     rows: tuple[Row, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Card:
-    """A number that decides; `level` is good, near, bad or plain, and `verdict` says so in words."""
-
-    title: str
-    symbol: Markup
-    value: str
-    unit: str
-    level: str
-    verdict: str
-    needs: str | None
-    before: str = ""
-    change: str = ""
 
 
 def entries(response: Documented) -> Iterator[tuple[str, Entry]]:
@@ -114,7 +98,7 @@ def _row(entry: Entry, known: dict[str, Any]) -> Row:
         entry.path,
         leaf.description,
         _text(old) if known else "",
-        _change(entry.value, old) if known else "",
+        change(entry.value, old) if known else "",
     )
 
 
@@ -124,83 +108,11 @@ def _text(value: Any) -> str:
     return shown(value)
 
 
-def _change(now: Any, before: Any) -> str:
+def change(now: Any, before: Any) -> str:
+    """What became of a value."""
     if isinstance(now, bool) or not isinstance(now, int | float) or not isinstance(before, int | float):
         return "no change" if now == before else "changed"
     return percent_change(now, before)
-
-
-def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> tuple[Card, ...]:
-    """The headline numbers; of several of one rank the most critical one stands for all."""
-    known = {entry.path: entry.value for _, entry in entries(response)}
-    old = {entry.path: entry.value for _, entry in entries(before)} if before is not None else {}
-    best: dict[int, tuple[float, Card]] = {}
-    for leaf in headlines(type(response)):
-        value = known.get(leaf.path)
-        card = _card(leaf, value, _limit(leaf, known, inputs), old)
-        weight = float(value) if isinstance(value, int | float) else float("-inf")
-        rank = leaf.headline or 0
-        if rank not in best or weight > best[rank][0]:
-            best[rank] = weight, card
-    return tuple(card for _, card in best.values())
-
-
-def _limit(leaf: Leaf, known: dict[str, Any], inputs: dict[str, Any]) -> float | None:
-    if isinstance(leaf.limit, str):
-        found = known.get(leaf.limit, inputs.get(leaf.limit))
-        return float(found) if isinstance(found, int | float) else None
-    return leaf.limit
-
-
-def _card(leaf: Leaf, value: Any, limit: float | None, old: dict[str, Any]) -> Card:
-    level, verdict, needs = _verdict(leaf, value, limit)
-    previous = old.get(leaf.path)
-    return Card(
-        leaf.title,
-        symbol(leaf.symbol),
-        shown(value, HEADLINE_DIGITS),
-        (leaf.unit or "") if value is not None else "",
-        level,
-        verdict,
-        needs,
-        shown(previous, HEADLINE_DIGITS) if old else "",
-        _change(value, previous) if old else "",
-    )
-
-
-def _verdict(leaf: Leaf, value: Any, limit: float | None) -> tuple[str, str, str | None]:
-    """Level, words, and the request field that is missing."""
-    if value is None:
-        return "plain", _after_null(leaf.description), leaf.needs
-    if limit is None or leaf.bound is None or isinstance(value, bool) or not isinstance(value, int | float):
-        return "plain", "", None
-    name = f"{shown(limit, 4)} {leaf.unit or ''}".strip()
-    if leaf.bound == "lower":
-        return _at_least(value, limit, name)
-    return _at_most(abs(value), limit, name)
-
-
-def _after_null(description: str) -> str:
-    """Why there is no value, as the schema says it."""
-    reason = description.partition("null ")[2]
-    return f"no value {reason}" if reason else "no value; the warnings say why"
-
-
-def _at_least(value: float, limit: float, name: str) -> tuple[str, str, None]:
-    if value < limit:
-        return "bad", f"below {name}", None
-    if value < 1.5 * limit:
-        return "near", f"above {name}, with little margin", None
-    return "good", f"well above {name}", None
-
-
-def _at_most(value: float, limit: float, name: str) -> tuple[str, str, None]:
-    if value > limit:
-        return "bad", f"beyond the limit of {name}", None
-    share = f"limit {name}"
-    if value > 0.8 * limit:
-        return "near", f"close to the {share}", None
-    return "good", f"within the {share}", None
 
 
 def flattened(content: Any, prefix: str = "") -> dict[str, Any]:

@@ -14,6 +14,7 @@ from solvers.scuffing.scuffing_practice import ScuffingRisk
 FIG_22 = f"{XUE}, Fig. 22"
 FIG_23 = f"{XUE}, Fig. 23"
 SCUFFING = "temperatures.scuffing_c"
+LIMIT = "safety.scuffing_c"
 
 
 class ScuffingOilDerived(ScuffingDerived, OilDerived):
@@ -58,7 +59,7 @@ class ContactTemperatureResult(Group):
             f"{XUE}, Eq. 16",
             text="by Blok; null where a loaded point has none",
             headline=2,
-            limit=SCUFFING,
+            limit=LIMIT,
             bound="upper",
         ),
     ]
@@ -68,7 +69,7 @@ class ContactTemperatureResult(Group):
             "contact temperature by thermal EHL",
             "θ_B,max,EHL",
             text="by the thermal EHL solution; null in closed form",
-            limit=SCUFFING,
+            limit=LIMIT,
             bound="upper",
         ),
     ]
@@ -127,6 +128,7 @@ class ScuffingSafety(Group):
             text="scuffing safety by Blok; null where the teeth stay as cool as the oil",
             headline=1,
             needs=SCUFFING,
+            verdict="safety.verdict",
             limit=1.0,
             bound="lower",
         ),

@@ -105,6 +105,15 @@ function takeField(here, fresh) {
   if (mark) (here.querySelector(":scope > label") ?? here).append(" ", document.adoptNode(mark));
 }
 
+// Of fields that exclude each other the one that is typed into counts.
+function clearFellows(control) {
+  const names = control.closest("[data-excludes]")?.dataset.excludes.split(" ") ?? [];
+  if (!control.value.trim()) return;
+  for (const other of form.querySelectorAll("input:not([type=radio]), select, textarea")) {
+    if (names.some((name) => other.name === name || other.name.startsWith(`${name}.`))) other.value = "";
+  }
+}
+
 function count(area) {
   const items = area.value.split(/[\s;,]+/).filter(Boolean).length;
   document.getElementById(area.dataset.count).textContent = items ? `${items} values` : "";
@@ -183,7 +192,7 @@ function nearest(values, wanted) {
   return best;
 }
 
-form.addEventListener("input", schedule);
+form.addEventListener("input", (event) => { clearFellows(event.target); schedule(); });
 form.addEventListener("change", schedule);
 form.addEventListener("input", (event) => { if (event.target.dataset.count) count(event.target); });
 form.addEventListener("submit", (event) => {
