@@ -73,6 +73,13 @@ class Input:
                 return core_schema.bool_schema(strict=True)
             case "nullable":
                 return core_schema.nullable_schema(self._strict(schema["schema"]))
+            case "function-before":
+                parsed: Any = {**schema, "schema": self._strict(schema["schema"])}
+                if "json_schema_input_schema" in schema:
+                    parsed["json_schema_input_schema"] = self._strict(schema["json_schema_input_schema"])
+                return parsed  # type: ignore[no-any-return]
+            case "union":
+                return core_schema.union_schema([self._strict(choice) for choice in _kinds(schema["choices"])])
             case "list":
                 items: Any = {**schema, "items_schema": self._strict(schema["items_schema"])}
                 return items  # type: ignore[no-any-return]
@@ -126,6 +133,11 @@ class Output:
         return _documented(handler(schema), self)
 
 
+def _kinds(choices: list[Any]) -> list[CoreSchema]:
+    """The kinds of a union, without the names that may stand beside them."""
+    return [choice[0] if isinstance(choice, tuple) else choice for choice in choices]
+
+
 def _number(value: object) -> object:
     """Let numbers pass; text and booleans are none, whatever Python thinks."""
     if isinstance(value, (bool, str)):
@@ -144,10 +156,12 @@ class Documented(BaseModel):
 
     `exclusive` lists groups of fields of which at most one is given. `member_unit` is the unit of the fields whose own
     names carry none: a group `mass_flow_g_per_s` says it once for its members.
+    `solver_names` are the parts of dotted names that the solver spells otherwise, with the fields' spelling.
     """
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
     member_unit: ClassVar[Unit | None] = None
+    solver_names: ClassVar[dict[str, str]] = {}
 
     @classmethod
     def unit_of(cls, name: str) -> Unit | None:

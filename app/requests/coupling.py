@@ -115,13 +115,9 @@ class _CouplingRequest(Request):
 
     def unused_defaults(self) -> frozenset[str]:
         """What given values replace, and what the arrangement does without."""
-        unused = set()
+        unused = set(self.friction.unused_friction_defaults("friction"))
         if self.model.inlet_length_mm is not None:
             unused.add("model.inlet")
-        if self.friction.coefficient is not None or self.friction.mixed_law is not None:
-            unused.add("friction.mixed_curve")
-        if self.friction.coefficient is not None:
-            unused.add("friction.static_coefficient")
         if self.operation.arrangement == "single":
             unused.add("coupling.hub_distance_mm")
         if self.operation.arrangement != "parallel_offset":
@@ -129,17 +125,11 @@ class _CouplingRequest(Request):
         return frozenset(unused)
 
     def _design(self, operation: dict[str, Any]) -> si.CouplingInputs:
-        friction, table = to_si(self.friction), self.friction.mixed_law
-        friction["mixed_law"] = (
-            si.MixedFrictionCurve(**to_si(self.friction.mixed_curve))
-            if table is None
-            else si.MixedFrictionTable(**to_si(table))
-        )
         return si.CouplingInputs(
             coupling=si.proportioned(**to_si(self.coupling)),
             operation=si.Operation(**operation),
             lubricant=si.Lubricant(**to_si(self.lubricant)),
-            friction=si.Friction(**friction),
+            friction=self.friction.friction(),
             model=si.ModelOptions(**to_si(self.model)),
         )
 
