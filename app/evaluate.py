@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from functools import cache
-from itertools import zip_longest
 from typing import Any
 
 from app.calculations import Calculation
@@ -73,8 +72,9 @@ def _assumptions(
         if isinstance(value, Section):
             yield from _assumptions(value, unused, derived.get(name, derived), f"{path}.")
         elif isinstance(value, list) and group_of(type(section).model_fields[name].annotation):
-            for index, (item, known) in enumerate(zip_longest(value, derived.get(name, ()), fillvalue={})):
-                yield from _assumptions(item, unused, known, f"{path}.{index}.")
+            known = derived.get(name) or [{}] * len(value)
+            for index, (item, own) in enumerate(zip(value, known, strict=True)):
+                yield from _assumptions(item, unused, own, f"{path}.{index}.")
         elif reason and (value is None or name not in section.model_fields_set):
             yield {"field": path, "value": derived.get(name, value), "reason": reason}
 

@@ -71,20 +71,12 @@ class Input:
                 return core_schema.no_info_before_validator_function(_number, number)
             case "bool":
                 return core_schema.bool_schema(strict=True)
-            case "nullable":
-                return core_schema.nullable_schema(self._strict(schema["schema"]))
-            case "function-before":
-                parsed: Any = {**schema, "schema": self._strict(schema["schema"])}
-                if "json_schema_input_schema" in schema:
-                    parsed["json_schema_input_schema"] = self._strict(schema["json_schema_input_schema"])
-                return parsed  # type: ignore[no-any-return]
             case "union":
                 return core_schema.union_schema([self._strict(choice) for choice in _kinds(schema["choices"])])
-            case "list":
-                items: Any = {**schema, "items_schema": self._strict(schema["items_schema"])}
-                return items  # type: ignore[no-any-return]
             case _:
-                return schema
+                within = ("items_schema", "schema", "json_schema_input_schema")
+                parts = {name: self._strict(part) for name in within if (part := schema.get(name))}
+                return {**schema, **parts}
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,6 @@
 """A gear unit whole: request of /v1/drive-train."""
 
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
@@ -18,6 +18,10 @@ from solvers.drive_train import inputs as si
 from solvers.lubricants import Lubricant
 from solvers.pumping import inputs as pumping
 from solvers.scuffing import inputs as mesh
+
+
+def _only_hot() -> list[si.State]:
+    return ["hot"]
 
 
 class TrainEffects(Section):
@@ -76,10 +80,10 @@ class DriveTrainRequest(Request):
         float, Input("coefficient of friction", "μ_m", f"{XUE}, Eq. 25", ge=0, le=1, tolerance=0.01)
     ] = 0.06
     states: Annotated[
-        list[Literal["hot", "cold"]],
+        list[si.State],
         Field(min_length=1, max_length=2),
         Input("states", text="the unit as described is hot; with cold the answer tells both"),
-    ] = Field(default_factory=lambda: ["hot"])
+    ] = Field(default_factory=_only_hot)
     model: Annotated[TrainModel, Input("model", text="choices where the papers leave room", advanced=True)] = (
         TrainModel()
     )

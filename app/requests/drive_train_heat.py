@@ -69,8 +69,7 @@ class ToothHeat(Section):
         bool,
         Input(
             "tooth temperatures with pumping",
-            text="whether the tooth temperatures are measured, pumping heat included; only its variation along the face "
-            "is added then",
+            text="whether tooth temperatures hold the pumping heat; only its variation along the face is added then",
         ),
     ] = _HEAT.bulk_includes_pumping
 

@@ -35,7 +35,7 @@ class TrainGears(BacklashGears):
             ge=0,
             le=0.6,
             default_text=f"{MESH_RACK} for the mesh, {PUMPING_RACK} for the pumped spaces",
-            assumed=f"rack A of ISO 53, {MESH_RACK}, for the mesh; a usual ground fillet, {PUMPING_RACK}, for the spaces",
+            assumed=f"rack A of ISO 53, {MESH_RACK}, for the mesh; a ground fillet, {PUMPING_RACK}, for the spaces",
         ),
     ] = None
     hand: Annotated[

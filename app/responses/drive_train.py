@@ -48,7 +48,7 @@ class GapCurves(Group):
 
 
 class MisalignmentSummary(Group):
-    """Gap over the face by shafts and heat; minus opens towards the end that meshes first, positive crowns are thin ends."""
+    """Gap over the face by shafts and heat; minus: it opens towards the end that meshes first, which carries less."""
 
     shaft_slope_um: Annotated[float, Output("slope by the shafts", "f_sh", headline=3)]
     shaft_crown_um: Annotated[float, Output("crown by the shafts", "C_sh")]

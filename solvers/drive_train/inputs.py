@@ -153,8 +153,9 @@ class Arrangement:
 class Heat:
     """Tooth temperatures [K] without the pumping heat, and how much of the gas's rise the metal takes (0 to 1.5).
 
-    `wall_response` None is an assumed one, 0.5, and says so. `wall_response_wheel` None is the pinion's times z1/z2: a wheel tooth meets the hot gas once a turn. Where the bulk
-    temperatures include the pumping heat, only the deviation of the gas's rise from its mean over the face counts.
+    `wall_response` None is an assumed one, 0.5, and says so. `wall_response_wheel` None is the pinion's times z1/z2: a
+    wheel tooth meets the hot gas once a turn. Where the bulk temperatures include the pumping heat, only the deviation
+    of the gas's rise from its mean over the face counts.
     """
 
     wall_response: float | None = None

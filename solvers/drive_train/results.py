@@ -187,7 +187,7 @@ class Convergence:
 
 @dataclass(frozen=True, slots=True)
 class FlankMaps:
-    """Maps [profile, face]: line load [N/m], pressure [Pa] (NaN where R_n vanishes), contact temperature by Blok [K]."""
+    """Maps [profile, face]: line load [N/m], pressure [Pa], NaN where R_n vanishes, contact temperature by Blok [K]."""
 
     profile_fraction: FloatArray
     face_fraction: FloatArray
