@@ -141,9 +141,9 @@ def declared(inputs: Any, path: str = "") -> Iterator[tuple[Any, str]]:
 
 
 def is_default(request: Request, path: str) -> bool:
-    """Whether the field was left out of the request."""
+    """Whether the field was left out of the request, and means a number all the same."""
     section: Any = request
     *sections, name = path.split(".")
     for part in sections:
         section = getattr(section, part)
-    return name not in section.model_fields_set
+    return name not in section.model_fields_set and getattr(section, name) is not None
