@@ -158,9 +158,10 @@ def test_examples_of_sweeps(post: Post, name: str) -> None:
 @pytest.mark.parametrize("name", SENSITIVITY_EXAMPLES)
 def test_examples_of_sensitivities(post: Post, name: str) -> None:
     *found, end = lines(post("/v1/sensitivity", SENSITIVITY_EXAMPLES[name]["value"]))
-    assert {line["type"] for line in found} <= {"sensitivity", "progress"}
     assert end["type"] == "end"
-    assert len(found) >= 20
+    expected = {(output["path"], each["path"]) for output in end["outputs"] for each in end["inputs"]}
+    assert {(line["output"], line["path"]) for line in found if line["type"] == "sensitivity"} == expected
+    assert len(expected) > 15
 
 
 def test_documents(client: httpx.Client) -> None:

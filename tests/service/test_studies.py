@@ -17,7 +17,9 @@ from urllib.parse import urlsplit
 import httpx
 import pytest
 
+from app.contract.fields import leaves
 from app.library import examples
+from app.responses.coupling import CouplingResponse
 from tests.server import descendants, descriptors, memory_mb, running_server, send_signal, workers
 
 pytestmark = pytest.mark.service
@@ -26,6 +28,9 @@ FAULTY = [sys.executable, "-m", "tests.service.faulty_server"]
 SWEEP = "/v1/sweep"
 LOADS = examples()["xue-pair-1-modified"]
 COUPLING = examples()["pahl-axial-displacement"]
+NUMBERS = [
+    leaf.path for leaf in leaves(CouplingResponse) if leaf.kind == "number" and leaf.is_scalar and "." in leaf.path
+]
 Server = tuple[subprocess.Popen[str], str]
 
 
@@ -146,7 +151,7 @@ def test_a_full_queue_refuses_a_study_before_its_first_line(faulty: Server) -> N
         refused = httpx.post(address + SWEEP, json=loads(2))
         assert refused.status_code == 503
         assert refused.json()["type"].endswith("queue_full")
-        assert {each.result().status_code for each in busy} == {200}
+        assert {each.result().status_code for each in busy} <= {200, 504}
     assert metric(address, "tribodrive_studies") == 0
 
 
@@ -234,25 +239,34 @@ def test_memory_is_flat_over_many_points_and_a_slow_reader_slows_only_his_own(fa
     assert max(highest) < before + 25
 
 
-def test_a_reader_who_stops_reading_holds_up_nobody(faulty: Server) -> None:
+def test_nobody_calculates_what_nobody_reads(faulty: Server) -> None:
     process, address = faulty
     target = urlsplit(address)
-    content = json.dumps(couplings(25_000)).encode()
-    head = (
-        f"POST {SWEEP} HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: {len(content)}\r\n\r\n"
-    )
+    content = json.dumps({**couplings(30_000), "outputs": NUMBERS}).encode()
+    head = f"POST {SWEEP} HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n"
     with socket.socket() as connection:
         connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
         connection.connect((target.hostname, target.port))
-        connection.sendall(head.encode() + content)
-        time.sleep(3)
-        family = workers(process)
-        before = processor_seconds(family)
+        connection.sendall(f"{head}Content-Length: {len(content)}\r\n\r\n".encode() + content)
+        end = time.monotonic() + 120
         time.sleep(1)
-        assert processor_seconds(family) - before < 0.1  # nobody calculates what nobody reads
+        while calculated_within(process, 0.5) > 0.05:
+            assert time.monotonic() < end
         assert metric(address, "tribodrive_studies") == 1
-        assert lines_of(address, loads(4))[-1]["type"] == "end"
+        assert lines_of(address, loads(4))[-1]["type"] == "end"  # others go on
+        before = processor_seconds(workers(process))
+        received = b""
+        while b'"type":"end"' not in received:
+            received = received[-20:] + connection.recv(2**20)
+        assert processor_seconds(workers(process)) - before > 0.5  # the rest was calculated when it was read
     wait_until_free(address, 1.5)
+
+
+def calculated_within(process: subprocess.Popen[str], seconds: float) -> float:
+    """Processor time that the workers spend within a time."""
+    before = processor_seconds(workers(process))
+    time.sleep(seconds)
+    return processor_seconds(workers(process)) - before
 
 
 def test_the_deadline_of_a_study_ends_it_with_a_line() -> None:
