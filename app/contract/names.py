@@ -17,12 +17,21 @@ def field_path(section: Documented, name: str) -> str | None:
     known = sorted(_paths(section, "", ()), key=lambda each: len(each[1]))
     wanted = tuple(name.split("."))
     while wanted:
-        found = next((path for path, si_path in known if si_path[-len(wanted) :] == wanted), None)
+        found = next((path for path, si_path in known if _means(wanted, si_path)), None)
         if found is not None:
             return found
         in_item = any(part.isdecimal() for part in wanted[:-1])
         wanted = wanted[:-1] if in_item else ()
     return None
+
+
+def _means(wanted: tuple[str, ...], si_path: tuple[str, ...]) -> bool:
+    """Whether a path ends as wanted; between an item of a list and the end there may be sections not named."""
+    after = max((place for place, part in enumerate(wanted) if part.isdecimal()), default=-1) + 1
+    item, end = wanted[:after], wanted[after:]
+    around = si_path[: len(si_path) - len(end)]
+    inside = any(around[start : start + after] == item for start in range(len(around) - after + 1))
+    return inside and si_path[len(around) :] == end
 
 
 def _paths(section: Documented, prefix: str, si_prefix: tuple[str, ...]) -> Iterator[tuple[str, tuple[str, ...]]]:

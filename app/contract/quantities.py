@@ -175,7 +175,8 @@ class Documented(BaseModel):
         document = handler(schema)
         definition = handler.resolve_ref_schema(document)
         for name, field in definition.get("properties", {}).items():
-            if (unit := cls.unit_of(name)) is not None:
+            unit = cls.unit_of(name) or getattr(cls.model_fields[name].annotation, "member_unit", None)
+            if unit is not None:
                 field["x-unit"] = unit.symbol
         if cls.exclusive:
             definition["x-exclusive"] = [list(group) for group in cls.exclusive]

@@ -36,15 +36,18 @@ def shaft_lines(request: DriveTrainRequest, answer: DriveTrainResponse) -> Figur
     """Displaced axes of both shafts in both planes, with the reactions of their bearings."""
     shafts = present(answer.shafts)
     given = (request.pinion_shaft, request.wheel_shaft)
+    z = np.concatenate([present(state.curves).z_mm for state in shafts])
+    axis = Axis("position along Z", "mm", magnitude=False, limits=(float(z.min()), float(z.max())))
     panels = tuple(
-        _shaft(request, name, own, state) for name, own, state in zip(("pinion", "wheel"), given, shafts, strict=True)
+        _shaft(request, name, own, state, axis)
+        for name, own, state in zip(("pinion", "wheel"), given, shafts, strict=True)
     )
     loads = [hypot(*bearing.reaction_n) for state in shafts for bearing in state.bearings]
     finding = f"bearings carry {number(min(loads) / NEWTONS)} to {number(max(loads) / NEWTONS, 'kN')}"
     return Figure(f"{finding}; marks are their reactions", panels)
 
 
-def _shaft(request: DriveTrainRequest, name: str, given: UnitShaft, state: ShaftState) -> Panel:
+def _shaft(request: DriveTrainRequest, name: str, given: UnitShaft, state: ShaftState, axis: Axis) -> Panel:
     curves = present(state.curves)
     z = values(curves.z_mm)
     lines, marks = [], []
@@ -58,7 +61,7 @@ def _shaft(request: DriveTrainRequest, name: str, given: UnitShaft, state: Shaft
             marks.append(Mark(bearing.position_mm, height, number(found.reaction_n[plane] / NEWTONS, "kN"), hue))
     hubs = [Level(each.position_mm, "hub", vertical=True) for each in request.couplings if each.shaft == name]
     return Panel(
-        x=Axis("position along Z", "mm", magnitude=False),
+        x=axis,
         y=Axis(f"displacement of the {name} shaft", "µm", magnitude=False),
         lines=tuple(lines),
         marks=tuple(marks),
@@ -165,9 +168,9 @@ def thrust(request: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
         if given.thrust_bearing.ultimate_load_n is not None
     }
     levels = [
-        Level(sign * load, "half the ultimate load" if sign > 0 else "", limit=True)
+        Level(sign * load, "half the ultimate load" if sign > 0.0 else "", limit=True, vertical=True)
         for load in usable
-        for sign in (1, -1)
+        for sign in (1.0, -1.0)
     ]
     turning = [name for name, state in zip(("pinion", "wheel"), shafts, strict=True) if state.thrust.reverses]
     finding = f"friction can turn the load of the {turning[0]} round" if turning else "no load turns round"

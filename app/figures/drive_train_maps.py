@@ -25,7 +25,9 @@ def flank_load(_: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
     row, column = np.unravel_index(int(np.argmax(grid)), grid.shape)
     mark = Mark(flank.face_fraction[column], flank.profile_fraction[row], number(load.max_line_load_n_per_mm, "N/mm"))
     factor = load.face_load_factor
-    finding = f"highest {number(load.max_line_load_n_per_mm, 'N/mm')}; {percent(load.contact_fraction)} carries"
+    finding = (
+        f"highest {number(load.max_line_load_n_per_mm, 'N/mm')}; {percent(load.contact_fraction)} of the flank carries"
+    )
     if factor is None:
         return Figure("no load", (Panel(x=FACE, y=PROFILE, map=chart),))
     return Figure(f"{finding}, K_Hβ = {number(factor)}", (Panel(x=FACE, y=PROFILE, map=chart, marks=(mark,)),))

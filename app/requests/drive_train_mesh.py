@@ -1,9 +1,10 @@
 """What a gear unit's mesh is described by beyond scuffing and pumping: sections of /v1/drive-train."""
 
 from math import prod
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
 
 from app.contract.conversion import to_si
 from app.contract.quantities import Input
@@ -77,6 +78,15 @@ class TrainOperation(ScuffingLoad):
     gravity_factor: Annotated[
         float, Input("gravity factor", "g/g_0", text="weight over that on earth", ge=0, le=10)
     ] = _ARRANGEMENT.gravity_factor
+
+    @model_validator(mode="after")
+    def torque_or_power(self) -> Self:
+        """Refuse both and neither."""
+        if self.pinion_torque_n_m is None and self.power_kw is None:
+            raise PydanticCustomError("load_missing", "Give pinion_torque_n_m or power_kw")
+        if self.pinion_torque_n_m is not None and self.power_kw is not None:
+            raise PydanticCustomError("torque_or_power", "Give either pinion_torque_n_m or power_kw, not both")
+        return self
 
     @property
     def contact_load_factor(self) -> float:

@@ -23,6 +23,9 @@ def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResu
             field = f"{name}.bearings.{k}"
             if isinstance(bearing, JournalBearing):
                 yield from _film_notices(bearing, state.eccentricity_ratio, state.min_film, field)
+        if not all(isinstance(bearing, JournalBearing) for bearing in shaft.bearings):
+            message = "the loss of bearings that are no plain ones is not known; total loss and efficiency leave it out"
+            yield Notice("bearing_loss_left_out", message, f"{name}.bearings")
         thrust = result.thrust
         if thrust.reverses:
             message = f"the coupling's friction can turn the thrust round: {thrust.lower:.0f} to {thrust.upper:.0f} N"
