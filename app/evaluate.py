@@ -81,7 +81,8 @@ def _assumptions(
             for index, (item, own) in enumerate(zip(value, known, strict=True)):
                 yield from _assumptions(item, unused, own, f"{path}.{index}.")
         elif reason and (value is None or name not in section.model_fields_set):
-            yield {"field": path, "value": derived.get(name, value), "reason": reason}
+            used = derived.get(name, value)
+            yield {"field": path, "value": section.stands_for_null(name) if used is None else used, "reason": reason}
 
 
 def _model_assumptions(request: Request) -> Iterator[dict[str, Any]]:
