@@ -9,6 +9,7 @@ from pydantic_settings import BaseSettings, SettingsConfigDict
 from app.processes import descriptor_limit
 
 MEBIBYTE = 2**20
+CLUSTER_POINTS = 100_000
 RESERVED_DESCRIPTORS = 96  # for workers, files and sockets of the service itself
 
 
@@ -22,7 +23,9 @@ class Settings(BaseSettings):
     workers: int = Field(os.cpu_count() or 2, ge=1, le=256, description="worker processes that solve")
     queue: int = Field(64, ge=0, description="requests that may wait for a worker; one more is answered 503")
     deadline_s: float = Field(30.0, gt=0, description="longest time for one calculation, waiting included; then 504")
-    study_points: int = Field(2500, ge=1, le=1_000_000, description="most points of one study; beyond it 422")
+    study_points: int = Field(
+        2500, ge=1, le=1_000_000, description="most points of one study, with a scheduler 100000; beyond it 422"
+    )
     study_deadline_s: float = Field(600.0, gt=0, description="longest time for one study; then it ends with an error")
     studies: int = Field(2, ge=0, description="studies at once; one more is answered 503")
     scheduler: str | None = Field(None, description="Dask scheduler that solves the studies, `tcp://host:port`")
@@ -40,6 +43,11 @@ class Settings(BaseSettings):
     )
     shutdown_s: int = Field(30, ge=0, description="time for requests in flight to finish at shutdown")
     log_level: str = Field("info", pattern="^(debug|info|warning|error)$", description="least level that is logged")
+
+    @property
+    def most_study_points(self) -> int:
+        """The limit in force."""
+        return CLUSTER_POINTS if self.scheduler and "study_points" not in self.model_fields_set else self.study_points
 
 
 @lru_cache(maxsize=1)

@@ -7,7 +7,9 @@ import argparse
 import asyncio
 import json
 import time
-from collections.abc import Callable
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 import httpx
@@ -64,10 +66,9 @@ def in_process(body: dict[str, Any]) -> float:
 
 def single_requests(client: httpx.Client, body: dict[str, Any]) -> float:
     """Seconds of all points as requests of their own, two at a time."""
-    study = plan_sweep(json.dumps(body).encode(), 10**6, 30.0)
-    return asyncio.run(
-        _single_requests(str(client.base_url), body, [study.plan.overrides(i) for i in range(study.total)])
-    )
+    plan = plan_sweep(json.dumps(body).encode(), 10**6, 30.0).plan
+    points = [plan.overrides(index) for index in range(plan.total)]
+    return asyncio.run(_single_requests(str(client.base_url), body, points))
 
 
 async def _single_requests(address: str, body: dict[str, Any], points: list[dict[str, Any]]) -> float:
@@ -94,12 +95,22 @@ def study(client: httpx.Client, body: dict[str, Any]) -> tuple[float, float]:
         response.raise_for_status()
         lines = response.iter_lines()
         next(lines)
-        first, last = time.perf_counter() - started, ""
-        for last in lines:
-            pass
+        first = time.perf_counter() - started
+        (last,) = deque(lines, maxlen=1)
     if json.loads(last)["type"] != "end":
         raise RuntimeError(last)
     return first, time.perf_counter() - started
+
+
+@contextmanager
+def served(**settings: object) -> Iterator[httpx.Client]:
+    """A client of a service that has run its first study."""
+    with (
+        running_server(study_points=100_000, log_level="error", **settings) as (_, address),
+        httpx.Client(base_url=address, timeout=600) as client,
+    ):
+        study(client, KINDS[0].body(2))
+        yield client
 
 
 def table(kinds: list[tuple[Kind, int]], columns: dict[str, Callable[[dict[str, Any]], float]]) -> None:
@@ -117,31 +128,21 @@ def main(seconds: float, dask: bool) -> None:
         kinds.append((kind, max(10, min(20_000, round(seconds / per_point)))))
     print(f"{'ms per point':<34}" + "".join(f"{f'{kind.name} ({count})':>20}" for kind, count in kinds))
     table(kinds, {"one process, no service": in_process})
-    for workers in (1, 2):
-        with (
-            running_server(workers=workers, study_points=100_000, log_level="error") as (_, address),
-            httpx.Client(base_url=address, timeout=600) as client,
-        ):
-            study(client, KINDS[0].body(2))
-            if workers == 2:
-                table(
-                    kinds, {"single requests, two workers": lambda body, client=client: single_requests(client, body)}
-                )
-            table(kinds, {f"study, workers: {workers}": lambda body, client=client: study(client, body)[1]})
-            if workers == 2:
-                first, whole = study(client, MAP)
-                print(f"map of 17 x 11 load distributions: first line {first:.3f} s, all {whole:.2f} s (target 2 s)")
+    with served(workers=1) as client:
+        table(kinds, {"study, one worker": lambda body: study(client, body)[1]})
+    with served(workers=2) as client:
+        table(
+            kinds,
+            {
+                "study, two workers": lambda body: study(client, body)[1],
+                "single requests, two workers": lambda body: single_requests(client, body),
+            },
+        )
+        first, whole = study(client, MAP)
+        print(f"map of 17 x 11 load distributions: first line {first:.3f} s (0.3 s), all {whole:.2f} s (2 s)")
     if dask:
-        with (
-            running_cluster(2) as cluster,
-            running_server(workers=1, study_points=100_000, scheduler=cluster.address, log_level="error") as (
-                _,
-                address,
-            ),
-            httpx.Client(base_url=address, timeout=600) as client,
-        ):
-            study(client, KINDS[0].body(2))
-            table(kinds, {"study, Dask workers: 2": lambda body: study(client, body)[1]})
+        with running_cluster(2) as cluster, served(workers=1, scheduler=cluster.address) as client:
+            table(kinds, {"study, two Dask workers": lambda body: study(client, body)[1]})
 
 
 if __name__ == "__main__":

@@ -56,10 +56,12 @@ class DaskProcesses:
         """Until every worker is there."""
         end = time.monotonic() + START_S
         while True:
-            with suppress(OSError, TimeoutError):
-                with Client(self.address, timeout=5, set_as_default=False) as client:
-                    client.wait_for_workers(len(self.workers), timeout=START_S)
-                    return
+            with (
+                suppress(OSError, TimeoutError),
+                Client(self.address, timeout=5, set_as_default=False) as client,
+            ):
+                client.wait_for_workers(len(self.workers), timeout=START_S)
+                return
             if time.monotonic() > end:
                 raise RuntimeError("the Dask cluster did not start")
             time.sleep(0.2)

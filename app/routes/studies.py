@@ -65,7 +65,7 @@ class StudyRoute(APIRoute):
             body = await http.body()
             with ExitStack() as stack:
                 stack.enter_context(office.place())
-                study = await runner.run(http.receive, planner, body, limits.study_points, limits.deadline_s)
+                study = await runner.run(http.receive, planner, body, limits.most_study_points, limits.deadline_s)
                 start_up.require(study.question.endpoint)
                 clock = Clock(study.total)
                 lines = guarded(study.lines(await office.pool(), clock), clock, limits.study_deadline_s)

@@ -27,3 +27,8 @@ def test_solvers_import_only_numerics(path: Path) -> None:
 def test_every_solver_package_is_found() -> None:
     packages = {path.parent.name for path in (ROOT / "solvers").glob("*/__init__.py")}
     assert {"coupling", "gears", "contact"} <= packages
+
+
+def test_one_module_knows_dask() -> None:
+    knowing = [path for path in (ROOT / "app").rglob("*.py") if {"dask", "distributed"} & imported(path)]
+    assert knowing == [ROOT / "app" / "studies" / "cluster.py"]

@@ -33,6 +33,13 @@ def test_settings_come_from_the_environment(monkeypatch: pytest.MonkeyPatch) -> 
     assert Settings().deadline_s == 2.5
 
 
+def test_a_cluster_takes_larger_studies_unless_told_otherwise() -> None:
+    address = "tcp://127.0.0.1:8786"
+    assert Settings().most_study_points == 2500
+    assert Settings(scheduler=address).most_study_points == 100_000
+    assert Settings(scheduler=address, study_points=7).most_study_points == 7
+
+
 @pytest.mark.parametrize(("variable", "value"), [("WORKERS", "0"), ("PORT", "x"), ("DEADLINE_S", "-1")])
 def test_nonsense_settings_are_refused(monkeypatch: pytest.MonkeyPatch, variable: str, value: str) -> None:
     monkeypatch.setenv(f"TRIBODRIVE_{variable}", value)

@@ -2,9 +2,12 @@
 
 import asyncio
 from collections.abc import AsyncGenerator
+from contextlib import ExitStack, nullcontext
 
 import pytest
+from starlette.types import Message
 
+from app.routes.studies import StudyStream
 from app.studies import stream
 from app.studies.engine import PoolLost
 from app.studies.stream import Clock, Line, guarded
@@ -88,3 +91,30 @@ def test_leaving_closes_the_study() -> None:
 
     asyncio.run(run())
     assert closed == [True]
+
+
+@pytest.mark.parametrize("leaves", [True, False])
+def test_a_client_who_leaves_or_never_reads_loses_his_place(leaves: bool) -> None:
+    freed = []
+
+    async def pieces() -> AsyncGenerator[bytes, None]:
+        try:
+            while True:
+                yield b"x"
+        finally:
+            freed.append("study")
+
+    async def receive() -> Message:
+        await asyncio.sleep(0.05 if leaves else 60)
+        return {"type": "http.disconnect"}
+
+    async def send(message: Message) -> None:
+        if message["type"] == "http.response.body":
+            await asyncio.sleep(60)
+
+    stack = ExitStack()
+    stack.callback(freed.append, "place")
+    answer = StudyStream(pieces(), "text/csv", 0.3, stack)
+    with nullcontext() if leaves else pytest.raises(TimeoutError):
+        asyncio.run(answer({"type": "http"}, receive, send))
+    assert freed == ["study", "place"]
