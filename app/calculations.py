@@ -29,6 +29,7 @@ class Calculation:
     """One endpoint."""
 
     path: str
+    title: str
     summary: str
     source: str
     request: type[Request]
@@ -44,6 +45,7 @@ class Calculation:
 CALCULATIONS = (
     Calculation(
         path="/v1/coupling",
+        title="Gear coupling",
         summary="Load, lubrication, friction, axial thrust and losses of a gear coupling",
         source="Pahl 1978",
         request=CouplingRequest,
@@ -52,6 +54,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/coupling/sleeve-orbit",
+        title="Sleeve orbit",
         summary="Path and inertia force of a floating sleeve over one revolution",
         source="Pahl 1978, Fig. 5",
         request=SleeveOrbitRequest,
@@ -60,6 +63,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/coupling/recommendation",
+        title="Crowning recommendation",
         summary="The crowning with the best film over a range of misalignment",
         source="Pahl 1978, conclusion",
         request=RecommendationRequest,
@@ -68,6 +72,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/pumping",
+        title="Pumping between gear teeth",
         summary="Air and mist pumped between the teeth: pressure, heating, power, mass flow, lead correction",
         source="Milian, Distretti, Leoni, Velex 2004",
         request=PumpingRequest,
@@ -76,6 +81,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/pumping/choking-speed",
+        title="Choking speed",
         summary="Speeds at which the flow out of the tooth spaces becomes sonic",
         source="Milian, Distretti, Leoni, Velex 2004, Eq. 7",
         request=ChokingSpeedRequest,
@@ -84,6 +90,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/scuffing/load-distribution",
+        title="Load distribution",
         summary="Load, pressure, transmission error and loss of a modified gear pair",
         source="Xue, Zhang, Wang 2020, section II",
         request=LoadDistributionRequest,
@@ -92,6 +99,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/scuffing",
+        title="Scuffing of gears",
         summary="Load distribution, flash temperature, film thickness and safety against scuffing of a gear pair",
         source="Xue, Zhang, Wang 2020",
         request=ScuffingRequest,
@@ -100,6 +108,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/scuffing/line-contact",
+        title="Line contact",
         summary="Film, pressure, temperature and friction of one thermal elastohydrodynamic line contact",
         source="Xue, Zhang, Wang 2020, sections III and IV",
         request=LineContactRequest,
@@ -108,6 +117,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/drive-train",
+        title="Drive train",
         summary="A gear unit whole: couplings, shafts in bearings, pumped heat, load along the face and scuffing",
         source="own derivation on Pahl 1978, Milian 2004 and Xue 2020",
         request=DriveTrainRequest,
@@ -115,3 +125,5 @@ CALCULATIONS = (
         response=DriveTrainResponse,
     ),
 )
+
+BY_PATH = {calculation.path: calculation for calculation in CALCULATIONS}

@@ -9,6 +9,7 @@ from app.contract.cases import case_of
 from app.contract.conversion import from_si, group_of
 from app.contract.names import field_path
 from app.contract.quantities import Input
+from app.plausibility import unusual
 from app.problems import Unprocessable
 from app.requests.common import Request, Section
 from app.responses.common import MODEL_VERSION, Notice, Response
@@ -39,12 +40,16 @@ def evaluate(calculation: Calculation, request: Request) -> Response:
     else:
         warnings = [_notice(request, warning) for warning in result.warnings]
         content = from_si(calculation.response, result, request.detail, skip=_COMMON)
+        warnings += unusual(request, content)
         content |= {"status": "ok_with_warnings" if warnings else "ok", "warnings": warnings}
         if getattr(result, "status", None) == "no_solution":
             content |= {"status": "no_solution", "residuals": result.residuals}
     inputs = request.model_dump(exclude={"detail"})
     content |= {
-        "assumptions": list(_assumptions(request, request.unused_defaults(), content.get("derived", {}))),
+        "assumptions": [
+            *_assumptions(request, request.unused_defaults(), content.get("derived", {})),
+            *_model_assumptions(request),
+        ],
         "model_version": MODEL_VERSION,
         "model": request.options(),
         "inputs": inputs,
@@ -76,7 +81,15 @@ def _assumptions(
             for index, (item, own) in enumerate(zip(value, known, strict=True)):
                 yield from _assumptions(item, unused, own, f"{path}.{index}.")
         elif reason and (value is None or name not in section.model_fields_set):
-            yield {"field": path, "value": derived.get(name, value), "reason": reason}
+            used = derived.get(name, value)
+            yield {"field": path, "value": section.stands_for_null(name) if used is None else used, "reason": reason}
+
+
+def _model_assumptions(request: Request) -> Iterator[dict[str, Any]]:
+    """What the options in force take for granted."""
+    for path, reason in request.assumed_by_the_model().items():
+        section, _, name = path.rpartition(".")
+        yield {"field": path, "value": getattr(getattr(request, section), name), "reason": reason}
 
 
 @cache

@@ -58,7 +58,15 @@ class StartUp:
     def require(self, endpoint: str) -> None:
         """Raise WarmingUp if the endpoint's kernels are not there yet."""
         if not self.complete and needed_for(endpoint) not in self._warm:
-            raise WarmingUp(f"Kernels are being compiled, once after installation: {self.report()}")
+            raise self._warming_up()
+
+    def require_any(self) -> None:
+        """Raise WarmingUp if there is no worker yet that could look at a request."""
+        if not self._warm:
+            raise self._warming_up()
+
+    def _warming_up(self) -> WarmingUp:
+        return WarmingUp(f"Kernels are being compiled, once after installation: {self.report()}")
 
     async def _run(self) -> None:
         try:

@@ -83,6 +83,22 @@ def from_si(group: type[Documented], result: Any, detail: Detail, skip: frozense
     return content
 
 
+def above(group: type[Documented], detail: Detail) -> dict[str, Any]:
+    """The fields of a group above a level of detail, as pydantic's `exclude` names them."""
+    level = LEVELS.index(detail)
+    found: dict[str, Any] = {}
+    for field in _fields(group):
+        if field.level > level:
+            found[field.name] = True
+        elif field.group is not None and (inner := above(field.group, detail)):
+            found[field.name] = {"__all__": inner} if _is_list(group.model_fields[field.name].annotation) else inner
+    return found
+
+
+def _is_list(annotation: Any) -> bool:
+    return any(get_origin(kind) is list for kind in (annotation, *get_args(annotation)))
+
+
 def _displayed(value: Any, unit: Unit | None) -> Any:
     """A value in the unit of its field; NaN inside an array marks a point without a value and becomes None."""
     match value:

@@ -10,6 +10,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 from app.contract.units import Unit, split_unit
 
 Detail = Literal["summary", "curves", "fields"]
+Bound = Literal["upper", "lower"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +86,9 @@ class Output:
 
     `axis` names the sibling field over which a curve runs, or the two of a map; `index` says what the places of a list
     mean where no field does. `headline` ranks the numbers that decide, 1 to 3. `limit` is the number, or the dotted
-    field of request or answer, that bounds the value.
+    field of request or answer, that bounds the value; `bound` says on which side a verdict about it finds the value
+    safe: below an upper limit, above a lower one. `needs` is the request field without which there is no value,
+    `verdict` the field of the answer that judges it in words.
     """
 
     title: str
@@ -97,6 +100,9 @@ class Output:
     index: str | None = None
     headline: int | None = None
     limit: str | float | None = None
+    bound: Bound | None = None
+    needs: str | None = None
+    verdict: str | None = None
 
     @property
     def axes(self) -> tuple[str, ...]:
@@ -118,6 +124,9 @@ class Output:
             "x-index": self.index,
             "x-headline": self.headline,
             "x-limit": self.limit,
+            "x-bound": self.bound,
+            "x-needs": self.needs,
+            "x-verdict": self.verdict,
         }
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:

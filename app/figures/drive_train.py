@@ -1,6 +1,7 @@
 """Figures of a gear unit: its shafts, the gap between its flanks and how it comes about, the load that follows."""
 
 from dataclasses import replace
+from math import hypot
 
 import numpy as np
 
@@ -41,7 +42,7 @@ def shaft_lines(request: DriveTrainRequest, answer: DriveTrainResponse) -> Figur
         _shaft(request, name, own, state, axis)
         for name, own, state in zip(("pinion", "wheel"), given, shafts, strict=True)
     )
-    loads = [float(np.hypot(*bearing.reaction_n)) for state in shafts for bearing in state.bearings]
+    loads = [hypot(*bearing.reaction_n) for state in shafts for bearing in state.bearings]
     finding = f"bearings carry {number(min(loads) / NEWTONS)} to {number(max(loads) / NEWTONS, 'kN')}"
     return Figure(f"{finding}; marks are their reactions", panels)
 

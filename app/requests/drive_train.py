@@ -12,7 +12,8 @@ from app.requests.drive_train_heat import ToothHeat, TrainTemperatures
 from app.requests.drive_train_mesh import TrainGears, TrainModel, TrainModifications, TrainOperation
 from app.requests.drive_train_shafts import UnitShaft
 from app.requests.load_distribution import GearMaterials
-from app.requests.materials import XUE, Oil
+from app.requests.materials import XUE
+from app.requests.oil import Oil
 from app.requests.pumping import GearGroove, Mist
 from solvers.drive_train import inputs as si
 from solvers.lubricants import Lubricant
@@ -90,7 +91,8 @@ class DriveTrainRequest(Request):
 
     def inputs(self) -> si.DriveTrainInputs:
         """The solver's inputs."""
-        oil, temperatures = self.lubricant.lubricant(), self._temperatures()
+        temperatures = self._temperatures()
+        oil = self.lubricant.lubricant(temperatures.bulk)
         shafts = [shaft.shaft(oil, temperatures.oil) for shaft in (self.pinion_shaft, self.wheel_shaft)]
         fields = to_si(self)
         return si.DriveTrainInputs(
@@ -152,6 +154,7 @@ class DriveTrainRequest(Request):
     def unused_defaults(self) -> frozenset[str]:
         """Of reliefs that are zero, of bearings and couplings of another kind, of effects that are left out."""
         unused = set(self.modifications.unused_defaults("modifications"))
+        unused |= self.lubricant.unused_defaults("lubricant")
         unused |= self.model.unused_pumping_defaults("model")
         unused |= self.pinion_shaft.unused_shaft_defaults("pinion_shaft")
         unused |= self.wheel_shaft.unused_shaft_defaults("wheel_shaft")

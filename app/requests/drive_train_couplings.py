@@ -10,7 +10,7 @@ from app.requests.common import Section
 from app.requests.coupling_design import CouplingLubricant, CrownedCoupling
 from app.requests.coupling_friction import CouplingFriction
 from app.requests.drive_train_shafts import Pair
-from solvers.coupling.inputs import Lubricant, proportioned
+from solvers.coupling.inputs import proportioned
 from solvers.drive_train import inputs as si
 
 _ALIGNMENT = si.Alignment()
@@ -124,7 +124,7 @@ class UnitCoupling(Section):
         """The solver's coupling."""
         return si.UnitCoupling(
             coupling=proportioned(**to_si(self.coupling)),
-            lubricant=Lubricant(**to_si(self.lubricant)),
+            lubricant=self.lubricant.lubricant(),
             friction=self.friction.friction(),
             alignment=None if self.alignment is None else self.alignment.alignment(),
             **to_si(self),
@@ -134,6 +134,7 @@ class UnitCoupling(Section):
         """What friction leaves out; a shaft that turns never rests."""
         unused = {f"{section}.friction.static_coefficient"}
         unused |= self.friction.unused_friction_defaults(f"{section}.friction")
+        unused |= self.lubricant.unused_defaults(f"{section}.lubricant")
         if self.friction.coefficient is not None:
             unused.add(f"{section}.lubricant")
         return frozenset(unused)

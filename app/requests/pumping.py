@@ -15,6 +15,11 @@ MILIAN = "Milian 2004"
 _DEFAULTS = si.PumpingModel()
 _AMBIENT = si.Ambient()
 
+AXIAL_SPEED_ONLY = (
+    "the stagnation temperature counts the axial speed only; air drawn in from rest meets a tooth at the pitch-line "
+    "speed U, whose recovery is worth up to U²/(2 c_p) more"
+)
+
 
 class BacklashGears(Gears):
     """The gear pair with its backlash."""
@@ -219,6 +224,10 @@ class _PumpingSetup(Request):
     def unused_defaults(self) -> frozenset[str]:
         """What the flow model leaves out."""
         return self.model.unused_pumping_defaults("model")
+
+    def assumed_by_the_model(self) -> dict[str, str]:
+        """A flow with temperatures knows one speed only."""
+        return {} if self.model.flow == "incompressible" else {"model.flow": AXIAL_SPEED_ONLY}
 
     def _setup(self) -> si.PumpingSetup:
         gears = to_si(self.gears)

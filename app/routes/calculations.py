@@ -7,7 +7,7 @@ from typing import Annotated, Any, NamedTuple
 from fastapi import APIRouter, HTTPException, Request, Response
 from fastapi.routing import APIRoute
 
-from app.calculations import CALCULATIONS, Calculation
+from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.cost import refuse_endless
 from app.formats.json import answer
 from app.library import body_of
@@ -56,7 +56,6 @@ class CalculationRoute(APIRoute):
 
 
 router = APIRouter(route_class=CalculationRoute, responses=documented(400, 408, 413, 415, 422, 431, 500, 503, 504))
-_BY_PATH = {calculation.path: calculation for calculation in CALCULATIONS}
 
 
 def answer_body(path: str, body: bytes, deadline_s: float) -> bytes:
@@ -66,7 +65,7 @@ def answer_body(path: str, body: bytes, deadline_s: float) -> bytes:
 
 def read_case(path: str, body: bytes, deadline_s: float) -> tuple[Calculation, Model]:
     """The calculation and its request; raises what `read` raises, and Unprocessable for what cannot be finished."""
-    calculation = _BY_PATH[path]
+    calculation = BY_PATH[path]
     request = read(calculation.request, body)
     refuse_endless(request, deadline_s)
     return calculation, request
@@ -77,7 +76,7 @@ def require_json(http: Request) -> None:
     media_type = http.headers.get("content-type", "").partition(";")[0].strip().lower()
     kind, _, subtype = media_type.partition("/")
     if kind != "application" or subtype.rpartition("+")[2] != "json":
-        raise HTTPException(415, "The content type must be application/json")
+        raise HTTPException(415, "send the header Content-Type: application/json")
 
 
 def _add(calculation: Calculation) -> None:

@@ -33,6 +33,7 @@ class Pool:
         self._stale: set[Worker] = set()
         self._idle: list[Worker] = []
         self._waiting: deque[asyncio.Future[Worker]] = deque()
+        self._patient: deque[asyncio.Future[Worker]] = deque()
         self._starting = 0
         self._tasks: set[asyncio.Task[None]] = set()
         self._closed = False
@@ -41,8 +42,8 @@ class Pool:
     async def running(self) -> AsyncIterator[None]:
         """The template runs and is supervised while the context is open; afterwards no process is left."""
         self._template = ForkServer.start()
-        self._spawn_task(self._repeat(SUPERVISION_S, self._supervise))
-        self._spawn_task(self._repeat(PING_EVERY_S, self._ping))
+        self.spawn_task(self._repeat(SUPERVISION_S, self._supervise))
+        self.spawn_task(self._repeat(PING_EVERY_S, self._ping))
         try:
             yield
         finally:
@@ -88,36 +89,56 @@ class Pool:
             worker.kill()
             raise
         except WorkerDied as error:
-            WORKERS_LOST.inc()
-            logger.warning("worker %d was lost while it calculated", worker.pid)
+            self.report_lost(worker)
             raise WorkerLost from error
         finally:
-            self._release(worker)
+            self.release(worker)
 
-    async def _acquire(self) -> Worker:
+    def patient_place(self) -> asyncio.Future[Worker]:
+        """A worker as soon as one is free and nobody in `run` waits for it; to be released, or cancelled before."""
+        place: asyncio.Future[Worker] = asyncio.get_running_loop().create_future()
+        if (worker := self._take_idle()) is not None:
+            place.set_result(worker)
+        else:
+            self._patient.append(place)
+        return place
+
+    def report_lost(self, worker: Worker) -> None:
+        """Write to the books that a worker died over a call."""
+        WORKERS_LOST.inc()
+        logger.warning("worker %d was lost while it calculated", worker.pid)
+
+    def _take_idle(self) -> Worker | None:
         while self._idle:
             worker = self._idle.pop()
             if worker.alive:
                 return worker
+        return None
+
+    async def _acquire(self) -> Worker:
+        if (worker := self._take_idle()) is not None:
+            return worker
         place: asyncio.Future[Worker] = asyncio.get_running_loop().create_future()
         self._waiting.append(place)
         try:
             return await place
         except asyncio.CancelledError:
             if place.done() and not place.cancelled():
-                self._release(place.result())
+                self.release(place.result())
             raise
 
-    def _release(self, worker: Worker) -> None:
+    def release(self, worker: Worker) -> None:
+        """Give a worker to whoever waits, single requests before patient calls."""
         if worker in self._stale:
             worker.kill()
         if not worker.alive or worker not in self._workers:
             return
-        while self._waiting:
-            place = self._waiting.popleft()
-            if not place.done():
-                place.set_result(worker)
-                return
+        for places in (self._waiting, self._patient):
+            while places:
+                place = places.popleft()
+                if not place.done():
+                    place.set_result(worker)
+                    return
         self._idle.append(worker)
 
     def _ended(self, worker: Worker) -> None:
@@ -127,7 +148,7 @@ class Pool:
         if worker in self._idle:
             self._idle.remove(worker)
         if not self._closed:
-            self._spawn_task(self._reap(worker.pid))
+            self.spawn_task(self._reap(worker.pid))
             self._fill()
 
     async def _reap(self, pid: int) -> None:
@@ -140,7 +161,7 @@ class Pool:
             return
         for _ in range(self._size - len(self._workers - self._stale) - self._starting):
             self._starting += 1
-            self._spawn_task(self._start_worker())
+            self.spawn_task(self._start_worker())
 
     async def _start_worker(self) -> None:
         try:
@@ -151,7 +172,7 @@ class Pool:
             self._starting -= 1
         self._workers.add(worker)
         if worker.alive:
-            self._release(worker)
+            self.release(worker)
         else:
             self._ended(worker)
 
@@ -198,13 +219,14 @@ class Pool:
         except WorkerDied:
             pass
         finally:
-            self._release(worker)
+            self.release(worker)
 
     def _running_template(self) -> ForkServer:
         assert self._template is not None
         return self._template
 
-    def _spawn_task(self, coroutine: Coroutine[Any, Any, None]) -> None:
+    def spawn_task(self, coroutine: Coroutine[Any, Any, None]) -> None:
+        """Run something beside, until the pool closes."""
         task = asyncio.get_running_loop().create_task(coroutine)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)

@@ -18,7 +18,10 @@ import signal
 import socket
 import sys
 
-import app.figures.drawing  # noqa: F401  half a second and 70 MB, which every worker shares
+import scipy.stats  # noqa: F401  what random samples need, likewise
+
+import app.figures.drawing  # half a second and 70 MB, which every worker shares
+import app.studies.sweep  # noqa: F401
 from app.warm_up import calculate
 from app.workers import worker
 

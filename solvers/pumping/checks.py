@@ -1,6 +1,6 @@
 """What no calculation can be made of."""
 
-from math import ceil, floor, log10, sqrt
+from math import ceil, floor, isfinite, log10, sqrt
 from typing import NoReturn
 
 from solvers.errors import InvalidInput
@@ -80,10 +80,12 @@ def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoR
         )
         raise InvalidInput("narrow_land", message, "grooves")
     slices = sum(part.cells for part in parts)
-    message = (
-        f"{slices} slices need too many steps at this speed: use at least {_rounded_up(rpm(pinion_speed) * excess):g} "
-        f"rpm of the pinion, or at most {int(slices / sqrt(excess))} slices, or the pocket chain"
-    )
+    message = f"{slices} slices need too many steps at this speed: use a higher speed or the pocket chain"
+    if isfinite(needed := rpm(pinion_speed) * excess):
+        message = (
+            f"{slices} slices need too many steps at this speed: use at least {_rounded_up(needed):g} rpm of the "
+            f"pinion, or at most {int(slices / sqrt(excess))} slices, or the pocket chain"
+        )
     raise InvalidInput("too_many_steps", message, "pinion_speed")
 
 

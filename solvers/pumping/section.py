@@ -178,21 +178,36 @@ def _flank_section(
 ) -> tuple[float, float, float, float, float]:
     """Section where the plane of action crosses a side, told as by `_corner_section`.
 
-    Beyond the end of one gear's involute it joins the other gear's flank to the nearest point of the first.
+    Beyond the end of one gear's involute it joins the other gear's flank to the nearest point of the first; where that
+    involute ends may be closer still.
     """
-    if roll < space.root.involute_roll:
+    start = space.root.involute_roll
+    if roll < start:
         clearance, r, psi, below = _from_mate(space, angle, mate_angle, mate_roll)
-        return clearance, r, psi, below, mate_roll
+        return min(clearance, _from_own(space, angle, mate_angle, start)[1]), r, psi, below, mate_roll
     r, psi = np.hypot(space.base_radius, roll), space.base_half_angle + _involute(roll, space.base_radius)
     foot, clearance = mate_roll, gap
     if mate_roll < 0.0:
         foot, clearance = _from_own(space, angle, mate_angle, roll)
+        clearance = min(clearance, _from_mate(space, angle, mate_angle, 0.0)[0])
     return clearance, r, psi, _sector_to_involute(space, roll), foot
 
 
 @kernel
+def _carried(space: ToothSpace, roll: float, gap: float) -> float:
+    """Area that rolling flanks have carried through a section of `gap` [m], towards growing roll lengths [m^2].
+
+    The integral of gap times half the sum of both flanks' rolling velocities, from where both stand at nought.
+    """
+    facing = space.line_of_action - gap
+    roll = min(max(roll, facing - space.mate_tip_roll), space.tip_roll)
+    own, mate = max(roll, 0.0), max(facing - roll, 0.0)
+    return 0.25 * gap / space.base_radius * (own**2 - space.ratio * mate**2)
+
+
+@kernel
 def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tuple[float, float, float]:
-    """One side: area part [m^2], clearance [m], area per radian that the flanks roll through its section [m^2].
+    """One side: area part [m^2], clearance [m], area that the flanks have rolled through its section [m^2].
 
     Flanks that face each other close the space on the line of action, `gap` [m] apart there: with no gap down to the
     base circles, as an undercut counts in the path of contact. A wide gap is not always the side's narrowest place: a
@@ -200,27 +215,27 @@ def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tup
     """
     roll = space.pitch_roll + space.base_radius * (angle - space.pitch_half_angle)
     mate_roll = space.line_of_action - roll - gap
+    carried = _carried(space, roll, gap) if space.contact_gap else 0.0
     if not (space.contact_gap and roll <= space.tip_roll and mate_roll <= space.mate_tip_roll):
         clearance, r, psi, below, foot = _corner_section(space, angle, mate_angle)
-        return _close(space, angle, mate_angle, r, psi, foot) - below, clearance, 0.0
+        return _close(space, angle, mate_angle, r, psi, foot) - below, clearance, carried
     clearance, r, psi, below, foot = _flank_section(space, angle, mate_angle, roll, mate_roll, gap)
-    if gap > 0.0:
-        clearance = min(clearance, _corner_section(space, angle, mate_angle)[0])
-    elif roll >= 0.0 and mate_roll >= 0.0:
+    if gap == 0.0 and roll >= 0.0 and mate_roll >= 0.0:
         clearance = 0.0
-    rolling = 0.5 * (max(roll, 0.0) + max(mate_roll, 0.0) * space.ratio)
-    return _close(space, angle, mate_angle, r, psi, foot) - below, clearance, gap * rolling
+    else:
+        clearance = min(clearance, _corner_section(space, angle, mate_angle)[0])
+    return _close(space, angle, mate_angle, r, psi, foot) - below, clearance, carried
 
 
 @kernel
 def section(space: ToothSpace, angle: float) -> tuple[float, float, float, float]:
-    """Area [m^2], left and right clearance [m], gas carried out by the flanks per radian and metre of face [m^2].
+    """Area [m^2], left and right clearance [m], area of gas that the flanks have carried out so far [m^2].
 
-    `angle` [rad] of the owner. The flanks of the coast side roll through the section fixed on the line of action: out
-    of the space where the owner drives, into it where the owner is driven.
+    `angle` [rad] of the owner; only differences of what is carried have a meaning. The flanks of the coast side roll
+    through the section fixed on the line of action: out of the space where the owner drives, else into it.
     """
     mate_angle = angle * space.ratio + space.offset
     left_gap = 0.0 if space.owner_drives else space.backlash_gap
-    left_area, left, left_transport = _side(space, angle, mate_angle, left_gap)
-    right_area, right, right_transport = _side(space, -angle, -mate_angle, space.backlash_gap - left_gap)
-    return left_area + right_area, left, right, right_transport - left_transport
+    left_area, left, left_carried = _side(space, angle, mate_angle, left_gap)
+    right_area, right, right_carried = _side(space, -angle, -mate_angle, space.backlash_gap - left_gap)
+    return left_area + right_area, left, right, -left_carried - right_carried

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from math import tan
 
 from solvers.arrays import FloatArray
+from solvers.gears.gear import rack_tip_radius
 from solvers.gears.pair import GearPair
 from solvers.gears.path_of_contact import PathOfContact, meshing_path
 from solvers.notices import Notice
@@ -17,6 +18,7 @@ from solvers.pumping.inputs import Flow, PumpingSetup, Spaces
 from solvers.pumping.notices import setup_notices
 from solvers.pumping.nozzle import Gas, gas
 from solvers.pumping.pocket_chain import STEPS, pocket_chain
+from solvers.pumping.results import Derived
 from solvers.pumping.stroke import StrokeTable, stroke_table
 from solvers.pumping.tooth_space import tooth_space
 
@@ -64,6 +66,13 @@ def prepare(setup: PumpingSetup) -> Mesh:
         spaces.append(_space(setup, path.pair, of_pinion=False))
     active = min(_active_share(space, setup.gears.face_width) for space in spaces) * setup.model.slice_count
     return Mesh(setup, path, gas(setup.ambient), tuple(spaces), tuple(setup_notices(setup, path, active)))
+
+
+def derived(mesh: Mesh) -> Derived:
+    """What the set-up left open, and what is used of it."""
+    gears = mesh.setup.gears
+    room = min(rack_tip_radius(gears, teeth) for teeth in (gears.pinion, gears.wheel))
+    return Derived(mesh.pair.centre_distance, mesh.setup.model.slice_count, room)
 
 
 def _active_share(space: Space, face_width: float) -> float:

@@ -68,7 +68,9 @@ def kinds(field: dict[str, Any]) -> list[dict[str, Any]]:
 
 def is_bounded(kind: dict[str, Any]) -> bool:
     below, above = {"minimum", "exclusiveMinimum"}, {"maximum", "exclusiveMaximum"}
-    return kind.get("type") not in {"number", "integer"} or bool(below & set(kind) and above & set(kind))
+    return (
+        "enum" in kind or kind.get("type") not in {"number", "integer"} or bool(below & set(kind) and above & set(kind))
+    )
 
 
 def nested(model: type[BaseModel]) -> list[type[BaseModel]]:

@@ -1,0 +1,198 @@
+"""Studies: one request at many points, answered as a stream."""
+
+import asyncio
+from collections.abc import AsyncGenerator, Callable, Coroutine
+from contextlib import ExitStack, aclosing
+from typing import Annotated, Any, Literal
+
+from fastapi import APIRouter, Body, Query, Request, Response
+from fastapi.responses import StreamingResponse
+from fastapi.routing import APIRoute
+from starlette.types import Receive, Scope, Send
+
+from app.contract.messages import Fault
+from app.library import examples
+from app.problems import documented
+from app.reading import InvalidBody
+from app.routes.calculations import require_json
+from app.settings import Settings
+from app.start_up import StartUp
+from app.studies import sensitivity, sweep
+from app.studies.lines import encoded, json_line
+from app.studies.office import Office
+from app.studies.requests import SensitivityRequest, SweepRequest
+from app.studies.sensitivity import Sensitivity, plan_sensitivity
+from app.studies.stream import Clock, guarded
+from app.studies.sweep import Sweep, plan_sweep
+from app.workers.admission import Runner
+
+Format = Literal["ndjson", "csv"]
+MEDIA_TYPES: dict[Format, str] = {"ndjson": "application/x-ndjson", "csv": "text/csv"}
+PATIENCE_S = 10.0  # beyond the study's deadline, for a client that reads slowly
+
+
+class StudyStream(StreamingResponse):
+    """Lines as they come; when the client leaves, or at the end of all patience, the study ends and frees its place."""
+
+    def __init__(self, pieces: AsyncGenerator[bytes, None], media_type: str, seconds: float, stack: ExitStack) -> None:
+        super().__init__(pieces, media_type=media_type, headers={"X-Accel-Buffering": "no"})
+        self._pieces = pieces
+        self._seconds = seconds
+        self._stack = stack
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Send everything."""
+        with self._stack:
+            async with aclosing(self._pieces), asyncio.timeout(self._seconds):
+                await super().__call__(scope, receive, send)
+
+
+class StudyRoute(APIRoute):
+    """A study as its signature documents it, whose body is read and checked in a worker before the first line."""
+
+    def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+        """What answers a request."""
+        planner: Callable[..., Sweep | Sensitivity] = plan_sweep if self.path == sweep.PATH else plan_sensitivity
+
+        async def handle(http: Request) -> Response:
+            require_json(http)
+            written_as: Format = wanted_format(http) if self.path == sweep.PATH else "ndjson"
+            start_up: StartUp = http.app.state.start_up
+            start_up.require_any()
+            office: Office = http.app.state.office
+            runner: Runner = http.app.state.runner
+            limits: Settings = http.app.state.settings
+            body = await http.body()
+            with ExitStack() as stack:
+                stack.enter_context(office.place())
+                study = await runner.run(http.receive, planner, body, limits.study_points, limits.deadline_s)
+                start_up.require(study.question.endpoint)
+                clock = Clock(study.total)
+                lines = guarded(study.lines(await office.pool(), clock), clock, limits.study_deadline_s)
+                encode = study.table().encode if written_as == "csv" else json_line
+                patience = limits.study_deadline_s + PATIENCE_S
+                return StudyStream(encoded(lines, encode), MEDIA_TYPES[written_as], patience, stack.pop_all())
+
+        return handle
+
+
+def wanted_format(http: Request) -> Format:
+    """By `format` in the query, else the first that the client accepts, else NDJSON."""
+    named = http.query_params.get("format")
+    if named is not None:
+        if named not in MEDIA_TYPES:
+            raise InvalidBody([Fault("/format", "literal_error", "format: allowed are ndjson, csv")])
+        return named
+    accepted = [part.partition(";")[0].strip().lower() for part in http.headers.get("accept", "").split(",")]
+    return next((name for media in accepted for name, own in MEDIA_TYPES.items() if media == own), "ndjson")
+
+
+router = APIRouter(
+    tags=["studies"],
+    route_class=StudyRoute,
+    responses=documented(400, 408, 413, 415, 422, 431, 500, 503, 504),
+)
+
+_COUPLING = examples()["pahl-axial-displacement"]
+_LOADS = examples()["xue-pair-1-modified"]
+SWEEP_EXAMPLES: dict[str, dict[str, Any]] = {
+    "map": {
+        "summary": "Which crowning forgives misalignment: a map of pressure, and its best point",
+        "value": {
+            "endpoint": _LOADS.endpoint,
+            "request": _LOADS.request,
+            "vary": [
+                {"path": "modifications.helix_slope_um", "start": -20, "stop": 20, "count": 9},
+                {"path": "modifications.lead_crowning_um", "values": [0, 5, 10, 20]},
+            ],
+            "outputs": ["pressure.max_mpa", "load.face_load_factor"],
+            "best": {
+                "minimise": "pressure.max_mpa",
+                "where": [{"output": "load.face_load_factor", "max": 1.5}],
+            },
+        },
+    },
+    "cases": {
+        "summary": "A load spectrum",
+        "value": {
+            "endpoint": _COUPLING.endpoint,
+            "request": _COUPLING.request,
+            "cases": [
+                {"operation.torque_n_m": 3000, "operation.speed_rpm": 1910},
+                {"operation.torque_n_m": 4500, "operation.speed_rpm": 1500},
+            ],
+        },
+    },
+    "sample": {
+        "summary": "Tolerances at random",
+        "value": {
+            "endpoint": _COUPLING.endpoint,
+            "request": _COUPLING.request,
+            "sample": {
+                "count": 64,
+                "ranges": [
+                    {"path": "operation.misalignment_deg", "min": 0.03, "max": 0.08},
+                    {"path": "lubricant.viscosity_pa_s", "min": 0.02, "max": 0.03},
+                ],
+            },
+        },
+    },
+}
+SENSITIVITY_EXAMPLES: dict[str, dict[str, Any]] = {
+    "coupling": {
+        "summary": "What moves the axial thrust most",
+        "value": {
+            "endpoint": _COUPLING.endpoint,
+            "request": _COUPLING.request,
+            "outputs": ["axial_thrust.force_n"],
+        },
+    }
+}
+
+
+def _streams(what: str, *formats: Format) -> dict[int | str, dict[str, Any]]:
+    return {
+        200: {
+            "description": what,
+            "content": {MEDIA_TYPES[each]: {"schema": {"type": "string"}} for each in formats},
+        }
+    }
+
+
+@router.post(
+    sweep.PATH,
+    operation_id="sweep",
+    summary="One request at many points: a grid, a list of cases, a random sample",
+    response_class=Response,
+    responses=_streams("a line for the sweep, one for each point in order, one for the end", "ndjson", "csv"),
+)
+async def run_sweep(
+    body: Annotated[SweepRequest, Body(openapi_examples=SWEEP_EXAMPLES)],
+    written_as: Annotated[
+        Format, Query(alias="format", description="JSON a line, or a table; the Accept header can choose it too")
+    ] = "ndjson",
+) -> Response:
+    """Every point is the endpoint's own answer.
+
+    Lines are `sweep`, then `point` in order with the first axis slowest, `progress` when nothing else was sent for two
+    seconds, and `end`; or `error`, which ends a study that broke off. A stream without `end` or `error` was cut off.
+    """
+    raise NotImplementedError(body, written_as)  # documents the endpoint; StudyRoute answers
+
+
+@router.post(
+    sensitivity.PATH,
+    operation_id="sensitivity",
+    summary="What moves each output most",
+    response_class=Response,
+    responses=_streams("a line for each output and input, the most influential first, and one for the end", "ndjson"),
+)
+async def run_sensitivity(
+    body: Annotated[SensitivityRequest, Body(openapi_examples=SENSITIVITY_EXAMPLES)],
+) -> Response:
+    """Differences of the outputs for every number of the case, moved by its tolerance, else by 1 % (1 K, 1).
+
+    `change` is what one step does to the output, `elasticity` per cent of the output for a per cent of the input;
+    `kink` says that the two sides differ by more than 10 %.
+    """
+    raise NotImplementedError(body)  # documents the endpoint; StudyRoute answers

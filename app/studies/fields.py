@@ -1,0 +1,146 @@
+"""The single values of requests and answers that a study names by their dotted paths."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+from difflib import get_close_matches
+from typing import Any
+
+from app.contract.fields import Leaf, leaf_at, leaves
+from app.contract.quantities import Documented
+from app.problems import Unprocessable
+from app.studies.requests import Scalar
+
+
+def scalar_at(model: type[Documented], path: str, place: str, unknown: str) -> Leaf:
+    """The leaf of a request or answer that holds one value at this path.
+
+    Raises Unprocessable at `place` of the study: `not_scalar` for sections and lists, `unknown` for what there is not.
+    """
+    leaf = leaf_at(model, path) or _item_of_list(model, path)
+    if leaf is None:
+        known = [each.path for each in leaves(model)]
+        if any(name.startswith(f"{path}.") for name in known):
+            raise Unprocessable("not_scalar", f"{path} is a section, not a single value; name one of its fields", place)
+        raise Unprocessable(unknown, f"there is no {path}{did_you_mean(path, known)}", place)
+    if leaf.kind == "other":
+        raise Unprocessable("not_scalar", f"{path} is not a single value", place)
+    if not leaf.is_scalar:
+        raise Unprocessable("not_scalar", f"{path} is a list, not a single value", place)
+    return replace(leaf, path=path)
+
+
+def _item_of_list(model: type[Documented], path: str) -> Leaf | None:
+    """The place of a list that the path's last part counts, as a leaf of its own."""
+    whole, _, place = path.rpartition(".")
+    leaf = leaf_at(model, whole) if place.isdecimal() else None
+    return None if leaf is None or leaf.dimensions != 1 else replace(leaf, dimensions=0, nullable=False)
+
+
+def did_you_mean(path: str, known: Iterable[str]) -> str:
+    """The nearest known path as a question, or nothing."""
+    near = get_close_matches(path, list(known), n=1)
+    return f"; did you mean {near[0]}?" if near else ""
+
+
+def fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:
+    """Code and message of why the field's schema does not take a value; None where it does."""
+    if value is None:
+        return None if leaf.nullable else ("out_of_range", "null is not allowed here")
+    if leaf.options:
+        allowed = ", ".join(map(str, leaf.options))
+        return None if value in leaf.options else ("out_of_range", f"allowed are {allowed}")
+    match leaf.kind:
+        case "boolean":
+            return None if isinstance(value, bool) else ("out_of_range", "give true or false")
+        case "number" | "integer":
+            return _number_fault(leaf, value)
+        case _:
+            return None if isinstance(value, str) else ("out_of_range", "give text")
+
+
+def _number_fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:
+    if isinstance(value, bool | str) or value is None:
+        return "out_of_range", "give a number"
+    if leaf.kind == "integer" and value != int(value):
+        return "not_integer", f"{value:g} is not a whole number"
+    bounds = leaf.bounds
+    outside = (
+        ("ge" in bounds and value < bounds["ge"])
+        or ("gt" in bounds and value <= bounds["gt"])
+        or ("le" in bounds and value > bounds["le"])
+        or ("lt" in bounds and value >= bounds["lt"])
+    )
+    return ("out_of_range", f"{value:g} is not {_range(bounds)}") if outside else None
+
+
+def _range(bounds: dict[str, float]) -> str:
+    words = {"ge": "at least", "gt": "above", "le": "at most", "lt": "below"}
+    return " and ".join(f"{words[key]} {bound:g}" for key, bound in bounds.items())
+
+
+def value_at(answer: Any, path: str) -> Any:
+    """The value at a dotted path of an answer; None where a group or a place on the way is missing."""
+    for part in path.split("."):
+        if answer is None:
+            return None
+        if isinstance(answer, list | tuple):
+            answer = answer[int(part)] if int(part) < len(answer) else None
+        else:
+            answer = answer.get(part) if isinstance(answer, dict) else getattr(answer, part)
+    return answer
+
+
+def is_reachable(body: dict[str, Any], path: str) -> bool:
+    """Whether a value can be set at this path: the lists on the way are long enough.
+
+    What is no section where one belongs is left to the request's own validation.
+    """
+    here: Any = body
+    for part in path.split("."):
+        if part.isdecimal():
+            if here is None or (isinstance(here, list) and int(part) >= len(here)):
+                return False
+            here = here[int(part)] if isinstance(here, list) else {}
+        else:
+            here = here.get(part) if isinstance(here, dict) else None
+    return True
+
+
+def set_value(body: dict[str, Any], path: str, value: Scalar) -> None:
+    """Set the value at a dotted path of a request, sections on the way made where they are missing."""
+    *way, last = path.split(".")
+    here: Any = body
+    for part in way:
+        if isinstance(here, dict) and here.get(part) is None:
+            here[part] = {}
+        here = _step(here, part)
+    if isinstance(here, list):
+        here[int(last)] = value
+    elif isinstance(here, dict):
+        here[last] = value
+
+
+def clear(body: dict[str, Any], path: str) -> None:
+    """Take a field out of a request, if it is there."""
+    *way, last = path.split(".")
+    here: Any = body
+    for part in way:
+        here = _step(here, part)
+    if isinstance(here, dict):
+        here.pop(last, None)
+
+
+def _step(here: Any, part: str) -> Any:
+    """One step down a request; None where it has another shape."""
+    if isinstance(here, list):
+        return here[int(part)] if part.isdecimal() else None
+    return here.get(part) if isinstance(here, dict) else None
+
+
+def fellows(leaf: Leaf) -> list[str]:
+    """The fields that a given value of this one excludes, with its own list indices."""
+    own = leaf.path.split(".")
+    return [
+        ".".join(own[place] if part == "*" else part for place, part in enumerate(path.split(".")))
+        for path in leaf.exclusive
+    ]

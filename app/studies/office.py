@@ -1,0 +1,81 @@
+"""Admits studies: a few at once, on the service's own workers or on a cluster."""
+
+import asyncio
+import logging
+from collections.abc import AsyncIterator, Iterator
+from contextlib import asynccontextmanager, contextmanager
+from typing import Protocol
+
+from app.metrics import STUDIES
+from app.problems import SchedulerUnavailable, StudiesFull
+from app.settings import Settings
+from app.studies.engine import Pool
+from app.workers.patient import PatientPool
+from app.workers.pool import Pool as WorkerPool
+
+logger = logging.getLogger("tribodrive")
+
+
+class Cluster(Protocol):
+    """A pool elsewhere, to be connected before each study."""
+
+    async def ready(self) -> Pool:
+        """The pool; raises SchedulerUnavailable."""
+
+    def close(self) -> None:
+        """Leave it."""
+
+
+def connectable(address: str) -> Cluster:
+    """The Dask cluster of a scheduler; nothing is sent before the first study."""
+    from app.studies.cluster import DaskCluster  # noqa: PLC0415  an extra, and a second of imports
+
+    return DaskCluster(address)
+
+
+class Office:
+    """Where studies get their place and their pool."""
+
+    def __init__(self, settings: Settings, workers: WorkerPool) -> None:
+        self._most = settings.studies
+        self._own = PatientPool(workers, settings.workers, settings.deadline_s)
+        self._cluster = connectable(settings.scheduler) if settings.scheduler else None
+        self._running = 0
+
+    @contextmanager
+    def place(self) -> Iterator[None]:
+        """A study's place among the few; raises StudiesFull."""
+        if self._running >= self._most:
+            raise StudiesFull
+        self._running += 1
+        STUDIES.set(self._running)
+        try:
+            yield
+        finally:
+            self._running -= 1
+            STUDIES.set(self._running)
+
+    async def pool(self) -> Pool:
+        """Where points are solved; raises SchedulerUnavailable."""
+        if self._cluster is None:
+            return self._own
+        return await self._cluster.ready()
+
+    @asynccontextmanager
+    async def open(self) -> AsyncIterator[None]:
+        """A cluster is prepared from the beginning, so that the first study need not wait; afterwards it is left."""
+        if self._cluster is None:
+            yield
+            return
+        preparation = asyncio.create_task(self._prepare(self._cluster))
+        try:
+            yield
+        finally:
+            preparation.cancel()
+            await asyncio.to_thread(self._cluster.close)
+
+    async def _prepare(self, cluster: Cluster) -> None:
+        try:
+            await cluster.ready()
+        except SchedulerUnavailable as error:
+            logger.warning("%s; the next study tries again", error.detail)

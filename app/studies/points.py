@@ -1,0 +1,105 @@
+"""Points of a study, solved one after another in a worker process: each is the endpoint's own answer."""
+
+import copy
+import logging
+import time
+from collections.abc import Sequence
+from typing import Any, Literal, NamedTuple
+
+from app.calculations import BY_PATH, Calculation
+from app.cost import refuse_endless
+from app.evaluate import evaluate
+from app.problems import PROBLEMS, Unprocessable, faults_of
+from app.reading import InvalidBody, validated
+from app.studies.fields import clear, fellows, scalar_at, set_value, value_at
+from app.studies.requests import Overrides
+
+Status = Literal["ok", "ok_with_warnings", "no_solution", "refused", "failed"]
+CHUNK_SECONDS = 0.25
+
+logger = logging.getLogger("tribodrive")
+
+
+class Point(NamedTuple):
+    """One answer, cut down to the outputs asked for; `error` where the point was refused or failed."""
+
+    status: Status
+    out: list[Any]
+    warnings: list[str]
+    error: dict[str, str] | None = None
+    assumptions: tuple[dict[str, Any], ...] = ()
+
+
+class Question(NamedTuple):
+    """What is the same at every point."""
+
+    endpoint: str
+    base: dict[str, Any]
+    outputs: Sequence[str]
+    deadline_s: float
+
+    def failed(self, code: str, message: str) -> Point:
+        """A point that could not be solved for no fault of its request."""
+        return Point("failed", self._nothing, [], {"pointer": "", "code": code, "message": message})
+
+    def refused(self, error: InvalidBody | Unprocessable) -> Point:
+        """A point whose request cannot be computed."""
+        return Point("refused", self._nothing, [], faults_of(error)[0])
+
+    @property
+    def _nothing(self) -> list[Any]:
+        return [None] * len(self.outputs)
+
+
+class Chunk(NamedTuple):
+    """Answers of the first of the points asked for, and how long they took [s]."""
+
+    points: list[Point]
+    seconds: float
+
+
+def solve_chunk(question: Question, overrides: Sequence[Overrides]) -> Chunk:
+    """Solve consecutive points, as many as a chunk's time allows, at least one."""
+    started = time.perf_counter()
+    points: list[Point] = []
+    for each in overrides:
+        points.append(solve_point(question, each))
+        if time.perf_counter() - started >= CHUNK_SECONDS:
+            break
+    return Chunk(points, time.perf_counter() - started)
+
+
+def solve_point(question: Question, overrides: Overrides) -> Point:
+    """One point; a refusal is a point too."""
+    calculation = BY_PATH[question.endpoint]
+    try:
+        request = validated(calculation.request, with_overrides(calculation, question.base, overrides))
+        refuse_endless(request, question.deadline_s)
+        answer = evaluate(calculation, request)
+    except (InvalidBody, Unprocessable) as error:
+        return question.refused(error)
+    except MemoryError:
+        kind = PROBLEMS[MemoryError]
+        return question.failed(kind.code, kind.title)
+    except Exception:
+        logger.exception("a point of a study failed")
+        return question.failed("internal_error", "something went wrong in the service; the log has the cause")
+    return Point(
+        answer.status,
+        [value_at(answer, path) for path in question.outputs],
+        [warning.code for warning in answer.warnings],
+        assumptions=tuple(each.model_dump() for each in answer.assumptions),
+    )
+
+
+def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Overrides) -> dict[str, Any]:
+    """The base request with a point's values; a value for an exclusive field clears its fellows in the base."""
+    body = copy.deepcopy(base)
+    for path, value in overrides.items():
+        if value is not None:
+            for fellow in fellows(scalar_at(calculation.request, path, "", "unknown_path")):
+                clear(body, fellow)
+    for path, value in overrides.items():
+        set_value(body, path, value)
+    body["detail"] = "summary"
+    return body

@@ -1,0 +1,139 @@
+"""What a sweep says at its end: counts, ranges, the best point, and for random samples their statistics."""
+
+import operator
+from array import array
+from collections import Counter
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from app.studies.plan import Plan
+from app.studies.points import Point
+from app.studies.requests import Best
+
+QUANTILES = (0.05, 0.5, 0.95)
+LEAST_CORRELATED = 3
+NOTHING = float("nan")
+
+
+class Extreme(NamedTuple):
+    """A value as the answer has it, and the point where it is."""
+
+    value: float
+    point: int
+
+
+class Summary:
+    """Gathers points as they pass; of a grid it keeps the extremes only, of a sample every number."""
+
+    def __init__(self, plan: Plan, outputs: list[str], best: Best | None) -> None:
+        self._plan = plan
+        self._outputs = outputs
+        self._best = best
+        self._counts: Counter[str] = Counter()
+        self._ranges: dict[str, dict[str, Extreme]] = {}
+        self._chosen: tuple[Extreme, list[Any]] | None = None
+        self._assumptions: dict[str, dict[str, Any]] = {}
+        self._values = array("d")
+        self._count = 0
+
+    def add(self, point: Point) -> None:
+        """Take in the next point, in order."""
+        index, self._count = self._count, self._count + 1
+        self._counts[point.status] += 1
+        for path, value in zip(self._outputs, point.out, strict=True):
+            if _is_number(value):
+                self._widen(path, Extreme(value, index))
+        if self._best is not None:
+            self._choose(self._best, index, point.out)
+        if self._plan.sample is not None:
+            self._values.extend(value if _is_number(value) else NOTHING for value in point.out)
+        for each in point.assumptions:
+            self._assume(each)
+
+    @property
+    def values(self) -> np.ndarray[Any, Any] | None:
+        """The outputs of a random sample, a row a point, NaN where there is none."""
+        if self._plan.sample is None:
+            return None
+        return np.array(self._values).reshape(self._count, len(self._outputs))
+
+    def line(self, statistics: dict[str, Any], elapsed_s: float) -> dict[str, Any]:
+        """The last line of the answer."""
+        return {
+            "type": "end",
+            "points": self._count,
+            "counts": dict(sorted(self._counts.items())),
+            "ranges": self._ranges,
+            **statistics,
+            "best": self._best_point(),
+            "assumptions": list(self._assumptions.values()),
+            "elapsed_s": elapsed_s,
+        }
+
+    def _widen(self, path: str, found: Extreme) -> None:
+        known = self._ranges.setdefault(path, {"min": found, "max": found})
+        if found.value < known["min"].value:
+            known["min"] = found
+        if found.value > known["max"].value:
+            known["max"] = found
+
+    def _choose(self, best: Best, index: int, out: list[Any]) -> None:
+        """Keep the point if it is the best so far inside all limits; of equals the first."""
+        values = dict(zip(self._outputs, out, strict=True))
+        value = values[best.output]
+        limited = all(
+            _is_number(values[bound.output])
+            and (bound.min is None or values[bound.output] >= bound.min)
+            and (bound.max is None or values[bound.output] <= bound.max)
+            for bound in best.where
+        )
+        better = operator.lt if best.minimise else operator.gt
+        if limited and _is_number(value) and (self._chosen is None or better(value, self._chosen[0].value)):
+            self._chosen = Extreme(value, index), out
+
+    def _best_point(self) -> dict[str, Any] | None:
+        if self._chosen is None:
+            return None
+        (_, index), out = self._chosen
+        return {"index": index, "at": self._plan.at(index), "out": out}
+
+    def _assume(self, assumption: dict[str, Any]) -> None:
+        """Each assumption once; a value that differs between points is null."""
+        known = self._assumptions.setdefault(assumption["field"], assumption)
+        if known["value"] != assumption["value"]:
+            self._assumptions[assumption["field"]] = {**known, "value": None}
+
+
+def _is_number(value: Any) -> bool:
+    """Whether it can be compared; true counts as 1."""
+    return isinstance(value, int | float)
+
+
+NO_STATISTICS: dict[str, Any] = {"quantiles": None, "rank_correlation": None}
+
+
+def statistics(
+    inputs: np.ndarray[Any, Any], outputs: np.ndarray[Any, Any], input_paths: list[str], output_paths: list[str]
+) -> dict[str, Any]:
+    """Quantiles and rank correlation of a random sample, a row a point; runs in a worker."""
+    there = {path: ~np.isnan(outputs[:, place]) for place, path in enumerate(output_paths)}
+    columns = {path: outputs[there[path], place] for place, path in enumerate(output_paths) if there[path].any()}
+    return {
+        "quantiles": {path: np.quantile(values, QUANTILES).tolist() for path, values in columns.items()},
+        "rank_correlation": {
+            path: {
+                name: _rank_correlation(inputs[there[path], place], values) for place, name in enumerate(input_paths)
+            }
+            for path, values in columns.items()
+        },
+    }
+
+
+def _rank_correlation(x: np.ndarray[Any, Any], y: np.ndarray[Any, Any]) -> float | None:
+    """Spearman's coefficient; none of fewer than three points, or where either does not vary."""
+    from scipy.stats import spearmanr  # noqa: PLC0415  half a second that only random samples need
+
+    if y.size < LEAST_CORRELATED or np.ptp(x) == 0.0 or np.ptp(y) == 0.0:
+        return None
+    return float(spearmanr(x, y).statistic)

@@ -1,0 +1,131 @@
+"""Every point of a study is the endpoint's own answer, bit for bit."""
+
+import json
+from typing import Any
+
+import pytest
+
+from app.calculations import BY_PATH
+from app.contract.fields import leaves
+from app.formats.json import answer
+from app.library import examples
+from app.problems import Unprocessable
+from app.studies import points
+from app.studies.fields import value_at
+from app.studies.points import Question, solve_chunk, with_overrides
+
+VARIED = {
+    "/v1/coupling": "operation.torque_n_m",
+    "/v1/coupling/sleeve-orbit": "coupling.sleeve_mass_kg",
+    "/v1/coupling/recommendation": "operation.torque_n_m",
+    "/v1/pumping": "operation.pinion_speed_rpm",
+    "/v1/pumping/choking-speed": "gears.face_width_mm",
+    "/v1/scuffing/load-distribution": "load.pinion_speed_rpm",
+    "/v1/scuffing": "temperatures.bulk_c",
+    "/v1/scuffing/line-contact": "contact.line_load_n_per_mm",
+}
+SLOW = {"/v1/scuffing", "/v1/pumping/choking-speed"}
+LOADS = examples()["xue-pair-1-modified"]
+
+
+def scalars(endpoint: str) -> list[str]:
+    """Every single value of an answer that is sent at any level of detail."""
+    wanted = (leaf for leaf in leaves(BY_PATH[endpoint].response) if leaf.is_scalar and leaf.kind != "other")
+    return [leaf.path for leaf in wanted if leaf.detail == "summary" and "*" not in leaf.path]
+
+
+def test_every_endpoint_is_varied() -> None:
+    assert set(VARIED) == set(BY_PATH) == {example.endpoint for example in examples().values()}
+
+
+@pytest.mark.parametrize("name", examples())
+def test_points_are_the_endpoints_own_answers(name: str) -> None:
+    endpoint, request = examples()[name].endpoint, examples()[name].request
+    calculation, path, outputs = BY_PATH[endpoint], VARIED[endpoint], scalars(endpoint)
+    base = value_at(calculation.request.model_validate(request).model_dump(), path)
+    overrides: list[dict[str, Any]] = [
+        {path: factor * base} for factor in ((0.97,) if endpoint in SLOW else (0.97, 1.03))
+    ]
+    question = Question(endpoint, request, outputs, 30.0)
+    found = [point for each in overrides for point in solve_chunk(question, [each]).points]
+    assert len({json.dumps(point.out) for point in found}) == len(overrides)
+    for each, point in zip(overrides, found, strict=True):
+        body = with_overrides(calculation, request, each) | {"detail": "curves"}
+        single = json.loads(answer(calculation, calculation.request.model_validate(body)))
+        assert json.loads(json.dumps(point.out)) == [value_at(single, path) for path in outputs]
+        assert point.status == single["status"]
+        assert point.warnings == [warning["code"] for warning in single["warnings"]]
+        assert list(point.assumptions) == single["assumptions"]
+
+
+def one(overrides: dict[str, Any], *, base: dict[str, Any] = LOADS.request, deadline_s: float = 30.0) -> points.Point:
+    (point,) = solve_chunk(Question(LOADS.endpoint, base, ["pressure.max_mpa"], deadline_s), [overrides]).points
+    return point
+
+
+def test_what_physics_refuses_is_a_point() -> None:
+    point = one({"gears.pinion.addendum": 3.0})
+    assert (point.status, point.out) == ("refused", [None])
+    assert point.error is not None
+    calculation = BY_PATH[LOADS.endpoint]
+    body = with_overrides(calculation, LOADS.request, {"gears.pinion.addendum": 3.0})
+    with pytest.raises(Unprocessable) as caught:
+        answer(calculation, calculation.request.model_validate(body))
+    assert point.error["code"] == caught.value.code
+
+
+def test_what_two_fields_refuse_together_is_a_point() -> None:
+    point = one({"load.pinion_torque_n_m": None, "load.power_kw": None})
+    assert point.status == "refused"
+    assert point.error is not None
+    assert (point.error["pointer"], point.error["code"]) == ("/load", "torque_or_power")
+
+
+def test_what_cannot_finish_is_a_point() -> None:
+    example = examples()["xue-pair-1-thermal"]
+    body = {**example.request, "model": {"nodes": 481, "film_nodes": 61}}
+    (point,) = solve_chunk(Question(example.endpoint, body, [], 30.0), [{"model.path_points": 500}]).points
+    assert point.error is not None
+    assert (point.error["pointer"], point.error["code"]) == ("/model/path_points", "cannot_finish")
+
+
+def test_no_solution_is_a_point() -> None:
+    contact = {"line_load_n_per_mm": 68.0028, "radius_mm": 5, "speed_1_m_per_s": 10.5, "speed_2_m_per_s": 9.5}
+    body = {"contact": contact, "model": {"rheology": "newtonian"}}
+    question = Question("/v1/scuffing/line-contact", body, ["film.minimum_um", "status"], 30.0)
+    (point,) = solve_chunk(question, [{}]).points
+    assert (point.status, point.out) == ("no_solution", [None, "no_solution"])
+
+
+@pytest.mark.parametrize(
+    ("error", "code"), [(MemoryError(), "memory_limit"), (RuntimeError("secret"), "internal_error")]
+)
+def test_what_breaks_is_a_failed_point(monkeypatch: pytest.MonkeyPatch, error: Exception, code: str) -> None:
+    def broken(*_: object) -> None:
+        raise error
+
+    monkeypatch.setattr(points, "evaluate", broken)
+    point = one({})
+    assert point.status == "failed"
+    assert point.error is not None
+    assert point.error["code"] == code
+    assert "secret" not in point.error["message"]
+
+
+def test_an_exclusive_field_clears_its_fellow_in_the_base() -> None:
+    calculation = BY_PATH[LOADS.endpoint]
+    assert LOADS.request["load"].get("pinion_torque_n_m") or LOADS.request["load"].get("power_kw")
+    for path, fellow in (("power_kw", "pinion_torque_n_m"), ("pinion_torque_n_m", "power_kw")):
+        given = {**LOADS.request, "load": {"pinion_speed_rpm": 2000.0, fellow: 10.0}}
+        body = with_overrides(calculation, given, {f"load.{path}": 20.0})
+        assert body["load"] == {"pinion_speed_rpm": 2000.0, path: 20.0}
+        assert given["load"][fellow] == 10.0
+        assert one({f"load.{path}": 20.0}, base=given).status in {"ok", "ok_with_warnings"}
+
+
+def test_a_chunk_ends_after_its_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = iter(range(1000))
+    monkeypatch.setattr(points.time, "perf_counter", lambda: 0.1 * next(clock))
+    question = Question("/v1/coupling", examples()["pahl-axial-displacement"].request, ["axial_thrust.force_n"], 30.0)
+    speeds = [{"operation.speed_rpm": 1000 + index} for index in range(10)]
+    assert len(solve_chunk(question, speeds).points) == 3

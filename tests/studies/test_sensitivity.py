@@ -1,0 +1,188 @@
+"""Sensitivities: against derivatives known from the physics, at the ends of ranges, at kinks."""
+
+import asyncio
+import json
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from app.calculations import BY_PATH
+from app.contract.fields import Leaf, leaf_at, leaves
+from app.library import examples
+from app.studies.differences import Differences, probe
+from app.studies.lines import encoded, json_line
+from app.studies.sensitivity import plan_sensitivity
+from app.studies.stream import Clock, guarded
+from tests.pools import InlinePool
+
+COUPLING = examples()["pahl-axial-displacement"]
+
+
+def sensitivities(endpoint: str, request: dict[str, Any], **parts: Any) -> list[dict[str, Any]]:
+    body = {"endpoint": endpoint, "request": request, **parts}
+    study = plan_sensitivity(json.dumps(body).encode(), 2500, 30.0)
+
+    async def run() -> bytes:
+        clock = Clock(study.total)
+        lines = guarded(study.lines(InlinePool(), clock), clock, 600)
+        return b"".join([piece async for piece in encoded(lines, json_line)])
+
+    return [json.loads(line) for line in asyncio.run(run()).splitlines()]
+
+
+def test_coaxial_thrust_is_proportional_to_friction() -> None:
+    request = {**COUPLING.request, "friction": {"coefficient": 0.17}}
+    output, path = "axial_thrust.coaxial_limit_n", "friction.coefficient"
+    line, end = sensitivities(COUPLING.endpoint, request, outputs=[output], inputs=[path])
+    assert line["elasticity"] == pytest.approx(1.0, abs=1e-3)
+    assert line["derivative"] * 0.17 == pytest.approx(end["outputs"][0]["value"], rel=1e-3)
+    assert line["kink"] is False
+
+
+def test_hertz_pressure_goes_with_the_root_of_the_load() -> None:
+    example = examples()["xue-line-contact-isothermal"]
+    output, path = "hertz.max_pressure_mpa", "contact.line_load_n_per_mm"
+    line, _ = sensitivities(example.endpoint, example.request, outputs=[output], inputs=[path])
+    assert line["elasticity"] == pytest.approx(0.5, abs=1e-3)
+    assert line["kink"] is False
+
+
+def test_pumping_power_at_low_speed_goes_with_the_cube_of_speed() -> None:
+    example = examples()["milian-table-1-incompressible"]
+    output, path = "total.pumping_power_w", "operation.pinion_speed_rpm"
+    line, _ = sensitivities(example.endpoint, example.request, outputs=[output], inputs=[path])
+    assert line["elasticity"] == pytest.approx(3.0, abs=1e-3)
+
+
+def test_every_number_is_moved_sorted_by_influence() -> None:
+    *lines, end = sensitivities(COUPLING.endpoint, COUPLING.request)
+    outputs = [each["path"] for each in end["outputs"]]
+    assert [line["output"] for line in lines] == [output for output in outputs for _ in end["inputs"]]
+    for output in outputs:
+        changes = [abs(line["change"] or 0.0) for line in lines if line["output"] == output]
+        assert changes == sorted(changes, reverse=True)
+        assert changes[0] > 0.0
+    moved = {each["path"] for each in end["inputs"]}
+    given = BY_PATH[COUPLING.endpoint].request.model_validate(COUPLING.request)
+    numbers = [leaf for leaf in leaves(type(given)) if leaf.kind in {"number", "integer"} and leaf.is_scalar]
+    assert {leaf.path for leaf in numbers if leaf.advanced} & moved == set()
+    assert {
+        "coupling.teeth",
+        "operation.torque_n_m",
+        "lubricant.viscosity_pa_s",
+        "coupling.tooth_stiffness_n_per_um",
+    } <= moved
+    assert list(lines[0]) == ["type", "output", "path", "derivative", "elasticity", "step", "change", "kink"]
+    assert end["points"] == 1 + 2 * len(moved) - sum(line["kink"] is None for line in lines[: len(moved)])
+    assert end["status"] == "ok"
+
+
+def test_places_of_lists_are_moved() -> None:
+    example = examples()["milian-case-1-groove"]
+    body = {"endpoint": example.endpoint, "request": example.request}
+    study = plan_sensitivity(json.dumps(body).encode(), 2500, 30.0)
+    paths = [each.leaf.path for each in study.probes]
+    count = len(example.request["grooves"])
+    assert [path for path in paths if path.startswith("grooves")] == [
+        f"grooves.{place}.{name}" for name in ("position_mm", "width_mm") for place in range(count)
+    ]
+
+
+def leaf(**changes: Any) -> Leaf:
+    found = leaf_at(BY_PATH["/v1/coupling"].request, "friction.coefficient")
+    assert found is not None
+    plain = {"kind": "number", "unit": None, "tolerance": None, "bounds": {"ge": 0.0, "le": 50.0}}
+    return replace(found, **{**plain, **changes})
+
+
+@pytest.mark.parametrize(
+    ("changes", "value", "below", "above"),
+    [
+        ({}, 20.0, 19.8, 20.2),
+        ({"tolerance": 0.5}, 20.0, 19.5, 20.5),
+        ({"unit": "°C"}, 20.0, 19.0, 21.0),
+        ({"unit": "K"}, 20.0, 19.8, 20.2),
+        ({"unit": "°C", "tolerance": 2.0}, 20.0, 18.0, 22.0),
+        ({"kind": "integer"}, 20, 19, 21),
+        ({"kind": "integer", "bounds": {"ge": 20, "le": 50}}, 20, None, 21),
+        ({}, 0.0, None, 0.5),
+        ({"bounds": {"ge": -50.0, "le": 50.0}}, 0.0, -1.0, 1.0),
+        ({"bounds": {"gt": 0.0, "le": 50.0}, "tolerance": 1.0}, 1.0, None, 2.0),
+        ({}, 50.0, 49.5, None),
+        ({"bounds": {"ge": -50.0, "le": 50.0}}, -20.0, -20.2, -19.8),
+    ],
+)
+def test_steps(changes: dict[str, Any], value: float, below: float | None, above: float | None) -> None:
+    found = probe(leaf(**changes), value)
+    assert found is not None
+    assert [found.below, found.above] == [
+        pytest.approx(below) if below else below,
+        pytest.approx(above) if above else above,
+    ]
+    assert all(isinstance(place, type(value)) for place in (found.below, found.above) if place is not None)
+
+
+def test_a_field_with_one_value_only_is_not_moved() -> None:
+    assert probe(leaf(bounds={"ge": 3.0, "le": 3.0}), 3.0) is None
+    assert probe(leaf(bounds={"ge": 0.0, "le": 0.0}), 0.0) is None
+
+
+def differences(
+    base: float | None, below: float | None, above: float | None, value: float = 10.0, **changes: Any
+) -> Differences:
+    moved = probe(leaf(**{"tolerance": 1.0, **changes}), value)
+    assert moved is not None
+    return Differences(moved, base, below, above)
+
+
+@pytest.mark.parametrize(
+    ("values", "derivative", "elasticity", "change", "kink"),
+    [
+        ((100.0, 90.0, 110.0), 10.0, 1.0, 10.0, False),
+        ((100.0, 100.0, 110.0), 5.0, 0.5, 10.0, True),
+        ((100.0, 105.0, 105.0), 0.0, 0.0, -5.0, True),  # the bottom of a valley counts
+        ((100.0, 90.0, 110.5), 10.25, 1.025, 10.5, False),
+        ((100.0, 90.0, 112.0), 11.0, 1.1, 12.0, True),
+        ((100.0, None, 110.0), 10.0, 1.0, 10.0, None),
+        ((100.0, 90.0, None), 10.0, 1.0, 10.0, None),
+        ((100.0, None, None), None, None, None, None),
+        ((None, 90.0, 110.0), None, None, None, None),
+        ((0.0, -1.0, 1.0), 1.0, None, 1.0, False),
+        ((100.0, 100.0, 100.0 + 1e-6), 5e-7, 5e-8, 1e-6, False),  # what an iteration leaves is no kink
+    ],
+)
+def test_differences(
+    values: tuple[float | None, float | None, float | None],
+    derivative: float | None,
+    elasticity: float | None,
+    change: float | None,
+    kink: bool | None,
+) -> None:
+    found = differences(*values)
+    for got, expected in zip(
+        (found.derivative, found.elasticity, found.change), (derivative, elasticity, change), strict=True
+    ):
+        assert got is None if expected is None else got == pytest.approx(expected, rel=1e-6, abs=1e-12)
+    assert found.kink is kink
+
+
+def test_no_elasticity_at_zero_and_for_degrees() -> None:
+    assert differences(100.0, None, 110.0, value=0.0).elasticity is None
+    assert differences(100.0, 90.0, 110.0, unit="°C").elasticity is None
+    assert differences(0.0, -1.0, 1.0).elasticity is None
+
+
+def test_a_change_of_regime_is_a_kink() -> None:
+    """Without misalignment one side ends; where pressure has its least value over the helix slope, both rise."""
+    example = examples()["xue-pair-1"]
+    line, end = sensitivities(
+        example.endpoint,
+        example.request,
+        outputs=["load.face_load_factor"],
+        inputs=["modifications.helix_slope_um"],
+    )
+    assert next(each["value"] for each in end["inputs"]) == 0.0
+    assert line["elasticity"] is None
+    assert line["kink"] is True
+    assert line["change"] > 0.0 or line["change"] < 0.0

@@ -1,0 +1,90 @@
+"""A stream says how it goes on and how it ended."""
+
+import asyncio
+from collections.abc import AsyncGenerator
+
+import pytest
+
+from app.studies import stream
+from app.studies.engine import PoolLost
+from app.studies.stream import Clock, Line, guarded
+
+
+def lines_of(*steps: float | Exception) -> list[Line]:
+    """What a study sends that waits these times between its lines, or breaks."""
+    closed = []
+
+    async def study() -> AsyncGenerator[list[Line], None]:
+        try:
+            for place, step in enumerate(steps):
+                if isinstance(step, Exception):
+                    raise step
+                await asyncio.sleep(step)
+                yield [{"type": "point", "index": place}]
+        finally:
+            closed.append(True)
+
+    async def run() -> list[Line]:
+        found: list[Line] = []
+        async for group in guarded(study(), Clock(len(steps)), 0.5):
+            found += group
+        return found
+
+    found = asyncio.run(run())
+    assert closed == [True]
+    return found
+
+
+def test_progress_while_nothing_comes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(stream, "PROGRESS_SECONDS", 0.05)
+    kinds = [line["type"] for line in lines_of(0.0, 0.13, 0.0)]
+    assert kinds[0] == "point"
+    assert set(kinds[1:-2]) == {"progress"}
+    assert kinds[-2:] == ["point", "point"]
+
+
+def test_no_progress_while_points_come() -> None:
+    assert [line["type"] for line in lines_of(*[0.01] * 5)] == ["point"] * 5
+
+
+def test_the_deadline_ends_a_study() -> None:
+    *_, last = lines_of(0.0, 5.0)
+    assert (last["type"], last["code"]) == ("error", "study_deadline")
+
+
+def test_the_deadline_ends_a_study_that_sends_without_end() -> None:
+    *points, last = lines_of(*[0.01] * 1000)
+    assert (last["type"], last["code"]) == ("error", "study_deadline")
+    assert 0 < len(points) < 100
+
+
+@pytest.mark.parametrize(
+    ("error", "code"), [(PoolLost("gone"), "scheduler_lost"), (RuntimeError("secret"), "internal_error")]
+)
+def test_a_study_that_breaks_says_so(error: Exception, code: str) -> None:
+    point, last = lines_of(0.0, error, 0.0)
+    assert point["type"] == "point"
+    assert (last["type"], last["code"], last["done"]) == ("error", code, 0)
+    assert "secret" not in last["message"]
+
+
+def test_leaving_closes_the_study() -> None:
+    closed = []
+
+    async def study() -> AsyncGenerator[list[Line], None]:
+        try:
+            yield []
+            await asyncio.sleep(60)
+        finally:
+            closed.append(True)
+
+    async def run() -> None:
+        lines = guarded(study(), Clock(2), 60)
+        waiting = asyncio.ensure_future(anext(lines, None))
+        await asyncio.sleep(0.02)
+        waiting.cancel()
+        await asyncio.wait({waiting})
+        await lines.aclose()
+
+    asyncio.run(run())
+    assert closed == [True]

@@ -1,0 +1,231 @@
+"""What a sweep says: header, points, ranges, statistics, the best point; as lines and as a table."""
+
+import asyncio
+import csv
+import io
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.stats import spearmanr
+
+from app.contract.fields import Leaf
+from app.library import examples
+from app.studies.lines import StudyBroke, Table, encoded, json_line
+from app.studies.plan import Plan, PlannedAxis
+from app.studies.points import Point
+from app.studies.requests import Best
+from app.studies.stream import Clock, guarded
+from app.studies.summary import Summary, statistics
+from app.studies.sweep import plan_sweep
+from tests.pools import InlinePool
+
+COUPLING = examples()["pahl-axial-displacement"]
+THRUST = "axial_thrust.force_n"
+FILM = "lubrication.load_capacity_coefficient"
+
+
+def swept(slots: int = 1, **parts: Any) -> list[dict[str, Any]]:
+    """The lines of a sweep over a coupling."""
+    study = plan_sweep(
+        json.dumps({"endpoint": COUPLING.endpoint, "request": COUPLING.request, **parts}).encode(), 2500, 30.0
+    )
+
+    async def run() -> bytes:
+        clock = Clock(study.total)
+        lines = guarded(study.lines(InlinePool(slots), clock), clock, 600)
+        return b"".join([piece async for piece in encoded(lines, json_line)])
+
+    return [json.loads(line) for line in asyncio.run(run()).splitlines()]
+
+
+GRID = [
+    {"path": "operation.misalignment_deg", "values": [0.02, 0.05, 0.08]},
+    {"path": "friction.coefficient", "start": 0.1, "stop": 0.2, "count": 3},
+]
+
+
+def test_lines_of_a_grid() -> None:
+    header, *points, end = swept(vary=GRID, outputs=[THRUST, FILM, "lubrication.regime.area"])
+    assert list(header) == ["type", "endpoint", "axes", "outputs", "total", "model_version", "case"]
+    assert header["axes"][0] == {**GRID[0], "unit": "°"}
+    assert header["axes"][1]["values"] == pytest.approx([0.1, 0.15, 0.2])
+    assert header["outputs"][0] == {"path": THRUST, "unit": "N", "title": "axial thrust"}
+    assert header["total"] == 9
+    assert [point["index"] for point in points] == list(range(9))
+    assert points[4]["at"] == [0.05, pytest.approx(0.15)]
+    assert [list(point) for point in points] == [["type", "index", "at", "status", "out", "warnings"]] * 9
+    assert (end["points"], end["counts"]) == (9, {"ok": 9})
+    thrust = [point["out"][0] for point in points]
+    low, high = int(np.argmin(thrust)), int(np.argmax(thrust))
+    assert end["ranges"][THRUST] == {"min": [thrust[low], low], "max": [thrust[high], high]}
+    assert set(end["ranges"]) == {THRUST, FILM}
+    assert end["quantiles"] is end["rank_correlation"] is end["best"] is None
+    assert "friction.static_coefficient" not in {each["field"] for each in end["assumptions"]}
+
+
+def test_headline_numbers_by_default() -> None:
+    header, *_ = swept(cases=[{}])
+    assert [each["path"] for each in header["outputs"]] == [
+        THRUST,
+        FILM,
+        "kinematics.max_sliding_velocity_m_per_s",
+    ]
+    assert header["axes"] == []
+
+
+def test_equal_lines_on_any_number_of_processes() -> None:
+    first, *others = (
+        [{key: value for key, value in line.items() if key != "elapsed_s"} for line in swept(slots, vary=GRID)]
+        for slots in (1, 2, 5)
+    )
+    assert all(other == first for other in others)
+
+
+def test_cases_say_what_they_change() -> None:
+    cases: list[dict[str, Any]] = [{"operation.torque_n_m": 4500, "friction.coefficient": None}, {}]
+    _, first, second, _ = swept(cases=cases, outputs=[THRUST])
+    assert [first["at"], second["at"]] == cases
+    assert first["out"] != second["out"]
+
+
+def test_refused_points_are_lines_and_left_out_of_everything() -> None:
+    torques = {"path": "operation.torque_n_m", "values": [1e-20, 3000, 6000]}
+    _, refused, *points, end = swept(vary=[torques], outputs=[THRUST], best={"minimise": THRUST})
+    assert refused["status"] == "refused"
+    assert refused["out"] == [None]
+    assert (refused["error"]["pointer"], refused["error"]["code"]) == ("/operation/torque_n_m", "out_of_range")
+    assert end["counts"] == {"ok": 2, "refused": 1}
+    assert end["ranges"][THRUST]["min"] == [points[0]["out"][0], 1]
+    assert end["best"] == {"index": 1, "at": [3000], "out": points[0]["out"]}
+
+
+def test_an_assumed_value_that_differs_between_points_is_null() -> None:
+    *_, end = swept(vary=[{"path": "coupling.module_mm", "values": [3, 3.5]}])
+    *_, single = swept(cases=[{}])
+    values = {each["field"]: each["value"] for each in end["assumptions"]}
+    assert set(values) == {each["field"] for each in single["assumptions"]}
+    assert values["model.simple_thrust_factor" if "model.simple_thrust_factor" in values else "model.inlet"] is not None
+
+
+def summary(rows: list[list[Any]], **best: Any) -> dict[str, Any]:
+    """The end of a sweep along one axis with these outputs x, y, z."""
+    plan = Plan([PlannedAxis("a", (), [10 * index for index in range(len(rows))])], len(rows))
+    gathered = Summary(plan, ["x", "y", "z"], Best.model_validate(best) if best else None)
+    for row in rows:
+        gathered.add(Point("ok", row, []))
+    line: dict[str, Any] = json.loads(json_line(gathered.line({}, 0.0)))
+    return line
+
+
+ROWS = [[3.0, 1, None], [1.0, 5, "word"], [2.0, 2, True], [None, 0, False], [1.0, 3, None]]
+
+
+@pytest.mark.parametrize(
+    ("best", "index"),
+    [
+        ({"minimise": "x"}, 1),  # of two equal ones the first
+        ({"maximise": "x"}, 0),
+        ({"minimise": "x", "where": [{"output": "y", "max": 4}]}, 4),
+        ({"minimise": "x", "where": [{"output": "y", "min": 1, "max": 2}]}, 2),
+        ({"maximise": "x", "where": [{"output": "z", "min": 1}]}, 2),
+        ({"minimise": "y"}, 3),
+        ({"minimise": "y", "where": [{"output": "x"}]}, 0),
+        ({"minimise": "x", "where": [{"output": "y", "min": 6}]}, None),
+    ],
+)
+def test_best_point(best: dict[str, Any], index: int | None) -> None:
+    found = summary(ROWS, **best)["best"]
+    assert found == (None if index is None else {"index": index, "at": [10 * index], "out": ROWS[index]})
+
+
+def test_ranges_leave_null_and_words_out() -> None:
+    assert summary(ROWS)["ranges"] == {
+        "x": {"min": [1.0, 1], "max": [3.0, 0]},
+        "y": {"min": [0, 3], "max": [5, 1]},
+        "z": {"min": [False, 3], "max": [True, 2]},
+    }
+    assert summary([[1.0, None, "word"]])["ranges"] == {"x": {"min": [1.0, 0], "max": [1.0, 0]}}
+
+
+def test_statistics_of_a_sample() -> None:
+    ranges = [
+        {"path": "operation.misalignment_deg", "min": 0.03, "max": 0.08},
+        {"path": "friction.coefficient", "min": 0.1, "max": 0.2},
+        {"path": "lubricant.viscosity_pa_s", "min": 0.02, "max": 0.021},
+    ]
+    header, *points, end = swept(sample={"count": 40, "ranges": ranges}, outputs=[THRUST, "lubrication.regime.area"])
+    assert [axis["values"] for axis in header["axes"]] == [None] * 3
+    at, thrust = np.array([point["at"] for point in points]), np.array([point["out"][0] for point in points])
+    assert set(end["quantiles"]) == set(end["rank_correlation"]) == {THRUST}
+    assert end["quantiles"][THRUST] == np.quantile(thrust, [0.05, 0.5, 0.95]).tolist()
+    for place, each in enumerate(ranges):
+        expected = spearmanr(at[:, place], thrust).statistic
+        assert end["rank_correlation"][THRUST][each["path"]] == pytest.approx(expected, abs=1e-15)
+    assert end["rank_correlation"][THRUST]["operation.misalignment_deg"] < -0.5
+    assert end["rank_correlation"][THRUST]["friction.coefficient"] > 0.3
+
+
+def test_statistics_by_hand() -> None:
+    nan = float("nan")
+    inputs = np.array([[1.0, 7.0], [2.0, 7.0], [3.0, 7.0], [4.0, 7.0], [5.0, 7.0]])
+    outputs = np.array(
+        [[1.0, nan, 2.0, 5.0], [8.0, nan, nan, 5.0], [27.0, nan, nan, 5.0], [64.0, nan, nan, 5.0], [nan, nan, 3.0, 5.0]]
+    )
+    found = statistics(inputs, outputs, ["a", "b"], ["rises", "nothing", "two", "constant"])
+    assert found["quantiles"]["rises"] == pytest.approx([1 + 0.15 * 7, 17.5, 64 - 0.15 * 37])
+    assert found["rank_correlation"] == {
+        "rises": {"a": pytest.approx(1.0), "b": None},
+        "two": {"a": None, "b": None},
+        "constant": {"a": None, "b": None},
+    }
+    assert set(found["quantiles"]) == {"rises", "two", "constant"}
+
+
+def table_of(
+    lines: list[dict[str, Any]], plan: Plan, varied: tuple[Leaf, ...], outputs: tuple[Leaf, ...]
+) -> list[list[str]]:
+    table = Table(plan, varied, outputs)
+    text = b"".join(map(table.encode, lines)).decode()
+    return list(csv.reader(io.StringIO(text)))
+
+
+def test_table() -> None:
+    body = {"endpoint": COUPLING.endpoint, "request": COUPLING.request, "outputs": [THRUST, "lubrication.regime.area"]}
+    cases: list[dict[str, Any]] = [
+        {"operation.torque_n_m": 4500},
+        {"model.sleeve": "floating", "operation.torque_n_m": None},
+    ]
+    study = plan_sweep(json.dumps({**body, "cases": cases[:1]}).encode(), 10, 30.0)
+    plan = Plan([], 2, cases=cases)
+    _, point, end = swept(cases=cases[:1], outputs=body["outputs"])
+    refused = {**point, "index": 1, "status": "refused", "out": [None, "=1+1"], "warnings": ["a", "b"]}
+    refused["error"] = {"pointer": "/x", "code": "some_code", "message": 'says "no", twice'}
+    lines = [{"type": "sweep"}, point, {"type": "progress"}, refused, end]
+    assert table_of(lines, plan, study.varied, study.outputs.leaves) == [
+        [
+            "index",
+            "operation.torque_n_m [N m]",
+            "status",
+            f"{THRUST} [N]",
+            "lubrication.regime.area",
+            "warnings",
+            "error",
+        ],
+        ["0", "4500", "ok", repr(point["out"][0]), point["out"][1], "", ""],
+        ["1", "", "refused", "", "'=1+1", "a b", 'some_code: says "no", twice'],
+    ]
+
+
+@pytest.mark.parametrize("text", ["=cmd()", "+1", "-1", "@sum", "\tx", "\rx"])
+def test_words_that_a_spreadsheet_would_compute_are_quoted(text: str) -> None:
+    table = Table(Plan([], 1, cases=[{}]), (), ())
+    line = {"type": "point", "index": 0, "status": "ok", "out": [text, -1.5, True, None], "warnings": []}
+    (cells,) = csv.reader(io.StringIO(table.encode(line).decode(), newline=""))
+    assert cells[2:6] == [f"'{text}", "-1.5", "true", ""]
+
+
+def test_a_broken_table_is_cut_off() -> None:
+    with pytest.raises(StudyBroke):
+        Table(Plan([], 1, cases=[{}]), (), ()).encode({"type": "error", "message": "gone"})
