@@ -8,17 +8,19 @@ from app.figures.declaration import Declaration
 from app.figures.registry import FIGURES
 from app.requests.common import Request
 from app.requests.coupling import CouplingRequest, RecommendationRequest, SleeveOrbitRequest
+from app.requests.drive_train import DriveTrainRequest
 from app.requests.line_contact import LineContactRequest
 from app.requests.load_distribution import LoadDistributionRequest
 from app.requests.pumping import ChokingSpeedRequest, PumpingRequest
 from app.requests.scuffing import ScuffingRequest
 from app.responses.common import Response
 from app.responses.coupling import CouplingResponse, RecommendationResponse, SleeveOrbitResponse
+from app.responses.drive_train import DriveTrainResponse
 from app.responses.line_contact import LineContactResponse
 from app.responses.load_distribution import LoadDistributionResponse
 from app.responses.pumping import ChokingSpeedResponse, PumpingResponse
 from app.responses.scuffing import ScuffingResponse
-from solvers import coupling, pumping, scuffing
+from solvers import coupling, drive_train, pumping, scuffing
 from solvers.contact import ehl
 
 
@@ -112,6 +114,15 @@ CALCULATIONS = (
         request=LineContactRequest,
         solve=ehl.solve,
         response=LineContactResponse,
+    ),
+    Calculation(
+        path="/v1/drive-train",
+        title="Drive train",
+        summary="A gear unit whole: couplings, shafts in bearings, pumped heat, load along the face and scuffing",
+        source="own derivation on Pahl 1978, Milian 2004 and Xue 2020",
+        request=DriveTrainRequest,
+        solve=drive_train.solve,
+        response=DriveTrainResponse,
     ),
 )
 

@@ -66,15 +66,23 @@ def _notice(request: Request, warning: notices.Notice) -> Notice:
 def _assumptions(
     section: Section, unused: frozenset[str], derived: dict[str, Any], prefix: str = ""
 ) -> Iterator[dict[str, Any]]:
-    """The defaults marked as ours that the result rests on, with the value used where `derived` tells it."""
+    """The defaults marked as ours that the result rests on, with the value used where `derived` tells it.
+
+    `derived` holds such values under their names, or in groups and lists of the sections' own names.
+    """
     for name, reason in _reasons(type(section)).items():
         path, value = prefix + name, getattr(section, name)
         if path in unused:
             continue
         if isinstance(value, Section):
-            yield from _assumptions(value, unused, derived, f"{path}.")
+            yield from _assumptions(value, unused, derived.get(name, derived), f"{path}.")
+        elif isinstance(value, list) and group_of(type(section).model_fields[name].annotation):
+            known = derived.get(name) or [{}] * len(value)
+            for index, (item, own) in enumerate(zip(value, known, strict=True)):
+                yield from _assumptions(item, unused, own, f"{path}.{index}.")
         elif reason and (value is None or name not in section.model_fields_set):
-            yield {"field": path, "value": derived.get(name, value), "reason": reason}
+            used = derived.get(name, value)
+            yield {"field": path, "value": section.stands_for_null(name) if used is None else used, "reason": reason}
 
 
 def _model_assumptions(request: Request) -> Iterator[dict[str, Any]]:

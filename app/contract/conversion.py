@@ -74,7 +74,9 @@ def from_si(group: type[Documented], result: Any, detail: Detail, skip: frozense
     for field in _fields(group):
         if field.level <= level and field.name not in skip:
             value, unit = getattr(result, field.si_name), field.unit
-            if field.group is not None and value is not None:
+            if field.group is not None and isinstance(value, tuple | list):
+                content[field.name] = [from_si(field.group, item, detail) for item in value]
+            elif field.group is not None and value is not None:
                 content[field.name] = from_si(field.group, value, detail)
             else:
                 content[field.name] = value if unit is None and type(value) is float else _displayed(value, unit)

@@ -72,13 +72,12 @@ class Input:
                 return core_schema.no_info_before_validator_function(_number, number)
             case "bool":
                 return core_schema.bool_schema(strict=True)
-            case "nullable":
-                return core_schema.nullable_schema(self._strict(schema["schema"]))
-            case "list":
-                items: Any = {**schema, "items_schema": self._strict(schema["items_schema"])}
-                return items  # type: ignore[no-any-return]
+            case "union":
+                return core_schema.union_schema([self._strict(choice) for choice in _kinds(schema["choices"])])
             case _:
-                return schema
+                within = ("items_schema", "schema", "json_schema_input_schema")
+                parts = {name: self._strict(part) for name in within if (part := schema.get(name))}
+                return {**schema, **parts}
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,6 +134,11 @@ class Output:
         return _documented(handler(schema), self)
 
 
+def _kinds(choices: list[Any]) -> list[CoreSchema]:
+    """The kinds of a union, without the names that may stand beside them."""
+    return [choice[0] if isinstance(choice, tuple) else choice for choice in choices]
+
+
 def _number(value: object) -> object:
     """Let numbers pass; text and booleans are none, whatever Python thinks."""
     if isinstance(value, (bool, str)):
@@ -153,10 +157,12 @@ class Documented(BaseModel):
 
     `exclusive` lists groups of fields of which at most one is given. `member_unit` is the unit of the fields whose own
     names carry none: a group `mass_flow_g_per_s` says it once for its members.
+    `solver_names` are the parts of dotted names that the solver spells otherwise, with the fields' spelling.
     """
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
     member_unit: ClassVar[Unit | None] = None
+    solver_names: ClassVar[dict[str, str]] = {}
 
     @classmethod
     def unit_of(cls, name: str) -> Unit | None:
@@ -169,7 +175,8 @@ class Documented(BaseModel):
         document = handler(schema)
         definition = handler.resolve_ref_schema(document)
         for name, field in definition.get("properties", {}).items():
-            if (unit := cls.unit_of(name)) is not None:
+            unit = cls.unit_of(name) or getattr(cls.model_fields[name].annotation, "member_unit", None)
+            if unit is not None:
                 field["x-unit"] = unit.symbol
         if cls.exclusive:
             definition["x-exclusive"] = [list(group) for group in cls.exclusive]

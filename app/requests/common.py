@@ -15,6 +15,10 @@ class Section(Documented):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
+    def stands_for_null(self, _name: str) -> Any:
+        """What a field that was left null stands for, where the section itself knows it."""
+        return None
+
 
 class Request(Section):
     """The body of a calculation."""

@@ -273,4 +273,4 @@ class CouplingLubricant(SheetOil):
     def unused_defaults(self, section: str) -> frozenset[str]:
         """What this way of giving the oil leaves out of a result."""
         own = "viscosity_pa_s" if self.by_sheet else "temperature_c"
-        return self.unused_sheet_defaults(section) | {f"{section}.{own}", f"{section}.density_15_kg_per_m3"}
+        return self.unused_sheet_defaults(section) | {f"{section}.{own}"}

@@ -154,6 +154,11 @@ class LoadDistributionModel(Section):
         si.Resolution().feature_points
     )
 
+    def mesh_model(self) -> si.Model:
+        """The solver's choices."""
+        fields = to_si(self)
+        return si.Model(**{name: fields[name] for name in si.Model.__dataclass_fields__})
+
 
 class LoadDistributionRequest(Request):
     """A loaded, modified, misaligned gear pair."""
@@ -186,8 +191,6 @@ class LoadDistributionRequest(Request):
 
     def distribution(self) -> si.LoadDistributionInputs:
         """The solver's inputs of the load distribution."""
-        model = to_si(self.model)
-        options = {name: model[name] for name in si.Model.__dataclass_fields__}
         return si.LoadDistributionInputs(
             gears=self.gears.pair(self.gears.rack_tip_radius),
             load=self.load.load(),
@@ -195,7 +198,7 @@ class LoadDistributionRequest(Request):
             pinion_material=self.materials.pinion.solid(),
             wheel_material=self.materials.wheel.solid(),
             friction_coefficient=self.friction_coefficient,
-            model=si.Model(**options),
+            model=self.model.mesh_model(),
             resolution=si.Resolution(feature_points=self.model.feature_points),
         )
 

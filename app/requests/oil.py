@@ -10,7 +10,7 @@ from app.contract.quantities import Input
 from app.requests.common import Section
 from app.requests.materials import TABLE, XUE
 from solvers.lubricants import Lubricant, PressureViscosityLaw
-from solvers.oils import OilKind, OilSheet, iso_vg
+from solvers.oils import SQUARE_MILLIMETRE, OilKind, OilSheet, iso_vg
 
 IsoGrade = Literal[32, 46, 68, 100, 150, 220, 320, 460, 680]
 
@@ -69,6 +69,12 @@ class SheetOil(Section):
                 "two_viscosities", "give both kinematic_viscosity_40_mm2_per_s and kinematic_viscosity_100_mm2_per_s"
             )
         return self
+
+    def stands_for_null(self, name: str) -> Any:
+        """The typical viscosity of a grade, the density of a kind of oil."""
+        if name == "kinematic_viscosity_100_mm2_per_s" and self.iso_vg is not None:
+            return iso_vg(self.iso_vg).kinematic_viscosity_100 / SQUARE_MILLIMETRE
+        return self.sheet().reference_density if name == "density_15_kg_per_m3" and self.by_sheet else None
 
     def sheet(self, **known: Any) -> OilSheet:
         """The solver's oil; `known` is what a user says beyond viscosity and density."""

@@ -38,7 +38,7 @@ class CouplingLubrication(Group):
             "normal force in the tilt position",
             "F_n",
             PAHL,
-            text="normal force of a tooth in the tilt position, or largest with pitch errors",
+            text="normal force of a tooth where the displacement f_t peaks, or largest with pitch errors",
         ),
     ]
     hertz_half_width_mm: Annotated[float, Output("half width of the Hertzian contact", "a_HZ", FIG_7)]

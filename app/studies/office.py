@@ -1,16 +1,19 @@
 """Admits studies: a few at once, on the service's own workers or on a cluster."""
 
 import asyncio
+import logging
 from collections.abc import AsyncIterator, Iterator
 from contextlib import asynccontextmanager, contextmanager
 from typing import Protocol
 
 from app.metrics import STUDIES
-from app.problems import StudiesFull
+from app.problems import SchedulerUnavailable, StudiesFull
 from app.settings import Settings
 from app.studies.engine import Pool
 from app.workers.patient import PatientPool
 from app.workers.pool import Pool as WorkerPool
+
+logger = logging.getLogger("tribodrive")
 
 
 class Cluster(Protocol):
@@ -60,9 +63,19 @@ class Office:
 
     @asynccontextmanager
     async def open(self) -> AsyncIterator[None]:
-        """Studies are admitted while the context is open; afterwards the cluster is left."""
+        """A cluster is prepared from the beginning, so that the first study need not wait; afterwards it is left."""
+        if self._cluster is None:
+            yield
+            return
+        preparation = asyncio.create_task(self._prepare(self._cluster))
         try:
             yield
         finally:
-            if self._cluster is not None:
-                await asyncio.to_thread(self._cluster.close)
+            preparation.cancel()
+            await asyncio.to_thread(self._cluster.close)
+
+    async def _prepare(self, cluster: Cluster) -> None:
+        try:
+            await cluster.ready()
+        except SchedulerUnavailable as error:
+            logger.warning("%s; the next study tries again", error.detail)

@@ -101,7 +101,7 @@ def _bearing(state: BearingState) -> BearingResult:
         displacement=_pair(state.displacement),
         eccentricity_ratio=state.eccentricity_ratio,
         attitude=state.attitude,
-        minimum_film=state.minimum_film,
+        min_film=state.minimum_film,
         specific_pressure=state.specific_pressure,
         friction_power=state.friction_power,
     )

@@ -7,6 +7,7 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.drive_train.balance import Equilibrium, LoadedMesh, equilibrium
 from solvers.drive_train.checks import check_inputs
+from solvers.drive_train.derived import derived
 from solvers.drive_train.elements import coupling_results, hubs_of, shaft_results, warnings_of
 from solvers.drive_train.influence import Unit, unit
 from solvers.drive_train.inputs import DriveTrainInputs
@@ -108,6 +109,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
         convergence=Convergence(found.iterations, found.residual),
         mesh=spread,
         contact_temperature=frozen(heat.temperature),
+        derived=derived(inputs, spread),
         warnings=(
             *spread.warnings,
             *gas.warnings,
@@ -129,7 +131,7 @@ def face_load(spread: LoadDistribution) -> FaceLoad:
         max_line_load=spread.load.max_line_load,
         max_pressure=spread.pressure.max,
         contact_fraction=spread.load.contact_fraction,
-        transmission_error_peak_to_peak=spread.transmission_error.peak_to_peak,
+        transmission_error_pp=spread.transmission_error.peak_to_peak,
     )
 
 

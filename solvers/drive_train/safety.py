@@ -52,14 +52,15 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: Therma
         hottest.append(found if defined else None)
         unsolved += missing
         warnings += notices
+    place = _place(mesh, flank, worst) if defined and on_flank.max() > 0.0 else None
     return FlankHeat(
         temperature=warm_flank,
         flash=FlashPlaces(
             feature=float(on_feature.max()) if defined else None,
             flank=float(on_flank.max()) if defined else None,
-            flank_at=_place(mesh, flank, worst) if defined and on_flank.max() > 0.0 else None,
+            flank_at=place,
         ),
-        safety=_safety(inputs, hottest),
+        safety=_safety(inputs, hottest, place),
         unsolved_points=unsolved,
         warnings=tuple({notice.code: notice for notice in warnings}.values()),
     )
@@ -114,7 +115,7 @@ def _thermal(
     return None if missing else largest, missing, path.warnings
 
 
-def _safety(inputs: DriveTrainInputs, hottest: list[float | None]) -> TrainSafety | None:
+def _safety(inputs: DriveTrainInputs, hottest: list[float | None], worst: Place | None) -> TrainSafety | None:
     temperatures = inputs.mesh.temperatures
     if temperatures.scuffing is None:
         return None
@@ -122,4 +123,5 @@ def _safety(inputs: DriveTrainInputs, hottest: list[float | None]) -> TrainSafet
     factors = [None if contact is None else safety_factor(limit, oil, contact) for contact in hottest]
     known = [factor for factor in factors if factor is not None]
     feature, profile = factors[2:] if len(factors) > 2 else (None, None)
-    return TrainSafety(factors[0], factors[1], feature, profile, min(known) if len(known) == len(factors) else None)
+    least = min(known) if len(known) == len(factors) else None
+    return TrainSafety(factors[0], factors[1], worst, feature, profile, least)

@@ -8,6 +8,11 @@ from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.pumping.nozzle import Gas
 
+# Entries of the books `mass` and `energy` of a record, of its `extremes`, columns of its `profile`.
+BEGUN, ENDED, LOW_END, HIGH_END, WALLS, IDLE, WORK = range(7)
+LARGEST_PRESSURE, SMALLEST_PRESSURE, LARGEST_MACH, LARGEST_VELOCITY, LARGEST_DEMAND = range(5)
+STATIC, STAGNATION, ACTIVE, PEAK = range(4)
+
 
 class Duct(NamedTuple):
     """A stretch of a tooth space cut into equal cells.
@@ -54,9 +59,9 @@ def empty_record(gas: Gas, angles: int, cells: int, steps: int) -> Record:
     field = np.zeros((angles, cells, 3))
     field[:, :, 0], field[:, :, 2] = gas.pressure, gas.temperature
     profile = np.zeros((cells, 4))
-    profile[:, 3] = gas.pressure
+    profile[:, PEAK] = gas.pressure
     extremes = np.array([gas.pressure, gas.pressure, 0.0, 0.0, 0.0])
-    return Record(field, profile, extremes, np.zeros(6), np.zeros(7), np.zeros((steps, 3)))
+    return Record(field, profile, extremes, np.zeros(WORK), np.zeros(WORK + 1), np.zeros((steps, 3)))
 
 
 @kernel

@@ -4,7 +4,28 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.pumping.duct import Duct, Record, stroke_end, stroke_share, wall_values
+from solvers.pumping.duct import (
+    ACTIVE,
+    BEGUN,
+    ENDED,
+    IDLE,
+    LARGEST_DEMAND,
+    LARGEST_MACH,
+    LARGEST_PRESSURE,
+    LARGEST_VELOCITY,
+    LOW_END,
+    PEAK,
+    SMALLEST_PRESSURE,
+    STAGNATION,
+    STATIC,
+    WALLS,
+    WORK,
+    Duct,
+    Record,
+    stroke_end,
+    stroke_share,
+    wall_values,
+)
 from solvers.pumping.gas_step import Cells, set_walls, step
 from solvers.pumping.nozzle import Gas
 from solvers.pumping.riemann import front_face
@@ -124,8 +145,8 @@ def _empty(duct: Duct, cells: Cells, record: Record, low: int, high: int, new_lo
     """Give the content of cells whose stroke is over back to the surroundings."""
     for i in range(low, high):
         if i < new_low or i >= new_high:
-            record.mass[1] += cells.content[i, 0] * duct.width
-            record.energy[1] += cells.content[i, 2] * duct.width
+            record.mass[ENDED] += cells.content[i, 0] * duct.width
+            record.energy[ENDED] += cells.content[i, 2] * duct.width
 
 
 @kernel
@@ -133,8 +154,8 @@ def _enter(duct: Duct, cells: Cells, record: Record, low: int, high: int, new_lo
     """Book the content of cells whose stroke begins."""
     for i in range(new_low, new_high):
         if i < low or i >= high:
-            record.mass[0] += cells.content[i, 0] * duct.width
-            record.energy[0] += cells.content[i, 2] * duct.width
+            record.mass[BEGUN] += cells.content[i, 0] * duct.width
+            record.energy[BEGUN] += cells.content[i, 2] * duct.width
 
 
 @kernel
@@ -151,15 +172,15 @@ def _book_ends(
         open_end = (low == 0) if end == 0 else (high == duct.cells)
         share = stroke_share(duct, duct.start + face * duct.width, angle, turn) if open_end else 0.0
         mass, energy = outward * cells.flux[face, 0] * dt, outward * cells.flux[face, 2] * dt
-        record.mass[2 + end] += share * mass
-        record.energy[2 + end] += share * energy
-        record.mass[5] += (1.0 - share) * mass
-        record.energy[5] += (1.0 - share) * energy
+        record.mass[LOW_END + end] += share * mass
+        record.energy[LOW_END + end] += share * energy
+        record.mass[IDLE] += (1.0 - share) * mass
+        record.energy[IDLE] += (1.0 - share) * energy
         record.ends[taken, 1 + end] = share * mass
         if share > 0.0:
-            record.extremes[2] = max(record.extremes[2], cells.ends[end, 1])
-            record.extremes[3] = max(record.extremes[3], abs(cells.ends[end, 2]))
-            record.extremes[4] = max(record.extremes[4], cells.ends[end, 0])
+            record.extremes[LARGEST_MACH] = max(record.extremes[LARGEST_MACH], cells.ends[end, 1])
+            record.extremes[LARGEST_VELOCITY] = max(record.extremes[LARGEST_VELOCITY], abs(cells.ends[end, 2]))
+            record.extremes[LARGEST_DEMAND] = max(record.extremes[LARGEST_DEMAND], cells.ends[end, 0])
 
 
 @kernel
@@ -168,20 +189,21 @@ def _book_cells(gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, hi
     old, new, content, loss = cells.state, cells.next_state, cells.content, cells.loss
     profile, extremes = record.profile, record.extremes
     for i in range(low, high):
-        record.mass[4] += loss[i, 0] * duct.width
-        record.energy[4] += loss[i, 1] * duct.width
-        record.energy[6] += loss[i, 2] * duct.width
+        record.mass[WALLS] += loss[i, 0] * duct.width
+        record.energy[WALLS] += loss[i, 1] * duct.width
+        record.energy[WORK] += loss[i, 2] * duct.width
         share = cells.share[i]
         static = 0.5 * (old[i, 2] / old[i, 0] + new[i, 2] / new[i, 0]) / gas.constant
         dynamic = 0.25 * (old[i, 1] ** 2 + new[i, 1] ** 2) / gas.heat_capacity
-        profile[i, 0] += static * dt * share
-        profile[i, 1] += (static + dynamic) * dt * share
-        profile[i, 2] += dt * share
-        profile[i, 3] = max(profile[i, 3], new[i, 2])
-        extremes[0], extremes[1] = max(extremes[0], new[i, 2]), min(extremes[1], new[i, 2])
+        profile[i, STATIC] += static * dt * share
+        profile[i, STAGNATION] += (static + dynamic) * dt * share
+        profile[i, ACTIVE] += dt * share
+        profile[i, PEAK] = max(profile[i, PEAK], new[i, 2])
+        extremes[LARGEST_PRESSURE] = max(extremes[LARGEST_PRESSURE], new[i, 2])
+        extremes[SMALLEST_PRESSURE] = min(extremes[SMALLEST_PRESSURE], new[i, 2])
         speed = abs(new[i, 1])
-        extremes[2] = max(extremes[2], speed / np.sqrt(gas.exponent * new[i, 2] / new[i, 0]))
-        extremes[3] = max(extremes[3], speed)
+        extremes[LARGEST_MACH] = max(extremes[LARGEST_MACH], speed / np.sqrt(gas.exponent * new[i, 2] / new[i, 0]))
+        extremes[LARGEST_VELOCITY] = max(extremes[LARGEST_VELOCITY], speed)
         for k in range(3):
             content[i, k], old[i, k] = cells.next_content[i, k], new[i, k]
 

@@ -63,7 +63,7 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
             *speed_notices(mesh.pair, mesh.gas, speed),
             *_flow_notices(inputs, results),
             *resolution_notices(inputs.setup.model.flow, _changes(mesh.gas, flows, halved)),
-            *net_flow_notices([result.mass_flow for result in results]),
+            *net_flow_notices(inputs.setup.model.flow, [result.mass_flow for result in results]),
             *_missing(results[0], total, correction),
         ),
     )

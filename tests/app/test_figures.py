@@ -52,6 +52,16 @@ FIGURES = {
     },
     "/v1/scuffing": {"contact-temperature", "film", "friction"},
     "/v1/scuffing/line-contact": {"contact", "film-temperature", "heat"},
+    "/v1/drive-train": {
+        "shaft-lines",
+        "gap",
+        "slope-parts",
+        "face-load",
+        "flank-load",
+        "contact-temperature",
+        "thrust",
+        "losses",
+    },
 }
 CALCULATION = {calculation.path: calculation for calculation in CALCULATIONS}
 # One ordinary case of each endpoint, drawn in the default run.
@@ -63,6 +73,7 @@ CASES = {
     "/v1/scuffing/load-distribution": "xue-pair-4-helix-slope-40",
     "/v1/scuffing": "xue-pair-1-scuffing",
     "/v1/scuffing/line-contact": "xue-line-contact",
+    "/v1/drive-train": "generator-gear-drive-train",
 }
 # Examples whose physics leaves a figure out, and why.
 WITHOUT = {

@@ -175,7 +175,9 @@ def test_pocket_chain_of_the_paper(post: Post) -> None:
     result = solved(post, name="milian-case-1-pocket-chain", detail="summary")
     assert result["pinion_spaces"]["peak_pressure_ratio"] == pytest.approx(1.878, rel=2e-3)
     assert result["pinion_spaces"]["balance"]["energy_error"] is None
-    assert [warning["code"] for warning in result["warnings"]] == ["no_energy_balance"]
+    # 0.165 g/s net of 20.5 out and 20.3 in at the front, 0.063 g/s apart for half the time steps
+    assert [warning["code"] for warning in result["warnings"]] == ["net_flow_uncertain", "no_energy_balance"]
+    assert "slices" not in result["warnings"][0]["message"]
 
 
 def test_incompressible_has_no_temperatures(post: Post) -> None:

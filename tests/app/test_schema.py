@@ -36,7 +36,8 @@ def schema_of(model: type[Documented], path: str) -> dict[str, Any]:
 
 def definition(document: dict[str, Any], field: dict[str, Any]) -> dict[str, Any]:
     """The definition behind a field that is a section, alone, optional or in a list."""
-    kinds = [field, field.get("items", {}), *field.get("anyOf", ())]
+    kinds = [field, *field.get("anyOf", ())]
+    kinds += [kind["items"] for kind in kinds if "items" in kind]
     reference = next((kind["$ref"] for kind in kinds if "$ref" in kind), None)
     return document["$defs"][reference.rpartition("/")[2]] if reference else field
 

@@ -24,7 +24,7 @@ VARIED = {
     "/v1/scuffing": "temperatures.bulk_c",
     "/v1/scuffing/line-contact": "contact.line_load_n_per_mm",
 }
-SHORT = {"/v1/scuffing": {"model.path_points": 8}}  # as good as fifty contacts, and faster
+SLOW = {"/v1/scuffing", "/v1/pumping/choking-speed"}
 LOADS = examples()["xue-pair-1-modified"]
 
 
@@ -43,10 +43,12 @@ def test_points_are_the_endpoints_own_answers(name: str) -> None:
     endpoint, request = examples()[name].endpoint, examples()[name].request
     calculation, path, outputs = BY_PATH[endpoint], VARIED[endpoint], scalars(endpoint)
     base = value_at(calculation.request.model_validate(request).model_dump(), path)
-    overrides: list[dict[str, Any]] = [{path: factor * base, **SHORT.get(endpoint, {})} for factor in (0.97, 1.03)]
+    overrides: list[dict[str, Any]] = [
+        {path: factor * base} for factor in ((0.97,) if endpoint in SLOW else (0.97, 1.03))
+    ]
     question = Question(endpoint, request, outputs, 30.0)
     found = [point for each in overrides for point in solve_chunk(question, [each]).points]
-    assert len({json.dumps(point.out) for point in found}) == 2
+    assert len({json.dumps(point.out) for point in found}) == len(overrides)
     for each, point in zip(overrides, found, strict=True):
         body = with_overrides(calculation, request, each) | {"detail": "curves"}
         single = json.loads(answer(calculation, calculation.request.model_validate(body)))
@@ -65,9 +67,10 @@ def test_what_physics_refuses_is_a_point() -> None:
     point = one({"gears.pinion.addendum": 3.0})
     assert (point.status, point.out) == ("refused", [None])
     assert point.error is not None
+    calculation = BY_PATH[LOADS.endpoint]
+    body = with_overrides(calculation, LOADS.request, {"gears.pinion.addendum": 3.0})
     with pytest.raises(Unprocessable) as caught:
-        body = with_overrides(BY_PATH[LOADS.endpoint], LOADS.request, {"gears.pinion.addendum": 3.0})
-        answer(BY_PATH[LOADS.endpoint], BY_PATH[LOADS.endpoint].request.model_validate(body))
+        answer(calculation, calculation.request.model_validate(body))
     assert point.error["code"] == caught.value.code
 
 

@@ -1,0 +1,141 @@
+"""Studies on a real Dask cluster of processes: the same lines in the same order, and what a loss costs."""
+
+import asyncio
+import json
+import subprocess
+import threading
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import httpx
+import pytest
+
+from app.library import examples
+from app.studies.stream import Clock
+from app.studies.sweep import plan_sweep
+from tests.dask_cluster import DaskProcesses, running_cluster
+from tests.pools import InlinePool
+from tests.server import free_port, running_server
+
+pytestmark = pytest.mark.service
+
+LOADS = examples()["xue-pair-1-modified"]
+COUPLING = examples()["pahl-axial-displacement"]
+PREPARED_S = 400.0  # every worker loads every kernel before its first study
+SLOPE = "modifications.helix_slope_um"
+Service = tuple[DaskProcesses, str]
+
+
+@pytest.fixture(scope="module")
+def cluster() -> Iterator[DaskProcesses]:
+    with running_cluster() as cluster:
+        yield cluster
+
+
+@pytest.fixture(scope="module")
+def service(cluster: DaskProcesses) -> Iterator[Service]:
+    with running_server(workers=1, scheduler=cluster.address, log_level="error") as (_, address):
+        yield cluster, address
+
+
+def loads(count: int) -> dict[str, Any]:
+    axis = {"path": SLOPE, "start": -20, "stop": 20, "count": count}
+    return {"endpoint": LOADS.endpoint, "request": LOADS.request, "vary": [axis], "outputs": ["pressure.max_mpa"]}
+
+
+SWEEPS: dict[str, dict[str, Any]] = {
+    "grid": loads(50),
+    "cases": {**loads(1), "vary": None, "cases": [{SLOPE: 5}, {"gears.pinion.addendum": 3.0}, {}]},
+    "sample": {
+        "endpoint": COUPLING.endpoint,
+        "request": COUPLING.request,
+        "sample": {"count": 32, "ranges": [{"path": "operation.misalignment_deg", "min": 0.02, "max": 0.08}]},
+    },
+}
+
+
+def lines(text: str) -> list[dict[str, Any]]:
+    """The lines but for those that tell the time."""
+    found = map(json.loads, text.splitlines())
+    return [{key: each[key] for key in each if key != "elapsed_s"} for each in found if each["type"] != "progress"]
+
+
+def local(body: dict[str, Any]) -> list[dict[str, Any]]:
+    """The lines of a sweep calculated in this process."""
+
+    async def run() -> list[Any]:
+        study = plan_sweep(json.dumps(body).encode(), 2500, 30.0)
+        groups = [group async for group in study.lines(InlinePool(), Clock(study.total))]
+        return [line for group in groups for line in group]
+
+    return lines("\n".join(map(json.dumps, asyncio.run(run()))))
+
+
+def sweep(address: str, body: dict[str, Any]) -> list[dict[str, Any]]:
+    response = httpx.post(f"{address}/v1/sweep", json=body, timeout=PREPARED_S)
+    assert response.status_code == 200, response.text
+    return lines(response.text)
+
+
+@pytest.mark.parametrize("kind", SWEEPS)
+def test_same_lines_in_the_same_order(service: Service, kind: str) -> None:
+    assert sweep(service[1], SWEEPS[kind]) == local(SWEEPS[kind])
+
+
+def test_a_killed_worker_costs_nothing_but_time(service: Service) -> None:
+    cluster, address = service
+    body = loads(400)
+    with httpx.stream("POST", f"{address}/v1/sweep", json=body, timeout=PREPARED_S) as response:
+        found = response.iter_lines()
+        received = [next(found) for _ in range(20)]
+        victim = cluster.workers.pop()
+        victim.kill()
+        received += found
+    assert lines("\n".join(received)) == local(body)
+    cluster.add_worker()
+    cluster.wait()
+    assert sweep(address, SWEEPS["grid"]) == local(SWEEPS["grid"])
+
+
+def test_leaving_takes_back_what_has_not_begun(service: Service) -> None:
+    _, address = service
+    with httpx.stream("POST", f"{address}/v1/sweep", json=loads(2500), timeout=PREPARED_S) as response:
+        next(response.iter_lines())
+    started = time.monotonic()
+    sweep(address, {**loads(1), "vary": None, "cases": [{}]})
+    assert time.monotonic() - started < 5.0  # two chunks that ran, not two thousand points
+
+
+def test_a_vanished_scheduler_ends_the_stream_with_an_error_line() -> None:
+    with (
+        running_cluster(1) as cluster,
+        running_server(workers=1, scheduler=cluster.address, log_level="error") as (_, address),
+    ):
+        with httpx.stream("POST", f"{address}/v1/sweep", json=loads(2500), timeout=PREPARED_S) as response:
+            found = response.iter_lines()
+            received = [next(found) for _ in range(3)]
+            kill_later(cluster.scheduler)
+            received += found
+        last = json.loads(received[-1])
+        assert (last["type"], last["code"]) == ("error", "scheduler_lost")
+        assert last["done"] == sum('"point"' in line for line in received)
+        assert httpx.post(f"{address}/v1/coupling", json=COUPLING.request, timeout=60).status_code == 200
+        assert_unavailable(address)
+
+
+def kill_later(process: subprocess.Popen[bytes]) -> None:
+    threading.Timer(0.3, process.kill).start()
+
+
+def assert_unavailable(address: str) -> None:
+    refused = httpx.post(f"{address}/v1/sweep", json=loads(2), timeout=60)
+    assert refused.status_code == 503
+    assert refused.json()["type"].endswith("scheduler_unavailable")
+    assert int(refused.headers["retry-after"]) >= 1
+
+
+def test_without_a_scheduler_studies_wait_and_single_requests_do_not() -> None:
+    with running_server(workers=1, scheduler=f"tcp://127.0.0.1:{free_port()}", log_level="error") as (_, address):
+        assert_unavailable(address)
+        assert httpx.post(f"{address}/v1/coupling", json=COUPLING.request, timeout=60).status_code == 200

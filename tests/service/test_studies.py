@@ -1,0 +1,280 @@
+"""Studies and faults: lost workers, full places, slow and leaving clients; nobody else notices."""
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from typing import Any
+from urllib.parse import urlsplit
+
+import httpx
+import pytest
+
+from app.contract.fields import leaves
+from app.library import examples
+from app.responses.coupling import CouplingResponse
+from tests.server import descendants, descriptors, memory_mb, running_server, send_signal, workers
+
+pytestmark = pytest.mark.service
+
+FAULTY = [sys.executable, "-m", "tests.service.faulty_server"]
+SWEEP = "/v1/sweep"
+LOADS = examples()["xue-pair-1-modified"]
+COUPLING = examples()["pahl-axial-displacement"]
+NUMBERS = [
+    leaf.path for leaf in leaves(CouplingResponse) if leaf.kind == "number" and leaf.is_scalar and "." in leaf.path
+]
+Server = tuple[subprocess.Popen[str], str]
+
+
+@pytest.fixture(scope="module")
+def faulty() -> Iterator[Server]:
+    with running_server(FAULTY, workers=2, queue=2, deadline_s=4, study_points=30_000, log_level="error") as server:
+        yield server
+
+
+def loads(count: int) -> dict[str, Any]:
+    """Points of some ten milliseconds."""
+    axis = {"path": "modifications.helix_slope_um", "start": -20, "stop": 20, "count": count}
+    return {"endpoint": LOADS.endpoint, "request": LOADS.request, "vary": [axis], "outputs": ["pressure.max_mpa"]}
+
+
+def couplings(count: int) -> dict[str, Any]:
+    """Points of less than a millisecond."""
+    axis = {"path": "operation.speed_rpm", "start": 100, "stop": 2000, "count": count}
+    return {
+        "endpoint": COUPLING.endpoint,
+        "request": COUPLING.request,
+        "vary": [axis],
+        "outputs": ["axial_thrust.force_n"],
+    }
+
+
+def lines_of(address: str, body: object) -> list[dict[str, Any]]:
+    response = httpx.post(address + SWEEP, json=body, timeout=120)
+    assert response.status_code == 200, response.text
+    return [json.loads(line) for line in response.text.splitlines()]
+
+
+@contextmanager
+def running_study(address: str, body: object) -> Iterator[Iterator[str]]:
+    """A study whose first point has come; leaving the context leaves the study."""
+    with httpx.stream("POST", address + SWEEP, json=body, timeout=60) as response:
+        found = response.iter_lines()
+        while '"point"' not in next(found):
+            pass
+        yield found
+
+
+def metric(address: str, name: str) -> float:
+    lines = httpx.get(f"{address}/metrics").text.splitlines()
+    return float(next(line.split()[1] for line in lines if line.startswith(f"{name} ")))
+
+
+def wait_until_free(address: str, seconds: float) -> None:
+    """No study runs, and a call takes no longer than a free worker needs."""
+    end = time.monotonic() + seconds
+    while metric(address, "tribodrive_studies"):
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def processor_seconds(pids: list[int]) -> float:
+    ticks = 0
+    for pid in pids:
+        with open(f"/proc/{pid}/stat") as file:  # noqa: PTH123
+            ticks += sum(map(int, file.read().rpartition(")")[2].split()[11:13]))
+    return ticks / os.sysconf("SC_CLK_TCK")
+
+
+def numbers(lines: list[dict[str, Any]]) -> list[Any]:
+    return [line for line in lines if line["type"] == "point"]
+
+
+def test_same_lines_from_one_worker_and_from_two(faulty: Server) -> None:
+    _, address = faulty
+    two = numbers(lines_of(address, loads(60)))
+    with running_server(workers=1, log_level="error") as (_, other):
+        assert numbers(lines_of(other, loads(60))) == two
+
+
+def test_a_killed_worker_costs_nothing_but_time(faulty: Server) -> None:
+    process, address = faulty
+    expected = numbers(lines_of(address, loads(200)))
+    with ThreadPoolExecutor(1) as pool:
+        flight = pool.submit(lines_of, address, loads(200))
+        killed = 0
+        while not flight.done() and killed < 4:
+            time.sleep(0.2)
+            for worker in workers(process)[:1]:
+                send_signal(worker, signal.SIGKILL)
+                killed += 1
+        found = flight.result()
+    assert killed >= 2
+    assert numbers(found) == expected
+    assert found[-1]["counts"] == {"ok": 200}
+
+
+def test_a_stopped_worker_is_replaced_and_the_study_goes_on(faulty: Server) -> None:
+    process, address = faulty
+    with ThreadPoolExecutor(1) as pool:
+        flight = pool.submit(lines_of, address, loads(200))
+        time.sleep(0.5)
+        send_signal(workers(process)[0], signal.SIGSTOP)
+        assert flight.result()[-1]["counts"] == {"ok": 200}
+
+
+def test_a_third_study_waits_outside(faulty: Server) -> None:
+    _, address = faulty
+    with running_study(address, loads(5000)), running_study(address, loads(5000)):
+        refused = httpx.post(address + SWEEP, json=loads(2))
+        assert refused.status_code == 503
+        assert refused.json()["type"].endswith("studies_full")
+        assert int(refused.headers["retry-after"]) >= 1
+        assert httpx.post(address + "/v1/coupling", json=COUPLING.request, timeout=20).status_code == 200
+    wait_until_free(address, 1.0)
+    assert lines_of(address, loads(2))[-1]["type"] == "end"
+
+
+def test_a_full_queue_refuses_a_study_before_its_first_line(faulty: Server) -> None:
+    _, address = faulty
+    with ThreadPoolExecutor(4) as pool:
+        busy = [pool.submit(httpx.post, f"{address}/sleep/1.5", timeout=20) for _ in range(4)]
+        time.sleep(0.4)
+        refused = httpx.post(address + SWEEP, json=loads(2))
+        assert refused.status_code == 503
+        assert refused.json()["type"].endswith("queue_full")
+        assert {each.result().status_code for each in busy} <= {200, 504}
+    assert metric(address, "tribodrive_studies") == 0
+
+
+def test_single_requests_come_before_chunks(faulty: Server) -> None:
+    _, address = faulty
+    with httpx.Client(base_url=address, timeout=20) as client, running_study(address, loads(5000)):
+        waits = []
+        for _ in range(20):
+            started = time.perf_counter()
+            assert client.post("/v1/coupling", json=COUPLING.request).status_code == 200
+            waits.append(time.perf_counter() - started)
+    waits.sort()
+    assert waits[10] < 1.0  # the rest of one chunk, a quarter of a second, on two loaded cores
+    wait_until_free(address, 1.0)
+
+
+def test_leaving_frees_the_workers_and_kills_none(faulty: Server) -> None:
+    process, address = faulty
+    lines_of(address, loads(2))
+    family, lost = set(workers(process)), metric(address, "tribodrive_workers_lost_total")
+    with running_study(address, loads(20_000)):
+        pass
+    wait_until_free(address, 1.0)
+    time.sleep(1.0)
+    before = processor_seconds(list(family))
+    time.sleep(0.5)
+    assert processor_seconds(list(family)) - before < 0.05
+    assert set(workers(process)) == family
+    assert metric(address, "tribodrive_workers_lost_total") == lost
+
+
+def test_a_hundred_cancelled_sweeps_leave_nothing_behind(faulty: Server) -> None:
+    process, address = faulty
+    body = loads(20_000)
+    for _ in range(3):
+        with running_study(address, body):
+            pass
+    wait_until_free(address, 1.0)
+    time.sleep(0.5)
+    family = set(workers(process))
+    before = len(descendants(process.pid)), descriptors(process.pid), memory_mb(process.pid)
+    for _ in range(100):
+        wait_until_free(address, 2.0)
+        with running_study(address, body):
+            pass
+    wait_until_free(address, 1.0)
+    time.sleep(0.5)
+    assert set(workers(process)) == family
+    assert len(descendants(process.pid)) == before[0]
+    assert descriptors(process.pid) <= before[1] + 2
+    assert memory_mb(process.pid) < before[2] + 20
+
+
+def test_a_hanging_point_fails_alone(faulty: Server) -> None:
+    """Its worker is stopped by the deadline; the endpoint is the faulty server's own."""
+    process, address = faulty
+    example = examples()["xue-pair-1-thermal"]
+    slow = {**example.request, "model": {**example.request.get("model", {}), "rheology": "newtonian"}}
+    cases = [{"model.path_points": 8}, {"model.path_points": 500}, {"model.path_points": 8}]
+    body = {"endpoint": example.endpoint, "request": slow, "cases": cases, "outputs": ["unsolved_points"]}
+    found = numbers(lines_of(address, body))
+    assert [point["status"] in {"ok", "ok_with_warnings"} for point in found] == [True, False, True]
+    assert found[1]["error"]["code"] in {"deadline_exceeded", "cannot_finish"}
+    assert len(workers(process)) == 2
+
+
+def test_memory_is_flat_over_many_points_and_a_slow_reader_slows_only_his_own(faulty: Server) -> None:
+    process, address = faulty
+    lines_of(address, couplings(2000))
+    before = memory_mb(process.pid)
+    highest = []
+    done = threading.Event()
+
+    def watch() -> None:
+        while not done.wait(0.1):
+            highest.append(memory_mb(process.pid))
+
+    with ThreadPoolExecutor(1) as pool:
+        watching = pool.submit(watch)
+        with httpx.stream("POST", address + SWEEP, json=couplings(25_000), timeout=60) as response:
+            count = sum('"point"' in line for line in response.iter_lines())
+        done.set()
+        watching.result()
+    assert count == 25_000
+    assert max(highest) < before + 25
+
+
+def test_nobody_calculates_what_nobody_reads(faulty: Server) -> None:
+    process, address = faulty
+    target = urlsplit(address)
+    content = json.dumps({**couplings(30_000), "outputs": NUMBERS}).encode()
+    head = f"POST {SWEEP} HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n"
+    with socket.socket() as connection:
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        connection.connect((target.hostname, target.port))
+        connection.sendall(f"{head}Content-Length: {len(content)}\r\n\r\n".encode() + content)
+        end = time.monotonic() + 120
+        time.sleep(1)
+        while calculated_within(process, 0.5) > 0.05:
+            assert time.monotonic() < end
+        assert metric(address, "tribodrive_studies") == 1
+        assert lines_of(address, loads(4))[-1]["type"] == "end"  # others go on
+        before = processor_seconds(workers(process))
+        received = b""
+        while b'"type":"end"' not in received:
+            received = received[-20:] + connection.recv(2**20)
+        assert processor_seconds(workers(process)) - before > 0.5  # the rest was calculated when it was read
+    wait_until_free(address, 1.5)
+
+
+def calculated_within(process: subprocess.Popen[str], seconds: float) -> float:
+    """Processor time that the workers spend within a time."""
+    before = processor_seconds(workers(process))
+    time.sleep(seconds)
+    return processor_seconds(workers(process)) - before
+
+
+def test_the_deadline_of_a_study_ends_it_with_a_line() -> None:
+    with running_server(workers=1, study_deadline_s=1, log_level="error") as (_, address):
+        *points, last = lines_of(address, loads(2500))
+        assert last["type"] == "error"
+        assert last["code"] == "study_deadline"
+        assert last["done"] == len(numbers(points)) < 2500
+        with pytest.raises(httpx.RemoteProtocolError):
+            httpx.post(address + SWEEP + "?format=csv", json=loads(2500), timeout=60)
+        wait_until_free(address, 1.0)
