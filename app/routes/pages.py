@@ -130,11 +130,11 @@ async def _asked(http: Request, calculation: Calculation) -> tuple[views.Asked, 
             raise HTTPException(415, f"The content type must be {FORM}")
         text = (await http.body()).decode("ascii", "replace")
     sent, looks = split_views(pairs_of_query(text))
+    given = {name: value for name, value in looks.items() if value}
     if (example := examples().get(dict(sent).get("example", ""))) is not None:
         sent = pairs_of_query(example_link(calculation, example).partition("?")[2])
-        return views.Asked(page_path(calculation), sent, {}), False
+        return views.Asked(page_path(calculation), sent, given), False
     pairs = normalised(calculation.request, sent)
-    given = {name: value for name, value in looks.items() if value}
     answers: Answers = http.app.state.answers
     path = page_path(calculation)
     variant = views.ref_pairs(calculation, given) if "ref" in given else []
