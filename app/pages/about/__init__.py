@@ -1,10 +1,15 @@
 """What each model answers, its equations, misprints and limits of validity."""
 
 from app.calculations import Calculation
-from app.pages.about import coupling, pumping, scuffing
+from app.pages.about import coupling, drive_train, pumping, scuffing
 from app.pages.about.entry import About
 
-ABOUT: dict[str, About] = {"coupling": coupling.ABOUT, "pumping": pumping.ABOUT, "scuffing": scuffing.ABOUT}
+ABOUT: dict[str, About] = {
+    "coupling": coupling.ABOUT,
+    "pumping": pumping.ABOUT,
+    "scuffing": scuffing.ABOUT,
+    "drive-train": drive_train.ABOUT,
+}
 
 
 def about_of(calculation: Calculation) -> About | None:
