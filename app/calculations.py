@@ -8,17 +8,19 @@ from app.figures.declaration import Declaration
 from app.figures.registry import FIGURES
 from app.requests.common import Request
 from app.requests.coupling import CouplingRequest, RecommendationRequest, SleeveOrbitRequest
+from app.requests.drive_train import DriveTrainRequest
 from app.requests.line_contact import LineContactRequest
 from app.requests.load_distribution import LoadDistributionRequest
 from app.requests.pumping import ChokingSpeedRequest, PumpingRequest
 from app.requests.scuffing import ScuffingRequest
 from app.responses.common import Response
 from app.responses.coupling import CouplingResponse, RecommendationResponse, SleeveOrbitResponse
+from app.responses.drive_train import DriveTrainResponse
 from app.responses.line_contact import LineContactResponse
 from app.responses.load_distribution import LoadDistributionResponse
 from app.responses.pumping import ChokingSpeedResponse, PumpingResponse
 from app.responses.scuffing import ScuffingResponse
-from solvers import coupling, pumping, scuffing
+from solvers import coupling, drive_train, pumping, scuffing
 from solvers.contact import ehl
 
 
@@ -27,6 +29,7 @@ class Calculation:
     """One endpoint."""
 
     path: str
+    title: str
     summary: str
     source: str
     request: type[Request]
@@ -42,6 +45,7 @@ class Calculation:
 CALCULATIONS = (
     Calculation(
         path="/v1/coupling",
+        title="Gear coupling",
         summary="Load, lubrication, friction, axial thrust and losses of a gear coupling",
         source="Pahl 1978",
         request=CouplingRequest,
@@ -50,6 +54,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/coupling/sleeve-orbit",
+        title="Sleeve orbit",
         summary="Path and inertia force of a floating sleeve over one revolution",
         source="Pahl 1978, Fig. 5",
         request=SleeveOrbitRequest,
@@ -58,6 +63,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/coupling/recommendation",
+        title="Crowning recommendation",
         summary="The crowning with the best film over a range of misalignment",
         source="Pahl 1978, conclusion",
         request=RecommendationRequest,
@@ -66,6 +72,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/pumping",
+        title="Pumping between gear teeth",
         summary="Air and mist pumped between the teeth: pressure, heating, power, mass flow, lead correction",
         source="Milian, Distretti, Leoni, Velex 2004",
         request=PumpingRequest,
@@ -74,6 +81,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/pumping/choking-speed",
+        title="Choking speed",
         summary="Speeds at which the flow out of the tooth spaces becomes sonic",
         source="Milian, Distretti, Leoni, Velex 2004, Eq. 7",
         request=ChokingSpeedRequest,
@@ -82,6 +90,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/scuffing/load-distribution",
+        title="Load distribution",
         summary="Load, pressure, transmission error and loss of a modified gear pair",
         source="Xue, Zhang, Wang 2020, section II",
         request=LoadDistributionRequest,
@@ -90,6 +99,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/scuffing",
+        title="Scuffing of gears",
         summary="Load distribution, flash temperature, film thickness and safety against scuffing of a gear pair",
         source="Xue, Zhang, Wang 2020",
         request=ScuffingRequest,
@@ -98,11 +108,21 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/scuffing/line-contact",
+        title="Line contact",
         summary="Film, pressure, temperature and friction of one thermal elastohydrodynamic line contact",
         source="Xue, Zhang, Wang 2020, sections III and IV",
         request=LineContactRequest,
         solve=ehl.solve,
         response=LineContactResponse,
+    ),
+    Calculation(
+        path="/v1/drive-train",
+        title="Drive train",
+        summary="A gear unit whole: couplings, shafts in bearings, pumped heat, load along the face and scuffing",
+        source="own derivation on Pahl 1978, Milian 2004 and Xue 2020",
+        request=DriveTrainRequest,
+        solve=drive_train.solve,
+        response=DriveTrainResponse,
     ),
 )
 

@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 
 from app.problems import Unprocessable
 from app.requests.common import Request
+from app.requests.drive_train import DriveTrainRequest
 from app.requests.pumping import ChokingSpeedRequest
 from app.requests.scuffing import ScuffingRequest
 from solvers.contact.ehl.budget import Resolution, price
@@ -39,6 +40,12 @@ def _thermal_path(request: Any) -> Cost:
     return Cost(4e-3 * model.path_points * price(film, model.nodes), "model.path_points")
 
 
+def _two_thermal_paths(request: Any) -> Cost:
+    """A drive train's films along two lines, in each of its states."""
+    one = _thermal_path(request)
+    return Cost(2 * len({*request.states}) * one.seconds, one.field)
+
+
 def _choking_search(request: Any) -> Cost:
     """Chains of the search over both gears' spaces: 0.7, 2.6, 6.2, 16 s with 10, 40, 80, 160 pockets.
 
@@ -52,5 +59,6 @@ def _choking_search(request: Any) -> Cost:
 
 ESTIMATES: dict[type[Request], Callable[[Any], Cost]] = {
     ScuffingRequest: _thermal_path,
+    DriveTrainRequest: _two_thermal_paths,
     ChokingSpeedRequest: _choking_search,
 }

@@ -9,6 +9,7 @@ from app.contract.cases import case_of
 from app.contract.conversion import from_si, group_of
 from app.contract.names import field_path
 from app.contract.quantities import Input
+from app.plausibility import unusual
 from app.problems import Unprocessable
 from app.requests.common import Request, Section
 from app.responses.common import MODEL_VERSION, Notice, Response
@@ -39,12 +40,16 @@ def evaluate(calculation: Calculation, request: Request) -> Response:
     else:
         warnings = [_notice(request, warning) for warning in result.warnings]
         content = from_si(calculation.response, result, request.detail, skip=_COMMON)
+        warnings += unusual(request, content)
         content |= {"status": "ok_with_warnings" if warnings else "ok", "warnings": warnings}
         if getattr(result, "status", None) == "no_solution":
             content |= {"status": "no_solution", "residuals": result.residuals}
     inputs = request.model_dump(exclude={"detail"})
     content |= {
-        "assumptions": list(_assumptions(request, request.unused_defaults(), content.get("derived", {}))),
+        "assumptions": [
+            *_assumptions(request, request.unused_defaults(), content.get("derived", {})),
+            *_model_assumptions(request),
+        ],
         "model_version": MODEL_VERSION,
         "model": request.options(),
         "inputs": inputs,
@@ -61,15 +66,30 @@ def _notice(request: Request, warning: notices.Notice) -> Notice:
 def _assumptions(
     section: Section, unused: frozenset[str], derived: dict[str, Any], prefix: str = ""
 ) -> Iterator[dict[str, Any]]:
-    """The defaults marked as ours that the result rests on, with the value used where `derived` tells it."""
+    """The defaults marked as ours that the result rests on, with the value used where `derived` tells it.
+
+    `derived` holds such values under their names, or in groups and lists of the sections' own names.
+    """
     for name, reason in _reasons(type(section)).items():
         path, value = prefix + name, getattr(section, name)
         if path in unused:
             continue
         if isinstance(value, Section):
-            yield from _assumptions(value, unused, derived, f"{path}.")
+            yield from _assumptions(value, unused, derived.get(name, derived), f"{path}.")
+        elif isinstance(value, list) and group_of(type(section).model_fields[name].annotation):
+            known = derived.get(name) or [{}] * len(value)
+            for index, (item, own) in enumerate(zip(value, known, strict=True)):
+                yield from _assumptions(item, unused, own, f"{path}.{index}.")
         elif reason and (value is None or name not in section.model_fields_set):
-            yield {"field": path, "value": derived.get(name, value), "reason": reason}
+            used = derived.get(name, value)
+            yield {"field": path, "value": section.stands_for_null(name) if used is None else used, "reason": reason}
+
+
+def _model_assumptions(request: Request) -> Iterator[dict[str, Any]]:
+    """What the options in force take for granted."""
+    for path, reason in request.assumed_by_the_model().items():
+        section, _, name = path.rpartition(".")
+        yield {"field": path, "value": getattr(getattr(request, section), name), "reason": reason}
 
 
 @cache

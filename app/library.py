@@ -10,6 +10,8 @@ from pydantic import BaseModel
 
 from app.contract.quantities import Output
 
+STARTER = "starter-"
+
 
 class ExampleSummary(BaseModel):
     """What an example is about."""
@@ -18,6 +20,11 @@ class ExampleSummary(BaseModel):
     title: Annotated[str, Output("what it shows")]
     source: Annotated[str, Output("where the case comes from")]
     endpoint: Annotated[str, Output("where to post its request")]
+
+    @property
+    def starter(self) -> bool:
+        """Whether it is a task of practice to start from."""
+        return self.name.startswith(STARTER)
 
 
 class Example(ExampleSummary):
@@ -28,10 +35,11 @@ class Example(ExampleSummary):
 
 @lru_cache(maxsize=1)
 def examples() -> dict[str, Example]:
-    """Every example by name, in alphabetical order."""
+    """Every example by name, the starters with industrial data first, then in alphabetical order."""
     folder = files("app").joinpath("examples")
     texts = {path.name.removesuffix(".json"): path.read_text("utf-8") for path in folder.iterdir()}
-    return {name: Example(name=name, **json.loads(texts[name])) for name in sorted(texts)}
+    ordered = sorted(texts, key=lambda name: (not name.startswith(STARTER), name))
+    return {name: Example(name=name, **json.loads(texts[name])) for name in ordered}
 
 
 def body_of(endpoint: str) -> Any:

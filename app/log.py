@@ -11,13 +11,15 @@ from app.metrics import LINES_DROPPED
 
 LINES_KEPT = 10_000
 LAST_LINES_S = 1.0
+GATHERING_S = 0.02
+MOST_AT_ONCE = 1000
 
 
 class LogWriter:
-    """A bounded queue of lines and the thread that writes them."""
+    """A bounded queue of lines and the thread that writes them, some at a time, so that it seldom interrupts."""
 
     def __init__(self) -> None:
-        self._lines: queue.Queue[tuple[int, str] | None] = queue.Queue(LINES_KEPT)
+        self._lines: queue.SimpleQueue[tuple[int, str] | None] = queue.SimpleQueue()
         self._thread = threading.Thread(target=self._write_lines, daemon=True)
 
     def start(self) -> None:
@@ -26,24 +28,36 @@ class LogWriter:
 
     def close(self) -> None:
         """Write what is left, as far as it goes within a second."""
-        try:
-            self._lines.put_nowait(None)
-        except queue.Full:
-            return
+        self._lines.put(None)
         if self._thread.is_alive():
             self._thread.join(LAST_LINES_S)
 
     def write(self, descriptor: int, text: str) -> None:
         """Hand over some text, or count it as lost."""
-        try:
-            self._lines.put_nowait((descriptor, text))
-        except queue.Full:
+        if self._lines.qsize() < LINES_KEPT:
+            self._lines.put((descriptor, text))
+        else:
             LINES_DROPPED.inc()
 
     def _write_lines(self) -> None:
-        while (line := self._lines.get()) is not None:
-            descriptor, text = line
-            _write_all(descriptor, text.encode(errors="replace"))
+        while (first := self._lines.get()) is not None:
+            time.sleep(GATHERING_S)
+            if self._write_batch(first):
+                return
+
+    def _write_batch(self, line: tuple[int, str] | None) -> bool:
+        """Write the line and those that wait behind it; whether the end is reached."""
+        texts: dict[int, list[str]] = {}
+        for room in range(MOST_AT_ONCE, 0, -1):
+            if line is None:
+                break
+            texts.setdefault(line[0], []).append(line[1])
+            if room == 1 or self._lines.empty():
+                break
+            line = self._lines.get()
+        for descriptor, waiting in texts.items():
+            _write_all(descriptor, "".join(waiting).encode(errors="replace"))
+        return line is None
 
 
 class QueuedHandler(logging.Handler):

@@ -7,10 +7,12 @@ from fastapi import FastAPI
 from fastapi_offline import FastAPIOffline
 
 from app import problems
+from app.answers import Answers
+from app.compression import Compression
 from app.protection import Protection
 from app.responses.common import MODEL_VERSION
-from app.routes import calculations, figures, service, studies
-from app.settings import Settings
+from app.routes import calculations, figures, pages, service, studies
+from app.settings import MEBIBYTE, Settings
 from app.settings import settings as settings_from_environment
 from app.start_up import StartUp
 from app.studies.office import Office
@@ -33,6 +35,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         app.state.settings = settings
         app.state.runner = Runner(settings, app.state.pool)
         app.state.office = Office(settings, app.state.pool)
+        app.state.answers = Answers(settings.answers_mb * MEBIBYTE)
+        app.state.published = {}
         async with app.state.pool.running(), app.state.start_up.running(), app.state.office.open():
             yield
 
@@ -43,8 +47,9 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         lifespan=lifespan,
         redoc_url=None,
     )
-    for routes in (calculations, figures, studies, service):
+    for routes in (calculations, figures, studies, pages, service):
         app.include_router(routes.router)
     problems.install(app)
+    app.add_middleware(Compression)
     app.add_middleware(Protection, settings=settings)
     return app

@@ -15,11 +15,11 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 from starlette.exceptions import HTTPException
 
+from app.contract.messages import MOST_FAULTS, pointer
 from app.contract.quantities import Output
-from app.reading import MOST_FIELD_ERRORS, InvalidBody, Unreadable
+from app.reading import InvalidBody, Unreadable
 
 MEDIA_TYPE = "application/problem+json"
-LONGEST_POINTER_PART = 100
 
 logger = logging.getLogger("tribodrive")
 
@@ -118,7 +118,7 @@ MEANINGS = {
     422: "the input cannot be computed; `errors` names the fields",
     431: "the request headers are too large",
     500: "something went wrong in the service",
-    415: "the content type is not application/json",
+    415: "the Content-Type header does not say application/json",
     503: "too many calculations are waiting, kernels are being compiled, or the calculation was lost with its process",
     504: "the calculation took too long",
 }
@@ -186,15 +186,15 @@ def problem(
 def _invalid_request(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, RequestValidationError)
     errors = [
-        {"pointer": _pointer(item["loc"]), "code": item["type"], "message": str(item["msg"])}
-        for item in error.errors()[:MOST_FIELD_ERRORS]  # of an address: a body is read in a worker
+        {"pointer": pointer(item["loc"][1:]), "code": item["type"], "message": str(item["msg"])}
+        for item in error.errors()[:MOST_FAULTS]  # of an address: a body is read in a worker
     ]
     return _unprocessable_response(request, "invalid_request", errors)
 
 
 def _invalid_body(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, InvalidBody)
-    return _unprocessable_response(request, "invalid_request", faults(error))
+    return _unprocessable_response(request, "invalid_request", faults_of(error))
 
 
 def _unreadable(request: Request, error: Exception) -> JSONResponse:
@@ -204,30 +204,21 @@ def _unreadable(request: Request, error: Exception) -> JSONResponse:
 
 def _unprocessable(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, Unprocessable)
-    return _unprocessable_response(request, error.code, faults(error))
+    return _unprocessable_response(request, error.code, faults_of(error))
 
 
-def faults(error: InvalidBody | Unprocessable) -> list[dict[str, str]]:
+def faults_of(error: InvalidBody | Unprocessable) -> list[dict[str, str]]:
     """Pointer, code and message of every field at fault."""
     if isinstance(error, Unprocessable):
         parts = error.path.split(".") if error.path else ()
-        return [{"pointer": _pointer(("body", *parts)), "code": error.code, "message": error.message}]
-    return [
-        {"pointer": _pointer(("body", *item["loc"])), "code": item["type"], "message": item["msg"]}
-        for item in error.errors
-    ]
+        return [{"pointer": pointer(parts), "code": error.code, "message": error.message}]
+    return [fault._asdict() for fault in error.faults]
 
 
 def _unprocessable_response(request: Request, code: str, errors: list[dict[str, str]]) -> JSONResponse:
     first = errors[0]
     detail = f"{first['pointer'] or 'request'}: {first['message']}"
     return problem(_instance(request), 422, code, "The input cannot be computed", detail=detail, errors=errors)
-
-
-def _pointer(location: tuple[str | int, ...]) -> str:
-    """RFC 6901 pointer of a validation error's location, safe to send whatever the request's keys were."""
-    parts = (str(part).encode(errors="replace").decode()[:LONGEST_POINTER_PART] for part in location[1:])
-    return "".join("/" + part.replace("~", "~0").replace("/", "~1") for part in parts)
 
 
 def _http_exception(request: Request, error: Exception) -> JSONResponse:

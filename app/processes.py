@@ -3,6 +3,7 @@
 import ctypes
 import os
 import resource
+import runpy
 import signal
 import sys
 from pathlib import Path
@@ -10,13 +11,18 @@ from pathlib import Path
 PR_SET_PDEATHSIG = 1
 
 
-def end_with_parent() -> None:
-    """Have the kernel end this process when its parent dies, whatever it is busy with."""
-    parent = os.getppid()
+def child_command(module: str, *arguments: str) -> list[str]:
+    """The command that runs a module in a process that never outlives this one."""
+    return [sys.executable, "-m", __spec__.name, str(os.getpid()), module, *arguments]
+
+
+def _run_as_child(parent: str, module: str) -> None:
+    """Run the module; before it is loaded, which may take a while, the kernel is told to end it with its parent."""
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
-        if os.getppid() != parent:  # it died in between
-            os._exit(1)
+    if str(os.getppid()) == parent:
+        sys.argv = [module, *sys.argv[3:]]
+        runpy.run_module(module, run_name="__main__", alter_sys=True)
 
 
 def is_stopped(pid: int) -> bool:
@@ -31,3 +37,7 @@ def is_stopped(pid: int) -> bool:
 def descriptor_limit() -> int:
     """How many files and sockets this process may have open."""
     return resource.getrlimit(resource.RLIMIT_NOFILE)[0]
+
+
+if __name__ == "__main__":
+    _run_as_child(*sys.argv[1:3])

@@ -1,10 +1,13 @@
 """Progress bars on a terminal; one line for each finished part where the output is no terminal."""
 
+import logging
 import sys
 
 from app.log import WRITER
 
 WIDTH = 30
+
+logger = logging.getLogger("tribodrive")
 
 
 class Progress:
@@ -41,4 +44,5 @@ class Progress:
         self._write(up + "".join(lines))
 
     def _write(self, text: str) -> None:
-        WRITER.write(sys.stderr.fileno(), text)
+        if logger.isEnabledFor(logging.INFO):
+            WRITER.write(sys.stderr.fileno(), text)

@@ -5,9 +5,10 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
+from app.contract.messages import Fault, faults
+
 M = TypeVar("M", bound=BaseModel)
 MOST_MEMBERS = 1000
-MOST_FIELD_ERRORS = 100
 
 
 class Unreadable(Exception):
@@ -19,11 +20,11 @@ class Unreadable(Exception):
 
 
 class InvalidBody(Exception):
-    """The body is no request; `errors` has location, type and message of each fault, a hundred at most."""
+    """The body is no request; the faults are a hundred at most."""
 
-    def __init__(self, errors: list[dict[str, Any]]) -> None:
-        super().__init__(errors)
-        self.errors = errors
+    def __init__(self, faults: list[Fault]) -> None:
+        super().__init__(faults)
+        self.faults = faults
 
 
 def read(model: type[M], body: bytes) -> M:
@@ -39,22 +40,19 @@ def validated(model: type[M], content: Any) -> M:
     try:
         return model.model_validate(content)
     except ValidationError as error:
-        found = error.errors(include_url=False, include_context=False, include_input=False)
-        raise InvalidBody(
-            [{"loc": each["loc"], "type": each["type"], "msg": each["msg"]} for each in found[:MOST_FIELD_ERRORS]]
-        ) from None
+        found = error.errors(include_url=False)
+        raise InvalidBody(faults(model, found)) from None  # type: ignore[arg-type]
 
 
 def _content(body: bytes) -> Any:
     """What the JSON of a body says."""
     if not body:
-        raise InvalidBody([_fault("missing", "Field required")])
+        raise InvalidBody([Fault("", "missing", "the request needs a body")])
     try:
         return json.loads(body, object_pairs_hook=_members)
     except json.JSONDecodeError as error:
-        raise InvalidBody(
-            [_fault("json_invalid", f"The body is no JSON: {error.msg} at position {error.pos}")]
-        ) from None
+        message = f"the body is no JSON: {error.msg} at position {error.pos}"
+        raise InvalidBody([Fault("", "json_invalid", message)]) from None
     except (ValueError, RecursionError):  # bytes that are no text, numbers without end, brackets without end
         raise Unreadable("The body cannot be read as JSON") from None
 
@@ -62,12 +60,8 @@ def _content(body: bytes) -> Any:
 def _members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """An object of unique names, as many as any request could need."""
     if len(pairs) > MOST_MEMBERS:
-        raise InvalidBody([_fault("too_many_fields", f"An object has more than {MOST_MEMBERS} fields")])
+        raise InvalidBody([Fault("", "too_many_fields", f"an object has more than {MOST_MEMBERS} fields")])
     members = dict(pairs)
     if len(members) < len(pairs):
         raise Unreadable("A name stands twice in one object of the body")
     return members
-
-
-def _fault(code: str, message: str) -> dict[str, Any]:
-    return {"loc": (), "type": code, "msg": message}

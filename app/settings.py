@@ -33,6 +33,7 @@ class Settings(BaseSettings):
     max_body_bytes: int = Field(MEBIBYTE, ge=1024, description="largest request body; beyond it 413")
     body_deadline_s: float = Field(10.0, gt=0, description="longest time for a request body to arrive; then 408")
     body_memory_mb: int = Field(64, ge=1, description="memory for request bodies that still arrive, MiB; then 503")
+    answers_mb: int = Field(64, ge=0, description="memory for answers just computed, for other views of them, MiB")
     max_header_bytes: int = Field(16384, ge=1024, description="largest sum of request headers; beyond it 431")
     header_deadline_s: float = Field(10.0, gt=0, description="longest time for request headers to arrive; then 408")
     max_connections: int = Field(

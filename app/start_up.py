@@ -4,13 +4,13 @@ import asyncio
 import contextlib
 import logging
 import os
-import sys
 import time
 from collections import Counter
 from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager
 
 from app.problems import WarmingUp
+from app.processes import child_command
 from app.progress import Progress
 from app.warm_up import STAGES, TRACKS, Stage, content, needed_for
 from app.workers.pool import Pool
@@ -97,7 +97,7 @@ class StartUp:
     async def _compile_track(self, track: Sequence[Stage]) -> None:
         names = [stage.name for stage in track]
         process = await asyncio.create_subprocess_exec(
-            sys.executable, "-m", "app.warm_up", *names, stdout=asyncio.subprocess.PIPE
+            *child_command("app.warm_up", *names), stdout=asyncio.subprocess.PIPE
         )
         assert process.stdout is not None
         current = iter(track)

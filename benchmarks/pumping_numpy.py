@@ -73,7 +73,7 @@ def walls(duct: Duct, cells: Cells, fraction: float, dt: float) -> Stage:
         "area": now[:, 0],
         "growth": (cells.next_walls[:, 0] - cells.walls[:, 0]) / dt,
         "gap": duct.discharge * now[:, 1],
-        "transport": duct.speed * now[:, 2],
+        "transport": (cells.next_walls[:, 2] - cells.walls[:, 2]) / dt,
     }
 
 

@@ -14,13 +14,22 @@ from solvers.kernel_cache import KernelCache
 
 P = ParamSpec("P")
 R = TypeVar("R")
-OPTIONS = {"nopython": True, "boundscheck": None, "error_model": "numpy", "nogil": True}
+OPTIONS = {"nopython": True, "boundscheck": None, "error_model": "numpy", "nogil": True, "forceinline": False}
 BARE = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
 def kernel(function: Callable[P, R]) -> Callable[P, R]:
     """Compile a function of scalars and arrays; division by zero follows IEEE instead of raising."""
     return cast("Callable[P, R]", Kernel(function))
+
+
+def inlined_kernel(function: Callable[P, R]) -> Callable[P, R]:
+    """Compile a kernel that is copied into the kernels that call it, in place of a call.
+
+    A call counts every array handed over up and down. For a step of a loop that takes groups of arrays, as for one
+    column of a film, that can cost twice the work itself.
+    """
+    return cast("Callable[P, R]", Kernel(function, forceinline=True))
 
 
 class _Cached(CPUDispatcher):
@@ -34,9 +43,9 @@ class _Cached(CPUDispatcher):
 class Kernel(_Cached):
     """A compiled function that Python can call."""
 
-    def __init__(self, function: Callable[..., Any]) -> None:
+    def __init__(self, function: Callable[..., Any], *, forceinline: bool = False) -> None:
         super().__init__(function, "", targetoptions=OPTIONS)
-        self._bare = _Cached(function, "-bare", targetoptions=OPTIONS | BARE)
+        self._bare = _Cached(function, "-bare", targetoptions=OPTIONS | BARE | {"forceinline": forceinline})
 
     def get_call_template(self, args: Any, kws: Any) -> Any:
         """How another kernel calls this one: numba asks while it infers types."""

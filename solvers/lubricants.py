@@ -1,6 +1,6 @@
 """Lubricants, and the laws by which pressure and temperature change their viscosity and density."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from math import log
 from typing import Literal, NamedTuple
 
@@ -65,6 +65,24 @@ class Lubricant:
     def density_at(self, pressure: float, temperature: float) -> float:
         """Density [kg/m^3] at pressure [Pa] and temperature [K]."""
         return float(density(self.laws, pressure, temperature)[0])
+
+
+@dataclass(frozen=True, kw_only=True)
+class OilInUse:
+    """The properties of a lubricant that a result reports; units as in `Lubricant`."""
+
+    viscosity: float
+    reference_temperature: float
+    pressure_viscosity: float
+    temperature_viscosity: float
+    density: float
+    specific_heat: float
+    thermal_conductivity: float
+
+
+def oil_in_use(lubricant: Lubricant) -> dict[str, float]:
+    """The fields of `OilInUse`."""
+    return {item.name: getattr(lubricant, item.name) for item in fields(OilInUse)}
 
 
 class FluidLaws(NamedTuple):

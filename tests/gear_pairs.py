@@ -49,3 +49,6 @@ def paper_pair(
 def with_torque(inputs: LoadDistributionInputs, torque: float) -> LoadDistributionInputs:
     """The same pair under another pinion torque [N m]."""
     return replace(inputs, load=replace(inputs.load, pinion_torque=torque))
+
+
+FZG_TORQUES = (3.3, 13.7, 35.25, 60.75, 94.1, 135.3, 183.35, 239.25, 302.0, 372.6, 450.1, 534.5)  # N m, stages 1 to 12

@@ -74,11 +74,29 @@ def from_si(group: type[Documented], result: Any, detail: Detail, skip: frozense
     for field in _fields(group):
         if field.level <= level and field.name not in skip:
             value, unit = getattr(result, field.si_name), field.unit
-            if field.group is not None and value is not None:
+            if field.group is not None and isinstance(value, tuple | list):
+                content[field.name] = [from_si(field.group, item, detail) for item in value]
+            elif field.group is not None and value is not None:
                 content[field.name] = from_si(field.group, value, detail)
             else:
                 content[field.name] = value if unit is None and type(value) is float else _displayed(value, unit)
     return content
+
+
+def above(group: type[Documented], detail: Detail) -> dict[str, Any]:
+    """The fields of a group above a level of detail, as pydantic's `exclude` names them."""
+    level = LEVELS.index(detail)
+    found: dict[str, Any] = {}
+    for field in _fields(group):
+        if field.level > level:
+            found[field.name] = True
+        elif field.group is not None and (inner := above(field.group, detail)):
+            found[field.name] = {"__all__": inner} if _is_list(group.model_fields[field.name].annotation) else inner
+    return found
+
+
+def _is_list(annotation: Any) -> bool:
+    return any(get_origin(kind) is list for kind in (annotation, *get_args(annotation)))
 
 
 def _displayed(value: Any, unit: Unit | None) -> Any:

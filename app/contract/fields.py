@@ -12,7 +12,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
 from app.contract.conversion import group_of
-from app.contract.quantities import Detail, Documented, Input, Output
+from app.contract.quantities import Bound, Detail, Documented, Input, Output
 
 Kind = Literal["number", "integer", "boolean", "text", "other"]
 _KINDS: dict[Any, Kind] = {float: "number", int: "integer", bool: "boolean", str: "text"}
@@ -52,6 +52,9 @@ class Leaf:
     index: str | None
     headline: int | None
     limit: str | float | None
+    bound: Bound | None
+    needs: str | None
+    verdict: str | None
 
     @property
     def is_scalar(self) -> bool:
@@ -154,6 +157,9 @@ def _leaf(model: type[Documented], name: str, info: FieldInfo, meaning: Input | 
         index=found.index if found else None,
         headline=found.headline if found else None,
         limit=found.limit if found else None,
+        bound=found.bound if found else None,
+        needs=found.needs if found else None,
+        verdict=found.verdict if found else None,
     )
 
 

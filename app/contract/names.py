@@ -9,10 +9,29 @@ from app.contract.units import split_unit
 def field_path(section: Documented, name: str) -> str | None:
     """The dotted request field that the solver's dotted `name` (its end suffices) means, or None.
 
-    Of fields that exclude each other it is the one that was sent.
+    Of several it is the outermost, of fields that exclude each other the one that was sent; where an item of a list
+    lacks what the solver names in it, it is the item.
     """
+    for theirs, ours in section.solver_names.items():
+        name = f".{name}.".replace(f".{theirs}.", f".{ours}.").strip(".")
+    known = sorted(_paths(section, "", ()), key=lambda each: len(each[1]))
     wanted = tuple(name.split("."))
-    return next((path for path, si_path in _paths(section, "", ()) if si_path[-len(wanted) :] == wanted), None)
+    while wanted:
+        found = next((path for path, si_path in known if _means(wanted, si_path)), None)
+        if found is not None:
+            return found
+        in_item = any(part.isdecimal() for part in wanted[:-1])
+        wanted = wanted[:-1] if in_item else ()
+    return None
+
+
+def _means(wanted: tuple[str, ...], si_path: tuple[str, ...]) -> bool:
+    """Whether a path ends as wanted; between an item of a list and the end there may be sections not named."""
+    after = max((place for place, part in enumerate(wanted) if part.isdecimal()), default=-1) + 1
+    item, end = wanted[:after], wanted[after:]
+    around = si_path[: len(si_path) - len(end)]
+    inside = any(around[start : start + after] == item for start in range(len(around) - after + 1))
+    return inside and si_path[len(around) :] == end
 
 
 def _paths(section: Documented, prefix: str, si_prefix: tuple[str, ...]) -> Iterator[tuple[str, tuple[str, ...]]]:
@@ -26,6 +45,7 @@ def _paths(section: Documented, prefix: str, si_prefix: tuple[str, ...]) -> Iter
         elif isinstance(value, list):
             for index, item in enumerate(value):
                 if isinstance(item, Documented):
+                    yield f"{path}.{index}", (*si_path, str(index))
                     yield from _paths(item, f"{path}.{index}.", (*si_path, str(index)))
 
 

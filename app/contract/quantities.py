@@ -10,6 +10,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 from app.contract.units import Unit, split_unit
 
 Detail = Literal["summary", "curves", "fields"]
+Bound = Literal["upper", "lower"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,13 +72,12 @@ class Input:
                 return core_schema.no_info_before_validator_function(_number, number)
             case "bool":
                 return core_schema.bool_schema(strict=True)
-            case "nullable":
-                return core_schema.nullable_schema(self._strict(schema["schema"]))
-            case "list":
-                items: Any = {**schema, "items_schema": self._strict(schema["items_schema"])}
-                return items  # type: ignore[no-any-return]
+            case "union":
+                return core_schema.union_schema([self._strict(choice) for choice in _kinds(schema["choices"])])
             case _:
-                return schema
+                within = ("items_schema", "schema", "json_schema_input_schema")
+                parts = {name: self._strict(part) for name in within if (part := schema.get(name))}
+                return {**schema, **parts}
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +86,9 @@ class Output:
 
     `axis` names the sibling field over which a curve runs, or the two of a map; `index` says what the places of a list
     mean where no field does. `headline` ranks the numbers that decide, 1 to 3. `limit` is the number, or the dotted
-    field of request or answer, that bounds the value.
+    field of request or answer, that bounds the value; `bound` says on which side a verdict about it finds the value
+    safe: below an upper limit, above a lower one. `needs` is the request field without which there is no value,
+    `verdict` the field of the answer that judges it in words.
     """
 
     title: str
@@ -98,6 +100,9 @@ class Output:
     index: str | None = None
     headline: int | None = None
     limit: str | float | None = None
+    bound: Bound | None = None
+    needs: str | None = None
+    verdict: str | None = None
 
     @property
     def axes(self) -> tuple[str, ...]:
@@ -119,11 +124,19 @@ class Output:
             "x-index": self.index,
             "x-headline": self.headline,
             "x-limit": self.limit,
+            "x-bound": self.bound,
+            "x-needs": self.needs,
+            "x-verdict": self.verdict,
         }
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         """The type's own JSON schema and what the field means."""
         return _documented(handler(schema), self)
+
+
+def _kinds(choices: list[Any]) -> list[CoreSchema]:
+    """The kinds of a union, without the names that may stand beside them."""
+    return [choice[0] if isinstance(choice, tuple) else choice for choice in choices]
 
 
 def _number(value: object) -> object:
@@ -144,10 +157,12 @@ class Documented(BaseModel):
 
     `exclusive` lists groups of fields of which at most one is given. `member_unit` is the unit of the fields whose own
     names carry none: a group `mass_flow_g_per_s` says it once for its members.
+    `solver_names` are the parts of dotted names that the solver spells otherwise, with the fields' spelling.
     """
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
     member_unit: ClassVar[Unit | None] = None
+    solver_names: ClassVar[dict[str, str]] = {}
 
     @classmethod
     def unit_of(cls, name: str) -> Unit | None:
@@ -160,7 +175,8 @@ class Documented(BaseModel):
         document = handler(schema)
         definition = handler.resolve_ref_schema(document)
         for name, field in definition.get("properties", {}).items():
-            if (unit := cls.unit_of(name)) is not None:
+            unit = cls.unit_of(name) or getattr(cls.model_fields[name].annotation, "member_unit", None)
+            if unit is not None:
                 field["x-unit"] = unit.symbol
         if cls.exclusive:
             definition["x-exclusive"] = [list(group) for group in cls.exclusive]

@@ -20,8 +20,10 @@ class Unit:
 UNITS = {
     "mm": Unit("mm", 1e-3),
     "mm2": Unit("mm²", 1e-6),
+    "mm2_per_s": Unit("mm²/s", 1e-6),
     "um": Unit("µm", 1e-6),
     "deg": Unit("°", pi / 180),
+    "mrad": Unit("mrad", 1e-3),
     "rpm": Unit("1/min", pi / 30),
     "hz": Unit("Hz", 1.0),
     "m_per_s": Unit("m/s", 1.0),

@@ -1,6 +1,6 @@
 """Figures of a gear coupling at one operating point."""
 
-from math import exp, inf, log
+from math import degrees, exp, inf, log
 
 import numpy as np
 
@@ -142,6 +142,11 @@ def _reference(x: list[float], y: list[float]) -> Line:
     return Line("to the next area", values(x), values(y), Hue.GREY, Role.REFERENCE, named=False)
 
 
+def _tilt_deg(request: CouplingRequest) -> float:
+    """Tilt of hub against sleeve [°], given or by the offset of the shafts."""
+    return degrees(request.inputs().operation.misalignment)
+
+
 def tooth_loads(request: CouplingRequest, answer: CouplingResponse) -> Figure:
     """Tangential force of each tooth, mean and largest; the pitch errors behind it."""
     load = present(answer.load_distribution)
@@ -149,7 +154,7 @@ def tooth_loads(request: CouplingRequest, answer: CouplingResponse) -> Figure:
     angle, force = values(curves.angle_deg), values(curves.tangential_force_n)
     largest = int(np.argmax(force))
     teeth = f"{load.loaded_teeth} of {force.size} teeth carry"
-    tilt = f"at {number(abs(request.operation.misalignment_deg))}° tilt"
+    tilt = f"at {number(abs(_tilt_deg(request)))}° tilt"
     panels = [
         Panel(
             x=TOOTH,

@@ -59,10 +59,8 @@ def draw(figure: Figure, image_format: str, theme_name: ThemeName = "light") -> 
     """The image in one of the formats svg, png and pdf."""
     theme = THEMES[theme_name]
     with rc_context(settings(theme)):
-        title, subtitle = (wrapped(text, size, WIDTH - 2 * EDGE) for text, size in _head(figure))
-        head = EDGE + TITLE_LINE * (1 + title.count("\n")) + SUBTITLE_LINE * (1 + subtitle.count("\n")) + HEAD_GAP
-        slots = _beside(figure, head) if figure.beside else _stacked(figure, head)
-        height = max(slot.top + slot.height + _foot(slot) for slot in slots) + FOOT
+        title, subtitle = _wrapped_head(figure)
+        slots, height = arranged(figure)
         sheet = Sheet(figsize=(WIDTH, height), dpi=DPI)
         _draw_head(sheet, title, subtitle, height, theme)
         for slot in slots:
@@ -72,6 +70,19 @@ def draw(figure: Figure, image_format: str, theme_name: ThemeName = "light") -> 
         metadata = METADATA[image_format] | {"Title": figure.title}
         sheet.savefig(image, format=image_format, metadata=metadata, dpi=DPIS[image_format])
         return image.getvalue()
+
+
+def arranged(figure: Figure) -> tuple[list[Slot], float]:
+    """The places of the panels, and the height of the sheet."""
+    title, subtitle = _wrapped_head(figure)
+    head = EDGE + TITLE_LINE * (1 + title.count("\n")) + SUBTITLE_LINE * (1 + subtitle.count("\n")) + HEAD_GAP
+    slots = _beside(figure, head) if figure.beside else _stacked(figure, head)
+    return slots, max(slot.top + slot.height + _foot(slot) for slot in slots) + FOOT
+
+
+def _wrapped_head(figure: Figure) -> tuple[str, str]:
+    title, subtitle = (wrapped(text, size, WIDTH - 2 * EDGE) for text, size in _head(figure))
+    return title, subtitle
 
 
 def _head(figure: Figure) -> tuple[tuple[str, float], tuple[str, float]]:

@@ -1,5 +1,7 @@
 """Figures of the mist pumped between gear teeth: along the face, over the stroke, at the ends."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from app.figures.data import (
@@ -12,6 +14,7 @@ from app.figures.data import (
     Mark,
     NoFigure,
     Panel,
+    Role,
     Row,
     Span,
     values,
@@ -116,6 +119,10 @@ def lead_correction(request: PumpingRequest, answer: PumpingResponse) -> Figure:
         y=Axis("normal to the flank of the pinion", "µm", magnitude=False),
         lines=(
             _along(request, "growth", curves.position_mm, curves.growth_um, Hue.VERMILLION),
+            replace(
+                _along(request, "by the radius alone", curves.position_mm, curves.radial_only_um, Hue.VERMILLION),
+                role=Role.REFERENCE,
+            ),
             _along(request, "correction", curves.position_mm, curves.correction_um, Hue.BLUE),
         ),
         spans=_grooves(request),
@@ -144,26 +151,31 @@ def pulsation(_: PumpingRequest, answer: PumpingResponse) -> Figure:
 
 
 def mass_flow(_: PumpingRequest, answer: PumpingResponse) -> Figure:
-    """Net flow out of the tooth spaces of each gear by exit."""
+    """What leaves and enters the tooth spaces of each gear at the ends, and the net flow out by exit."""
     exits = {gear: _exits(space) for gear, space in spaces(answer)}
     still = all(abs(row.value) < NO_FLOW for rows in exits.values() for row in rows)
-    x = Axis("net mass flow out (negative: in)", "g/s", limits=(0.0, 1.0) if still else None)
+    x = Axis("mass flow (net: out; negative: in)", "g/s", limits=(0.0, 1.0) if still else None)
     panels = tuple(Panel(x=x, y=Axis("exit"), title=f"spaces of the {gear}", rows=rows) for gear, rows in exits.items())
-    through_ends = sum(rows[0].value + rows[1].value for rows in exits.values())
-    net = (
-        f"{number(abs(through_ends), 'g/s')} {'leave' if through_ends > 0.0 else 'enter'} through the ends of the face"
-    )
-    finding = "what leaves an exit comes back through it" if still else f"{net}; the exits of a gear sum to zero"
-    return Figure(finding, panels)
+    flows = [space.mass_flow_g_per_s for _, space in spaces(answer)]
+    net = sum(flow.front + flow.rear for flow in flows)
+    out = number(sum(flow.front_out + flow.rear_out for flow in flows), "g/s")
+    way = "leave" if net > 0.0 else "enter"
+    balance = f"{number(abs(net), 'g/s')} {way} net" if abs(net) > NO_FLOW else "as much enters"
+    finding = f"{out} leave through the ends of the face, {balance}; the net flows of a gear sum to zero"
+    return Figure("nothing flows" if still else finding, panels)
 
 
 def _exits(space: PumpingSpaces) -> tuple[Row, ...]:
-    flow = space.mass_flow_g_per_s
+    flow, known = space.mass_flow_g_per_s, space.mass_flow_g_per_s.net_uncertainty
     return (
-        Row("end that meshes first", flow.front, Hue.BLUE),
-        Row("end that meshes last", flow.rear, Hue.VERMILLION),
-        Row("radial clearances", flow.radial, Hue.GREEN),
-        Row("grooves", flow.grooves, Hue.ORANGE),
+        Row("first end: out", flow.front_out, Hue.BLUE),
+        Row("first end: in", flow.front_in, Hue.BLUE),
+        Row("first end: net", flow.front, Hue.BLUE, (flow.front - known, flow.front + known)),
+        Row("last end: out", flow.rear_out, Hue.VERMILLION),
+        Row("last end: in", flow.rear_in, Hue.VERMILLION),
+        Row("last end: net", flow.rear, Hue.VERMILLION, (flow.rear - known, flow.rear + known)),
+        Row("radial clearances: net", flow.radial, Hue.GREEN),
+        Row("grooves: net", flow.grooves, Hue.ORANGE),
         Row("given back between strokes", flow.reset, Hue.GREY),
     )
 

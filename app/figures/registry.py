@@ -1,6 +1,15 @@
 """The figures of each endpoint."""
 
-from app.figures import choking, coupling, coupling_companions, line_contact, load_distribution, pumping, scuffing
+from app.figures import (
+    choking,
+    coupling,
+    coupling_companions,
+    drive_train,
+    line_contact,
+    load_distribution,
+    pumping,
+    scuffing,
+)
 from app.figures.declaration import Declaration
 
 FIGURES: dict[str, tuple[Declaration, ...]] = {
@@ -12,4 +21,5 @@ FIGURES: dict[str, tuple[Declaration, ...]] = {
     "/v1/scuffing/load-distribution": load_distribution.FIGURES,
     "/v1/scuffing": (*scuffing.FIGURES, *load_distribution.FIGURES),
     "/v1/scuffing/line-contact": line_contact.FIGURES,
+    "/v1/drive-train": drive_train.FIGURES,
 }

@@ -13,10 +13,10 @@ UNSOLVED = {"no_solution", "refused"}
 WARNED = "outside validity"
 
 
-def contact_temperature(request: ScuffingRequest, answer: ScuffingResponse) -> Figure:
+def contact_temperature(_: ScuffingRequest, answer: ScuffingResponse) -> Figure:
     """Bulk and flash of both flanks by thermal EHL beside Blok, against the scuffing temperature."""
-    path, temperatures = present(answer.path), request.temperatures
-    psi, bulk = values(path.psi), temperatures.bulk_c
+    path, bulk = present(answer.path), present(answer.contact_temperature).bulk_c
+    psi = values(path.psi)
     lines = []
     for title, flash, hue in (("pinion", path.pinion_flash_k, Hue.BLUE), ("wheel", path.wheel_flash_k, Hue.VERMILLION)):
         if flash is not None:
@@ -25,10 +25,9 @@ def contact_temperature(request: ScuffingRequest, answer: ScuffingResponse) -> F
     role = Role.REFERENCE if thermal else Role.RESULT
     lines.append(Line("Blok", psi, bulk + values(path.blok_flash_k), Hue.GREY if thermal else Hue.BLUE, role))
     levels = [Level(bulk, f"bulk {number(bulk, '°C', digits=4)}")]
-    if temperatures.scuffing_c is not None:
-        levels.append(
-            Level(temperatures.scuffing_c, f"scuffing temperature {number(temperatures.scuffing_c, '°C')}", limit=True)
-        )
+    if answer.safety is not None:
+        limit = answer.safety.scuffing_c
+        levels.append(Level(limit, f"scuffing temperature {number(limit, '°C')}", limit=True))
     panel = Panel(
         x=PATH,
         y=Axis("contact temperature: bulk and flash", "°C", magnitude=False),

@@ -12,7 +12,7 @@ Column = tuple[str, list[str]]
 
 def table(figure: Figure) -> bytes:
     """All columns beside each other; a missing value is an empty cell."""
-    columns = _without_repeats([column for panel in figure.panels for column in _columns(panel)])
+    columns = columns_of(figure)
     lines = max((len(cells) for _, cells in columns), default=0)
     text = StringIO(newline="")
     writer = csv.writer(text)
@@ -20,6 +20,11 @@ def table(figure: Figure) -> bytes:
     for index in range(lines):
         writer.writerow([cells[index] if index < len(cells) else "" for _, cells in columns])
     return text.getvalue().encode()
+
+
+def columns_of(figure: Figure) -> list[Column]:
+    """Header and cells of every column."""
+    return _without_repeats([column for panel in figure.panels for column in _columns(panel)])
 
 
 def _columns(panel: Panel) -> list[Column]:

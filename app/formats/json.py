@@ -1,14 +1,16 @@
 """The answer as JSON."""
 
 from app.calculations import Calculation
+from app.contract.conversion import above
+from app.contract.quantities import Detail
 from app.evaluate import evaluate
 from app.requests.common import Request
 from app.responses.common import Response
 
 
-def written(response: Response) -> bytes:
-    """The response's fields that belong to its level of detail."""
-    return response.model_dump_json(exclude_unset=True).encode()
+def written(response: Response, detail: Detail = "fields") -> bytes:
+    """The response's fields, those above a level of detail left out."""
+    return response.model_dump_json(exclude_unset=True, exclude=above(type(response), detail)).encode()
 
 
 def answer(calculation: Calculation, request: Request) -> bytes:

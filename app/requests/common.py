@@ -15,6 +15,10 @@ class Section(Documented):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
+    def stands_for_null(self, _name: str) -> Any:
+        """What a field that was left null stands for, where the section itself knows it."""
+        return None
+
 
 class Request(Section):
     """The body of a calculation."""
@@ -45,3 +49,7 @@ class Request(Section):
     def unused_defaults(self) -> frozenset[str]:
         """Dotted names of fields or sections that the chosen options leave out of the result."""
         return frozenset()
+
+    def assumed_by_the_model(self) -> dict[str, str]:
+        """What the options in force take for granted whatever else is given: reasons by dotted names of options."""
+        return {}

@@ -115,31 +115,22 @@ class _CouplingRequest(Request):
 
     def unused_defaults(self) -> frozenset[str]:
         """What given values replace, and what the arrangement does without."""
-        unused = set()
+        unused = {*self.friction.unused_friction_defaults("friction"), *self.lubricant.unused_defaults("lubricant")}
         if self.model.inlet_length_mm is not None:
             unused.add("model.inlet")
-        if self.friction.coefficient is not None or self.friction.mixed_law is not None:
-            unused.add("friction.mixed_curve")
-        if self.friction.coefficient is not None:
-            unused.add("friction.static_coefficient")
-        if self.operation.arrangement == "single":
+        offset = getattr(self.operation, "parallel_offset_mm", None)
+        if self.operation.arrangement == "single" and offset is None:
             unused.add("coupling.hub_distance_mm")
         if self.operation.arrangement != "parallel_offset":
             unused.add("model.simple_thrust_factor")
         return frozenset(unused)
 
     def _design(self, operation: dict[str, Any]) -> si.CouplingInputs:
-        friction, table = to_si(self.friction), self.friction.mixed_law
-        friction["mixed_law"] = (
-            si.MixedFrictionCurve(**to_si(self.friction.mixed_curve))
-            if table is None
-            else si.MixedFrictionTable(**to_si(table))
-        )
         return si.CouplingInputs(
             coupling=si.proportioned(**to_si(self.coupling)),
             operation=si.Operation(**operation),
-            lubricant=si.Lubricant(**to_si(self.lubricant)),
-            friction=si.Friction(**friction),
+            lubricant=self.lubricant.lubricant(),
+            friction=self.friction.friction(),
             model=si.ModelOptions(**to_si(self.model)),
         )
 
@@ -152,7 +143,7 @@ class CouplingRequest(_CouplingRequest):
 
     def inputs(self) -> si.CouplingInputs:
         """The solver's inputs."""
-        return self._design(to_si(self.operation))
+        return self._design(self.operation.operation(to_si(self.coupling)["hub_distance"]))
 
 
 class SleeveOrbitRequest(CouplingRequest):

@@ -1,12 +1,16 @@
 """A gear coupling's own data: teeth, operating point and oil."""
 
-from typing import Annotated
+from typing import Annotated, Any, ClassVar, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
 
+from app.contract.conversion import to_si
 from app.contract.quantities import Input
 from app.requests.common import Section
+from app.requests.oil import SheetOil, names_a_sheet
 from solvers.coupling import inputs as si
+from solvers.coupling.geometry import offset_misalignment
 
 PAHL = "Pahl 1978"
 FIG_8 = "Pahl 1978, Fig. 8"
@@ -132,17 +136,66 @@ class CouplingLoad(Section):
         si.Arrangement,
         Input("arrangement", None, FIG_13, text="one mesh; two with parallel offset (Z); two with an angle (M)"),
     ] = "single"
+    shaft_diameter_mm: Annotated[
+        float | None,
+        Input(
+            "shaft diameter",
+            "D",
+            "API 671/617 practice, from memory",
+            text="of the customary thrust 0.25 T/D",
+            ge=1,
+            le=2000,
+            default_text="no customary thrust",
+        ),
+    ] = None
 
 
 class CouplingOperation(CouplingLoad):
-    """Operating point."""
+    """Operating point; the tilt is given, or follows from the shafts' offset."""
+
+    exclusive: ClassVar = (("misalignment_deg", "parallel_offset_mm"),)
 
     misalignment_deg: Annotated[
-        float,
+        float | None,
         Input(
-            "misalignment", "δ_HS", PAHL, text="tilt of hub against sleeve at one mesh", ge=-6, le=6, tolerance=0.005
+            "misalignment",
+            "δ_HS",
+            PAHL,
+            text="tilt of hub against sleeve at one mesh",
+            ge=-6,
+            le=6,
+            tolerance=0.005,
+            default_text="by the parallel offset",
         ),
-    ]
+    ] = None
+    parallel_offset_mm: Annotated[
+        float | None,
+        Input(
+            "parallel offset of the shafts",
+            "e",
+            text="instead of the tilt, which is atan(offset over hub distance)",
+            ge=-1000,
+            le=1000,
+            tolerance=0.05,
+        ),
+    ] = None
+
+    @model_validator(mode="after")
+    def tilt_or_offset(self) -> Self:
+        """Refuse both and neither."""
+        if self.misalignment_deg is None and self.parallel_offset_mm is None:
+            raise PydanticCustomError("misalignment_or_offset", "give misalignment_deg or parallel_offset_mm")
+        if self.misalignment_deg is not None and self.parallel_offset_mm is not None:
+            raise PydanticCustomError("exclusive", "misalignment_deg and parallel_offset_mm are both given; keep one")
+        return self
+
+    def operation(self, hub_distance: float) -> dict[str, Any]:
+        """The solver's operating point; hub_distance [m]."""
+        fields = to_si(self)
+        offset = fields.pop("parallel_offset")
+        if offset is not None:
+            fields["misalignment"] = offset_misalignment(offset, hub_distance)
+        return fields
 
 
 class CouplingOperationRange(CouplingLoad):
@@ -155,13 +208,35 @@ class CouplingOperationRange(CouplingLoad):
     ]
 
 
-class CouplingLubricant(Section):
+class CouplingLubricant(SheetOil):
     """Oil at the teeth."""
 
+    exclusive: ClassVar = (("viscosity_pa_s", "iso_vg", "kinematic_viscosity_40_mm2_per_s"),)
+
     viscosity_pa_s: Annotated[
-        float,
-        Input("oil viscosity at the teeth", "η", FIG_8, ge=1e-5, le=100, assumed="ISO VG 46 near 50 °C"),
+        float | None,
+        Input(
+            "oil viscosity at the teeth",
+            "η",
+            FIG_8,
+            ge=1e-5,
+            le=100,
+            default_text="by grade or data sheet",
+            assumed="ISO VG 46 near 50 °C",
+        ),
     ] = si.Lubricant().viscosity
+    temperature_c: Annotated[
+        float,
+        Input(
+            "oil temperature at the teeth",
+            "θ_oil",
+            text="at which grade or data sheet tell the viscosity",
+            ge=-50,
+            le=300,
+            tolerance=5,
+            assumed="50 °C",
+        ),
+    ] = 50.0
     reference_film_um: Annotated[
         float,
         Input(
@@ -173,3 +248,29 @@ class CouplingLubricant(Section):
             le=1000,
         ),
     ] = 1.0
+
+    @model_validator(mode="before")
+    @classmethod
+    def viscosity_follows_the_sheet(cls, given: Any) -> Any:
+        """With grade or data sheet the default viscosity is left out."""
+        return {"viscosity_pa_s": None} | given if names_a_sheet(given) else given
+
+    @model_validator(mode="after")
+    def one_viscosity(self) -> Self:
+        """Refuse both and neither."""
+        if self.by_sheet and self.viscosity_pa_s is not None:
+            raise PydanticCustomError("exclusive", "viscosity_pa_s and a grade or data sheet are both given; keep one")
+        if not self.by_sheet and self.viscosity_pa_s is None:
+            raise PydanticCustomError("missing_property", "give viscosity_pa_s, or the oil by its grade or data sheet")
+        return self
+
+    def lubricant(self) -> si.Lubricant:
+        """The solver's lubricant."""
+        fields = to_si(self)
+        viscosity = self.sheet().viscosity(fields["temperature"]) if self.by_sheet else fields["viscosity"]
+        return si.Lubricant(viscosity, fields["reference_film"])
+
+    def unused_defaults(self, section: str) -> frozenset[str]:
+        """What this way of giving the oil leaves out of a result."""
+        own = "viscosity_pa_s" if self.by_sheet else "temperature_c"
+        return self.unused_sheet_defaults(section) | {f"{section}.{own}"}

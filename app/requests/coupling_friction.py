@@ -4,6 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from app.contract.conversion import to_si
 from app.contract.quantities import Input
 from app.requests.common import Section
 from app.requests.coupling_design import PAHL
@@ -101,3 +102,21 @@ class CouplingFriction(Section):
     mixed_curve: Annotated[
         MixedFrictionCurve, Input("curve of mixed friction", None, FIG_10, text="mixed-lubrication branch of the law")
     ] = MixedFrictionCurve()
+
+    def friction(self) -> si.Friction:
+        """The solver's friction."""
+        law: si.MixedFrictionCurve | si.MixedFrictionTable = (
+            si.MixedFrictionCurve(**to_si(self.mixed_curve))
+            if self.mixed_law is None
+            else si.MixedFrictionTable(**to_si(self.mixed_law))
+        )
+        return si.Friction(**to_si(self), mixed_law=law)
+
+    def unused_friction_defaults(self, section: str) -> frozenset[str]:
+        """A coefficient or a table leaves the curve out, a coefficient also what holds at rest."""
+        unused = set()
+        if self.coefficient is not None or self.mixed_law is not None:
+            unused.add(f"{section}.mixed_curve")
+        if self.coefficient is not None:
+            unused.add(f"{section}.static_coefficient")
+        return frozenset(unused)

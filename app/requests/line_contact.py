@@ -6,7 +6,8 @@ from typing import Annotated, Any
 from app.contract.conversion import to_si
 from app.contract.quantities import Input
 from app.requests.common import Request, Section
-from app.requests.materials import XUE, Oil, Surface
+from app.requests.materials import XUE, Surface
+from app.requests.oil import Oil
 from solvers.contact import ehl
 
 BULK = "360 K, the paper's bulk temperature"
@@ -133,16 +134,17 @@ class LineContactRequest(Request):
 
     def unused_defaults(self) -> frozenset[str]:
         """What `FilmModel` leaves out; an isothermal film does not know the temperatures of the surfaces."""
-        unused = self.model.unused_film_defaults("model")
+        unused = self.model.unused_film_defaults("model") | self.lubricant.unused_defaults("lubricant")
         return unused if self.model.thermal else unused | {"temperatures.surface_1_c", "temperatures.surface_2_c"}
 
     def inputs(self) -> ehl.LineContactInputs:
-        """The solver's inputs."""
+        """The solver's inputs; an oil by its data sheet is what it is at the inlet."""
+        temperatures = ehl.Temperatures(**to_si(self.temperatures))
         return ehl.LineContactInputs(
             contact=ehl.Contact(**to_si(self.contact)),
             surface_1=self.surface_1.solid(),
             surface_2=self.surface_2.solid(),
-            lubricant=self.lubricant.lubricant(),
-            temperatures=ehl.Temperatures(**to_si(self.temperatures)),
+            lubricant=self.lubricant.lubricant(temperatures.inlet),
+            temperatures=temperatures,
             model=replace(self.model.film(), thermal=self.model.thermal),
         )

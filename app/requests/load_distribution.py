@@ -13,6 +13,8 @@ from app.requests.gears import Gears
 from app.requests.materials import XUE, Surface
 from solvers.scuffing import inputs as si
 
+ISO_6336 = "ISO 6336-1"
+
 _DEFAULTS = si.Model()
 
 
@@ -41,19 +43,31 @@ class ScuffingLoad(Section):
     pinion_torque_n_m: Annotated[float | None, Input("pinion torque", "T_1", XUE, ge=0, le=1e7)] = None
     power_kw: Annotated[float | None, Input("transmitted power", "P", f"{XUE}, Eq. 1", ge=0, le=1e6)] = None
     pinion_speed_rpm: Annotated[float, Input("pinion speed", "n_1", XUE, ge=0.1, le=2e5)]
+    application_factor: Annotated[
+        float, Input("application factor", "K_A", ISO_6336, text="multiplies the load of the contacts", ge=0.1, le=10)
+    ] = 1.0
+    dynamic_factor: Annotated[
+        float, Input("dynamic factor", "K_v", ISO_6336, text="multiplies the load of the contacts", ge=0.1, le=10)
+    ] = 1.0
+    mesh_load_factor: Annotated[
+        float, Input("mesh load factor", "K_γ", ISO_6336, text="multiplies the load of the contacts", ge=0.1, le=10)
+    ] = 1.0
 
     @model_validator(mode="after")
     def torque_or_power(self) -> Self:
         """Refuse both and neither."""
-        if (self.pinion_torque_n_m is None) == (self.power_kw is None):
-            raise PydanticCustomError("torque_or_power", "Give either pinion_torque_n_m or power_kw")
+        if self.pinion_torque_n_m is None and self.power_kw is None:
+            raise PydanticCustomError("torque_or_power", "give pinion_torque_n_m or power_kw")
+        if self.pinion_torque_n_m is not None and self.power_kw is not None:
+            raise PydanticCustomError("torque_or_power", "pinion_torque_n_m and power_kw are both given; keep one")
         return self
 
     def load(self) -> si.Load:
         """The solver's load."""
         fields = to_si(self)
         torque, power, speed = fields["pinion_torque"], fields["power"], fields["pinion_speed"]
-        return si.Load(si.torque_from_power(power, speed) if torque is None else torque, speed)
+        factors = {name: getattr(self, name) for name in ("application_factor", "dynamic_factor", "mesh_load_factor")}
+        return si.Load(si.torque_from_power(power, speed) if torque is None else torque, speed, **factors)
 
 
 class GearMaterial(Surface):
@@ -140,6 +154,11 @@ class LoadDistributionModel(Section):
         si.Resolution().feature_points
     )
 
+    def mesh_model(self) -> si.Model:
+        """The solver's choices."""
+        fields = to_si(self)
+        return si.Model(**{name: fields[name] for name in si.Model.__dataclass_fields__})
+
 
 class LoadDistributionRequest(Request):
     """A loaded, modified, misaligned gear pair."""
@@ -151,7 +170,16 @@ class LoadDistributionRequest(Request):
     )
     materials: Annotated[GearMaterials, Input("materials", text="materials of the pair")] = GearMaterials()
     friction_coefficient: Annotated[
-        float, Input("coefficient of friction", "μ_m", f"{XUE}, Eq. 25", ge=0, le=1, tolerance=0.01)
+        float,
+        Input(
+            "coefficient of friction",
+            "μ_m",
+            f"{XUE}, Eq. 25",
+            ge=0,
+            le=1,
+            tolerance=0.01,
+            assumed="0.06, the paper's; `model.friction` of the scuffing check computes it",
+        ),
     ] = 0.06
     model: Annotated[
         LoadDistributionModel, Input("model", text="choices where the paper leaves room", advanced=True)
@@ -163,8 +191,6 @@ class LoadDistributionRequest(Request):
 
     def distribution(self) -> si.LoadDistributionInputs:
         """The solver's inputs of the load distribution."""
-        model = to_si(self.model)
-        options = {name: model[name] for name in si.Model.__dataclass_fields__}
         return si.LoadDistributionInputs(
             gears=self.gears.pair(self.gears.rack_tip_radius),
             load=self.load.load(),
@@ -172,7 +198,7 @@ class LoadDistributionRequest(Request):
             pinion_material=self.materials.pinion.solid(),
             wheel_material=self.materials.wheel.solid(),
             friction_coefficient=self.friction_coefficient,
-            model=si.Model(**options),
+            model=self.model.mesh_model(),
             resolution=si.Resolution(feature_points=self.model.feature_points),
         )
 

@@ -15,8 +15,30 @@ MILIAN = "Milian 2004"
 _DEFAULTS = si.PumpingModel()
 _AMBIENT = si.Ambient()
 
+AXIAL_SPEED_ONLY = (
+    "the stagnation temperature counts the axial speed only; air drawn in from rest meets a tooth at the pitch-line "
+    "speed U, whose recovery is worth up to U²/(2 c_p) more"
+)
 
-class PumpingGears(Gears):
+
+class BacklashGears(Gears):
+    """The gear pair with its backlash."""
+
+    normal_backlash_mm: Annotated[
+        float,
+        Input(
+            "normal backlash",
+            "j_n",
+            text="normal backlash added to what the centre distance gives, by a thinner mating tooth",
+            ge=0,
+            le=20,
+            assumed="order of magnitude for module 7 mm; the paper gives none",
+            tolerance=0.05,
+        ),
+    ] = 0.3
+
+
+class PumpingGears(BacklashGears):
     """The gear pair."""
 
     rack_tip_radius: Annotated[
@@ -31,18 +53,6 @@ class PumpingGears(Gears):
             assumed="a usual ground fillet; the paper gives none",
         ),
     ] = 0.25
-    normal_backlash_mm: Annotated[
-        float,
-        Input(
-            "normal backlash",
-            "j_n",
-            text="normal backlash added to what the centre distance gives, by a thinner mating tooth",
-            ge=0,
-            le=20,
-            assumed="order of magnitude for module 7 mm; the paper gives none",
-            tolerance=0.05,
-        ),
-    ] = 0.3
 
 
 class GearGroove(Section):
@@ -176,6 +186,22 @@ class PumpingOptions(Section):
         Input("least radial clearance", "L_min", text="least radial clearance of a side", ge=0, le=1000, advanced=True),
     ] = _DEFAULTS.minimum_gap
 
+    def pumping(self) -> si.PumpingModel:
+        """The solver's options."""
+        fields = to_si(self)
+        return si.PumpingModel(**{name: fields[name] for name in si.PumpingModel.__dataclass_fields__})
+
+    def unused_pumping_defaults(self, section: str) -> frozenset[str]:
+        """Closure belongs to the pocket chain, wall transport to gas dynamics with contact gaps, slices to both."""
+        unused = set()
+        if self.flow != "pocket_chain":
+            unused.add(f"{section}.closure")
+        if self.flow != "gas_dynamics" or self.gap != "contact":
+            unused.add(f"{section}.wall_transport")
+        if self.flow == "incompressible":
+            unused.add(f"{section}.slices")
+        return frozenset(unused)
+
 
 class _PumpingSetup(Request):
     """What both calculations have in common."""
@@ -193,21 +219,15 @@ class _PumpingSetup(Request):
 
     def options(self) -> dict[str, Any]:
         """The model section, the number of slices filled in."""
-        return self.model.model_dump() | {"slices": self._options().slice_count}
+        return self.model.model_dump() | {"slices": self.model.pumping().slice_count}
 
     def unused_defaults(self) -> frozenset[str]:
-        """Closure belongs to the pocket chain, wall transport to gas dynamics with contact gaps, slices to both."""
-        flow, unused = self.model.flow, set()
-        if flow != "pocket_chain":
-            unused.add("model.closure")
-        if flow != "gas_dynamics" or self.model.gap != "contact":
-            unused.add("model.wall_transport")
-        if flow == "incompressible":
-            unused.add("model.slices")
-        return frozenset(unused)
+        """What the flow model leaves out."""
+        return self.model.unused_pumping_defaults("model")
 
-    def _options(self) -> si.PumpingModel:
-        return si.PumpingModel(**to_si(self.model))
+    def assumed_by_the_model(self) -> dict[str, str]:
+        """A flow with temperatures knows one speed only."""
+        return {} if self.model.flow == "incompressible" else {"model.flow": AXIAL_SPEED_ONLY}
 
     def _setup(self) -> si.PumpingSetup:
         gears = to_si(self.gears)
@@ -216,7 +236,7 @@ class _PumpingSetup(Request):
             normal_backlash=gears["normal_backlash"],
             grooves=tuple(si.Groove(**to_si(groove)) for groove in self.grooves),
             ambient=si.Ambient(**to_si(self.ambient)),
-            model=self._options(),
+            model=self.model.pumping(),
         )
 
 

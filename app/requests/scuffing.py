@@ -1,21 +1,48 @@
 """Scuffing of a gear pair: request of /v1/scuffing."""
 
-from typing import Annotated
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
 
 from app.contract.conversion import to_si
 from app.contract.quantities import Input
 from app.requests.common import Section
 from app.requests.line_contact import FilmModel
 from app.requests.load_distribution import LoadDistributionModel, LoadDistributionRequest
-from app.requests.materials import XUE, Oil
+from app.requests.materials import XUE
+from app.requests.oil import Oil
 from solvers.scuffing import inputs as si
+from solvers.scuffing.inputs import BulkMethod, OilSupply
+
+FZG = "ISO 14635-1"
+TR_13989 = "ISO/TR 13989-1, as read in a public implementation"
+
+_TEMPERATURES = si.Temperatures()
+
+
+class ScuffingTest(Section):
+    """A scuffing test of the oil; stages of other tests than A/8.3/90 mean other temperatures."""
+
+    fzg_stage: Annotated[int, Input("failing load stage", "S", FZG, ge=1, le=12)]
+    test: Annotated[Literal["A/8.3/90"], Input("scuffing test", None, FZG)] = "A/8.3/90"
+    structure_factor: Annotated[
+        float,
+        Input("structure factor", "X_W", TR_13989, ge=0.1, le=2, assumed="case-hardened steel with normal austenite"),
+    ] = 1.0
+    lubricant_factor: Annotated[
+        float | None,
+        Input("lubricant factor", "X_L", TR_13989, ge=0.1, le=2, default_text="by the oil's kind and its viscosity"),
+    ] = None
 
 
 class ScuffingTemperatures(Section):
     """Temperatures of teeth and oil."""
 
+    exclusive: ClassVar = (("scuffing_c", "scuffing_test"),)
+
     bulk_c: Annotated[
-        float,
+        float | None,
         Input(
             "bulk temperature",
             "θ_M",
@@ -24,9 +51,23 @@ class ScuffingTemperatures(Section):
             ge=-70,
             le=500,
             tolerance=5,
+            default_text="estimated",
+            assumed="360 K, the paper's bulk temperature; `bulk_method` estimates it from the oil",
         ),
     ] = 86.85
-    oil_c: Annotated[float, Input("oil temperature", "θ_oil", f"{XUE}, Eq. 26", ge=-70, le=500, tolerance=5)] = 60.0
+    bulk_method: Annotated[
+        BulkMethod,
+        Input("bulk temperature method", None, TR_13989, text="given, or estimated from oil, its supply and flash"),
+    ] = _TEMPERATURES.bulk_method
+    oil_supply: Annotated[
+        OilSupply, Input("oil supply", "X_S", TR_13989, assumed="spray lubrication; it decides the estimated bulk")
+    ] = _TEMPERATURES.oil_supply
+    oil_c: Annotated[
+        float,
+        Input(
+            "oil temperature", "θ_oil", f"{XUE}, Eq. 26", ge=-70, le=500, tolerance=5, assumed="60 °C, as in the paper"
+        ),
+    ] = 60.0
     scuffing_c: Annotated[
         float | None,
         Input(
@@ -36,14 +77,60 @@ class ScuffingTemperatures(Section):
             text="scuffing temperature of oil and material",
             ge=-70,
             le=1500,
-            default_text="no safety factor",
+            default_text="by `scuffing_test`; with neither no safety factor",
             tolerance=20,
         ),
     ] = None
+    scuffing_test: Annotated[
+        ScuffingTest | None, Input("scuffing test", text="instead of the temperature: the stage at which the oil fails")
+    ] = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def estimated_bulk_is_not_the_paper_s(cls, given: Any) -> Any:
+        """An estimate leaves the paper's bulk temperature out."""
+        if isinstance(given, dict) and given.get("bulk_method") == "estimated":
+            return {"bulk_c": None} | given
+        return given
+
+    @model_validator(mode="after")
+    def one_way(self) -> Self:
+        """One bulk temperature, one scuffing temperature."""
+        if self.bulk_method == "estimated" and self.bulk_c is not None:
+            raise PydanticCustomError("exclusive", "bulk_c and an estimated bulk are both given; keep one")
+        if self.bulk_method == "given" and self.bulk_c is None:
+            raise PydanticCustomError("missing_bulk", "give bulk_c, or bulk_method estimated")
+        if self.scuffing_c is not None and self.scuffing_test is not None:
+            raise PydanticCustomError("exclusive", "scuffing_c and scuffing_test are both given; keep one")
+        return self
+
+    def temperatures(self) -> si.Temperatures:
+        """The solver's temperatures."""
+        fields = to_si(self)
+        test = None
+        if self.scuffing_test is not None:
+            said = to_si(self.scuffing_test)
+            test = si.ScuffingTest(**{name: said[name] for name in si.ScuffingTest.__dataclass_fields__})
+        bulk = fields["oil"] if fields["bulk"] is None else fields["bulk"]
+        return si.Temperatures(**(fields | {"bulk": bulk, "scuffing_test": test}))
+
+    def unused_temperature_defaults(self, section: str) -> frozenset[str]:
+        """What the way of saying bulk and scuffing temperature leaves out of a result."""
+        return frozenset({f"{section}.bulk_c"} if self.bulk_method == "estimated" else {f"{section}.oil_supply"})
 
 
 class ScuffingModel(LoadDistributionModel, FilmModel):
     """Choices where the paper leaves room, and physics and resolution of the film."""
+
+    friction: Annotated[
+        si.FrictionMethod,
+        Input(
+            "friction law",
+            None,
+            TR_13989,
+            text="the coefficient given, or the mean one of ISO/TR 13989-1, for Blok and the losses",
+        ),
+    ] = "given"
 
     lubrication: Annotated[
         si.Lubrication,
@@ -85,15 +172,20 @@ class ScuffingRequest(LoadDistributionRequest):
         return si.ScuffingInputs(
             distribution=self.distribution(),
             lubricant=self.lubricant.lubricant(),
-            temperatures=si.Temperatures(**to_si(self.temperatures)),
+            oil=self.lubricant.oil(),
+            temperatures=self.temperatures.temperatures(),
             lubrication=self.model.lubrication,
+            friction=self.model.friction,
             film=self.model.film(),
             path_points=self.model.path_points,
         )
 
     def unused_defaults(self) -> frozenset[str]:
-        """Of reliefs that are zero, and of the film's model in closed form; roughness counts here."""
-        unused = self.modifications.unused_defaults("modifications")
+        """Of reliefs that are zero, of the film's model in closed form, of oil and bulk; roughness counts here."""
+        unused = self.modifications.unused_defaults("modifications") | self.lubricant.unused_defaults("lubricant")
+        unused |= self.temperatures.unused_temperature_defaults("temperatures")
+        if self.model.friction != "given":
+            unused |= {"friction_coefficient"}
         if self.model.lubrication == "closed_form":
             return unused | {"model.rheology", "model.eyring_stress_mpa"}
         return unused | self.model.unused_film_defaults("model")

@@ -112,8 +112,10 @@ class SleeveOrbitResponse(Response):
 class RecommendedPoint(Group):
     """The recommended coupling at one end of the range."""
 
-    contact_overlap: Annotated[float, Output("contact surface overlap", "Pu", PAHL, limit=1.0)]
-    load_capacity_coefficient: Annotated[float, Output("load capacity coefficient", "Tr", PAHL, limit=0.8)]
+    contact_overlap: Annotated[float, Output("contact surface overlap", "Pu", PAHL, limit=1.0, bound="upper")]
+    load_capacity_coefficient: Annotated[
+        float, Output("load capacity coefficient", "Tr", PAHL, limit=0.8, bound="lower")
+    ]
     friction_coefficient: Annotated[float, Output("friction coefficient in use", "μ")]
     axial_thrust_n: Annotated[float, Output("axial thrust", "F_ax", text="axial thrust at the axial velocity given")]
     sliding_velocity_m_per_s: Annotated[float, Output("largest sliding velocity", "v_G,max")]

@@ -38,19 +38,19 @@ class CouplingLubrication(Group):
             "normal force in the tilt position",
             "F_n",
             PAHL,
-            text="normal force of a tooth in the tilt position, or largest with pitch errors",
+            text="normal force of a tooth where the displacement f_t peaks, or largest with pitch errors",
         ),
     ]
     hertz_half_width_mm: Annotated[float, Output("half width of the Hertzian contact", "a_HZ", FIG_7)]
-    hertz_pressure_mpa: Annotated[float, Output("largest Hertzian pressure", "p_H", limit=2000.0)]
-    contact_overlap: Annotated[float | None, Output("contact surface overlap", "Pu", FIG_7, limit=1.0)]
+    hertz_pressure_mpa: Annotated[float, Output("largest Hertzian pressure", "p_H", limit=2000.0, bound="upper")]
+    contact_overlap: Annotated[float | None, Output("contact surface overlap", "Pu", FIG_7, limit=1.0, bound="upper")]
     inlet_ratio: Annotated[
         float | None, Output("inlet ratio", "B", FIG_8, text="inlet length over its scale; null: infinite")
     ]
     inlet_factor: Annotated[float, Output("inlet factor", "f(B)", FIG_8, text="effect of the shortened inlet")]
     hydrodynamic_capacity_n: Annotated[float, Output("hydrodynamic load capacity", "F_HD", FIG_8)]
     load_capacity_coefficient: Annotated[
-        float | None, Output("load capacity coefficient", "Tr", PAHL, headline=2, limit=0.8)
+        float | None, Output("load capacity coefficient", "Tr", PAHL, headline=2, limit=0.8, bound="lower")
     ]
     regime: Annotated[FrictionRegime, Output("friction regime")]
     friction_coefficient: Annotated[float, Output("friction coefficient in use", "μ")]
@@ -102,6 +102,7 @@ class CouplingThrust(Group):
             text="thrust of one mesh, or with two meshes force on one shaft, positive: pulled together",
             headline=1,
             limit="axial_thrust.coaxial_limit_n",
+            bound="upper",
         ),
     ]
     coaxial_limit_n: Annotated[
@@ -109,6 +110,19 @@ class CouplingThrust(Group):
     ]
     breakaway_force_n: Annotated[
         float, Output("breakaway thrust", "F_ax,s", PAHL, text="thrust at which coaxial shafts start to slide")
+    ]
+    design_force_n: Annotated[
+        float,
+        Output("thrust to be held", "F_ax,d", text="what a thrust bearing must hold: force or breakaway, the larger"),
+    ]
+    customary_force_n: Annotated[
+        float | None,
+        Output(
+            "customary thrust",
+            "0.25 T/D",
+            "API 671/617 practice, from memory",
+            text="0.25 T/D; null without a shaft diameter",
+        ),
     ]
     fraction_of_limit: Annotated[
         float | None, Output("thrust over its limit", "F_ax/F_ax,max", text="force over coaxial limit", limit=1.0)

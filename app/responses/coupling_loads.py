@@ -46,7 +46,14 @@ class CouplingKinematics(Group):
 
     max_sliding_velocity_m_per_s: Annotated[
         float,
-        Output("largest sliding velocity", "v_G,max", FIG_6, headline=3, limit="limits.sliding_velocity_limit_m_per_s"),
+        Output(
+            "largest sliding velocity",
+            "v_G,max",
+            FIG_6,
+            headline=3,
+            limit="limits.sliding_velocity_limit_m_per_s",
+            bound="upper",
+        ),
     ]
     max_contact_travel_mm: Annotated[
         float,

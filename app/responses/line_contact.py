@@ -3,14 +3,15 @@
 from typing import Annotated
 
 from app.contract.quantities import Output
-from app.responses.common import Derived, Group, Response
+from app.responses.common import Group, Response
+from app.responses.oil import OilDerived
 from solvers.contact import ehl
 
 XUE = "Xue 2020"
 
 
-class LineContactDerived(Derived):
-    """What load, curvature and speeds make of the two surfaces."""
+class LineContactDerived(OilDerived):
+    """What load, curvature and speeds make of the two surfaces, and the oil at the inlet."""
 
     entrainment_speed_m_per_s: Annotated[float, Output("mean surface speed", "u_m", XUE)]
     reduced_modulus_gpa: Annotated[float, Output("reduced modulus", "E'", XUE)]
@@ -20,7 +21,9 @@ class HertzContact(Group):
     """The dry contact."""
 
     half_width_mm: Annotated[float, Output("half width of the contact", "b")]
-    max_pressure_mpa: Annotated[float, Output("Hertz pressure", "p_H", f"{XUE}, Eq. 14 without its π/4", limit=4000.0)]
+    max_pressure_mpa: Annotated[
+        float, Output("Hertz pressure", "p_H", f"{XUE}, Eq. 14 without its π/4", limit=4000.0, bound="upper")
+    ]
 
 
 class ContactNumbers(Group):

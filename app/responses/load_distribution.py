@@ -46,7 +46,10 @@ class FlankPlace(Group):
 class FlankLoad(Group):
     """Load on the flank."""
 
-    pinion_torque_n_m: Annotated[float, Output("pinion torque", "T_1")]
+    pinion_torque_n_m: Annotated[float, Output("pinion torque", "T_1", text="the transmitted one")]
+    contact_factor: Annotated[
+        float, Output("load factor of the contacts", "K", text="K_A K_v K_γ: multiplies the forces below")
+    ]
     tangential_force_n: Annotated[
         float, Output("transverse tooth force", "F_bt", f"{XUE}, Eq. 1", text="force in the transverse plane")
     ]

@@ -12,6 +12,9 @@ class PumpingDerived(Derived):
 
     centre_distance_mm: Annotated[float, Output("centre distance used", "a")]
     slices: Annotated[int, Output("slices asked for", "N_0", text="slices or pockets, those of the grooves included")]
+    rack_tip_radius: Annotated[
+        float, Output("rack tip radius used", "ρ_fP*", text="in normal modules, as far as both racks have room for it")
+    ]
 
 
 class PumpingGeometry(Group):

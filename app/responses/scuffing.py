@@ -5,13 +5,27 @@ from typing import Annotated
 from app.contract.quantities import Output
 from app.responses.common import Group
 from app.responses.gear_mesh import XUE, Values
-from app.responses.load_distribution import Gaps, LoadDistributionResponse
+from app.responses.load_distribution import Gaps, LoadDistributionResponse, ScuffingDerived
+from app.responses.oil import OilDerived
 from solvers.contact.film import Regime
 from solvers.scuffing.safety_results import PointStatus
+from solvers.scuffing.scuffing_practice import ScuffingRisk
 
 FIG_22 = f"{XUE}, Fig. 22"
 FIG_23 = f"{XUE}, Fig. 23"
 SCUFFING = "temperatures.scuffing_c"
+LIMIT = "safety.scuffing_c"
+
+
+class ScuffingOilDerived(ScuffingDerived, OilDerived):
+    """Load and lengths, and the oil as it enters the contact."""
+
+    kinematic_viscosity_100_mm2_per_s: Annotated[
+        float | None, Output("kinematic viscosity used at 100 °C", "ν_100", text="null without grade or data sheet")
+    ]
+    density_15_kg_per_m3: Annotated[
+        float | None, Output("oil density used at 15 °C", "ρ_15", text="null without grade or data sheet")
+    ]
 
 
 class FlashTemperature(Group):
@@ -34,8 +48,9 @@ class FlashTemperature(Group):
 
 
 class ContactTemperatureResult(Group):
-    """Largest contact temperature, bulk plus flash."""
+    """Bulk temperature, and the largest contact temperature: bulk plus flash."""
 
+    bulk_c: Annotated[float, Output("bulk temperature used", "θ_M", f"{XUE}, Eq. 16", text="given or estimated")]
     blok_max_c: Annotated[
         float | None,
         Output(
@@ -44,7 +59,8 @@ class ContactTemperatureResult(Group):
             f"{XUE}, Eq. 16",
             text="by Blok; null where a loaded point has none",
             headline=2,
-            limit=SCUFFING,
+            limit=LIMIT,
+            bound="upper",
         ),
     ]
     thermal_ehl_max_c: Annotated[
@@ -53,7 +69,8 @@ class ContactTemperatureResult(Group):
             "contact temperature by thermal EHL",
             "θ_B,max,EHL",
             text="by the thermal EHL solution; null in closed form",
-            limit=SCUFFING,
+            limit=LIMIT,
+            bound="upper",
         ),
     ]
 
@@ -78,6 +95,7 @@ class ThinnestFilm(Group):
             text="minimum film over the roughness of both flanks",
             headline=3,
             limit=1.0,
+            bound="lower",
         ),
     ]
     thickness_regime: Annotated[
@@ -91,6 +109,16 @@ class ThinnestFilm(Group):
 class ScuffingSafety(Group):
     """Safety against scuffing."""
 
+    scuffing_c: Annotated[float, Output("scuffing temperature used", "θ_S", text="given or by the scuffing test")]
+    verdict: Annotated[
+        ScuffingRisk | None,
+        Output(
+            "risk of scuffing",
+            None,
+            "ISO/TR 13989-1, from memory",
+            text="by Blok's factor: below 1 high, to 2 moderate, above low; null without it",
+        ),
+    ]
     blok_factor: Annotated[
         float | None,
         Output(
@@ -99,7 +127,10 @@ class ScuffingSafety(Group):
             f"{XUE}, Eq. 26",
             text="scuffing safety by Blok; null where the teeth stay as cool as the oil",
             headline=1,
+            needs=SCUFFING,
+            verdict="safety.verdict",
             limit=1.0,
+            bound="lower",
         ),
     ]
     thermal_ehl_factor: Annotated[
@@ -109,6 +140,7 @@ class ScuffingSafety(Group):
             "S_B,EHL",
             text="by the thermal EHL solution; null in closed form",
             limit=1.0,
+            bound="lower",
         ),
     ]
 
@@ -155,6 +187,7 @@ class ScuffingPathCurves(Group):
             text="film over roughness; null without load",
             axis="psi",
             limit=1.0,
+            bound="lower",
         ),
     ]
 
@@ -172,3 +205,4 @@ class ScuffingResponse(LoadDistributionResponse):
     unsolved_points: Annotated[
         int | None, Output("unsolved points", text="points of the path without a solution or refused")
     ] = None
+    derived: Annotated[ScuffingOilDerived | None, Output("load, lengths and oil used")] = None

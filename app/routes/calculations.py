@@ -76,7 +76,7 @@ def require_json(http: Request) -> None:
     media_type = http.headers.get("content-type", "").partition(";")[0].strip().lower()
     kind, _, subtype = media_type.partition("/")
     if kind != "application" or subtype.rpartition("+")[2] != "json":
-        raise HTTPException(415, "The content type must be application/json")
+        raise HTTPException(415, "send the header Content-Type: application/json")
 
 
 def _add(calculation: Calculation) -> None:

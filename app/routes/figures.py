@@ -7,6 +7,7 @@ from fastapi import APIRouter, HTTPException, Path, Query, Request, Response
 from pydantic import BaseModel
 
 from app.calculations import CALCULATIONS, Calculation
+from app.contract.messages import Fault
 from app.contract.quantities import Output
 from app.figures.rendering import MEDIA_TYPES, Format, render
 from app.library import body_of
@@ -56,7 +57,7 @@ class FigureRoute(CalculationRoute):
             raise HTTPException(404, f"There are {', '.join(figures)}, each as {', '.join(FORMATS)}")
         theme = http.query_params.get("theme", "light")
         if theme not in THEMES:
-            raise InvalidBody([{"loc": ("theme",), "type": "literal_error", "msg": "Input should be light or dark"}])
+            raise InvalidBody([Fault("/theme", "literal_error", "theme: allowed are light, dark")])
         return Work(path, partial(figure_of, path, name, image_format, theme), MEDIA_TYPES[image_format], ALONE)
 
 

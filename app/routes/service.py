@@ -1,9 +1,8 @@
-"""Examples, health, metrics, and the way to the docs page."""
+"""Examples, health and metrics."""
 
 from typing import Annotated, Literal
 
 from fastapi import APIRouter, HTTPException, Path, Request, Response
-from fastapi.responses import RedirectResponse
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 from pydantic import BaseModel
 
@@ -28,12 +27,6 @@ class Readiness(BaseModel):
     status: Annotated[Literal["ok"], Output("always ok: an answer is the message")] = "ok"
     warm: Annotated[list[str], Output("models, or parts of them, whose kernels are loaded")]
     workers: Annotated[int, Output("worker processes that calculate or could")]
-
-
-@router.get("/", include_in_schema=False)
-async def home() -> RedirectResponse:
-    """The docs page."""
-    return RedirectResponse("/docs")
 
 
 @router.get("/v1/examples")

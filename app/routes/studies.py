@@ -10,6 +10,7 @@ from fastapi.responses import StreamingResponse
 from fastapi.routing import APIRoute
 from starlette.types import Receive, Scope, Send
 
+from app.contract.messages import Fault
 from app.library import examples
 from app.problems import documented
 from app.reading import InvalidBody
@@ -80,7 +81,7 @@ def wanted_format(http: Request) -> Format:
     named = http.query_params.get("format")
     if named is not None:
         if named not in MEDIA_TYPES:
-            raise InvalidBody([{"loc": ("format",), "type": "literal_error", "msg": "Input should be ndjson or csv"}])
+            raise InvalidBody([Fault("/format", "literal_error", "format: allowed are ndjson, csv")])
         return named
     accepted = [part.partition(";")[0].strip().lower() for part in http.headers.get("accept", "").split(",")]
     return next((name for media in accepted for name, own in MEDIA_TYPES.items() if media == own), "ndjson")

@@ -9,7 +9,7 @@ from typing import Any, Literal, NamedTuple
 from app.calculations import BY_PATH, Calculation
 from app.cost import refuse_endless
 from app.evaluate import evaluate
-from app.problems import PROBLEMS, Unprocessable, faults
+from app.problems import PROBLEMS, Unprocessable, faults_of
 from app.reading import InvalidBody, validated
 from app.studies.fields import clear, fellows, set_value, value_at
 from app.studies.requests import Overrides
@@ -47,7 +47,7 @@ class Question(NamedTuple):
 
     def refused(self, error: InvalidBody | Unprocessable) -> Point:
         """A point whose request cannot be computed."""
-        return Point("refused", self._nothing, [], faults(error)[0])
+        return Point("refused", self._nothing, [], faults_of(error)[0])
 
     @property
     def _nothing(self) -> list[Any]:

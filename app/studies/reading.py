@@ -20,14 +20,15 @@ def calculation_of(study: StudyRequest) -> Calculation:
 
 
 def checked_base(calculation: Calculation, base: dict[str, Any], first: Overrides) -> Request:
-    """The base request with the first point inserted; InvalidBody with locations in the study.
+    """The base request with the first point inserted; InvalidBody with pointers into the study.
 
     What the schema allows and physics does not is a refused point.
     """
     try:
         return validated(calculation.request, with_overrides(calculation, base, first))
     except InvalidBody as error:
-        raise InvalidBody([{**each, "loc": ("request", *each["loc"])} for each in error.errors]) from None
+        found = [fault._replace(pointer=f"/request{fault.pointer}") for fault in error.faults]
+        raise InvalidBody(found) from None
 
 
 def case_of_study(path: str, study: StudyRequest) -> str:

@@ -7,11 +7,10 @@ import pickle
 import signal
 import socket
 import subprocess
-import sys
 from collections.abc import Callable
 from typing import Any, cast
 
-from app.processes import is_stopped
+from app.processes import child_command, is_stopped
 from app.workers.worker import LENGTH, framed
 
 FORK_TIMEOUT_S = 10.0
@@ -99,7 +98,7 @@ class ForkServer:
         ours.setblocking(False)
         environment = {**os.environ, **dict.fromkeys(ONE_THREAD, "1")}
         with theirs:
-            command = [sys.executable, "-m", "app.workers.template"]
+            command = child_command("app.workers.template")
             process = subprocess.Popen(command, stdin=theirs.fileno(), env=environment)  # noqa: S603
         return cls(process, ours)
 

@@ -1,4 +1,4 @@
-"""The fork server: one process that loads the kernels and is copied, run as `python -m app.workers.template`.
+"""The fork server: one process that loads the kernels and is copied.
 
 It has one thread, so that a copy holds no lock that nobody will release, and puts everything it has loaded beyond the
 reach of the garbage collector, so that the copies share its memory. Its standard input is a socket on which the service
@@ -20,9 +20,8 @@ import sys
 
 import scipy.stats  # noqa: F401  what random samples need, likewise
 
-import app.figures.drawing
+import app.figures.drawing  # half a second and 70 MB, which every worker shares
 import app.studies.sweep  # noqa: F401
-from app.processes import end_with_parent
 from app.warm_up import calculate
 from app.workers import worker
 
@@ -33,7 +32,6 @@ logger = logging.getLogger("tribodrive")
 
 def main() -> None:
     """Obey commands until the service hangs up."""
-    end_with_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     with socket.socket(fileno=os.dup(sys.stdin.fileno())) as control:
         null = os.open(os.devnull, os.O_RDWR)

@@ -6,7 +6,7 @@ described by the coefficients of sin, cos and of their products; both kinematic 
 """
 
 from dataclasses import dataclass
-from math import ceil, hypot, pi, tan
+from math import atan2, ceil, hypot, pi, tan
 
 import numpy as np
 
@@ -139,6 +139,11 @@ def max_hydrodynamic_velocity(mesh: MeshMotion) -> float:
 def displacement_peak_to_peak(mesh: MeshMotion) -> float:
     """Largest minus smallest f_t [m]."""
     return hypot(mesh.tilt - mesh.pivot, mesh.mixed)
+
+
+def displacement_peak(mesh: MeshMotion) -> float:
+    """Tooth angle [rad] at which f_t is largest: 90 degrees, or 90 degrees + side (alpha - chi) in space."""
+    return pi / 2.0 + 0.5 * atan2(-mesh.mixed, mesh.tilt - mesh.pivot)
 
 
 def kinematics(mesh: MeshMotion) -> Kinematics:

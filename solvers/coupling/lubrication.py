@@ -1,7 +1,8 @@
 """Contact surface overlap and hydrodynamic load capacity of the highest loaded tooth (Figs 7 and 8)."""
 
 from dataclasses import dataclass
-from math import atan, cos, inf, pi, sin, sqrt, tan
+from functools import partial
+from math import atan, cos, inf, sin, sqrt, tan
 
 import numpy as np
 
@@ -12,17 +13,18 @@ from solvers.coupling.inputs import Coupling, CouplingInputs, ModelOptions
 from solvers.coupling.kinematics import (
     MeshMotion,
     ToothPositions,
+    displacement_peak,
     hydrodynamic_velocity,
     max_contact_travel,
     max_hydrodynamic_velocity,
     revolution,
     tooth_positions,
 )
+from solvers.coupling.peaks import largest_value
 from solvers.coupling.results import Geometry
 from solvers.coupling.tooth_loads import mesh_loads
 from solvers.materials import Solid
 
-_PEAKS = 8
 UNBOUNDED_LOAD = 0.20395702057972376
 """W of an infinitely long inlet, whose exit lies at tan g = 0.47513; 12 of it is Pahl's 2.447."""
 
@@ -45,20 +47,14 @@ class FilmState:
 
 
 def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
-    """Largest normal tooth force with a tooth in the tilt position [N]; with pitch errors over a revolution.
+    """Largest normal tooth force [N], met by a tooth where f_t peaks; with pitch errors searched over a revolution.
 
-    The revolution is searched again, in steps eight times as fine, around the rotor angles of the largest forces:
-    between few loaded teeth the largest lasts but a fraction of a pitch.
+    The tilt position of `tangential` is where f_t peaks. `spatial` has the same f_t, turned: where its own peaks.
     """
-    coupling = inputs.coupling
-    if coupling.pitch_errors is None:
-        return float(_largest_forces(inputs, mesh, np.array([pi / 2])).max())
-    angles = pi / 2 + revolution(coupling.teeth)
-    coarse = _largest_forces(inputs, mesh, angles)
-    peaks = angles[np.argsort(coarse)[-_PEAKS:]]
-    around = (angles[1] - angles[0]) * np.arange(-1.0, 1.125, 0.125)
-    fine = _largest_forces(inputs, mesh, (peaks[:, None] + around).ravel())
-    return float(max(coarse.max(), fine.max()))
+    peak = displacement_peak(mesh)
+    if inputs.coupling.pitch_errors is None:
+        return float(_largest_forces(inputs, mesh, np.array([peak])).max())
+    return largest_value(peak + revolution(inputs.coupling.teeth), partial(_largest_forces, inputs, mesh))
 
 
 def _largest_forces(inputs: CouplingInputs, mesh: MeshMotion, angles: FloatArray) -> FloatArray:

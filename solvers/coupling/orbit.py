@@ -9,9 +9,10 @@ from solvers.arrays import FloatArray, frozen
 from solvers.coupling.checks import check_inputs
 from solvers.coupling.geometry import pitch_radius, tooth_geometry
 from solvers.coupling.inputs import CouplingInputs
-from solvers.coupling.kinematics import mesh_motion, revolution, tooth_positions
+from solvers.coupling.kinematics import MeshMotion, mesh_motion, revolution, tooth_positions
 from solvers.coupling.load_distribution import LOADED
 from solvers.coupling.notices import orbit_notices
+from solvers.coupling.peaks import largest_value
 from solvers.coupling.results import Geometry, InertiaForce, Orbit, OrbitResult
 from solvers.coupling.tooth_loads import floating_loads
 from solvers.errors import InvalidInput, NoSolution
@@ -23,21 +24,17 @@ HIGHEST_ORDER = 12
 
 @dataclass(frozen=True, slots=True)
 class _SettledPath:
-    """Path (rows, 2) [m] and its inertia force (rows, 2) [N].
+    """Path (rows, 2) [m], its inertia force (rows, 2) [N] and its `farthest` displacement [m].
 
     `sweeps` it took, `change` [m] in the last of them, and how few teeth carry where the `fewest` do.
     """
 
     path: FloatArray
     force: FloatArray
+    farthest: float
     sweeps: int
     change: float
     fewest: int
-
-    @property
-    def farthest(self) -> float:
-        """Largest displacement [m]."""
-        return float(np.hypot(self.path[:, 0], self.path[:, 1]).max())
 
     @property
     def harmonics(self) -> FloatArray:
@@ -105,13 +102,39 @@ def _settled_path(
             break
         if change < REPEAT_TOLERANCE:
             loaded = loads.tangential_force > LOADED * loads.tangential_force.mean()
-            return _SettledPath(path, force, sweep, change, int(loaded.sum(axis=1).min()))
+            farthest = _farthest(inputs, mesh, angles, force, highest_order)
+            return _SettledPath(path, force, farthest, sweep, change, int(loaded.sum(axis=1).min()))
     raise NoSolution(
         "sleeve_orbit",
         "the orbit does not settle: the sleeve's inertia is no longer small against the mesh stiffness; "
         "lower the speed or the sleeve mass, or raise the torque",
         {"change": change, "sweeps": float(sweep)},
     )
+
+
+def _farthest(
+    inputs: CouplingInputs, mesh: MeshMotion, angles: FloatArray, force: FloatArray, highest_order: int
+) -> float:
+    """Largest displacement [m] under a settled inertia force (rows, 2) [N].
+
+    Searched between the rotor angles too: while few teeth carry, the sleeve peaks within a fraction of a pitch. The
+    force is a sum of orders up to the highest and so known there.
+    """
+    coupling, limit = inputs.coupling, _safe_force(inputs)
+    order = np.arange(highest_order + 1)
+    amplitude = np.fft.rfft(force, axis=0)[order] / angles.size * np.where(order == 0, 1.0, 2.0)[:, None]
+
+    def displacement(at: FloatArray) -> FloatArray:
+        inertia_force = (np.exp(1j * np.outer(at, order)) @ amplitude).real
+        teeth = tooth_positions(at, coupling.teeth)
+        loads = floating_loads(coupling, mesh, teeth, inputs.operation.torque, _limited(inertia_force, limit))
+        unbalanced = int(np.count_nonzero(loads.iterations < 0))
+        if unbalanced:
+            message = "the sleeve was not balanced between two rotor angles of its orbit; raise the torque"
+            raise NoSolution("sleeve_orbit", message, {"unbalanced_angles": float(unbalanced)})
+        return np.hypot(loads.displacement[:, 0], loads.displacement[:, 1])
+
+    return largest_value(angles, displacement)
 
 
 def _second_derivative(path: FloatArray, highest_order: int) -> FloatArray:

@@ -75,7 +75,8 @@ def _check_torque(inputs: DriveTrainInputs, index: int, name: str) -> None:
         position = own[0]
     if not shaft.start <= position <= shaft.end:
         raise InvalidInput("torque_position", "torque must enter within the shaft", field)
-    if inputs.face_start < position < inputs.face_start + inputs.mesh.distribution.gears.face_width:
+    end = inputs.face_start + inputs.mesh.distribution.gears.face_width
+    if inputs.face_start + COINCIDENT < position < end - COINCIDENT:
         raise InvalidInput("torque_position", "torque must enter outside the face", field)
 
 

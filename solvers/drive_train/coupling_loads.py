@@ -9,6 +9,8 @@ M_l dissipates, M_s and M_e straighten; s is the sense of rotation, s_d = +1 whe
 of T delta / 2 differs between hub and sleeve because the torque bisects their axes.
 """
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from math import acos, cos, hypot, pi, sin, sqrt
 
@@ -16,8 +18,15 @@ import numpy as np
 
 from solvers import coupling as gear_coupling
 from solvers.arrays import FloatArray
-from solvers.coupling.geometry import pitch_radius
+from solvers.coupling.averaging import loaded_mesh
+from solvers.coupling.checks import check_contact, check_inputs
+from solvers.coupling.friction import friction_coefficient
+from solvers.coupling.geometry import pitch_radius, tooth_geometry
 from solvers.coupling.inputs import CouplingInputs, Operation
+from solvers.coupling.kinematics import mesh_motion
+from solvers.coupling.limits import coaxial_limit
+from solvers.coupling.losses import losses
+from solvers.coupling.lubrication import film_state
 from solvers.drive_train.inputs import CouplingFriction, UnitCoupling
 from solvers.errors import InvalidInput
 from solvers.notices import Notice
@@ -39,7 +48,6 @@ class HubMoments:
     thrust_limit: float
     sticks: bool
     share: float
-    warnings: tuple[Notice, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,31 +134,55 @@ def regularised(ratio: float) -> tuple[float, float]:
 
 
 def hub_moments(port: CouplingPort, tilt: float) -> HubMoments:
-    """Moments of one hub at a tilt [rad] > 0. Raises what `coupling.solve` raises, its fields prefixed."""
-    unit = port.inputs
-    given = CouplingInputs(
-        unit.coupling, Operation(port.torque, port.speed, tilt), unit.lubricant, unit.friction, unit.model
-    )
-    try:
-        result = gear_coupling.solve(given)
-    except InvalidInput as refusal:
-        field = f"couplings.{port.index}" + ("" if refusal.field is None else f".{refusal.field}")
-        raise InvalidInput(refusal.code, refusal.message, field) from refusal
-    friction = result.lubrication.friction_coefficient
-    limit, full = sliding_tilt(port, friction), axial_share(port) * result.losses.friction_moment
+    """Moments of one hub at a tilt [rad] > 0, and no more of the coupling's model than they take.
+
+    Raises what `coupling.solve` raises, its fields prefixed.
+    """
+    given = _operating_point(port, tilt)
+    geometry = tooth_geometry(given.coupling)
+    with _prefixed(port):
+        check_inputs(given)
+        mesh = mesh_motion(given.coupling, geometry, given.operation, given.model.kinematics)
+        film = film_state(given, geometry, mesh)
+        check_contact(film, geometry)
+        friction = friction_coefficient(given.friction, film.overlap, film.load_capacity_coefficient, abs(mesh.sliding))
+        found = losses(given, geometry, loaded_mesh(given, mesh), friction)
+    limit, full = sliding_tilt(port, friction), axial_share(port) * found.friction_moment
     loss, elastic, ratio = 0.0, 0.0, np.inf
     if limit > 0.0:
         ratio = tilt / limit
         loss, elastic = elastic_plastic(ratio) if port.law == "elastic_plastic" else regularised(ratio)
     return HubMoments(
-        straightening=result.losses.contact_shift_moment + full * elastic,
+        straightening=found.contact_shift_moment + full * elastic,
         loss=full * loss,
         friction_coefficient=friction,
-        thrust_limit=result.axial_thrust.coaxial_limit,
+        thrust_limit=coaxial_limit(given.coupling, port.torque, friction),
         sticks=ratio < 1.0,
         share=sqrt(loss**2 + elastic**2),
-        warnings=result.warnings,
     )
+
+
+def hub_warnings(port: CouplingPort, tilt: float) -> tuple[Notice, ...]:
+    """What the coupling model says of a hub at a tilt [rad]."""
+    with _prefixed(port):
+        return gear_coupling.solve(_operating_point(port, tilt)).warnings
+
+
+def _operating_point(port: CouplingPort, tilt: float) -> CouplingInputs:
+    unit = port.inputs
+    return CouplingInputs(
+        unit.coupling, Operation(port.torque, port.speed, tilt), unit.lubricant, unit.friction, unit.model
+    )
+
+
+@contextmanager
+def _prefixed(port: CouplingPort) -> Iterator[None]:
+    """Refusals of the coupling model name the coupling as well."""
+    try:
+        yield
+    except InvalidInput as refusal:
+        field = f"couplings.{port.index}" + ("" if refusal.field is None else f".{refusal.field}")
+        raise InvalidInput(refusal.code, refusal.message, field) from refusal
 
 
 def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, FloatArray]:

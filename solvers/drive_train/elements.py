@@ -7,22 +7,35 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.drive_train.balance import Equilibrium
 from solvers.drive_train.bearings import BearingState
-from solvers.drive_train.coupling_loads import LEAST_TILT, HubMoments, hub_moments
+from solvers.drive_train.coupling_loads import LEAST_TILT, HubMoments, hub_moments, hub_warnings
 from solvers.drive_train.influence import ShaftPorts, Unit
 from solvers.drive_train.inputs import DriveTrainInputs, Vector2
 from solvers.drive_train.results import BearingResult, CouplingResult, ShaftCurves, ShaftResult
 from solvers.drive_train.thrust_budget import mesh_thrust, thrust_budget
 from solvers.gears.path_of_contact import PathOfContact
+from solvers.notices import Notice
 
 
 def hubs_of(unit: Unit, found: Equilibrium) -> list[tuple[HubMoments, HubMoments]]:
     """Moments of both hubs of every coupling at the tilts found."""
-    hubs = []
-    for k, port in enumerate(unit.couplings):
-        tilts = found.tilts[4 * k : 4 * k + 4]
-        sizes = [max(hypot(*tilts[part : part + 2]), LEAST_TILT) for part in (0, 2)]
-        hubs.append((hub_moments(port, sizes[0]), hub_moments(port, sizes[1])))
-    return hubs
+    return [
+        (hub_moments(port, sizes[0]), hub_moments(port, sizes[1]))
+        for port, sizes in zip(unit.couplings, _tilt_sizes(unit, found), strict=True)
+    ]
+
+
+def warnings_of(unit: Unit, found: Equilibrium) -> list[tuple[Notice, ...]]:
+    """What the coupling model says of both hubs of every coupling."""
+    return [
+        (*hub_warnings(port, sizes[0]), *hub_warnings(port, sizes[1]))
+        for port, sizes in zip(unit.couplings, _tilt_sizes(unit, found), strict=True)
+    ]
+
+
+def _tilt_sizes(unit: Unit, found: Equilibrium) -> list[Vector2]:
+    """Tilts [rad] of both hubs of every coupling, at least the least."""
+    tilts = found.tilts.reshape(len(unit.couplings), 2, 2)
+    return [(max(hypot(*a), LEAST_TILT), max(hypot(*b), LEAST_TILT)) for a, b in tilts]
 
 
 def coupling_results(
@@ -88,7 +101,7 @@ def _bearing(state: BearingState) -> BearingResult:
         displacement=_pair(state.displacement),
         eccentricity_ratio=state.eccentricity_ratio,
         attitude=state.attitude,
-        minimum_film=state.minimum_film,
+        min_film=state.minimum_film,
         specific_pressure=state.specific_pressure,
         friction_power=state.friction_power,
     )

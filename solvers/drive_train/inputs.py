@@ -15,6 +15,7 @@ from solvers.scuffing.inputs import ScuffingInputs
 Vector2 = tuple[float, float]
 CouplingFriction = Literal["elastic_plastic", "sliding"]
 ShaftName = Literal["pinion", "wheel"]
+State = Literal["hot", "cold"]
 STATIONS = 41
 ASSUMED_RESPONSE = 0.5
 
@@ -152,11 +153,12 @@ class Arrangement:
 class Heat:
     """Tooth temperatures [K] without the pumping heat, and how much of the gas's rise the metal takes (0 to 1.5).
 
-    `wall_response_wheel` None is the pinion's times z1/z2: a wheel tooth meets the hot gas once a turn. Where the bulk
-    temperatures include the pumping heat, only the deviation of the gas's rise from its mean over the face counts.
+    `wall_response` None is an assumed one, 0.5, and says so. `wall_response_wheel` None is the pinion's times z1/z2: a
+    wheel tooth meets the hot gas once a turn. Where the bulk temperatures include the pumping heat, only the deviation
+    of the gas's rise from its mean over the face counts.
     """
 
-    wall_response: float = 0.5
+    wall_response: float | None = None
     wall_response_wheel: float | None = None
     pinion_bulk: float = 363.15
     wheel_bulk: float = 353.15
@@ -185,7 +187,8 @@ class DriveTrainInputs:
     The mesh and the pumped spaces are of one pair; only the radius of the rack's tip may differ. `face_start` [m] is
     the end of the common face with the lower Z. `contact_load_factor` (K_A K_v K_gamma) raises the load of the contacts
     only. A thrust collar of `collar_radius` [m] on the pinion takes the place of the pinion's thrust bearing.
-    `local_bulk` adds the local pumping heat to the contact's bulk temperature.
+    `local_bulk` adds the local pumping heat to the contact's bulk temperature. The answer is of the hot unit, with
+    that of the cold one beside it where `states` holds it.
     """
 
     mesh: ScuffingInputs
@@ -202,6 +205,7 @@ class DriveTrainInputs:
     coupling_friction: CouplingFriction = "elastic_plastic"
     face_stations: int = STATIONS
     local_bulk: bool = False
+    states: tuple[State, ...] = ("hot",)
 
     @property
     def shafts(self) -> tuple[Shaft, Shaft]:

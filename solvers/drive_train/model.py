@@ -7,7 +7,8 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.drive_train.balance import Equilibrium, LoadedMesh, equilibrium
 from solvers.drive_train.checks import check_inputs
-from solvers.drive_train.elements import coupling_results, hubs_of, shaft_results
+from solvers.drive_train.derived import derived
+from solvers.drive_train.elements import coupling_results, hubs_of, shaft_results, warnings_of
 from solvers.drive_train.influence import Unit, unit
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.losses import force_balance, train_losses
@@ -108,10 +109,11 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
         convergence=Convergence(found.iterations, found.residual),
         mesh=spread,
         contact_temperature=frozen(heat.temperature),
+        derived=derived(inputs, spread),
         warnings=(
             *spread.warnings,
             *gas.warnings,
-            *coupling_notices(inputs, couplings, [(*pair[0].warnings, *pair[1].warnings) for pair in hubs]),
+            *coupling_notices(inputs, couplings, warnings_of(system, found)),
             *shaft_notices(inputs, shafts),
             *load_notices(inputs, load, heat.safety),
             *heat.warnings,
@@ -129,7 +131,7 @@ def face_load(spread: LoadDistribution) -> FaceLoad:
         max_line_load=spread.load.max_line_load,
         max_pressure=spread.pressure.max,
         contact_fraction=spread.load.contact_fraction,
-        transmission_error_peak_to_peak=spread.transmission_error.peak_to_peak,
+        transmission_error_pp=spread.transmission_error.peak_to_peak,
     )
 
 

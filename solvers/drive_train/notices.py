@@ -9,6 +9,7 @@ from solvers.drive_train.results import CouplingResult, FaceLoad, ShaftResult, T
 from solvers.notices import Notice
 
 SHORT_BEARING = 0.7  # width over diameter
+ROUNDING = 1e-9  # of lengths that come from other units
 THIN_FILM = 15e-6  # m
 LARGE_ECCENTRICITY = 0.9
 LIFTED = 0.9  # contact fraction
@@ -21,7 +22,10 @@ def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResu
         for k, (bearing, state) in enumerate(zip(shaft.bearings, result.bearings, strict=True)):
             field = f"{name}.bearings.{k}"
             if isinstance(bearing, JournalBearing):
-                yield from _film_notices(bearing, state.eccentricity_ratio, state.minimum_film, field)
+                yield from _film_notices(bearing, state.eccentricity_ratio, state.min_film, field)
+        if not all(isinstance(bearing, JournalBearing) for bearing in shaft.bearings):
+            message = "the loss of bearings that are no plain ones is not known; total loss and efficiency leave it out"
+            yield Notice("bearing_loss_left_out", message, f"{name}.bearings")
         thrust = result.thrust
         if thrust.reverses:
             message = f"the coupling's friction can turn the thrust round: {thrust.lower:.0f} to {thrust.upper:.0f} N"
@@ -40,7 +44,7 @@ def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResu
 def _film_notices(
     bearing: JournalBearing, eccentricity: float | None, film: float | None, field: str
 ) -> Iterator[Notice]:
-    if bearing.width > SHORT_BEARING * bearing.diameter:
+    if bearing.width > SHORT_BEARING * bearing.diameter * (1 + ROUNDING):
         ratio = bearing.width / bearing.diameter
         message = f"width over diameter is {ratio:.2f}; beyond 0.7 the short bearing's film is too stiff"
         yield Notice("short_bearing_range", message, f"{field}.width")

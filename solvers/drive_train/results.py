@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from solvers.arrays import FloatArray
+from solvers.drive_train.derived import Derived
 from solvers.drive_train.inputs import Vector2
 from solvers.drive_train.thrust_budget import Thrust
 from solvers.notices import Notice
@@ -79,7 +80,7 @@ class FaceLoad:
     max_line_load: float
     max_pressure: float | None
     contact_fraction: float
-    transmission_error_peak_to_peak: float
+    transmission_error_pp: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +91,7 @@ class BearingResult:
     displacement: Vector2
     eccentricity_ratio: float | None
     attitude: float | None
-    minimum_film: float | None
+    min_film: float | None
     specific_pressure: float | None
     friction_power: float
 
@@ -133,10 +134,10 @@ class CouplingResult:
 
 @dataclass(frozen=True, slots=True)
 class FlashPlaces:
-    """Largest Blok flash temperature [K] on the feature line and on the flank, and where on the flank."""
+    """Largest Blok flash temperature [K] on the feature line and on the flank, and where; None at a base circle."""
 
-    feature: float
-    flank: float
+    feature: float | None
+    flank: float | None
     flank_at: Place | None
 
 
@@ -144,11 +145,13 @@ class FlashPlaces:
 class TrainSafety:
     """Safety against scuffing: Blok on the feature line and over the flank, thermal EHL on two lines; None unknown.
 
-    The profile line runs from A to E through the flank's worst point by Blok. `minimum` is the smallest there is.
+    `blok_at` is the flank's worst point by Blok, and the profile line runs from A to E through it. `minimum` is the
+    smallest of those asked for, None where one is unknown.
     """
 
     blok_feature: float | None
     blok_flank: float | None
+    blok_at: Place | None
     thermal_ehl_feature: float | None
     thermal_ehl_profile: float | None
     minimum: float | None
@@ -183,6 +186,24 @@ class Convergence:
 
 
 @dataclass(frozen=True, slots=True)
+class FlankMaps:
+    """Maps [profile, face]: line load [N/m], pressure [Pa], NaN where R_n vanishes, contact temperature by Blok [K]."""
+
+    profile_fraction: FloatArray
+    face_fraction: FloatArray
+    line_load: FloatArray
+    pressure: FloatArray
+    contact_temperature: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class States:
+    """The unit in other states than the one asked about; None where that state was not asked for or has no solution."""
+
+    cold: "DriveTrainResult | None"
+
+
+@dataclass(frozen=True, slots=True)
 class DriveTrainResult:
     """The unit's answer; `mesh` is the load distribution under the gap that all agreed on.
 
@@ -201,3 +222,13 @@ class DriveTrainResult:
     mesh: LoadDistribution
     contact_temperature: FloatArray
     warnings: tuple[Notice, ...]
+    derived: Derived
+    states: States | None = None
+
+    @property
+    def flank(self) -> FlankMaps:
+        """Over the flank."""
+        maps = self.mesh.flank
+        return FlankMaps(
+            maps.profile_fraction, maps.face_fraction, maps.line_load, maps.pressure, self.contact_temperature
+        )

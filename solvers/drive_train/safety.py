@@ -10,9 +10,10 @@ from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import FlashPlaces, TrainSafety
 from solvers.drive_train.thermal_lead import ThermalLead
 from solvers.notices import Notice
+from solvers.scuffing.blok import blok_flash
 from solvers.scuffing.feature_line import contact_points
 from solvers.scuffing.results import ContactPoints, LoadDistribution, Place
-from solvers.scuffing.safety import blok_flash, safety_factor
+from solvers.scuffing.safety import safety_factor
 from solvers.scuffing.thermal_path import thermal_path
 
 
@@ -28,7 +29,10 @@ class FlankHeat:
 
 
 def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: ThermalLead) -> FlankHeat:
-    """Flash temperature on the feature line and over the flank, thermal EHL on the two lines that matter."""
+    """Flash temperature on the feature line and over the flank, thermal EHL on the two lines that matter.
+
+    Loaded next to a base circle neither has a largest value.
+    """
     plane = mesh.path_of_contact.plane
     x, y = np.meshgrid(
         mesh.flank.profile_fraction * plane.path_length, mesh.flank.face_fraction * plane.face_width, indexing="ij"
@@ -39,33 +43,46 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: Therma
     on_feature, on_flank = (blok_flash(inputs.mesh.distribution, points) for points in (feature, flank))
     warm_feature = on_feature + _bulk(inputs, thermal, across)
     warm_flank = on_flank + _bulk(inputs, thermal, y)
+    defined = not np.any(mesh.balance.survey.undefined > 0.0)
     worst = np.unravel_index(int(np.argmax(warm_flank)), warm_flank.shape)
-    place = Place(
-        gamma=float(flank.gamma[worst]),
-        profile_fraction=float(mesh.flank.profile_fraction[worst[0]]),
-        face_fraction=float(mesh.flank.face_fraction[worst[1]]),
-    )
-    hottest: list[float | None] = [float(warm_feature.max()), float(warm_flank.max())]
+    hottest: list[float | None] = [float(warm.max()) if defined else None for warm in (warm_feature, warm_flank)]
     unsolved, warnings = 0, list[Notice]()
-    if inputs.mesh.lubrication == "thermal_ehl":
-        across_worst = np.full(psi.size, y[worst])
-        for points, where in (
-            (feature, across),
-            (_points(inputs, mesh, along, across_worst), across_worst),
-        ):
-            found, missing, notices = _thermal(inputs, points, _bulk(inputs, thermal, where))
-            hottest.append(found)
-            unsolved += missing
-            warnings += notices
-    else:
-        hottest += [None, None]
+    for line, where in _thermal_lines(inputs, mesh, feature, across, float(y[worst])):
+        found, missing, notices = _thermal(inputs, line, _bulk(inputs, thermal, where))
+        hottest.append(found if defined else None)
+        unsolved += missing
+        warnings += notices
+    place = _place(mesh, flank, worst) if defined and on_flank.max() > 0.0 else None
     return FlankHeat(
         temperature=warm_flank,
-        flash=FlashPlaces(float(on_feature.max()), float(on_flank.max()), place if on_flank.max() > 0.0 else None),
-        safety=_safety(inputs, hottest),
+        flash=FlashPlaces(
+            feature=float(on_feature.max()) if defined else None,
+            flank=float(on_flank.max()) if defined else None,
+            flank_at=place,
+        ),
+        safety=_safety(inputs, hottest, place),
         unsolved_points=unsolved,
         warnings=tuple({notice.code: notice for notice in warnings}.values()),
     )
+
+
+def _place(mesh: LoadDistribution, flank: ContactPoints, index: tuple[np.intp, ...]) -> Place:
+    return Place(
+        gamma=float(flank.gamma[index]),
+        profile_fraction=float(mesh.flank.profile_fraction[index[0]]),
+        face_fraction=float(mesh.flank.face_fraction[index[1]]),
+    )
+
+
+def _thermal_lines(
+    inputs: DriveTrainInputs, mesh: LoadDistribution, feature: ContactPoints, across: FloatArray, worst: float
+) -> list[tuple[ContactPoints, FloatArray]]:
+    """Lines for the thermal film and their y [m]: the feature line, and the profile through the flank's worst point."""
+    if inputs.mesh.lubrication == "closed_form":
+        return []
+    profile = np.linspace(0.0, mesh.path_of_contact.plane.path_length, across.size)
+    there = np.full(across.size, worst)
+    return [(feature, across), (_points(inputs, mesh, profile, there), there)]
 
 
 def _points(inputs: DriveTrainInputs, mesh: LoadDistribution, x: FloatArray, y: FloatArray) -> ContactPoints:
@@ -86,21 +103,25 @@ def _bulk(inputs: DriveTrainInputs, thermal: ThermalLead, y: FloatArray) -> Floa
 def _thermal(
     inputs: DriveTrainInputs, points: ContactPoints, bulk: FloatArray
 ) -> tuple[float | None, int, tuple[Notice, ...]]:
-    """Hottest flank surface [K] along a line by thermal EHL, None where a loaded point was not solved; how many."""
+    """Hottest flank surface [K] along a line by thermal EHL, None where a loaded point is not known; how many."""
     if not np.any(points.in_contact):
         return None, 0, ()
     path = thermal_path(inputs.mesh, points, points.in_contact)
-    unsolved = sum(status in {"no_solution", "refused"} for status in path.status)
-    if unsolved:
-        return None, unsolved, path.warnings
-    return float(np.nanmax(np.fmax(path.pinion_flash, path.wheel_flash) + bulk)), 0, path.warnings
+    warm = np.fmax(path.pinion_flash, path.wheel_flash) + bulk
+    largest = float(np.nanmax(warm)) if np.any(np.isfinite(warm)) else -np.inf
+    # A point refused for its light load is no hotter than its bound; it matters where that is hottest.
+    unknown = points.in_contact & np.isnan(warm) & ~(path.flash_bound + bulk <= largest)
+    missing = int(unknown.sum())
+    return None if missing else largest, missing, path.warnings
 
 
-def _safety(inputs: DriveTrainInputs, hottest: list[float | None]) -> TrainSafety | None:
+def _safety(inputs: DriveTrainInputs, hottest: list[float | None], worst: Place | None) -> TrainSafety | None:
     temperatures = inputs.mesh.temperatures
     if temperatures.scuffing is None:
         return None
     limit, oil = temperatures.scuffing, temperatures.oil
     factors = [None if contact is None else safety_factor(limit, oil, contact) for contact in hottest]
-    least = min((factor for factor in factors if factor is not None), default=None)
-    return TrainSafety(factors[0], factors[1], factors[2], factors[3], least)
+    known = [factor for factor in factors if factor is not None]
+    feature, profile = factors[2:] if len(factors) > 2 else (None, None)
+    least = min(known) if len(known) == len(factors) else None
+    return TrainSafety(factors[0], factors[1], worst, feature, profile, least)

@@ -5,7 +5,27 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.pumping.chain_step import Pockets, advance
-from solvers.pumping.duct import Duct, Record, active_range, wall_values
+from solvers.pumping.duct import (
+    ACTIVE,
+    BEGUN,
+    ENDED,
+    IDLE,
+    LARGEST_DEMAND,
+    LARGEST_MACH,
+    LARGEST_PRESSURE,
+    LARGEST_VELOCITY,
+    LOW_END,
+    PEAK,
+    SMALLEST_PRESSURE,
+    STAGNATION,
+    STATIC,
+    WALLS,
+    WORK,
+    Duct,
+    Record,
+    active_range,
+    wall_values,
+)
 from solvers.pumping.nozzle import Gas, throat_mach
 
 
@@ -52,14 +72,14 @@ def _renew(
     """Give the content of pockets whose stroke is over back, fill those whose stroke begins with ambient gas."""
     for i in range(low, high):
         if i < new_low or i >= new_high:
-            record.mass[1] += pockets.old[i, 1] * duct.width
-            record.energy[1] += pockets.old[i, 0] * pockets.area[i, 1] / (gas.exponent - 1.0) * duct.width
+            record.mass[ENDED] += pockets.old[i, 1] * duct.width
+            record.energy[ENDED] += pockets.old[i, 0] * pockets.area[i, 1] / (gas.exponent - 1.0) * duct.width
     for i in range(new_low, new_high):
         if i < low or i >= high:
             area = wall_values(duct, duct.start + (i + 0.5) * duct.width, angle)[0]
             pockets.old[i, 0], pockets.old[i, 1] = gas.pressure, gas.density * area
-            record.mass[0] += pockets.old[i, 1] * duct.width
-            record.energy[0] += gas.pressure * area / (gas.exponent - 1.0) * duct.width
+            record.mass[BEGUN] += pockets.old[i, 1] * duct.width
+            record.energy[BEGUN] += gas.pressure * area / (gas.exponent - 1.0) * duct.width
 
 
 @kernel
@@ -93,31 +113,35 @@ def _book(gas: Gas, duct: Duct, pockets: Pockets, record: Record, low: int, high
     for end in range(2):
         face, outward = (low, -1.0) if end == 0 else (high, 1.0)
         open_end = (low == 0) if end == 0 else (high == duct.cells)
-        entry = 2 + end if open_end else 5
+        entry = LOW_END + end if open_end else IDLE
         record.mass[entry] += outward * pockets.flow[face, 0] * dt
         record.energy[entry] += outward * pockets.flow[face, 1] * dt
         if open_end:
             record.ends[taken, 1 + end] = outward * pockets.flow[face, 0] * dt
             inside = pockets.new[low if end == 0 else high - 1, 0]
             asked = (gas.pressure / inside) ** ((1.0 - gas.exponent) / gas.exponent) - 1.0
-            record.extremes[4] = max(record.extremes[4], np.sqrt(max(2.0 / (gas.exponent - 1.0) * asked, 0.0)))
+            record.extremes[LARGEST_DEMAND] = max(
+                record.extremes[LARGEST_DEMAND], np.sqrt(max(2.0 / (gas.exponent - 1.0) * asked, 0.0))
+            )
     for face in range(low, high + 1):
         _follow_jet(gas, pockets, record, face, low, high)
     for i in range(low, high):
         growth = pockets.area[i, 1] - pockets.area[i, 0]
         mean = 0.5 * (pockets.old[i, 0] + pockets.new[i, 0])
-        record.mass[4] += pockets.leak[i, 0] * dt * duct.width
-        record.energy[4] += (pockets.leak[i, 1] * dt + mean * growth) * duct.width
-        record.energy[6] -= (mean - gas.pressure) * growth * duct.width
+        record.mass[WALLS] += pockets.leak[i, 0] * dt * duct.width
+        record.energy[WALLS] += (pockets.leak[i, 1] * dt + mean * growth) * duct.width
+        record.energy[WORK] -= (mean - gas.pressure) * growth * duct.width
         before = _temperature(gas, pockets, i, 0)
         pockets.old[i, 0], pockets.old[i, 1] = pockets.new[i, 0], pockets.new[i, 1]
         temperature = 0.5 * (before + _temperature(gas, pockets, i, 1))
         profile, p = record.profile[i], pockets.new[i, 0]
-        profile[0] += temperature * dt
-        profile[1] += temperature * dt
-        profile[2] += dt
-        profile[3] = max(profile[3], p)
-        record.extremes[0], record.extremes[1] = max(record.extremes[0], p), min(record.extremes[1], p)
+        profile[STATIC] += temperature * dt
+        profile[STAGNATION] += temperature * dt
+        profile[ACTIVE] += dt
+        profile[PEAK] = max(profile[PEAK], p)
+        extremes = record.extremes
+        extremes[LARGEST_PRESSURE] = max(extremes[LARGEST_PRESSURE], p)
+        extremes[SMALLEST_PRESSURE] = min(extremes[SMALLEST_PRESSURE], p)
 
 
 @kernel
@@ -130,4 +154,5 @@ def _follow_jet(gas: Gas, pockets: Pockets, record: Record, face: int, low: int,
     mach = _mach(gas, pockets, face, low, high)
     static = stagnation / (1.0 + 0.5 * (gas.exponent - 1.0) * mach * mach)
     velocity = mach * np.sqrt(gas.exponent * gas.constant * static)
-    record.extremes[2], record.extremes[3] = max(record.extremes[2], mach), max(record.extremes[3], velocity)
+    record.extremes[LARGEST_MACH] = max(record.extremes[LARGEST_MACH], mach)
+    record.extremes[LARGEST_VELOCITY] = max(record.extremes[LARGEST_VELOCITY], velocity)

@@ -1,10 +1,9 @@
 """What no calculation can be made of."""
 
-from math import ceil, floor, hypot, log10, sqrt
+from math import ceil, floor, isfinite, log10, sqrt
 from typing import NoReturn
 
 from solvers.errors import InvalidInput
-from solvers.gears.path_of_contact import PathOfContact
 from solvers.pumping.face import Stretch
 from solvers.pumping.gas_dynamics import LEAST_SLICES
 from solvers.pumping.inputs import Flow, PumpingSetup, rpm
@@ -66,29 +65,6 @@ def check_speed(pinion_speed: float) -> None:
         raise InvalidInput("speed_not_positive", message, "pinion_speed")
 
 
-def check_tips_meet_involutes(path: PathOfContact) -> None:
-    """Refuse tips that reach past a base tangent point or into a fillet: no flank there closes the tooth space.
-
-    Contact itself may be cut short there, so the load distribution only warns of it. An undercut takes the flank away
-    from the tip and passes. Raises InvalidInput: involute_interference, form_diameter.
-    """
-    pair = path.pair
-    for gear, mate, name, mate_name in (
-        (pair.pinion, pair.wheel, "pinion", "wheel"),
-        (pair.wheel, pair.pinion, "wheel", "pinion"),
-    ):
-        reached = pair.line_of_action - mate.tip_roll_length
-        if reached < 0.0:
-            message = f"the {mate_name}'s tip reaches past the {name}'s base tangent point; reduce its addendum"
-            raise InvalidInput("involute_interference", message, f"{mate_name}.addendum")
-        if name in path.shortened_by:
-            message = (
-                f"the {name}'s active flank starts at {2e3 * hypot(gear.base_radius, reached):.3f} mm diameter, below "
-                f"the end of the fillet at {2e3 * gear.form_radius:.3f} mm; reduce the mate's addendum"
-            )
-            raise InvalidInput("form_diameter", message, f"{mate_name}.addendum")
-
-
 def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoReturn:
     """Refuse a march that asks for `excess` times the steps it may take, with what would fit.
 
@@ -104,10 +80,12 @@ def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoR
         )
         raise InvalidInput("narrow_land", message, "grooves")
     slices = sum(part.cells for part in parts)
-    message = (
-        f"{slices} slices need too many steps at this speed: use at least {_rounded_up(rpm(pinion_speed) * excess):g} "
-        f"rpm of the pinion, or at most {int(slices / sqrt(excess))} slices, or the pocket chain"
-    )
+    message = f"{slices} slices need too many steps at this speed: use a higher speed or the pocket chain"
+    if isfinite(needed := rpm(pinion_speed) * excess):
+        message = (
+            f"{slices} slices need too many steps at this speed: use at least {_rounded_up(needed):g} rpm of the "
+            f"pinion, or at most {int(slices / sqrt(excess))} slices, or the pocket chain"
+        )
     raise InvalidInput("too_many_steps", message, "pinion_speed")
 
 

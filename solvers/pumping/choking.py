@@ -11,8 +11,8 @@ from solvers.errors import InvalidInput
 from solvers.notices import Notice
 from solvers.pumping.checks import check_speed
 from solvers.pumping.inputs import ChokingInputs, Flow, rpm
-from solvers.pumping.results import ChokingCurves, ChokingSpeeds, Derived
-from solvers.pumping.spaces import CELL_STEP_LIMIT, Mesh, Space, flow_at, prepare
+from solvers.pumping.results import ChokingCurves, ChokingSpeeds
+from solvers.pumping.spaces import CELL_STEP_LIMIT, Mesh, Space, derived, flow_at, prepare
 
 _COARSENING = 4  # of the slices while the speeds are bracketed
 _BRACKET = log(1.1)  # around the coarse speed, logarithmic as all speeds here
@@ -48,8 +48,7 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
         for name, speed in (("radial gap", radial), ("axial exit", axial))
         if speed is None
     ]
-    derived = Derived(mesh.pair.centre_distance, slices)
-    return ChokingSpeeds(radial, axial, _curves(mesh, rough, scan), derived, (*mesh.notices, *notices))
+    return ChokingSpeeds(radial, axial, _curves(mesh, rough, scan), derived(mesh), (*mesh.notices, *notices))
 
 
 class _Demand:

@@ -8,12 +8,17 @@ from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.pumping.nozzle import Gas
 
+# Entries of the books `mass` and `energy` of a record, of its `extremes`, columns of its `profile`.
+BEGUN, ENDED, LOW_END, HIGH_END, WALLS, IDLE, WORK = range(7)
+LARGEST_PRESSURE, SMALLEST_PRESSURE, LARGEST_MACH, LARGEST_VELOCITY, LARGEST_DEMAND = range(5)
+STATIC, STAGNATION, ACTIVE, PEAK = range(4)
+
 
 class Duct(NamedTuple):
     """A stretch of a tooth space cut into equal cells.
 
     `start` [m] from the end that meshes first, `width` of a cell [m], `cells`; `lag` of the stroke per metre of face
-    [rad/m]; `speed` of the owner [rad/s]; `table` of area, total clearance and wall transport at `first_angle` +
+    [rad/m]; `speed` of the owner [rad/s]; `table` of area, total clearance and carried gas at `first_angle` +
     k `angle_step` [rad]; `discharge` coefficient of the radial gaps.
     """
 
@@ -54,14 +59,14 @@ def empty_record(gas: Gas, angles: int, cells: int, steps: int) -> Record:
     field = np.zeros((angles, cells, 3))
     field[:, :, 0], field[:, :, 2] = gas.pressure, gas.temperature
     profile = np.zeros((cells, 4))
-    profile[:, 3] = gas.pressure
+    profile[:, PEAK] = gas.pressure
     extremes = np.array([gas.pressure, gas.pressure, 0.0, 0.0, 0.0])
-    return Record(field, profile, extremes, np.zeros(6), np.zeros(7), np.zeros((steps, 3)))
+    return Record(field, profile, extremes, np.zeros(WORK), np.zeros(WORK + 1), np.zeros((steps, 3)))
 
 
 @kernel
 def wall_values(duct: Duct, z: float, angle: float) -> tuple[float, float, float]:
-    """Area, clearance and wall transport at z when the owner stands at `angle`; end values outside the stroke."""
+    """Area, clearance and carried gas at z when the owner stands at `angle`; end values outside the stroke."""
     position = (angle - duct.lag * z - duct.first_angle) / duct.angle_step
     last = duct.table.shape[0] - 1
     position = min(max(position, 0.0), float(last))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
-from solvers.pumping.duct import Record
+from solvers.pumping.duct import ACTIVE, BEGUN, ENDED, PEAK, STAGNATION, STATIC, WORK, Record
 from solvers.pumping.face import Stretch
 
 
@@ -81,23 +81,23 @@ def space_flow(angle: FloatArray, marches: list[March], *, conserves_energy: boo
     largest, smallest, mach, velocity, demand = np.array([record.extremes for record in records]).T
     mass = np.array([record.mass for record in records])
     energy = np.array([record.energy for record in records])
-    mass_error = (mass[:, 0].sum() - mass[:, 1:].sum()) / mass[:, 0].sum()
-    energy_error = (energy[:, 0].sum() - energy[:, 1:6].sum()) / energy[:, 0].sum()
+    mass_error = (mass[:, BEGUN].sum() - mass[:, ENDED:].sum()) / mass[:, BEGUN].sum()
+    energy_error = (energy[:, BEGUN].sum() - energy[:, ENDED:WORK].sum()) / energy[:, BEGUN].sum()
     return SpaceFlow(
         angle=frozen(angle),
         position=frozen(np.concatenate([march.stretch.centres for march in marches])),
         pressure=frozen(field[:, :, 0]),
         mach=frozen(field[:, :, 1]),
         stagnation_temperature=frozen(field[:, :, 2]),
-        mean_temperature=frozen(profile[:, 0] / profile[:, 2]),
-        mean_stagnation_temperature=frozen(profile[:, 1] / profile[:, 2]),
-        peak_pressure=frozen(profile[:, 3]),
+        mean_temperature=frozen(profile[:, STATIC] / profile[:, ACTIVE]),
+        mean_stagnation_temperature=frozen(profile[:, STAGNATION] / profile[:, ACTIVE]),
+        peak_pressure=frozen(profile[:, PEAK]),
         largest_pressure=float(largest.max()),
         smallest_pressure=float(smallest.min()),
         largest_mach=float(mach.max()),
         largest_velocity=float(velocity.max()),
         exit_demand=float(demand.max()),
-        work=float(energy[:, 6].sum()),
+        work=float(energy[:, WORK].sum()),
         masses=_exit_masses(marches),
         mass_error=float(abs(mass_error)),
         energy_error=float(abs(energy_error)) if conserves_energy else None,

@@ -4,12 +4,34 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.pumping.duct import Duct, Record, stroke_end, stroke_share, wall_values
+from solvers.pumping.duct import (
+    ACTIVE,
+    BEGUN,
+    ENDED,
+    IDLE,
+    LARGEST_DEMAND,
+    LARGEST_MACH,
+    LARGEST_PRESSURE,
+    LARGEST_VELOCITY,
+    LOW_END,
+    PEAK,
+    SMALLEST_PRESSURE,
+    STAGNATION,
+    STATIC,
+    WALLS,
+    WORK,
+    Duct,
+    Record,
+    stroke_end,
+    stroke_share,
+    wall_values,
+)
 from solvers.pumping.gas_step import Cells, set_walls, step
 from solvers.pumping.nozzle import Gas
 from solvers.pumping.riemann import front_face
 
 COURANT = 0.7
+_ROUNDING = 1e-6  # of a step, by which it may be longer rather than leave so little
 _RETRIES = 12
 _STEEP = 0.5  # share of a cell's density or pressure below which nothing is extrapolated from it
 
@@ -18,14 +40,16 @@ _STEEP = 0.5  # share of a cell's density or pressure below which nothing is ext
 def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record, order: int) -> int:
     """March from the first of `angles` [rad] to the last, landing on each; the number of steps, negative if it failed.
 
+    Steps are as long as waves allow, the last before an angle is what remains: where one more is needed it is short at
+    first, and results change steadily with whatever the step length depends on.
     Fails with -1 where the record has no room for more steps, with -2 where no step length gives a physical state.
     """
     angle, taken, low, high = angles[0], 0, 0, 0
     for k in range(1, angles.size):
-        pieces = 1.0
-        while pieces > 0.0:
-            pieces = np.ceil((angles[k] - angle) / _longest_turn(gas, duct, cells, low, high))
-            turn = (angles[k] - angle) / pieces
+        landed = False
+        while not landed:
+            remaining, longest = angles[k] - angle, _longest_turn(gas, duct, cells, low, high)
+            turn = remaining if remaining <= (1.0 + _ROUNDING) * longest else longest
             done = False
             for retry in range(_RETRIES):
                 new_low, new_high = _taking_part(gas, duct, angle, turn)
@@ -38,7 +62,7 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
                 done = step(gas, duct, cells, new_low, new_high, dt, order if retry == 0 else 1)
                 if done:
                     break
-                turn, pieces = 0.5 * turn, 2.0 * pieces
+                turn *= 0.5
             if not done:
                 return -2
             if taken == record.ends.shape[0]:
@@ -51,9 +75,8 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
                 _book_ends(duct, cells, record, low, high, angle, turn, taken)
                 _book_cells(gas, duct, cells, record, low, high, dt)
                 taken += 1
-            angle += turn
-            if pieces <= 1.0:
-                angle, pieces = angles[k], 0.0
+            landed = turn == remaining
+            angle = angles[k] if landed else angle + turn
         _sample(gas, cells, record, low, high, k)
     _empty(duct, cells, record, low, high, 0, 0)
     return taken
@@ -122,8 +145,8 @@ def _empty(duct: Duct, cells: Cells, record: Record, low: int, high: int, new_lo
     """Give the content of cells whose stroke is over back to the surroundings."""
     for i in range(low, high):
         if i < new_low or i >= new_high:
-            record.mass[1] += cells.content[i, 0] * duct.width
-            record.energy[1] += cells.content[i, 2] * duct.width
+            record.mass[ENDED] += cells.content[i, 0] * duct.width
+            record.energy[ENDED] += cells.content[i, 2] * duct.width
 
 
 @kernel
@@ -131,8 +154,8 @@ def _enter(duct: Duct, cells: Cells, record: Record, low: int, high: int, new_lo
     """Book the content of cells whose stroke begins."""
     for i in range(new_low, new_high):
         if i < low or i >= high:
-            record.mass[0] += cells.content[i, 0] * duct.width
-            record.energy[0] += cells.content[i, 2] * duct.width
+            record.mass[BEGUN] += cells.content[i, 0] * duct.width
+            record.energy[BEGUN] += cells.content[i, 2] * duct.width
 
 
 @kernel
@@ -149,15 +172,15 @@ def _book_ends(
         open_end = (low == 0) if end == 0 else (high == duct.cells)
         share = stroke_share(duct, duct.start + face * duct.width, angle, turn) if open_end else 0.0
         mass, energy = outward * cells.flux[face, 0] * dt, outward * cells.flux[face, 2] * dt
-        record.mass[2 + end] += share * mass
-        record.energy[2 + end] += share * energy
-        record.mass[5] += (1.0 - share) * mass
-        record.energy[5] += (1.0 - share) * energy
+        record.mass[LOW_END + end] += share * mass
+        record.energy[LOW_END + end] += share * energy
+        record.mass[IDLE] += (1.0 - share) * mass
+        record.energy[IDLE] += (1.0 - share) * energy
         record.ends[taken, 1 + end] = share * mass
         if share > 0.0:
-            record.extremes[2] = max(record.extremes[2], cells.ends[end, 1])
-            record.extremes[3] = max(record.extremes[3], abs(cells.ends[end, 2]))
-            record.extremes[4] = max(record.extremes[4], cells.ends[end, 0])
+            record.extremes[LARGEST_MACH] = max(record.extremes[LARGEST_MACH], cells.ends[end, 1])
+            record.extremes[LARGEST_VELOCITY] = max(record.extremes[LARGEST_VELOCITY], abs(cells.ends[end, 2]))
+            record.extremes[LARGEST_DEMAND] = max(record.extremes[LARGEST_DEMAND], cells.ends[end, 0])
 
 
 @kernel
@@ -166,20 +189,21 @@ def _book_cells(gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, hi
     old, new, content, loss = cells.state, cells.next_state, cells.content, cells.loss
     profile, extremes = record.profile, record.extremes
     for i in range(low, high):
-        record.mass[4] += loss[i, 0] * duct.width
-        record.energy[4] += loss[i, 1] * duct.width
-        record.energy[6] += loss[i, 2] * duct.width
+        record.mass[WALLS] += loss[i, 0] * duct.width
+        record.energy[WALLS] += loss[i, 1] * duct.width
+        record.energy[WORK] += loss[i, 2] * duct.width
         share = cells.share[i]
         static = 0.5 * (old[i, 2] / old[i, 0] + new[i, 2] / new[i, 0]) / gas.constant
         dynamic = 0.25 * (old[i, 1] ** 2 + new[i, 1] ** 2) / gas.heat_capacity
-        profile[i, 0] += static * dt * share
-        profile[i, 1] += (static + dynamic) * dt * share
-        profile[i, 2] += dt * share
-        profile[i, 3] = max(profile[i, 3], new[i, 2])
-        extremes[0], extremes[1] = max(extremes[0], new[i, 2]), min(extremes[1], new[i, 2])
+        profile[i, STATIC] += static * dt * share
+        profile[i, STAGNATION] += (static + dynamic) * dt * share
+        profile[i, ACTIVE] += dt * share
+        profile[i, PEAK] = max(profile[i, PEAK], new[i, 2])
+        extremes[LARGEST_PRESSURE] = max(extremes[LARGEST_PRESSURE], new[i, 2])
+        extremes[SMALLEST_PRESSURE] = min(extremes[SMALLEST_PRESSURE], new[i, 2])
         speed = abs(new[i, 1])
-        extremes[2] = max(extremes[2], speed / np.sqrt(gas.exponent * new[i, 2] / new[i, 0]))
-        extremes[3] = max(extremes[3], speed)
+        extremes[LARGEST_MACH] = max(extremes[LARGEST_MACH], speed / np.sqrt(gas.exponent * new[i, 2] / new[i, 0]))
+        extremes[LARGEST_VELOCITY] = max(extremes[LARGEST_VELOCITY], speed)
         for k in range(3):
             content[i, k], old[i, k] = cells.next_content[i, k], new[i, k]
 

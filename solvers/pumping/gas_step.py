@@ -26,7 +26,7 @@ class Cells(NamedTuple):
     """Arrays of a duct, each (cells, 3) or (faces, 3).
 
     `content` per metre (mass, momentum, energy), `state` (density, velocity, pressure); `walls` at the start of the
-    step and `next_walls` at its end (area, clearance, transport); `slope` and `half` of the state; `loss` over the
+    step and `next_walls` at its end (area, clearance, carried gas); `slope` and `half` of the state; `loss` over the
     step (leaked mass, energy lost to the walls, gauge work done by them; per metre); `face_area` and `flux` at the
     half step; `ends` (2, 3) of the low and the high end: Mach number asked for, Mach number, velocity outwards [m/s];
     `leak` (cells,) the latest leakage, a first guess for the next [kg/(s m)]; `share` (cells,) of the step in which a
@@ -64,9 +64,9 @@ def set_walls(duct: Duct, cells: Cells, low: int, high: int, angle: float, turn:
         now, after = wall_values(duct, z, angle), wall_values(duct, z, angle + turn)
         share = stroke_share(duct, z, angle, turn)
         cells.share[i] = share
-        cells.walls[i, 0], cells.next_walls[i, 0] = now[0], after[0]
-        for k in range(1, 3):
-            cells.walls[i, k], cells.next_walls[i, k] = share * now[k], share * after[k]
+        for k in range(3):
+            cells.walls[i, k], cells.next_walls[i, k] = now[k], after[k]
+        cells.walls[i, 1], cells.next_walls[i, 1] = share * now[1], share * after[1]
     for i in range(low, high + 1):
         cells.face_area[i] = wall_values(duct, duct.start + i * duct.width, angle + 0.5 * turn)[0]
 
@@ -117,7 +117,7 @@ def _walls(duct: Duct, now: FloatArray, after: FloatArray, i: int, fraction: flo
         now[i, 0] + fraction * (after[i, 0] - now[i, 0]),
         (after[i, 0] - now[i, 0]) / dt,
         duct.discharge * (now[i, 1] + fraction * (after[i, 1] - now[i, 1])),
-        duct.speed * (now[i, 2] + fraction * (after[i, 2] - now[i, 2])),
+        (after[i, 2] - now[i, 2]) / dt,
     )
 
 

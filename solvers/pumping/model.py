@@ -15,7 +15,6 @@ from solvers.pumping.nozzle import Gas
 from solvers.pumping.pulsation import Pulsation, pulsation
 from solvers.pumping.results import (
     Balance,
-    Derived,
     FaceProfile,
     GasField,
     MassFlow,
@@ -25,7 +24,7 @@ from solvers.pumping.results import (
     Stroke,
     Totals,
 )
-from solvers.pumping.spaces import Mesh, Space, face_stretches, flow_at, halved_flow_at, prepare
+from solvers.pumping.spaces import Mesh, Space, derived, face_stretches, flow_at, halved_flow_at, prepare
 from solvers.pumping.stroke import StrokeTable
 from solvers.pumping.tooth_space import normal_backlash
 
@@ -58,13 +57,13 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
         lead_correction=correction,
         pulsation=_pulsation(mesh, flows, speed, frequency),
         slices=sum(part.cells for part in face_stretches(inputs.setup, slices)),
-        derived=Derived(mesh.pair.centre_distance, slices),
+        derived=derived(mesh),
         warnings=(
             *mesh.notices,
             *speed_notices(mesh.pair, mesh.gas, speed),
             *_flow_notices(inputs, results),
             *resolution_notices(inputs.setup.model.flow, _changes(mesh.gas, flows, halved)),
-            *net_flow_notices([result.mass_flow for result in results]),
+            *net_flow_notices(inputs.setup.model.flow, [result.mass_flow for result in results]),
             *_missing(results[0], total, correction),
         ),
     )

@@ -18,6 +18,7 @@ INCOMPRESSIBLE_MACH = 0.3
 COARSE_CHANGE = 0.02  # by half the slices; twice as many change at most half of it, 1 %
 LARGEST_CHANGE = {"temperature rise": 0.01}  # one in an end slice moves with its centre, slowly
 NET_UNCERTAINTY = 0.1  # of the net flow
+ROUNDING = 1e-9  # of the gross flow
 LEAST_GAUGE_PRESSURE = 1e-6  # of the ambient pressure
 
 
@@ -61,21 +62,23 @@ def flow_notices(flow: Flow, largest_mach: float, largest_gauge_pressure: float)
     return []
 
 
-def net_flow_notices(flows: list[MassFlow]) -> list[Notice]:
-    """Net flows out of the ends that are small differences of what leaves and what enters."""
+def net_flow_notices(model: Flow, flows: list[MassFlow]) -> list[Notice]:
+    """Net flows out of the ends that are small differences of what leaves and what enters, but for rounding."""
     shares = [
         (flow.net_uncertainty / abs(net) if net else inf, net, flow)
         for flow in flows
         for net in (flow.front, flow.rear)
-        if flow.net_uncertainty > 0.0
+        if flow.net_uncertainty > ROUNDING * (flow.front_out + flow.rear_out)
     ]
     share, net, flow = max(shares, key=lambda entry: entry[0], default=(0.0, 0.0, None))
     if flow is None or share <= NET_UNCERTAINTY:
         return []
     message = (
         f"a net flow of {1e3 * net:.3g} g/s out of an end, a small difference of what leaves and what enters, is known "
-        f"to {1e3 * flow.net_uncertainty:.2g} g/s; more slices tell it better"
+        f"to {1e3 * flow.net_uncertainty:.2g} g/s"
     )
+    if model is Flow.GAS_DYNAMICS:
+        message += "; more slices tell it better"
     return [Notice("net_flow_uncertain", message, "slices")]
 
 

@@ -124,10 +124,14 @@ class Totals:
 
 @dataclass(frozen=True, slots=True)
 class Derived:
-    """What follows from the inputs before any physics: centre distance [m], slices without the grooves' parts."""
+    """What follows from the inputs before any physics: centre distance [m], slices with the grooves' parts.
+
+    rack_tip_radius is what both racks have room for, in normal modules.
+    """
 
     centre_distance: float
     slices: int
+    rack_tip_radius: float
 
 
 @dataclass(frozen=True, slots=True)

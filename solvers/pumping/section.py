@@ -92,8 +92,8 @@ def _nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple
     if roll <= root.involute_roll or radius < np.hypot(base, root.involute_roll):
         t, gap = _nearest_on_fillet(root.fillet, radius, angle)
         if gap < distance:
-            distance = gap
             r, psi = fillet_point(root.fillet, t)
+            distance = gap if radius - r > r * (angle - psi) else 0.0  # a fillet proud of the involute meets the mate
             area = 0.5 * root.root_half_angle * root.root_radius**2 + fillet_sector_area(root.fillet, t)
     return distance, r, psi, area
 
@@ -137,19 +137,35 @@ def _close(
 
 
 @kernel
+def _from_mate(
+    space: ToothSpace, angle: float, mate_angle: float, mate_roll: float
+) -> tuple[float, float, float, float]:
+    """Nearest point of half a space's profile to a point of the mate's flank, as `_nearest_on_profile` tells it."""
+    radius = np.hypot(space.mate_base_radius, mate_roll)
+    mu = mate_angle - space.mate_base_half_angle + _involute(mate_roll, space.mate_base_radius)
+    x, y = radius * np.sin(mu), space.centre_distance - radius * np.cos(mu)
+    return _nearest_on_profile(space, np.hypot(x, y), angle - np.arctan2(x, y))
+
+
+@kernel
+def _from_own(space: ToothSpace, angle: float, mate_angle: float, roll: float) -> tuple[float, float]:
+    """Foot on the mate's flank of a point of the own one, as `_foot_on_mate` tells it."""
+    radius = np.hypot(space.base_radius, roll)
+    theta = angle - space.base_half_angle - _involute(roll, space.base_radius)
+    x, y = radius * np.sin(theta), space.centre_distance - radius * np.cos(theta)
+    return _foot_on_mate(space, np.hypot(x, y), mate_angle - np.arctan2(x, y))
+
+
+@kernel
 def _corner_section(space: ToothSpace, angle: float, mate_angle: float) -> tuple[float, float, float, float, float]:
     """Section from the nearer tip corner to the other gear, from the mate's alone with tip gaps.
 
     Clearance [m], the foot's radius [m], half angle [rad] and sector below it [m^2], roll length on the mate [m].
     """
-    mu = mate_angle - space.mate_tip_half_angle
-    x, y = space.mate_tip_radius * np.sin(mu), space.centre_distance - space.mate_tip_radius * np.cos(mu)
-    clearance, r, psi, below = _nearest_on_profile(space, np.hypot(x, y), angle - np.arctan2(x, y))
+    clearance, r, psi, below = _from_mate(space, angle, mate_angle, space.mate_tip_roll)
     foot = space.mate_tip_roll
     if space.contact_gap:
-        theta = angle - space.tip_half_angle
-        x, y = space.tip_radius * np.sin(theta), space.centre_distance - space.tip_radius * np.cos(theta)
-        mate_foot, distance = _foot_on_mate(space, np.hypot(x, y), mate_angle - np.arctan2(x, y))
+        mate_foot, distance = _from_own(space, angle, mate_angle, space.tip_roll)
         if distance < clearance:
             clearance, foot, r, psi = distance, mate_foot, space.tip_radius, space.tip_half_angle
             below = _sector_to_involute(space, space.tip_roll)
@@ -157,35 +173,69 @@ def _corner_section(space: ToothSpace, angle: float, mate_angle: float) -> tuple
 
 
 @kernel
-def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tuple[float, float, float]:
-    """One side: area part [m^2], clearance [m], area per radian that the flanks roll through its section [m^2].
+def _flank_section(
+    space: ToothSpace, angle: float, mate_angle: float, roll: float, mate_roll: float, gap: float
+) -> tuple[float, float, float, float, float]:
+    """Section where the plane of action crosses a side, told as by `_corner_section`.
 
-    Flanks that face each other close the space on the line of action, `gap` [m] apart there. A wide gap is not always
-    the side's narrowest place: a tip corner may come closer to the root fillet and throttles, but closes nothing.
+    Beyond the end of one gear's involute it joins the other gear's flank to the nearest point of the first; where that
+    involute ends may be closer still.
     """
-    base = space.base_radius
-    roll = space.pitch_roll + base * (angle - space.pitch_half_angle)
+    start = space.root.involute_roll
+    if roll < start:
+        clearance, r, psi, below = _from_mate(space, angle, mate_angle, mate_roll)
+        return min(clearance, _from_own(space, angle, mate_angle, start)[1]), r, psi, below, mate_roll
+    r, psi = np.hypot(space.base_radius, roll), space.base_half_angle + _involute(roll, space.base_radius)
+    foot, clearance = mate_roll, gap
+    if mate_roll < 0.0:
+        foot, clearance = _from_own(space, angle, mate_angle, roll)
+        clearance = min(clearance, _from_mate(space, angle, mate_angle, 0.0)[0])
+    return clearance, r, psi, _sector_to_involute(space, roll), foot
+
+
+@kernel
+def _carried(space: ToothSpace, roll: float, gap: float) -> float:
+    """Area that rolling flanks have carried through a section of `gap` [m], towards growing roll lengths [m^2].
+
+    The integral of gap times half the sum of both flanks' rolling velocities, from where both stand at nought.
+    """
+    facing = space.line_of_action - gap
+    roll = min(max(roll, facing - space.mate_tip_roll), space.tip_roll)
+    own, mate = max(roll, 0.0), max(facing - roll, 0.0)
+    return 0.25 * gap / space.base_radius * (own**2 - space.ratio * mate**2)
+
+
+@kernel
+def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tuple[float, float, float]:
+    """One side: area part [m^2], clearance [m], area that the flanks have rolled through its section [m^2].
+
+    Flanks that face each other close the space on the line of action, `gap` [m] apart there: with no gap down to the
+    base circles, as an undercut counts in the path of contact. A wide gap is not always the side's narrowest place: a
+    tip corner may come closer to the root fillet and throttles, but closes nothing.
+    """
+    roll = space.pitch_roll + space.base_radius * (angle - space.pitch_half_angle)
     mate_roll = space.line_of_action - roll - gap
-    on_flanks = 0.0 < roll <= space.tip_roll and 0.0 < mate_roll <= space.mate_tip_roll
-    if not (space.contact_gap and on_flanks):
+    carried = _carried(space, roll, gap) if space.contact_gap else 0.0
+    if not (space.contact_gap and roll <= space.tip_roll and mate_roll <= space.mate_tip_roll):
         clearance, r, psi, below, foot = _corner_section(space, angle, mate_angle)
-        return _close(space, angle, mate_angle, r, psi, foot) - below, clearance, 0.0
-    psi = space.base_half_angle + _involute(roll, base)
-    upper = _close(space, angle, mate_angle, np.hypot(base, roll), psi, mate_roll)
-    clearance = min(gap, _corner_section(space, angle, mate_angle)[0]) if gap > 0.0 else 0.0
-    rolling = 0.5 * (roll + mate_roll * space.ratio)
-    return upper - _sector_to_involute(space, roll), clearance, gap * rolling
+        return _close(space, angle, mate_angle, r, psi, foot) - below, clearance, carried
+    clearance, r, psi, below, foot = _flank_section(space, angle, mate_angle, roll, mate_roll, gap)
+    if gap == 0.0 and roll >= 0.0 and mate_roll >= 0.0:
+        clearance = 0.0
+    else:
+        clearance = min(clearance, _corner_section(space, angle, mate_angle)[0])
+    return _close(space, angle, mate_angle, r, psi, foot) - below, clearance, carried
 
 
 @kernel
 def section(space: ToothSpace, angle: float) -> tuple[float, float, float, float]:
-    """Area [m^2], left and right clearance [m], gas carried out by the flanks per radian and metre of face [m^2].
+    """Area [m^2], left and right clearance [m], area of gas that the flanks have carried out so far [m^2].
 
-    `angle` [rad] of the owner. The flanks of the coast side roll through the section fixed on the line of action: out
-    of the space where the owner drives, into it where the owner is driven.
+    `angle` [rad] of the owner; only differences of what is carried have a meaning. The flanks of the coast side roll
+    through the section fixed on the line of action: out of the space where the owner drives, else into it.
     """
     mate_angle = angle * space.ratio + space.offset
     left_gap = 0.0 if space.owner_drives else space.backlash_gap
-    left_area, left, left_transport = _side(space, angle, mate_angle, left_gap)
-    right_area, right, right_transport = _side(space, -angle, -mate_angle, space.backlash_gap - left_gap)
-    return left_area + right_area, left, right, right_transport - left_transport
+    left_area, left, left_carried = _side(space, angle, mate_angle, left_gap)
+    right_area, right, right_carried = _side(space, -angle, -mate_angle, space.backlash_gap - left_gap)
+    return left_area + right_area, left, right, -left_carried - right_carried

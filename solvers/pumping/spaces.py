@@ -4,10 +4,11 @@ from dataclasses import dataclass
 from math import tan
 
 from solvers.arrays import FloatArray
+from solvers.gears.gear import rack_tip_radius
 from solvers.gears.pair import GearPair
 from solvers.gears.path_of_contact import PathOfContact, meshing_path
 from solvers.notices import Notice
-from solvers.pumping.checks import check_setup, check_tips_meet_involutes, refuse_cost
+from solvers.pumping.checks import check_setup, refuse_cost
 from solvers.pumping.duct import Duct
 from solvers.pumping.face import Stretch, stretches
 from solvers.pumping.flow import SpaceFlow
@@ -17,6 +18,7 @@ from solvers.pumping.inputs import Flow, PumpingSetup, Spaces
 from solvers.pumping.notices import setup_notices
 from solvers.pumping.nozzle import Gas, gas
 from solvers.pumping.pocket_chain import STEPS, pocket_chain
+from solvers.pumping.results import Derived
 from solvers.pumping.stroke import StrokeTable, stroke_table
 from solvers.pumping.tooth_space import tooth_space
 
@@ -52,12 +54,10 @@ class Mesh:
 def prepare(setup: PumpingSetup) -> Mesh:
     """Geometry, stroke tables and the notices they call for.
 
-    Raises InvalidInput with the codes of `check_setup`, `meshing_path`, `check_tips_meet_involutes`, `tooth_space`,
-    `stroke_table` and `stretches`.
+    Raises InvalidInput with the codes of `check_setup`, `meshing_path`, `tooth_space`, `stroke_table` and `stretches`.
     """
     check_setup(setup)
     path = meshing_path(setup.gears)
-    check_tips_meet_involutes(path)
     wanted = setup.model.spaces
     spaces = []
     if wanted is not Spaces.WHEEL:
@@ -66,6 +66,13 @@ def prepare(setup: PumpingSetup) -> Mesh:
         spaces.append(_space(setup, path.pair, of_pinion=False))
     active = min(_active_share(space, setup.gears.face_width) for space in spaces) * setup.model.slice_count
     return Mesh(setup, path, gas(setup.ambient), tuple(spaces), tuple(setup_notices(setup, path, active)))
+
+
+def derived(mesh: Mesh) -> Derived:
+    """What the set-up left open, and what is used of it."""
+    gears = mesh.setup.gears
+    room = min(rack_tip_radius(gears, teeth) for teeth in (gears.pinion, gears.wheel))
+    return Derived(mesh.pair.centre_distance, mesh.setup.model.slice_count, room)
 
 
 def _active_share(space: Space, face_width: float) -> float:

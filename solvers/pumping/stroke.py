@@ -18,8 +18,9 @@ POSITIONS = 361
 class StrokeTable:
     """One stroke of a tooth space, of shape (positions,) at equal steps of the owner's angle [rad].
 
-    `area` [m^2]; `clearance_left`, `clearance_right` [m]; `wall_transport`: area per radian that the flanks roll out of
-    the space through its narrowest sections [m^2].
+    `area` [m^2]; `clearance_left`, `clearance_right` [m]; `carried`: area of gas that the flanks have rolled out of the
+    space through its narrowest sections since the stroke began [m^2]. Where a section passes from a tip corner to the
+    flanks the area turns and what is carried begins: summed up, both keep step between two positions.
     """
 
     limits: StrokeLimits
@@ -27,16 +28,16 @@ class StrokeTable:
     area: FloatArray
     clearance_left: FloatArray
     clearance_right: FloatArray
-    wall_transport: FloatArray
+    carried: FloatArray
 
     def columns(self, *, wall_transport: bool) -> FloatArray:
-        """Area, total clearance and wall transport (nought unless asked for) for the flow kernels, (positions, 3)."""
-        transport = self.wall_transport if wall_transport else np.zeros_like(self.wall_transport)
-        return np.column_stack([self.area, self.clearance_left + self.clearance_right, transport])
+        """Area, total clearance and carried gas (nought unless asked for) for the flow kernels, (positions, 3)."""
+        carried = self.carried if wall_transport else np.zeros_like(self.carried)
+        return np.column_stack([self.area, self.clearance_left + self.clearance_right, carried])
 
     def halved(self) -> "StrokeTable":
         """Every other position of the same stroke."""
-        columns = (self.angle, self.area, self.clearance_left, self.clearance_right, self.wall_transport)
+        columns = (self.angle, self.area, self.clearance_left, self.clearance_right, self.carried)
         return StrokeTable(self.limits, *(frozen(column[::2].copy()) for column in columns))
 
 
@@ -56,7 +57,7 @@ def stroke_table(space: ToothSpace, *, minimum_gap: float = 0.0, positions: int 
         area=frozen(values[:, 0].copy()),
         clearance_left=frozen(np.maximum(values[:, 1], minimum_gap)),
         clearance_right=frozen(np.maximum(values[:, 2], minimum_gap)),
-        wall_transport=frozen(values[:, 3].copy()),
+        carried=frozen(values[:, 3] - values[0, 3]),
     )
 
 

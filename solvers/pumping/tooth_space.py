@@ -12,6 +12,7 @@ from typing import NamedTuple
 from solvers.errors import InvalidInput
 from solvers.gears.fillet import RootProfile, root_profile
 from solvers.gears.pair import GearPair
+from solvers.gears.path_of_contact import path_of_contact
 from solvers.pumping.inputs import Gap
 
 
@@ -19,6 +20,7 @@ class ToothSpace(NamedTuple):
     """Shape and motion of a space and its mate's tooth; lengths [m], angles [rad].
 
     Flanks are given by their base radius, the half angle at the base circle and the roll length at the tip.
+    `first_contact`, `last_contact`: the owner's roll lengths between which flanks are in contact;
     `ratio`: mate's angle per angle of the owner; `offset`: the mate's angle when the space is on the line of centres;
     `backlash_gap`: distance of the coast flanks along the line of action.
     """
@@ -38,6 +40,8 @@ class ToothSpace(NamedTuple):
     mate_tip_half_angle: float
     centre_distance: float
     line_of_action: float
+    first_contact: float
+    last_contact: float
     ratio: float
     offset: float
     backlash_gap: float
@@ -77,8 +81,10 @@ def _thinning(pair: GearPair, normal_backlash: float) -> float:
 def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: bool) -> ToothSpace:
     """The pinion's or the wheel's space with the other gear's tooth, thinned by the extra backlash, in it.
 
-    Raises InvalidInput: pointed_tooth.
+    Raises InvalidInput: pointed_tooth, and the codes of `path_of_contact`.
     """
+    path, whole = path_of_contact(pair), pair.line_of_action
+    first, last = (path.start, path.end) if of_pinion else (whole - path.end, whole - path.start)
     owner, mate = (pair.pinion, pair.wheel) if of_pinion else (pair.wheel, pair.pinion)
     teeth = pair.inputs.pinion if of_pinion else pair.inputs.wheel
     cos_working = cos(pair.working_pressure_angle)
@@ -106,6 +112,8 @@ def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: b
         mate_tip_half_angle=mate_tip,
         centre_distance=pair.centre_distance,
         line_of_action=pair.line_of_action,
+        first_contact=first,
+        last_contact=last,
         ratio=owner.teeth / mate.teeth,
         offset=(-tangential if of_pinion else tangential) / (2 * mate_pitch_radius),
         backlash_gap=tangential * cos_working,
@@ -118,8 +126,8 @@ def stroke_limits(space: ToothSpace) -> StrokeLimits:
     """When the mate's first and last corner cross the owner's tip circle, and when the driving flanks touch."""
     a, tip, mate_tip = space.centre_distance, space.tip_radius, space.mate_tip_radius
     reach = acos((a**2 + mate_tip**2 - tip**2) / (2 * a * mate_tip)) + space.mate_tip_half_angle
-    approach = (space.line_of_action - space.mate_tip_roll - space.pitch_roll) / space.base_radius
-    recess = (space.tip_roll - space.pitch_roll) / space.base_radius
+    approach = (space.first_contact - space.pitch_roll) / space.base_radius
+    recess = (space.last_contact - space.pitch_roll) / space.base_radius
     phi_a, phi_e = space.pitch_half_angle + approach, space.pitch_half_angle + recess
     return StrokeLimits(
         start=(-reach - space.offset) / space.ratio,

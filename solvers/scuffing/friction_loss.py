@@ -8,12 +8,18 @@ from solvers.scuffing.transmission_error import period_mean
 
 
 def friction_loss(path: PathOfContact, balance: LoadBalance, load: Load, friction_coefficient: float) -> FrictionLoss:
-    """P_V = f/p_bt int sum_j int w |u1 - u2| dl dphase, u1 - u2 = (omega_1 + omega_2)(s - s_C); H_V = P_V / (f P)."""
+    """P_V = f/p_bt int sum_j int w |u1 - u2| dl dphase, u1 - u2 = (omega_1 + omega_2)(s - s_C); H_V = P_V / (f P).
+
+    Power and efficiency are those of the transmitted power; load factors raise the load of the contacts only.
+    """
     if balance.force == 0.0:
-        return FrictionLoss(loss_factor=None, power=0.0)
+        return FrictionLoss(friction_coefficient, loss_factor=None, power=0.0, efficiency=None)
     speed_ratio = path.pair.pinion.teeth / path.pair.wheel.teeth
-    moment = period_mean(balance.survey.friction_moment, balance.rolls.phase)
+    moment = period_mean(balance.survey.friction_moment, balance.rolls.phase) / load.contact_factor
+    loss_factor = moment * (1 + speed_ratio) / load.pinion_torque
     return FrictionLoss(
-        loss_factor=moment * (1 + speed_ratio) / load.pinion_torque,
+        friction_coefficient,
+        loss_factor=loss_factor,
         power=friction_coefficient * moment * load.pinion_speed * (1 + speed_ratio),
+        efficiency=1.0 - friction_coefficient * loss_factor,
     )

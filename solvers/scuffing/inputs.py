@@ -8,6 +8,11 @@ from solvers.contact import ehl
 from solvers.gears.inputs import GearPairInputs
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
+from solvers.oils import OilSheet
+
+FrictionMethod = Literal["given", "iso_tr_13989"]
+BulkMethod = Literal["given", "estimated"]
+OilSupply = Literal["spray", "dip", "submerged"]
 
 ToothModel = Literal["ishikawa", "parabola"]
 ContactModel = Literal["hertzian", "linear"]
@@ -18,10 +23,26 @@ Lubrication = Literal["thermal_ehl", "closed_form"]
 
 @dataclass(frozen=True, slots=True)
 class Load:
-    """Torque [N m] and speed [rad/s] of the driving pinion."""
+    """Torque [N m] and speed [rad/s] of the driving pinion.
+
+    The factors K_A, K_v and K_gamma multiply the load of the contacts, not the transmitted power.
+    """
 
     pinion_torque: float
     pinion_speed: float
+    application_factor: float = 1.0
+    dynamic_factor: float = 1.0
+    mesh_load_factor: float = 1.0
+
+    @property
+    def contact_factor(self) -> float:
+        """K_A K_v K_gamma."""
+        return self.application_factor * self.dynamic_factor * self.mesh_load_factor
+
+    @property
+    def contact_torque(self) -> float:
+        """Pinion torque that loads the contacts [N m]."""
+        return self.contact_factor * self.pinion_torque
 
     @property
     def power(self) -> float:
@@ -124,28 +145,46 @@ class LoadDistributionInputs:
 
 
 @dataclass(frozen=True, slots=True)
+class ScuffingTest:
+    """The FZG A/8.3/90 load stage at which the oil fails; X_W of the steel, X_L of the oil (None: that of friction)."""
+
+    fzg_stage: int
+    structure_factor: float = 1.0
+    lubricant_factor: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Temperatures:
     """Bulk temperature of the teeth and of the oil they draw in, oil temperature, scuffing temperature [K].
 
-    The scuffing temperature is a property of oil and material that the paper does not give; without it, no safety.
+    With bulk_method "estimated" the bulk follows from the oil, its supply and Blok's flash temperature. The scuffing
+    temperature is a property of oil and material that the paper does not give: a number, or what a test says; with
+    neither there is no safety.
     """
 
     bulk: float = 360.0
     oil: float = 333.15
     scuffing: float | None = None
+    scuffing_test: ScuffingTest | None = None
+    bulk_method: BulkMethod = "given"
+    oil_supply: OilSupply = "spray"
 
 
 @dataclass(frozen=True, slots=True)
 class ScuffingInputs:
     """What scuffing depends on; `path_points` along the feature line.
 
+    An `oil` by its data sheet takes the place of the lubricant, as it is at the bulk temperature. friction: "given" is
+    the coefficient of the distribution, "iso_tr_13989" the mean coefficient of that report, for Blok and the losses.
     lubrication: "thermal_ehl" solves the film under the local load (`film` is its model), "closed_form" leaves it at
     Blok's and Dowson and Higginson's formulas, which are there in either case.
     """
 
     distribution: LoadDistributionInputs
     lubricant: Lubricant = field(default_factory=Lubricant)
+    oil: OilSheet | None = None
     temperatures: Temperatures = field(default_factory=Temperatures)
     lubrication: Lubrication = "thermal_ehl"
+    friction: FrictionMethod = "given"
     film: ehl.Model = field(default_factory=ehl.Model)
     path_points: int = 50

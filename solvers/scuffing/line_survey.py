@@ -99,6 +99,11 @@ def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Sur
                 _note_peaks(mesh, survey, i, load, (x, y))
 
 
+def reaches_base_circle(survey: Survey) -> bool:
+    """Whether a load presses where reduced radius, and with it every local maximum, has no limit."""
+    return bool(np.any(survey.undefined > 0.0))
+
+
 def largest(peaks: FloatArray) -> Peak | None:
     """The largest of the peaks of all roll positions, the first of equals; None where nothing is loaded."""
     row = peaks[np.argmax(peaks[:, 0] >= peaks[:, 0].max() * (1.0 - EQUAL))]

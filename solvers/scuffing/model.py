@@ -15,7 +15,7 @@ from solvers.scuffing.feature_line import feature_line
 from solvers.scuffing.flank import flank
 from solvers.scuffing.friction_loss import friction_loss
 from solvers.scuffing.inputs import Load, LoadDistributionInputs
-from solvers.scuffing.line_survey import Peak, largest
+from solvers.scuffing.line_survey import Peak, largest, reaches_base_circle
 from solvers.scuffing.load_balance import LoadBalance, balance_load
 from solvers.scuffing.mesh_stiffness import stiffness
 from solvers.scuffing.modification import Gap, gap, kinks_along_face, kinks_along_path
@@ -58,7 +58,7 @@ def mesh_of(inputs: LoadDistributionInputs) -> PreparedMesh:
     path = meshing_path(inputs.gears)
     compliance = pair_compliance(path, inputs.pinion_material, inputs.wheel_material, inputs.model)
     form = gap(inputs.modifications, path)
-    tangential_force = inputs.load.pinion_torque / path.pair.pinion.base_radius
+    tangential_force = inputs.load.contact_torque / path.pair.pinion.base_radius
     normal_force = tangential_force / path.plane.cos_base_helix
     return PreparedMesh(
         path=path,
@@ -95,7 +95,7 @@ def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance
         contact_lines=_contact_lines(lengths, balance),
         stiffness=stiffness(path, balance, balance.force / lengths.mean, tangential_force),
         transmission_error=transmission_error(balance),
-        load=_load_on_flank(path, balance, inputs.load.pinion_torque, tangential_force),
+        load=_load_on_flank(path, balance, inputs.load, tangential_force),
         pressure=_pressure(path, balance, modulus),
         friction_loss=friction_loss(path, balance, inputs.load, inputs.friction_coefficient),
         feature_line=feature_line(
@@ -159,12 +159,13 @@ def _contact_lines(lengths: ContactLengths, balance: LoadBalance) -> ContactLine
     )
 
 
-def _load_on_flank(path: PathOfContact, balance: LoadBalance, torque: float, tangential_force: float) -> LoadOnFlank:
+def _load_on_flank(path: PathOfContact, balance: LoadBalance, load: Load, tangential_force: float) -> LoadOnFlank:
     """Forces, the largest line load over all roll positions and how much of the flank is loaded."""
     peak = largest(balance.survey.peak_load)
     phase, loaded, length = balance.rolls.phase, balance.survey.loaded_length, balance.survey.length
     return LoadOnFlank(
-        pinion_torque=torque,
+        pinion_torque=load.pinion_torque,
+        contact_factor=load.contact_factor,
         tangential_force=tangential_force,
         normal_force=balance.force,
         max_line_load=0.0 if peak is None else peak.value,
@@ -178,7 +179,7 @@ def _load_on_flank(path: PathOfContact, balance: LoadBalance, torque: float, tan
 
 def _pressure(path: PathOfContact, balance: LoadBalance, modulus: float) -> Pressure:
     """Largest p_H = sqrt(E' w / (2 pi R_n)) over all roll positions."""
-    if np.any(balance.survey.undefined > 0.0):
+    if reaches_base_circle(balance.survey):
         return Pressure(None, None)
     peak = largest(balance.survey.peak_pressure)
     maximum = 0.0 if peak is None else float(np.sqrt(modulus * peak.value / (2 * np.pi)))

@@ -10,6 +10,7 @@ from solvers.gears.path_of_contact import PathOfContact
 from solvers.notices import Notice
 from solvers.scuffing.contact_lines import ContactLengths
 from solvers.scuffing.inputs import Model, Modifications
+from solvers.scuffing.line_survey import reaches_base_circle
 from solvers.scuffing.load_balance import LoadBalance
 
 LEAST_TEETH = 8
@@ -112,10 +113,10 @@ def load_notices(balance: LoadBalance) -> list[Notice]:
             "curves over the flank and the face load factor may be off by percents"
         )
         notices.append(Notice("light_contact", message, "pinion_torque"))
-    if np.any(balance.survey.undefined > 0.0):
+    if reaches_base_circle(balance.survey):
         message = (
             "the loaded path reaches a base circle, towards which the reduced radius vanishes: pressure and flash "
-            "temperature have no maximum there"
+            "temperature have no maximum there, and no safety is stated"
         )
         notices.append(Notice("path_reaches_base_circle", message, "profile_shift"))
     if np.any(balance.survey.held > 0.0):

@@ -106,11 +106,13 @@ class TransmissionError:
 class LoadOnFlank:
     """Forces [N], torque [N m], largest line load [N/m] and its place; contact_fraction of the flank's contact length.
 
-    normal_force is the one in balance, tangential_force always F_bt. pair_share [line, roll position] is the force on
-    each line over the force in balance.
+    pinion_torque is the transmitted one, the forces are contact_factor times what it gives. normal_force is the one
+    in balance, tangential_force always F_bt. pair_share [line, roll position] is the force on each line over the force
+    in balance.
     """
 
     pinion_torque: float
+    contact_factor: float
     tangential_force: float
     normal_force: float
     max_line_load: float
@@ -134,10 +136,12 @@ class Pressure:
 
 @dataclass(frozen=True, slots=True)
 class FrictionLoss:
-    """Loss factor H_V (None without load) and friction power [W]."""
+    """Mean coefficient of friction, loss factor H_V and efficiency (None without load), friction power [W]."""
 
+    coefficient: float
     loss_factor: float | None
     power: float
+    efficiency: float | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,6 +168,11 @@ class ContactPoints:
     def in_contact(self) -> BoolArray:
         """Where the flanks touch and move, so that film and flash temperature have a meaning."""
         return (self.line_load > 0.0) & (self.half_width > 0.0) & (self.pinion_speed + self.wheel_speed > 0.0)
+
+    @property
+    def undefined(self) -> BoolArray:
+        """Where a load presses too near a base circle for a width of contact, a pressure or a flash temperature."""
+        return (self.line_load > 0.0) & (self.half_width <= 0.0)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

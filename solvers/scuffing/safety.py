@@ -10,16 +10,28 @@ import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.contact.film import dowson_higginson_minimum, thickness_ratio
-from solvers.contact.flash import blok_flash_temperature
 from solvers.contact.hertz import reduced_modulus
 from solvers.errors import InvalidInput
+from solvers.lubricants import oil_in_use
+from solvers.scuffing.blok import blok_flash
 from solvers.scuffing.feature_line import feature_line
-from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs, Temperatures
+from solvers.scuffing.inputs import ScuffingInputs, Temperatures
+from solvers.scuffing.line_survey import reaches_base_circle
 from solvers.scuffing.model import solve
-from solvers.scuffing.results import ContactPoints, FeatureLine, LoadDistribution
-from solvers.scuffing.safety_results import ContactTemperature, Safety, Scuffing, ScuffingPath
+from solvers.scuffing.results import Derived, FeatureLine, LoadDistribution
+from solvers.scuffing.safety_results import (
+    ContactTemperature,
+    Film,
+    Flash,
+    Safety,
+    Scuffing,
+    ScuffingDerived,
+    ScuffingPath,
+)
+from solvers.scuffing.scuffing_practice import scuffing_risk
+from solvers.scuffing.temperatures import with_friction, with_temperatures
 from solvers.scuffing.thermal_path import CURVES, ThermalPath, thermal_path
-from solvers.scuffing.verdict import largest_flash, path_notices, thinnest_film, unknown_points, without_verdict
+from solvers.scuffing.verdict import largest_flash, path_notices, thinnest_film, unknown_points, without_thermal
 
 SURVEY_POINTS = 4001  # of the formulas along the feature line, to find where they are largest and smallest
 
@@ -30,28 +42,34 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     Raises what `model.solve` raises; InvalidInput scuffing_temperature if the oil is not cooler than that, and what
     the thermal EHL solver raises if it refuses every point.
     """
-    given, temperatures = inputs.distribution, inputs.temperatures
+    inputs = with_friction(inputs)
+    distribution = solve(inputs.distribution)
+    inputs = with_temperatures(inputs, distribution)
+    temperatures = inputs.temperatures
     _check_temperatures(temperatures)
-    distribution = solve(given)
     line = _checked_line(inputs, distribution)
-    path = _closed_form_path(inputs, line, distribution.path_of_contact.plane.least_radius)
+    path = _closed_form_path(inputs, line)
     thermal: ThermalPath | None = None
     warnings = distribution.warnings
     if inputs.lubrication == "thermal_ehl":
         thermal = thermal_path(inputs, line, np.isin(path.status, "ok"))
         path = _with_thermal(inputs, path, thermal)
         warnings += thermal.warnings
-    unknown = unknown_points(path, thermal)
+    unknown = 0 if thermal is None else unknown_points(thermal, temperatures.bulk)
     flash, film = largest_flash(path), thinnest_film(path)
-    if unknown:
-        flash, film = without_verdict(path, flash, film)
+    if reaches_base_circle(distribution.balance.survey):
+        flash, film = Flash(None, None), Film()
+    elif unknown:
+        flash, film = without_thermal(flash, film)
     contact_temperature = ContactTemperature(
+        bulk=temperatures.bulk,
         blok_max=None if flash.blok_max is None else temperatures.bulk + flash.blok_max,
         thermal_ehl_max=None if flash.thermal_ehl_max is None else temperatures.bulk + flash.thermal_ehl_max,
     )
     safety = _safety(temperatures, contact_temperature)
     found = {item.name: getattr(distribution, item.name) for item in fields(distribution)}
-    found["warnings"] = warnings + path_notices(path, safety, unknown)
+    found["derived"] = _derived(inputs, distribution.derived)
+    found["warnings"] = warnings + path_notices(distribution, path, contact_temperature, safety, unknown)
     return Scuffing(
         **found,
         flash=flash,
@@ -81,14 +99,23 @@ def _checked_line(inputs: ScuffingInputs, distribution: LoadDistribution) -> Fea
             psi,
         )
 
-    least_radius = distribution.path_of_contact.plane.least_radius
-    survey = _closed_form_path(inputs, line_at(np.linspace(0.0, 1.0, SURVEY_POINTS)), least_radius)
+    survey = _closed_form_path(inputs, line_at(np.linspace(0.0, 1.0, SURVEY_POINTS)))
     psi = [*np.linspace(0.0, 1.0, inputs.path_points)]
     if "ok" in survey.status:
         psi += [survey.psi[np.nanargmax(survey.blok_flash)], survey.psi[np.nanargmin(survey.dowson_higginson)]]
     if "refused" in survey.status:
         psi.append(survey.psi[survey.status.index("refused")])
     return line_at(np.unique(psi))
+
+
+def _derived(inputs: ScuffingInputs, mesh: Derived) -> ScuffingDerived:
+    """What follows from the inputs for mesh and oil."""
+    return ScuffingDerived(
+        **{item.name: getattr(mesh, item.name) for item in fields(mesh)},
+        **oil_in_use(inputs.lubricant),
+        kinematic_viscosity_100=None if inputs.oil is None else inputs.oil.kinematic_viscosity_100,
+        density_15=None if inputs.oil is None else inputs.oil.reference_density,
+    )
 
 
 def safety_factor(scuffing: float, oil: float, contact: float) -> float | None:
@@ -113,33 +140,18 @@ def _safety(temperatures: Temperatures, contact: ContactTemperature) -> Safety |
         None if hottest is None else safety_factor(limit, oil, hottest)
         for hottest in (contact.blok_max, contact.thermal_ehl_max)
     )
-    return Safety(blok_factor=blok, thermal_ehl_factor=thermal)
+    verdict = None if blok is None else scuffing_risk(blok)
+    return Safety(scuffing=limit, blok_factor=blok, thermal_ehl_factor=thermal, verdict=verdict)
 
 
-def blok_flash(given: LoadDistributionInputs, points: ContactPoints) -> FloatArray:
-    """Blok's flash temperature [K] (Eq. 25) at the points; 0 where nothing touches or moves."""
-    flash, touching = np.zeros(points.line_load.shape), points.in_contact
-    flash[touching] = blok_flash_temperature(
-        friction=given.friction_coefficient,
-        line_load=points.line_load[touching],
-        speed_1=points.pinion_speed[touching],
-        speed_2=points.wheel_speed[touching],
-        half_width=points.half_width[touching],
-        solid_1=given.pinion_material,
-        solid_2=given.wheel_material,
-    )
-    return flash
-
-
-def _closed_form_path(inputs: ScuffingInputs, line: FeatureLine, least_radius: float) -> ScuffingPath:
+def _closed_form_path(inputs: ScuffingInputs, line: FeatureLine) -> ScuffingPath:
     """Flash temperature (Eq. 25) and film (Eqs. 27, 28) along the feature line.
 
-    A loaded point has neither if its reduced radius is below the least that has a meaning: it is "refused".
+    A loaded point too near a base circle has neither: it is "refused".
     """
     given, lubricant = inputs.distribution, inputs.lubricant
     pinion, wheel = given.pinion_material, given.wheel_material
-    undefined = (line.line_load > 0.0) & (line.radius < least_radius)
-    defined = line.in_contact & ~undefined
+    defined = line.in_contact
     film = np.full(line.psi.size, np.nan)
     speed_1, speed_2, load = line.pinion_speed[defined], line.wheel_speed[defined], line.line_load[defined]
     film[defined] = dowson_higginson_minimum(
@@ -152,8 +164,8 @@ def _closed_form_path(inputs: ScuffingInputs, line: FeatureLine, least_radius: f
     )
     return ScuffingPath(
         psi=line.psi,
-        status=tuple(np.where(defined, "ok", np.where(undefined, "refused", "unloaded")).tolist()),
-        blok_flash=frozen(np.where(undefined, np.nan, blok_flash(given, line))),
+        status=tuple(np.where(defined, "ok", np.where(line.undefined, "refused", "unloaded")).tolist()),
+        blok_flash=frozen(blok_flash(given, line)),
         dowson_higginson=frozen(film),
         thickness_ratio=frozen(thickness_ratio(film, pinion.roughness, wheel.roughness)),
     )

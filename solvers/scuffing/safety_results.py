@@ -5,7 +5,9 @@ from typing import Literal
 
 from solvers.arrays import FloatArray
 from solvers.contact.film import Regime
-from solvers.scuffing.results import LoadDistribution
+from solvers.lubricants import OilInUse
+from solvers.scuffing.results import Derived, LoadDistribution
+from solvers.scuffing.scuffing_practice import ScuffingRisk
 
 PointStatus = Literal["ok", "ok_with_warnings", "no_solution", "refused", "unloaded"]
 
@@ -25,8 +27,9 @@ class Flash:
 
 @dataclass(frozen=True, slots=True)
 class ContactTemperature:
-    """Largest contact temperature t_B = t_M + t_f [K] (Eq. 16); None where the flash temperature is."""
+    """Bulk temperature t_M and largest contact temperature t_B = t_M + t_f [K] (Eq. 16); None where t_f is."""
 
+    bulk: float
     blok_max: float | None
     thermal_ehl_max: float | None = None
 
@@ -44,10 +47,23 @@ class Film:
 
 @dataclass(frozen=True, slots=True)
 class Safety:
-    """Safety against scuffing (Eq. 26); None where the teeth stay as cool as the oil, or the temperature is unknown."""
+    """Safety against scuffing (Eq. 26); None where the teeth stay as cool as the oil, or the temperature is unknown.
 
+    `scuffing` is the temperature it is against [K]; `verdict` the standard's risk by Blok's factor.
+    """
+
+    scuffing: float
     blok_factor: float | None
     thermal_ehl_factor: float | None = None
+    verdict: ScuffingRisk | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScuffingDerived(OilInUse, Derived):
+    """Also the oil as it enters the contact, and where a sheet gives it nu at 100 C [m^2/s], rho at 15 C [kg/m^3]."""
+
+    kinematic_viscosity_100: float | None
+    density_15: float | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,4 +100,5 @@ class Scuffing(LoadDistribution):
     film: Film
     safety: Safety | None
     path: ScuffingPath
+    derived: ScuffingDerived
     unsolved_points: int = 0

@@ -10,17 +10,18 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.contact.film import thickness_regime
 from solvers.notices import Notice
-from solvers.scuffing.safety_results import Film, Flash, Safety, ScuffingPath
+from solvers.scuffing.results import LoadDistribution
+from solvers.scuffing.safety_results import ContactTemperature, Film, Flash, Safety, ScuffingPath
 from solvers.scuffing.thermal_path import ThermalPath
 
 
-def unknown_points(path: ScuffingPath, thermal: ThermalPath | None) -> int:
-    """Loaded points without numbers, unless bounds show that the largest and smallest values are elsewhere."""
-    missing = np.isin(path.status, ("no_solution", "refused"))
-    if thermal is None or missing.all() or not _any_number(thermal.minimum_film):
+def unknown_points(thermal: ThermalPath, bulk: float | FloatArray) -> int:
+    """Points without numbers, unless bounds show that the hottest and the thinnest are elsewhere; bulk [K]."""
+    missing = np.isin(thermal.status, ("no_solution", "refused"))
+    if not _any_number(thermal.minimum_film):
         return int(missing.sum())
-    hottest = np.nanmax(np.fmax(thermal.pinion_flash, thermal.wheel_flash))
-    harmless = (thermal.flash_bound <= hottest) & (thermal.film_bound >= np.nanmin(thermal.minimum_film))
+    hottest = np.nanmax(np.fmax(thermal.pinion_flash, thermal.wheel_flash) + bulk)
+    harmless = (thermal.flash_bound + bulk <= hottest) & (thermal.film_bound >= np.nanmin(thermal.minimum_film))
     return int((missing & ~harmless).sum())
 
 
@@ -59,34 +60,35 @@ def thinnest_film(path: ScuffingPath) -> Film:
     )
 
 
-def without_verdict(path: ScuffingPath, flash: Flash, film: Film) -> tuple[Flash, Film]:
-    """What is left of extremes over a path that has loaded points without numbers: those that every point has."""
-    complete = not np.isnan(path.blok_flash).any()
-    return (
-        Flash(flash.blok_max, flash.blok_at_psi) if complete else Flash(None, None),
-        Film(dowson_higginson_min=film.dowson_higginson_min) if complete else Film(),
-    )
+def without_thermal(flash: Flash, film: Film) -> tuple[Flash, Film]:
+    """What is left of extremes over a path on which points unknown may decide: those by formula."""
+    return Flash(flash.blok_max, flash.blok_at_psi), Film(dowson_higginson_min=film.dowson_higginson_min)
 
 
 def _any_number(values: FloatArray) -> bool:
     return not bool(np.isnan(values).all())
 
 
-def path_notices(path: ScuffingPath, safety: Safety | None, unknown: int) -> tuple[Notice, ...]:
+def _what_leaves_no_film(distribution: LoadDistribution) -> str:
+    """The input to blame: without load or motion that, else only modifications can lift a flank off its mate."""
+    if distribution.balance.force == 0.0:
+        return "pinion_torque"
+    return "modifications" if np.any(distribution.feature_line.pinion_speed > 0.0) else "pinion_speed"
+
+
+def path_notices(
+    distribution: LoadDistribution,
+    path: ScuffingPath,
+    hottest: ContactTemperature,
+    safety: Safety | None,
+    unknown: int,
+) -> tuple[Notice, ...]:
     """Points without a film, a path without a verdict, and a safety without a meaning."""
     notices = []
     if "unloaded" in path.status:
-        cause = "modifications" if _any_number(path.dowson_higginson) else "pinion_torque"
         message = "there is no film where the feature line is not loaded or does not move"
-        notices.append(Notice("no_film", message, cause))
-    undefined = int(np.isnan(path.blok_flash).sum())
-    if undefined:
-        message = (
-            "the loaded path reaches a base circle, where the reduced radius vanishes and pressure and flash "
-            "temperature have no limit: no largest one and no safety is stated"
-        )
-        notices.append(Notice("path_reaches_base_circle", message, "profile_shift"))
-    if unknown > undefined:
+        notices.append(Notice("no_film", message, _what_leaves_no_film(distribution)))
+    if unknown:
         notices.append(
             Notice(
                 "unsolved_points",
@@ -95,7 +97,7 @@ def path_notices(path: ScuffingPath, safety: Safety | None, unknown: int) -> tup
                 "largest flash temperature, thinnest film or safety is stated from the others",
             )
         )
-    if safety is not None and safety.blok_factor is None and not undefined:
+    if safety is not None and safety.blok_factor is None and hottest.blok_max is not None:
         notices.append(
             Notice("no_safety", "the teeth stay as cool as the oil; the safety factor has no meaning", "temperatures")
         )

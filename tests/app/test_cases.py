@@ -109,6 +109,29 @@ def test_fields_of_list_items_are_found() -> None:
     assert field_path(request, "grooves.0.width") == "grooves.0.width_mm"
 
 
+@pytest.mark.parametrize(
+    ("said", "meant"),
+    [
+        ("pinion_shaft.bearings.1.viscosity", "pinion_shaft.bearings.1.viscosity_pa_s"),
+        ("couplings.0.lubricant.viscosity", "couplings.0.lubricant.viscosity_pa_s"),
+        ("couplings.0.coupling.face_width", "couplings.0.coupling.face_width_mm"),
+        ("couplings.0.pitch_errors", "couplings.0.coupling.pitch_errors_um"),
+        ("couplings.0.misalignment", "couplings.0"),
+        ("couplings.7.position", None),
+        ("lubricant.viscosity", "lubricant.viscosity_pa_s"),
+        ("face_width", "gears.face_width_mm"),
+        ("heat.wall_response", "thermal.wall_response"),
+        ("collar_radius", "thrust_collar.radius_mm"),
+        ("wheel_shaft.ultimate_thrust", "wheel_shaft.thrust_bearing.ultimate_load_n"),
+        ("mesh.distribution.modifications.helix_slope", "modifications.helix_slope_um"),
+    ],
+)
+def test_what_a_solver_of_many_parts_names_is_found(said: str, meant: str | None) -> None:
+    """Of namesakes the outermost is meant, of an item's the item's own, of what an item lacks the item."""
+    _, request = case("turbo-gear-drive-train")
+    assert field_path(request, said) == meant
+
+
 @pytest.mark.parametrize("name", sorted(examples()))
 def test_defaults_are_the_solver_s(name: str) -> None:
     """A default with a unit is written twice, here in the API's unit and there in SI: they agree."""
@@ -141,9 +164,9 @@ def declared(inputs: Any, path: str = "") -> Iterator[tuple[Any, str]]:
 
 
 def is_default(request: Request, path: str) -> bool:
-    """Whether the field was left out of the request."""
+    """Whether the field was left out of the request, and means a number all the same."""
     section: Any = request
     *sections, name = path.split(".")
     for part in sections:
         section = getattr(section, part)
-    return name not in section.model_fields_set
+    return name not in section.model_fields_set and getattr(section, name) is not None

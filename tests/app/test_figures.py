@@ -10,10 +10,9 @@ from typing import Any
 import httpx
 import numpy as np
 import pytest
-from pydantic import BaseModel
 
 from app.calculations import CALCULATIONS
-from app.contract.units import split_unit
+from app.contract.quantities import Documented
 from app.evaluate import evaluate
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, Role
@@ -52,6 +51,16 @@ FIGURES = {
     },
     "/v1/scuffing": {"contact-temperature", "film", "friction"},
     "/v1/scuffing/line-contact": {"contact", "film-temperature", "heat"},
+    "/v1/drive-train": {
+        "shaft-lines",
+        "gap",
+        "slope-parts",
+        "face-load",
+        "flank-load",
+        "contact-temperature",
+        "thrust",
+        "losses",
+    },
 }
 CALCULATION = {calculation.path: calculation for calculation in CALCULATIONS}
 # One ordinary case of each endpoint, drawn in the default run.
@@ -63,6 +72,7 @@ CASES = {
     "/v1/scuffing/load-distribution": "xue-pair-4-helix-slope-40",
     "/v1/scuffing": "xue-pair-1-scuffing",
     "/v1/scuffing/line-contact": "xue-line-contact",
+    "/v1/drive-train": "generator-gear-drive-train",
 }
 # Examples whose physics leaves a figure out, and why.
 WITHOUT = {
@@ -101,28 +111,34 @@ def figures(name: str) -> Iterator[tuple[str, Figure]]:
             assert reason.code == expected  # noqa: PT017
 
 
-def arrays(model: BaseModel, unit: str | None = None) -> Iterator[tuple[str | None, np.ndarray[Any, Any]]]:
+def groups(value: Any) -> list[Documented]:
+    """The groups that a field holds."""
+    items = value if isinstance(value, list) else [value]
+    return [item for item in items if isinstance(item, Documented)]
+
+
+def arrays(model: Documented, unit: str | None = None) -> Iterator[tuple[str | None, np.ndarray[Any, Any]]]:
     """Every array of an answer with the symbol of its unit; a group hands its unit down."""
     for name in type(model).model_fields:
-        value, symbol = getattr(model, name), split_unit(name)[1]
+        value, symbol = getattr(model, name), type(model).unit_of(name)
         own = symbol.symbol if symbol else unit
-        if isinstance(value, BaseModel):
-            yield from arrays(value, own)
-        elif isinstance(value, list) and value and isinstance(value[0], int | float | list | type(None)):
+        for group in groups(value):
+            yield from arrays(group, own)
+        if isinstance(value, list) and value and isinstance(value[0], int | float | list | type(None)):
             yield own, np.array(value, dtype=float)
 
 
-def scalars(model: BaseModel, unit: str | None = None) -> Iterator[tuple[str | None, float]]:
+def scalars(model: Documented, unit: str | None = None) -> Iterator[tuple[str | None, float]]:
     for name in type(model).model_fields:
-        value, symbol = getattr(model, name), split_unit(name)[1]
+        value, symbol = getattr(model, name), type(model).unit_of(name)
         own = symbol.symbol if symbol else unit
-        if isinstance(value, BaseModel):
-            yield from scalars(value, own)
-        elif isinstance(value, float):
+        for group in groups(value):
+            yield from scalars(group, own)
+        if isinstance(value, float):
             yield own, value
 
 
-def answered(answer: BaseModel, unit: str | None, shown: np.ndarray[Any, Any]) -> bool:
+def answered(answer: Documented, unit: str | None, shown: np.ndarray[Any, Any]) -> bool:
     """Whether an array of the answer in this unit holds the numbers shown, a closing point or a gap aside."""
     known = shown[np.isfinite(shown)]
     for own, array in arrays(answer):
@@ -163,6 +179,7 @@ def test_examples_give_figures_with_finite_numbers_and_findings(name: str) -> No
 
 # Lines that are no array of the answer: bulk plus flash, magnitudes, ways drawn between points.
 COMPUTED = {"pinion", "wheel", "Blok", "sliding speed", "to the next area", "pitch error"}
+COMPUTED |= {"without coupling", "without heat", "without shafts", "mesh alone"}  # other units' loads
 
 
 @pytest.mark.parametrize("name", CASES.values())
@@ -176,7 +193,7 @@ def test_curves_and_maps_are_the_answers_numbers_in_the_unit_of_their_axis(name:
                 series.append((panel.map.title, panel.map.values))
             for title, shown in series:
                 unit = panel.map.unit if panel.map is not None else panel.y.unit
-                if which == "contact-temperature" or title in COMPUTED - {"pinion", "wheel"}:
+                if (which == "contact-temperature" and panel.map is None) or title in COMPUTED - {"pinion", "wheel"}:
                     continue
                 if which == "film-temperature":
                     shown = shown.T  # noqa: PLW2901  the answer's field is [x][film]
@@ -186,7 +203,14 @@ def test_curves_and_maps_are_the_answers_numbers_in_the_unit_of_their_axis(name:
 
 
 @pytest.mark.parametrize(
-    "name", ["pahl-axial-displacement", "pahl-z-arrangement", "milian-case-1-groove", "xue-line-contact"]
+    "name",
+    [
+        "pahl-axial-displacement",
+        "pahl-z-arrangement",
+        "milian-case-1-groove",
+        "xue-line-contact",
+        "generator-gear-drive-train",
+    ],
 )
 def test_rows_and_levels_are_the_answers_numbers(name: str) -> None:
     request, answer = solved(name)
@@ -378,3 +402,33 @@ def test_every_figure_of_a_case_is_drawn(name: str) -> None:
 def test_every_figure_of_every_example_is_drawn(name: str, theme: Any) -> None:
     for which, data in figures(name):
         assert len(draw(data, "png", theme)) > 5_000, which
+
+
+def test_load_along_the_face_is_another_unit_s_without_the_effect() -> None:
+    name = "turbo-gear-drive-train"
+    (panel,) = figure(name, "face-load").panels
+    lines = {line.title: line.y for line in panel.lines}
+    assert set(lines) == {"as asked", "without coupling", "without heat", "without shafts", "mesh alone"}
+    calculation = CALCULATION["/v1/drive-train"]
+    for title, effects in (
+        ("without coupling", {"coupling": False}),
+        ("without heat", {"thermal": False}),
+        ("mesh alone", {"shafts": False, "coupling": False, "thermal": False}),
+    ):
+        body = {**examples()[name].request, "effects": effects}
+        other = evaluate(calculation, calculation.request.model_validate(body)).misalignment.curves  # type: ignore[attr-defined]
+        assert np.allclose(lines[title], other.line_force_n_per_mm, rtol=1e-12)
+    assert lines["mesh alone"][0] > 2 * lines["as asked"][0], "ground for the tilt of shafts that do not tilt"
+
+
+def test_shaft_lines_carry_the_reactions_at_their_bearings() -> None:
+    request, answer = solved("generator-gear-drive-train")
+    for panel, given, state in zip(
+        figure("generator-gear-drive-train", "shaft-lines").panels,
+        (request.pinion_shaft, request.wheel_shaft),
+        answer.shafts,
+        strict=True,
+    ):
+        assert sorted(mark.x for mark in panel.marks) == sorted(2 * [each.position_mm for each in given.bearings])
+        heights = [value for bearing in state.bearings for value in bearing.displacement_um]
+        assert sorted(mark.y for mark in panel.marks) == pytest.approx(sorted(heights), abs=1e-6)

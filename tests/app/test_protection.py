@@ -107,8 +107,10 @@ def test_what_cannot_finish_is_refused_with_the_reason(
     assert response.json()["errors"][0]["pointer"] == field
 
 
-def test_home_leads_to_the_docs(client: httpx.Client) -> None:
-    assert client.get("/").headers["location"] == "/docs"
+def test_home_is_the_start_page(client: httpx.Client) -> None:
+    answer = client.get("/")
+    assert answer.status_code == 200
+    assert "/coupling/about" in answer.text
 
 
 def test_metrics_count_requests(client: httpx.Client) -> None:

@@ -141,6 +141,23 @@ def test_total_is_the_sum_of_both_spaces(full: dict[str, Any]) -> None:
     assert full["total"]["pumping_power_w"] == pytest.approx(sum(parts))
 
 
+def test_the_rack_tip_radius_assumed_is_the_one_used(post: Post) -> None:
+    pair = {
+        "pinion": {"teeth": 30, "dedendum": 1.5},
+        "wheel": {"teeth": 60},
+        "module_mm": 5,
+        "pressure_angle_deg": 25,
+        "face_width_mm": 50,
+    }
+    body = {"gears": pair, "operation": {"pinion_speed_rpm": 5000}, "model": {"slices": 20, "spaces": "pinion"}}
+    for held, used in ((True, 0.1349), (False, 0.25)):
+        pair["pinion"] = {"teeth": 30, "dedendum": 1.5 if held else 1.25}
+        result = post(PUMPING, body).json()
+        assumed = {each["field"]: each["value"] for each in result["assumptions"]}
+        assert assumed["gears.rack_tip_radius"] == result["derived"]["rack_tip_radius"] == pytest.approx(used, abs=1e-4)
+        assert ("rack_tip_radius" in {warning["code"] for warning in result["warnings"]}) is held
+
+
 def test_mass_flows_sum_to_zero(full: dict[str, Any]) -> None:
     flows = full["pinion_spaces"]["mass_flow_g_per_s"]
     assert abs(sum(flows[name] for name in ("front", "rear", "radial", "grooves", "reset"))) < 1e-9
@@ -158,7 +175,9 @@ def test_pocket_chain_of_the_paper(post: Post) -> None:
     result = solved(post, name="milian-case-1-pocket-chain", detail="summary")
     assert result["pinion_spaces"]["peak_pressure_ratio"] == pytest.approx(1.878, rel=2e-3)
     assert result["pinion_spaces"]["balance"]["energy_error"] is None
-    assert [warning["code"] for warning in result["warnings"]] == ["no_energy_balance"]
+    # 0.165 g/s net of 20.5 out and 20.3 in at the front, 0.063 g/s apart for half the time steps
+    assert [warning["code"] for warning in result["warnings"]] == ["net_flow_uncertain", "no_energy_balance"]
+    assert "slices" not in result["warnings"][0]["message"]
 
 
 def test_incompressible_has_no_temperatures(post: Post) -> None:

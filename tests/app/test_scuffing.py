@@ -194,6 +194,34 @@ def test_the_parabola_refuses_half_space_contact(post: Post) -> None:
     assert error(post(DISTRIBUTION, body)) == ("contact_law", "/model/contact")
 
 
+@pytest.mark.parametrize(
+    ("lubrication", "points"),
+    [("closed_form", 10), ("closed_form", 50), ("closed_form", 100), ("closed_form", 500), ("thermal_ehl", 10)],
+)
+def test_a_path_that_reaches_a_base_circle_has_no_verdict(post: Post, lubrication: str, points: int) -> None:
+    """12/60 teeth: once 154,550 MPa and Blok safeties of 3.8, 2.4, 2.1, 1.4 with 10, 50, 100, 500 points."""
+    body = {
+        "gears": {
+            "pinion": {"teeth": 12},
+            "wheel": {"teeth": 60},
+            "module_mm": 2,
+            "helix_angle_deg": 15,
+            "face_width_mm": 20,
+        },
+        "load": {"pinion_torque_n_m": 50, "pinion_speed_rpm": 1000},
+        "temperatures": {"scuffing_c": 300},
+        "model": {"lubrication": lubrication, "path_points": points},
+    }
+    result = post(SCUFFING, body).json()
+    assert result["status"] == "ok_with_warnings"
+    assert (result["pressure"]["max_mpa"], result["pressure"]["max_at"]) == (None, None)
+    assert (result["flash"]["blok_max_k"], result["flash"]["blok_at_psi"]) == (None, None)
+    assert (result["flash"]["thermal_ehl_max_k"], result["contact_temperature"]["thermal_ehl_max_c"]) == (None, None)
+    assert result["contact_temperature"]["blok_max_c"] is None
+    assert (result["safety"]["blok_factor"], result["safety"]["thermal_ehl_factor"]) == (None, None)
+    assert [warning["code"] for warning in result["warnings"]].count("path_reaches_base_circle") == 1
+
+
 def test_a_scuffing_temperature_below_the_oils_is_refused(post: Post) -> None:
     body = request("xue-pair-1-scuffing", temperatures={"scuffing_c": 50})
     assert error(post(SCUFFING, body)) == ("scuffing_temperature", "/temperatures/scuffing_c")

@@ -9,8 +9,12 @@ import numpy as np
 import pytest
 
 from solvers.coupling import solve, solve_orbit
+from solvers.coupling.geometry import tooth_geometry
 from solvers.coupling.inputs import KinematicModel, ModelOptions, SleeveSupport
+from solvers.coupling.kinematics import displacement_peak, mesh_motion, tooth_positions
+from solvers.coupling.lubrication import max_normal_force
 from solvers.coupling.results import KinematicCurves, OrbitResult
+from solvers.coupling.tooth_loads import centred_loads
 from tests.couplings import PITCH_RADIUS, TEETH, harmonic_pitch_errors, pahl_coupling, random_pitch_errors
 
 ALPHA = radians(20.0)
@@ -84,6 +88,21 @@ def test_spatial_displacement_peaks_between_tilt_position_and_reversal(ratio: fl
     shift = atan2(sin(ALPHA) * cos(ALPHA), ratio - sin(ALPHA) ** 2) / 2.0
     motion = curves("spatial", crowning_ratio=ratio)
     assert peak_angle(motion.tangential_displacement) == pytest.approx(pi / 2 + ALPHA - shift, abs=radians(2e-3))
+
+
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize("ratio", [1.0, 11.0])
+def test_largest_normal_force_stands_where_the_displacement_peaks(ratio: float, side: int) -> None:
+    inputs = pahl_coupling(0.5, crowning_ratio=ratio, model=SPATIAL)
+    geometry = tooth_geometry(inputs.coupling)
+    mesh = mesh_motion(inputs.coupling, geometry, inputs.operation, "spatial", side=side)
+    chi = atan2(2.0 * sin(ALPHA) * cos(ALPHA), 2.0 * (ratio - sin(ALPHA) ** 2)) / 2.0
+    assert displacement_peak(mesh) == pytest.approx(pi / 2 + side * (ALPHA - chi), rel=1e-12)
+    pitch = np.linspace(0.0, 2.0 * pi / TEETH, 2001)
+    loads = centred_loads(inputs.coupling, mesh, tooth_positions(pitch, TEETH), inputs.operation.torque)
+    largest = loads.tangential_force.max() / cos(ALPHA)
+    assert max_normal_force(inputs, mesh) == pytest.approx(largest, rel=1e-6)
+    assert max_normal_force(inputs, mesh) >= largest * (1.0 - 1e-14)
 
 
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 11.0])

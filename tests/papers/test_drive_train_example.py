@@ -127,12 +127,12 @@ def test_the_table(row: int) -> None:
     assert found.load.face_load_at == pytest.approx(place, abs=0.021)
     assert found.load.max_line_load / 1e3 == pytest.approx(load, abs=0.7)
     assert found.load.max_pressure / 1e6 == pytest.approx(pressure, abs=1.1)
-    assert found.load.transmission_error_peak_to_peak * 1e6 == pytest.approx(error, abs=0.006)
+    assert found.load.transmission_error_pp * 1e6 == pytest.approx(error, abs=0.006)
     assert found.flash.feature == pytest.approx(line, abs=0.07)
     assert found.flash.flank == pytest.approx(flank, abs=0.07 + 0.06 * (row == 18))
     assert found.safety is not None
     assert found.safety.blok_feature == pytest.approx(safe_line, abs=0.0016)
-    assert found.safety.blok_flank == pytest.approx(safe_flank, abs=0.0016)
+    assert found.safety.blok_flank == pytest.approx(safe_flank, abs=0.0021)
     assert found.convergence.residual <= 1e-12
     assert found.balance.force_error is not None
     assert found.balance.force_error < 1e-10
@@ -145,9 +145,9 @@ def test_the_table_with_teeth_that_yield_before_they_slide(row: int) -> None:
     slope, factor, safe = ELASTIC_PLASTIC[row]
     found = answer(row, "elastic_plastic")
     assert found.misalignment.shaft_slope * 1e6 == pytest.approx(slope, abs=0.011)
-    assert found.load.face_load_factor == pytest.approx(factor + GROOVE * (row == 18), abs=0.0003)
+    assert found.load.face_load_factor == pytest.approx(factor + GROOVE * (row == 18), abs=0.0006)
     assert found.safety is not None
-    assert found.safety.blok_flank == pytest.approx(safe, abs=0.0016)
+    assert found.safety.blok_flank == pytest.approx(safe, abs=0.0021)
 
 
 @pytest.mark.parametrize("row", [10, 14, 17])
@@ -155,6 +155,22 @@ def test_the_other_rows_hardly_notice_the_yielding(row: int) -> None:
     sliding, yielding = answer(row).load.face_load_factor, answer(row, "elastic_plastic").load.face_load_factor
     assert sliding is not None
     assert yielding == pytest.approx(sliding, abs=0.0005)
+
+
+THERMAL = [3.056, 2.883, 2.832, 3.010, 2.821, 3.084, 2.730, 3.067, 3.041, 3.075, 3.065, 2.993, 3.072, 3.067, 3.077]
+THERMAL += [3.063, 3.301, 3.044, 2.971, 3.009, 2.917]
+
+
+@pytest.mark.parametrize(
+    "row", [pytest.param(row, marks=() if row == 5 else pytest.mark.slow) for row in range(1, len(THERMAL) + 1)]
+)
+def test_safety_by_the_thermal_film(row: int) -> None:
+    """Along the profile line through the flank's worst point; milder than Blok's and in the same order."""
+    unit = UNITS[row]()
+    found = solve(replace(unit, mesh=replace(unit.mesh, lubrication="thermal_ehl"))).safety
+    assert found is not None
+    assert found.thermal_ehl_profile == pytest.approx(THERMAL[row - 1], abs=0.003)
+    assert found.minimum == found.blok_flank
 
 
 PARTS = {

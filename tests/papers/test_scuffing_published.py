@@ -19,30 +19,16 @@ from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modific
 from solvers.scuffing.load_balance import line_loads
 from solvers.scuffing.mesh_stiffness import standard_stiffness
 from solvers.scuffing.tooth_stiffness import linear_contact_compliance
-from tests.gear_pairs import FZG_A, PAPER_LOAD, paper_pair, with_torque
+from tests.gear_pairs import FZG_A, FZG_TORQUES, PAPER_LOAD, paper_pair, with_torque
 
 STEEL = Solid()
 MODULUS = hertz.reduced_modulus(STEEL, STEEL)
 UNIFORM = Model(tooth_stiffness="parabola", parabola_end_ratio=1.0, contact="linear")
 
-# FZG type A (ISO 14635-1)
-STAGES = (
-    (3.3, 144.8),
-    (13.7, 295.0),
-    (35.25, 473.2),
-    (60.75, 621.2),
-    (94.1, 773.2),
-    (135.3, 927.1),
-    (183.35, 1079.3),
-    (239.25, 1232.9),
-    (302.0, 1385.1),
-    (372.6, 1538.5),
-    (450.1, 1691.0),
-    (534.5, 1842.7),
-)
+PITCH_PRESSURES = (144.8, 295.0, 473.2, 621.2, 773.2, 927.1, 1079.3, 1232.9, 1385.1, 1538.5, 1691.0, 1842.7)
 
 
-@pytest.mark.parametrize(("torque", "pressure"), STAGES)
+@pytest.mark.parametrize(("torque", "pressure"), list(zip(FZG_TORQUES, PITCH_PRESSURES, strict=True)))
 def test_fzg_type_a_load_stages(torque: float, pressure: float) -> None:
     """Hertz pressure at the pitch point with one pair carrying all, as the stages are defined."""
     result = solve_load_distribution(LoadDistributionInputs(FZG_A, Load(torque, angular_speed(2250))))

@@ -60,16 +60,19 @@ def flood(address: str, opening: bytes, piece: bytes) -> tuple[int, bytes]:
         return sent, answer_to(connection)
 
 
+CHUNKED = (
+    b"POST /v1/coupling HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n"
+)
 OPENINGS = {
     "one header without end": (b"GET /healthz HTTP/1.1\r\nHost: x\r\nX-Padding: ", PIECE),
     "headers without end": (b"GET /healthz HTTP/1.1\r\nHost: x\r\n", b"X-Padding: 1234567890\r\n" * 3000),
     "an address without end": (b"GET /", PIECE),
     "trailers without end": (
-        b"POST /v1/coupling HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n2\r\n{}\r\n0\r\n",
+        CHUNKED + b"2\r\n{}\r\n0\r\n",
         b"X-Padding: 1234567890\r\n" * 3000,
     ),
     "a chunk size without end": (
-        b"POST /v1/coupling HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n2;extension=",
+        CHUNKED + b"2;extension=",
         PIECE,
     ),
 }

@@ -1,5 +1,6 @@
 """The books are true: one line of JSON for every answer, nothing of its content, and nobody waits for the reader."""
 
+import http.client
 import json
 import os
 import sys
@@ -74,16 +75,15 @@ def test_a_log_that_nobody_reads_costs_lines_and_nothing_else() -> None:
         with started_server(log=writer, workers=1) as (process, address):
             wait_until_warm(process, address)
             slowest = 0.0
-            with httpx.Client(base_url=address) as client:
-                for _ in range(13_000):  # the pipe holds some hundred lines, the queue ten thousand
-                    started = time.monotonic()
-                    assert client.get("/healthz").status_code == 200
-                    slowest = max(slowest, time.monotonic() - started)
-                dropped = next(
-                    line
-                    for line in client.get("/metrics").text.splitlines()
-                    if line.startswith("tribodrive_log_lines_dropped_total")
-                )
+            connection = http.client.HTTPConnection(urlsplit(address).netloc, timeout=10)
+            for _ in range(13_000):  # the pipe holds some hundred lines, the queue ten thousand
+                started = time.monotonic()
+                connection.request("GET", "/healthz")
+                assert connection.getresponse().read() == b'{"status":"ok"}'
+                slowest = max(slowest, time.monotonic() - started)
+            connection.close()
+            metrics = httpx.get(f"{address}/metrics").text.splitlines()
+            dropped = next(line for line in metrics if line.startswith("tribodrive_log_lines_dropped_total"))
             assert slowest < 1.0
             assert float(dropped.split()[1]) > 100
             process.terminate()

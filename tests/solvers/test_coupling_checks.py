@@ -1,17 +1,20 @@
 """Random couplings of the kind users have: books close, no resolution and no jump shows; longer runs marked slow."""
 
 from collections.abc import Callable
+from dataclasses import replace
+from unittest.mock import patch
 
 import numpy as np
 import pytest
 from numpy.random import Generator
 
-from solvers.coupling import solve
+from solvers.coupling import kinematics, solve, solve_orbit
+from solvers.coupling.inputs import SleeveSupport
 from tests.coupling_checks import CHECKS, finer
 from tests.couplings import random_inputs
 
 # How many cases a second allows in the default run.
-CASES = dict(zip((check.__name__ for check in CHECKS), (60, 40, 15, 6, 8), strict=True))
+CASES = dict(zip((check.__name__ for check in CHECKS), (40, 25, 10, 3, 4), strict=True))
 
 
 @pytest.mark.parametrize("check", CHECKS)
@@ -25,7 +28,7 @@ def test_random_couplings(check: Callable[[Generator], None]) -> None:
 @pytest.mark.parametrize("check", CHECKS)
 def test_many_random_couplings(check: Callable[[Generator], None]) -> None:
     random = np.random.default_rng(1977)
-    for _ in range(20 * CASES[check.__name__]):
+    for _ in range(40 * CASES[check.__name__]):
         check(random)
 
 
@@ -37,3 +40,27 @@ def test_the_largest_force_between_few_loaded_teeth_is_found() -> None:
         with finer():
             exact = solve(inputs).lubrication.max_normal_force
         assert solve(inputs).lubrication.max_normal_force == pytest.approx(exact, rel=5e-3)
+
+
+def test_the_largest_displacement_between_few_loaded_teeth_is_found() -> None:
+    # Found by the search: 220 and 240 rotor angles missed 3.5 % and 2.2 % of it without a notice.
+    random = np.random.default_rng(424242)
+    drawn = [random_inputs(random, errors=True) for _ in range(422)]
+    for inputs in (drawn[252], drawn[421]):
+        result = solve_orbit(inputs)
+        assert not any(notice.code == "orbit_resolution" for notice in result.warnings)
+        with patch.object(kinematics, "_LEAST_ROTOR_POSITIONS", 32 * kinematics._LEAST_ROTOR_POSITIONS):
+            sampled = solve_orbit(inputs).orbit
+        assert result.max_displacement == pytest.approx(np.hypot(sampled.x, sampled.y).max(), rel=2e-3)
+
+
+@pytest.mark.parametrize("sleeve", ["centred", "floating"])
+def test_the_largest_force_does_not_depend_on_zero_pitch_errors_written_down(sleeve: SleeveSupport) -> None:
+    # `spatial` took it at 90 degrees, where its f_t does not peak: zeros moved it by up to 33 %.
+    random = np.random.default_rng(36)
+    for _ in range(20):
+        inputs = random_inputs(random, errors=False)
+        inputs = replace(inputs, model=replace(inputs.model, kinematics="spatial", sleeve=sleeve))
+        zeros = replace(inputs, coupling=replace(inputs.coupling, pitch_errors=(0.0,) * inputs.coupling.teeth))
+        without, written = (solve(each).lubrication.max_normal_force for each in (inputs, zeros))
+        assert written == pytest.approx(without, rel=1e-12)

@@ -6,7 +6,6 @@ from math import cos, degrees, inf, isfinite, nan, pi, radians
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solvers.coupling import recommend, solve, solve_orbit
@@ -26,6 +25,7 @@ from solvers.coupling.inputs import (
 from solvers.coupling.results import CouplingResult, Recommendation
 from solvers.errors import InvalidInput, NoSolution, SolverError
 from tests.couplings import pahl_coupling
+from tests.properties import examples
 
 
 def assert_finite(value: object, path: str = "result") -> None:
@@ -338,8 +338,7 @@ def answered(calculation: Callable[[], object], reasons: set[str]) -> object | N
     return result
 
 
-@settings(max_examples=300)
-@given(any_inputs())
+@examples(100, 300, any_inputs())
 def test_any_valid_input_is_answered_or_refused_with_a_reason(inputs: CouplingInputs) -> None:
     reasons = {"hertz_pressure", "contact_width"}
     friction = 0.16 if inputs.friction.coefficient is None else inputs.friction.coefficient
@@ -354,8 +353,7 @@ def test_any_valid_input_is_answered_or_refused_with_a_reason(inputs: CouplingIn
         assert force.sum() * result.geometry.pitch_radius == pytest.approx(inputs.operation.torque, rel=1e-6)
 
 
-@settings(max_examples=300)
-@given(any_inputs())
+@examples(100, 300, any_inputs())
 def test_every_floating_sleeve_is_balanced(inputs: CouplingInputs) -> None:
     alone = replace(
         inputs,
@@ -365,8 +363,9 @@ def test_every_floating_sleeve_is_balanced(inputs: CouplingInputs) -> None:
     answered(lambda: solve(alone), {"hertz_pressure", "contact_width"})
 
 
-@settings(max_examples=300)
-@given(
+@examples(
+    100,
+    300,
     misalignment=st.floats(0.005, 3.0),
     teeth=st.integers(6, 100),
     friction=st.floats(0.01, 0.3),
@@ -403,14 +402,12 @@ def test_every_sleeve_whose_equilibrium_exists_is_balanced(
     answered(lambda: solve(inputs), {"hertz_pressure"})
 
 
-@settings(max_examples=60)
-@given(any_inputs())
+@examples(20, 60, any_inputs())
 def test_any_orbit_is_answered_or_refused_with_a_reason(inputs: CouplingInputs) -> None:
     answered(lambda: solve_orbit(inputs), {"torque_too_low", "sleeve_orbit"})
 
 
-@settings(max_examples=60)
-@given(any_inputs(), st.floats(1e-3, 1.0), st.floats(1.0, 5.0))
+@examples(20, 60, any_inputs(), st.floats(1e-3, 1.0), st.floats(1.0, 5.0))
 def test_any_recommendation_is_answered_or_refused_with_a_reason(
     inputs: CouplingInputs, low: float, width: float
 ) -> None:

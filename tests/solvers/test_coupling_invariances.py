@@ -4,12 +4,13 @@ from dataclasses import replace
 from math import pi
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume
 from hypothesis import strategies as st
 
 from solvers.coupling import solve
 from solvers.coupling.inputs import CouplingInputs, ModelOptions
 from tests.couplings import PITCH_RADIUS, TEETH, pahl_coupling, random_pitch_errors
+from tests.properties import examples
 
 misalignments = st.floats(0.01, 1.0)
 kinematics = st.sampled_from(["tangential", "spatial"])
@@ -29,7 +30,7 @@ def couplings(draw: st.DrawFn) -> CouplingInputs:
     )
 
 
-@given(couplings(), st.floats(0.2, 3.0))
+@examples(30, 300, couplings(), st.floats(0.2, 3.0))
 def test_torque_and_stiffness_scale_forces_and_nothing_else(inputs: CouplingInputs, factor: float) -> None:
     scaled = replace(
         inputs,
@@ -48,7 +49,7 @@ def test_torque_and_stiffness_scale_forces_and_nothing_else(inputs: CouplingInpu
     assert after.losses.friction_power == pytest.approx(factor * before.losses.friction_power, rel=1e-7)
 
 
-@given(couplings())
+@examples(30, 300, couplings())
 def test_sign_of_misalignment_does_not_matter_to_magnitudes(inputs: CouplingInputs) -> None:
     # With pitch errors the mirror image is the same coupling seen half a turn later: means over a revolution agree.
     mirrored = replace(inputs, operation=replace(inputs.operation, misalignment=-inputs.operation.misalignment))
@@ -60,7 +61,7 @@ def test_sign_of_misalignment_does_not_matter_to_magnitudes(inputs: CouplingInpu
     assert after.losses.hub_bending_moment == pytest.approx(before.losses.hub_bending_moment, rel=1e-6)
 
 
-@given(couplings())
+@examples(30, 300, couplings())
 def test_sense_of_rotation_does_not_matter_to_magnitudes(inputs: CouplingInputs) -> None:
     reversed_speed = replace(inputs, operation=replace(inputs.operation, speed=-inputs.operation.speed))
     before, after = solve(inputs), solve(reversed_speed)
@@ -72,7 +73,7 @@ def test_sense_of_rotation_does_not_matter_to_magnitudes(inputs: CouplingInputs)
     assert after.axial_thrust.force == pytest.approx(before.axial_thrust.force, abs=1e-6 * limit)
 
 
-@given(couplings())
+@examples(30, 300, couplings())
 def test_friction_power_is_moment_times_tilting_speed_plus_thrust_times_axial_velocity(inputs: CouplingInputs) -> None:
     result, operation = solve(inputs), inputs.operation
     tilting = result.losses.friction_moment * abs(operation.speed * operation.misalignment)
@@ -80,14 +81,14 @@ def test_friction_power_is_moment_times_tilting_speed_plus_thrust_times_axial_ve
     assert result.losses.friction_power == pytest.approx(tilting + axial, rel=1e-9)
 
 
-@given(couplings())
+@examples(30, 300, couplings())
 def test_thrust_turns_with_the_axial_velocity(inputs: CouplingInputs) -> None:
     turned = replace(inputs, operation=replace(inputs.operation, axial_velocity=-inputs.operation.axial_velocity))
     limit = solve(inputs).axial_thrust.coaxial_limit
     assert solve(turned).axial_thrust.force == pytest.approx(-solve(inputs).axial_thrust.force, abs=1e-6 * limit)
 
 
-@given(couplings(), st.floats(-2e-5, 2e-5))
+@examples(30, 300, couplings(), st.floats(-2e-5, 2e-5))
 def test_the_same_pitch_error_on_every_tooth_only_turns_the_hub(inputs: CouplingInputs, shift: float) -> None:
     errors = inputs.coupling.pitch_errors
     assume(errors is not None)
@@ -100,7 +101,7 @@ def test_the_same_pitch_error_on_every_tooth_only_turns_the_hub(inputs: Coupling
     )
 
 
-@given(couplings(), st.floats(0.0, 6.0))
+@examples(30, 300, couplings(), st.floats(0.0, 6.0))
 def test_moving_all_pitch_errors_by_one_tooth_is_turning_the_rotor(inputs: CouplingInputs, angle: float) -> None:
     errors = inputs.coupling.pitch_errors
     assume(errors is not None)
@@ -116,7 +117,7 @@ def test_moving_all_pitch_errors_by_one_tooth_is_turning_the_rotor(inputs: Coupl
     assert after.sleeve_displacement == pytest.approx(before.sleeve_displacement, abs=1e-12)
 
 
-@given(couplings(), st.sampled_from([1, 2, 5]))
+@examples(30, 300, couplings(), st.sampled_from([1, 2, 5]))
 def test_turning_by_a_pitch_changes_nothing_without_pitch_errors(inputs: CouplingInputs, pitches: int) -> None:
     perfect = replace(inputs, coupling=replace(inputs.coupling, pitch_errors=None))
     turned = replace(perfect, model=replace(perfect.model, rotor_angle=2 * pi * pitches / TEETH))
@@ -125,7 +126,7 @@ def test_turning_by_a_pitch_changes_nothing_without_pitch_errors(inputs: Couplin
     assert after.rotation == pytest.approx(before.rotation, rel=1e-9)
 
 
-@given(couplings(), st.floats(0.3, 3.0))
+@examples(30, 300, couplings(), st.floats(0.3, 3.0))
 def test_similar_couplings_behave_alike(inputs: CouplingInputs, scale: float) -> None:
     # All lengths x k, stiffness x k (E l), torque x k^3: the same strains and stresses, forces x k^2.
     coupling = inputs.coupling
@@ -154,7 +155,7 @@ def test_similar_couplings_behave_alike(inputs: CouplingInputs, scale: float) ->
     assert after.axial_thrust.fraction_of_limit == pytest.approx(before.axial_thrust.fraction_of_limit, abs=1e-6)
 
 
-@given(st.integers(8, 100), misalignments)
+@examples(30, 300, st.integers(8, 100), misalignments)
 def test_teeth_and_module_at_constant_diameter_keep_the_equal_share_of_a_soft_ring(teeth: int, delta: float) -> None:
     inputs = pahl_coupling(delta, teeth=teeth, module=2 * PITCH_RADIUS / teeth, tooth_stiffness=1e5, tooth_height=0.05)
     load = solve(inputs).load_distribution
@@ -162,7 +163,7 @@ def test_teeth_and_module_at_constant_diameter_keep_the_equal_share_of_a_soft_ri
     assert load.load_concentration == pytest.approx(1.0, abs=0.05)
 
 
-@given(couplings())
+@examples(15, 100, couplings())
 def test_contact_shift_moment_is_the_derivative_of_the_tooth_energy(inputs: CouplingInputs) -> None:
     # Virtual work: at constant torque the tilting moment is dU/d delta, with c_t u^2/2 summed and -T psi/r_o.
     perfect = replace(inputs, coupling=replace(inputs.coupling, pitch_errors=None))

@@ -73,7 +73,7 @@ def test_an_edge_maximum_is_smooth() -> None:
     slopes = [one.face_load_factor / one.change for one in found.influences]
     assert slopes == pytest.approx([slopes[0]] * 3, rel=1e-4)
     factors = [outcome(varied(turbo_gear(), {name: 0.15 + step})).face_load_factor or 0.0 for step in (1e-4, -1e-4)]
-    assert slopes[0] == pytest.approx((factors[0] - factors[1]) / 2e-4, rel=1e-4)
+    assert slopes[0] == pytest.approx((factors[0] - factors[1]) / 2e-4, rel=1e-3)
 
 
 def test_gap_at_a_station_moves_the_load_as_the_derivative_says() -> None:
@@ -166,7 +166,7 @@ def test_tolerances_by_latin_hypercube() -> None:
 def test_tolerances_of_the_example() -> None:
     """LHS 128: K 5/50/95 % 1.036 / 1.111 / 1.306; S 1.678 / 1.792 / 1.844; total slope -54 / -43 / -30 um.
 
-    Another hypercube of the same size: quantiles agree within their order-statistic scatter.
+    Another hypercube of the same size: both scatter, so their quantiles agree within 1.5 half intervals of one.
     """
     inputs = turbo_gear(GROUND)
     scatters = [
@@ -179,13 +179,16 @@ def test_tolerances_of_the_example() -> None:
         *(Scatter(name, 0.9 * value_at(inputs, name), 1.1 * value_at(inputs, name)) for name in CLEARANCES),
     ]
     found = run_tolerances(inputs, scatters, runs=128, seed=0)
-    for name, values, scale, within in (
-        ("face_load_factor", (1.036, 1.111, 1.306), 1.0, (0.015, 0.02, 0.04)),
-        ("safety", (1.678, 1.792, 1.844), 1.0, (0.025, 0.012, 0.008)),
-        ("total_slope", (-54.0, -43.0, -30.0), 1e6, (2.0, 2.0, 2.5)),
+    for name, values in (
+        ("face_load_factor", (1.036, 1.111, 1.306)),
+        ("safety", (1.678, 1.792, 1.844)),
+        ("total_slope", (-54e-6, -43e-6, -30e-6)),
     ):
-        for quantile, value, near in zip(found.figures[name].quantiles, values, within, strict=True):
-            assert quantile.value * scale == pytest.approx(value, abs=near), name
+        for quantile, value in zip(found.figures[name].quantiles, values, strict=True):
+            assert quantile.low is not None
+            assert quantile.high is not None
+            reach = quantile.value - quantile.low if value < quantile.value else quantile.high - quantile.value
+            assert abs(value - quantile.value) < 1.5 * reach, name
 
 
 @pytest.mark.slow

@@ -1,6 +1,8 @@
 """Pumping on random cases of the kind users have, and what default requests once got wrong."""
 
 import re
+from collections import Counter
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from math import atan, cos, pi, radians, sin, tan
 
@@ -10,16 +12,17 @@ from scipy.optimize import brentq
 
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.notices import pair_notices
 from solvers.gears.pair import gear_pair
 from solvers.gears.path_of_contact import meshing_path
+from solvers.notices import Notice
 from solvers.pumping import Gap, Groove, PumpingInputs, PumpingModel, PumpingSetup, Spaces, solve
-from solvers.pumping.checks import check_tips_meet_involutes
 from solvers.pumping.lead_correction import EXPANSION, lead_correction
 from solvers.pumping.results import SpacesResult
 from solvers.pumping.spaces import prepare
 from tests.gear_pairs import FZG_A, INCH_PAIR
 from tests.milian import CASE_1, SPEED_1, pinion
-from tests.pumping_cases import SCANS, check_books, check_no_jump, check_resolution, random_gears
+from tests.pumping_cases import SCANS, check_books, check_no_jump, check_resolution, random_gears, rough_gears
 
 WEAK = PumpingSetup(
     GearPairInputs(GearTeeth(47), GearTeeth(117), 7e-3, 0.03, radians(20), radians(20), rack_tip_radius=0.25),
@@ -139,29 +142,26 @@ def test_printed_pairs_pump(gears: GearPairInputs) -> None:
 
 
 def test_one_pair_one_verdict() -> None:
-    # pumping refuses what the load distribution does; beyond it only tips that no involute of the mate meets
-    draw, seen = np.random.default_rng(9), set()
-    for _ in range(300):
-        gears = random_gears(draw)
-        rough = replace(gears, pinion=replace(gears.pinion, teeth=int(draw.integers(10, 60)), dedendum=1.25))
-        verdict = code_of(lambda gears=rough: meshing_path(gears))
-        pumping = code_of(lambda gears=rough: prepare(PumpingSetup(gears, 0.1e-3)))
-        if verdict is None:
-            own = code_of(lambda gears=rough: check_tips_meet_involutes(meshing_path(gears)))
-            assert pumping == own, rough
-            seen.add(own)
-        else:
-            assert pumping == verdict, rough
-            seen.add(verdict)
-    assert {None, "involute_interference"} <= seen
+    # tips that meet fillets or reach past a base circle shorten the path in both models, and both say so
+    draw, seen = np.random.default_rng(9), Counter[str | None]()
+    for k in range(300):
+        gears = rough_gears(draw) if k % 2 else random_gears(draw)
+        setup = PumpingSetup(gears, 0.1e-3)
+        verdict, notices = verdict_of(lambda gears=gears: pair_notices(meshing_path(gears)))
+        pumping, said = verdict_of(lambda setup=setup: prepare(setup).notices)
+        assert pumping == verdict, gears
+        assert notices <= said, gears
+        seen.update([verdict, *notices])
+    assert {None, "flank_interference", "no_tip_clearance", "pointed_tooth", "path_shortened", "undercut"} <= set(seen)
+    assert seen["path_shortened"] > 20
 
 
-def code_of(attempt: object) -> str | None:
+def verdict_of(attempt: Callable[[], Iterable[Notice]]) -> tuple[str | None, set[str]]:
+    """The code of a refusal, and those of the notices without one."""
     try:
-        attempt()  # type: ignore[operator]
+        return None, {notice.code for notice in attempt()}
     except InvalidInput as error:
-        return error.code
-    return None
+        return error.code, set()
 
 
 @pytest.mark.parametrize("spaces", [Spaces.WHEEL, Spaces.BOTH])

@@ -9,6 +9,7 @@ import pytest
 
 from solvers.errors import InvalidInput, NoSolution
 from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.path_of_contact import meshing_path
 from solvers.pumping import (
     Ambient,
     ChokingInputs,
@@ -87,24 +88,23 @@ def test_centre_distance_may_be_backlash_free_to_rounding() -> None:
     assert solved(gears(centre_distance=0.589968476818106 * (1 - 5e-10))).geometry.normal_backlash > 0
 
 
-def test_involute_interference() -> None:
-    with pytest.raises(InvalidInput) as refusal:
-        solved(PumpingSetup(GearPairInputs(GearTeeth(14, 0.0, 1.0, 1.4), GearTeeth(90, 0.0, 1.25, 1.4), 5e-3, 0.1)))
-    assert refusal.value.code == "involute_interference"
-    assert refusal.value.field == "wheel.addendum"
+SHORTENED = {
+    "past the base circle": GearPairInputs(GearTeeth(14, 0.0, 1.0, 1.4), GearTeeth(90, 0.0, 1.25, 1.4), 5e-3, 0.1),
+    "into the fillet": GearPairInputs(
+        GearTeeth(30, 0.0, 1.0, 1.15), GearTeeth(90, 0.0, 1.1, 1.25), 5e-3, 0.1, rack_tip_radius=0.38
+    ),
+}
 
 
-def test_form_diameter() -> None:
-    with pytest.raises(InvalidInput) as refusal:
-        solved(
-            PumpingSetup(
-                GearPairInputs(
-                    GearTeeth(30, 0.0, 1.0, 1.15), GearTeeth(90, 0.0, 1.1, 1.25), 5e-3, 0.1, rack_tip_radius=0.38
-                )
-            )
-        )
-    assert refusal.value.code == "form_diameter"
-    assert refusal.value.field == "wheel.addendum"
+@pytest.mark.parametrize("pair", SHORTENED.values(), ids=SHORTENED)
+def test_tips_that_reach_below_an_involute_shorten_the_path(pair: GearPairInputs) -> None:
+    result = solved(PumpingSetup(pair, 0.1e-3, model=PumpingModel(slices=20)))
+    path = meshing_path(pair)
+    assert "path_shortened" in {notice.code for notice in result.warnings}
+    assert result.geometry.transverse_contact_ratio == path.transverse_contact_ratio
+    assert result.pinion_spaces is not None
+    stroke, base = result.pinion_spaces.stroke, path.pair.pinion.base_radius
+    assert (stroke.contact_end - stroke.contact_start) * base == pytest.approx(path.length, rel=1e-12)
 
 
 def test_jumping_feet_of_tip_gaps_are_named() -> None:

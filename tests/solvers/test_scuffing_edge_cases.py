@@ -20,6 +20,7 @@ from solvers.scuffing.inputs import (
 )
 from solvers.scuffing.results import LoadDistribution
 from tests.gear_pairs import PAPER_LOAD, UNDERCUT_PAIR, paper_gears, paper_pair, with_torque
+from tests.modified_pairs import random_pair
 
 LINEAR = Model(contact="linear")
 
@@ -211,14 +212,25 @@ def test_relief_beyond_the_path_is_taken_and_warned_of() -> None:
     )
 
 
-def test_undercut_leaves_scuffing_finite() -> None:
+def test_undercut_takes_the_verdict_and_nothing_else() -> None:
     gears = GearPairInputs(GearTeeth(10), GearTeeth(60), 3e-3, 20e-3, helix_angle=radians(10), rack_tip_radius=0.38)
     result = solve_scuffing(ScuffingInputs(LoadDistributionInputs(gears, PAPER_LOAD), lubrication="closed_form"))
+    refused = np.array(result.path.status) == "refused"
+    assert 0 < refused.sum() == result.unsolved_points < 5
+    for curve in (result.path.blok_flash, result.path.dowson_higginson):
+        assert np.all(np.isnan(curve) == refused)
+    assert (result.flash.blok_max, result.film.dowson_higginson_min, result.pressure.max) == (None, None, None)
+    assert [notice.code for notice in result.warnings].count("path_reaches_base_circle") == 1
+    assert "no_film" not in codes(result)
+
+
+def test_where_pressure_has_no_largest_value_flash_has_none_either() -> None:
+    """The feature line keeps off the loaded part of the base circle: lifted at A1, its own flash is finite."""
+    lifted = LoadDistributionInputs(UNDERCUT_PAIR, Load(50.0, angular_speed(1000)), Modifications(helix_slope=-60e-6))
+    result = solve_scuffing(ScuffingInputs(lifted, lubrication="closed_form"))
     assert np.all(np.isfinite(result.path.blok_flash))
-    assert result.path.blok_flash[0] == 0.0
-    assert np.isnan(result.path.dowson_higginson[0])
-    assert result.film.dowson_higginson_min is not None
-    assert "no_film" in {notice.code for notice in result.warnings}
+    assert (result.pressure.max, result.flash.blok_max, result.contact_temperature.blok_max) == (None, None, None)
+    assert [notice.code for notice in result.warnings].count("path_reaches_base_circle") == 1
 
 
 def test_a_path_shortened_by_the_fillet_is_a_warning() -> None:
@@ -336,6 +348,29 @@ def test_no_film_where_the_feature_line_is_not_loaded() -> None:
     assert np.isnan(result.path.dowson_higginson[0])
     assert result.path.blok_flash[0] == 0.0
     assert result.film.dowson_higginson_min is not None
+    assert ("no_film", "modifications") in {(notice.code, notice.field) for notice in result.warnings}
+
+
+def test_no_film_in_the_middle_of_a_hollow_flank_is_for_its_crowning() -> None:
+    hollow = Modifications(lead_crowning=-400e-6)
+    result = solve_scuffing(ScuffingInputs(with_torque(paper_pair(4, hollow), 1.0), lubrication="closed_form"))
+    assert result.feature_line.line_load[25] == 0.0
+    assert ("no_film", "modifications") in {(notice.code, notice.field) for notice in result.warnings}
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_modifications_are_not_blamed_where_none_was_given(seed: int) -> None:
+    """Flanks as designed touch wherever they are loaded; without torque or speed it is that."""
+    drawn = random_pair(np.random.default_rng([5, seed]))
+    plain = replace(drawn.distribution, modifications=Modifications())
+    for load, blamed in (
+        (plain.load, set()),
+        (replace(plain.load, pinion_torque=1e-30), {"pinion_torque"}),
+        (replace(plain.load, pinion_speed=0.0), {"pinion_speed"}),
+    ):
+        inputs = replace(drawn, distribution=replace(plain, load=load), lubrication="closed_form")
+        result = solve_scuffing(inputs)
+        assert {notice.field for notice in result.warnings if notice.code == "no_film"} == blamed
 
 
 def test_no_film_anywhere_is_for_want_of_torque() -> None:

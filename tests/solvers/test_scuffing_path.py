@@ -12,13 +12,9 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.scuffing import solve_scuffing
 from solvers.scuffing.inputs import (
-    Load,
     LoadDistributionInputs,
-    Modifications,
     ScuffingInputs,
     Temperatures,
-    angular_speed,
-    torque_from_power,
 )
 from solvers.scuffing.safety_results import Scuffing
 from tests.gear_pairs import PAPER_LOAD, paper_pair
@@ -28,6 +24,7 @@ from tests.modified_pairs import (
     contact_at,
     points_of,
     random_pair,
+    relieved_pair,
     search_paths,
     turbo_pair,
     with_points,
@@ -36,16 +33,6 @@ from tests.modified_pairs import (
 SCUFFING = Temperatures(scuffing=573.15)
 POINTS = [pytest.param(points, marks=() if points < 100 else pytest.mark.slow) for points in PATH_POINTS]
 COARSE = ehl.Model(nodes=61, film_nodes=11, refine=False)
-
-
-def relieved_pair(points: int) -> ScuffingInputs:
-    """23/30 teeth, 50 kW, 30 um of tip and root relief, all else at its default."""
-    gears = GearPairInputs(GearTeeth(23), GearTeeth(30), 3e-3, 20e-3, helix_angle=radians(9.8), rack_tip_radius=0.38)
-    speed = angular_speed(2000.0)
-    distribution = LoadDistributionInputs(
-        gears, Load(torque_from_power(50e3, speed), speed), Modifications(tip_relief=30e-6, root_relief=30e-6)
-    )
-    return ScuffingInputs(distribution, temperatures=SCUFFING, path_points=points)
 
 
 @pytest.mark.parametrize("points", POINTS)

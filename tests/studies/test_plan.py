@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from app.library import examples
-from app.problems import Unprocessable, faults
+from app.problems import Unprocessable, faults_of
 from app.reading import InvalidBody
 from app.studies.sensitivity import plan_sensitivity
 from app.studies.sweep import Sweep, plan_sweep
@@ -34,7 +34,7 @@ def planned(body: object, most: int = 2500) -> Sweep:
 def fault_of(body: object, most: int = 2500) -> tuple[str, str, str]:
     with pytest.raises((Unprocessable, InvalidBody)) as caught:
         planned(body, most)
-    (fault, *_) = faults(caught.value)
+    (fault, *_) = faults_of(caught.value)
     return fault["pointer"], fault["code"], fault["message"]
 
 
@@ -272,7 +272,7 @@ def test_equal_sweeps_are_one_case_and_others_are_not() -> None:
 def test_inputs_of_a_sensitivity(inputs: list[str], pointer: str, code: str) -> None:
     with pytest.raises((Unprocessable, InvalidBody)) as caught:
         plan_sensitivity(json.dumps(sweep(inputs=inputs)).encode(), 2500, 30.0)
-    assert tuple(faults(caught.value)[0].values())[:2] == (pointer, code)
+    assert tuple(faults_of(caught.value)[0].values())[:2] == (pointer, code)
 
 
 def test_a_sensitivity_counts_its_points_too() -> None:

@@ -3,13 +3,13 @@
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.compiled import kernel
+from solvers.compiled import inlined_kernel
 from solvers.contact.ehl.fluxes import BY_G, BY_H, BY_P, VALUE, FlowCoefficients
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.shear import Film, shear_eyring, shear_newtonian, stress_response, viscosities
 
 
-@kernel
+@inlined_kernel
 def flow_moments(i: int, film: Film, above: FloatArray) -> tuple[float, float, float, float, float]:
     """Density across the film, above each interval too (m,), and F0, F1, N0, N1 of `flow`."""
     m = film.stress.shape[1]
@@ -28,7 +28,7 @@ def flow_moments(i: int, film: Film, above: FloatArray) -> tuple[float, float, f
     return total, f0, f1, n0, n1
 
 
-@kernel
+@inlined_kernel
 def flow(
     problem: Problem,
     i: int,
@@ -97,7 +97,7 @@ def flow(
     b[BY_H] = through_b * film.mid_by_h[i]
 
 
-@kernel
+@inlined_kernel
 def evaluate_column(
     problem: Problem,
     i: int,

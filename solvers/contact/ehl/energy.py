@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.compiled import kernel
+from solvers.compiled import inlined_kernel, kernel
 from solvers.contact.ehl.dense import dot
 from solvers.contact.ehl.fluxes import BY_G, BY_H, BY_P
 from solvers.contact.ehl.problem import Problem
@@ -70,7 +70,7 @@ def face_edges(stream: FloatArray, edges: FloatArray) -> None:
             edges[i, k] = 0.25 * (here[k - 1] + here[k] + there[k - 1] + there[k])
 
 
-@kernel
+@inlined_kernel
 def surface_history(problem: Problem, i: int, surface_matrix: FloatArray, heat: Heat) -> None:
     """Flash temperatures that the columns upstream of i leave at i, and the gain of its own heat flux (Eq. 24)."""
     row = surface_matrix[i]
@@ -80,7 +80,7 @@ def surface_history(problem: Problem, i: int, surface_matrix: FloatArray, heat: 
     heat.gain_2[i] = problem.surface_heating_2 * row[i]
 
 
-@kernel
+@inlined_kernel
 def transport(problem: Problem, i: int, width: float, temperature: FloatArray, h: float, heat: Heat) -> None:
     """Convection (upwind, both ways) and conduction of column i: starts its residual, matrix and responses."""
     n, nodes = temperature.shape
@@ -109,7 +109,7 @@ def transport(problem: Problem, i: int, width: float, temperature: FloatArray, h
         heat.responses[i, k, BY_H] = -conduction / h
 
 
-@kernel
+@inlined_kernel
 def dissipation(i: int, h: float, film: Film, heat: Heat) -> None:
     """Shear heating of column i, half of each interval's to each of its nodes, with its derivatives."""
     m = film.stress.shape[1]
@@ -137,7 +137,7 @@ def dissipation(i: int, h: float, film: Film, heat: Heat) -> None:
     heat.generated[i] = total
 
 
-@kernel
+@inlined_kernel
 def compress(problem: Problem, i: int, t: FloatArray, g: float, h: float, film: Film, heat: Heat) -> None:
     """Heat of compression of column i, (0.00065 rho0/rho) t u p'."""
     m = film.stress.shape[1]
@@ -157,7 +157,7 @@ def compress(problem: Problem, i: int, t: FloatArray, g: float, h: float, film: 
     heat.compression[i] = total
 
 
-@kernel
+@inlined_kernel
 def column_balance(
     problem: Problem,
     i: int,
@@ -196,7 +196,7 @@ def column_balance(
     heat.residual[i, m] += t[m] - problem.bulk_2 - heat.history_2[i]
 
 
-@kernel
+@inlined_kernel
 def factor_column(i: int, film: Film, heat: Heat) -> None:
     """Thomas factorisation of column i with its four responses, and the Sherman-Morrison term of the rank-one part.
 
@@ -233,7 +233,7 @@ def factor_column(i: int, film: Film, heat: Heat) -> None:
         responses[k, BY_H] -= responses[k, HEATING] * h / heating
 
 
-@kernel
+@inlined_kernel
 def solve_column(i: int, film: Film, heat: Heat, vector: FloatArray) -> None:
     """Solve the linearised column i for row i of `vector` (n, k), in place."""
     m = vector.shape[1] - 1

@@ -27,7 +27,7 @@ from solvers.contact.ehl.results import (
     LineContactResult,
     Stage,
 )
-from solvers.lubricants import Lubricant
+from solvers.lubricants import Lubricant, oil_in_use
 
 WORST_BALANCE = 1e-3
 WORST_LOAD = 1e-9
@@ -87,7 +87,11 @@ def conclude(
         convergence=_convergence(inputs, attempt, iterations),
         curves=None,
         field=None,
-        derived=Derived(inputs.contact.entrainment_speed, groups(inputs).reduced_modulus),
+        derived=Derived(
+            entrainment_speed=inputs.contact.entrainment_speed,
+            reduced_modulus=scales.reduced_modulus,
+            **oil_in_use(inputs.lubricant),
+        ),
         warnings=tuple(notices),
     )
     if not attempt.converged:

@@ -14,6 +14,9 @@ from solvers.contact.ehl.results import MeshError
 
 FINEST = 481
 STEPS_ON_FINER = 20.0
+STEPS_ON_COARSER = 12
+# A step of the contact on half the nodes after which its numbers are known well enough: dP, dT [K].
+NEAR = (0.12, 12.0)
 # What is left of the difference that half as many nodes make: 1/3 in second order; less is observed where heat decides.
 LEFT = {
     "central_film": 1 / 3,
@@ -67,11 +70,15 @@ def mesh_error(
 ) -> MeshError | None:
     """Error of each number from its difference to the same contact on every other node (Richardson).
 
-    One Newton step finds that contact, so near is it; None if the step leads nowhere.
+    So near is that contact that one Newton step mostly finds it; a spike or a film that runs hot takes more, as half
+    the nodes keep the peak they are given. None if it is not found.
     """
     grid = grid_for(resolution.gap, resolution.nodes // 2 + 1)
     state = interpolate(attempt.state, attempt.grid.x, grid.x)
-    coarse = polish(constants, resolution, grid, state, TIGHT, Budget(price(resolution, grid.x.size)))
+    steps = Budget(STEPS_ON_COARSER * price(resolution, grid.x.size))
+    coarse = polish(constants, resolution, grid, state, NEAR, steps)
+    if not coarse.converged:
+        return None
     measures.settle(constants, coarse, resolution.thermal)
     fine, other = (_numbers(inputs, constants, found) for found in (attempt, coarse))
     errors = {

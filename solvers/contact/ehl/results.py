@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from solvers.arrays import FloatArray
+from solvers.lubricants import OilInUse
 from solvers.notices import Notice
 
 Status = Literal["ok", "ok_with_warnings", "no_solution"]
@@ -188,9 +189,9 @@ class ContactField:
     temperature: FloatArray
 
 
-@dataclass(frozen=True, slots=True)
-class Derived:
-    """What follows from the inputs before any physics: mean surface speed [m/s], reduced modulus E' [Pa]."""
+@dataclass(frozen=True, kw_only=True)
+class Derived(OilInUse):
+    """What follows from the inputs before any physics: mean surface speed [m/s], reduced modulus E' [Pa], the oil."""
 
     entrainment_speed: float
     reduced_modulus: float

@@ -77,7 +77,8 @@ def apply_pressure_step(
 ) -> tuple[float, bool]:
     """Move (P, H0) by `scale` times the step (n + 1,), less where the film would close; returns what was taken.
 
-    Nodes behind the centre whose pressure falls below zero join the broken film; whether any did is returned too.
+    Nodes behind the centre whose pressure falls below zero join the broken film; whether any did is returned too. At
+    both ends there is none, whatever another mesh left there.
     """
     n = grid.x.size
     trial, film = np.empty(n), np.empty(n)
@@ -86,6 +87,7 @@ def apply_pressure_step(
             trial[i] = pressure[i] + scale * step[i]
             if grid.x[i] > 0.0 and trial[i] < 0.0:
                 trial[i] = 0.0
+        trial[0], trial[n - 1] = 0.0, 0.0
         film_shape(grid, trial, separation[0] + scale * step[n], film)
         if film.min() > 0.0:
             break
@@ -95,6 +97,6 @@ def apply_pressure_step(
         if grid.x[i] > 0.0 and pressure[i] + scale * step[i] < 0.0 and not cavitated[i]:
             cavitated[i] = True
             joined = True
-        pressure[i] = trial[i]
+    pressure[:] = trial
     separation[0] += scale * step[n]
     return scale, joined

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.compiled import kernel
+from solvers.compiled import inlined_kernel
 from solvers.contact.ehl.problem import Problem
 from solvers.lubricants import density, log_viscosity, pressure_part
 
@@ -55,7 +55,7 @@ AT_NODES = ("stream", "couette", "poiseuille", "mid_by_temperature", "log_a_by_t
 OF_COLUMNS = ("mid_stress", "mid_by_p", "mid_by_g", "mid_by_h")
 
 
-@kernel
+@inlined_kernel
 def limited_gradient(problem: Problem, g: float) -> float:
     """G = h dp/dx, kept where exp(G/(2 tau0)) is a number; a solution never needs it."""
     if problem.newtonian == 1:
@@ -64,7 +64,7 @@ def limited_gradient(problem: Problem, g: float) -> float:
     return min(max(g, -bound), bound)
 
 
-@kernel
+@inlined_kernel
 def viscosities(problem: Problem, i: int, temperature: FloatArray, p: float, film: Film) -> float:
     """Fluidity and density of each interval at its mean temperature (m + 1,); returns d rho/dp."""
     laws = problem.laws
@@ -80,7 +80,7 @@ def viscosities(problem: Problem, i: int, temperature: FloatArray, p: float, fil
     return base_slope
 
 
-@kernel
+@inlined_kernel
 def shear_newtonian(problem: Problem, i: int, g: float, h: float, film: Film) -> None:
     """Newton's fluid: tau = tau_mid + G (zeta - 1/2), rate = tau/eta, with the sliding speed as its integral."""
     m = film.stress.shape[1]
@@ -97,7 +97,7 @@ def shear_newtonian(problem: Problem, i: int, g: float, h: float, film: Film) ->
         film.effective[i, j], film.effective_slope[i, j] = fluidity, 0.0
 
 
-@kernel
+@inlined_kernel
 def shear_eyring(problem: Problem, i: int, g: float, h: float, film: Film) -> None:
     """Ree and Eyring's fluid: rate = (tau0/eta) sinh(tau/tau0) with the sliding speed as its integral.
 
@@ -136,7 +136,7 @@ def shear_eyring(problem: Problem, i: int, g: float, h: float, film: Film) -> No
         film.rate[i, j] = stress * fluidity * effective
 
 
-@kernel
+@inlined_kernel
 def stress_response(problem: Problem, i: int, h: float, film: Film) -> None:
     """Derivatives of the mid-film stress that keep the sliding speed: by nodal temperature, p, G and h."""
     m = film.stress.shape[1]

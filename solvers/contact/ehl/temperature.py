@@ -3,7 +3,7 @@
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.compiled import kernel
+from solvers.compiled import inlined_kernel, kernel
 from solvers.contact.ehl.column import evaluate_column
 from solvers.contact.ehl.dense import dot
 from solvers.contact.ehl.energy import Heat, column_balance, face_edges, factor_column, solve_column, surface_history
@@ -65,7 +65,7 @@ def last_reverse(heat: Heat) -> int:
     return 0
 
 
-@kernel
+@inlined_kernel
 def _relax_column(i: int, film: Film, heat: Heat, given: FloatArray, weight: float, step: FloatArray) -> None:
     """Temperature step of column i from those of its neighbours and of the surfaces upstream; `given` is added."""
     n, m = step.shape[0], step.shape[1] - 1

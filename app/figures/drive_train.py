@@ -1,0 +1,210 @@
+"""Figures of a gear unit: its shafts, the gap between its flanks and how it comes about, the load that follows."""
+
+from dataclasses import replace
+from math import hypot
+
+import numpy as np
+
+from app.figures.data import Axis, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Role, Row, Span, Values, values
+from app.figures.declaration import Declaration, present
+from app.figures.drive_train_maps import MAPS
+from app.figures.wording import number, percent
+from app.requests.drive_train import DriveTrainRequest
+from app.requests.drive_train_shafts import UnitShaft
+from app.responses.drive_train import DriveTrainResponse
+from app.responses.drive_train_parts import ShaftState
+from solvers.drive_train import solve
+from solvers.drive_train.inputs import DriveTrainInputs, Effects
+
+OWN = "own derivation"
+NEWTONS = 1e3  # per kilonewton
+FACE = Axis("position on the face, from the end that meshes first", "mm", magnitude=False)
+PARTS = (
+    ("bearings of the pinion", "films_pinion", Hue.BLUE),
+    ("bearings of the wheel", "films_wheel", Hue.BLUE),
+    ("torsion", "torsion", Hue.VERMILLION),
+    ("bending", "bending", Hue.GREEN),
+    ("tilting moment, elastic", "tilting_moment", Hue.GREEN),
+    ("offsets of the bores", "bearing_offsets", Hue.PURPLE),
+    ("couplings, elastic", "coupling", Hue.ORANGE),
+    ("thrust collar, elastic", "collar", Hue.ORANGE),
+    ("weight, elastic", "weight", Hue.GREY),
+)
+
+
+def shaft_lines(request: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
+    """Displaced axes of both shafts in both planes, with the reactions of their bearings."""
+    shafts = present(answer.shafts)
+    given = (request.pinion_shaft, request.wheel_shaft)
+    z = np.concatenate([present(state.curves).z_mm for state in shafts])
+    axis = Axis("position along Z", "mm", magnitude=False, limits=(float(z.min()), float(z.max())))
+    panels = tuple(
+        _shaft(request, name, own, state, axis)
+        for name, own, state in zip(("pinion", "wheel"), given, shafts, strict=True)
+    )
+    loads = [hypot(*bearing.reaction_n) for state in shafts for bearing in state.bearings]
+    finding = f"bearings carry {number(min(loads) / NEWTONS)} to {number(max(loads) / NEWTONS, 'kN')}"
+    return Figure(f"{finding}; marks are their reactions", panels)
+
+
+def _shaft(request: DriveTrainRequest, name: str, given: UnitShaft, state: ShaftState, axis: Axis) -> Panel:
+    curves = present(state.curves)
+    z = values(curves.z_mm)
+    lines, marks = [], []
+    for plane, (title, shown, hue) in enumerate(
+        (("along X", curves.x_um, Hue.BLUE), ("along Y", curves.y_um, Hue.VERMILLION))
+    ):
+        line = Line(title, z, values(shown), hue)
+        lines.append(line)
+        for bearing, found in zip(given.bearings, state.bearings, strict=True):
+            height = float(np.interp(bearing.position_mm, z, line.y))
+            marks.append(Mark(bearing.position_mm, height, number(found.reaction_n[plane] / NEWTONS, "kN"), hue))
+    hubs = [Level(each.position_mm, "hub", vertical=True) for each in request.couplings if each.shaft == name]
+    return Panel(
+        x=axis,
+        y=Axis(f"displacement of the {name} shaft", "µm", magnitude=False),
+        lines=tuple(lines),
+        marks=tuple(marks),
+        levels=tuple(hubs),
+        spans=(Span(request.face_start_mm, request.face_start_mm + request.gears.face_width_mm, "face"),),
+    )
+
+
+def gap(_: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
+    """Gap over the face by shafts, heat and what is ground."""
+    found = present(answer.misalignment)
+    curves = present(found.curves)
+    y = values(curves.position_mm)
+    lines = (
+        Line("shafts", y, values(curves.shaft_um), Hue.BLUE),
+        Line("heat", y, values(curves.thermal_um), Hue.VERMILLION),
+        Line("as ground", y, values(curves.modification_um), Hue.GREEN),
+        Line("in all", y, values(curves.total_um), Hue.PURPLE),
+    )
+    axis = Axis("gap, positive where the flanks part", "µm", magnitude=False)
+    slopes = f"shafts {number(found.shaft_slope_um)}, heat {number(found.thermal_slope_um, 'µm')} over the face"
+    wanted = f"grind {number(found.recommended_helix_slope_um, 'µm')} of helix slope"
+    return Figure(f"{slopes}; {wanted}", (Panel(x=FACE, y=axis, lines=lines),))
+
+
+def slope_parts(_: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
+    """Where the misalignment comes from."""
+    found = present(answer.misalignment)
+    rows = [Row(name, getattr(found.parts, part), hue) for name, part, hue in PARTS]
+    rows += [
+        Row("shafts in all", found.shaft_slope_um, Hue.PURPLE),
+        Row("heat", found.thermal_slope_um, Hue.VERMILLION),
+        Row("shafts and heat", found.total_slope_um, Hue.PURPLE),
+    ]
+    shown = tuple(row for row in rows if row.value != 0.0)
+    if not shown:
+        raise NoFigure("no_misalignment", "Neither shafts nor heat open a gap, so there is nothing to draw", "effects")
+    axis = Axis("slope of the gap over the face", "µm", magnitude=False)
+    largest = max(rows[: len(PARTS)], key=lambda row: abs(row.value))
+    finding = f"most by the {largest.name}: {number(largest.value, 'µm')}" if largest.value else "heat alone"
+    return Figure(finding, (Panel(x=axis, y=Axis("cause"), rows=shown),))
+
+
+def effects_apart(request: DriveTrainRequest, _: DriveTrainResponse) -> dict[str, Values]:
+    """Transverse force per face [N/mm] of the unit without each of its effects, and without all."""
+    given: DriveTrainInputs = request.inputs()
+    own, variants = given.effects, dict[str, Effects]()
+    if own.shafts and given.acting_couplings:
+        variants["without coupling"] = replace(own, coupling=False)
+    if own.thermal and own.shafts:
+        variants["without heat"] = replace(own, thermal=False)
+        variants["without shafts"] = replace(own, shafts=False)
+    if own.thermal or own.shafts:
+        variants["mesh alone"] = Effects(shafts=False, coupling=False, thermal=False)
+    return {name: _line_force(replace(given, effects=effects)) for name, effects in variants.items()}
+
+
+def _line_force(inputs: DriveTrainInputs) -> Values:
+    """Transverse force per face [N/mm]; no film is asked for."""
+    closed = replace(inputs, mesh=replace(inputs.mesh, lubrication="closed_form"), states=("hot",))
+    return values(solve(closed).misalignment.curves.line_force / 1e3)
+
+
+def face_load(request: DriveTrainRequest, answer: DriveTrainResponse, others: dict[str, Values]) -> Figure:
+    """Load along the face with all effects and without each."""
+    curves, load = present(present(answer.misalignment).curves), present(answer.load)
+    y = values(curves.position_mm)
+    hues = {
+        "without coupling": Hue.ORANGE,
+        "without heat": Hue.VERMILLION,
+        "without shafts": Hue.GREEN,
+        "mesh alone": Hue.GREY,
+    }
+    lines = [Line("as asked", y, values(curves.line_force_n_per_mm), Hue.BLUE)]
+    lines += [Line(name, y, force, hues[name], Role.REFERENCE) for name, force in others.items()]
+    if load.face_load_factor is None or load.face_load_at is None:
+        raise NoFigure("no_load", "Without load there is none along the face", "operation")
+    place = f"at {percent(load.face_load_at)} of the face"
+    panel = Panel(
+        x=replace(FACE, limits=(0.0, request.gears.face_width_mm)),
+        y=Axis("transverse force per face, mean over the roll", "N/mm"),
+        lines=tuple(lines),
+    )
+    return Figure(f"K_Hβ = {number(load.face_load_factor)} {place}", (panel,))
+
+
+def thrust(request: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
+    """Axial load of both shafts between the bounds that the couplings' friction leaves."""
+    shafts = present(answer.shafts)
+    rows = tuple(
+        Row(
+            f"{name} shaft",
+            state.thrust.mesh_n,
+            Hue.BLUE if state.thrust.lower_n is not None else Hue.GREY,
+            None
+            if state.thrust.lower_n is None or state.thrust.upper_n is None
+            else (state.thrust.lower_n, state.thrust.upper_n),
+        )
+        for name, state in zip(("pinion", "wheel"), shafts, strict=True)
+    )
+    usable = {
+        0.5 * given.thrust_bearing.ultimate_load_n
+        for given in (request.pinion_shaft, request.wheel_shaft)
+        if given.thrust_bearing.ultimate_load_n is not None
+    }
+    levels = [
+        Level(sign * load, "half the ultimate load" if sign > 0.0 else "", limit=True, vertical=True)
+        for load in usable
+        for sign in (1.0, -1.0)
+    ]
+    turning = [name for name, state in zip(("pinion", "wheel"), shafts, strict=True) if state.thrust.reverses]
+    finding = f"friction can turn the load of the {turning[0]} round" if turning else "no load turns round"
+    panel = Panel(
+        x=Axis("axial load towards +Z: of the mesh, and its bounds with the couplings", "N", magnitude=False),
+        y=Axis("shaft"),
+        rows=rows,
+        levels=tuple(levels),
+    )
+    return Figure(finding, (panel,))
+
+
+def losses(_: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
+    """What the unit loses, and where."""
+    found = present(answer.losses)
+    rows = (
+        Row("plain bearings", found.bearings_w, Hue.BLUE),
+        Row("mesh", found.mesh_w, Hue.VERMILLION),
+        Row("pumping of air and mist", found.pumping_w, Hue.GREEN),
+        Row("couplings", found.coupling_w, Hue.ORANGE),
+    )
+    efficiency = "" if found.efficiency is None else f", efficiency {number(100 * found.efficiency, '%', digits=4)}"
+    finding = f"{number(found.total_w / NEWTONS, 'kW')} in all{efficiency}"
+    return Figure(finding, (Panel(x=Axis("power lost", "W"), y=Axis("where"), rows=rows),))
+
+
+FIGURES = (
+    Declaration("shaft-lines", "Displaced shafts in both planes", OWN, shaft_lines),
+    Declaration("gap", "Gap over the face by parts", OWN, gap),
+    Declaration("slope-parts", "Where the misalignment comes from", OWN, slope_parts),
+    Declaration(
+        "face-load", "Load along the face, with and without each effect", OWN, face_load, compute=effects_apart
+    ),
+    *MAPS,
+    Declaration("thrust", "Axial load of the shafts", "API 613, 5th ed.", thrust),
+    Declaration("losses", "Losses of the unit", OWN, losses),
+)

@@ -1,0 +1,68 @@
+"""A case from its fields to its answer; runs in a worker."""
+
+import pickle
+import zlib
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from app.calculations import Calculation
+from app.evaluate import evaluate
+from app.pages.query import Pairs, body_of
+from app.problems import Unprocessable
+from app.reading import InvalidBody, validated
+from app.requests.common import Request
+from app.responses.common import Response
+
+COMPRESSION = 1
+
+
+class Fault(NamedTuple):
+    """What is wrong with the field at a dotted path."""
+
+    path: str
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A request and its answer; `fresh` is the answer to be kept, if it was not kept already."""
+
+    calculation: Calculation
+    pairs: Pairs
+    request: Request
+    response: Any
+    fresh: bytes | None
+
+
+def solved(calculation: Calculation, pairs: Pairs, kept: bytes | None) -> Case:
+    """The case with all that its figures need, from the answer kept if there is one.
+
+    Raises Unreadable, InvalidBody and Unprocessable.
+    """
+    request = _request(calculation, pairs)
+    if kept is not None:
+        return Case(calculation, pairs, request, pickle.loads(zlib.decompress(kept)), None)  # noqa: S301  our own
+    response: Response = evaluate(calculation, request)
+    return Case(calculation, pairs, request, response, zlib.compress(pickle.dumps(response), COMPRESSION))
+
+
+def faults_of(error: Exception) -> list[Fault]:
+    """What a case was refused for."""
+    match error:
+        case InvalidBody():
+            return [Fault(_dotted(each.pointer), each.message) for each in error.faults]
+        case Unprocessable():
+            return [Fault(error.path or "", error.message)]
+        case _:
+            return [Fault("", str(error))]
+
+
+def _dotted(pointer: str) -> str:
+    """The path that a JSON Pointer means."""
+    return ".".join(part.replace("~1", "/").replace("~0", "~") for part in pointer.split("/")[1:])
+
+
+def _request(calculation: Calculation, pairs: Pairs) -> Request:
+    request = validated(calculation.request, body_of(calculation.request, pairs))
+    details = {figure.detail for figure in calculation.figures}
+    return request.model_copy(update={"detail": "fields" if "fields" in details else "curves"})

@@ -1,0 +1,64 @@
+"""The addresses of the views of a case, and the examples to start from."""
+
+from dataclasses import dataclass
+
+from app.calculations import Calculation
+from app.library import Example, examples
+from app.pages.query import Pairs, link, pairs_of
+from app.pages.templating import page_path
+
+LONGEST_QUERY = 6000
+IMAGE_FORMATS = ("svg", "png", "pdf", "csv")
+
+
+@dataclass(frozen=True, slots=True)
+class Links:
+    """Where each view of a case is; a case too long for a link has to be posted."""
+
+    path: str
+    pairs: Pairs
+    ref: str
+    theme: str
+
+    @property
+    def query(self) -> str:
+        """The case alone."""
+        return link("", self.pairs).removeprefix("?")
+
+    @property
+    def too_long(self) -> bool:
+        """Whether a link cannot hold the case."""
+        return len(self.query) + len(self.ref) > LONGEST_QUERY
+
+    @property
+    def page(self) -> str:
+        """The case and what it is compared with."""
+        return link(self.path, self.pairs, ref=self.ref, theme=self.theme)
+
+    @property
+    def alone(self) -> str:
+        """The case without comparison."""
+        return link(self.path, self.pairs, theme=self.theme)
+
+    @property
+    def pinned(self) -> str:
+        """The case compared with itself, to be changed."""
+        return link(self.path, self.pairs, ref=self.query, theme=self.theme)
+
+    def view(self, name: str, **views: str) -> str:
+        """One view."""
+        return link(f"{self.path}/{name}", self.pairs, **views)
+
+    def image(self, figure: str, image_format: str) -> str:
+        """One figure as a file."""
+        return self.view(f"figures/{figure}.{image_format}", ref=self.ref, theme=self.theme)
+
+
+def examples_of(calculation: Calculation) -> list[Example]:
+    """The examples of a calculation, starters first."""
+    return [example for example in examples().values() if example.endpoint == calculation.path]
+
+
+def example_link(calculation: Calculation, example: Example) -> str:
+    """The page of an example."""
+    return link(page_path(calculation), pairs_of(example.request))

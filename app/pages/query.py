@@ -1,0 +1,195 @@
+"""From a query string to a request body and back: dotted names, list indices, numbers as people type them."""
+
+import re
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+from typing import Any
+from urllib.parse import parse_qsl, urlencode
+
+from app.contract.fields import ITEM, Leaf, leaf_at
+from app.contract.quantities import Documented
+from app.contract.tree import branches
+from app.reading import Unreadable
+
+Pairs = list[tuple[str, str]]
+
+VIEW_NAMES = frozenset({"ref", "theme", "curve", "paper", "project", "part", "author", "checker", "notes"})
+PICK = "pick:"
+"""Before the name of a choice between fields that exclude each other; its value is the field that counts."""
+MOST_FIELDS = 1000
+DEEPEST = 12
+LONGEST_NAME = 100
+LONGEST_INDEX = 10
+PRESENT = "on"
+
+_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
+_INTEGER = re.compile(r"[+-]?\d{1,18}")
+_PASTED = re.compile(r"[\s;]+")
+
+
+def pairs_of_query(query: str) -> Pairs:
+    """Names and texts as they were sent."""
+    try:
+        return parse_qsl(query, keep_blank_values=True, max_num_fields=MOST_FIELDS, errors="replace")
+    except ValueError:
+        raise Unreadable(f"More than {MOST_FIELDS} fields") from None
+
+
+def split_views(pairs: Pairs) -> tuple[Pairs, dict[str, str]]:
+    """The case, and what only concerns how it is looked at."""
+    return [pair for pair in pairs if pair[0] not in VIEW_NAMES], {n: text for n, text in pairs if n in VIEW_NAMES}
+
+
+def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
+    """Without empty fields and without those that a choice left out: what a link of the case says."""
+    picked = {name.removeprefix(PICK): text for name, text in pairs if name.startswith(PICK)}
+    dropped = {
+        name for name, _ in pairs if (leaf := leaf_at(model, name)) and _left_out(name, leaf.exclusive, picked.values())
+    }
+    kept = [
+        (name, text.strip())
+        for name, text in pairs
+        if text.strip() and name not in dropped and not name.startswith(PICK)
+    ]
+    return renumbered(kept)
+
+
+def renumbered(pairs: Pairs) -> Pairs:
+    """List items counted from 0 without gaps, whichever rows were left empty."""
+    indices: dict[str, set[int]] = defaultdict(set)
+    for name, _ in pairs:
+        for prefix, index in _indices(name):
+            indices[prefix].add(index)
+    places = {prefix: {index: place for place, index in enumerate(sorted(found))} for prefix, found in indices.items()}
+    return [(_renamed(name, places), text) for name, text in pairs]
+
+
+def _indices(name: str) -> Iterator[tuple[str, int]]:
+    """Every list on the way to a field, with the index that it takes there."""
+    parts = name.split(".")
+    for position, part in enumerate(parts):
+        if position and part.isdecimal() and part.isascii() and len(part) < LONGEST_INDEX:
+            yield ".".join(parts[:position]), int(part)
+
+
+def _renamed(name: str, places: dict[str, dict[int, int]]) -> str:
+    found = {prefix.count(".") + 1: places[prefix][index] for prefix, index in _indices(name)}
+    return ".".join(str(found.get(position, part)) for position, part in enumerate(name.split(".")))
+
+
+def _left_out(name: str, fellows: tuple[str, ...], picked: Iterable[str]) -> bool:
+    section = name.rpartition(".")[0]
+    beside = {f"{section}.{fellow.rpartition('.')[2]}".lstrip(".") for fellow in fellows}
+    return any(choice in beside for choice in picked)
+
+
+def body_of(model: type[Documented], pairs: Pairs) -> dict[str, Any]:
+    """The request body that the fields make; what is no number stays text, for the validator to refuse.
+
+    Raises Unreadable where names contradict each other.
+    """
+    body: dict[str, Any] = {}
+    for name, text in pairs:
+        parts = name[:LONGEST_NAME].split(".")
+        if len(parts) > DEEPEST or not all(parts):
+            raise Unreadable("A field's name is made of words with points between them")
+        place = body
+        for part in parts[:-1]:
+            place = place.setdefault(part, {})
+            if not isinstance(place, dict):
+                raise Unreadable("A field stands beside fields of its own")
+        if isinstance(place.get(parts[-1]), dict) and text == PRESENT:
+            continue
+        if parts[-1] in place:
+            raise Unreadable("A field stands twice")
+        place[parts[-1]] = _value(model, name, text)
+    content: dict[str, Any] = _with_lists(body)
+    return content
+
+
+def pairs_of(content: Any, prefix: str = "") -> Pairs:
+    """The fields that make a request body; nulls are left out, as a form leaves its fields empty."""
+    return list(_pairs(content, prefix))
+
+
+def link(path: str, pairs: Pairs, **views: str) -> str:
+    """The address of a case under `path`."""
+    query = urlencode([*pairs, *((name, text) for name, text in views.items() if text)], safe=",:")
+    return f"{path}?{query}" if query else path
+
+
+def _value(model: type[Documented], name: str, text: str) -> Any:
+    leaf = leaf_at(model, name)
+    if leaf is None:
+        section = ".".join(ITEM if part.isdecimal() else part for part in name.split("."))
+        if text == PRESENT and section in branches(model):
+            return {}
+        row = leaf_at(model, name.rpartition(".")[0])
+        return _listed(row, text) if row is not None and row.dimensions > 1 else text
+    if leaf.dimensions == 1:
+        return _listed(leaf, text)
+    if leaf.dimensions == 2:
+        return [_listed(leaf, line) for line in text.splitlines() if line.strip()]
+    return _scalar(leaf, text)
+
+
+def _scalar(leaf: Leaf, text: str) -> Any:
+    if leaf.options:
+        return next((option for option in leaf.options if text_of(option) == text), text)
+    if leaf.kind == "boolean":
+        return {"true": True, "false": False}.get(text, text)
+    if leaf.kind in {"number", "integer"}:
+        number = _number(text.replace(",", ".", 1))
+        return text if isinstance(number, str) else number
+    return text
+
+
+def _listed(leaf: Leaf, text: str) -> list[Any]:
+    """A list in a link has commas; a pasted one blanks, lines or semicolons, and perhaps commas before them."""
+    items = _PASTED.split(text.strip(" \t\r\n;"))
+    items = text.split(",") if len(items) == 1 else [item.removesuffix(",") for item in items]
+    return [item.strip() if leaf.kind == "text" else _number(item.strip()) for item in items]
+
+
+def _number(text: str) -> Any:
+    if _INTEGER.fullmatch(text):
+        return int(text)
+    return float(text) if _NUMBER.fullmatch(text) and "," not in text else text
+
+
+def _with_lists(content: Any) -> Any:
+    """Objects whose names are indices, as lists."""
+    if not isinstance(content, dict):
+        return content
+    inner = {name: _with_lists(value) for name, value in content.items()}
+    if inner and all(name.isdecimal() and name.isascii() for name in inner):
+        return [inner[name] for name in sorted(inner, key=lambda name: (len(name), name))]
+    return inner
+
+
+def _pairs(content: Any, name: str) -> Iterator[tuple[str, str]]:
+    match content:
+        case None:
+            return
+        case dict():
+            if not content and name:
+                yield name, PRESENT
+            for key, value in content.items():
+                yield from _pairs(value, f"{name}.{key}" if name else key)
+        case list() if any(isinstance(item, dict | list) for item in content):
+            for index, item in enumerate(content):
+                yield from _pairs(item, f"{name}.{index}")
+        case list():
+            if content:
+                yield name, ",".join(text_of(item) for item in content)
+        case _:
+            yield name, text_of(content)
+
+
+def text_of(value: Any) -> str:
+    """A value as it is typed: integers without a point, other numbers in as few digits as give them back."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
+        return str(int(value))
+    return str(value)

@@ -1,0 +1,132 @@
+"""An answer as people read it: every number with its name, symbol and unit, beside those of a variant."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from markupsafe import Markup
+
+from app.contract.fields import Leaf
+from app.contract.quantities import Documented
+from app.contract.tree import Branch, Field, tree
+from app.pages.typesetting import percent_change, shown, symbol
+
+NOT_RESULTS = frozenset(
+    {"status", "warnings", "residuals", "assumptions", "model_version", "model", "derived", "inputs", "case"}
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A value of an answer at its full path."""
+
+    leaf: Leaf
+    label: str
+    path: str
+    value: Any
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A line of the table of results; `before` is the value of the variant, `change` what lies between."""
+
+    label: str
+    symbol: Markup
+    value: str
+    unit: str
+    path: str
+    description: str
+    before: str = ""
+    change: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Results that belong together."""
+
+    title: str
+    rows: tuple[Row, ...]
+
+
+def entries(response: Documented) -> Iterator[tuple[str, Entry]]:
+    """Every result, under the title of its group; those of a list one after the other."""
+    root = tree(type(response))
+    for member in root.members:
+        if member.path.split(".")[0] not in NOT_RESULTS:
+            yield from _entries(member, getattr(response, member.path), member.path, "")
+
+
+def _entries(member: Field | Branch, value: Any, path: str, group: str) -> Iterator[tuple[str, Entry]]:
+    if isinstance(member, Field):
+        yield group, Entry(member.leaf, member.label, path, value)
+    elif isinstance(value, list):
+        for index, item in enumerate(value):
+            yield from _inner(member, item, f"{path}.{index}", _joined(group, f"{member.title} {index + 1}"))
+    elif value is not None:
+        yield from _inner(member, value, path, _joined(group, member.title))
+
+
+def _inner(branch: Branch, value: Documented, path: str, group: str) -> Iterator[tuple[str, Entry]]:
+    for member in branch.members:
+        name = member.path.rpartition(".")[2]
+        if name in value.model_fields_set:
+            yield from _entries(member, getattr(value, name), f"{path}.{name}", group)
+
+
+def _joined(group: str, title: str) -> str:
+    return f"{group} · {title}" if group else title
+
+
+def groups(response: Documented, before: Documented | None = None) -> tuple[Group, ...]:
+    """Every scalar and short list of the answer, beside those of a variant."""
+    known = {entry.path: entry.value for _, entry in entries(before)} if before is not None else {}
+    tables: dict[str, list[Row]] = {}
+    for title, entry in entries(response):
+        if entry.leaf.is_scalar or (entry.leaf.index and not entry.leaf.axes and entry.leaf.dimensions == 1):
+            tables.setdefault(title or "result", []).append(_row(entry, known))
+    return tuple(Group(title, tuple(rows)) for title, rows in tables.items())
+
+
+def _row(entry: Entry, known: dict[str, Any]) -> Row:
+    leaf = entry.leaf
+    old = known.get(entry.path)
+    return Row(
+        entry.label,
+        symbol(leaf.symbol),
+        _text(entry.value),
+        (leaf.unit or "") if entry.value is not None else "",
+        entry.path,
+        leaf.description,
+        _text(old) if known else "",
+        change(entry.value, old) if known else "",
+    )
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, list):
+        return ", ".join(shown(item, 4) for item in value[:8]) + (", …" if len(value) > 8 else "")
+    return shown(value)
+
+
+def change(now: Any, before: Any) -> str:
+    """What became of a value."""
+    if isinstance(now, bool) or not isinstance(now, int | float) or not isinstance(before, int | float):
+        return "no change" if now == before else "changed"
+    return percent_change(now, before)
+
+
+def flattened(content: Any, prefix: str = "") -> dict[str, Any]:
+    """Plain values and lists of numbers by dotted path."""
+    if isinstance(content, dict):
+        return {
+            path: value
+            for name, inner in content.items()
+            for path, value in flattened(inner, f"{prefix}.{name}" if prefix else name).items()
+        }
+    if isinstance(content, list) and any(isinstance(item, dict | list) for item in content):
+        return {
+            path: value
+            for index, inner in enumerate(content)
+            for path, value in flattened(inner, f"{prefix}.{index}").items()
+        }
+    return {prefix: content}

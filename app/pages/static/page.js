@@ -1,0 +1,210 @@
+// Live results over pages that work without: the page is asked for again and its result and the fields' states are taken over.
+"use strict";
+
+const WAIT_MS = 350;
+const form = document.getElementById("form");
+const long = Number(document.querySelector(".work").dataset.long);
+let timer = 0;
+let running = null;
+let shown = caseOf(form);
+
+function pairsOf(element) {
+  const picked = new Map([...element.querySelectorAll("input[type=radio]:checked")].map((radio) => [radio.name, radio.value]));
+  const left = new Set([...element.querySelectorAll("input[type=radio]")].map((radio) => radio.value));
+  for (const name of picked.values()) left.delete(name);
+  return [...new FormData(element)].filter(([name, text]) => !name.startsWith("pick:") && text.trim() && !left.has(name));
+}
+
+function caseOf(element) {
+  return new URLSearchParams(pairsOf(element)).toString().replaceAll("%2C", ",").replaceAll("%3A", ":");
+}
+
+function schedule() {
+  clearTimeout(timer);
+  timer = setTimeout(update, WAIT_MS);
+}
+
+async function update(force = false) {
+  const wanted = caseOf(form);
+  if (wanted === shown && !force) return;
+  if (running) { schedule(); return; }
+  running = wanted;
+  const result = document.getElementById("result");
+  result.classList.add("old");
+  result.setAttribute("aria-busy", "true");
+  say("calculating …");
+  try {
+    const page = await ask(wanted);
+    if (caseOf(form) === wanted || page.ok) take(page.document, page.ok);
+    shown = wanted;
+    if (wanted.length <= long) history.replaceState(null, "", wanted ? `?${wanted}` : location.pathname);
+  } catch {
+    say("The service does not answer; the result is that of before.");
+  }
+  running = null;
+  if (caseOf(form) !== wanted) schedule();
+}
+
+async function ask(wanted) {
+  const post = wanted.length > long;
+  const address = post || !wanted ? form.action : `${form.action}?${wanted}`;
+  const options = post ? { method: "POST", body: new URLSearchParams(wanted) } : {};
+  const answer = await fetch(address, options);
+  const text = await answer.text();
+  return { ok: answer.ok, document: new DOMParser().parseFromString(text, "text/html") };
+}
+
+function say(text) {
+  document.getElementById("state").textContent = text;
+}
+
+function take(page) {
+  const fresh = page.getElementById("result");
+  const here = document.getElementById("result");
+  if (!fresh) { say(page.querySelector(".problem")?.textContent.trim() ?? "No answer."); return; }
+  const open = new Map([...here.querySelectorAll("details")].map((part, index) => [index, part.open]));
+  here.replaceWith(document.adoptNode(fresh));
+  if (open.size === fresh.querySelectorAll("details").length) {
+    fresh.querySelectorAll("details").forEach((part, index) => { part.open = open.get(index); });
+  }
+  takeFields(page);
+  prepareResult();
+}
+
+function takeFields(page) {
+  for (const rows of document.querySelectorAll("[data-rows]")) {
+    const fresh = page.getElementById(rows.id);
+    const more = fresh ? [...fresh.children].slice(rows.children.length) : [];
+    rows.append(...more.map((row) => document.adoptNode(row)));
+  }
+  for (const fresh of page.querySelectorAll("[data-field]")) {
+    const here = document.querySelector(`[data-field="${CSS.escape(fresh.dataset.field)}"]`);
+    if (here) takeField(here, fresh);
+  }
+  for (const fresh of page.querySelectorAll("[data-section]")) {
+    const here = document.querySelector(`[data-section="${CSS.escape(fresh.dataset.section)}"]`);
+    const note = here?.querySelector(":scope > summary .note");
+    if (note) note.textContent = fresh.querySelector(":scope > summary .note").textContent;
+    if (here && fresh.querySelector(".wrong")) here.open = true;
+  }
+}
+
+function takeField(here, fresh) {
+  const [control, source] = [here, fresh].map((field) => field.querySelector("input:not([type=radio]), select, textarea"));
+  here.className = fresh.className;
+  for (const name of ["placeholder", "aria-invalid", "aria-describedby"]) {
+    if (source.hasAttribute(name)) control.setAttribute(name, source.getAttribute(name));
+    else control.removeAttribute(name);
+  }
+  const fault = here.querySelector(".fault");
+  fault.textContent = fresh.querySelector(".fault").textContent;
+  fault.hidden = !fault.textContent;
+  here.querySelector(".help").replaceChildren(...fresh.querySelector(".help").cloneNode(true).childNodes);
+  here.querySelector(".assumed")?.remove();
+  const mark = fresh.querySelector(".assumed");
+  if (mark) (here.querySelector(":scope > label") ?? here).append(" ", document.adoptNode(mark));
+}
+
+// Of fields that exclude each other the one that is typed into counts.
+function clearFellows(control) {
+  const names = control.closest("[data-excludes]")?.dataset.excludes.split(" ") ?? [];
+  if (!control.value.trim()) return;
+  for (const other of form.querySelectorAll("input:not([type=radio]), select, textarea")) {
+    if (names.some((name) => other.name === name || other.name.startsWith(`${name}.`))) other.value = "";
+  }
+}
+
+function count(area) {
+  const items = area.value.split(/[\s;,]+/).filter(Boolean).length;
+  document.getElementById(area.dataset.count).textContent = items ? `${items} values` : "";
+}
+
+function goTo(address) {
+  const target = document.getElementById(decodeURIComponent(address.slice(1)));
+  if (!target) return;
+  for (let part = target.parentElement; part; part = part.parentElement) if (part.tagName === "DETAILS") part.open = true;
+  target.focus();
+  target.scrollIntoView({ block: "center" });
+}
+
+function prepareResult() {
+  const copy = document.getElementById("copy");
+  copy?.addEventListener("click", async (event) => {
+    event.preventDefault();
+    try {
+      await navigator.clipboard.writeText(copy.href);
+      say("Link copied.");
+    } catch {
+      history.replaceState(null, "", copy.href);
+      say("The link is in the address bar.");
+    }
+  });
+  document.querySelectorAll(".plot").forEach(prepareChart);
+}
+
+// Values of a figure under pointer and arrow keys.
+function prepareChart(plot) {
+  const panels = JSON.parse(plot.dataset.series);
+  if (!panels.length) return;
+  const reading = plot.parentElement.querySelector(".reading");
+  const cursor = document.createElement("span");
+  cursor.className = "cursor";
+  cursor.hidden = true;
+  plot.append(cursor);
+  let place = { panel: 0, index: -1 };
+  const show = (panel, index) => {
+    place = { panel, index };
+    const { box, range, name, unit, curves } = panels[panel];
+    const at = curves[0].x[index];
+    const image = plot.querySelector("img");
+    const share = range[2] ? Math.log(at / range[0]) / Math.log(range[1] / range[0]) : (at - range[0]) / (range[1] - range[0]);
+    cursor.style.left = `${(box[0] + share * box[2]) * image.clientWidth}px`;
+    cursor.style.top = `${box[1] * image.clientHeight}px`;
+    cursor.style.height = `${box[3] * image.clientHeight}px`;
+    cursor.hidden = false;
+    const values = curves.map((curve) => [curve, curve.y[nearest(curve.x, at)]]).filter(([, value]) => value !== null);
+    reading.textContent = `${name} ${at} ${unit}: ` + values.map(([curve, value]) => `${curve.name} ${value} ${curve.unit}`.trim()).join(" · ");
+  };
+  plot.addEventListener("pointermove", (event) => {
+    const image = plot.querySelector("img").getBoundingClientRect();
+    const x = (event.clientX - image.left) / image.width;
+    const y = (event.clientY - image.top) / image.height;
+    const panel = panels.findIndex(({ box }) => x >= box[0] && x <= box[0] + box[2] && y >= box[1] - 0.05 && y <= box[1] + box[3] + 0.05);
+    if (panel < 0) return;
+    const { box, range, curves } = panels[panel];
+    const share = (x - box[0]) / box[2];
+    const at = range[2] ? range[0] * (range[1] / range[0]) ** share : range[0] + share * (range[1] - range[0]);
+    show(panel, nearest(curves[0].x, at));
+  });
+  plot.addEventListener("keydown", (event) => {
+    const step = { ArrowRight: [0, 1], ArrowLeft: [0, -1], ArrowDown: [1, 0], ArrowUp: [-1, 0] }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    const panel = Math.min(Math.max(place.panel + step[0], 0), panels.length - 1);
+    const last = panels[panel].curves[0].x.length - 1;
+    show(panel, Math.min(Math.max(place.index + step[1], 0), last));
+  });
+}
+
+function nearest(values, wanted) {
+  let best = 0;
+  values.forEach((value, index) => { if (value !== null && Math.abs(value - wanted) < Math.abs(values[best] - wanted)) best = index; });
+  return best;
+}
+
+form.addEventListener("input", (event) => { clearFellows(event.target); schedule(); });
+form.addEventListener("change", schedule);
+form.addEventListener("input", (event) => { if (event.target.dataset.count) count(event.target); });
+form.addEventListener("submit", (event) => {
+  if (event.submitter?.hasAttribute("formaction")) return;
+  event.preventDefault();
+  clearTimeout(timer);
+  update(true);
+});
+document.addEventListener("click", (event) => {
+  const link = event.target.closest("a[href^='#']");
+  if (link) { event.preventDefault(); goTo(link.getAttribute("href")); }
+});
+document.getElementById("example").addEventListener("change", (event) => { if (event.target.value) event.target.form.submit(); });
+form.querySelectorAll("textarea[data-count]").forEach(count);
+prepareResult();

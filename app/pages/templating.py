@@ -1,0 +1,64 @@
+"""The templates, and what all of them know."""
+
+from functools import cache
+from hashlib import sha256
+from importlib.resources import files
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from app.calculations import CALCULATIONS, Calculation
+from app.pages.fields import anchor
+from app.pages.typesetting import shown, symbol, typeset, words
+from app.responses.common import MODEL_VERSION
+
+ASSETS = {
+    "style.css": "text/css; charset=utf-8",
+    "page.js": "text/javascript; charset=utf-8",
+    "icon.svg": "image/svg+xml",
+}
+
+
+def rendered(template: str, **context: Any) -> str:
+    """A page."""
+    return _environment().get_template(template).render(**context)
+
+
+def page_path(calculation: Calculation) -> str:
+    """Where the page of a calculation is."""
+    return calculation.path.removeprefix("/v1")
+
+
+def model_of(calculation: Calculation) -> str:
+    """The model it belongs to."""
+    return page_path(calculation).split("/")[1]
+
+
+@cache
+def asset(name: str) -> bytes:
+    """A file that pages refer to."""
+    return files("app.pages").joinpath("static", name).read_bytes()
+
+
+def asset_path(name: str) -> str:
+    """The address of a file, which changes with its content."""
+    return f"/static/{name}?{sha256(asset(name)).hexdigest()[:12]}"
+
+
+@cache
+def _environment() -> Environment:
+    environment = Environment(
+        loader=PackageLoader("app.pages"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.globals |= {
+        "menu": [(page_path(each), each.title) for each in CALCULATIONS],
+        "version": MODEL_VERSION,
+        "asset": asset_path,
+        "anchor": anchor,
+    }
+    environment.filters |= {"shown": shown, "symbol": symbol, "typeset": typeset, "words": words}
+    return environment

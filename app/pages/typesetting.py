@@ -1,0 +1,53 @@
+"""Symbols and numbers as print sets them."""
+
+import re
+
+from markupsafe import Markup, escape
+
+from app.figures.wording import number
+
+# A letter or two, an underscore, letters and digits with commas between them.
+_SUBSCRIPT = re.compile(r"((?:[^\W\d_²³]){1,2})_([^\W_²³]+(?:,[^\W_²³]+)*)")
+_LETTER = re.compile(r"[^\W\d_]{1,2}\*?")
+NO_VALUE = "–"
+
+
+def typeset(text: str) -> Markup:
+    """A text in which `h_a` becomes a letter with a subscript."""
+    return Markup(_SUBSCRIPT.sub(r"<i>\1</i><sub>\2</sub>", str(escape(text))))  # noqa: S704  escaped before
+
+
+def symbol(text: str | None) -> Markup:
+    """The symbol of a quantity; letters slanted, as print sets them."""
+    if not text:
+        return Markup("")
+    marked = Markup("<i>{}</i>").format(text) if _LETTER.fullmatch(text) else typeset(text)
+    return Markup('<span class="symbol">{}</span>').format(marked)
+
+
+def shown(value: object, digits: int = 5) -> str:
+    """A single value in words or digits."""
+    match value:
+        case None:
+            return NO_VALUE
+        case bool():
+            return "yes" if value else "no"
+        case int():
+            return number(float(value), digits=12)
+        case float():
+            return number(value, digits=digits)
+        case _:
+            return words(str(value))
+
+
+def words(name: str) -> str:
+    """A code or choice as people read it."""
+    return name.replace("_", " ")
+
+
+def percent_change(now: float, before: float) -> str:
+    """By how much a number changed."""
+    if before == 0.0:
+        return "no change" if now == 0.0 else "from zero"
+    change = 100.0 * (now / before - 1.0)
+    return "no change" if abs(change) < 5e-4 else f"{change:+.3g} %".replace("-", "−")

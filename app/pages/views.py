@@ -1,0 +1,239 @@
+"""One view of one case, from its fields to bytes; runs in a worker."""
+
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal
+
+from app.calculations import CALCULATIONS, Calculation
+from app.contract.fields import headlines, leaf_at
+from app.contract.tree import branches
+from app.figures.data import NoFigure, ThemeName
+from app.figures.rendering import Format, written
+from app.formats import csv
+from app.formats.json import written as json_written
+from app.pages import report as reports
+from app.pages.cards import cards
+from app.pages.cases import Case, Fault, faults_of, solved
+from app.pages.charts import charts, figure_of
+from app.pages.fields import State, anchor
+from app.pages.form import form
+from app.pages.links import IMAGE_FORMATS, Links, example_link, examples_of
+from app.pages.query import Pairs, normalised, pairs_of_query, split_views
+from app.pages.results import entries, flattened, groups
+from app.pages.templating import model_of, page_path, rendered
+from app.pages.typesetting import NO_VALUE
+from app.problems import Unprocessable
+from app.reading import InvalidBody, Unreadable
+
+BY_PAGE = {page_path(calculation): calculation for calculation in CALCULATIONS}
+REFUSED = (Unreadable, InvalidBody, Unprocessable)
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """A case to look at; `kept` and `kept_ref` are the answers of it and of its variant, if they are still known."""
+
+    path: str
+    pairs: Pairs
+    views: dict[str, str] = field(default_factory=dict)
+    kept: bytes | None = None
+    kept_ref: bytes | None = None
+
+    @property
+    def calculation(self) -> Calculation:
+        """What it is a case of."""
+        return BY_PAGE[self.path]
+
+    @property
+    def theme(self) -> ThemeName:
+        """The theme asked for."""
+        return "dark" if self.views.get("theme") == "dark" else "light"
+
+    @property
+    def links(self) -> Links:
+        """Where the views of the case are."""
+        return Links(self.path, self.pairs, self.views.get("ref", ""), self.views.get("theme", ""))
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """A view; `fresh` and `fresh_ref` are answers to be kept."""
+
+    content: bytes
+    status: int = 200
+    fresh: bytes | None = None
+    fresh_ref: bytes | None = None
+
+
+def ref_pairs(calculation: Calculation, views: dict[str, str]) -> Pairs:
+    """The fields of the variant to compare with."""
+    return split_views(normalised(calculation.request, pairs_of_query(views.get("ref", ""))))[0]
+
+
+def page(asked: Asked) -> Shown:
+    """The page of a case: form and result, or the form and what is wrong with it."""
+    if not asked.pairs:
+        return _page(asked, State())
+    try:
+        case = solved(asked.calculation, asked.pairs, asked.kept)
+    except REFUSED as error:
+        faults = faults_of(error)
+        state = State(dict(asked.pairs), _by_field(faults))
+        return _page(asked, state, 400 if isinstance(error, Unreadable) else 422, faults=faults)
+    variant, trouble = _variant(asked)
+    figures, missing = charts(case, variant, asked.theme)
+    before = variant.response if variant else None
+    resolved = _resolved(case)
+    state = State(dict(asked.pairs), {}, resolved, _assumed(case))
+    shown = _page(
+        asked,
+        state,
+        response=case.response,
+        cards=cards(case.response, resolved, before),
+        groups=groups(case.response, before),
+        derived=_derived(case),
+        charts=figures,
+        missing=missing,
+        compared=before is not None,
+        trouble=trouble,
+        curves=_curves(case),
+    )
+    return replace(shown, fresh=case.fresh, fresh_ref=variant.fresh if variant else None)
+
+
+def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
+    """The answer of the API, or its values as a table, or one of its curves."""
+    case = solved(asked.calculation, asked.pairs, asked.kept)
+    if media == "json":
+        content = json_written(case.response, "curves")
+    elif (path := asked.views.get("curve")) is None:
+        content = csv.values(
+            (e.path, e.leaf.title, e.value, e.leaf.unit or "") for _, e in entries(case.response) if e.leaf.is_scalar
+        )
+    else:
+        found = csv.curve(case.response, path)
+        if found is None:
+            raise Unprocessable("unknown_curve", f"There are {', '.join(_curves(case))}", "curve")
+        content = found
+    return Shown(content, fresh=case.fresh)
+
+
+def figure(asked: Asked, name: str, image_format: Format) -> Shown:
+    """One figure as a file."""
+    case = solved(asked.calculation, asked.pairs, asked.kept)
+    variant, _ = _variant(asked)
+    declaration = next(each for each in asked.calculation.figures if each.name == name)
+    try:
+        data = figure_of(declaration, case, variant)
+    except NoFigure as reason:
+        raise Unprocessable(reason.code, reason.message, reason.field) from reason
+    return Shown(written(data, image_format, asked.theme), fresh=case.fresh)
+
+
+def report(asked: Asked, address: str) -> Shown:
+    """The report of a case; an input that cannot be computed is shown on its page instead."""
+    try:
+        case = solved(asked.calculation, asked.pairs, asked.kept)
+    except REFUSED:
+        return page(asked)
+    figures, missing = charts(case, None, "light")
+    place = "" if asked.links.too_long else address + asked.links.alone
+    context = reports.context(case, asked.views, address, place)
+    content = rendered(
+        "report.html",
+        calculation=asked.calculation,
+        response=case.response,
+        cards=cards(case.response, _resolved(case)),
+        groups=groups(case.response),
+        derived=_derived(case),
+        charts=figures,
+        missing=missing,
+        **context,
+    )
+    return Shown(content.encode(), fresh=case.fresh)
+
+
+def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
+    calculation = asked.calculation
+    context = {"faults": [], "response": None, "compared": False, "trouble": "", **found}
+    sections = form(calculation.request, state)
+    content = rendered(
+        "calculation.html",
+        calculation=calculation,
+        path=asked.path,
+        model=model_of(calculation),
+        sections=sections,
+        links=asked.links,
+        theme=asked.views.get("theme", ""),
+        ref=asked.views.get("ref", ""),
+        examples=[(example, example_link(calculation, example)) for example in examples_of(calculation)],
+        formats=IMAGE_FORMATS,
+        headlines=headlines(calculation.response),
+        field_link=lambda path: _place(calculation, path),
+        field_title=lambda path: _title(calculation, path),
+        **context,
+    )
+    return Shown(content.encode(), status)
+
+
+def _variant(asked: Asked) -> tuple[Case | None, str]:
+    """The case to compare with, or why it cannot be computed."""
+    if not asked.views.get("ref"):
+        return None, ""
+    try:
+        return solved(asked.calculation, ref_pairs(asked.calculation, asked.views), asked.kept_ref), ""
+    except REFUSED as error:
+        return None, faults_of(error)[0].message
+
+
+def _by_field(faults: list[Fault]) -> dict[str, str]:
+    """Messages by path; several of one field in one line."""
+    found: dict[str, str] = {}
+    for fault in faults:
+        if fault.path:
+            found[fault.path] = f"{found[fault.path]}; {fault.message}" if fault.path in found else fault.message
+    return found
+
+
+def _resolved(case: Case) -> dict[str, Any]:
+    """What every input stands for: the inputs with their defaults, and what was derived for the empty ones."""
+    derived = flattened(case.response.derived.model_dump()) if case.response.derived else {}
+    found = flattened(case.response.inputs)
+    for path, value in found.items():
+        if value is None:
+            found[path] = derived.get(path, derived.get(path.rpartition(".")[2]))
+    return found
+
+
+def _assumed(case: Case) -> dict[str, str]:
+    return {each.field: each.reason for each in case.response.assumptions}
+
+
+def _derived(case: Case) -> tuple[Any, ...]:
+    """Title, symbol, value and unit of what was computed before the physics."""
+    if case.response.derived is None:
+        return ()
+    return tuple(row for group in groups(case.response.derived) for row in group.rows if row.value != NO_VALUE)
+
+
+def _curves(case: Case) -> list[str]:
+    """What `curve=` can name."""
+    return list(
+        dict.fromkeys(
+            e.path.rpartition(".")[0] if "." in e.path else e.path
+            for _, e in entries(case.response)
+            if e.leaf.dimensions == 1 and e.value is not None and e.leaf.kind in {"number", "integer"}
+        )
+    )
+
+
+def _place(calculation: Calculation, path: str) -> str:
+    """Where on the page the field is, or the next section above it."""
+    known = branches(calculation.request)
+    while path and leaf_at(calculation.request, path) is None and path not in known:
+        path = path.rpartition(".")[0]
+    return f"#{anchor(path)}" if path else "#form"
+
+
+def _title(calculation: Calculation, path: str) -> str:
+    leaf = leaf_at(calculation.request, path)
+    return leaf.title if leaf else path

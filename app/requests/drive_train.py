@@ -1,0 +1,169 @@
+"""A gear unit whole: request of /v1/drive-train."""
+
+from typing import Annotated, Any, ClassVar
+
+from pydantic import Field
+
+from app.contract.conversion import to_si
+from app.contract.quantities import Input
+from app.requests.common import Request, Section
+from app.requests.drive_train_couplings import UnitCoupling
+from app.requests.drive_train_heat import ToothHeat, TrainTemperatures
+from app.requests.drive_train_mesh import TrainGears, TrainModel, TrainModifications, TrainOperation
+from app.requests.drive_train_shafts import UnitShaft
+from app.requests.load_distribution import GearMaterials
+from app.requests.materials import XUE
+from app.requests.oil import Oil
+from app.requests.pumping import GearGroove, Mist
+from solvers.drive_train import inputs as si
+from solvers.lubricants import Lubricant
+from solvers.pumping import inputs as pumping
+from solvers.scuffing import inputs as mesh
+
+
+def _only_hot() -> list[si.State]:
+    return ["hot"]
+
+
+class TrainEffects(Section):
+    """What is taken into account."""
+
+    shafts: Annotated[bool, Input("shafts", text="whether shafts and bearings yield; without, couplings neither")] = (
+        True
+    )
+    coupling: Annotated[bool, Input("couplings", text="whether couplings load their shafts")] = True
+    thermal: Annotated[bool, Input("heat", text="whether heat deforms the flanks")] = True
+
+
+class ThrustCollar(Section):
+    """A collar on the pinion that takes the place of its thrust bearing."""
+
+    radius_mm: Annotated[
+        float | None,
+        Input("radius of the thrust collar", "r_k", text="where it touches", ge=1, le=5000, default_text="no collar"),
+    ] = None
+
+
+class DriveTrainRequest(Request):
+    """A single-stage gear unit with its shafts, bearings, couplings and heat."""
+
+    solver_names: ClassVar = {
+        "heat": "thermal",
+        "collar_radius": "thrust_collar.radius",
+        "ultimate_thrust": "thrust_bearing.ultimate_load",
+        "mesh.distribution.modifications": "modifications",
+    }
+
+    gears: Annotated[TrainGears, Input("gear pair")]
+    grooves: Annotated[
+        list[GearGroove], Field(max_length=50), Input("grooves", text="circumferential grooves; they do not carry less")
+    ] = Field(default_factory=list)
+    operation: Annotated[TrainOperation, Input("operating point")]
+    face_start_mm: Annotated[
+        float, Input("start of the face", "z_F", text="end of lowest Z of the common face", ge=-20000, le=20000)
+    ]
+    pinion_shaft: Annotated[UnitShaft, Input("pinion shaft", text="shaft of the driving gear")]
+    wheel_shaft: Annotated[UnitShaft, Input("wheel shaft", text="shaft of the driven gear")]
+    thrust_collar: Annotated[ThrustCollar, Input("thrust collar")] = ThrustCollar()
+    couplings: Annotated[
+        list[UnitCoupling], Field(max_length=10), Input("couplings", text="at most one on each shaft")
+    ] = Field(default_factory=list)
+    modifications: Annotated[
+        TrainModifications, Input("modifications", text="what is ground, and misalignment from elsewhere")
+    ] = TrainModifications()
+    thermal: Annotated[ToothHeat, Input("heat of the teeth")] = ToothHeat()
+    effects: Annotated[TrainEffects, Input("effects", text="what is taken into account")] = TrainEffects()
+    ambient: Annotated[Mist, Input("ambient", text="the mist around the mesh")] = Mist()
+    materials: Annotated[GearMaterials, Input("materials", text="materials of the pair")] = GearMaterials()
+    lubricant: Annotated[Oil, Input("oil")] = Oil()
+    temperatures: Annotated[TrainTemperatures, Input("temperatures", text="of contact and oil")] = TrainTemperatures()
+    friction_coefficient: Annotated[
+        float, Input("coefficient of friction", "μ_m", f"{XUE}, Eq. 25", ge=0, le=1, tolerance=0.01)
+    ] = 0.06
+    states: Annotated[
+        list[si.State],
+        Field(min_length=1, max_length=2),
+        Input("states", text="the unit as described is hot; with cold the answer tells both"),
+    ] = Field(default_factory=_only_hot)
+    model: Annotated[TrainModel, Input("model", text="choices where the papers leave room", advanced=True)] = (
+        TrainModel()
+    )
+
+    def inputs(self) -> si.DriveTrainInputs:
+        """The solver's inputs."""
+        temperatures = self._temperatures()
+        oil = self.lubricant.lubricant(temperatures.bulk)
+        shafts = [shaft.shaft(oil, temperatures.oil) for shaft in (self.pinion_shaft, self.wheel_shaft)]
+        fields = to_si(self)
+        return si.DriveTrainInputs(
+            mesh=self._mesh(oil, temperatures),
+            pumping=pumping.PumpingSetup(
+                gears=self.gears.pumping_pair(),
+                normal_backlash=to_si(self.gears)["normal_backlash"],
+                grooves=tuple(pumping.Groove(**to_si(groove)) for groove in self.grooves),
+                ambient=pumping.Ambient(**to_si(self.ambient)),
+                model=self.model.pumping(),
+            ),
+            face_start=fields["face_start"],
+            pinion_shaft=shafts[0],
+            wheel_shaft=shafts[1],
+            arrangement=self.operation.arrangement(self.gears),
+            couplings=tuple(coupling.unit_coupling() for coupling in self.couplings),
+            collar_radius=to_si(self.thrust_collar)["radius"],
+            heat=si.Heat(**to_si(self.thermal)),
+            effects=si.Effects(**to_si(self.effects)),
+            contact_load_factor=self.operation.contact_load_factor,
+            coupling_friction=self.model.coupling_friction,
+            face_stations=self.model.face_stations,
+            local_bulk=self.temperatures.local_bulk,
+            states=fields["states"],
+        )
+
+    def _temperatures(self) -> mesh.Temperatures:
+        """The solver's temperatures, the contact's bulk by default between those of the teeth."""
+        fields, teeth = to_si(self.temperatures), to_si(self.thermal)
+        bulk = fields["bulk"]
+        if bulk is None:
+            bulk = (teeth["pinion_bulk"] + teeth["wheel_bulk"]) / 2
+        return mesh.Temperatures(bulk, fields["oil"], fields["scuffing"])
+
+    def _mesh(self, oil: Lubricant, temperatures: mesh.Temperatures) -> mesh.ScuffingInputs:
+        distribution = mesh.LoadDistributionInputs(
+            gears=self.gears.mesh_pair(),
+            load=self.operation.load(),
+            modifications=self.modifications.modifications(),
+            pinion_material=self.materials.pinion.solid(),
+            wheel_material=self.materials.wheel.solid(),
+            friction_coefficient=self.friction_coefficient,
+            model=self.model.mesh_model(),
+            resolution=mesh.Resolution(feature_points=self.model.feature_points),
+        )
+        return mesh.ScuffingInputs(
+            distribution=distribution,
+            lubricant=oil,
+            temperatures=temperatures,
+            lubrication=self.model.lubrication,
+            film=self.model.film(),
+            path_points=self.model.path_points,
+        )
+
+    def options(self) -> dict[str, Any]:
+        """The model section, the number of slices filled in."""
+        return self.model.model_dump() | {"slices": self.model.pumping().slice_count}
+
+    def unused_defaults(self) -> frozenset[str]:
+        """Of reliefs that are zero, of bearings and couplings of another kind, of effects that are left out."""
+        unused = set(self.modifications.unused_defaults("modifications"))
+        unused |= self.lubricant.unused_defaults("lubricant")
+        unused |= self.model.unused_pumping_defaults("model")
+        unused |= self.pinion_shaft.unused_shaft_defaults("pinion_shaft")
+        unused |= self.wheel_shaft.unused_shaft_defaults("wheel_shaft")
+        for index, coupling in enumerate(self.couplings):
+            unused |= coupling.unused_coupling_defaults(f"couplings.{index}")
+        if not (self.couplings and self.effects.shafts and self.effects.coupling):
+            unused |= {"couplings", "model.coupling_friction"}
+        if not self.effects.thermal:
+            unused |= {"thermal.wall_response", "thermal.wall_response_wheel"}
+        if self.model.lubrication == "closed_form":
+            return frozenset({*unused, "model.rheology", "model.eyring_stress_mpa"})
+        return frozenset(unused | self.model.unused_film_defaults("model"))

@@ -1,0 +1,177 @@
+"""Pages, and the views of a case under the same query."""
+
+from collections.abc import Callable
+from typing import Any
+from urllib.parse import quote
+
+from fastapi import APIRouter, HTTPException, Request, Response
+from fastapi.responses import RedirectResponse
+
+from app.answers import Answers, key_of
+from app.calculations import CALCULATIONS, Calculation
+from app.figures.rendering import MEDIA_TYPES
+from app.library import examples
+from app.pages import views
+from app.pages.about import ABOUT
+from app.pages.links import example_link
+from app.pages.overview import about_page, problem_page, rows_of, start_page
+from app.pages.query import link, normalised, pairs_of_query, split_views
+from app.pages.templating import ASSETS, asset, page_path
+from app.problems import PROBLEMS
+from app.reading import Unreadable
+from app.start_up import StartUp
+from app.workers.admission import Runner
+
+PAGE_POLICY = "default-src 'self'; img-src 'self' data:; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
+DOCUMENT_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'none'"
+HTML = "text/html; charset=utf-8"
+FORM = "application/x-www-form-urlencoded"
+FOREVER = "public, max-age=31536000, immutable"
+METHODS = ["GET", "POST"]
+TROUBLES: tuple[type[Exception], ...] = (*PROBLEMS, Unreadable)
+
+router = APIRouter(include_in_schema=False)
+
+
+@router.get("/")
+async def start() -> Response:
+    """What the models answer, and where to begin."""
+    return _html(start_page())
+
+
+@router.get("/static/{name}")
+async def static(name: str) -> Response:
+    """Style, script and icon of the pages."""
+    if name not in ASSETS:
+        raise HTTPException(404, f"There are {', '.join(ASSETS)}")
+    return Response(asset(name), media_type=ASSETS[name], headers={"Cache-Control": FOREVER})
+
+
+def _add_about(model: str) -> None:
+    async def about(http: Request) -> Response:
+        """The model, and its numbers beside the paper's; computed once."""
+        known: dict[str, Any] = http.app.state.published
+        if model not in known:
+            runner: Runner = http.app.state.runner
+            try:
+                known[model] = await runner.run(http.receive, rows_of, model)
+            except TROUBLES as error:
+                return _trouble(error)
+        return _html(about_page(model, known[model]))
+
+    router.add_api_route(f"/{model}/about", about, methods=["GET"])
+
+
+def _add(calculation: Calculation) -> None:
+    path = page_path(calculation)
+    names = [figure.name for figure in calculation.figures]
+
+    async def page(http: Request) -> Response:
+        return await _answer(http, calculation, path, PAGE_POLICY, HTML, views.page)
+
+    async def report(http: Request) -> Response:
+        address = f"{http.url.scheme}://{http.url.netloc}"
+        return await _answer(http, calculation, f"{path}/report", DOCUMENT_POLICY, HTML, views.report, address)
+
+    async def result(http: Request, media: str) -> Response:
+        types = {"json": "application/json", "csv": MEDIA_TYPES["csv"]}
+        if media not in types:
+            raise HTTPException(404, "There are result.json and result.csv")
+        place = f"{path}/result.{media}"
+        return await _answer(http, calculation, place, DOCUMENT_POLICY, types[media], views.result, media)
+
+    async def figure(http: Request, name: str, image_format: str) -> Response:
+        if name not in names or image_format not in MEDIA_TYPES:
+            raise HTTPException(404, f"There are {', '.join(names)}, each as {', '.join(MEDIA_TYPES)}")
+        media = {str(name): kind for name, kind in MEDIA_TYPES.items()}[image_format]
+        place = f"{path}/figures/{name}.{image_format}"
+        return await _answer(http, calculation, place, DOCUMENT_POLICY, media, views.figure, name, image_format)
+
+    for below, endpoint in (
+        ("", page),
+        ("/report", report),
+        ("/result.{media}", result),
+        ("/figures/{name}.{image_format}", figure),
+    ):
+        router.add_api_route(path + below, endpoint, methods=METHODS)
+
+
+async def _answer(
+    http: Request,
+    calculation: Calculation,
+    place: str,
+    policy: str,
+    media: str,
+    view: Callable[..., views.Shown],
+    *arguments: Any,
+) -> Response:
+    """One view of the case in the query or the form; a query with empty fields is sent on to one without."""
+    is_page = media == HTML
+    try:
+        asked, clean = await _asked(http, calculation)
+        if not clean and http.scope["method"] == "GET":
+            return RedirectResponse(quote(link(place, asked.pairs, **asked.views), safe="/?&=%,:.*+-_~"), 303)
+        start_up: StartUp = http.app.state.start_up
+        if asked.pairs:
+            start_up.require(calculation.path)
+        shown = await _shown(http, asked, view, arguments)
+    except TROUBLES as error:
+        if is_page:
+            return _trouble(error)
+        raise
+    return Response(shown.content, shown.status, media_type=media, headers={"Content-Security-Policy": policy})
+
+
+async def _asked(http: Request, calculation: Calculation) -> tuple[views.Asked, bool]:
+    """The case asked for, and whether its query was free of what says nothing."""
+    text = http.url.query
+    if http.scope["method"] == "POST":
+        if http.headers.get("content-type", "").partition(";")[0].strip() != FORM:
+            raise HTTPException(415, f"The content type must be {FORM}")
+        text = (await http.body()).decode("ascii", "replace")
+    sent, looks = split_views(pairs_of_query(text))
+    given = {name: value for name, value in looks.items() if value}
+    if (example := examples().get(dict(sent).get("example", ""))) is not None:
+        sent = pairs_of_query(example_link(calculation, example).partition("?")[2])
+        return views.Asked(page_path(calculation), sent, given), False
+    pairs = normalised(calculation.request, sent)
+    answers: Answers = http.app.state.answers
+    path = page_path(calculation)
+    variant = views.ref_pairs(calculation, given) if "ref" in given else []
+    asked = views.Asked(
+        path, pairs, given, answers.get(key_of(path, pairs)), answers.get(key_of(path, variant)) if variant else None
+    )
+    return asked, pairs == sent and given == looks
+
+
+async def _shown(
+    http: Request, asked: views.Asked, view: Callable[..., views.Shown], arguments: tuple[Any, ...]
+) -> views.Shown:
+    runner: Runner = http.app.state.runner
+    answers: Answers = http.app.state.answers
+    shown: views.Shown = await runner.run(http.receive, view, asked, *arguments)
+    if shown.fresh is not None:
+        answers.keep(key_of(asked.path, asked.pairs), shown.fresh)
+    if shown.fresh_ref is not None:
+        answers.keep(key_of(asked.path, views.ref_pairs(asked.calculation, asked.views)), shown.fresh_ref)
+    return shown
+
+
+def _trouble(error: Exception) -> Response:
+    """A page that says what happened, for whoever reads pages."""
+    if isinstance(error, Unreadable):
+        return _html(problem_page(400, "The case cannot be read", error.detail), 400)
+    kind = next(PROBLEMS[base] for base in type(error).__mro__ if base in PROBLEMS)
+    headers = {"Retry-After": str(kind.retry_after_s)} if kind.retry_after_s is not None else {}
+    return _html(problem_page(kind.status, kind.title, getattr(error, "detail", "")), kind.status, headers)
+
+
+def _html(content: str, status: int = 200, headers: dict[str, str] | None = None) -> Response:
+    policy = {"Content-Security-Policy": PAGE_POLICY}
+    return Response(content, status, media_type=HTML, headers=policy | (headers or {}))
+
+
+for each in ABOUT:
+    _add_about(each)
+for each_calculation in CALCULATIONS:
+    _add(each_calculation)

@@ -1,0 +1,23 @@
+"""Blok's flash temperature at points of the flank."""
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.contact.flash import blok_flash_temperature
+from solvers.scuffing.inputs import LoadDistributionInputs
+from solvers.scuffing.results import ContactPoints
+
+
+def blok_flash(given: LoadDistributionInputs, points: ContactPoints) -> FloatArray:
+    """Blok's flash temperature [K] (Eq. 25) at the points; 0 where nothing touches or moves, NaN without a limit."""
+    flash, touching = np.where(points.undefined, np.nan, 0.0), points.in_contact
+    flash[touching] = blok_flash_temperature(
+        friction=given.friction_coefficient,
+        line_load=points.line_load[touching],
+        speed_1=points.pinion_speed[touching],
+        speed_2=points.wheel_speed[touching],
+        half_width=points.half_width[touching],
+        solid_1=given.pinion_material,
+        solid_2=given.wheel_material,
+    )
+    return flash

@@ -1,0 +1,73 @@
+"""What ISO/TR 13989-1 adds in practice: mean friction, scuffing temperature of an FZG stage, bulk temperature, risk.
+
+The standard's formulas are taken as a public implementation of it reads.
+"""
+
+from typing import Literal
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.errors import InvalidInput
+from solvers.gears.path_of_contact import PathOfContact
+from solvers.oils import OilKind
+from solvers.scuffing.inputs import LoadDistributionInputs, OilSupply
+
+ScuffingRisk = Literal["high", "moderate", "low"]
+
+OIL_SUPPLY_FACTOR: dict[OilSupply, float] = {"spray": 1.2, "dip": 1.0, "submerged": 0.2}  # X_S
+OIL_KIND_FACTOR: dict[OilKind, float] = {"mineral": 1.0, "pao": 0.8, "polyglycol": 0.7}
+FLASH_SHARE = 0.47  # of the mean flash temperature that the bulk takes on
+HIGH_RISK_BELOW, LOW_RISK_ABOVE = 1.0, 2.0
+
+
+def lubricant_factor(viscosity: float, kind: OilKind) -> float:
+    """X_L = eta_oil^-0.05, eta_oil in mPa s, times 0.8 for polyalphaolefins and 0.7 for polyglycols.
+
+    viscosity [Pa s] at the oil temperature. Raises InvalidInput oil_kind for an ester, for which no factor is known.
+    """
+    if kind not in OIL_KIND_FACTOR:
+        raise InvalidInput(
+            "oil_kind",
+            "the friction law of ISO/TR 13989-1 has no lubricant factor for an ester; give the friction coefficient",
+            "lubricant.kind",
+        )
+    return float(OIL_KIND_FACTOR[kind] * (viscosity * 1e3) ** -0.05)
+
+
+def roughness_factor(roughness_1: float, roughness_2: float) -> float:
+    """X_R = [(Ra_1 + Ra_2)/2]^0.25, Ra in micrometres; roughness [m]."""
+    return float(((roughness_1 + roughness_2) / 2 * 1e6) ** 0.25)
+
+
+def mean_friction(inputs: LoadDistributionInputs, path: PathOfContact, factor: float) -> float:
+    """Mean coefficient of friction mu = 0.060 [w_Bt/(v_SigmaC rho_relC)]^0.2 X_L X_R.
+
+    w_Bt = K F_t/b [N/mm] with F_t at the reference circle, v_SigmaC the sum of the tangential speeds [m/s] and rho_relC
+    the reduced radius [mm] at the pitch point; `factor` is X_L.
+    """
+    load, pair, pitch = inputs.load, path.pair, path.pitch_point
+    tangential = load.contact_factor * load.pinion_torque / pair.pinion.reference_radius
+    line_load = tangential / inputs.gears.face_width * 1e-3
+    speeds = load.pinion_speed * (pitch + pair.pinion.teeth / pair.wheel.teeth * (pair.line_of_action - pitch))
+    radius = pitch * (pair.line_of_action - pitch) / (pair.line_of_action * path.plane.cos_base_helix) * 1e3
+    rough = roughness_factor(inputs.pinion_material.roughness, inputs.wheel_material.roughness)
+    return float(0.060 * (line_load / (speeds * radius)) ** 0.2 * factor * rough)
+
+
+def scuffing_temperature(stage: int, structure_factor: float, factor: float) -> float:
+    """Scuffing temperature [K] of an oil that fails stage S of FZG A/8.3/90: 80 + (0.85 + 1.4 X_W) X_L S^2 in C."""
+    return 80.0 + (0.85 + 1.4 * structure_factor) * factor * stage**2 + 273.15
+
+
+def bulk_temperature(oil: float, supply: OilSupply, psi: FloatArray, flash: FloatArray) -> float:
+    """Bulk = oil + 0.47 X_S times the mean flash temperature along the path [K]."""
+    mean = float(np.trapezoid(flash, psi)) / float(psi[-1] - psi[0])
+    return oil + FLASH_SHARE * OIL_SUPPLY_FACTOR[supply] * mean
+
+
+def scuffing_risk(safety: float) -> ScuffingRisk:
+    """The standard's word for a safety factor by Blok: high below 1, low above 2 (quoted from memory)."""
+    if safety < HIGH_RISK_BELOW:
+        return "high"
+    return "low" if safety > LOW_RISK_ABOVE else "moderate"

@@ -1,0 +1,418 @@
+"""The contract of /v1/drive-train: its numbers, units, defaults and refusals."""
+
+import copy
+import json
+from collections.abc import Callable
+from math import hypot
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+
+from app.library import examples
+
+Post = Callable[[str, object], httpx.Response]
+PATH = "/v1/drive-train"
+TURBO, COLD, GENERATOR = "turbo-gear-drive-train", "turbo-gear-drive-train-cold", "generator-gear-drive-train"
+
+
+def request(name: str = TURBO, **changes: Any) -> dict[str, Any]:
+    """An example, in short, with some fields of its sections changed; what is no section is replaced."""
+    body = copy.deepcopy({**examples()[name].request, "detail": "summary"})
+    for section, value in changes.items():
+        old = body.get(section)
+        body[section] = {**old, **value} if isinstance(old, dict) and isinstance(value, dict) else value
+    return body
+
+
+def answered(post: Post, body: dict[str, Any]) -> dict[str, Any]:
+    response = post(PATH, body)
+    assert response.status_code == 200, response.text
+    content: dict[str, Any] = response.json()
+    return content
+
+
+def without_ground_correction() -> dict[str, Any]:
+    return request(modifications={"helix_slope_um": 0, "lead_crowning_um": 0})
+
+
+# Table of drivetrain.md, section 5: shaft, thermal slope; K_Hb, y/b; w max, p_H, PPTE; flash line, flank; S line, S map
+ROWS = {
+    5: (-22.2, -16.5, 1.862, 1.00, 687, 894, 1.49, 55.2, 74.5, 1.696, 1.422),
+    6: (-34.1, -16.5, 1.051, 0.59, 405, 677, 0.45, 44.9, 47.5, 1.890, 1.837),
+}
+
+
+@pytest.mark.parametrize("row", ROWS)
+def test_the_worked_example(post: Post, row: int) -> None:
+    body = request() if row == 6 else without_ground_correction()
+    found = answered(post, {**body, "model": {"lubrication": "closed_form", "coupling_friction": "sliding"}})
+    shaft, thermal, factor, place, load, pressure, error, line, flank, safe_line, safe_flank = ROWS[row]
+    assert found["misalignment"]["shaft_slope_um"] == pytest.approx(shaft, abs=0.06)
+    assert found["misalignment"]["thermal_slope_um"] == pytest.approx(thermal, abs=0.06)
+    assert found["load"]["face_load_factor"] == pytest.approx(factor, abs=0.0012)
+    assert found["load"]["face_load_at"] == pytest.approx(place, abs=0.021)
+    assert found["load"]["max_line_load_n_per_mm"] == pytest.approx(load, abs=0.7)
+    assert found["load"]["max_pressure_mpa"] == pytest.approx(pressure, abs=1.1)
+    assert found["load"]["transmission_error_pp_um"] == pytest.approx(error, abs=0.006)
+    assert found["flash"]["feature_k"] == pytest.approx(line, abs=0.07)
+    assert found["flash"]["flank_k"] == pytest.approx(flank, abs=0.07)
+    assert found["safety"]["blok_feature"] == pytest.approx(safe_line, abs=0.0016)
+    assert found["safety"]["blok_flank"] == found["safety"]["minimum"] == pytest.approx(safe_flank, abs=0.0021)
+    assert found["safety"]["thermal_ehl_profile"] is None
+
+
+def test_teeth_yield_before_they_slide_by_default(post: Post) -> None:
+    found = answered(post, request())
+    assert found["misalignment"]["shaft_slope_um"] == pytest.approx(-33.88, abs=0.011)
+    assert found["load"]["face_load_factor"] == pytest.approx(1.0495, abs=0.0006)
+    assert found["safety"]["blok_flank"] == pytest.approx(1.838, abs=0.0011)
+
+
+@pytest.mark.slow
+def test_the_film_is_asked_by_default(post: Post) -> None:
+    body = request()
+    body.pop("model")
+    safety = answered(post, body)["safety"]
+    assert safety["thermal_ehl_profile"] == pytest.approx(3.084, abs=0.003)
+    assert safety["minimum"] == safety["blok_flank"]
+
+
+def test_numbers_arrive_in_the_units_of_their_names(post: Post) -> None:
+    body = request(pinion_shaft={"thrust_bearing": {"ultimate_load_n": 160e3}}, detail="curves")
+    found = answered(post, body)
+    for shaft, given in zip(found["shafts"], (body["pinion_shaft"], body["wheel_shaft"]), strict=True):
+        for state, bearing in zip(shaft["bearings"], given["bearings"], strict=True):
+            load = hypot(*state["reaction_n"])
+            area = bearing["diameter_mm"] * bearing["width_mm"]
+            assert state["specific_pressure_mpa"] == pytest.approx(load / area)
+            assert hypot(*state["displacement_um"]) == pytest.approx(
+                bearing["radial_clearance_um"] * state["eccentricity_ratio"]
+            )
+            assert state["min_film_um"] == pytest.approx(
+                bearing["radial_clearance_um"] * (1 - state["eccentricity_ratio"])
+            )
+            assert 45 < state["attitude_deg"] < 65
+    thrust = found["shafts"][0]["thrust"]
+    assert (thrust["mesh_n"], thrust["coupling_limit_n"]) == pytest.approx((19526, 20324), abs=20)
+    assert thrust["use"] == pytest.approx(thrust["upper_n"] / 80e3)
+    assert thrust["reverses"] is True
+    (coupling,) = found["couplings"]
+    assert coupling["thrust_limit_n"] == thrust["coupling_limit_n"]
+    assert coupling["tilt_mrad"] == pytest.approx([0.88, 1.01], abs=0.01)
+    losses = found["losses"]
+    assert losses["bearings_w"] == pytest.approx(117e3, abs=300)
+    assert losses["pumping_w"] == pytest.approx(14.7e3, abs=50)
+    assert losses["total_w"] == pytest.approx(
+        sum(losses[name] for name in ("coupling_w", "pumping_w", "mesh_w", "bearings_w"))
+    )
+    assert losses["efficiency"] == pytest.approx(1 - losses["total_w"] / 12e6)
+    parts = found["misalignment"]["parts"]
+    both = parts["films_pinion"] + parts["films_wheel"]
+    assert parts["films"] == pytest.approx(both)
+    assert sum(parts.values()) - both == pytest.approx(found["misalignment"]["shaft_slope_um"], abs=1e-9)
+
+
+def test_curves_are_the_gap_and_the_load_that_the_summary_tells(post: Post) -> None:
+    found = answered(post, request(detail="curves"))
+    curves = {name: np.array(values) for name, values in found["misalignment"]["curves"].items()}
+    y = curves["position_mm"]
+    assert (y[0], y[-1], y.size) == (0, 200, 41)
+    assert np.array_equal(np.sort(curves["z_mm"]), curves["z_mm"][::-1]), "right hand, counter-clockwise: y against Z"
+    assert (curves["z_mm"].min(), curves["z_mm"].max()) == pytest.approx((320, 520))
+    total = curves["shaft_um"] + curves["thermal_um"] + curves["modification_um"]
+    assert curves["total_um"] == pytest.approx(total, abs=1e-9)
+    assert curves["shaft_um"][-1] - curves["shaft_um"][0] == pytest.approx(-33.9, abs=0.5)
+    widths = np.full(41, 5.0)
+    widths[[0, -1]] = 2.5
+    tangential = 11459.156 / (117.15e-3)  # torque over a base radius
+    assert widths @ curves["line_force_n_per_mm"] == pytest.approx(tangential, rel=0.06)
+    for shaft in found["shafts"]:
+        assert len({len(values) for values in shaft["curves"].values()}) == 1
+    pinion = found["shafts"][0]
+    at_bearing = np.interp(220, pinion["curves"]["z_mm"], pinion["curves"]["x_um"])
+    assert at_bearing == pytest.approx(pinion["bearings"][0]["displacement_um"][0], abs=1e-6)
+
+
+def test_levels_of_detail(post: Post) -> None:
+    summary, fields = (answered(post, request(detail=detail)) for detail in ("summary", "fields"))
+    assert "curves" not in summary["misalignment"]
+    assert "curves" not in summary["shafts"][1]
+    assert "flank" not in summary
+    flank = fields["flank"]
+    for name in ("line_load_n_per_mm", "pressure_mpa", "contact_temperature_c"):
+        assert np.shape(flank[name]) == (len(flank["profile_fraction"]), len(flank["face_fraction"]))
+    hottest = np.unravel_index(np.argmax(flank["contact_temperature_c"]), np.shape(flank["contact_temperature_c"]))
+    place = fields["safety"]["blok_at"]
+    assert place["profile_fraction"] == flank["profile_fraction"][hottest[0]]
+    assert place["face_fraction"] == flank["face_fraction"][hottest[1]]
+    assert np.max(flank["contact_temperature_c"]) == pytest.approx(95 + fields["flash"]["flank_k"])
+
+
+@pytest.mark.parametrize("name", [TURBO, GENERATOR])
+def test_inputs_posted_back_give_the_same_answer(post: Post, name: str) -> None:
+    first = answered(post, request(name))
+    second = answered(post, {**first["inputs"], "detail": "summary"})
+    assert {**first, "assumptions": None} == {**second, "assumptions": None}
+
+
+def test_the_cold_unit_stands_beside_the_hot_one(post: Post) -> None:
+    both = answered(post, request(states=["hot", "cold"], detail="curves"))
+    cold = answered(post, request(COLD))
+    beside = both["states"]["cold"]
+    assert both["load"] == answered(post, request())["load"]
+    assert set(beside) <= set(cold)
+    for section in ("load", "safety", "losses", "couplings", "misalignment", "shafts"):
+        assert beside[section] == cold[section], section
+    assert beside["load"]["face_load_factor"] == pytest.approx(1.2605, abs=0.0006)
+    new = {warning["message"] for warning in both["warnings"] if warning["code"] == "edge_load"}
+    assert all(message.startswith("the cold unit: ") for message in new)
+    assert new
+
+
+def test_the_cold_unit_has_not_grown(post: Post) -> None:
+    alignment = {"unit_height_mm": 500, "unit_rise_k": 40, "machine_height_mm": 500, "machine_rise_k": 10}
+    body = request(states=["hot", "cold"])
+    body["couplings"][0]["alignment"] = alignment
+    both = answered(post, body)
+    assert both["states"]["cold"]["couplings"] == answered(post, request(COLD))["couplings"]
+    grown = request()
+    grown["couplings"][0]["offset_um"] = [0, 400 + 11e-6 * 500e3 * (10 - 40)]
+    assert both["couplings"][0]["moment_n_m"] == pytest.approx(answered(post, grown)["couplings"][0]["moment_n_m"])
+
+
+def coupled_on_both_sides() -> dict[str, Any]:
+    body = request()
+    wheel = copy.deepcopy(body["couplings"][0])
+    wheel |= {"shaft": "wheel", "position_mm": 880, "machine_side": "plus", "offset_um": [100, -200]}
+    body["couplings"].append(wheel)
+    return body
+
+
+def test_the_order_of_couplings_does_not_matter(post: Post) -> None:
+    body = coupled_on_both_sides()
+    found = answered(post, body)
+    body["couplings"].reverse()
+    turned = answered(post, body)
+    assert turned["load"] == pytest.approx(found["load"], rel=1e-9)
+    for one, other in zip(found["couplings"], reversed(turned["couplings"]), strict=True):
+        assert one["tilt_mrad"] == pytest.approx(other["tilt_mrad"], rel=1e-7)
+        assert one["moment_n_m"] == pytest.approx(other["moment_n_m"], rel=1e-7)
+    assert found["couplings"][0]["moment_n_m"] != pytest.approx(found["couplings"][1]["moment_n_m"], rel=0.1)
+
+
+def test_without_torque_only_weight_and_offsets_bend(post: Post) -> None:
+    found = answered(post, request(operation={"power_kw": 0}, detail="fields"))
+    assert found["load"]["face_load_factor"] is None
+    assert found["load"]["face_load_at"] is None
+    assert found["load"]["max_line_load_n_per_mm"] == 0
+    assert found["safety"]["blok_at"] is None
+    assert found["losses"]["efficiency"] is None
+    assert found["losses"]["coupling_w"] == found["losses"]["mesh_w"] == 0
+    assert found["balance"] == {"force_error": None, "moment_error": None}
+    assert found["misalignment"]["parts"]["torsion"] == 0
+    assert found["shafts"][0]["thrust"]["mesh_n"] == 0
+    assert "no_load" in {warning["code"] for warning in found["warnings"]}
+
+
+def test_factors_load_the_contacts_and_nothing_else(post: Post) -> None:
+    plain = answered(post, request())
+    loaded = answered(post, request(operation={"application_factor": 1.2, "dynamic_factor": 1.1}))
+    assert loaded["derived"]["contact_load_factor"] == pytest.approx(1.32)
+    assert loaded["derived"]["power_kw"] == plain["derived"]["power_kw"] == pytest.approx(12000)
+    ratio = loaded["load"]["max_line_load_n_per_mm"] / plain["load"]["max_line_load_n_per_mm"]
+    assert ratio == pytest.approx(1.32, rel=0.03)
+    assert loaded["shafts"][0]["thrust"] == plain["shafts"][0]["thrust"]
+    for one, other in zip(loaded["shafts"], plain["shafts"], strict=True):
+        for state, same in zip(one["bearings"], other["bearings"], strict=True):
+            assert state["reaction_n"] == pytest.approx(same["reaction_n"], rel=0.02, abs=300)
+
+
+def test_torque_and_power_say_one_thing(post: Post) -> None:
+    body = request()
+    body["operation"].pop("power_kw")
+    body["operation"]["pinion_torque_n_m"] = 12e6 / (10000 * np.pi / 30)
+    found = answered(post, body)
+    assert found["load"] == pytest.approx(answered(post, request())["load"], rel=1e-9)
+    assert found["derived"]["power_kw"] == pytest.approx(12000)
+
+
+def test_a_journal_without_viscosity_runs_in_the_gears_oil(post: Post) -> None:
+    body = request()
+    for bearing, film in zip(body["pinion_shaft"]["bearings"], (None, 86.85), strict=True):
+        bearing |= {"viscosity_pa_s": None, "film_temperature_c": film, "radial_clearance_um": None}
+    found = answered(post, body)
+    first, second = found["derived"]["pinion_shaft"]["bearings"]
+    assert second["viscosity_pa_s"] == pytest.approx(0.0095), "the reference temperature of the oil"
+    assert 2 < first["viscosity_pa_s"] / second["viscosity_pa_s"] < 3, "oil at 50 and film at 65 degrees"
+    assert first["radial_clearance_um"] == pytest.approx(120)
+    assumed = {each["field"]: each["value"] for each in found["assumptions"]}
+    for index, own in enumerate((first, second)):
+        assert assumed[f"pinion_shaft.bearings.{index}.viscosity_pa_s"] == own["viscosity_pa_s"]
+        assert assumed[f"pinion_shaft.bearings.{index}.radial_clearance_um"] == own["radial_clearance_um"]
+    assert not [field for field in assumed if field.startswith("wheel_shaft.")]
+
+
+def test_what_is_assumed_is_told_by_its_path(post: Post) -> None:
+    body = request(GENERATOR, thermal={"pinion_bulk_c": 80})
+    body["thermal"].pop("wall_response")
+    body["thermal"].pop("wheel_bulk_c")
+    found = answered(post, body)
+    assumed = {each["field"]: each["value"] for each in found["assumptions"]}
+    assert assumed["thermal.wall_response"] == 0.5
+    assert assumed["thermal.wall_response_wheel"] == pytest.approx(0.5 / 3)
+    assert assumed["thermal.wheel_bulk_c"] == 80
+    assert "thermal.pinion_bulk_c" not in assumed
+    assert assumed["temperatures.bulk_c"] == pytest.approx(80)
+    assert assumed["couplings.0.coupling.face_width_mm"] == pytest.approx(24)
+    assert assumed["couplings.0.axial_tooth_stiffness_n_per_um"] == pytest.approx(280)
+    assert assumed["couplings.0.thrust_fraction"] == 0
+    assert "couplings.0.lubricant.viscosity_pa_s" not in assumed, "the coefficient of friction is given"
+    assert not [field for field in assumed if "bearings" in field], "linear bearings have no film"
+    warned = {warning["code"]: warning["field"] for warning in found["warnings"]}
+    assert warned["wall_response_assumed"] == "thermal.wall_response"
+    assert warned["bearing_loss_left_out"] in {"pinion_shaft.bearings", "wheel_shaft.bearings"}
+    assert found["derived"]["temperatures"]["bulk_c"] == pytest.approx(80)
+
+
+def test_effects_left_out_need_no_assumptions(post: Post) -> None:
+    effects = {"shafts": False, "thermal": False}
+    found = answered(post, request(GENERATOR, effects=effects, thermal={"wall_response": None}))
+    fields = {each["field"].split(".")[0] for each in found["assumptions"]}
+    assert "couplings" not in fields
+    assert not {"thermal.wall_response", "thermal.wall_response_wheel"} & {
+        each["field"] for each in found["assumptions"]
+    }
+    assert found["couplings"] == []
+    assert found["misalignment"]["shaft_slope_um"] == found["misalignment"]["thermal_slope_um"] == 0
+
+
+def test_a_number_is_a_stiffness_in_every_direction(post: Post) -> None:
+    number, matrix = request(GENERATOR), request(GENERATOR)
+    for bearing in matrix["pinion_shaft"]["bearings"]:
+        bearing["stiffness_n_per_um"] = [[380, 0], [0, 380]]
+    one, other = answered(post, number), answered(post, matrix)
+    assert one == other
+    state = one["shafts"][0]["bearings"][0]
+    assert np.array(state["displacement_um"]) * -380 == pytest.approx(state["reaction_n"])
+
+
+def test_an_unloaded_lead_curve_is_a_helix_slope(post: Post) -> None:
+    curve = {"position_mm": [0, 200], "gap_um": [-25, 25]}
+    drawn = answered(post, request(modifications={"helix_slope_um": 0, "lead_curve": curve}))
+    assert drawn["load"] == pytest.approx(answered(post, request())["load"], rel=1e-9)
+
+
+def shaft(body: dict[str, Any], **changes: Any) -> dict[str, Any]:
+    body["pinion_shaft"] |= changes
+    return body
+
+
+def bearing(body: dict[str, Any], index: int = 0, **changes: Any) -> dict[str, Any]:
+    body["pinion_shaft"]["bearings"][index] |= changes
+    return body
+
+
+def section(body: dict[str, Any], index: int, **changes: Any) -> dict[str, Any]:
+    body["pinion_shaft"]["sections"][index] |= changes
+    return body
+
+
+def coupling(body: dict[str, Any], **changes: Any) -> dict[str, Any]:
+    body["couplings"][0] |= changes
+    return body
+
+
+def twice(body: dict[str, Any]) -> dict[str, Any]:
+    return {**body, "couplings": [body["couplings"][0], body["couplings"][0]]}
+
+
+def linear(stiffness: Any) -> dict[str, Any]:
+    return bearing(request(), 1, type="linear", stiffness_n_per_um=stiffness)
+
+
+def curve(position: list[float], gap: list[float]) -> dict[str, Any]:
+    return request(modifications={"lead_curve": {"position_mm": position, "gap_um": gap}})
+
+
+BEARINGS = "/pinion_shaft/bearings"
+CURVE = "/modifications/lead_curve"
+REFUSED: list[tuple[str, str, Callable[[], dict[str, Any]]]] = [
+    ("bearing_count", BEARINGS, lambda: shaft(request(), bearings=request()["pinion_shaft"]["bearings"][:1])),
+    ("bearing_count", BEARINGS, lambda: shaft(request(), bearings=[])),
+    ("bearing_outside", f"{BEARINGS}/1/position_mm", lambda: bearing(request(), 1, position_mm=701)),
+    ("bearing_order", f"{BEARINGS}/1/position_mm", lambda: bearing(request(), 1, position_mm=220)),
+    ("bearing_distance", f"{BEARINGS}/1/position_mm", lambda: bearing(request(), 1, position_mm=300)),
+    ("face_outside", "/face_start_mm", lambda: request(face_start_mm=501)),
+    ("torque_position", "/pinion_shaft/torque_position_mm", lambda: shaft(request(), torque_position_mm=400)),
+    ("torque_position", "/pinion_shaft/torque_position_mm", lambda: shaft(request(), torque_position_mm=-1)),
+    ("torque_position", "/wheel_shaft/torque_position_mm", lambda: request(wheel_shaft={"torque_position_mm": None})),
+    ("position_outside", "/couplings/0/position_mm", lambda: coupling(request(), position_mm=-5)),
+    ("machine_side", "/couplings/0/machine_side", lambda: coupling(request(), machine_side="plus")),
+    ("couplings_on_shaft", "/couplings/1/shaft", lambda: twice(request())),
+    (
+        "section_diameter",
+        "/pinion_shaft/sections/2/inner_diameter_mm",
+        lambda: section(request(), 2, inner_diameter_mm=190),
+    ),
+    (
+        "section_diameter",
+        "/pinion_shaft/sections/3/outer_diameter_mm",
+        lambda: section(request(), 3, outer_diameter_mm=260),
+    ),
+    ("stiffness_matrix", f"{BEARINGS}/1/stiffness_n_per_um", lambda: linear([[300, 400], [400, 300]])),
+    ("stiffness_matrix", f"{BEARINGS}/1/stiffness_n_per_um", lambda: linear(-5)),
+    ("thrust_collar_radius", "/thrust_collar/radius_mm", lambda: request(thrust_collar={"radius_mm": 100})),
+    ("lead_curve", CURVE, lambda: curve([100, 50], [0, 1])),
+    ("lead_curve", CURVE, lambda: curve([0, 201], [0, 1])),
+    ("lead_curve", CURVE, lambda: curve([0], [0])),
+    ("lead_curve", CURVE, lambda: curve([], [1])),
+    ("load_missing", "/operation", lambda: {**request(), "operation": {"pinion_speed_rpm": 10000}}),
+    ("torque_or_power", "/operation", lambda: request(operation={"pinion_torque_n_m": 1})),
+    ("bearing_data", f"{BEARINGS}/0", lambda: bearing(request(), width_mm=None)),
+    ("bearing_data", f"{BEARINGS}/1", lambda: linear(None)),
+    ("scuffing_temperature", "/temperatures/scuffing_c", lambda: request(temperatures={"scuffing_c": 40})),
+    ("flank_interference", "/gears/centre_distance_mm", lambda: request(gears={"centre_distance_mm": 510})),
+    ("groove_outside", "/grooves/0/position_mm", lambda: request(grooves=[{"position_mm": 500, "width_mm": 5}])),
+    (
+        "pitch_errors_length",
+        "/couplings/0/coupling/pitch_errors_um",
+        lambda: coupling(request(), coupling={**request()["couplings"][0]["coupling"], "pitch_errors_um": [1.0]}),
+    ),
+]
+
+
+@pytest.mark.parametrize(("code", "pointer", "body"), REFUSED)
+def test_what_cannot_stand_or_turn_is_named(
+    post: Post, code: str, pointer: str, body: Callable[[], dict[str, Any]]
+) -> None:
+    response = post(PATH, body())
+    assert response.status_code == 422, response.text
+    (only,) = response.json()["errors"]
+    assert (only["code"], only["pointer"]) == (code, pointer)
+
+
+@pytest.mark.parametrize(
+    ("changes", "pointer"),
+    [
+        ({"type": "ball"}, f"{BEARINGS}/0/type"),
+        ({"offset_um": [1]}, f"{BEARINGS}/0/offset_um"),
+        ({"radial_clearance_um": 4}, f"{BEARINGS}/0/radial_clearance_um"),
+        ({"stiffness_n_per_um": "300"}, f"{BEARINGS}/0/stiffness_n_per_um"),
+        ({"stiffness_n_per_um": True}, f"{BEARINGS}/0/stiffness_n_per_um"),
+        ({"stiffness_n_per_um": [[1, 2]]}, f"{BEARINGS}/0/stiffness_n_per_um"),
+    ],
+)
+def test_bad_values_are_named(post: Post, changes: dict[str, Any], pointer: str) -> None:
+    response = post(PATH, bearing(request(), **changes))
+    assert response.status_code == 422
+    assert {error["pointer"] for error in response.json()["errors"]} == {pointer}
+
+
+def test_a_film_that_cannot_carry_is_no_solution(post: Post) -> None:
+    found = answered(post, bearing(request(), viscosity_pa_s=1e-5, radial_clearance_um=1000, width_mm=20))
+    assert found["status"] == "no_solution"
+    assert found["warnings"][0]["code"] == "journal"
+    assert found["residuals"]["load_number"] > 0
+    assert json.dumps(found["assumptions"])

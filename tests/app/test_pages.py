@@ -1,0 +1,349 @@
+"""Pages say what the API says: the query is the case, the form holds every field, faults stand where they belong."""
+
+import json
+import re
+from functools import cache
+from html import unescape
+from typing import Any
+
+import httpx
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from app.calculations import CALCULATIONS, Calculation
+from app.contract.fields import ITEM, leaves
+from app.evaluate import evaluate
+from app.formats.json import written
+from app.library import examples
+from app.pages import views
+from app.pages.query import body_of, link, normalised, pairs_of, pairs_of_query
+from app.pages.results import NOT_RESULTS
+from app.pages.templating import page_path
+from app.reading import Unreadable
+
+CALCULATION = {each.path: each for each in CALCULATIONS}
+IDS = [each.request.__name__ for each in CALCULATIONS]
+# One quick case of each endpoint.
+CASES = (
+    "pahl-axial-displacement",
+    "pahl-sleeve-orbit",
+    "pahl-recommended-crowning",
+    "milian-table-1",
+    "fzg-type-a",
+    "xue-pair-1-scuffing",
+    "xue-line-contact-isothermal",
+)
+FORM_CALCULATION = CALCULATION["/v1/scuffing"]
+
+
+def asked(name: str, **looks: str) -> views.Asked:
+    example = examples()[name]
+    return views.Asked(page_path(CALCULATION[example.endpoint]), pairs_of(example.request), looks)
+
+
+@cache
+def page(name: str) -> str:
+    shown = views.page(asked(name))
+    assert shown.status == 200
+    return shown.content.decode()
+
+
+def form_names(html: str) -> set[str]:
+    form = html[html.index('<form id="form"') : html.index("</form>", html.index('<form id="form"'))]
+    return {unescape(name) for name in re.findall(r'<(?:input|select|textarea)\b[^>]*?\bname="([^"]+)"', form)}
+
+
+@pytest.mark.parametrize("name", sorted(examples()))
+def test_an_examples_link_is_its_request(name: str) -> None:
+    example = examples()[name]
+    model = CALCULATION[example.endpoint].request
+    query = link("", pairs_of(example.request)).removeprefix("?")
+    pairs = normalised(model, pairs_of_query(query))
+    assert model.model_validate(body_of(model, pairs)) == model.model_validate(example.request)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_pages_answer_is_the_apis(name: str) -> None:
+    example = examples()[name]
+    calculation = CALCULATION[example.endpoint]
+    api = written(evaluate(calculation, calculation.request.model_validate(example.request)))
+    assert views.result(asked(name), "json").content == api
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_every_number_of_the_answer_is_on_the_page(name: str) -> None:
+    answer = json.loads(views.result(asked(name), "json").content)
+    shown = dict(re.findall(r'data-path="([^"]+)">([^<]*)<', page(name)))
+    numbers = dict(scalars({key: value for key, value in answer.items() if key not in NOT_RESULTS}))
+    assert numbers
+    for path, value in numbers.items():
+        if value is None and path not in shown:
+            continue  # a section that the case does not have
+        text = unescape(shown[path]).replace("−", "-").replace(" ", "").replace("\u202f", "")
+        if isinstance(value, float) and 1e-3 <= abs(value) < 1e6:
+            assert float(text) == pytest.approx(value, rel=6e-5, abs=0.5 if abs(value) >= 1e5 else 0), path
+
+
+def scalars(value: Any, path: str = "") -> list[tuple[str, Any]]:
+    if isinstance(value, dict):
+        return [pair for name, item in value.items() for pair in scalars(item, f"{path}.{name}" if path else name)]
+    return [] if isinstance(value, list) else [(path, value)]
+
+
+@pytest.mark.parametrize("calculation", CALCULATIONS, ids=IDS)
+def test_the_form_asks_for_every_field(calculation: Calculation) -> None:
+    html = views.page(views.Asked(page_path(calculation), [])).content.decode()
+    names = form_names(html)
+    for leaf in leaves(calculation.request):
+        if leaf.path != "detail":
+            assert leaf.path.replace(ITEM, "0") in names, leaf.path
+
+
+@pytest.mark.parametrize("calculation", CALCULATIONS, ids=IDS)
+def test_every_control_is_labelled_and_described(calculation: Calculation) -> None:
+    html = views.page(views.Asked(page_path(calculation), [])).content.decode()
+    form = html[html.index('<form id="form"') : html.index("</form>", html.index('<form id="form"'))]
+    ids = set(re.findall(r'\bid="([^"]+)"', html))
+    assert len(ids) == len(re.findall(r'\bid="([^"]+)"', html))
+    for control in re.findall(r"<(?:input|select|textarea)\b[^>]*>", form):
+        if 'type="hidden"' in control or 'type="radio"' in control:
+            continue
+        identifier = re.search(r'\bid="([^"]+)"', control)
+        assert identifier
+        assert "aria-label=" in control or f'for="{identifier[1]}"' in form, control
+        described = re.search(r'aria-describedby="([^"]+)"', control)
+        assert described
+        assert set(described[1].split()) <= ids
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_figures_and_links_of_the_page(name: str) -> None:
+    html = page(name)
+    calculation = CALCULATION[examples()[name].endpoint]
+    shown = html.count('<figure class="chart"') + html.count('<p class="missing">')
+    assert shown == len(calculation.figures)
+    assert html.count("data:image/svg+xml;base64,") == html.count('<figure class="chart"') > 0
+    for view in ("result.csv?", "result.json?", "report?"):
+        assert f'href="{page_path(calculation)}/{view}' in html
+
+
+def test_a_fault_stands_at_its_field_and_on_top_and_what_was_typed_stays() -> None:
+    pairs = [
+        ("gears.pinion.teeth", "abc"),
+        ("gears.wheel.teeth", "30"),
+        ("gears.module_mm", "3,5"),
+        ("bogus.<b>", "<script>alert(1)</script>"),
+    ]
+    shown = views.page(views.Asked("/scuffing", pairs))
+    html = shown.content.decode()
+    assert shown.status == 422
+    assert "<script>alert" not in html
+    assert "<b>" not in html
+    assert 'value="abc"' in html
+    assert 'value="3,5"' in html
+    assert '<a href="#f.gears.pinion.teeth">' in html
+    fault = re.search(r'id="f\.gears\.pinion\.teeth-fault">([^<]+)<', html)
+    assert fault
+    assert "number" in fault[1]
+    assert 'aria-invalid="true"' in html
+
+
+def test_a_fault_of_the_solver_stands_at_its_field() -> None:
+    pairs = [*pairs_of(examples()["xue-pair-1-scuffing"].request), ("gears.centre_distance_mm", "70")]
+    shown = views.page(views.Asked("/scuffing", pairs))
+    assert shown.status == 422
+    assert re.search(r'id="f\.gears\.centre_distance_mm-fault">[^<]+<', shown.content.decode())
+
+
+def test_exclusive_fields_are_a_choice_and_the_chosen_one_counts() -> None:
+    sent = [("load.pinion_torque_n_m", "1"), ("load.power_kw", "5"), ("pick:load.pinion_torque_n_m", "load.power_kw")]
+    assert normalised(FORM_CALCULATION.request, sent) == [("load.power_kw", "5")]
+    html = page("xue-pair-1-scuffing")
+    assert re.search(r'value="load\.power_kw" checked', html)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "value"),
+    [
+        ("gears.module_mm", "3,5", 3.5),
+        ("gears.module_mm", "3.5", 3.5),
+        ("gears.module_mm", "-2e-3", -2e-3),
+        ("gears.module_mm", "1,234.5", "1,234.5"),
+        ("gears.module_mm", "nan", "nan"),
+        ("gears.module_mm", "1e999", float("inf")),
+        ("gears.pinion.teeth", "9" * 400, float("9" * 400)),
+        ("gears.pinion.teeth", "23", 23),
+        ("model.contact", "linear", "linear"),
+        ("lubricant.compressible", "false", False),
+        ("lubricant.compressible", "yes", "yes"),
+    ],
+)
+def test_texts_become_values(name: str, text: str, value: object) -> None:
+    place: Any = body_of(FORM_CALCULATION.request, [(name, text)])
+    for part in name.split("."):
+        place = place[part]
+    assert place == value
+    assert type(place) is type(value)
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("1,2,3.5", [1, 2, 3.5]),
+        ("1 2\t3.5", [1, 2, 3.5]),
+        ("1\n2\r\n3.5\n", [1, 2, 3.5]),
+        ("1; 2; 3.5;", [1, 2, 3.5]),
+        ("1, 2, 3.5", [1, 2, 3.5]),
+        ("1,5\n2,5", ["1,5", "2,5"]),  # which comma is meant cannot be known
+    ],
+)
+def test_lists_are_pasted(text: str, values: list[object]) -> None:
+    coupling = CALCULATION["/v1/coupling"].request
+    assert body_of(coupling, [("coupling.pitch_errors_um", text)])["coupling"]["pitch_errors_um"] == values
+
+
+def test_rows_are_counted_without_gaps() -> None:
+    pumping = CALCULATION["/v1/pumping"].request
+    sent = [("grooves.0.position_mm", ""), ("grooves.2.position_mm", "5"), ("grooves.10.position_mm", "9")]
+    pairs = normalised(pumping, sent)
+    assert body_of(pumping, pairs) == {"grooves": [{"position_mm": 5}, {"position_mm": 9}]}
+
+
+@pytest.mark.parametrize("query", ["a=1&a.b=2", "a.b=1&a=2", "a=1&a=2", ".a=1", ".".join("a" * 50) + "=1"])
+def test_contradicting_names_are_refused(query: str) -> None:
+    with pytest.raises(Unreadable):
+        body_of(FORM_CALCULATION.request, pairs_of_query(query))
+
+
+@settings(derandomize=True, max_examples=150)
+@given(st.lists(st.tuples(st.text(max_size=12), st.text(max_size=12)), max_size=8))
+def test_whatever_is_sent_gives_a_page_and_runs_nothing(sent: list[tuple[str, str]]) -> None:
+    pairs = normalised(FORM_CALCULATION.request, [*sent, ("<i>x</i>", "<i>y</i>")])
+    shown = views.page(views.Asked("/scuffing", pairs))
+    assert shown.status in {400, 422}
+    assert "<i>y</i>" not in shown.content.decode()
+
+
+def test_compare_shows_both_cases() -> None:
+    ref = link("", pairs_of(examples()["xue-pair-1-scuffing"].request)).removeprefix("?")
+    changed = examples()["xue-pair-1-scuffing"].request | {"modifications": {"profile_crowning_um": 10}}
+    shown = views.page(views.Asked("/scuffing", pairs_of(changed), {"ref": ref}))
+    html = shown.content.decode()
+    assert shown.fresh_ref is not None
+    assert "variant A" in html
+    assert "End comparison" in html
+    assert re.search(r"→ <strong>[+−][\d.]+ %</strong>", html)
+    same = views.page(views.Asked("/scuffing", pairs_of(changed), {"ref": ref}, shown.fresh, shown.fresh_ref))
+    assert same.content == shown.content
+    assert same.fresh is None
+
+
+def test_missing_headline_says_what_it_needs() -> None:
+    request = json.loads(json.dumps(examples()["xue-pair-1-scuffing"].request))
+    del request["temperatures"]["scuffing_c"]
+    html = views.page(views.Asked("/scuffing", pairs_of(request))).content.decode()
+    assert 'needs the <a href="#f.temperatures.scuffing_c">scuffing temperature</a>' in html
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_report_has_every_part(name: str) -> None:
+    shown = views.report(asked(name, project="<b>P</b>", notes="n" * 500), "http://host")
+    html = shown.content.decode()
+    parts = ["Verdict", "Validity", "Figures", "Inputs", "Assumptions", "Results", "Method", "Reproduction"]
+    places = [html.index(f"<h2>{part}") for part in parts]
+    assert places == sorted(places)
+    assert "<b>P</b>" not in html
+    assert "n" * 200 in html
+    assert "n" * 201 not in html
+    assert not re.search(r'(?:src|href)="(?!data:|http://host/)', html)
+    assert "<script" not in html
+
+
+def test_reports_curl_is_the_request() -> None:
+    example = examples()["milian-table-1"]
+    html = views.report(asked("milian-table-1"), "http://host").content.decode()
+    body = re.search(r"<pre>curl -s http://host/v1/pumping .*? -d '(.*)'</pre>", html, re.DOTALL)
+    assert body
+    assert json.loads(unescape(body[1])) == example.request
+
+
+def test_csv_of_values_and_curves() -> None:
+    values = views.result(asked("pahl-axial-displacement"), "csv").content.decode().splitlines()
+    assert values[0] == "path,title,value,unit"
+    assert any(line.startswith("axial_thrust.force_n,axial thrust,7") and line.endswith(",N") for line in values)
+    curves = views.result(asked("pahl-axial-displacement", curve="kinematics.curves"), "csv").content.decode()
+    assert curves.startswith("tooth")
+    assert len(curves.splitlines()) > 50
+
+
+def test_pages_answer_by_get_with_their_policies(client: httpx.Client) -> None:
+    query = link("", pairs_of(examples()["pahl-axial-displacement"].request))
+    strict = {"/", "/coupling", f"/coupling{query}", "/coupling/about"}
+    alone = {f"/coupling/report{query}", f"/coupling/figures/losses.svg{query}", f"/coupling/result.json{query}"}
+    for address in strict | alone:
+        answer = client.get(address)
+        assert answer.status_code == 200, address
+        (policy,) = answer.headers.get_list("content-security-policy")
+        assert policy.startswith(
+            "default-src 'self'; img-src 'self' data:" if address in strict else "default-src 'none'"
+        )
+        assert ("unsafe-inline" in policy) == (address in alone)
+        head = client.head(address)
+        assert head.status_code == 200
+        assert head.content == b""
+
+
+def test_empty_fields_are_dropped_by_a_redirect(client: httpx.Client) -> None:
+    answer = client.get("/coupling?coupling.teeth=52&coupling.module_mm=&theme=dark&pick:x=y")
+    assert answer.status_code == 303
+    assert answer.headers["location"] == "/coupling?coupling.teeth=52&theme=dark"
+    example = client.get("/coupling?example=pahl-axial-displacement")
+    assert example.headers["location"] == "/coupling" + link(
+        "", pairs_of(examples()["pahl-axial-displacement"].request)
+    )
+
+
+def test_a_posted_form_is_the_same_page(client: httpx.Client) -> None:
+    request = examples()["pahl-sleeve-orbit"].request
+    posted = client.post("/coupling/sleeve-orbit", data=dict(pairs_of(request)))
+    linked = client.get("/coupling/sleeve-orbit", params=pairs_of(request))
+    assert posted.status_code == linked.status_code == 200
+    assert posted.text == linked.text
+
+
+def test_floods_of_fields_are_refused(client: httpx.Client) -> None:
+    answer = client.post("/scuffing", data={f"a{index}": "1" for index in range(10_000)})
+    assert answer.status_code == 400
+    assert answer.headers["content-type"].startswith("text/html")
+    assert "More than 1000 fields" in answer.text
+
+
+def test_unknown_views_are_problems(client: httpx.Client) -> None:
+    for address in (
+        "/coupling/result.xml",
+        "/coupling/figures/none.svg",
+        "/coupling/figures/losses.bmp",
+        "/static/none",
+    ):
+        assert client.get(address).status_code == 404, address
+    assert client.get("/coupling/result.json?coupling.teeth=abc").headers["content-type"] == "application/problem+json"
+
+
+def test_long_answers_are_compressed(client: httpx.Client) -> None:
+    address = "/coupling" + link("", pairs_of(examples()["pahl-axial-displacement"].request))
+    plain = client.get(address, headers={"Accept-Encoding": "identity"})
+    short = client.get(address, headers={"Accept-Encoding": "gzip"})
+    assert "content-encoding" not in plain.headers
+    assert short.headers["content-encoding"] == "gzip"
+    assert short.headers["vary"] == "Accept-Encoding"
+    assert int(short.headers["content-length"]) < 0.5 * len(plain.content)
+    assert short.text == plain.text
+
+
+def test_assets_are_kept_by_browsers(client: httpx.Client) -> None:
+    html = client.get("/coupling").text
+    for address in re.findall(r'(?:href|src)="(/static/[^"]+)"', html):
+        answer = client.get(address)
+        assert answer.status_code == 200
+        assert "immutable" in answer.headers["cache-control"]

@@ -1,0 +1,337 @@
+"""What an engineer has at hand: an oil by grade or data sheet, an FZG stage, factors; and guards against slips."""
+
+import copy
+import json
+from math import pi
+from typing import Any
+
+import pytest
+from pydantic import ValidationError
+
+from app.calculations import CALCULATIONS
+from app.contract.messages import faults
+from app.formats.json import answer
+from app.library import STARTER, examples
+from app.problems import Unprocessable
+from tests.gear_pairs import FZG_TORQUES
+
+BY_PATH = {calculation.path: calculation for calculation in CALCULATIONS}
+PAIR: dict[str, Any] = {
+    "gears": {
+        "pinion": {"teeth": 23},
+        "wheel": {"teeth": 30},
+        "module_mm": 3,
+        "helix_angle_deg": 9.8,
+        "face_width_mm": 20,
+    },
+    "load": {"power_kw": 50, "pinion_speed_rpm": 2000},
+    "model": {"lubrication": "closed_form"},
+}
+COUPLING: dict[str, Any] = {
+    "coupling": {"teeth": 52, "module_mm": 3},
+    "operation": {"torque_n_m": 3000, "speed_rpm": 1910, "misalignment_deg": 0.05},
+}
+MIST: dict[str, Any] = {
+    "gears": {"pinion": {"teeth": 47}, "wheel": {"teeth": 117}, "module_mm": 7, "face_width_mm": 200},
+    "operation": {"pinion_speed_rpm": 3000},
+}
+CONTACT: dict[str, Any] = {
+    "contact": {"line_load_n_per_mm": 273, "radius_mm": 4.015, "speed_1_m_per_s": 1.018, "speed_2_m_per_s": 3.708},
+    "model": {"thermal": False},
+}
+
+
+def solved(endpoint: str, body: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    calculation = BY_PATH[endpoint]
+    request = calculation.request.model_validate(changed(body, {"detail": "summary", **changes}))
+    return json.loads(answer(calculation, request))  # type: ignore[no-any-return]
+
+
+def changed(body: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    """A copy with values at dotted paths set."""
+    result = copy.deepcopy(body)
+    for path, value in changes.items():
+        *way, last = path.split(".")
+        place = result
+        for part in way:
+            place = place.setdefault(part, {})
+        place[last] = value
+    return result
+
+
+def refused(endpoint: str, body: dict[str, Any], changes: dict[str, Any]) -> str:
+    model = BY_PATH[endpoint].request
+    with pytest.raises(ValidationError) as refusal:
+        model.model_validate(changed(body, changes))
+    return faults(model, refusal.value.errors())[0].message  # type: ignore[arg-type]
+
+
+def fzg(stage: int) -> dict[str, Any]:
+    """FZG type A at its own failing stage, as a lab sheet has it."""
+    pinion = {"teeth": 16, "profile_shift": 0.8532, "addendum": (88.8 / 2 - 36) / 4.5 - 0.8532}
+    wheel = {"teeth": 24, "profile_shift": -0.5, "addendum": (112.5 / 2 - 54) / 4.5 + 0.5}
+    return {
+        "gears": {
+            "pinion": pinion,
+            "wheel": wheel,
+            "module_mm": 4.5,
+            "face_width_mm": 20,
+            "centre_distance_mm": 91.5,
+        },
+        "load": {"pinion_torque_n_m": FZG_TORQUES[stage - 1], "pinion_speed_rpm": 2165},
+        "materials": {"pinion": {"roughness_um": 0.35}, "wheel": {"roughness_um": 0.35}},
+        "lubricant": {"viscosity_pa_s": 0.015, "reference_temperature_c": 90},
+        "temperatures": {
+            "oil_c": 90,
+            "bulk_method": "estimated",
+            "oil_supply": "dip",
+            "scuffing_test": {"fzg_stage": stage},
+        },
+        "model": {"lubrication": "closed_form", "friction": "iso_tr_13989"},
+    }
+
+
+@pytest.mark.parametrize(
+    ("stage", "margin", "safety", "friction", "bulk", "flash"),
+    [
+        (6, 0.18, 0.91, 0.052, 103.5, 53.9),
+        (8, 0.15, 1.00, 0.058, 113.1, 92.6),
+        (10, 0.15, 1.06, 0.064, 125.2, 141.0),
+        (12, 0.15, 1.10, 0.068, 139.6, 198.7),
+    ],
+)
+def test_fzg_type_a_at_its_own_failing_stage_stands_at_the_limit(
+    stage: int, margin: float, safety: float, friction: float, bulk: float, flash: float
+) -> None:
+    """Safety 1 is what the test defines; the other numbers are those of the standard's own rules."""
+    result = solved("/v1/scuffing", fzg(stage), {})
+    assert result["safety"]["blok_factor"] == pytest.approx(1.0, abs=margin)
+    assert result["safety"]["blok_factor"] == pytest.approx(safety, rel=0.07)
+    assert result["friction_loss"]["coefficient"] == pytest.approx(friction, rel=0.07)
+    assert result["contact_temperature"]["bulk_c"] == pytest.approx(bulk, rel=0.07)
+    assert result["flash"]["blok_max_k"] == pytest.approx(flash, rel=0.07)
+    assert result["safety"]["verdict"] == ("moderate" if result["safety"]["blok_factor"] >= 1.0 else "high")
+
+
+def test_oil_by_its_grade_is_what_it_is_at_the_bulk_temperature() -> None:
+    derived = solved("/v1/scuffing", PAIR, {"lubricant": {"iso_vg": 220}})["derived"]
+    assert derived["reference_temperature_c"] == pytest.approx(86.85)
+    assert derived["viscosity_pa_s"] == pytest.approx(0.0237, rel=5e-3)
+    assert derived["pressure_viscosity_per_gpa"] == pytest.approx(15.76, rel=1e-3)
+
+
+def test_grade_and_its_two_viscosities_are_one_oil() -> None:
+    sheet = {"kinematic_viscosity_40_mm2_per_s": 220, "kinematic_viscosity_100_mm2_per_s": 19.0}
+    graded = solved("/v1/scuffing", PAIR, {"lubricant": {"iso_vg": 220}})
+    measured = solved("/v1/scuffing", PAIR, {"lubricant": sheet})
+    for name in ("viscosity_pa_s", "pressure_viscosity_per_gpa", "temperature_viscosity_per_k", "density_kg_per_m3"):
+        assert graded["derived"][name] == pytest.approx(measured["derived"][name], rel=1e-12)
+
+
+def test_oil_of_the_same_pair_by_grade_has_half_the_paper_s_film() -> None:
+    paper = solved("/v1/scuffing", PAIR, {})["film"]["dowson_higginson_min_um"]
+    graded = solved("/v1/scuffing", PAIR, {"lubricant": {"iso_vg": 220}})["film"]["dowson_higginson_min_um"]
+    assert 0.3 < graded / paper < 0.5
+
+
+def test_line_contact_takes_the_oil_at_its_inlet() -> None:
+    derived = solved("/v1/scuffing/line-contact", CONTACT, {"lubricant.iso_vg": 150, "temperatures.inlet_c": 70})[
+        "derived"
+    ]
+    assert derived["reference_temperature_c"] == pytest.approx(70.0)
+    assert derived["pressure_viscosity_per_gpa"] == pytest.approx(16.4, abs=0.05)
+
+
+def test_coupling_takes_the_oil_at_the_teeth_and_the_shafts_offset() -> None:
+    by_sheet = solved("/v1/coupling", COUPLING, {"lubricant": {"iso_vg": 46, "temperature_c": 40}})
+    by_viscosity = solved("/v1/coupling", COUPLING, {"lubricant.viscosity_pa_s": 46e-6 * 880 * (1 - 0.00065 * 25)})
+    capacities = [result["lubrication"]["hydrodynamic_capacity_n"] for result in (by_sheet, by_viscosity)]
+    assert capacities[0] == pytest.approx(capacities[1], rel=1e-12)
+    tilted = solved("/v1/coupling", COUPLING, {"operation.misalignment_deg": None, "operation.parallel_offset_mm": 0.2})
+    assert tilted["kinematics"]["max_sliding_velocity_m_per_s"] == pytest.approx(
+        1910 * pi / 30 * 0.078 * 1e-3, rel=1e-6
+    )
+
+
+def test_thrust_that_a_bearing_must_hold() -> None:
+    thrust = solved("/v1/coupling", COUPLING, {"operation.shaft_diameter_mm": 100})["axial_thrust"]
+    assert thrust["design_force_n"] == max(abs(thrust["force_n"]), thrust["breakaway_force_n"])
+    assert thrust["customary_force_n"] == pytest.approx(0.25 * 3000 / 0.1)
+
+
+def test_load_factors_raise_the_contacts_not_the_power() -> None:
+    plain = solved("/v1/scuffing/load-distribution", PAIR | {"model": {}}, {})
+    raised = solved(
+        "/v1/scuffing/load-distribution",
+        PAIR | {"model": {}},
+        {"load.application_factor": 1.25, "load.dynamic_factor": 1.1, "load.mesh_load_factor": 1.05},
+    )
+    assert raised["load"]["contact_factor"] == pytest.approx(1.44375)
+    assert raised["load"]["normal_force_n"] == pytest.approx(1.44375 * plain["load"]["normal_force_n"], rel=1e-12)
+    assert raised["load"]["pinion_torque_n_m"] == plain["load"]["pinion_torque_n_m"]
+    assert raised["friction_loss"]["power_w"] == pytest.approx(plain["friction_loss"]["power_w"], rel=0.02)
+
+
+def test_efficiency_is_what_friction_leaves() -> None:
+    loss = solved("/v1/scuffing", PAIR, {})["friction_loss"]
+    assert loss["efficiency"] == pytest.approx(1.0 - loss["power_w"] / 50e3, rel=1e-12)
+
+
+def test_defaults_of_oil_temperature_and_friction_are_assumptions() -> None:
+    named = {item["field"] for item in solved("/v1/scuffing", PAIR, {})["assumptions"]}
+    assert {"lubricant.viscosity_pa_s", "temperatures.bulk_c", "temperatures.oil_c", "friction_coefficient"} <= named
+
+
+def test_from_a_data_sheet_to_a_safety_factor_in_one_request() -> None:
+    result = solved(
+        "/v1/scuffing",
+        PAIR,
+        {
+            "lubricant": {"iso_vg": 150, "kind": "pao"},
+            "temperatures": {"oil_c": 70, "bulk_method": "estimated", "scuffing_test": {"fzg_stage": 10}},
+            "model.friction": "iso_tr_13989",
+        },
+    )
+    assert result["safety"]["blok_factor"] > 1.0
+    assert all(item["value"] is not None for item in result["assumptions"])
+
+
+@pytest.mark.parametrize(
+    ("endpoint", "body", "changes", "message"),
+    [
+        (
+            "/v1/scuffing",
+            PAIR,
+            {"lubricant": {"iso_vg": 220, "reference_temperature_c": 60}},
+            "reference_temperature_c and a grade or data sheet are both given; keep one",
+        ),
+        (
+            "/v1/scuffing",
+            PAIR,
+            {"lubricant": {"iso_vg": 220, "viscosity_pa_s": 0.1}},
+            "viscosity_pa_s and a grade or data sheet are both given; keep one",
+        ),
+        (
+            "/v1/scuffing",
+            PAIR,
+            {"temperatures": {"bulk_method": "estimated", "bulk_c": 90}},
+            "bulk_c and an estimated bulk are both given; keep one",
+        ),
+        (
+            "/v1/scuffing",
+            PAIR,
+            {"temperatures": {"scuffing_c": 200, "scuffing_test": {"fzg_stage": 12}}},
+            "scuffing_c and scuffing_test are both given; keep one",
+        ),
+        (
+            "/v1/coupling",
+            COUPLING,
+            {"lubricant.iso_vg": 47},
+            "iso_vg: allowed are 32, 46, 68, 100, 150, 220, 320, 460, 680",
+        ),
+        (
+            "/v1/coupling",
+            COUPLING,
+            {"operation.parallel_offset_mm": 0.2},
+            "misalignment_deg and parallel_offset_mm are both given; keep one",
+        ),
+        (
+            "/v1/scuffing",
+            PAIR,
+            {"temperatures.scuffing_test": {"fzg_stage": 12, "test": "A10/16.6R/90"}},
+            "test: allowed are A/8.3/90",
+        ),
+    ],
+)
+def test_what_excludes_what(endpoint: str, body: dict[str, Any], changes: dict[str, Any], message: str) -> None:
+    assert refused(endpoint, body, changes) == message
+
+
+def test_ester_has_no_friction_law() -> None:
+    with pytest.raises(Unprocessable) as refusal:
+        solved("/v1/scuffing", PAIR, {"lubricant": {"iso_vg": 150, "kind": "ester"}, "model.friction": "iso_tr_13989"})
+    assert (refusal.value.code, refusal.value.path) == ("oil_kind", "lubricant.kind")
+
+
+@pytest.mark.parametrize(
+    ("endpoint", "body", "changes", "field", "message"),
+    [
+        (
+            "/v1/scuffing",
+            PAIR,
+            {"lubricant.viscosity_pa_s": 25},
+            "lubricant.viscosity_pa_s",
+            "25 Pa s at operating temperature is very thick; mPa s?",
+        ),
+        (
+            "/v1/pumping",
+            MIST,
+            {"ambient.pressure_kpa": 1.01},
+            "ambient.pressure_kpa",
+            "1.01 kPa is nearly a vacuum; bar?",
+        ),
+        (
+            "/v1/scuffing/load-distribution",
+            PAIR | {"model": {}},
+            {"modifications.tip_relief_um": 0.03},
+            "modifications.tip_relief_um",
+            "0.03 µm is less than can be ground; mm?",
+        ),
+        (
+            "/v1/scuffing/load-distribution",
+            PAIR | {"model": {}},
+            {"gears.face_width_mm": 1.2},
+            "gears.face_width_mm",
+            "1.2 mm is below half a module; cm or inches?",
+        ),
+        (
+            "/v1/coupling",
+            COUPLING,
+            {"coupling.tooth_height_mm": 13},
+            "coupling.tooth_height_mm",
+            "13 mm is beyond 4 modules; a diameter?",
+        ),
+        (
+            "/v1/scuffing",
+            PAIR,
+            {"temperatures.oil_c": 95},
+            "temperatures.oil_c",
+            "the oil at 95 °C is hotter than the teeth at 86.85 °C; exchanged?",
+        ),
+        (
+            "/v1/scuffing/load-distribution",
+            PAIR | {"model": {}},
+            {"load.pinion_speed_rpm": 100000},
+            "load.pinion_speed_rpm",
+            "the pitch-line velocity is 366.6 m/s, beyond 250; the speed of another shaft?",
+        ),
+        (
+            "/v1/scuffing/load-distribution",
+            PAIR | {"model": {}},
+            {"load.power_kw": 0.05},
+            "load",
+            "the line load is 0.367 N/mm at most; kW or kN m?",
+        ),
+    ],
+)
+def test_slips_are_named(
+    endpoint: str, body: dict[str, Any], changes: dict[str, Any], field: str, message: str
+) -> None:
+    result = solved(endpoint, body, changes)
+    assert result["status"] == "ok_with_warnings"
+    said = [warning for warning in result["warnings"] if warning["code"] == "unusual_value"]
+    assert {"code": "unusual_value", "message": message, "field": field} in said
+
+
+@pytest.mark.parametrize("endpoint", sorted(BY_PATH))
+def test_every_endpoint_has_a_starter_and_starters_come_first(endpoint: str) -> None:
+    names = [example.name for example in examples().values() if example.endpoint == endpoint]
+    starts = [name.startswith(STARTER) for name in names]
+    assert starts[0]
+    assert starts == sorted(starts, reverse=True)
+
+
+@pytest.mark.parametrize("flow", ["gas_dynamics", "pocket_chain"])
+def test_stagnation_temperature_of_the_axial_speed_only_is_an_assumption(flow: str) -> None:
+    assumptions = solved("/v1/pumping", MIST, {"model": {"flow": flow}})["assumptions"]
+    assert [item["value"] for item in assumptions if "axial speed only" in item["reason"]] == [flow]

@@ -1,0 +1,123 @@
+"""Shafts against ISO 6336-1, method C, and ISO/TR 6336-30, example 1.
+
+The standard's f_sh = (F_m/b) 0.023 (|B* + K' l s/d^2 (d/d_sh)^4 - 0.3| + 0.3)(b/d)^2 [um, N/mm]: as in public
+implementations of DIN 3990; the example's figures as quoted in gfsReboucas/Drivetrain.
+"""
+
+from dataclasses import replace
+from math import cos, hypot, pi, radians, sqrt
+
+import numpy as np
+import pytest
+
+from solvers.drive_train.balance import uniform_force
+from solvers.drive_train.inputs import Arrangement, DriveTrainInputs, Effects, RigidBearing, Shaft, ShaftSection
+from solvers.drive_train.model import prepare
+from solvers.drive_train.outcome import outcome
+from solvers.drive_train.shaft import second_moment, shaft_model
+from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.path_of_contact import meshing_path
+from solvers.scuffing.inputs import Load, LoadDistributionInputs, Modifications
+from tests.drive_trains import turbo_gear
+
+E = 206e9
+SOLID = 0.023e-6 * 1e-3  # f_sh/(F_m/b) in m per N/m
+PINION = GearTeeth(17, 0.145, 1.0, 1.4)
+GEARS = GearPairInputs(
+    PINION,
+    GearTeeth(103, 0.0, 1.0, 1.4),
+    8e-3,
+    0.1,
+    helix_angle=radians(15.8),
+    centre_distance=0.5,
+    rack_tip_radius=0.3,
+)
+DIAMETER = 17 * 8e-3 / cos(radians(15.8))
+TORQUE = 9000.0
+
+
+def test_torsion_part_of_f_sh() -> None:
+    """0.7 x 0.023 of a solid pinion, b = d, is the twist 4/(pi G): 0.01610 against 0.01607 um mm/N."""
+    shaft = Shaft((ShaftSection(0.1, 0.1),), (RigidBearing(0.0), RigidBearing(0.1)), torque_position=0.0)
+    model = shaft_model(shaft, 0.0, np.linspace(0.0, 0.1, 41))
+    force, radius = 1e5, 0.05
+    twist = model.torsion @ (uniform_force(force, 41) * radius)
+    per_load = float(np.ptp(twist)) * radius / (force / 0.1)
+    assert per_load * 1e9 == pytest.approx(0.01607, rel=3e-4)
+    assert per_load == pytest.approx(4 / (pi * E / 2.6), rel=1e-9)
+    assert per_load == pytest.approx(0.7 * SOLID, rel=3e-3)
+
+
+def test_tilt_part_of_f_sh() -> None:
+    """Slope of a solid shaft at a gear a distance s off the middle: 64/(6 pi E) F l s/d^4, which is K' 0.717."""
+    span, off, diameter, force = 0.6, 0.02, 0.1e-6, 1.0
+    shaft = Shaft((ShaftSection(span, diameter),), (RigidBearing(0.0), RigidBearing(span)), torque_position=0.0)
+    place = span / 2 + off
+    model = shaft_model(shaft, 0.0, np.array([place]))
+    load = np.zeros(2 * model.z.size)
+    load[model.node(place)] = force
+    slope = abs(float((model.flexibility @ load)[model.z.size + model.node(place)]))
+    arms = place * (span - place) * abs(span - 2 * place)
+    assert slope == pytest.approx(force * arms / (3 * E * second_moment(shaft.sections[0]) * span), rel=1e-8)
+    # To first order in s this is F l s/(6 E I), in the standard's terms 0.023 K' (F/b) (l s/d^2)(b/d)^2 / b.
+    first_order = 64 / (6 * pi * E) * force * span * off / diameter**4
+    assert slope == pytest.approx(first_order, rel=0.005)
+    assert 64 / (6 * pi * E) / SOLID == pytest.approx(0.717, abs=5e-4)
+
+
+def test_face_load_factor_of_example_1_rebuilt() -> None:
+    """F_by 27.40 um (printed 27.5), K_H_beta 1.1592 (printed 1.16)."""
+    path = meshing_path(GEARS)
+    mean = 1.0033 * TORQUE / (DIAMETER / 2) / 0.1 * 1e-3  # K_V F_t/b [N/mm]
+    bending = mean * 0.023 * ((1.0 - 0.3) + 0.3) * (0.1 / DIAMETER) ** 2
+    assert bending == pytest.approx(14.71, abs=0.02)
+
+    def slope(diameter: float) -> float:
+        """ISO 1328-1 (1995) f_H_beta [um], grade 5."""
+        return 0.07 * sqrt(diameter * 1e3) + 0.45 * sqrt(100.0) + 3.0
+
+    wheel = DIAMETER * 103 / 17
+    making = hypot(slope(DIAMETER), slope(wheel))
+    assert making == pytest.approx(12.67, abs=0.05)
+    equivalent = 0.85 * (1.33 * bending + making)
+    assert equivalent == pytest.approx(27.40, rel=2e-3)
+    stiffness = 17.46485 * 0.85  # c_gamma_beta, N/(mm um)
+    assert 1 + stiffness * equivalent / (2 * mean) == pytest.approx(1.1592, rel=2e-3)
+    assert path.pair.centre_distance == 0.5
+
+
+def example_1(*, torque_at_far_end: bool) -> DriveTrainInputs:
+    """The example's pinion on a solid shaft of its diameter over twice its face, rigid bearings; a rigid wheel."""
+    pinion = Shaft(
+        (ShaftSection(0.2, DIAMETER),),
+        (RigidBearing(0.0), RigidBearing(0.2)),
+        torque_position=0.15 if torque_at_far_end else 0.05,
+        density=0.0,
+    )
+    wheel = replace(pinion, youngs_modulus=1e30)
+    plain = turbo_gear()
+    distribution = LoadDistributionInputs(GEARS, Load(TORQUE, 100.0), Modifications())
+    return replace(
+        plain,
+        mesh=replace(plain.mesh, distribution=distribution),
+        face_start=0.05,
+        pinion_shaft=pinion,
+        wheel_shaft=wheel,
+        couplings=(),
+        arrangement=Arrangement(hand="left"),  # y runs along Z
+        effects=Effects(coupling=False, thermal=False),
+    )
+
+
+@pytest.mark.parametrize(("far", "gap", "factor"), [(True, 10.88, 1.0931), (False, 11.85, 1.1009)])
+def test_own_shafts_of_example_1(far: bool, gap: float, factor: float) -> None:
+    """Range 10.88 um at uniform load, twist 9.61, where torque enters at y = b; 11.85 from the other end."""
+    inputs = example_1(torque_at_far_end=far)
+    prepared = prepare(inputs)
+    side = prepared.unit.shafts[0]
+    force = uniform_force(prepared.mesh.prepared.tangential_force, 41)
+    motion = prepared.unit.motion(force)[0]
+    twist = side.torques.T @ (side.model.torsion @ (side.torques @ force))
+    assert np.ptp(twist) * 1e6 == pytest.approx(9.61, abs=0.03)
+    assert np.ptp(motion) * 1e6 == pytest.approx(gap, abs=0.05)
+    assert outcome(inputs).face_load_factor == pytest.approx(factor, abs=0.002)

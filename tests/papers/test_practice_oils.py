@@ -1,0 +1,91 @@
+"""Oils by data sheet: ISO 3448 grades, the Walther law (ASTM D341), Gold's pressure-viscosity coefficients."""
+
+from math import log, log10
+
+import pytest
+
+from solvers.errors import InvalidInput
+from solvers.lubricants import Lubricant
+from solvers.oils import KINDS, TYPICAL_VISCOSITY_100, OilKind, OilSheet, iso_vg, lubricant_at
+
+GRADES = sorted(TYPICAL_VISCOSITY_100)
+
+
+@pytest.mark.parametrize("grade", GRADES)
+def test_walther_passes_through_both_points(grade: int) -> None:
+    oil = iso_vg(grade)
+    assert oil.kinematic_viscosity(313.15) == pytest.approx(grade * 1e-6, rel=1e-13)
+    assert oil.kinematic_viscosity(373.15) == pytest.approx(TYPICAL_VISCOSITY_100[grade], rel=1e-13)
+
+
+def test_walther_is_a_straight_line_in_its_coordinates() -> None:
+    """log log (nu + 0.7) against log T, halfway in log T between 40 and 100 C."""
+    oil = OilSheet(220e-6, 19e-6)
+    middle = (313.15 * 373.15) ** 0.5
+    heights = [log10(log10(oil.kinematic_viscosity(t) * 1e6 + 0.7)) for t in (313.15, middle, 373.15)]
+    assert heights[1] == pytest.approx((heights[0] + heights[2]) / 2, rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("kind", "expected"),
+    [("mineral", 16.4), ("pao", 12.0), ("ester", 10.8), ("polyglycol", 9.4)],
+)
+def test_pressure_viscosity_at_38_square_millimetres_per_second(kind: OilKind, expected: float) -> None:
+    """Mineral VG 150 at 70 C, nu = 38.1 mm2/s: 9.904 38.1^0.1390 = 16.4 1/GPa, and the other kinds likewise."""
+    oil = OilSheet(150e-6, 14.8e-6, kind)
+    assert oil.kinematic_viscosity(343.15) * 1e6 == pytest.approx(38.1, abs=0.05)
+    assert oil.pressure_coefficient(343.15) * 1e9 == pytest.approx(expected, abs=0.06)
+
+
+def test_grade_220_at_the_paper_s_temperature_has_a_third_of_the_paper_s_viscosity() -> None:
+    assert iso_vg(220).viscosity(360.0) == pytest.approx(0.024, abs=5e-4)
+    assert Lubricant().viscosity / iso_vg(220).viscosity(360.0) > 3.3
+
+
+@pytest.mark.parametrize("grade", GRADES)
+@pytest.mark.parametrize("temperature", [293.15, 333.15, 373.15, 423.15])
+def test_temperature_coefficient_is_the_slope_of_the_law(grade: int, temperature: float) -> None:
+    oil, step = iso_vg(grade), 1e-3
+    rise = log(oil.viscosity(temperature + step)) - log(oil.viscosity(temperature - step))
+    assert oil.temperature_coefficient(temperature) == pytest.approx(-rise / (2 * step), rel=1e-7)
+
+
+def test_density_falls_by_its_expansion_from_15_degrees() -> None:
+    oil = OilSheet(46e-6, 6.8e-6, density_15=870.0)
+    assert oil.density(288.15) == 870.0
+    assert oil.density(388.15) == pytest.approx(870.0 * (1 - 0.065), rel=1e-14)
+
+
+def test_what_the_sheet_gives_wins_over_the_kind() -> None:
+    oil = OilSheet(
+        46e-6,
+        6.8e-6,
+        "ester",
+        density_15=900.0,
+        pressure_viscosity=12e-9,
+        temperature_viscosity=0.03,
+        specific_heat=1900.0,
+        thermal_conductivity=0.16,
+    )
+    lubricant = oil.lubricant(350.0)
+    assert lubricant.pressure_viscosity == 12e-9
+    assert lubricant.temperature_viscosity == 0.03
+    assert (lubricant.specific_heat, lubricant.thermal_conductivity) == (1900.0, 0.16)
+    assert lubricant.density == oil.density(350.0) != KINDS["ester"].density_15
+
+
+def test_lubricant_has_the_oil_s_viscosity_at_its_reference_temperature_and_slope_there() -> None:
+    lubricant, oil = iso_vg(320).lubricant(363.15), iso_vg(320)
+    assert lubricant.viscosity_at(0.0, 363.15) == pytest.approx(oil.viscosity(363.15), rel=1e-14)
+    assert lubricant.viscosity_at(0.0, 364.15) == pytest.approx(oil.viscosity(364.15), rel=1e-3)
+
+
+def test_a_lubricant_given_by_its_viscosity_stays_what_it_is() -> None:
+    assert lubricant_at(Lubricant(), 400.0) is not None
+    assert lubricant_at(Lubricant(), 400.0) == Lubricant()
+
+
+def test_oil_that_does_not_thin_is_refused() -> None:
+    with pytest.raises(InvalidInput, match="thinner at 100") as refusal:
+        OilSheet(10e-6, 10e-6)
+    assert (refusal.value.code, refusal.value.field) == ("viscosity_order", "lubricant.kinematic_viscosity_100")

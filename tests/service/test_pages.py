@@ -1,0 +1,249 @@
+"""Pages in a real browser: fill, read, follow, share, compare, print; without script, by keyboard, on a phone."""
+
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+
+from app.calculations import CALCULATIONS
+from app.library import examples
+from app.pages.links import example_link
+from app.pages.query import link, pairs_of
+
+pytestmark = pytest.mark.service
+
+CHROMIUM = "/usr/bin/chromium"
+OPTIONS = ["--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking", "--disable-sync"]
+CALCULATION = {each.path: each for each in CALCULATIONS}
+STARTERS = [example.name for example in examples().values() if example.starter]
+COUPLING = "pahl-axial-displacement"
+SCUFFING = "xue-pair-1-scuffing"
+PHONE = {"width": 360, "height": 740}
+MOST_PAGES = 6
+SLOW_MS = 60_000
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=OPTIONS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def visit(browser: Browser, server: str) -> Iterator[Callable[..., Page]]:
+    """Open an address in a fresh window that allows no other host and no complaint."""
+    complaints: list[str] = []
+
+    def open_page(address: str, **options: object) -> Page:
+        context = browser.new_context(base_url=server, **options)  # type: ignore[arg-type]
+        context.set_default_timeout(SLOW_MS)
+        context.grant_permissions(["clipboard-read", "clipboard-write"], origin=server)
+        page = context.new_page()
+        page.on("request", lambda sent: complaints.append(sent.url) if not own(sent.url) else None)
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.on(
+            "console", lambda said: complaints.append(said.text) if "Content Security Policy" in said.text else None
+        )
+        page.goto(address)
+        return page
+
+    def own(url: str) -> bool:
+        return url.startswith((server, "data:"))
+
+    yield open_page
+    assert complaints == []
+
+
+def address_of(name: str) -> str:
+    example = examples()[name]
+    return example_link(CALCULATION[example.endpoint], example)
+
+
+def value_of(page: Page, path: str) -> str:
+    return page.locator(f'[data-path="{path}"]').inner_text()
+
+
+def overflow(page: Page) -> int:
+    width: int = page.evaluate("document.documentElement.scrollWidth - window.innerWidth")
+    return width
+
+
+def test_fill_and_read_a_result(visit: Callable[..., Page]) -> None:
+    page = visit("/coupling")
+    for label, text in (
+        ("number of teeth", "52"),
+        ("module", "3,0"),
+        ("transmitted torque", "3000"),
+        ("speed", "1910"),
+    ):
+        page.get_by_label(re.compile(rf"^{label} ")).first.fill(text)
+    page.get_by_label(re.compile(r"^misalignment ")).fill("0.05")
+    expect(page.locator(".card").first).to_be_visible()
+    expect(page).to_have_url(re.compile(r"operation\.misalignment_deg=0\.05"))
+    assert float(value_of(page, "geometry.pitch_radius_mm")) == pytest.approx(78)
+    page.get_by_label(re.compile(r"^module ")).fill("6")
+    expect(page.locator('[data-path="geometry.pitch_radius_mm"]')).to_have_text("156")
+
+
+def test_live_result_keeps_what_is_typed_and_the_latest_wins(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(COUPLING))
+    field = page.locator('[name="operation.torque_n_m"]')
+    for text in ("1000", "2000", "4500"):
+        field.fill(text)
+        page.wait_for_timeout(400)
+    expect(page).to_have_url(re.compile("torque_n_m=4500"))
+    expect(page.locator("#result")).not_to_have_class(re.compile("old"))
+    assert field.input_value() == "4500"
+    mean = float(value_of(page, "load_distribution.mean_tangential_force_n").replace(" ", ""))
+    assert mean == pytest.approx(4500 / 0.078 / 52, rel=1e-3)
+
+
+def test_follow_a_warning_to_its_field(visit: Callable[..., Page]) -> None:
+    page = visit(address_of("starter-coupling-at-its-limits"))
+    link_to_field = page.locator(".warning a").first
+    target = (link_to_field.get_attribute("href") or "").removeprefix("#")
+    link_to_field.click()
+    assert page.evaluate("document.activeElement.id") == target
+    expect(page.locator(f'[id="{target}"]')).to_be_in_viewport()
+
+
+def test_a_wrong_field_is_told_at_the_field_and_on_top(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(SCUFFING))
+    page.locator('[name="gears.pinion.teeth"]').fill("abc")
+    expect(page.locator(".problem")).to_be_visible()
+    expect(page.locator('[id="f.gears.pinion.teeth-fault"]')).to_be_visible()
+    assert page.locator('[name="gears.pinion.teeth"]').get_attribute("aria-invalid") == "true"
+    page.locator(".problem a").first.click()
+    assert page.evaluate("document.activeElement.name") == "gears.pinion.teeth"
+    page.locator('[name="gears.pinion.teeth"]').fill("23")
+    expect(page.locator(".card").first).to_be_visible()
+    expect(page.locator('[id="f.gears.pinion.teeth-fault"]')).to_be_hidden()
+
+
+def test_share_a_link(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(COUPLING))
+    page.locator('[name="operation.torque_n_m"]').fill("3500")
+    expect(page.locator("#copy")).to_have_attribute("href", re.compile("torque_n_m=3500"))
+    page.locator("#copy").click()
+    expect(page.locator("#state")).to_have_text("Link copied.")
+    copied = page.evaluate("navigator.clipboard.readText()")
+    other = visit(copied)
+    assert other.locator('[name="operation.torque_n_m"]').input_value() == "3500"
+    assert value_of(other, "axial_thrust.force_n") == value_of(page, "axial_thrust.force_n")
+
+
+def test_compare(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(SCUFFING))
+    page.locator("#pin").click()
+    expect(page.locator(".before").first).to_contain_text("no change")
+    page.locator('[data-section="modifications"] > summary').click()
+    page.locator('[name="modifications.profile_crowning_um"]').fill("10")
+    expect(page.locator(".before").first).to_contain_text(re.compile(r"[+−][\d.]+ %"))
+    assert "dashed: variant A" in (page.locator(".chart img").first.get_attribute("alt") or "")
+    page.get_by_role("link", name="End comparison").click()
+    assert page.locator(".before").count() == 0
+    assert page.locator('[name="modifications.profile_crowning_um"]').input_value() == "10"
+
+
+def test_values_under_pointer_and_keys(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(SCUFFING))
+    plot = page.locator("#figure-contact-temperature .plot")
+    reading = page.locator("#figure-contact-temperature .reading")
+    plot.hover(position={"x": 200, "y": 150})
+    expect(reading).to_contain_text("Blok")
+    plot.focus()
+    before = reading.inner_text()
+    page.keyboard.press("ArrowRight")
+    expect(reading).not_to_have_text(before)
+
+
+def test_an_example_is_loaded_from_the_menu(visit: Callable[..., Page]) -> None:
+    page = visit("/pumping")
+    page.locator("#example").select_option("milian-table-1")
+    page.wait_for_url(re.compile(r"gears\.pinion\.teeth"))
+    expect(page.locator(".card").first).to_be_visible()
+    page.go_back()
+    expect(page.locator(".empty")).to_be_visible()
+
+
+def test_without_script(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(SCUFFING), java_script_enabled=False)
+    page.locator('[name="load.power_kw"]').fill("60")
+    page.get_by_role("button", name="Calculate", exact=True).click()
+    assert "load.power_kw=60" in page.url
+    assert "pick" not in page.url
+    assert "=&" not in page.url
+    assert page.locator(".card").count() == 3
+    assert page.locator(".chart img").count() > 5
+
+
+def test_a_long_case_is_posted(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(COUPLING))
+    page.locator('[name="coupling.teeth"]').fill("400")
+    errors = " ".join(f"{0.123456789 * (index % 7):.12f}" for index in range(400))
+    page.locator('[name="coupling.pitch_errors_um"]').fill(errors)
+    expect(page.locator('[id="f.coupling.pitch_errors_um-count"]')).to_have_text("400 values")
+    expect(page.locator(".tools")).to_contain_text("Too long for a link")
+    page.get_by_role("button", name="Report").click()
+    expect(page.locator("h2").first).to_contain_text("Verdict")
+
+
+def test_keyboard_alone(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(COUPLING))
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.className") == "skip"
+    for _ in range(80):
+        page.keyboard.press("Tab")
+        if page.evaluate("document.activeElement.name") == "operation.torque_n_m":
+            break
+    assert page.evaluate("document.activeElement.name") == "operation.torque_n_m"
+    expect(page.locator('[id="f.operation.torque_n_m-help"]')).to_be_visible()
+    page.keyboard.press("Control+a")
+    page.keyboard.type("2500")
+    page.keyboard.press("Enter")
+    expect(page).to_have_url(re.compile("torque_n_m=2500"))
+
+
+@pytest.mark.parametrize("name", STARTERS)
+def test_a_phone_needs_no_sideways_scrolling(visit: Callable[..., Page], name: str) -> None:
+    page = visit(address_of(name), viewport=PHONE)
+    assert overflow(page) == 0
+    page.evaluate("document.querySelectorAll('#form details, #result details').forEach(part => part.open = true)")
+    assert overflow(page) == 0
+    top: float = page.locator("#result").bounding_box()["y"]  # type: ignore[index]
+    assert top < page.locator("#form").bounding_box()["y"]  # type: ignore[index]
+
+
+@pytest.mark.parametrize("address", ["/", "/coupling/about", "/pumping/about", "/scuffing/about"])
+def test_reading_pages_fit_a_phone(visit: Callable[..., Page], address: str) -> None:
+    assert overflow(visit(address, viewport=PHONE)) == 0
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize(
+    "address",
+    ["/", "/scuffing/about", "/pumping", "/scuffing?gears.pinion.teeth=abc", *map(address_of, STARTERS)],
+)
+def test_accessibility(visit: Callable[..., Page], address: str, scheme: str) -> None:
+    page = visit(address, color_scheme=scheme)
+    found = Axe().run(page).response["violations"]
+    serious = [(each["id"], each["nodes"][0]["html"]) for each in found if each["impact"] in {"serious", "critical"}]
+    assert serious == []
+
+
+@pytest.mark.parametrize("name", sorted(examples()))
+def test_reports_print_on_six_pages(visit: Callable[..., Page], name: str, tmp_path: Path) -> None:
+    example = examples()[name]
+    page = visit(link(f"{example.endpoint.removeprefix('/v1')}/report", pairs_of(example.request)))
+    cut = page.evaluate("[...document.images].filter(image => !image.complete || image.naturalWidth === 0).length")
+    assert cut == 0
+    for paper in ("A4", "Letter"):
+        file = tmp_path / f"{paper}.pdf"
+        page.pdf(path=file, format=paper)
+        pages = len(re.findall(rb"/Type\s*/Page\b", file.read_bytes()))
+        assert 1 <= pages <= MOST_PAGES
