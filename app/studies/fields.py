@@ -3,9 +3,10 @@
 from collections.abc import Iterable
 from dataclasses import replace
 from difflib import get_close_matches
+from functools import lru_cache
 from typing import Any
 
-from app.contract.fields import Leaf, leaf_at, leaves
+from app.contract.fields import ITEM, Leaf, leaf_at, leaves
 from app.contract.quantities import Documented
 from app.problems import Unprocessable
 from app.studies.requests import Scalar
@@ -137,10 +138,11 @@ def _step(here: Any, part: str) -> Any:
     return here.get(part) if isinstance(here, dict) else None
 
 
-def fellows(leaf: Leaf) -> list[str]:
+@lru_cache(maxsize=1024)
+def fellows(model: type[Documented], path: str) -> tuple[str, ...]:
     """The fields that a given value of this one excludes, with its own list indices."""
-    own = leaf.path.split(".")
-    return [
-        ".".join(own[place] if part == "*" else part for place, part in enumerate(path.split(".")))
-        for path in leaf.exclusive
-    ]
+    leaf, own = leaf_at(model, path), path.split(".")
+    return tuple(
+        ".".join(own[place] if part == ITEM else part for place, part in enumerate(each.split(".")))
+        for each in (leaf.exclusive if leaf else ())
+    )

@@ -11,7 +11,7 @@ from app.cost import refuse_endless
 from app.evaluate import evaluate
 from app.problems import PROBLEMS, Unprocessable, faults_of
 from app.reading import InvalidBody, validated
-from app.studies.fields import clear, fellows, scalar_at, set_value, value_at
+from app.studies.fields import clear, fellows, set_value, value_at
 from app.studies.requests import Overrides
 
 Status = Literal["ok", "ok_with_warnings", "no_solution", "refused", "failed"]
@@ -21,7 +21,10 @@ logger = logging.getLogger("tribodrive")
 
 
 class Point(NamedTuple):
-    """One answer, cut down to the outputs asked for; `error` where the point was refused or failed."""
+    """One answer, cut down to the outputs asked for; `error` where the point was refused or failed.
+
+    `assumptions` are left out where they are those of the point before it in its chunk.
+    """
 
     status: Status
     out: list[Any]
@@ -62,8 +65,11 @@ def solve_chunk(question: Question, overrides: Sequence[Overrides]) -> Chunk:
     """Solve consecutive points, as many as a chunk's time allows, at least one."""
     started = time.perf_counter()
     points: list[Point] = []
+    known: tuple[dict[str, Any], ...] = ()
     for each in overrides:
-        points.append(solve_point(question, each))
+        point = solve_point(question, each)
+        points.append(point._replace(assumptions=()) if point.assumptions == known else point)
+        known = point.assumptions
         if time.perf_counter() - started >= CHUNK_SECONDS:
             break
     return Chunk(points, time.perf_counter() - started)
@@ -88,7 +94,7 @@ def solve_point(question: Question, overrides: Overrides) -> Point:
         answer.status,
         [value_at(answer, path) for path in question.outputs],
         [warning.code for warning in answer.warnings],
-        assumptions=tuple(each.model_dump() for each in answer.assumptions),
+        assumptions=tuple(dict(each) for each in answer.assumptions),
     )
 
 
@@ -97,7 +103,7 @@ def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Ov
     body = copy.deepcopy(base)
     for path, value in overrides.items():
         if value is not None:
-            for fellow in fellows(scalar_at(calculation.request, path, "", "unknown_path")):
+            for fellow in fellows(calculation.request, path):
                 clear(body, fellow)
     for path, value in overrides.items():
         set_value(body, path, value)

@@ -19,7 +19,10 @@ pytestmark = pytest.mark.service
 def package(server: str, tmp_path_factory: pytest.TempPathFactory) -> ModuleType:
     folder: Path = tmp_path_factory.mktemp("generated")
     generator = Path(sys.executable).with_name("openapi-python-client")
+    config = folder / "config.yml"
+    config.write_text("content_type_overrides:\n  application/x-ndjson: text/plain\n")  # lines are text to it
     command = [generator, "generate", "--url", f"{server}/openapi.json", "--meta", "none", "--fail-on-warning"]
+    command += ["--config", config]
     path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"  # the generator formats with ruff
     subprocess.run(
         [*command, "--output-path", folder / "tribodrive_client"], check=True, env={**os.environ, "PATH": path}

@@ -123,6 +123,13 @@ def test_an_exclusive_field_clears_its_fellow_in_the_base() -> None:
         assert one({f"load.{path}": 20.0}, base=given).status in {"ok", "ok_with_warnings"}
 
 
+def test_assumptions_are_sent_where_they_change() -> None:
+    question = Question("/v1/coupling", examples()["pahl-axial-displacement"].request, [], 30.0)
+    torque, friction = "operation.torque_n_m", "friction.coefficient"
+    found = solve_chunk(question, [{torque: 3000}, {torque: 3001}, {friction: None}, {friction: None}]).points
+    assert [bool(point.assumptions) for point in found] == [True, False, True, False]
+
+
 def test_a_chunk_ends_after_its_time(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = iter(range(1000))
     monkeypatch.setattr(points.time, "perf_counter", lambda: 0.1 * next(clock))
