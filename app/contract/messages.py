@@ -80,7 +80,7 @@ def _message(model: type[BaseModel], location: tuple[str | int, ...], item: dict
     if kind in _SECTION_TYPES:
         return "leave the section out instead of null" if value is None else "give a section {...} of fields here"
     if kind in _RANGE_TYPES:
-        return f"{name} is {value:.12g}; allowed {_allowed(section, name)}"
+        return f"{name} is {_figure(value)}; allowed {_allowed(section, name)}"
     plain = {
         "int_from_float": "give a whole number",
         "finite_number": "give a finite number",
@@ -111,6 +111,14 @@ def _no_number(value: Any) -> str:
     if isinstance(value, str) and _NUMBER.fullmatch(value):
         return f'give a number, not text: {value.replace(",", ".")} instead of "{value}"'
     return "give a number, not text" if isinstance(value, str) else "give a number here"
+
+
+def _figure(value: Any) -> str:
+    """A number as an engineer writes it."""
+    try:
+        return f"{float(value):.12g}"
+    except OverflowError:  # a whole number of more than three hundred digits
+        return "far too large" if value > 0 else "far too small"
 
 
 def _choices(item: dict[str, Any]) -> str:

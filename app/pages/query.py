@@ -129,6 +129,9 @@ def _value(model: type[Documented], name: str, text: str) -> Any:
     if leaf.dimensions == 1:
         return _listed(leaf, text)
     if leaf.dimensions == 2:
+        alone = _number(text.strip().replace(",", ".", 1))
+        if not isinstance(alone, str):  # a number may stand for a matrix
+            return alone
         return [_listed(leaf, line) for line in text.splitlines() if line.strip()]
     return _scalar(leaf, text)
 

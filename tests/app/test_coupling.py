@@ -49,6 +49,8 @@ RESULT = {
     "axial_thrust": {
         "force_n",
         "coaxial_limit_n",
+        "design_force_n",
+        "customary_force_n",
         "breakaway_force_n",
         "fraction_of_limit",
         "uniform_load_force_n",

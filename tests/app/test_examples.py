@@ -65,6 +65,10 @@ def assert_contained(less: object, more: object) -> None:
     if isinstance(less, dict) and isinstance(more, dict):
         for key, value in less.items():
             assert_contained(value, more[key])
+    elif isinstance(less, list) and isinstance(more, list):
+        assert len(less) == len(more)
+        for few, many in zip(less, more, strict=True):
+            assert_contained(few, many)
     else:
         assert less == more
 
