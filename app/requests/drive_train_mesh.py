@@ -1,6 +1,5 @@
 """What a gear unit's mesh is described by beyond scuffing and pumping: sections of /v1/drive-train."""
 
-from math import prod
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
@@ -17,7 +16,6 @@ from solvers.drive_train import inputs as si
 from solvers.gears.inputs import GearPairInputs
 from solvers.scuffing import inputs as mesh
 
-ISO_6336 = "ISO 6336-1"
 PUMPING_RACK, MESH_RACK = 0.25, 0.38
 
 _ARRANGEMENT = si.Arrangement()
@@ -55,15 +53,6 @@ class TrainGears(BacklashGears):
 class TrainOperation(ScuffingLoad):
     """Torque or power, speed, and how the unit stands and turns."""
 
-    application_factor: Annotated[
-        float, Input("application factor", "K_A", ISO_6336, text="multiplies the load of the contacts", ge=0.1, le=10)
-    ] = 1.0
-    dynamic_factor: Annotated[
-        float, Input("dynamic factor", "K_v", ISO_6336, text="multiplies the load of the contacts", ge=0.1, le=10)
-    ] = 1.0
-    mesh_load_factor: Annotated[
-        float, Input("mesh load factor", "K_γ", ISO_6336, text="multiplies the load of the contacts", ge=0.1, le=10)
-    ] = 1.0
     rotation: Annotated[
         Literal["counterclockwise", "clockwise"],
         Input("rotation of the pinion", text="rotation of the pinion, seen from +Z"),
@@ -87,11 +76,6 @@ class TrainOperation(ScuffingLoad):
         if self.pinion_torque_n_m is not None and self.power_kw is not None:
             raise PydanticCustomError("torque_or_power", "Give either pinion_torque_n_m or power_kw, not both")
         return self
-
-    @property
-    def contact_load_factor(self) -> float:
-        """K_A K_v K_gamma."""
-        return prod((self.application_factor, self.dynamic_factor, self.mesh_load_factor))
 
     def arrangement(self, gears: TrainGears) -> si.Arrangement:
         """The solver's arrangement."""
