@@ -224,7 +224,7 @@ def test_factors_load_the_contacts_and_nothing_else(post: Post) -> None:
     ratio = loaded["load"]["max_line_load_n_per_mm"] / plain["load"]["max_line_load_n_per_mm"]
     assert ratio == pytest.approx(1.32, rel=0.03)
     assert loaded["shafts"][0]["thrust"] == plain["shafts"][0]["thrust"]
-    assert loaded["losses"]["mesh_w"] == pytest.approx(plain["losses"]["mesh_w"], rel=0.02)
+    assert loaded["losses"]["mesh_w"] == pytest.approx(plain["losses"]["mesh_w"], rel=0.05)
     names = ("recommended_helix_slope_um", "recommended_lead_crowning_um")
     for name in names:
         assert loaded["misalignment"][name] == pytest.approx(plain["misalignment"][name], abs=0.02)
