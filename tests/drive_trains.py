@@ -70,8 +70,8 @@ def turbo_gear(modifications: Modifications = PLAIN, power: float = 12e6) -> Dri
     )
     mesh = ScuffingInputs(
         distribution,
-        Lubricant(0.0095, 360.0, 16e-9, 0.03, 850.0),
-        Temperatures(95 + CELSIUS, 50 + CELSIUS, 220 + CELSIUS),
+        lubricant=Lubricant(0.0095, 360.0, 16e-9, 0.03, 850.0),
+        temperatures=Temperatures(bulk=95 + CELSIUS, oil=50 + CELSIUS, scuffing=220 + CELSIUS),
         lubrication="closed_form",
     )
     return DriveTrainInputs(

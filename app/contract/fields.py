@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cache
 from types import NoneType, UnionType
-from typing import Any, Literal, Union, get_args, get_origin
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
@@ -170,7 +170,9 @@ def _absolute(name: str, prefix: str) -> str:
 
 def _scalars(annotation: Any) -> Iterator[Any]:
     """The types of single values that an annotation allows."""
-    if get_origin(annotation) in {Union, UnionType, list}:
+    if get_origin(annotation) is Annotated:
+        yield from _scalars(get_args(annotation)[0])
+    elif get_origin(annotation) in {Union, UnionType, list}:
         for kind in get_args(annotation):
             yield from _scalars(kind)
     elif annotation is not NoneType:
@@ -188,6 +190,8 @@ def _options(kinds: tuple[Any, ...]) -> tuple[Any, ...]:
 
 
 def _dimensions(annotation: Any) -> int:
+    if get_origin(annotation) is Annotated:
+        return _dimensions(get_args(annotation)[0])
     if get_origin(annotation) is list:
         return 1 + _dimensions(get_args(annotation)[0])
     if get_origin(annotation) in {Union, UnionType}:

@@ -16,7 +16,6 @@ from app.requests.materials import XUE
 from app.requests.oil import Oil
 from app.requests.pumping import GearGroove, Mist
 from solvers.drive_train import inputs as si
-from solvers.lubricants import Lubricant
 from solvers.pumping import inputs as pumping
 from solvers.scuffing import inputs as mesh
 
@@ -92,11 +91,10 @@ class DriveTrainRequest(Request):
     def inputs(self) -> si.DriveTrainInputs:
         """The solver's inputs."""
         temperatures = self._temperatures()
-        oil = self.lubricant.lubricant(temperatures.bulk)
-        shafts = [shaft.shaft(oil, temperatures.oil) for shaft in (self.pinion_shaft, self.wheel_shaft)]
+        shafts = [shaft.shaft(self._viscosity, temperatures.oil) for shaft in (self.pinion_shaft, self.wheel_shaft)]
         fields = to_si(self)
         return si.DriveTrainInputs(
-            mesh=self._mesh(oil, temperatures),
+            mesh=self._mesh(temperatures),
             pumping=pumping.PumpingSetup(
                 gears=self.gears.pumping_pair(),
                 normal_backlash=to_si(self.gears)["normal_backlash"],
@@ -112,7 +110,6 @@ class DriveTrainRequest(Request):
             collar_radius=to_si(self.thrust_collar)["radius"],
             heat=si.Heat(**to_si(self.thermal)),
             effects=si.Effects(**to_si(self.effects)),
-            contact_load_factor=self.operation.contact_load_factor,
             coupling_friction=self.model.coupling_friction,
             face_stations=self.model.face_stations,
             local_bulk=self.temperatures.local_bulk,
@@ -127,7 +124,14 @@ class DriveTrainRequest(Request):
             bulk = (teeth["pinion_bulk"] + teeth["wheel_bulk"]) / 2
         return mesh.Temperatures(bulk, fields["oil"], fields["scuffing"])
 
-    def _mesh(self, oil: Lubricant, temperatures: mesh.Temperatures) -> mesh.ScuffingInputs:
+    def _viscosity(self, temperature: float) -> float:
+        """Viscosity [Pa s] of the gears' oil at a temperature [K]."""
+        oil = self.lubricant.oil()
+        if oil is not None:
+            return oil.viscosity(temperature)
+        return self.lubricant.lubricant().viscosity_at(0.0, temperature)
+
+    def _mesh(self, temperatures: mesh.Temperatures) -> mesh.ScuffingInputs:
         distribution = mesh.LoadDistributionInputs(
             gears=self.gears.mesh_pair(),
             load=self.operation.load(),
@@ -140,9 +144,11 @@ class DriveTrainRequest(Request):
         )
         return mesh.ScuffingInputs(
             distribution=distribution,
-            lubricant=oil,
+            lubricant=self.lubricant.lubricant(temperatures.bulk),
+            oil=self.lubricant.oil(),
             temperatures=temperatures,
             lubrication=self.model.lubrication,
+            friction=self.model.friction,
             film=self.model.film(),
             path_points=self.model.path_points,
         )
@@ -156,6 +162,8 @@ class DriveTrainRequest(Request):
         unused = set(self.modifications.unused_defaults("modifications"))
         unused |= self.lubricant.unused_defaults("lubricant")
         unused |= self.model.unused_pumping_defaults("model")
+        if self.model.friction != "given":
+            unused.add("friction_coefficient")
         unused |= self.pinion_shaft.unused_shaft_defaults("pinion_shaft")
         unused |= self.wheel_shaft.unused_shaft_defaults("wheel_shaft")
         for index, coupling in enumerate(self.couplings):

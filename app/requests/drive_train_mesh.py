@@ -1,7 +1,5 @@
 """What a gear unit's mesh is described by beyond scuffing and pumping: sections of /v1/drive-train."""
 
-from dataclasses import replace
-from math import prod
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
@@ -74,19 +72,10 @@ class TrainOperation(ScuffingLoad):
     def torque_or_power(self) -> Self:
         """Refuse both and neither."""
         if self.pinion_torque_n_m is None and self.power_kw is None:
-            raise PydanticCustomError("load_missing", "Give pinion_torque_n_m or power_kw")
+            raise PydanticCustomError("load_missing", "give pinion_torque_n_m or power_kw")
         if self.pinion_torque_n_m is not None and self.power_kw is not None:
-            raise PydanticCustomError("torque_or_power", "Give either pinion_torque_n_m or power_kw, not both")
+            raise PydanticCustomError("torque_or_power", "pinion_torque_n_m and power_kw are both given; keep one")
         return self
-
-    @property
-    def contact_load_factor(self) -> float:
-        """K_A K_v K_gamma."""
-        return prod((self.application_factor, self.dynamic_factor, self.mesh_load_factor))
-
-    def load(self) -> mesh.Load:
-        """The transmitted load; what raises that of the contacts is told apart."""
-        return replace(super().load(), application_factor=1.0, dynamic_factor=1.0, mesh_load_factor=1.0)
 
     def arrangement(self, gears: TrainGears) -> si.Arrangement:
         """The solver's arrangement."""

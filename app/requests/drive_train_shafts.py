@@ -1,5 +1,6 @@
 """Shafts of a gear unit, their sections and bearings: sections of /v1/drive-train."""
 
+from collections.abc import Callable
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
@@ -9,7 +10,6 @@ from app.contract.conversion import to_si
 from app.contract.quantities import Input
 from app.requests.common import Section
 from solvers.drive_train import inputs as si
-from solvers.lubricants import Lubricant
 
 OCVIRK = "DuBois and Ocvirk, NACA 1157"
 FILM_ABOVE_OIL = 15.0  # K
@@ -24,6 +24,8 @@ def _isotropic(value: Any) -> Any:
     return value
 
 
+Viscosity = Callable[[float], float]
+"""Of the gears' oil [Pa s] at a temperature [K]."""
 Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
 Stiffness = Annotated[
     Annotated[list[Pair], Field(min_length=2, max_length=2)],
@@ -127,7 +129,7 @@ class ShaftBearing(Section):
                 )
         return self
 
-    def bearing(self, oil: Lubricant, oil_temperature: float) -> si.Bearing:
+    def bearing(self, viscosity_at: Viscosity, oil_temperature: float) -> si.Bearing:
         """The solver's bearing; where it has no viscosity of its own it runs in the gears' oil [K]."""
         fields = to_si(self)
         place = {"position": fields["position"], "offset": fields["offset"]}
@@ -137,7 +139,7 @@ class ShaftBearing(Section):
             return si.LinearBearing(stiffness=fields["stiffness"], **place)
         film, viscosity = fields["film_temperature"], fields["viscosity"]
         if viscosity is None:
-            viscosity = oil.viscosity_at(0.0, oil_temperature + FILM_ABOVE_OIL if film is None else film)
+            viscosity = viscosity_at(oil_temperature + FILM_ABOVE_OIL if film is None else film)
         return si.JournalBearing(
             diameter=fields["diameter"],
             width=fields["width"],
@@ -188,11 +190,11 @@ class UnitShaft(Section):
     density_kg_per_m3: Annotated[float, Input("density", "ρ", ge=100, le=30000)] = _SHAFT.density
     thrust_bearing: Annotated[ThrustBearing, Input("thrust bearing")] = ThrustBearing()
 
-    def shaft(self, oil: Lubricant, oil_temperature: float) -> si.Shaft:
+    def shaft(self, viscosity_at: Viscosity, oil_temperature: float) -> si.Shaft:
         """The solver's shaft; plain bearings without viscosity run in the gears' oil [K]."""
         return si.Shaft(
             sections=tuple(si.ShaftSection(**to_si(section)) for section in self.sections),
-            bearings=tuple(bearing.bearing(oil, oil_temperature) for bearing in self.bearings),
+            bearings=tuple(bearing.bearing(viscosity_at, oil_temperature) for bearing in self.bearings),
             ultimate_thrust=to_si(self.thrust_bearing)["ultimate_load"],
             **to_si(self),
         )

@@ -43,6 +43,11 @@ class LoadedMesh:
     slices: int
     scale: float
 
+    @property
+    def transmitted(self) -> float:
+        """Transverse force F_bt that the shafts carry [N], without the load factors of the contacts."""
+        return self.scale * self.force * self.prepared.path.plane.cos_base_helix
+
     def under(self, gap: FloatArray) -> Mesh:
         """The mesh with the shafts' gap [m] at the stations."""
         points = np.linspace(0.0, self.stations[-1], self.fixed.size)
@@ -95,7 +100,7 @@ def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -
     count = unit.stations.size
     tilts = np.concatenate([port.rest for port in unit.couplings]) if unit.couplings else np.zeros(0)
     if start is None:
-        answer = respond(unit, uniform_force(mesh.prepared.tangential_force, count), tilts)
+        answer = respond(unit, uniform_force(mesh.transmitted, count), tilts)
         tilts, start = answer.tilts, centred(answer.motion[:count])
     state = _evaluate(unit, mesh, start, tilts, None)
     for iteration in range(1, ITERATIONS + 1):

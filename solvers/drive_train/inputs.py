@@ -185,8 +185,8 @@ class DriveTrainInputs:
     """The unit: its mesh, the gas pumped in it, shafts, couplings, heat.
 
     The mesh and the pumped spaces are of one pair; only the radius of the rack's tip may differ. `face_start` [m] is
-    the end of the common face with the lower Z. `contact_load_factor` (K_A K_v K_gamma) raises the load of the contacts
-    only. A thrust collar of `collar_radius` [m] on the pinion takes the place of the pinion's thrust bearing.
+    the end of the common face with the lower Z. The load factors of the mesh raise the load of its contacts only.
+    A thrust collar of `collar_radius` [m] on the pinion takes the place of the pinion's thrust bearing.
     `local_bulk` adds the local pumping heat to the contact's bulk temperature. The answer is of the hot unit, with
     that of the cold one beside it where `states` holds it.
     """
@@ -201,7 +201,6 @@ class DriveTrainInputs:
     collar_radius: float | None = None
     heat: Heat = field(default_factory=Heat)
     effects: Effects = field(default_factory=Effects)
-    contact_load_factor: float = 1.0
     coupling_friction: CouplingFriction = "elastic_plastic"
     face_stations: int = STATIONS
     local_bulk: bool = False
@@ -216,3 +215,8 @@ class DriveTrainInputs:
     def acting_couplings(self) -> tuple[UnitCoupling, ...]:
         """The couplings whose loads count."""
         return self.couplings if self.effects.shafts and self.effects.coupling else ()
+
+    @property
+    def contact_load_factor(self) -> float:
+        """K_A K_v K_gamma."""
+        return self.mesh.distribution.load.contact_factor

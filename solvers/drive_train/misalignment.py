@@ -41,7 +41,7 @@ def _even_gap(inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, found: Equ
     count = unit.stations.size
     if not inputs.effects.shafts:
         return np.zeros(count)
-    return respond(unit, uniform_force(mesh.prepared.tangential_force, count), found.tilts).motion[:count]
+    return respond(unit, uniform_force(mesh.transmitted, count), found.tilts).motion[:count]
 
 
 def gap_parts(unit: Unit, loads: FloatArray) -> Parts:

@@ -49,17 +49,17 @@ def prepare(inputs: DriveTrainInputs) -> Prepared:
     own = np.interp(points, np.linspace(0.0, points[-1], gap.lead.size), gap.lead)
     heated = gap._replace(profile_slope=gap.profile_slope + thermal.profile_slope)
     mesh = replace(given, mesh=given.mesh._replace(gap=heated._replace(lead=own)))
-    force = inputs.contact_load_factor * given.force
-    carried = force * given.path.plane.cos_base_helix
+    transmitted = given.tangential_force / inputs.contact_load_factor
+    carried = given.force * given.path.plane.cos_base_helix
     return Prepared(
         unit=system,
         mesh=LoadedMesh(
             prepared=mesh,
             fixed=own + thermal.lead,
             stations=system.stations,
-            force=force,
+            force=given.force,
             slices=inputs.mesh.distribution.resolution.slices,
-            scale=given.tangential_force / carried if carried > 0.0 else 1.0,
+            scale=transmitted / carried if carried > 0.0 else 1.0,
         ),
         thermal=thermal,
     )
@@ -102,10 +102,8 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
         couplings=couplings,
         flash=heat.flash,
         safety=heat.safety,
-        losses=train_losses(
-            inputs, spread.friction_loss.power / inputs.contact_load_factor, gas.power, shafts, couplings
-        ),
-        balance=force_balance(system, found, _torques(inputs), mesh.prepared.tangential_force),
+        losses=train_losses(inputs, spread.friction_loss.power, gas.power, shafts, couplings),
+        balance=force_balance(system, found, _torques(inputs), mesh.transmitted),
         convergence=Convergence(found.iterations, found.residual),
         mesh=spread,
         contact_temperature=frozen(heat.temperature),

@@ -120,6 +120,6 @@ def _safety_at(inputs: DriveTrainInputs, side: Outcome, base: Outcome) -> float 
 def _by_gap(prepared: Prepared, base: Outcome, found: Equilibrium) -> FloatArray:
     """Derivative of a station's force over that of an even load."""
     count = prepared.unit.stations.size
-    even = uniform_force(prepared.mesh.prepared.tangential_force, count)
+    even = uniform_force(prepared.mesh.transmitted, count)
     station = round(int(np.argmax(base.shares)) / (base.shares.size - 1) * (count - 1))
     return np.asarray(found.by_gap[station] / even[station])

@@ -224,6 +224,10 @@ def test_factors_load_the_contacts_and_nothing_else(post: Post) -> None:
     ratio = loaded["load"]["max_line_load_n_per_mm"] / plain["load"]["max_line_load_n_per_mm"]
     assert ratio == pytest.approx(1.32, rel=0.03)
     assert loaded["shafts"][0]["thrust"] == plain["shafts"][0]["thrust"]
+    assert loaded["losses"]["mesh_w"] == pytest.approx(plain["losses"]["mesh_w"], rel=0.05)
+    names = ("recommended_helix_slope_um", "recommended_lead_crowning_um")
+    for name in names:
+        assert loaded["misalignment"][name] == pytest.approx(plain["misalignment"][name], abs=0.02)
     for one, other in zip(loaded["shafts"], plain["shafts"], strict=True):
         for state, same in zip(one["bearings"], other["bearings"], strict=True):
             assert state["reaction_n"] == pytest.approx(same["reaction_n"], rel=0.02, abs=300)
@@ -416,3 +420,24 @@ def test_a_film_that_cannot_carry_is_no_solution(post: Post) -> None:
     assert found["warnings"][0]["code"] == "journal"
     assert found["residuals"]["load_number"] > 0
     assert json.dumps(found["assumptions"])
+
+
+def test_oil_by_grade_fills_gears_and_journals(post: Post) -> None:
+    """ISO VG 32 by its sheet: thinner in the warmer film."""
+    body = request(lubricant={"iso_vg": 32})
+    body["lubricant"] = {"iso_vg": 32}
+    for bearing, film in zip(body["pinion_shaft"]["bearings"], (40, 100), strict=True):
+        bearing |= {"viscosity_pa_s": None, "film_temperature_c": film}
+    cool, warm = answered(post, body)["derived"]["pinion_shaft"]["bearings"]
+    assert cool["viscosity_pa_s"] == pytest.approx(32e-6 * 860, rel=0.03)
+    assert 4 < cool["viscosity_pa_s"] / warm["viscosity_pa_s"] < 9
+
+
+def test_friction_by_the_oil_replaces_the_coefficient(post: Post) -> None:
+    given, by_oil = (
+        answered(post, request(model={"lubrication": "closed_form", "friction": law}))
+        for law in ("given", "iso_tr_13989")
+    )
+    ratio = by_oil["flash"]["flank_k"] / given["flash"]["flank_k"]
+    assert by_oil["losses"]["mesh_w"] / given["losses"]["mesh_w"] == pytest.approx(ratio, rel=1e-6)
+    assert abs(ratio - 1) > 0.05

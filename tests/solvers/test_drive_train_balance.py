@@ -416,7 +416,9 @@ def test_order_of_couplings_does_not_matter() -> None:
 def test_contact_load_factors_raise_the_contacts_alone() -> None:
     """Pressure grows, the shafts still carry F_bt."""
     plain = replace(turbo_gear(), effects=Effects(coupling=False, thermal=False))
-    one, other = solve(plain), solve(replace(plain, contact_load_factor=1.5))
+    given = plain.mesh.distribution
+    factored = replace(given, load=replace(given.load, application_factor=1.5))
+    one, other = solve(plain), solve(with_distribution(plain, factored))
     assert other.load.max_pressure > 1.1 * one.load.max_pressure
     for a, b in zip(one.shafts, other.shafts, strict=True):
         for first, second in zip(a.bearings, b.bearings, strict=True):
