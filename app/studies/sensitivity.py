@@ -135,9 +135,12 @@ def _every_number(calculation: Calculation, case: dict[str, Any]) -> list[Leaf]:
 
 
 def _places(path: str, case: dict[str, Any]) -> list[str]:
-    """The path with every index that its list has."""
+    """The path with every index that its lists have."""
     before, star, after = path.partition(f".{ITEM}.")
-    return [f"{before}.{index}.{after}" for index in range(len(value_at(case, before) or ()))] if star else [path]
+    if not star:
+        return [path]
+    items = range(len(value_at(case, before) or ()))
+    return [place for index in items for place in _places(f"{before}.{index}.{after}", case)]
 
 
 def _named(calculation: Calculation, case: dict[str, Any], paths: list[str], place: int) -> Leaf:
