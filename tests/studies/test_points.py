@@ -21,7 +21,7 @@ VARIED = {
     "/v1/pumping": "operation.pinion_speed_rpm",
     "/v1/pumping/choking-speed": "gears.face_width_mm",
     "/v1/scuffing/load-distribution": "load.pinion_speed_rpm",
-    "/v1/scuffing": "temperatures.bulk_c",
+    "/v1/scuffing": "temperatures.oil_c",
     "/v1/scuffing/line-contact": "contact.line_load_n_per_mm",
     "/v1/drive-train": "operation.pinion_speed_rpm",
 }
