@@ -41,7 +41,7 @@ PUMPING = Stage(
 )
 LINE_CONTACT = Stage("line contact", 153, ("xue-line-contact", "xue-line-contact-isothermal", "xue-pair-1-thermal"))
 
-DRIVE_TRAIN = Stage("drive train", 8, ("turbo-gear-drive-train", "generator-gear-drive-train"))
+DRIVE_TRAIN = Stage("drive train", 8, ("starter-turbo-gear-drive-train", "starter-generator-gear-drive-train"))
 
 # What two cores compile side by side, each in this order; no stage needs kernels of one in the other track but the
 # drive train, which needs all: it comes last in the longer track and compiles what the other has not yet.

@@ -4,12 +4,17 @@ from collections.abc import Callable, Iterator
 
 import httpx
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 from tests.server import running_server
 
 # The first example of a property may compile a kernel; the same examples every time, searches live in benchmarks.
-settings.register_profile("kernels", deadline=None, derandomize=True)
+settings.register_profile(
+    "kernels",
+    deadline=None,
+    derandomize=True,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],  # drawing a gear unit takes long
+)
 settings.load_profile("kernels")
 
 

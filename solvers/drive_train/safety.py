@@ -15,6 +15,7 @@ from solvers.scuffing.feature_line import contact_points
 from solvers.scuffing.results import ContactPoints, LoadDistribution, Place
 from solvers.scuffing.safety import safety_factor
 from solvers.scuffing.thermal_path import thermal_path
+from solvers.scuffing.verdict import unknown_points
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,16 +104,14 @@ def _bulk(inputs: DriveTrainInputs, thermal: ThermalLead, y: FloatArray) -> Floa
 def _thermal(
     inputs: DriveTrainInputs, points: ContactPoints, bulk: FloatArray
 ) -> tuple[float | None, int, tuple[Notice, ...]]:
-    """Hottest flank surface [K] along a line by thermal EHL, None where a loaded point is not known; how many."""
+    """Hottest flank surface [K] along a line by thermal EHL, None where points not solved may decide; how many are."""
     if not np.any(points.in_contact):
         return None, 0, ()
     path = thermal_path(inputs.mesh, points, points.in_contact)
-    warm = np.fmax(path.pinion_flash, path.wheel_flash) + bulk
-    largest = float(np.nanmax(warm)) if np.any(np.isfinite(warm)) else -np.inf
-    # A point refused for its light load is no hotter than its bound; it matters where that is hottest.
-    unknown = points.in_contact & np.isnan(warm) & ~(path.flash_bound + bulk <= largest)
-    missing = int(unknown.sum())
-    return None if missing else largest, missing, path.warnings
+    unsolved = sum(status in {"no_solution", "refused"} for status in path.status)
+    if unknown_points(path, bulk):
+        return None, unsolved, path.warnings
+    return float(np.nanmax(np.fmax(path.pinion_flash, path.wheel_flash) + bulk)), unsolved, path.warnings
 
 
 def _safety(inputs: DriveTrainInputs, hottest: list[float | None], worst: Place | None) -> TrainSafety | None:

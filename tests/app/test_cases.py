@@ -128,7 +128,7 @@ def test_fields_of_list_items_are_found() -> None:
 )
 def test_what_a_solver_of_many_parts_names_is_found(said: str, meant: str | None) -> None:
     """Of namesakes the outermost is meant, of an item's the item's own, of what an item lacks the item."""
-    _, request = case("turbo-gear-drive-train")
+    _, request = case("starter-turbo-gear-drive-train")
     assert field_path(request, said) == meant
 
 

@@ -14,7 +14,11 @@ from app.library import examples
 
 Post = Callable[[str, object], httpx.Response]
 PATH = "/v1/drive-train"
-TURBO, COLD, GENERATOR = "turbo-gear-drive-train", "turbo-gear-drive-train-cold", "generator-gear-drive-train"
+TURBO, COLD, GENERATOR = (
+    "starter-turbo-gear-drive-train",
+    "starter-turbo-gear-drive-train-cold",
+    "starter-generator-gear-drive-train",
+)
 
 
 def request(name: str = TURBO, **changes: Any) -> dict[str, Any]:

@@ -72,7 +72,7 @@ CASES = {
     "/v1/scuffing/load-distribution": "xue-pair-4-helix-slope-40",
     "/v1/scuffing": "xue-pair-1-scuffing",
     "/v1/scuffing/line-contact": "xue-line-contact",
-    "/v1/drive-train": "generator-gear-drive-train",
+    "/v1/drive-train": "starter-generator-gear-drive-train",
 }
 # Examples whose physics leaves a figure out, and why.
 WITHOUT = {
@@ -209,7 +209,7 @@ def test_curves_and_maps_are_the_answers_numbers_in_the_unit_of_their_axis(name:
         "pahl-z-arrangement",
         "milian-case-1-groove",
         "xue-line-contact",
-        "generator-gear-drive-train",
+        "starter-generator-gear-drive-train",
     ],
 )
 def test_rows_and_levels_are_the_answers_numbers(name: str) -> None:
@@ -405,7 +405,7 @@ def test_every_figure_of_every_example_is_drawn(name: str, theme: Any) -> None:
 
 
 def test_load_along_the_face_is_another_unit_s_without_the_effect() -> None:
-    name = "turbo-gear-drive-train"
+    name = "starter-turbo-gear-drive-train"
     (panel,) = figure(name, "face-load").panels
     lines = {line.title: line.y for line in panel.lines}
     assert set(lines) == {"as asked", "without coupling", "without heat", "without shafts", "mesh alone"}
@@ -422,9 +422,9 @@ def test_load_along_the_face_is_another_unit_s_without_the_effect() -> None:
 
 
 def test_shaft_lines_carry_the_reactions_at_their_bearings() -> None:
-    request, answer = solved("generator-gear-drive-train")
+    request, answer = solved("starter-generator-gear-drive-train")
     for panel, given, state in zip(
-        figure("generator-gear-drive-train", "shaft-lines").panels,
+        figure("starter-generator-gear-drive-train", "shaft-lines").panels,
         (request.pinion_shaft, request.wheel_shaft),
         answer.shafts,
         strict=True,
