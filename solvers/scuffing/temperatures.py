@@ -16,6 +16,7 @@ from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.scuffing_practice import bulk_temperature, lubricant_factor, mean_friction, scuffing_temperature
 
+COLDEST_OIL, HOTTEST_OIL = 223.15, 573.15  # K, the range of reference temperatures
 MEAN_POINTS = 1001  # of the mean flash temperature along the path
 
 
@@ -31,7 +32,8 @@ def with_friction(inputs: ScuffingInputs) -> ScuffingInputs:
 def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution) -> ScuffingInputs:
     """The inputs with bulk and scuffing temperature as numbers and the oil as it enters the contact.
 
-    Raises InvalidInput no_bulk_estimate where the flash temperature has no mean, and what `lubricant_factor` raises.
+    Raises InvalidInput no_bulk_estimate where the flash temperature has no mean, oil_temperature where an oil by its
+    sheet would be too hot or too cold, and what `lubricant_factor` raises.
     """
     temperatures = inputs.temperatures
     if temperatures.bulk_method == "estimated":
@@ -41,6 +43,12 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution) ->
         factor = _oil_factor(inputs) if test.lubricant_factor is None else test.lubricant_factor
         limit = scuffing_temperature(test.fzg_stage, test.structure_factor, factor)
         temperatures = replace(temperatures, scuffing=limit)
+    if inputs.oil is not None and not COLDEST_OIL <= temperatures.bulk <= HOTTEST_OIL:
+        message = (
+            f"the oil would enter at {temperatures.bulk - 273.15:.4g} °C, where no grade or data sheet tells what it "
+            "is; give a lower load, another bulk temperature, or the oil by its viscosity"
+        )
+        raise InvalidInput("oil_temperature", message, "temperatures.bulk_method")
     lubricant = inputs.lubricant if inputs.oil is None else inputs.oil.lubricant(temperatures.bulk)
     return replace(inputs, temperatures=temperatures, lubricant=lubricant)
 
