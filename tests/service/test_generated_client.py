@@ -37,7 +37,7 @@ def test_generated_client_runs_example(package: ModuleType, server: str, name: s
     calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
     _, _, tag, *parts = calculation.path.split("/")
     operation = "_".join((tag, *parts)).replace("-", "_")
-    endpoint = importlib.import_module(f"tribodrive_client.api.{tag}.{operation}")
+    endpoint = importlib.import_module(f"tribodrive_client.api.{tag.replace('-', '_')}.{operation}")
     models = importlib.import_module("tribodrive_client.models")
     body = getattr(models, calculation.request.__name__).from_dict(example.request)
     with package.Client(base_url=server, timeout=60) as client:
