@@ -11,7 +11,7 @@ from solvers.contact.ehl.continuation import LOOSE, TIGHT, Attempt, interpolate,
 from solvers.contact.ehl.dimensionless import groups
 from solvers.contact.ehl.inputs import Contact, LineContactInputs
 from solvers.contact.ehl.mesh import Grid, grid_for
-from solvers.contact.ehl.model import conclude, resolution_for, solve
+from solvers.contact.ehl.model import conclude, resolution_for
 from solvers.contact.ehl.problem import Problem, problem
 from solvers.contact.ehl.results import LineContactResult
 from solvers.contact.ehl.state import State, no_steps
@@ -24,22 +24,17 @@ SHARE = 0.25  # of what is left, for one point that has to start from nothing
 EXTRAPOLATION = ((1.0,), (-1.0, 2.0), (1.0, -3.0, 3.0))  # weights of so many states in the next
 STRIDES = 4  # from one contact to the next, where one does not lead there
 FEWEST_STEPS = 10.0  # that are worth a start from nothing
-SOLVED_ALONE = 12  # points of a path that are given all the steps a contact alone has, where the path's do not do
 
 
 @dataclass(slots=True)
 class _Walk:
-    """Where the path has got to: steps left, the last contact, the states solved last (at most three), their mesh.
-
-    `alone` is how many points may still be solved as if there were no path.
-    """
+    """Where the path has got to: steps left, the last contact, the states solved last (at most three), their mesh."""
 
     budget: Budget
     for_refinement: Budget
     contact: Contact
     known: list[State] = field(default_factory=list)
     grid: Grid | None = None
-    alone: int = SOLVED_ALONE
 
     def move_to(self, grid: Grid) -> None:
         """Interpolate the known states onto another mesh, where it is another."""
@@ -54,7 +49,7 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
     The first starts from nothing, the others from the pressures, temperatures and separation of those before,
     extrapolated. What does not converge so is approached in smaller steps, then solved from nothing; what fails then
     too neither stops its neighbours nor is filled in. All points share one budget of steps: the more of them fail, the
-    fewer each further one is given; a few that fail for want of steps are solved as if they were alone.
+    fewer each further one is given.
 
     Raises InvalidInput as `check` does, and mixed_models unless all contacts share one model.
     """
@@ -83,11 +78,7 @@ def _solve_next(inputs: LineContactInputs, walk: _Walk) -> LineContactResult:
         allowed = min(budget_for(resolution).remaining, SHARE * walk.budget.remaining)
         attempt = solve_cold(constants, resolution, point.part(allowed if allowed > FEWEST_STEPS else 0.0))
     walk.known, walk.contact = ([*walk.known[-2:], attempt.state] if attempt.converged else []), inputs.contact
-    result = conclude(inputs, constants, resolution, attempt, point.spent, walk.for_refinement)
-    if result.status == "no_solution" and walk.alone > 0:
-        walk.alone -= 1
-        result = solve(inputs)
-    return result
+    return conclude(inputs, constants, resolution, attempt, point.spent, walk.for_refinement)
 
 
 def _from_neighbours(
