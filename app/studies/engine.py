@@ -101,12 +101,20 @@ async def _solved_singly(pool: Pool, work: Work, indices: range, error: Exceptio
     points: list[Point] = []
     for index in indices:
         try:
-            points += (await work.begin(pool, range(index, index + 1))).points
+            points += (await _alone(pool, work, index)).points
         except WorkerLost:
-            points.append(work.question.failed("worker_lost", "the point was lost with its process, twice"))
+            points.append(work.question.failed("worker_lost", "the point was lost with its process, again and again"))
         except DeadlineExceeded:
             points.append(_late(work))
     return Chunk(points, time.perf_counter() - started)
+
+
+async def _alone(pool: Pool, work: Work, index: int) -> Chunk:
+    """One point; once more if its process is lost, for that need not be the point's doing."""
+    try:
+        return await work.begin(pool, range(index, index + 1))
+    except WorkerLost:
+        return await work.begin(pool, range(index, index + 1))
 
 
 def _late(work: Work) -> Point:

@@ -119,7 +119,7 @@ def test_a_killed_worker_costs_nothing_but_time(faulty: Server) -> None:
         found = flight.result()
     assert killed >= 2
     assert numbers(found) == expected
-    assert found[-1]["counts"] == {"ok": 200}
+    assert set(found[-1]["counts"]) <= {"ok", "ok_with_warnings"}
 
 
 def test_a_stopped_worker_is_replaced_and_the_study_goes_on(faulty: Server) -> None:
@@ -128,7 +128,9 @@ def test_a_stopped_worker_is_replaced_and_the_study_goes_on(faulty: Server) -> N
         flight = pool.submit(lines_of, address, loads(200))
         time.sleep(0.5)
         send_signal(workers(process)[0], signal.SIGSTOP)
-        assert flight.result()[-1]["counts"] == {"ok": 200}
+        counts = flight.result()[-1]["counts"]
+    assert set(counts) <= {"ok", "ok_with_warnings"}
+    assert sum(counts.values()) == 200
 
 
 def test_a_third_study_waits_outside(faulty: Server) -> None:

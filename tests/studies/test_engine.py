@@ -76,8 +76,8 @@ def test_a_lost_process_costs_its_chunk_a_second_try(place: int) -> None:
     assert [place] in pool.calls[1:]
 
 
-def test_a_point_that_kills_two_processes_fails_alone() -> None:
-    pool = ScriptedPool(seconds=0.01, faults={50: [WorkerLost(), WorkerLost()]})
+def test_a_point_that_kills_every_process_fails_alone() -> None:
+    pool = ScriptedPool(seconds=0.01, faults={50: [WorkerLost(), WorkerLost(), WorkerLost()]})
     assert_all_there(solved(pool, 100), 100, {50: "worker_lost"})
 
 
