@@ -14,7 +14,7 @@ from typing import Any
 import httpx
 
 ROOT = Path(__file__).parents[1]
-START_UP_S = 400.0  # kernels are compiled the first time
+START_UP_S = 1200.0  # kernels are compiled the first time, by several services side by side
 
 
 def free_port() -> int:
