@@ -10,6 +10,7 @@ from time import perf_counter
 
 import numpy as np
 
+from app.published.milian import CASE_1, CASE_2
 from benchmarks.pumping_numpy import numpy_step
 from solvers.gears.inputs import GearPairInputs
 from solvers.gears.pair import gear_pair
@@ -31,7 +32,6 @@ from solvers.pumping.gas_step import Cells, empty_cells, set_walls, step
 from solvers.pumping.spaces import face_stretches, prepare
 from solvers.pumping.stroke import stroke_table
 from solvers.pumping.tooth_space import tooth_space
-from tests.milian import CASE_1, CASE_2
 
 ONE_SET = PumpingModel(spaces=Spaces.PINION)
 SPEED = 9267 * pi / 30

@@ -12,8 +12,9 @@ from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.kinematics import MeshMotion, mesh_motion, revolution, tooth_positions
 from solvers.coupling.load_distribution import LOADED
 from solvers.coupling.notices import orbit_notices
+from solvers.coupling.orbit_results import InertiaForce, Orbit, OrbitResult
 from solvers.coupling.peaks import largest_value
-from solvers.coupling.results import Geometry, InertiaForce, Orbit, OrbitResult
+from solvers.coupling.results import Geometry
 from solvers.coupling.tooth_loads import floating_loads
 from solvers.errors import InvalidInput, NoSolution
 

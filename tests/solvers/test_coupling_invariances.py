@@ -7,9 +7,10 @@ import pytest
 from hypothesis import assume
 from hypothesis import strategies as st
 
+from app.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from solvers.coupling import solve
 from solvers.coupling.inputs import CouplingInputs, ModelOptions
-from tests.couplings import PITCH_RADIUS, TEETH, pahl_coupling, random_pitch_errors
+from tests.couplings import random_pitch_errors
 from tests.properties import examples
 
 misalignments = st.floats(0.01, 1.0)

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import root
 
+from app.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from solvers.coupling import solve
 from solvers.coupling.averaging import rotor_samples
 from solvers.coupling.geometry import offset_misalignment, tooth_geometry
@@ -23,7 +24,7 @@ from solvers.coupling.kinematics import (
 from solvers.coupling.sleeve_equilibrium import sleeve_equilibrium, two_meshes
 from solvers.coupling.tooth_loads import centred_loads
 from solvers.errors import NoSolution
-from tests.couplings import PITCH_RADIUS, TEETH, pahl_coupling, random_pitch_errors
+from tests.couplings import random_pitch_errors
 
 ALPHA = radians(20.0)
 STIFFNESS = 2.8e8

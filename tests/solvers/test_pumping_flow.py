@@ -10,6 +10,7 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
+from app.published.milian import CASE_1, CHAIN, GROOVE, PRINTED, TABLE_1, pinion, run
 from solvers.arrays import FloatArray
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
@@ -37,7 +38,6 @@ from solvers.pumping.riemann import hllc, reservoir_face
 from solvers.pumping.spaces import prepare
 from solvers.pumping.tooth_space import stroke_limits, tooth_space
 from tests.meshing_pairs import setups
-from tests.milian import CASE_1, CHAIN, GROOVE, PRINTED, TABLE_1, pinion, run
 
 AIR = gas(Ambient())
 RANDOM = settings(max_examples=100, derandomize=True, suppress_health_check=[HealthCheck.filter_too_much])

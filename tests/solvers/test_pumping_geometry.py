@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 from shapely import Polygon
 
+from app.published.milian import CASE_1, CASE_2, TABLE_1
 from solvers.arrays import FloatArray
 from solvers.errors import InvalidInput
 from solvers.gears.fillet import fillet_point, fillet_sector_area, root_profile
@@ -18,7 +19,6 @@ from solvers.pumping.section import section
 from solvers.pumping.stroke import stroke_table
 from solvers.pumping.tooth_space import ToothSpace, stroke_limits, tooth_space
 from tests.meshing_pairs import setups
-from tests.milian import CASE_1, CASE_2, TABLE_1
 from tests.pumping_cases import rough_gears
 
 RANDOM = settings(max_examples=120, derandomize=True, suppress_health_check=[HealthCheck.filter_too_much])

@@ -6,6 +6,7 @@ from math import radians
 import numpy as np
 import pytest
 
+from app.published.xue import PAPER_LOAD, paper_gears, paper_pair
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth, normal_section
 from solvers.scuffing import solve_load_distribution, solve_scuffing
@@ -19,7 +20,7 @@ from solvers.scuffing.inputs import (
     angular_speed,
 )
 from solvers.scuffing.results import LoadDistribution
-from tests.gear_pairs import PAPER_LOAD, UNDERCUT_PAIR, paper_gears, paper_pair, with_torque
+from tests.gear_pairs import UNDERCUT_PAIR, with_torque
 from tests.modified_pairs import random_pair
 
 LINEAR = Model(contact="linear")
