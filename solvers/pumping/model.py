@@ -7,11 +7,11 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.notices import Notice
 from solvers.pumping.checks import check_speed
-from solvers.pumping.flow import SpaceFlow
+from solvers.pumping.flow.nozzle import Gas
+from solvers.pumping.flow.space_flow import SpaceFlow
 from solvers.pumping.inputs import PumpingInputs
 from solvers.pumping.lead_correction import LeadCorrection, lead_correction
 from solvers.pumping.notices import flow_notices, net_flow_notices, resolution_notices, speed_notices
-from solvers.pumping.nozzle import Gas
 from solvers.pumping.pulsation import Pulsation, pulsation
 from solvers.pumping.results import (
     Balance,
@@ -24,9 +24,9 @@ from solvers.pumping.results import (
     Stroke,
     Totals,
 )
+from solvers.pumping.space.stroke import StrokeTable
+from solvers.pumping.space.tooth_space import normal_backlash
 from solvers.pumping.spaces import Mesh, Space, derived, face_stretches, flow_at, halved_flow_at, prepare
-from solvers.pumping.stroke import StrokeTable
-from solvers.pumping.tooth_space import normal_backlash
 
 
 def solve(inputs: PumpingInputs) -> PumpingResult:

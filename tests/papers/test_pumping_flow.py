@@ -28,7 +28,7 @@ from app.published.milian import (
 from solvers.gears.inputs import GearPairInputs
 from solvers.materials import Solid
 from solvers.pumping import Ambient, PumpingInputs, PumpingModel, PumpingSetup, solve
-from solvers.pumping.nozzle import choked_mass_flux, gas, mass_flux
+from solvers.pumping.flow.nozzle import choked_mass_flux, gas, mass_flux
 
 CASES = [(CASE_1, SPEED_1), (CASE_2, SPEED_2)]
 

@@ -29,14 +29,24 @@ from solvers.pumping import (
     choking_speeds,
     solve,
 )
-from solvers.pumping.duct import ACTIVE, LARGEST_MACH, LARGEST_PRESSURE, STAGNATION, WORK, Duct, Record, empty_record
-from solvers.pumping.gas_march import march
-from solvers.pumping.gas_step import empty_cells
-from solvers.pumping.leakage import Walls, implicit_stage
-from solvers.pumping.nozzle import Gas, flux_squared, gas, mass_flux
-from solvers.pumping.riemann import hllc, reservoir_face
+from solvers.pumping.flow.duct import Duct
+from solvers.pumping.flow.nozzle import Gas, flux_squared, gas, mass_flux
+from solvers.pumping.flow.record import (
+    ACTIVE,
+    LARGEST_MACH,
+    LARGEST_PRESSURE,
+    PRESSURE,
+    STAGNATION,
+    WORK,
+    Record,
+    empty_record,
+)
+from solvers.pumping.gas.cells import empty_cells
+from solvers.pumping.gas.leakage import Walls, implicit_stage
+from solvers.pumping.gas.march import march
+from solvers.pumping.gas.riemann import hllc, reservoir_face
+from solvers.pumping.space.tooth_space import stroke_limits, tooth_space
 from solvers.pumping.spaces import prepare
-from solvers.pumping.tooth_space import stroke_limits, tooth_space
 from tests.meshing_pairs import setups
 
 AIR = gas(Ambient())
@@ -71,13 +81,13 @@ def orders(values: list[FloatArray]) -> list[float]:
 def test_gas_dynamics_is_of_second_order_where_the_flow_is_smooth(gap: float, least: float) -> None:
     # with gaps the square root of the nozzle law at p = p_e costs a little
     records = [smooth_march(cells, gap=gap)[0] for cells in (25, 50, 100, 200, 400)]
-    assert min(orders([record.field[1, :, 0] for record in records])) > least
+    assert min(orders([record.field[1, :, PRESSURE] for record in records])) > least
     assert min(orders([record.profile[:, STAGNATION] / record.profile[:, ACTIVE] for record in records])) > least - 0.15
 
 
 def test_first_order_scheme_is_of_first_order() -> None:
     records = [smooth_march(cells, order=1)[0] for cells in (50, 100, 200, 400)]
-    assert orders([record.field[1, :, 0] for record in records]) == pytest.approx([1, 1], abs=0.15)
+    assert orders([record.field[1, :, PRESSURE] for record in records]) == pytest.approx([1, 1], abs=0.15)
 
 
 def test_both_orders_have_one_limit() -> None:

@@ -15,9 +15,9 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
 from solvers.gears.path_of_contact import PathOfContact, meshing_path
 from solvers.pumping.inputs import Gap, PumpingSetup
-from solvers.pumping.section import section
-from solvers.pumping.stroke import stroke_table
-from solvers.pumping.tooth_space import ToothSpace, stroke_limits, tooth_space
+from solvers.pumping.space.section import section
+from solvers.pumping.space.stroke import stroke_table
+from solvers.pumping.space.tooth_space import ToothSpace, stroke_limits, tooth_space
 from tests.meshing_pairs import setups
 from tests.pumping_cases import rough_gears
 

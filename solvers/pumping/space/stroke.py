@@ -8,8 +8,8 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.compiled import kernel
 from solvers.errors import InvalidInput
-from solvers.pumping.section import section
-from solvers.pumping.tooth_space import StrokeLimits, ToothSpace, stroke_limits
+from solvers.pumping.space.section import section
+from solvers.pumping.space.tooth_space import StrokeLimits, ToothSpace, stroke_limits
 
 POSITIONS = 361
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from solvers.compiled import kernel
 from solvers.gears.fillet import RackFillet, fillet_point, fillet_sector_area
-from solvers.pumping.tooth_space import ToothSpace
+from solvers.pumping.space.tooth_space import ToothSpace
 
 _SCAN = 17  # fillet points that bracket the nearest one
 _GOLDEN = 0.6180339887498949

@@ -1,0 +1,1 @@
+"""The space between two teeth while it meshes: tooth_space -> section -> stroke; and face, the width it lies along."""
