@@ -194,8 +194,10 @@ def _result(angles: FloatArray, settled: _SettledPath, finer: _SettledPath | Non
         warnings=tuple(
             orbit_notices(
                 fewest_teeth=settled.fewest,
-                displacement=(settled.farthest, displacement_uncertainty),
-                harmonics=(float(harmonics.max()), harmonics_uncertainty),
+                displacement=settled.farthest,
+                displacement_uncertainty=displacement_uncertainty,
+                harmonic=float(harmonics.max()),
+                harmonic_uncertainty=harmonics_uncertainty,
             )
         ),
     )

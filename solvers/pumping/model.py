@@ -96,7 +96,7 @@ def _spaces_result(gas: Gas, space: Space, flow: SpaceFlow, halved: SpaceFlow, f
         static_temperature_rise=_rise(gas, flow.mean_temperature),
         peak_pressure_ratio=frozen(flow.peak_pressure / gas.pressure),
     )
-    hottest = _hottest(flow.position, profile.temperature_rise)
+    hottest, largest_rise = _hottest(flow.position, profile.temperature_rise)
     return SpacesResult(
         stroke=_stroke(space.table),
         peak_pressure_ratio=flow.largest_pressure / gas.pressure,
@@ -105,8 +105,8 @@ def _spaces_result(gas: Gas, space: Space, flow: SpaceFlow, halved: SpaceFlow, f
         peak_axial_velocity=flow.largest_velocity,
         radial_choked=flow.largest_pressure * gas.critical_ratio > gas.pressure,
         axial_choked=flow.exit_demand > 1.0,
-        max_temperature_rise=hottest[1],
-        hottest_position=hottest[0],
+        max_temperature_rise=largest_rise,
+        hottest_position=hottest,
         pumping_power=frequency * flow.work,
         work_per_space=flow.work,
         mass_flow=_mass_flow(flow, halved, frequency),
@@ -139,11 +139,10 @@ def _changes(gas: Gas, flows: list[SpaceFlow], halved: list[SpaceFlow]) -> dict[
             "radial flow": (fine.masses.radial, coarse.masses.radial),
         }
         if fine.mean_stagnation_temperature is not None and coarse.mean_stagnation_temperature is not None:
-            rises = [
-                float(flow.max()) - gas.temperature
-                for flow in (fine.mean_stagnation_temperature, coarse.mean_stagnation_temperature)
-            ]
-            pairs["temperature rise"] = (rises[0], rises[1])
+            pairs["temperature rise"] = (
+                float(fine.mean_stagnation_temperature.max()) - gas.temperature,
+                float(coarse.mean_stagnation_temperature.max()) - gas.temperature,
+            )
         for name, (value, other) in pairs.items():
             if value != 0.0:
                 changes[name] = max(changes.get(name, 0.0), abs(other / value - 1.0))

@@ -5,6 +5,8 @@ under involutes and circular arcs are elementary. Only a foot on the root fillet
 space at (angle, mate's angle) is the mirror image of the left side at (-angle, -mate's angle).
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from solvers.compiled import kernel
@@ -13,6 +15,15 @@ from solvers.pumping.space.tooth_space import ToothSpace
 
 _SCAN = 17  # fillet points that bracket the nearest one
 _GOLDEN = 0.6180339887498949
+
+
+class Section(NamedTuple):
+    """Area [m^2], clearance of both sides [m], area of gas that the flanks have carried out so far [m^2]."""
+
+    area: float
+    left: float
+    right: float
+    carried: float
 
 
 @kernel
@@ -184,12 +195,14 @@ def _flank_section(
     start = space.root.involute_roll
     if roll < start:
         clearance, r, psi, below = _from_mate(space, angle, mate_angle, mate_roll)
-        return min(clearance, _from_own(space, angle, mate_angle, start)[1]), r, psi, below, mate_roll
+        _, at_end = _from_own(space, angle, mate_angle, start)
+        return min(clearance, at_end), r, psi, below, mate_roll
     r, psi = np.hypot(space.base_radius, roll), space.base_half_angle + _involute(roll, space.base_radius)
     foot, clearance = mate_roll, gap
     if mate_roll < 0.0:
         foot, clearance = _from_own(space, angle, mate_angle, roll)
-        clearance = min(clearance, _from_mate(space, angle, mate_angle, 0.0)[0])
+        at_end, _, _, _ = _from_mate(space, angle, mate_angle, 0.0)
+        clearance = min(clearance, at_end)
     return clearance, r, psi, _sector_to_involute(space, roll), foot
 
 
@@ -223,19 +236,18 @@ def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tup
     if gap == 0.0 and roll >= 0.0 and mate_roll >= 0.0:
         clearance = 0.0
     else:
-        clearance = min(clearance, _corner_section(space, angle, mate_angle)[0])
+        at_corner, _, _, _, _ = _corner_section(space, angle, mate_angle)
+        clearance = min(clearance, at_corner)
     return _close(space, angle, mate_angle, r, psi, foot) - below, clearance, carried
 
 
 @kernel
-def section(space: ToothSpace, angle: float) -> tuple[float, float, float, float]:
-    """Area [m^2], left and right clearance [m], area of gas that the flanks have carried out so far [m^2].
-
-    `angle` [rad] of the owner; only differences of what is carried have a meaning. The flanks of the coast side roll
+def section(space: ToothSpace, angle: float) -> Section:
+    """The section at an `angle` [rad] of the owner; only differences of what is carried have a meaning. The flanks of the coast side roll
     through the section fixed on the line of action: out of the space where the owner drives, else into it.
     """
     mate_angle = angle * space.ratio + space.offset
     left_gap = 0.0 if space.owner_drives else space.backlash_gap
     left_area, left, left_carried = _side(space, angle, mate_angle, left_gap)
     right_area, right, right_carried = _side(space, -angle, -mate_angle, space.backlash_gap - left_gap)
-    return left_area + right_area, left, right, -left_carried - right_carried
+    return Section(left_area + right_area, left, right, -left_carried - right_carried)
