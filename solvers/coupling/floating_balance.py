@@ -57,13 +57,11 @@ def solve_loaded(hessian: FloatArray, right: FloatArray, solution: FloatArray, f
     directions: fewer than three loaded teeth have no stiffness in one or both of them, and the sleeve stays there.
     `free` is the lateral part of `right` in those directions.
     """
-    loaded = max(hessian[ROTATION, ROTATION], 1.0)
-    mean_x, mean_y = hessian[ROTATION, SHIFT_X] / loaded, hessian[ROTATION, SHIFT_Y] / loaded
-    xx, xy = (
-        hessian[SHIFT_X, SHIFT_X] - hessian[ROTATION, SHIFT_X] * mean_x,
-        hessian[SHIFT_X, SHIFT_Y] - hessian[ROTATION, SHIFT_X] * mean_y,
-    )
-    yy = hessian[SHIFT_Y, SHIFT_Y] - hessian[ROTATION, SHIFT_Y] * mean_y
+    (loaded, sum_x, sum_y), (_, sum_xx, sum_xy), (_, _, sum_yy) = hessian
+    loaded = max(loaded, 1.0)
+    mean_x, mean_y = sum_x / loaded, sum_y / loaded
+    xx, xy = sum_xx - sum_x * mean_x, sum_xy - sum_x * mean_y
+    yy = sum_yy - sum_y * mean_y
     x, y = right[SHIFT_X] - right[ROTATION] * mean_x, right[SHIFT_Y] - right[ROTATION] * mean_y
     angle = 0.5 * atan2(2.0 * xy, xx - yy)
     half_sum, half_difference = 0.5 * (xx + yy), 0.5 * hypot(2.0 * xy, xx - yy)
