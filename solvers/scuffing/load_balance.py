@@ -130,8 +130,9 @@ def _settle(
     Forces vanish at the ends of what is loaded, so that an error of TE moves the next one in second order only.
     """
     covers, steps, settled = 0, 0.0, False
+    phase, side = at
     while not settled:
-        cover = gather(mesh, at[0], at[1], slices, error, table)
+        cover = gather(mesh, phase, side, slices, error, table)
         before = error
         error, residual, more = solve_position(table, cover.slices, mesh.compliance.logarithmic, force)
         covers, steps = covers + 1, steps + more
