@@ -160,7 +160,7 @@ def _balance(
                 cover, error[i], residual[i], steps[i] = _settle(mesh, at, slices, force, cover.least, error[i], table)
             survey.loaded_length[i] = cover.length
             survey_slices(mesh, table, cover.slices, error[i], survey, i)
-        survey_ends(mesh, phase[i], side[i], error[i], survey, i)
+            survey_ends(mesh, phase[i], side[i], error[i], survey, i)
     return error, unloaded, residual, steps, survey
 
 
