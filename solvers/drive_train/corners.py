@@ -130,11 +130,12 @@ def run_corners(
             _note(found, corner, figures, smallest, largest)
         if progress is not None:
             progress(done, runs)
-    warnings = () if not failed else (_unconverged(failed),)
+    warnings = () if not failed else (unconverged(failed),)
     return Corners(smallest, largest, runs, failed, warnings)
 
 
-def _unconverged(failed: int) -> Notice:
+def unconverged(failed: int) -> Notice:
+    """What extremes over corners have to say where some have no solution."""
     return Notice(
         "no_convergence_of_corner", f"{failed} corners have no solution; the extremes are of the rest", "ranges"
     )
