@@ -18,6 +18,7 @@ Objective = Literal["safety", "max_pressure", "face_load_factor"]
 EVALUATIONS = 60
 FIRST_STEP = 0.15  # of a variable's range
 LAST_STEP = 2e-3
+LEAST_GAIN = 1e-3  # of the start's figure, that another search must bring
 HOPELESS = 10.0  # of the start's figure; stands for a unit without solution
 
 
@@ -108,26 +109,39 @@ def _known(trial: Trial) -> float:
 def search(judge: Callable[[FloatArray], float | None], start: FloatArray, evaluations: int) -> None:
     """Make the judge's figure small over the unit cube; None is a place without solution.
 
-    By COBYQA, which takes no derivatives and copes with the kinks of a maximum. Raises NoSolution design where the
-    start has none.
+    By COBYQA, which takes no derivatives. Its models may get stuck on a ridge where two corners are equally bad, so it
+    begins anew at the best place while that gains anything. Raises NoSolution design where the start has none.
     """
+    known: list[tuple[float, FloatArray]] = []
     scale = 0.0
 
     def relative(unit: FloatArray) -> float:
         nonlocal scale
-        figure = judge(np.clip(unit, 0.0, 1.0))
-        if scale == 0.0 and figure is None:
+        unit = np.clip(unit, 0.0, 1.0)
+        figure = judge(unit)
+        if not known and figure is None:
             raise NoSolution("design", "the unit the search starts from has no solution at some corner")
         scale = scale or abs(figure or 0.0) or 1.0
-        return HOPELESS if figure is None else figure / scale
+        known.append((HOPELESS if figure is None else figure / scale, unit))
+        return known[-1][0]
 
-    minimize(
-        relative,
-        np.clip(start, 0.0, 1.0),
-        method="COBYQA",
-        bounds=Bounds(np.zeros(start.size), np.ones(start.size)),
-        options={"maxfev": evaluations, "initial_tr_radius": FIRST_STEP, "final_tr_radius": LAST_STEP},
-    )
+    place, before = np.clip(start, 0.0, 1.0), np.inf
+    while len(known) < evaluations:
+        minimize(
+            relative,
+            place,
+            method="COBYQA",
+            bounds=Bounds(np.zeros(start.size), np.ones(start.size)),
+            options={
+                "maxfev": evaluations - len(known),
+                "initial_tr_radius": FIRST_STEP,
+                "final_tr_radius": LAST_STEP,
+            },
+        )
+        figure, place = min(known, key=lambda trial: trial[0])
+        if before - figure < LEAST_GAIN:
+            return
+        before = figure
 
 
 def _cases(
