@@ -9,6 +9,7 @@ from solvers.drive_train.balance import Equilibrium, LoadedMesh, equilibrium
 from solvers.drive_train.checks import check_inputs
 from solvers.drive_train.derived import derived
 from solvers.drive_train.elements import coupling_results, hubs_of, shaft_results, warnings_of
+from solvers.drive_train.hub_balance import loads_at_rest
 from solvers.drive_train.influence import Unit, unit
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.losses import force_balance, train_losses
@@ -76,7 +77,7 @@ def settle(inputs: DriveTrainInputs, prepared: Prepared, start: FloatArray | Non
     mesh = prepared.mesh
     response = mesh.respond(gap)
     force, by_gap = mesh.scale * response.force, mesh.scale * response.derivative
-    return Equilibrium(gap, 0.0, force, np.zeros(0), mesh.balance(gap), by_gap, 0, 0.0)
+    return Equilibrium(gap, 0.0, force, loads_at_rest(prepared.unit), mesh.balance(gap), by_gap, 0, 0.0)
 
 
 def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTrainResult:
