@@ -129,18 +129,18 @@ def _every_number(calculation: Calculation, case: dict[str, Any]) -> list[Leaf]:
         scalar_at(calculation.request, path, "inputs", "unknown_path")
         for leaf in leaves(calculation.request)
         if leaf.is_scalar and leaf.kind in NUMBERS and not leaf.advanced
-        for path in _places(leaf.path, case)
+        for path in places(leaf.path, case)
         if value_at(case, path) is not None
     ]
 
 
-def _places(path: str, case: dict[str, Any]) -> list[str]:
+def places(path: str, case: dict[str, Any]) -> list[str]:
     """The path with every index that its lists have."""
     before, star, after = path.partition(f".{ITEM}.")
     if not star:
         return [path]
     items = range(len(value_at(case, before) or ()))
-    return [place for index in items for place in _places(f"{before}.{index}.{after}", case)]
+    return [place for index in items for place in places(f"{before}.{index}.{after}", case)]
 
 
 def _named(calculation: Calculation, case: dict[str, Any], paths: list[str], place: int) -> Leaf:
