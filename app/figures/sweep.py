@@ -14,12 +14,16 @@ FLAT = 0.5  # of the largest value: an output that stays above it is not drawn f
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Coordinate:
-    """A varied field: its values in rising order, or its words; `own` is the value of the case itself."""
+    """A varied field: its values in rising order, or its words; `own` is the value of the case itself.
+
+    `scatters` says that manufacture or measurement leaves it open, so that a design has to forgive it.
+    """
 
     axis: Axis
     values: Values
     words: tuple[str, ...] = ()
     own: float | None = None
+    scatters: bool = False
 
     def named(self, index: int) -> str:
         """A value as people read it."""
@@ -69,7 +73,8 @@ def figures_of(grid: Grid) -> dict[str, Figure]:
         return {"curve": curve(grid)}
     if not grid.is_map:
         return {"family": family(grid, grid.y)}
-    return {"map": chart(grid, grid.y), "worst": worst(grid, grid.y)}
+    forgiven = {"worst": worst(grid, grid.y)} if grid.x.scatters else {}
+    return {"map": chart(grid, grid.y), **forgiven}
 
 
 def curve(grid: Grid) -> Figure:
@@ -139,7 +144,7 @@ def worst(grid: Grid, y: Coordinate) -> Figure:
         side = "above" if grid.greatest else "below"
         finding = f"{y.axis.title} {y.named(index)} keeps {grid.output.title} {side} {bound}"
     panel = Panel(x=y.axis, y=_ordinate(grid), lines=tuple(lines), levels=_limit(grid), marks=marks)
-    title = f"Which {y.axis.title} forgives {x.axis.title} of {x.span}?"
+    title = f"Which {y.axis.title} forgives {x.axis.title} from {x.span}?"
     return Figure(finding, (panel,), title=title, unsolved=grid.unsolved)
 
 

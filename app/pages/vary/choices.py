@@ -39,7 +39,7 @@ def varied(calculation: Calculation, case: dict[str, Any], *, words: bool) -> li
     titles = {branch.path: branch.title for branch in tree(calculation.request).branches}
     found = []
     for leaf in leaves(calculation.request):
-        if leaf.is_scalar and leaf.path != "detail" and (leaf.kind in NUMBERS or (words and words_of(leaf))):
+        if leaf.is_scalar and leaf.path != "detail" and (has_numbers(leaf) or (words and words_of(leaf))):
             group = titles.get(leaf.path.partition(".")[0], "general")
             found += [Choice(path, _label(leaf, path, case), group) for path in places(leaf.path, case)]
     return found
@@ -48,6 +48,16 @@ def varied(calculation: Calculation, case: dict[str, Any], *, words: bool) -> li
 def words_of(leaf: Leaf) -> list[Scalar]:
     """What a field can be if it is no number."""
     return [True, False] if leaf.kind == "boolean" else [option for option in leaf.options if isinstance(option, str)]
+
+
+def grades_of(leaf: Leaf) -> list[float]:
+    """The numbers of a field that takes only some."""
+    return [option for option in leaf.options if isinstance(option, int | float) and not isinstance(option, bool)]
+
+
+def has_numbers(leaf: Leaf) -> bool:
+    """Whether an axis can run along it."""
+    return leaf.kind in NUMBERS or bool(grades_of(leaf))
 
 
 def _label(leaf: Leaf, path: str, case: dict[str, Any]) -> str:

@@ -51,25 +51,27 @@ STUDIES = (
         | {"show": "axial_thrust.force_n"},
     ),
     StudyExample(
-        "How far does speed throw the sleeve?",
-        "largest displacement over speed",
-        "starter-coupling-orbit",
-        _axis("x", "operation.speed_rpm", 1000, 12000, 45) | {"show": "max_displacement_um", "best": "greatest"},
+        "How far does misalignment throw the sleeve?",
+        "largest displacement over misalignment, by crowning",
+        "pahl-sleeve-orbit",
+        _axis("x", "operation.misalignment_deg", 0, 1, 41)
+        | _axis("y", "coupling.crowning_ratio", 1, 4, 4)
+        | {"show": "max_displacement_um", "best": "greatest"},
     ),
     StudyExample(
-        "How much crowning for how much torque?",
-        "best crowning ratio over torque, by the oil's grade",
+        "Which oil for how much torque?",
+        "load capacity at the best crowning, over torque, by the oil's grade",
         "starter-coupling-crowning",
-        _axis("x", "operation.torque_n_m", 1000, 8000, 15)
-        | _axis("y", "lubricant.iso_vg", 32, 100, 3)
-        | {"show": "crowning_ratio"},
+        _axis("x", "operation.torque_n_m", 1000, 4500, 15)
+        | {"y": "lubricant.iso_vg", "y.from": "32", "y.to": "150"}
+        | {"show": "min_load_capacity_coefficient", "best": "greatest"},
     ),
     StudyExample(
         "What does squeezing out the air cost, over speed and backlash?",
-        "pumping power, as a map",
+        "pumping power over speed, by backlash",
         "milian-table-1",
-        _axis("x", "operation.pinion_speed_rpm", 1000, 9000, 17)
-        | _axis("y", "gears.normal_backlash_mm", 0, 1, 9)
+        _axis("x", "operation.pinion_speed_rpm", 1000, 6000, 11)
+        | _axis("y", "gears.normal_backlash_mm", 0, 1, 4)
         | {"show": "total.pumping_power_w"},
     ),
     StudyExample(
@@ -82,8 +84,8 @@ STUDIES = (
         "How much load does a hotter oil leave?",
         "scuffing safety over power, by oil temperature",
         "starter-industrial-scuffing",
-        _axis("x", "load.power_kw", 100, 800, 15)
-        | _axis("y", "temperatures.oil_c", 50, 90, 3)
+        _axis("x", "load.power_kw", 200, 800, 7)
+        | _axis("y", "temperatures.oil_c", 60, 80, 2)
         | {"show": "safety.blok_factor", "best": "greatest"},
     ),
     StudyExample(

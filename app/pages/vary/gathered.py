@@ -26,7 +26,7 @@ class Gathered:
     total: int
     out: list[float | None] = field(default_factory=list)
     status: list[str] = field(default_factory=list)
-    said: list[str] = field(default_factory=list)
+    said: list[tuple[str, ...]] = field(default_factory=list)
     elapsed_s: float | None = None
     broke: str | None = None
 
@@ -37,7 +37,7 @@ class Gathered:
                 error = line.get("error")
                 self.out.append(line["out"][0])
                 self.status.append(line["status"])
-                self.said.append(error["message"] if error else ", ".join(map(words, line["warnings"])))
+                self.said.append((error["message"],) if error else tuple(map(words, line["warnings"])))
             case "end":
                 self.elapsed_s = line["elapsed_s"]
             case "error":
@@ -56,7 +56,7 @@ class Gathered:
     @property
     def reasons(self) -> list[tuple[str, int]]:
         """What was said, how often, the most frequent first."""
-        return Counter(each for each in self.said if each).most_common()
+        return Counter(text for said in self.said for text in said).most_common()
 
 
 def grid_of(wish: Wish, sweep: Sweep, gathered: Gathered, limit: float | None) -> Grid:
@@ -74,7 +74,7 @@ def grid_of(wish: Wish, sweep: Sweep, gathered: Gathered, limit: float | None) -
     warned: tuple[str | None, ...] = ()
     if len(sizes) == 1 and gathered.done == gathered.total:
         outside = [
-            said if status == "ok_with_warnings" else None
+            ", ".join(said) if status == "ok_with_warnings" else None
             for said, status in zip(gathered.said, gathered.status, strict=True)
         ]
         warned = tuple(outside[place] for place in orders[0])
@@ -93,16 +93,17 @@ def grid_of(wish: Wish, sweep: Sweep, gathered: Gathered, limit: float | None) -
 def _coordinate(varied: Varied, listed: list[Scalar]) -> tuple[Coordinate, list[int]]:
     """The values of a field in rising order, and the places where they stand in the sweep."""
     leaf: Leaf = varied.leaf
-    if "values" in varied.axis:
+    if not all(isinstance(each, int | float) and not isinstance(each, bool) for each in listed):
         texts = tuple(_word(each) for each in listed)
         return Coordinate(Axis(leaf.title), values(list(range(len(listed)))), texts), list(range(len(listed)))
     numbers = np.array(listed, dtype=np.float64)
     order = np.argsort(numbers, kind="stable")
     rising = values(numbers[order])
-    log = varied.axis["scale"] == "log"
+    log = varied.axis.get("scale") == "log"
     limits = (float(rising[0]), float(rising[-1])) if log else None
     axis = Axis(leaf.title, leaf.unit, log=log, magnitude=False, limits=limits)
-    return Coordinate(axis, rising, own=varied.own), order.tolist()
+    scatters = leaf.tolerance is not None
+    return Coordinate(axis, rising, own=varied.own, scatters=scatters), order.tolist()
 
 
 def _word(value: Any) -> str:

@@ -102,7 +102,7 @@ def planned(asked: Asked, most: int, deadline_s: float) -> Study:
 
 def _limit(output: Leaf, case: dict[str, Any]) -> float | None:
     """What bounds the output, where that is a number of its own or of the case."""
-    limit = output.limit
+    limit = output.limit if output.bound else None
     if isinstance(limit, str):
         try:
             limit = value_at(case, limit)
@@ -172,7 +172,7 @@ def _row(study: Study, gathered: Gathered, index: int) -> dict[str, Any]:
         "at": [shown(each, 6) for each in at],
         "value": shown(gathered.out[index]),
         "status": gathered.status[index].replace("_", " "),
-        "said": gathered.said[index],
+        "said": ", ".join(gathered.said[index]),
         "address": study.opened(index),
     }
 

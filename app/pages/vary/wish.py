@@ -7,7 +7,7 @@ from typing import Any
 from app.calculations import Calculation
 from app.contract.fields import Leaf, headlines, leaf_at
 from app.pages.query import Pairs, body_of, number_of
-from app.pages.vary.choices import Range, usual_range, words_of
+from app.pages.vary.choices import Range, grades_of, has_numbers, usual_range, words_of
 from app.problems import Unprocessable
 from app.reading import InvalidBody, validated
 from app.studies.fields import scalar_at, value_at
@@ -68,15 +68,23 @@ def _varied(calculation: Calculation, case: dict[str, Any], said: dict[str, str]
     leaf = scalar_at(calculation.request, said[name], f"{where}.path", "unknown_path")
     value = value_at(case, leaf.path)
     own = float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
-    if leaf.kind not in NUMBERS:
+    if not has_numbers(leaf):
         if name == "x" or not words_of(leaf):
-            raise Unprocessable(
-                "not_scalar", f"{leaf.title} has no numbers; vary another field along it", where + ".path"
-            )
+            message = f"{leaf.title} has no numbers; vary another field along it"
+            raise Unprocessable("not_scalar", message, f"{where}.path")
         return Varied(leaf, {"path": leaf.path, "values": words_of(leaf)}, None, None)
-    usual = usual_range(leaf, own)
-    axis = {"path": leaf.path, **_spread(said, name, usual, where)}
-    return Varied(leaf, axis, usual, own)
+    grades = grades_of(leaf)
+    usual = Range(min(grades), max(grades)) if grades else usual_range(leaf, own)
+    spread = _spread(said, name, usual, where)
+    return Varied(leaf, {"path": leaf.path, **(_among(grades, spread) if grades else spread)}, usual, own)
+
+
+def _among(grades: list[float], spread: dict[str, Any]) -> dict[str, Any]:
+    """Of a field that takes only some numbers those between the ends, if the ends are numbers."""
+    if not all(isinstance(spread[end], int | float) for end in ("start", "stop")):
+        return spread
+    low, high = sorted((spread["start"], spread["stop"]))
+    return {"values": [grade for grade in grades if low <= grade <= high]}
 
 
 def _spread(said: dict[str, str], name: str, usual: Range | None, where: str) -> dict[str, Any]:
