@@ -71,6 +71,8 @@ def _add(calculation: Calculation) -> None:
         if name not in FIGURES or image_format not in kinds:
             raise HTTPException(404, f"There are {', '.join(FIGURES)}, each as {', '.join(kinds)}")
         study = await _study(http, calculation)
+        if name not in study.figures:
+            raise HTTPException(404, f"This study has {', '.join(study.figures)}")
         return await _stream(http, study, _file_pieces(name, image_format), kinds[image_format], DOCUMENT_POLICY)
 
     router.add_api_route(path, page, methods=METHODS)

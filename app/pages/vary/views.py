@@ -40,6 +40,11 @@ class Study:
     limit: float | None
 
     @property
+    def figures(self) -> tuple[str, ...]:
+        """Names of its figures, which depend on how many fields and values it has."""
+        return tuple(_figures(self, Gathered(self.sweep.total)))
+
+    @property
     def links(self) -> "StudyLinks":
         """Where the views of the study are."""
         return StudyLinks(self.asked)
@@ -157,8 +162,8 @@ def whole(study: Study, gathered: Gathered) -> bytes:
 
 
 def file(study: Study, gathered: Gathered, name: str, image_format: Format) -> bytes:
-    """One figure as a file."""
-    figure = _figures(study, gathered).get(name) or next(iter(_figures(study, gathered).values()))
+    """One figure as a file; the study has it."""
+    figure = _figures(study, gathered)[name]
     return table(figure) if image_format == "csv" else written(figure, image_format, study.asked.theme)
 
 

@@ -4,6 +4,8 @@ import json
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from app.calculations import Calculation
 from app.contract.fields import Leaf, headlines, leaf_at
 from app.pages.query import Pairs, body_of, number_of
@@ -14,6 +16,7 @@ from app.studies.fields import scalar_at, value_at
 from app.studies.sensitivity import NUMBERS
 
 COUNTS = {"x": 21, "y": 5}
+MOST_WHOLE = 10_000
 AXES = ("x", "y")
 
 
@@ -75,8 +78,12 @@ def _varied(calculation: Calculation, case: dict[str, Any], said: dict[str, str]
         return Varied(leaf, {"path": leaf.path, "values": words_of(leaf)}, None, None)
     grades = grades_of(leaf)
     usual = Range(min(grades), max(grades)) if grades else usual_range(leaf, own)
-    spread = _spread(said, name, usual, where)
-    return Varied(leaf, {"path": leaf.path, **(_among(grades, spread) if grades else spread)}, usual, own)
+    axis = _spread(said, name, usual, where)
+    if grades:
+        axis = _among(grades, axis)
+    elif leaf.kind == "integer":
+        axis = _whole(axis)
+    return Varied(leaf, {"path": leaf.path, **axis}, usual, own)
 
 
 def _among(grades: list[float], spread: dict[str, Any]) -> dict[str, Any]:
@@ -101,6 +108,16 @@ def _spread(said: dict[str, str], name: str, usual: Range | None, where: str) ->
     if spread["start"] == spread["stop"]:
         raise Unprocessable("values_or_range", "from and to are the same", where)
     return spread
+
+
+def _whole(spread: dict[str, Any]) -> dict[str, Any]:
+    """Whole numbers as evenly spread as they can be, each once; what is no such spread is left to the validator."""
+    start, stop, count = (spread[part] for part in ("start", "stop", "count"))
+    if not all(isinstance(each, int) for each in (start, stop, count)) or not 2 <= count <= MOST_WHOLE:
+        return spread
+    log = spread["scale"] == "log" and min(start, stop) > 0
+    places = np.geomspace(start, stop, count) if log else np.linspace(start, stop, count)
+    return {"values": np.unique(places.round()).astype(int).tolist(), "scale": spread["scale"]}
 
 
 def sweep_of(calculation: Calculation, pairs: Pairs, wish: Wish) -> bytes:
