@@ -38,7 +38,10 @@ FIRST_FRAME_S = 0.3
 FRAME_SHARE = 0.3  # of the time a study has run passes until its next figure
 LONGEST_PAUSE_S = 4.0
 FIGURES = ("curve", "family", "map", "worst")
-NOT_DRAWN = b'<div class="frame"><p class="warning">The figure could not be drawn; the files hold the points.</p></div>'
+NOT_DRAWN = (
+    b'<div class="frame"><p class="warning">The figure could not be drawn; the files hold the points.</p>'
+    b'<span class="ready" hidden></span></div>'
+)
 
 router = APIRouter(include_in_schema=False)
 Pieces = Callable[[views.Study, Lines, Office], AsyncGenerator[bytes, None]]

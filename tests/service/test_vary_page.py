@@ -45,14 +45,14 @@ def test_from_a_case_to_a_curve_and_back_to_the_case_of_a_point(visit: Callable[
 def test_the_figure_grows_while_points_come_and_stop_ends_it(visit: Callable[..., Page], server: str) -> None:
     page = visit("/")
     page.goto(SLOW, wait_until="commit")
-    done = page.locator(".frame:last-child .progress")
+    done = page.locator(".frame:visible .progress")
     expect(done).to_contain_text("of 2400 points")
     first = done.inner_text()
     expect(done).not_to_have_text(first)
     assert page.locator(".frame:visible").count() == 1
     page.locator("#stop").click()
     expect(page.locator("#state")).to_contain_text("Stopped")
-    expect(page.locator(".frame:last-child .chart img")).to_be_visible()
+    expect(page.locator(".frame:visible .chart img")).to_be_visible()
     running = page.request.get(f"{server}/metrics")
     for _ in range(50):
         if re.search(r"^tribodrive_studies\S* 0(\.0)?$", running.text(), re.MULTILINE):
