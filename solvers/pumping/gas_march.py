@@ -58,8 +58,7 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
                     break
                 _fill(gas, duct, cells, low, high, new_low, new_high, angle)
                 set_walls(duct, cells, new_low, new_high, angle, turn)
-                dt = turn / duct.speed
-                done = step(gas, duct, cells, new_low, new_high, dt, order if retry == 0 else 1)
+                done = step(gas, duct, cells, new_low, new_high, turn / duct.speed, order if retry == 0 else 1)
                 if done:
                     break
                 turn *= 0.5
@@ -73,7 +72,7 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
             if high > low:
                 record.ends[taken, 0] = (angle + 0.5 * turn - angles[0]) / duct.speed
                 _book_ends(duct, cells, record, low, high, angle, turn, taken)
-                _book_cells(gas, duct, cells, record, low, high, dt)
+                _book_cells(gas, duct, cells, record, low, high, angle, turn)
                 taken += 1
             landed = turn == remaining
             angle = angles[k] if landed else angle + turn
@@ -184,28 +183,36 @@ def _book_ends(
 
 
 @kernel
-def _book_cells(gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, dt: float) -> None:
-    """Book what the walls did, means (trapezoidal) and extremes, and take over the new state."""
-    old, new, content, loss = cells.state, cells.next_state, cells.content, cells.loss
-    profile, extremes = record.profile, record.extremes
+def _book_cells(
+    gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, angle: float, turn: float
+) -> None:
+    """Book what the walls did and means (trapezoidal), and take over the new state."""
+    old, new, content, loss, dt = cells.state, cells.next_state, cells.content, cells.loss, turn / duct.speed
     for i in range(low, high):
         record.mass[WALLS] += loss[i, 0] * duct.width
         record.energy[WALLS] += loss[i, 1] * duct.width
         record.energy[WORK] += loss[i, 2] * duct.width
-        share = cells.share[i]
+        share, profile = cells.share[i], record.profile
         static = 0.5 * (old[i, 2] / old[i, 0] + new[i, 2] / new[i, 0]) / gas.constant
         dynamic = 0.25 * (old[i, 1] ** 2 + new[i, 1] ** 2) / gas.heat_capacity
         profile[i, STATIC] += static * dt * share
         profile[i, STAGNATION] += (static + dynamic) * dt * share
         profile[i, ACTIVE] += dt * share
-        profile[i, PEAK] = max(profile[i, PEAK], new[i, 2])
-        extremes[LARGEST_PRESSURE] = max(extremes[LARGEST_PRESSURE], new[i, 2])
-        extremes[SMALLEST_PRESSURE] = min(extremes[SMALLEST_PRESSURE], new[i, 2])
-        speed = abs(new[i, 1])
-        extremes[LARGEST_MACH] = max(extremes[LARGEST_MACH], speed / np.sqrt(gas.exponent * new[i, 2] / new[i, 0]))
-        extremes[LARGEST_VELOCITY] = max(extremes[LARGEST_VELOCITY], speed)
+        if angle + turn - duct.lag * (duct.start + (i + 0.5) * duct.width) <= stroke_end(duct):
+            _book_extremes(gas, record, new, i)
         for k in range(3):
             content[i, k], old[i, k] = cells.next_content[i, k], new[i, k]
+
+
+@kernel
+def _book_extremes(gas: Gas, record: Record, state: FloatArray, i: int) -> None:
+    """Extremes of a cell in its stroke; one that a step leads beyond is shut for its rest, and piles up what comes."""
+    profile, extremes, (rho, u, p) = record.profile, record.extremes, state[i]
+    profile[i, PEAK] = max(profile[i, PEAK], p)
+    extremes[LARGEST_PRESSURE] = max(extremes[LARGEST_PRESSURE], p)
+    extremes[SMALLEST_PRESSURE] = min(extremes[SMALLEST_PRESSURE], p)
+    extremes[LARGEST_MACH] = max(extremes[LARGEST_MACH], abs(u) / np.sqrt(gas.exponent * p / rho))
+    extremes[LARGEST_VELOCITY] = max(extremes[LARGEST_VELOCITY], abs(u))
 
 
 @kernel

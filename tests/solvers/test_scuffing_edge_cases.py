@@ -202,12 +202,12 @@ def test_a_torque_too_small_to_press_modified_flanks_counts_as_none(torque: floa
 def test_relief_beyond_the_path_is_taken_and_warned_of() -> None:
     long = Modifications(tip_relief=10e-6, tip_relief_length=0.1, end_relief=5e-6, end_relief_length=0.05)
     result = solve_load_distribution(paper_pair(1, long))
-    notices = [notice for notice in result.warnings if notice.code == "relief_length"]
+    notices = [notice for notice in result.warnings if notice.code == "unusual_value"]
     assert [notice.field for notice in notices] == ["tip_relief_length", "end_relief_length"]
     path = result.path_of_contact
     expected = 10e-6 * (1 - path.length / 0.1) + 5e-6 * (1 - 10e-3 / 0.05)  # at A, in the middle of the face
     assert result.flank.modification[0, 50] == pytest.approx(expected, rel=1e-9)
-    assert "relief_length" not in codes(
+    assert "unusual_value" not in codes(
         solve_load_distribution(paper_pair(1, replace(long, tip_relief=0.0, end_relief=0.0)))
     )
 
