@@ -83,26 +83,26 @@ def test_failed_point_neither_stops_nor_fills(monkeypatch: pytest.MonkeyPatch) -
 def near_the_pitch_point() -> list[LineContactInputs]:
     """A turbo pair's Newtonian contacts: a steep fall of pressure that goes from node to node along the path."""
     at = LineContactInputs(
-        Contact(3.35e5, 0.0246, 20.22, 20.82),
+        Contact(3.35e5, 0.0246, 21.09, 20.04),
         lubricant=Lubricant(viscosity=0.00824),
         temperatures=Temperatures(344.3, 344.3, 344.3),
         model=Model(rheology="newtonian"),
     )
-    speeds = [(20.22 + 0.1737 * k, 20.82 - 0.156 * k) for k in range(10)]
+    speeds = [(21.09 + 0.1737 * k, 20.04 - 0.156 * k) for k in range(5)]
     return [replace(at, contact=replace(at.contact, speed_1=one, speed_2=other)) for one, other in speeds]
 
 
 def test_hard_points_are_solved_as_they_are_alone() -> None:
-    """Once the first of them took the steps of all behind it, and films were 1.3 % off."""
+    """Once films were up to 1.3 % off: the fall stood one node from where it stands alone."""
     alone = [solve(inputs) for inputs in near_the_pitch_point()]
     forward, backward = solve_path(near_the_pitch_point()), solve_path(near_the_pitch_point()[::-1])[::-1]
     for expected, *found in zip(alone, forward, backward, strict=True):
         assert expected.status != "no_solution"
         assert expected.friction is not None
         for along in found:
-            assert along.film.minimum == pytest.approx(expected.film.minimum, rel=0.01)
+            assert along.film.minimum == pytest.approx(expected.film.minimum, rel=0.003)
             assert along.friction is not None
-            assert along.friction.coefficient == pytest.approx(expected.friction.coefficient, rel=0.01)
+            assert along.friction.coefficient == pytest.approx(expected.friction.coefficient, rel=0.003)
 
 
 def test_a_point_that_its_neighbours_do_not_lead_to_is_the_contact_alone(monkeypatch: pytest.MonkeyPatch) -> None:
