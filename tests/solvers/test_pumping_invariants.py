@@ -95,7 +95,7 @@ def at_centre_distance(millimetres: float, spaces: Spaces, slices: int = 100) ->
 def test_net_flows_are_known_as_well_as_they_say() -> None:
     here, fine = (at_centre_distance(590.0, Spaces.PINION, slices).mass_flow for slices in (100, 400))
     assert max(abs(here.front - fine.front), abs(here.rear - fine.rear)) < here.net_uncertainty
-    assert here.net_uncertainty < 0.1 * min(here.front, here.rear)
+    assert here.net_uncertainty < 0.2 * min(here.front, here.rear)  # three times a change of 6 %
     coarse = PumpingSetup(CASE_1, model=PumpingModel(slices=20))
     assert "net_flow_uncertain" in {notice.code for notice in solve(PumpingInputs(coarse, 300.0)).warnings}
 
