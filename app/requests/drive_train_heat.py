@@ -1,10 +1,12 @@
 """Temperatures of a gear unit: sections of /v1/drive-train."""
 
+from dataclasses import replace
 from typing import Annotated
 
 from app.contract.quantities import Input
 from app.requests.common import Section
 from app.requests.materials import XUE
+from app.requests.temperatures import OIL_TEMPERATURE, SCUFFING_TEMPERATURE
 from solvers.drive_train import inputs as si
 
 _HEAT = si.Heat()
@@ -91,20 +93,8 @@ class TrainTemperatures(Section):
             tolerance=5,
         ),
     ] = None
-    oil_c: Annotated[float, Input("oil temperature", "θ_oil", f"{XUE}, Eq. 26", ge=-70, le=500, tolerance=5)] = 60.0
-    scuffing_c: Annotated[
-        float | None,
-        Input(
-            "scuffing temperature",
-            "θ_S",
-            f"{XUE}, Eq. 26",
-            text="scuffing temperature of oil and material",
-            ge=-70,
-            le=1500,
-            default_text="no safety factor",
-            tolerance=20,
-        ),
-    ] = None
+    oil_c: Annotated[float, OIL_TEMPERATURE] = 60.0
+    scuffing_c: Annotated[float | None, replace(SCUFFING_TEMPERATURE, default_text="no safety factor")] = None
     local_bulk: Annotated[
         bool, Input("local bulk temperature", text="whether the contact's bulk is warmer where more heat is pumped")
     ] = False
