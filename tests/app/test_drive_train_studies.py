@@ -30,9 +30,10 @@ def test_corners_on_the_workers(post: Post) -> None:
     """The thermal film is left out, and the outputs are still those of the whole answer."""
     ranges = [{"path": "thermal.wall_response", "values": [0.3, 1.0]}]
     outputs = ["load.face_load_factor", "safety.blok_flank"]
-    _, *points, _, _, end = lines(post(CORNERS, {"request": UNIT.request, "ranges": ranges, "outputs": outputs}))
+    body = {**UNIT.request, "model": {"lubrication": "thermal_ehl", "path_points": 3}}
+    _, *points, _, _, end = lines(post(CORNERS, {"request": body, "ranges": ranges, "outputs": outputs}))
     assert end["counts"] == {"ok_with_warnings": 2}
-    body = json.loads(json.dumps(UNIT.request))
+    body = json.loads(json.dumps(body))
     set_value(body, "thermal.wall_response", 1.0)
     single = post(UNIT.endpoint, body).json()
     assert single["safety"]["thermal_ehl_feature"] is not None

@@ -22,6 +22,7 @@ from app.studies.fields import value_at
 from app.studies.lines import encoded, json_line
 from app.studies.points import with_overrides
 from app.studies.stream import Clock, guarded
+from app.studies.sweep import plan_sweep
 from app.studies.unit import lightened
 from solvers.arrays import FloatArray
 from solvers.drive_train.corners import run_corners, single
@@ -252,6 +253,22 @@ def test_a_trial_without_answer_is_worse_than_all() -> None:
     unsolved = [trial for trial in trials if trial["objective"] is None]
     assert len(unsolved) == end["unsolved"] > 0
     assert end["objective_best"] == max(trial["objective"] or 0.0 for trial in trials)
+
+
+def test_a_map_over_speed_and_load_is_a_sweep() -> None:
+    axes = [
+        {"path": "operation.pinion_speed_rpm", "values": [8000, 10000]},
+        {"path": "operation.power_kw", "values": [6000, 12000]},
+    ]
+    outputs = [K, SAFETY, "shafts.0.thrust.upper_n", "losses.total_w"]
+    header, *points, end = lines_of(plan_sweep, endpoint="/v1/drive-train", vary=axes, outputs=outputs)
+    assert [each["unit"] for each in header["outputs"]] == [None, None, "N", "W"]
+    assert len(points) == 4
+    assert not [point for point in points if None in point["out"]]
+    thrust = [point["out"][2] for point in points]
+    assert thrust[0] / thrust[2] == pytest.approx(10000 / 8000), "as the torque"
+    assert points[3]["out"] == answered({}, outputs)
+    assert end["counts"] == {"ok_with_warnings": 4}
 
 
 def corners(**parts: Any) -> tuple[Planner, dict[str, Any]]:
