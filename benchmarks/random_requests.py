@@ -141,7 +141,7 @@ def tried(seed: int) -> tuple[str, float]:
     except Unprocessable as refusal:
         outcome = f"refused: {refusal.code}"
     except InvalidBody as refusal:
-        outcome = f"invalid: {refusal.errors[0]['type']}"
+        outcome = f"invalid: {refusal.faults[0].code}"
     except Exception:  # noqa: BLE001  that is what is looked for
         print(f"seed {seed}: {path} {json.dumps(body)}\n{traceback.format_exc()}", flush=True)
         outcome = "FAILED"

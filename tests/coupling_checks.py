@@ -138,6 +138,7 @@ SCANNED = {
     "friction": ("coefficient",),
     "model": ("rotor_angle",),
 }
+HALVINGS = 16  # the narrowest ramp seen, of a tooth that lifts off, is 1/250 of a scan's step
 EDGE = ("lubrication.", "axial_thrust.", "losses.", "self_induced.")
 """What depends on the oil film, which ends where the contact leaves the tooth, unless the inlet shrinks to that."""
 
@@ -195,10 +196,10 @@ def check_no_jump(random: Generator) -> None:
 def narrowed(
     at: Callable[[float], tuple[dict[str, tuple[float, float]], bool]], key: str, interval: tuple[float, float]
 ) -> float | None:
-    """What is left of the change over an interval when it is halved ten times, None where the film has a cause."""
+    """What is left of the change over an interval when it is halved often, None where the film has a cause."""
     low, high = interval
     (at_low, on_low), (at_high, on_high) = at(low), at(high)
-    for _ in range(10):
+    for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
         at_middle, on_middle = at(middle)
         if abs(at_middle[key][0] - at_low[key][0]) > abs(at_high[key][0] - at_middle[key][0]):

@@ -94,6 +94,21 @@ class PumpingPulsation(Group):
     ]
 
 
+class PumpingResolution(Group):
+    """Relative uncertainties by the resolution: three times what half the slices, steps or positions change."""
+
+    peak_pressure: Annotated[float, Output("uncertainty of the peak pressure", text="of the largest gauge pressure")]
+    min_pressure: Annotated[float, Output("uncertainty of the least pressure", text="of the smallest gauge pressure")]
+    axial_mach: Annotated[float, Output("uncertainty of the axial Mach number")]
+    pumping_power: Annotated[float, Output("uncertainty of the pumping power")]
+    temperature_rise: Annotated[
+        float | None, Output("uncertainty of the temperature rise", text="of the largest temperature rise")
+    ]
+    gross_flow: Annotated[
+        float, Output("uncertainty of the gross mass flows", text="of what leaves and what enters at the ends")
+    ]
+
+
 class PumpingResponse(Response):
     """Pumping at one operating point; sections are missing where there is no solution."""
 
@@ -112,6 +127,10 @@ class PumpingResponse(Response):
     pulsation: Annotated[PumpingPulsation | None, Output("pulsation", text="pulsating mass flow", detail="curves")] = (
         None
     )
+    resolution: Annotated[
+        PumpingResolution | None,
+        Output("resolution", text="relative uncertainties; the grid convergence index of two grids and first order"),
+    ] = None
     slices: Annotated[
         int | None, Output("slices in force", "N", text="slices or pockets in force, grooves left out")
     ] = None

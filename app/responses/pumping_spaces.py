@@ -75,7 +75,13 @@ class PumpingMassFlow(Group):
         Output(
             "uncertainty of the net mass flows",
             "Δm",
-            text="of front and rear, small differences of out and in: their change at half the resolution",
+            text="of front and rear, small differences of out and in: three times what half the resolution changes",
+        ),
+    ]
+    radial_uncertainty: Annotated[
+        float,
+        Output(
+            "uncertainty of the radial mass flow", "Δm_rad", text="three times what half the resolution changes of it"
         ),
     ]
 

@@ -58,8 +58,15 @@ PLANNERS: dict[str, Callable[[bytes, int, float], Study]] = {
 class StudyStream(StreamingResponse):
     """Lines as they come; when the client leaves, or at the end of all patience, the study ends and frees its place."""
 
-    def __init__(self, pieces: AsyncGenerator[bytes, None], media_type: str, seconds: float, stack: ExitStack) -> None:
-        super().__init__(pieces, media_type=media_type, headers={"X-Accel-Buffering": "no"})
+    def __init__(
+        self,
+        pieces: AsyncGenerator[bytes, None],
+        media_type: str,
+        seconds: float,
+        stack: ExitStack,
+        headers: dict[str, str] | None = None,
+    ) -> None:
+        super().__init__(pieces, media_type=media_type, headers={"X-Accel-Buffering": "no"} | (headers or {}))
         self._pieces = pieces
         self._seconds = seconds
         self._stack = stack

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from itertools import pairwise
 from math import exp, log, sqrt
+from operator import itemgetter
 
 from scipy.optimize import brentq
 
@@ -59,10 +60,12 @@ class _Demand:
         self._known: dict[float, tuple[float, float]] = {}
 
     def radial(self, log_speed: float) -> float:
-        return self._solved(log_speed)[0]
+        pressure, _ = self._solved(log_speed)
+        return pressure
 
     def axial(self, log_speed: float) -> float:
-        return self._solved(log_speed)[1]
+        _, exit_demand = self._solved(log_speed)
+        return exit_demand
 
     def _solved(self, log_speed: float) -> tuple[float, float]:
         if log_speed not in self._known:
@@ -86,7 +89,7 @@ def _lowest(demands: list[tuple[Excess, Excess]], scan: list[float]) -> float | 
     roots = [(root, fine) for rough, fine in demands if (root := _coarse_root(rough, scan)) is not None]
     if not roots:
         return None
-    root, fine = min(roots, key=lambda pair: pair[0])
+    root, fine = min(roots, key=itemgetter(0))
     return _refined(fine, root, scan[-1])
 
 

@@ -7,12 +7,13 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.notices import Notice
 from solvers.pumping.checks import check_speed
-from solvers.pumping.flow import SpaceFlow
+from solvers.pumping.flow.nozzle import Gas
+from solvers.pumping.flow.space_flow import SpaceFlow
 from solvers.pumping.inputs import PumpingInputs
 from solvers.pumping.lead_correction import LeadCorrection, lead_correction
 from solvers.pumping.notices import flow_notices, net_flow_notices, resolution_notices, speed_notices
-from solvers.pumping.nozzle import Gas
 from solvers.pumping.pulsation import Pulsation, pulsation
+from solvers.pumping.resolution import net_uncertainty, radial_uncertainty, resolution
 from solvers.pumping.results import (
     Balance,
     FaceProfile,
@@ -24,9 +25,9 @@ from solvers.pumping.results import (
     Stroke,
     Totals,
 )
+from solvers.pumping.space.stroke import StrokeTable
+from solvers.pumping.space.tooth_space import normal_backlash
 from solvers.pumping.spaces import Mesh, Space, derived, face_stretches, flow_at, halved_flow_at, prepare
-from solvers.pumping.stroke import StrokeTable
-from solvers.pumping.tooth_space import normal_backlash
 
 
 def solve(inputs: PumpingInputs) -> PumpingResult:
@@ -48,6 +49,7 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
     ]
     of_gear = {space.of_pinion: result for space, result in zip(mesh.spaces, results, strict=True)}
     correction = _pinion_correction(mesh, of_gear.get(True))
+    resolved = resolution(mesh.gas, flows, halved)
     total = _totals(mesh, speed, frequency, sum(result.pumping_power for result in results))
     return PumpingResult(
         geometry=_geometry(mesh),
@@ -56,13 +58,14 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
         total=total,
         lead_correction=correction,
         pulsation=_pulsation(mesh, flows, speed, frequency),
+        resolution=resolved,
         slices=sum(part.cells for part in face_stretches(inputs.setup, slices)),
         derived=derived(mesh),
         warnings=(
             *mesh.notices,
             *speed_notices(mesh.pair, mesh.gas, speed),
             *_flow_notices(inputs, results),
-            *resolution_notices(inputs.setup.model.flow, _changes(mesh.gas, flows, halved)),
+            *resolution_notices(inputs.setup.model.flow, resolved),
             *net_flow_notices(inputs.setup.model.flow, [result.mass_flow for result in results]),
             *_missing(results[0], total, correction),
         ),
@@ -96,7 +99,7 @@ def _spaces_result(gas: Gas, space: Space, flow: SpaceFlow, halved: SpaceFlow, f
         static_temperature_rise=_rise(gas, flow.mean_temperature),
         peak_pressure_ratio=frozen(flow.peak_pressure / gas.pressure),
     )
-    hottest = _hottest(flow.position, profile.temperature_rise)
+    hottest, largest_rise = _hottest(flow.position, profile.temperature_rise)
     return SpacesResult(
         stroke=_stroke(space.table),
         peak_pressure_ratio=flow.largest_pressure / gas.pressure,
@@ -105,8 +108,8 @@ def _spaces_result(gas: Gas, space: Space, flow: SpaceFlow, halved: SpaceFlow, f
         peak_axial_velocity=flow.largest_velocity,
         radial_choked=flow.largest_pressure * gas.critical_ratio > gas.pressure,
         axial_choked=flow.exit_demand > 1.0,
-        max_temperature_rise=hottest[1],
-        hottest_position=hottest[0],
+        max_temperature_rise=largest_rise,
+        hottest_position=hottest,
         pumping_power=frequency * flow.work,
         work_per_space=flow.work,
         mass_flow=_mass_flow(flow, halved, frequency),
@@ -127,29 +130,6 @@ def _rise(gas: Gas, temperature: FloatArray | None) -> FloatArray | None:
     return None if temperature is None else frozen(temperature - gas.temperature)
 
 
-def _changes(gas: Gas, flows: list[SpaceFlow], halved: list[SpaceFlow]) -> dict[str, float]:
-    """By how much half the resolution changes the summary, relatively; the largest over the spaces."""
-    changes: dict[str, float] = {}
-    for fine, coarse in zip(flows, halved, strict=True):
-        pairs = {
-            "peak pressure": (fine.largest_pressure - gas.pressure, coarse.largest_pressure - gas.pressure),
-            "lowest pressure": (gas.pressure - fine.smallest_pressure, gas.pressure - coarse.smallest_pressure),
-            "Mach number": (fine.largest_mach, coarse.largest_mach),
-            "power": (fine.work, coarse.work),
-            "radial flow": (fine.masses.radial, coarse.masses.radial),
-        }
-        if fine.mean_stagnation_temperature is not None and coarse.mean_stagnation_temperature is not None:
-            rises = [
-                float(flow.max()) - gas.temperature
-                for flow in (fine.mean_stagnation_temperature, coarse.mean_stagnation_temperature)
-            ]
-            pairs["temperature rise"] = (rises[0], rises[1])
-        for name, (value, other) in pairs.items():
-            if value != 0.0:
-                changes[name] = max(changes.get(name, 0.0), abs(other / value - 1.0))
-    return changes
-
-
 def _hottest(position: FloatArray, rise: FloatArray | None) -> tuple[float | None, float | None]:
     """Position [m] and value [K] of the largest rise, the vertex of a parabola through the three highest slices."""
     if rise is None:
@@ -168,7 +148,6 @@ def _hottest(position: FloatArray, rise: FloatArray | None) -> tuple[float | Non
 def _mass_flow(flow: SpaceFlow, halved: SpaceFlow, frequency: float) -> MassFlow:
     """Of strokes that follow one another at the meshing frequency, its uncertainty from half the resolution."""
     masses, ends = flow.masses, flow.ends
-    change = max(abs(masses.front - halved.masses.front), abs(masses.rear - halved.masses.rear))
     return MassFlow(
         front=frequency * masses.front,
         rear=frequency * masses.rear,
@@ -179,7 +158,8 @@ def _mass_flow(flow: SpaceFlow, halved: SpaceFlow, frequency: float) -> MassFlow
         front_in=frequency * float(np.maximum(-ends.front, 0.0).sum()),
         rear_out=frequency * float(np.maximum(ends.rear, 0.0).sum()),
         rear_in=frequency * float(np.maximum(-ends.rear, 0.0).sum()),
-        net_uncertainty=frequency * change,
+        net_uncertainty=frequency * net_uncertainty(flow, halved),
+        radial_uncertainty=frequency * radial_uncertainty(flow, halved),
     )
 
 

@@ -6,19 +6,18 @@ from solvers.gears.notices import pair_notices
 from solvers.gears.pair import GearPair
 from solvers.gears.path_of_contact import PathOfContact
 from solvers.notices import Notice
+from solvers.pumping.flow.nozzle import Gas
 from solvers.pumping.inputs import Flow, PumpingSetup
-from solvers.pumping.nozzle import Gas
-from solvers.pumping.results import MassFlow
+from solvers.pumping.results import MassFlow, Resolution
 
 FEW_TEETH = 12
 TIP_SPEED_SHARE = 0.8  # of the ambient speed of sound
 PITCH_LINE_SPEED = 250.0  # m/s
 FEW_SLICES = 20  # in the stroke at one time
 INCOMPRESSIBLE_MACH = 0.3
-COARSE_CHANGE = 0.02  # by half the slices; twice as many change at most half of it, 1 %
-LARGEST_CHANGE = {"temperature rise": 0.01}  # one in an end slice moves with its centre, slowly
-NET_UNCERTAINTY = 0.1  # of the net flow
-ROUNDING = 1e-9  # of the gross flow
+RESOLVED = 0.05  # of a number, by its resolution
+NET_UNCERTAINTY = 0.3  # of the net flow
+NEGLIGIBLE = 1e-3  # of the gross flow
 LEAST_GAUGE_PRESSURE = 1e-6  # of the ambient pressure
 
 
@@ -63,12 +62,12 @@ def flow_notices(flow: Flow, largest_mach: float, largest_gauge_pressure: float)
 
 
 def net_flow_notices(model: Flow, flows: list[MassFlow]) -> list[Notice]:
-    """Net flows out of the ends that are small differences of what leaves and what enters, but for rounding."""
+    """Net flows out of the ends that are small differences of what leaves and what enters."""
     shares = [
         (flow.net_uncertainty / abs(net) if net else inf, net, flow)
         for flow in flows
         for net in (flow.front, flow.rear)
-        if flow.net_uncertainty > ROUNDING * (flow.front_out + flow.rear_out)
+        if flow.net_uncertainty > NEGLIGIBLE * (flow.front_out + flow.rear_out)
     ]
     share, net, flow = max(shares, key=lambda entry: entry[0], default=(0.0, 0.0, None))
     if flow is None or share <= NET_UNCERTAINTY:
@@ -82,13 +81,23 @@ def net_flow_notices(model: Flow, flows: list[MassFlow]) -> list[Notice]:
     return [Notice("net_flow_uncertain", message, "slices")]
 
 
-def resolution_notices(flow: Flow, changes: dict[str, float]) -> list[Notice]:
-    """Numbers of gas dynamics that half the slices change: `changes` are relative."""
-    coarse = {name: change for name, change in changes.items() if change > LARGEST_CHANGE.get(name, COARSE_CHANGE)}
-    if flow is not Flow.GAS_DYNAMICS or not coarse:
+def resolution_notices(flow: Flow, uncertain: Resolution) -> list[Notice]:
+    """Numbers that the slices of gas dynamics leave uncertain."""
+    told = ", ".join(
+        f"{name} to {100 * share:.2g} %"
+        for name, share in (
+            ("peak pressure", uncertain.peak_pressure),
+            ("lowest pressure", uncertain.min_pressure),
+            ("Mach number", uncertain.axial_mach),
+            ("power", uncertain.pumping_power),
+            ("temperature rise", uncertain.temperature_rise),
+            ("flow through the ends", uncertain.gross_flow),
+        )
+        if share is not None and share > RESOLVED
+    )
+    if flow is not Flow.GAS_DYNAMICS or not told:
         return []
-    told = ", ".join(f"{name} by {100 * change:.1f} %" for name, change in coarse.items())
-    return [Notice("not_resolved", f"half the slices change {told}; more slices tell it better", "slices")]
+    return [Notice("not_resolved", f"these slices tell the {told} only; more slices tell better", "slices")]
 
 
 def speed_notices(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]:

@@ -6,7 +6,7 @@ from solvers.arrays import FloatArray
 from solvers.notices import Notice
 from solvers.pumping.lead_correction import LeadCorrection
 from solvers.pumping.pulsation import Pulsation
-from solvers.pumping.stroke import StrokeTable
+from solvers.pumping.space.stroke import StrokeTable
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,7 @@ class MassFlow:
     """Mass flow out of the spaces of one gear [kg/s].
 
     Net by exit: the first five sum to nought, see `ExitMasses`. What leaves and what enters at each end. And how far
-    the net flow of an end, a small difference of these two, may be off: its change at half the resolution.
+    the net flows of the ends, small differences of these, and the radial one may be off by their resolution.
     """
 
     front: float
@@ -52,6 +52,7 @@ class MassFlow:
     rear_out: float
     rear_in: float
     net_uncertainty: float
+    radial_uncertainty: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +61,22 @@ class Balance:
 
     mass_error: float
     energy_error: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Resolution:
+    """Relative uncertainties of the summary by its resolution, pressures as gauge pressures; see `resolution`.
+
+    Slices of gas dynamics, steps of the chain, positions of the single pocket. `temperature_rise` is None where the
+    flow model gives none; net flows state theirs.
+    """
+
+    peak_pressure: float
+    min_pressure: float
+    axial_mach: float
+    pumping_power: float
+    temperature_rise: float | None
+    gross_flow: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,6 +161,7 @@ class PumpingResult:
     total: Totals
     lead_correction: LeadCorrection | None
     pulsation: Pulsation
+    resolution: Resolution
     slices: int
     derived: Derived
     warnings: tuple[Notice, ...]

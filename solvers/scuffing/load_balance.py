@@ -140,8 +140,9 @@ def _settle(
     Forces vanish at the ends of what is loaded, so that an error of TE moves the next one in second order only.
     """
     covers, steps, settled = 0, 0.0, False
+    phase, side = at
     while not settled:
-        cover = gather(mesh, at[0], at[1], slices, error, table)
+        cover = gather(mesh, phase, side, slices, error, table)
         before = error
         error, residual, more = solve_position(table, cover.slices, mesh.compliance.logarithmic, force)
         covers, steps = covers + 1, steps + more
@@ -171,7 +172,7 @@ def _balance(
                 cover, error[i], residual[i], steps[i] = _settle(mesh, at, slices, force, cover.least, error[i], table)
             survey.loaded_length[i] = cover.length
             survey_slices(mesh, table, cover.slices, error[i], survey, i)
-        survey_ends(mesh, phase[i], side[i], error[i], survey, i)
+            survey_ends(mesh, phase[i], side[i], error[i], survey, i)
     return error, unloaded, residual, steps, survey
 
 

@@ -92,8 +92,8 @@ def relief_notices(path: PathOfContact, modifications: Modifications) -> list[No
     )
     return [
         Notice(
-            "relief_length",
-            f"{length * 1e3:.3f} mm of relief reach beyond the {place} of {whole * 1e3:.3f} mm; taken as given",
+            "unusual_value",
+            f"{length * 1e3:.4g} mm of relief are longer than the {place} of {whole * 1e3:.4g} mm; a radius?",
             f"{name}_length",
         )
         for name, amplitude, length, whole, place in reliefs

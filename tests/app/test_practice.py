@@ -308,6 +308,13 @@ def test_ester_has_no_friction_law() -> None:
         (
             "/v1/scuffing/load-distribution",
             PAIR | {"model": {}},
+            {"modifications.tip_relief_um": 20, "modifications.tip_relief_length_mm": 30},
+            "modifications.tip_relief_length_mm",
+            "30 mm of relief are longer than the path of contact of 14.28 mm; a radius?",
+        ),
+        (
+            "/v1/scuffing/load-distribution",
+            PAIR | {"model": {}},
             {"load.power_kw": 0.05},
             "load",
             "the line load is 0.367 N/mm at most; kW or kN m?",

@@ -10,18 +10,18 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from app.published.milian import CASE_1, SPEED_1, pinion
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.notices import pair_notices
 from solvers.gears.pair import gear_pair
 from solvers.gears.path_of_contact import meshing_path
 from solvers.notices import Notice
-from solvers.pumping import Gap, Groove, PumpingInputs, PumpingModel, PumpingSetup, Spaces, solve
+from solvers.pumping import Ambient, Gap, Groove, PumpingInputs, PumpingModel, PumpingSetup, Spaces, solve
 from solvers.pumping.lead_correction import EXPANSION, lead_correction
 from solvers.pumping.results import SpacesResult
 from solvers.pumping.spaces import prepare
 from tests.gear_pairs import FZG_A, INCH_PAIR
-from tests.milian import CASE_1, SPEED_1, pinion
 from tests.pumping_cases import SCANS, check_books, check_no_jump, check_resolution, random_gears, rough_gears
 
 WEAK = PumpingSetup(
@@ -51,6 +51,29 @@ def test_weak_peaks_are_those_of_the_flow() -> None:
     assert weak(3000, 50) == pytest.approx(weak(3000, 200), rel=5e-3)
 
 
+def test_a_slice_that_ends_its_stroke_within_a_step_is_no_peak() -> None:
+    # a step that led 0.2 % of itself into the stroke shut the slice for the rest: 1.28 mbar at 344.0 K, 0.70 at 343.2
+    setup = PumpingSetup(
+        GearPairInputs(
+            GearTeeth(35, 0.3472820889712632, 1.012615377337245, 1.3044837593677192),
+            GearTeeth(92, 0.1648532859400542, 1.0425728249685073, 1.3022469942755852),
+            5e-3,
+            0.13857141301725098,
+            radians(20),
+            0.10072094843317085,
+            0.3217315628663042,
+            rack_tip_radius=0.2702237256753388,
+        ),
+        normal_backlash=0.00029620273202542337,
+        model=PumpingModel(gap=Gap.TIP, slices=40, spaces=Spaces.PINION),
+    )
+    peaks = []
+    for temperature in 326.11230823977587 * (1.0 + 0.1 * np.array([21, 22]) / 40):
+        case = replace(setup, ambient=Ambient(temperature=temperature))
+        peaks.append(pinion(solve(PumpingInputs(case, 205.87959815621443))).peak_pressure_ratio - 1)
+    assert peaks[1] == pytest.approx(peaks[0], rel=0.01)
+
+
 @pytest.mark.parametrize(("spaces", "start"), [(Spaces.PINION, 590.25), (Spaces.WHEEL, 590.09)])
 def test_net_flows_change_with_the_centre_distance_steadily(spaces: Spaces, start: float) -> None:
     # once 1.29 and then 1.54 g/s, 4.96 and then 5.22, as the last step of an end fell
@@ -72,7 +95,7 @@ def at_centre_distance(millimetres: float, spaces: Spaces, slices: int = 100) ->
 def test_net_flows_are_known_as_well_as_they_say() -> None:
     here, fine = (at_centre_distance(590.0, Spaces.PINION, slices).mass_flow for slices in (100, 400))
     assert max(abs(here.front - fine.front), abs(here.rear - fine.rear)) < here.net_uncertainty
-    assert here.net_uncertainty < 0.1 * min(here.front, here.rear)
+    assert here.net_uncertainty < 0.2 * min(here.front, here.rear)  # three times a change of 6 %
     coarse = PumpingSetup(CASE_1, model=PumpingModel(slices=20))
     assert "net_flow_uncertain" in {notice.code for notice in solve(PumpingInputs(coarse, 300.0)).warnings}
 

@@ -7,6 +7,7 @@ from math import pi
 
 import pytest
 
+from app.published.milian import CASE_1, TABLE_1
 from solvers.errors import InvalidInput, NoSolution
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.path_of_contact import meshing_path
@@ -27,7 +28,6 @@ from solvers.pumping import (
 )
 from solvers.pumping import model as pumping_model
 from solvers.pumping.spaces import flow_at
-from tests.milian import CASE_1, TABLE_1
 
 PLAIN = PumpingSetup(CASE_1, model=PumpingModel(slices=20, spaces=Spaces.PINION))
 

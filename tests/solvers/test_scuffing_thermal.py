@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.published.xue import paper_pair
 from solvers.contact import ehl
 from solvers.contact.ehl import budget, continuation
 from solvers.errors import InvalidInput
@@ -22,7 +23,7 @@ from solvers.scuffing.inputs import (
     torque_from_power,
 )
 from solvers.scuffing.safety_results import Scuffing
-from tests.gear_pairs import paper_pair, with_torque
+from tests.gear_pairs import with_torque
 
 COARSE = ehl.Model(nodes=61, film_nodes=11)
 
