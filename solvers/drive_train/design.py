@@ -148,7 +148,8 @@ def _cases(
     inputs: DriveTrainInputs, corners: Sequence[Range], collective: Sequence[Mapping[str, Any]], objective: Objective
 ) -> list[dict[str, Any]]:
     """Every operating point at every corner."""
-    if objective == "safety" and inputs.mesh.temperatures.scuffing is None:
+    limits = inputs.mesh.temperatures
+    if objective == "safety" and limits.scuffing is None and limits.scuffing_test is None:
         message = "without a scuffing temperature there is no safety to search for"
         raise InvalidInput("safety_undefined", message, "temperatures.scuffing")
     cases = [{**point, **corner} for point in collective for corner in combinations(corners)]

@@ -18,9 +18,9 @@ from solvers.drive_train.notices import coupling_notices, load_notices, shaft_no
 from solvers.drive_train.results import Convergence, DriveTrainResult, FaceLoad
 from solvers.drive_train.safety import flank_heat
 from solvers.drive_train.thermal_lead import ThermalLead, gas_heat, no_heat, thermal_lead
-from solvers.errors import InvalidInput
 from solvers.scuffing.model import distribution, mesh_of
 from solvers.scuffing.results import LoadDistribution
+from solvers.scuffing.temperatures import with_friction, with_temperatures
 
 LEAST_POINTS = 400  # of the gap over the face, the stations among them
 
@@ -36,10 +36,6 @@ class Prepared:
 
 def prepare(inputs: DriveTrainInputs) -> Prepared:
     """The parts ready to be brought together. Raises what `check_inputs`, `mesh_of` and `gas_heat` raise."""
-    temperatures = inputs.mesh.temperatures
-    if temperatures.scuffing is not None and temperatures.scuffing <= temperatures.oil:
-        message = "the scuffing temperature must lie above the oil temperature"
-        raise InvalidInput("scuffing_temperature", message, "temperatures.scuffing")
     given = mesh_of(inputs.mesh.distribution)
     check_inputs(inputs, given.path)
     system = unit(inputs, given.path)
@@ -86,10 +82,12 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     Raises InvalidInput (codes of `check_inputs` and of the three models) and NoSolution (drive_train, load_balance,
     journal).
     """
+    inputs = replace(inputs, mesh=with_friction(inputs.mesh))
     prepared = prepare(inputs)
     system, mesh, thermal = prepared.unit, prepared.mesh, prepared.thermal
     found = settle(inputs, prepared, start)
     spread = distribution(inputs.mesh.distribution, mesh.prepared, found.balance)
+    inputs = replace(inputs, mesh=with_temperatures(inputs.mesh, spread))
     hubs = hubs_of(system, found)
     couplings = coupling_results(system, found, hubs)
     shafts = shaft_results(inputs, mesh.prepared.path, system, found, couplings)
