@@ -10,6 +10,7 @@ from typing import Any
 from app.calculations import CALCULATIONS, Calculation
 from app.evaluate import evaluate
 from app.figures.data import Figure, NoFigure
+from app.figures.registry import figures_of
 from app.library import examples
 
 CASES = (
@@ -31,11 +32,11 @@ def resident_mb() -> float:
     return pages * 4096 / 1e6
 
 
-def figures_of(calculation: Calculation, body: dict[str, Any]) -> list[tuple[str, Figure]]:
+def built_figures(calculation: Calculation, body: dict[str, Any]) -> list[tuple[str, Figure]]:
     """The data of every figure of a case, by name."""
     request = calculation.request.model_validate({**body, "detail": "fields"})
     answer, figures = evaluate(calculation, request), []
-    for declaration in calculation.figures:
+    for declaration in figures_of(calculation.path):
         try:
             figures.append((declaration.name, declaration.figure(request, answer)))
         except NoFigure as reason:
