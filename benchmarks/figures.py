@@ -48,7 +48,7 @@ def main() -> None:
     """Print the table."""
     calculations = {calculation.path: calculation for calculation in CALCULATIONS}
     cases = [examples()[name] for name in CASES]
-    figures = [pair for case in cases for pair in figures_of(calculations[case.endpoint], case.request)]
+    figures = [pair for case in cases for pair in built_figures(calculations[case.endpoint], case.request)]
     before, started = resident_mb(), time.perf_counter()
     from app.figures.drawing import draw  # noqa: PLC0415  its import is what is measured
 
