@@ -81,12 +81,8 @@ def arranged(figure: Figure) -> tuple[list[Slot], float]:
 
 
 def _wrapped_head(figure: Figure) -> tuple[str, str]:
-    title, subtitle = (wrapped(text, size, WIDTH - 2 * EDGE) for text, size in _head(figure))
-    return title, subtitle
-
-
-def _head(figure: Figure) -> tuple[tuple[str, float], tuple[str, float]]:
-    return (figure.title, TITLE), (figure.subtitle, TEXT)
+    width = WIDTH - 2 * EDGE
+    return wrapped(figure.title, TITLE, width, bold=True), wrapped(figure.subtitle, TEXT, width)
 
 
 def _draw_head(sheet: Sheet, title: str, subtitle: str, height: float, theme: Theme) -> None:

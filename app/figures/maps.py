@@ -9,7 +9,7 @@ from app.figures.annotations import draw_mark, name_span
 from app.figures.canvas import Canvas
 from app.figures.data import Axis, Map, Panel, Scale, Values
 from app.figures.labels import Place, Placer, around
-from app.figures.scales import Range, nice_ticks
+from app.figures.scales import Range, chosen_range, nice_ticks
 from app.figures.style import SMALL, TEXT, Theme, text_width
 from app.figures.wording import number
 
@@ -57,12 +57,13 @@ def color_bar_width(chart: Map) -> float:
 
 def draw_map(axes: Axes, panel: Panel, chart: Map, size: tuple[float, float], theme: Theme) -> None:
     """Colours, contours, critical values and marks."""
-    x, y = _range(chart.x, panel.x), _range(chart.y, panel.y)
+    x, y = map_ranges(panel, chart)
     canvas = Canvas(axes, x, y, Placer(*size), theme)
     canvas.frame(upright=False, across=False)
     axes.imshow(
         _image(chart, x, y),
-        extent=(x.low, x.high, y.low, y.high),
+        extent=(0.0, 1.0, 0.0, 1.0),
+        transform=axes.transAxes,
         origin="lower",
         aspect="auto",
         cmap=colormaps[COLOURS[chart.scale]],
@@ -123,7 +124,14 @@ def _norm(chart: Map) -> Normalize:
     return LogNorm(low, high) if chart.scale is Scale.RATIO else Normalize(low, high)
 
 
+def map_ranges(panel: Panel, chart: Map) -> tuple[Range, Range]:
+    """Both axes of a map."""
+    return _range(chart.x, panel.x), _range(chart.y, panel.y)
+
+
 def _range(coordinate: Values, axis: Axis) -> Range:
+    if axis.log:
+        return chosen_range(axis, (coordinate,), snug=True, most=5)
     low, high = axis.limits or (float(coordinate.min()), float(coordinate.max()))
     if low == high:
         low, high = low - 0.5, high + 0.5
@@ -132,10 +140,11 @@ def _range(coordinate: Values, axis: Axis) -> Range:
 
 def _image(chart: Map, x: Range, y: Range) -> Values:
     """The values on an even grid, as an image needs them: linear between points, nothing inside a groove."""
-    across = np.linspace(x.low, x.high, min(IMAGE[0], 2 * chart.x.size + 1))
-    up = np.linspace(y.low, y.high, min(IMAGE[1], 2 * chart.y.size + 1))
-    rows = np.array([np.interp(across, chart.x, row) for row in chart.values])
-    return np.array([np.interp(up, chart.y, column) for column in rows.T]).T
+    across = np.linspace(0.0, 1.0, min(IMAGE[0], 2 * chart.x.size + 1))
+    up = np.linspace(0.0, 1.0, min(IMAGE[1], 2 * chart.y.size + 1))
+    columns, lines = x.places(chart.x), y.places(chart.y)
+    rows = np.array([np.interp(across, columns, row) for row in chart.values])
+    return np.array([np.interp(up, lines, column) for column in rows.T]).T
 
 
 def _contours(axes: Axes, chart: Map, theme: Theme) -> None:

@@ -93,8 +93,8 @@ def _log_range(axis: Axis, positive: Values, levels: Iterable[float]) -> Range:
     else:
         seen = [*positive.tolist(), *(level for level in levels if level > 0.0)] or [1.0]
         low, high = 10.0 ** (floor(2.0 * log10(min(seen))) / 2.0), 10.0 ** (ceil(2.0 * log10(max(seen))) / 2.0)
-    if high / low < 9.0:
-        low, high = low / 10.0**0.5, high * 10.0**0.5
+        if high / low < 9.0:
+            low, high = low / 10.0**0.5, high * 10.0**0.5
     ticks = _decades(low, high) if axis.ticks is None else tuple(tick for tick in axis.ticks if low <= tick <= high)
     return Range(low, high, ticks, log=True)
 

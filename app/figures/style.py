@@ -129,12 +129,12 @@ def text_height(text: str, size: float) -> float:
     return (text.count("\n") + 1) * 1.2 * size * POINT
 
 
-def wrapped(text: str, size: float, width: float) -> str:
+def wrapped(text: str, size: float, width: float, *, bold: bool = False) -> str:
     """The text broken between words, so that no line is wider than `width` inches where words allow."""
     lines = [""]
     for word in text.split(" "):
         longer = f"{lines[-1]} {word}".strip()
-        if lines[-1] and text_width(longer, size) > width:
+        if lines[-1] and text_width(longer, size, bold=bold) > width:
             lines.append(word)
         else:
             lines[-1] = longer

@@ -23,7 +23,10 @@ DIGITS = 6
 
 @dataclass(frozen=True, slots=True)
 class Chart:
-    """A figure ready to be shown; `series` is JSON for the script, `width` and `height` are in pixels."""
+    """A figure ready to be shown; `width` and `height` are in pixels.
+
+    `series` is JSON for the script, `study` too: the points of a sweep, each of which opens its case.
+    """
 
     name: str
     title: str
@@ -35,6 +38,7 @@ class Chart:
     header: tuple[str, ...]
     lines: tuple[tuple[str, ...], ...]
     more: int
+    study: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,11 +71,12 @@ def charts(case: Case, variant: Case | None, theme: ThemeName) -> tuple[list[Cha
         except NoFigure as reason:
             missing.append(Missing(declaration.title, reason.message, reason.field))
         else:
-            found.append(_chart(declaration.name, figure, theme))
+            found.append(chart_of(declaration.name, figure, theme))
     return found, missing
 
 
-def _chart(name: str, figure: Figure, theme: ThemeName) -> Chart:
+def chart_of(name: str, figure: Figure, theme: ThemeName) -> Chart:
+    """A figure drawn, with its values."""
     from app.figures.drawing import arranged  # noqa: PLC0415  only workers draw
 
     columns = columns_of(figure)
@@ -82,7 +87,7 @@ def _chart(name: str, figure: Figure, theme: ThemeName) -> Chart:
         name=name,
         title=figure.title,
         subtitle=figure.subtitle,
-        image=_address(written(figure, "svg", theme)),
+        image=embedded(written(figure, "svg", theme)),
         width=round(100 * WIDTH),
         height=round(100 * height),
         series=json.dumps([_panel(slot, height) for slot in slots if slot.panel.lines or slot.panel.bars]),
@@ -92,7 +97,8 @@ def _chart(name: str, figure: Figure, theme: ThemeName) -> Chart:
     )
 
 
-def _address(image: bytes) -> str:
+def embedded(image: bytes) -> str:
+    """An image as an address that holds it."""
     return "data:image/svg+xml;base64," + base64.b64encode(image).decode()
 
 

@@ -49,6 +49,11 @@ class Links:
         """One view."""
         return link(f"{self.path}/{name}", self.pairs, **views)
 
+    @property
+    def vary(self) -> str:
+        """The case with a field varied."""
+        return self.view("vary", theme=self.theme)
+
     def image(self, figure: str, image_format: str) -> str:
         """One figure as a file."""
         return self.view(f"figures/{figure}.{image_format}", ref=self.ref, theme=self.theme)

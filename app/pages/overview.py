@@ -7,6 +7,7 @@ from app.library import Example
 from app.pages.about import ABOUT
 from app.pages.links import example_link, examples_of
 from app.pages.templating import model_of, page_path, rendered
+from app.pages.vary.examples import studies_of
 from app.published import STATEMENTS, Row
 
 
@@ -17,7 +18,7 @@ def start_page() -> str:
     for calculation in CALCULATIONS:
         examples = [(example, example_link(calculation, example)) for example in examples_of(calculation)]
         models.setdefault(model_of(calculation), []).append((calculation, page_path(calculation), examples))
-    return rendered("start.html", models=models, about=ABOUT)
+    return rendered("start.html", models=models, about=ABOUT, studies_of=studies_of)
 
 
 def rows_of(model: str) -> list[Row]:

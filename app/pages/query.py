@@ -13,7 +13,11 @@ from app.reading import Unreadable
 
 Pairs = list[tuple[str, str]]
 
-VIEW_NAMES = frozenset({"ref", "theme", "curve", "paper", "project", "part", "author", "checker", "notes"})
+# What a study of a case varies, and which output it shows.
+STUDY_NAMES = frozenset(
+    {f"{axis}{part}" for axis in ("x", "y") for part in ("", ".from", ".to", ".count", ".scale")} | {"show", "best"}
+)
+VIEW_NAMES = STUDY_NAMES | {"ref", "theme", "curve", "paper", "project", "part", "author", "checker", "notes"}
 PICK = "pick:"
 """Before the name of a choice between fields that exclude each other; its value is the field that counts."""
 MOST_FIELDS = 1000
@@ -141,10 +145,13 @@ def _scalar(leaf: Leaf, text: str) -> Any:
         return next((option for option in leaf.options if text_of(option) == text), text)
     if leaf.kind == "boolean":
         return {"true": True, "false": False}.get(text, text)
-    if leaf.kind in {"number", "integer"}:
-        number = _number(text.replace(",", ".", 1))
-        return text if isinstance(number, str) else number
-    return text
+    return number_of(text) if leaf.kind in {"number", "integer"} else text
+
+
+def number_of(text: str) -> Any:
+    """The number that a single field holds, with a decimal point or comma; what is none stays text."""
+    number = _number(text.replace(",", ".", 1))
+    return text if isinstance(number, str) else number
 
 
 def _listed(leaf: Leaf, text: str) -> list[Any]:

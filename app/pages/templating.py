@@ -15,6 +15,8 @@ from app.responses.common import MODEL_VERSION
 ASSETS = {
     "style.css": "text/css; charset=utf-8",
     "page.js": "text/javascript; charset=utf-8",
+    "charts.js": "text/javascript; charset=utf-8",
+    "vary.js": "text/javascript; charset=utf-8",
     "icon.svg": "image/svg+xml",
 }
 

@@ -1,12 +1,11 @@
 """Temperatures of a gear unit: sections of /v1/drive-train."""
 
-from dataclasses import replace
 from typing import Annotated
 
 from app.contract.quantities import Input
 from app.requests.common import Section
 from app.requests.materials import XUE
-from app.requests.temperatures import OIL_TEMPERATURE, SCUFFING_TEMPERATURE
+from app.requests.scuffing import ContactTemperatures
 from solvers.drive_train import inputs as si
 
 _HEAT = si.Heat()
@@ -76,7 +75,7 @@ class ToothHeat(Section):
     ] = _HEAT.bulk_includes_pumping
 
 
-class TrainTemperatures(Section):
+class TrainTemperatures(ContactTemperatures):
     """Temperatures of contact and oil."""
 
     bulk_c: Annotated[
@@ -88,13 +87,11 @@ class TrainTemperatures(Section):
             text="bulk temperature of the contact, at which the oil enters",
             ge=-70,
             le=500,
-            default_text="the mean of the tooth temperatures",
+            default_text="the mean of the tooth temperatures, or estimated",
             assumed="the mean of the two tooth temperatures",
             tolerance=5,
         ),
     ] = None
-    oil_c: Annotated[float, OIL_TEMPERATURE] = 60.0
-    scuffing_c: Annotated[float | None, replace(SCUFFING_TEMPERATURE, default_text="no safety factor")] = None
     local_bulk: Annotated[
         bool, Input("local bulk temperature", text="whether the contact's bulk is warmer where more heat is pumped")
     ] = False

@@ -38,25 +38,12 @@ class ScuffingTest(Section):
     ] = None
 
 
-class ScuffingTemperatures(Section):
-    """Temperatures of teeth and oil."""
+class ContactTemperatures(Section):
+    """Temperatures of teeth and oil, as numbers or by what practice makes of test and supply."""
 
     exclusive: ClassVar = (("scuffing_c", "scuffing_test"),)
 
-    bulk_c: Annotated[
-        float | None,
-        Input(
-            "bulk temperature",
-            "θ_M",
-            f"{XUE}, Eq. 16",
-            text="bulk temperature of the teeth, at which the oil enters",
-            ge=-70,
-            le=500,
-            tolerance=5,
-            default_text="estimated",
-            assumed="360 K, the paper's bulk temperature; `bulk_method` estimates it from the oil",
-        ),
-    ] = 86.85
+    bulk_c: Annotated[float | None, Input("bulk temperature")] = None
     bulk_method: Annotated[
         BulkMethod,
         Input("bulk temperature method", None, TR_13989, text="given, or estimated from oil, its supply and flash"),
@@ -73,6 +60,55 @@ class ScuffingTemperatures(Section):
         ScuffingTest | None, Input("scuffing test", text="instead of the temperature: the stage at which the oil fails")
     ] = None
 
+    @model_validator(mode="after")
+    def one_way(self) -> Self:
+        """One bulk temperature, one scuffing temperature."""
+        if self.bulk_method == "estimated" and self.bulk_c is not None:
+            raise PydanticCustomError("exclusive", "bulk_c and an estimated bulk are both given; keep one")
+        if self.scuffing_c is not None and self.scuffing_test is not None:
+            raise PydanticCustomError("exclusive", "scuffing_c and scuffing_test are both given; keep one")
+        return self
+
+    def contact_temperatures(self, bulk: float | None = None) -> si.Temperatures:
+        """The solver's temperatures; where nothing is said of the bulk it is that [K], by default the oil's."""
+        fields = to_si(self)
+        test = None
+        if self.scuffing_test is not None:
+            said = to_si(self.scuffing_test)
+            test = si.ScuffingTest(**{name: said[name] for name in si.ScuffingTest.__dataclass_fields__})
+        own = next(each for each in (fields["bulk"], bulk, fields["oil"]) if each is not None)
+        return si.Temperatures(
+            bulk=own,
+            oil=fields["oil"],
+            scuffing=fields["scuffing"],
+            scuffing_test=test,
+            bulk_method=fields["bulk_method"],
+            oil_supply=fields["oil_supply"],
+        )
+
+    def unused_temperature_defaults(self, section: str) -> frozenset[str]:
+        """What the way of saying bulk and scuffing temperature leaves out of a result."""
+        return frozenset({f"{section}.bulk_c"} if self.bulk_method == "estimated" else {f"{section}.oil_supply"})
+
+
+class ScuffingTemperatures(ContactTemperatures):
+    """Temperatures of teeth and oil."""
+
+    bulk_c: Annotated[
+        float | None,
+        Input(
+            "bulk temperature",
+            "θ_M",
+            f"{XUE}, Eq. 16",
+            text="bulk temperature of the teeth, at which the oil enters",
+            ge=-70,
+            le=500,
+            tolerance=5,
+            default_text="estimated",
+            assumed="360 K, the paper's bulk temperature; `bulk_method` estimates it from the oil",
+        ),
+    ] = 86.85
+
     @model_validator(mode="before")
     @classmethod
     def estimated_bulk_is_not_the_paper_s(cls, given: Any) -> Any:
@@ -82,29 +118,11 @@ class ScuffingTemperatures(Section):
         return given
 
     @model_validator(mode="after")
-    def one_way(self) -> Self:
-        """One bulk temperature, one scuffing temperature."""
-        if self.bulk_method == "estimated" and self.bulk_c is not None:
-            raise PydanticCustomError("exclusive", "bulk_c and an estimated bulk are both given; keep one")
+    def known_bulk(self) -> Self:
+        """A bulk temperature that is given is a number."""
         if self.bulk_method == "given" and self.bulk_c is None:
             raise PydanticCustomError("missing_bulk", "give bulk_c, or bulk_method estimated")
-        if self.scuffing_c is not None and self.scuffing_test is not None:
-            raise PydanticCustomError("exclusive", "scuffing_c and scuffing_test are both given; keep one")
         return self
-
-    def temperatures(self) -> si.Temperatures:
-        """The solver's temperatures."""
-        fields = to_si(self)
-        test = None
-        if self.scuffing_test is not None:
-            said = to_si(self.scuffing_test)
-            test = si.ScuffingTest(**{name: said[name] for name in si.ScuffingTest.__dataclass_fields__})
-        bulk = fields["oil"] if fields["bulk"] is None else fields["bulk"]
-        return si.Temperatures(**(fields | {"bulk": bulk, "scuffing_test": test}))
-
-    def unused_temperature_defaults(self, section: str) -> frozenset[str]:
-        """What the way of saying bulk and scuffing temperature leaves out of a result."""
-        return frozenset({f"{section}.bulk_c"} if self.bulk_method == "estimated" else {f"{section}.oil_supply"})
 
 
 class ScuffingModel(LoadDistributionModel, FilmModel):
@@ -161,7 +179,7 @@ class ScuffingRequest(LoadDistributionRequest):
             distribution=self.distribution(),
             lubricant=self.lubricant.lubricant(),
             oil=self.lubricant.oil(),
-            temperatures=self.temperatures.temperatures(),
+            temperatures=self.temperatures.contact_temperatures(),
             lubrication=self.model.lubrication,
             friction=self.model.friction,
             film=self.model.film(),

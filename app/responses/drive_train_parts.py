@@ -139,9 +139,13 @@ class HeatInForce(Group):
 
 
 class TemperaturesInForce(Group):
-    """Bulk temperature."""
+    """Bulk and scuffing temperature."""
 
-    bulk_c: Annotated[float, Output("bulk temperature used", "θ_M")]
+    bulk_c: Annotated[float, Output("bulk temperature used", "θ_M", text="given, the teeth's mean, or estimated")]
+    scuffing_c: Annotated[
+        float | None,
+        Output("scuffing temperature used", "θ_S", text="given or by a test; null with neither"),
+    ]
 
 
 class DriveTrainDerived(MeshDerived):

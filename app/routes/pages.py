@@ -37,7 +37,7 @@ router = APIRouter(include_in_schema=False)
 @router.get("/")
 async def start() -> Response:
     """What the models answer, and where to begin."""
-    return _html(start_page())
+    return html(start_page())
 
 
 @router.get("/static/{name}")
@@ -57,8 +57,8 @@ def _add_about(model: str) -> None:
             try:
                 known[model] = await runner.run(http.receive, rows_of, model)
             except TROUBLES as error:
-                return _trouble(error)
-        return _html(about_page(model, known[model]))
+                return trouble_page(error)
+        return html(about_page(model, known[model]))
 
     router.add_api_route(f"/{model}/about", about, methods=["GET"])
 
@@ -109,21 +109,26 @@ async def _answer(
     """One view of the case in the query or the form; a query with empty fields is sent on to one without."""
     is_page = media == HTML
     try:
-        asked, clean = await _asked(http, calculation)
+        asked, clean = await asked_of(http, calculation)
         if not clean and http.scope["method"] == "GET":
-            return RedirectResponse(quote(link(place, asked.pairs, **asked.views), safe="/?&=%,:.*+-_~"), 303)
+            return sent_on(place, asked)
         start_up: StartUp = http.app.state.start_up
         if asked.pairs:
             start_up.require(calculation.path)
         shown = await _shown(http, asked, view, arguments)
     except TROUBLES as error:
         if is_page:
-            return _trouble(error)
+            return trouble_page(error)
         raise
     return Response(shown.content, shown.status, media_type=media, headers={"Content-Security-Policy": policy})
 
 
-async def _asked(http: Request, calculation: Calculation) -> tuple[views.Asked, bool]:
+def sent_on(place: str, asked: views.Asked) -> Response:
+    """To the address that says the same in fewer words."""
+    return RedirectResponse(quote(link(place, asked.pairs, **asked.views), safe="/?&=%,:.*+-_~"), 303)
+
+
+async def asked_of(http: Request, calculation: Calculation) -> tuple[views.Asked, bool]:
     """The case asked for, and whether its query was free of what says nothing."""
     text = http.url.query
     if http.scope["method"] == "POST":
@@ -158,16 +163,17 @@ async def _shown(
     return shown
 
 
-def _trouble(error: Exception) -> Response:
+def trouble_page(error: Exception) -> Response:
     """A page that says what happened, for whoever reads pages."""
     if isinstance(error, Unreadable):
-        return _html(problem_page(400, "The case cannot be read", error.detail), 400)
+        return html(problem_page(400, "The case cannot be read", error.detail), 400)
     kind = next(PROBLEMS[base] for base in type(error).__mro__ if base in PROBLEMS)
     headers = {"Retry-After": str(kind.retry_after_s)} if kind.retry_after_s is not None else {}
-    return _html(problem_page(kind.status, kind.title, getattr(error, "detail", "")), kind.status, headers)
+    return html(problem_page(kind.status, kind.title, getattr(error, "detail", "")), kind.status, headers)
 
 
-def _html(content: str, status: int = 200, headers: dict[str, str] | None = None) -> Response:
+def html(content: str | bytes, status: int = 200, headers: dict[str, str] | None = None) -> Response:
+    """A page under the strict policy."""
     policy = {"Content-Security-Policy": PAGE_POLICY}
     return Response(content, status, media_type=HTML, headers=policy | (headers or {}))
 

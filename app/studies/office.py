@@ -55,6 +55,11 @@ class Office:
             self._running -= 1
             STUDIES.set(self._running)
 
+    @property
+    def own(self) -> Pool:
+        """The service's own workers, where a study's figures are drawn whoever solves its points."""
+        return self._own
+
     async def pool(self) -> Pool:
         """Where points are solved; raises SchedulerUnavailable."""
         if self._cluster is None:

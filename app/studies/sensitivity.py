@@ -128,19 +128,27 @@ def _every_number(calculation: Calculation, case: dict[str, Any]) -> list[Leaf]:
     return [
         scalar_at(calculation.request, path, "inputs", "unknown_path")
         for leaf in leaves(calculation.request)
-        if leaf.is_scalar and leaf.kind in NUMBERS and not leaf.advanced
-        for path in _places(leaf.path, case)
+        if leaf.dimensions < 2 and leaf.kind in NUMBERS and not leaf.advanced
+        for path in _numbers_at(leaf, case)
         if value_at(case, path) is not None
     ]
 
 
-def _places(path: str, case: dict[str, Any]) -> list[str]:
+def _numbers_at(leaf: Leaf, case: dict[str, Any]) -> list[str]:
+    """The paths of a field's numbers: every item of a list."""
+    paths = places(leaf.path, case)
+    if leaf.is_scalar:
+        return paths
+    return [f"{path}.{index}" for path in paths for index in range(len(value_at(case, path) or ()))]
+
+
+def places(path: str, case: dict[str, Any]) -> list[str]:
     """The path with every index that its lists have."""
     before, star, after = path.partition(f".{ITEM}.")
     if not star:
         return [path]
     items = range(len(value_at(case, before) or ()))
-    return [place for index in items for place in _places(f"{before}.{index}.{after}", case)]
+    return [place for index in items for place in places(f"{before}.{index}.{after}", case)]
 
 
 def _named(calculation: Calculation, case: dict[str, Any], paths: list[str], place: int) -> Leaf:

@@ -1,77 +1,27 @@
 """Pages in a real browser: fill, read, follow, share, compare, print; without script, by keyboard, on a phone."""
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Browser, Page, expect, sync_playwright
+from playwright.sync_api import Page, expect
 
-from app.calculations import CALCULATIONS
 from app.library import examples
-from app.pages.links import example_link
 from app.pages.query import link, pairs_of
+from tests.service.browsing import PHONE, address_of, overflow, serious
 
 pytestmark = pytest.mark.service
 
-CHROMIUM = "/usr/bin/chromium"
-OPTIONS = ["--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking", "--disable-sync"]
-CALCULATION = {each.path: each for each in CALCULATIONS}
 STARTERS = [example.name for example in examples().values() if example.starter]
 COUPLING = "pahl-axial-displacement"
 SCUFFING = "xue-pair-1-scuffing"
-PHONE = {"width": 360, "height": 740}
 MOST_PAGES = 6
 MOST_PAGES_OF_A_UNIT = 8  # a drive train has eight figures and three times the inputs; six are still the aim
-SLOW_MS = 60_000
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=OPTIONS)
-        yield browser
-        browser.close()
-
-
-@pytest.fixture
-def visit(browser: Browser, server: str) -> Iterator[Callable[..., Page]]:
-    """Open an address in a fresh window that allows no other host and no complaint."""
-    complaints: list[str] = []
-
-    def open_page(address: str, **options: object) -> Page:
-        context = browser.new_context(base_url=server, **options)  # type: ignore[arg-type]
-        context.set_default_timeout(SLOW_MS)
-        context.grant_permissions(["clipboard-read", "clipboard-write"], origin=server)
-        page = context.new_page()
-        page.on("request", lambda sent: complaints.append(sent.url) if not own(sent.url) else None)
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        page.on(
-            "console", lambda said: complaints.append(said.text) if "Content Security Policy" in said.text else None
-        )
-        page.goto(address)
-        return page
-
-    def own(url: str) -> bool:
-        return url.startswith((server, "data:"))
-
-    yield open_page
-    assert complaints == []
-
-
-def address_of(name: str) -> str:
-    example = examples()[name]
-    return example_link(CALCULATION[example.endpoint], example)
 
 
 def value_of(page: Page, path: str) -> str:
     return page.locator(f'[data-path="{path}"]').inner_text()
-
-
-def overflow(page: Page) -> int:
-    width: int = page.evaluate("document.documentElement.scrollWidth - window.innerWidth")
-    return width
 
 
 def test_fill_and_read_a_result(visit: Callable[..., Page]) -> None:
@@ -232,9 +182,7 @@ def test_reading_pages_fit_a_phone(visit: Callable[..., Page], address: str) -> 
 )
 def test_accessibility(visit: Callable[..., Page], address: str, scheme: str) -> None:
     page = visit(address, color_scheme=scheme)
-    found = Axe().run(page).response["violations"]
-    serious = [(each["id"], each["nodes"][0]["html"]) for each in found if each["impact"] in {"serious", "critical"}]
-    assert serious == []
+    assert serious(page) == []
 
 
 @pytest.mark.parametrize("name", sorted(examples()))

@@ -55,6 +55,27 @@ def test_pumping_power_at_low_speed_goes_with_the_cube_of_speed() -> None:
     assert line["elasticity"] == pytest.approx(3.0, abs=1e-3)
 
 
+def test_every_item_of_a_list_is_moved() -> None:
+    """While all teeth carry, errors common to all change nothing: the slopes add to nothing."""
+    errors = [2.0, -1.0, 0.5, -0.5] * 13
+    errors[7] = 3.0
+    request = {
+        "coupling": {**COUPLING.request["coupling"], "teeth": len(errors), "pitch_errors_um": errors},
+        "operation": {"torque_n_m": 3000, "speed_rpm": 1910, "misalignment_deg": 0},
+    }
+    output = "load_distribution.max_tangential_force_n"
+    *lines, _ = sensitivities(COUPLING.endpoint, request, outputs=[output])
+    slopes = {line["path"]: line["derivative"] for line in lines if "pitch_errors_um" in line["path"]}
+    assert set(slopes) == {f"coupling.pitch_errors_um.{tooth}" for tooth in range(len(errors))}
+    largest = slopes["coupling.pitch_errors_um.7"]
+    assert largest > 0.0
+    assert [each for path, each in slopes.items() if not path.endswith(".7")] == pytest.approx(
+        [-largest / (len(errors) - 1)] * (len(errors) - 1), rel=1e-6
+    )
+    named, _ = sensitivities(COUPLING.endpoint, request, outputs=[output], inputs=["coupling.pitch_errors_um.7"])
+    assert named["derivative"] == largest
+
+
 def test_every_number_is_moved_sorted_by_influence() -> None:
     *lines, end = sensitivities(COUPLING.endpoint, COUPLING.request)
     outputs = [each["path"] for each in end["outputs"]]

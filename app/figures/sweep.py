@@ -1,0 +1,201 @@
+"""Figures of a sweep: an output along one field, along two as a family of curves or a map, and what forgives what."""
+
+from dataclasses import dataclass, replace
+from itertools import groupby
+
+import numpy as np
+
+from app.figures.data import ORDER, Axis, Critical, Figure, Level, Line, Map, Mark, Panel, Span, Values, values
+from app.figures.wording import number
+
+MOST_CURVES = 6  # beyond it two fields make a map
+FLAT = 0.5  # of the largest value: an output that stays above it is not drawn from zero
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Coordinate:
+    """A varied field: its values in rising order, or its words; `own` is the value of the case itself.
+
+    `scatters` says that manufacture or measurement leaves it open, so that a design has to forgive it.
+    """
+
+    axis: Axis
+    values: Values
+    words: tuple[str, ...] = ()
+    own: float | None = None
+    scatters: bool = False
+
+    def named(self, index: int) -> str:
+        """A value as people read it."""
+        return self.words[index] if self.words else number(float(self.values[index]), self.axis.unit or "")
+
+    @property
+    def span(self) -> str:
+        """From the first value to the last."""
+        low, high = (float(self.values[end]) for end in (0, -1))
+        return f"{number(low)} to {number(high, self.axis.unit or '')}"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Grid:
+    """An output over one field or two, `[x]` or `[x][y]`; NaN where there is no value, or none yet.
+
+    `greatest` says which end is the better one; `limit` bounds the output. `warned` names for each value of a single
+    field the limit of validity that is left there.
+    """
+
+    x: Coordinate
+    y: Coordinate | None
+    output: Axis
+    values: Values
+    greatest: bool = False
+    limit: float | None = None
+    warned: tuple[str | None, ...] = ()
+    unsolved: int = 0
+
+    @property
+    def best(self) -> tuple[int, ...] | None:
+        """Where the best value is; of equals the first. None while there is none."""
+        if not np.isfinite(self.values).any():
+            return None
+        flat = np.nanargmax(self.values) if self.greatest else np.nanargmin(self.values)
+        return tuple(int(place) for place in np.unravel_index(flat, self.values.shape))
+
+    @property
+    def is_map(self) -> bool:
+        """Whether it has more curves than one can tell apart."""
+        return self.y is not None and not self.y.words and self.y.values.size > MOST_CURVES
+
+
+def figures_of(grid: Grid) -> dict[str, Figure]:
+    """The figures of a sweep by name."""
+    if grid.y is None:
+        return {"curve": curve(grid)}
+    if not grid.is_map:
+        return {"family": family(grid, grid.y)}
+    forgiven = {"worst": worst(grid, grid.y)} if grid.x.scatters else {}
+    return {"map": chart(grid, grid.y), **forgiven}
+
+
+def curve(grid: Grid) -> Figure:
+    """The output along the field; shaded where a limit of validity is left."""
+    line = Line(grid.output.title, grid.x.values, grid.values, named=False)
+    panel = Panel(
+        x=grid.x.axis,
+        y=_ordinate(grid),
+        lines=(line,),
+        levels=(*_limit(grid), *_own(grid.x)),
+        spans=_warned(grid),
+        marks=_best_of_curve(grid),
+    )
+    return _figure(grid, f"{grid.output.title} over {grid.x.axis.title}", panel)
+
+
+def family(grid: Grid, y: Coordinate) -> Figure:
+    """A curve for each value of the second field."""
+    lines = tuple(
+        Line(y.named(index), grid.x.values, values(grid.values[:, index]), ORDER[index % len(ORDER)])
+        for index in range(y.values.size)
+    )
+    best = grid.best
+    marks = _best_of_curve(grid)
+    if best is not None:
+        marks = tuple(replace(mark, hue=lines[best[1]].hue) for mark in marks)
+    panel = Panel(x=grid.x.axis, y=_ordinate(grid), lines=lines, levels=_limit(grid), marks=marks)
+    return _figure(grid, f"{grid.output.title} over {grid.x.axis.title}, by {y.axis.title}", panel)
+
+
+def chart(grid: Grid, y: Coordinate) -> Figure:
+    """The output over both fields as a map with its best point."""
+    unit = grid.output.unit
+    finite = grid.values[np.isfinite(grid.values)]
+    ends = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    colours = Map(
+        grid.output.title,
+        unit,
+        grid.x.values,
+        y.values,
+        values(grid.values.T),
+        critical=() if grid.limit is None else (Critical(grid.limit, f"limit {number(grid.limit)}"),),
+        range=ends if ends[1] > ends[0] else (ends[0] - 0.5, ends[0] + 0.5),
+    )
+    marks: tuple[Mark, ...] = ()
+    if grid.best is not None:
+        across, up = grid.best
+        text = number(float(grid.values[across, up]), unit or "")
+        marks = (Mark(float(grid.x.values[across]), float(y.values[up]), text),)
+    panel = Panel(x=grid.x.axis, y=y.axis, map=colours, marks=marks)
+    return _figure(grid, f"{grid.output.title} over {grid.x.axis.title} and {y.axis.title}", panel)
+
+
+def worst(grid: Grid, y: Coordinate) -> Figure:
+    """For each value of the second field the worst along the first; unknown where a point of it is."""
+    x, unit = grid.x, grid.output.unit or ""
+    reached = values(grid.values.min(axis=0) if grid.greatest else grid.values.max(axis=0))
+    lines = [Line("worst", y.values, reached, ORDER[1])]
+    if x.own is not None and (at := np.flatnonzero(np.isclose(x.values, x.own))).size:
+        lines.append(Line(f"at {x.named(int(at[0]))}", y.values, values(grid.values[at[0]]), ORDER[0]))
+    marks: tuple[Mark, ...] = ()
+    finding = ""
+    if np.isfinite(reached).any():
+        index = int(np.nanargmax(reached) if grid.greatest else np.nanargmin(reached))
+        bound = number(float(reached[index]), unit)
+        marks = (Mark(float(y.values[index]), float(reached[index]), bound, ORDER[1]),)
+        side = "above" if grid.greatest else "below"
+        finding = f"{y.axis.title} {y.named(index)} keeps {grid.output.title} {side} {bound}"
+    panel = Panel(x=y.axis, y=_ordinate(grid), lines=tuple(lines), levels=_limit(grid), marks=marks)
+    title = f"Which {y.axis.title} forgives {x.axis.title} from {x.span}?"
+    return Figure(finding, (panel,), title=title, unsolved=grid.unsolved)
+
+
+def _figure(grid: Grid, title: str, panel: Panel) -> Figure:
+    return Figure(_finding(grid), (panel,), title=title[0].upper() + title[1:], unsolved=grid.unsolved)
+
+
+def _finding(grid: Grid) -> str:
+    if grid.best is None:
+        return ""
+    fields = (grid.x,) if grid.y is None else (grid.x, grid.y)
+    places = ", ".join(
+        f"{field.axis.title} {field.named(index)}" for field, index in zip(fields, grid.best, strict=True)
+    )
+    value = number(float(grid.values[grid.best]), grid.output.unit or "")
+    return f"{'greatest' if grid.greatest else 'least'} {value} at {places}"
+
+
+def _ordinate(grid: Grid) -> Axis:
+    """From zero, unless the output changes by little of itself."""
+    finite = np.abs(grid.values[np.isfinite(grid.values)])
+    flat = finite.size > 0 and finite.min() > FLAT * finite.max()
+    return replace(grid.output, magnitude=not flat)
+
+
+def _limit(grid: Grid) -> tuple[Level, ...]:
+    if grid.limit is None:
+        return ()
+    return (Level(grid.limit, f"limit {number(grid.limit, grid.output.unit or '')}", limit=True),)
+
+
+def _own(x: Coordinate) -> tuple[Level, ...]:
+    """Where the case itself stands."""
+    if x.own is None or not x.values[0] <= x.own <= x.values[-1]:
+        return ()
+    return (Level(x.own, f"this case: {number(x.own, x.axis.unit or '')}", vertical=True),)
+
+
+def _warned(grid: Grid) -> tuple[Span, ...]:
+    """Runs of points that leave the same limit of validity."""
+    x, spans, start = grid.x.values, [], 0
+    for reason, group in groupby(grid.warned):
+        stop = start + len(list(group))
+        if reason is not None:
+            spans.append(Span(float(x[start]), float(x[stop - 1]), reason))
+        start = stop
+    return tuple(spans)
+
+
+def _best_of_curve(grid: Grid) -> tuple[Mark, ...]:
+    if grid.best is None:
+        return ()
+    value = float(grid.values[grid.best])
+    return (Mark(float(grid.x.values[grid.best[0]]), value, number(value, grid.output.unit or "")),)

@@ -1,0 +1,66 @@
+// What pages with figures share: the link to copy, and values under pointer and arrow keys.
+"use strict";
+
+function prepareCopy(say) {
+  const copy = document.getElementById("copy");
+  copy?.addEventListener("click", async (event) => {
+    event.preventDefault();
+    try {
+      await navigator.clipboard.writeText(copy.href);
+      say("Link copied.");
+    } catch {
+      history.replaceState(null, "", copy.href);
+      say("The link is in the address bar.");
+    }
+  });
+}
+
+// Values of a figure under pointer and arrow keys.
+function prepareChart(plot) {
+  const panels = JSON.parse(plot.dataset.series);
+  if (!panels.length) return;
+  const reading = plot.parentElement.querySelector(".reading");
+  const cursor = document.createElement("span");
+  cursor.className = "cursor";
+  cursor.hidden = true;
+  plot.append(cursor);
+  let place = { panel: 0, index: -1 };
+  const show = (panel, index) => {
+    place = { panel, index };
+    const { box, range, name, unit, curves } = panels[panel];
+    const at = curves[0].x[index];
+    const image = plot.querySelector("img");
+    const share = range[2] ? Math.log(at / range[0]) / Math.log(range[1] / range[0]) : (at - range[0]) / (range[1] - range[0]);
+    cursor.style.left = `${(box[0] + share * box[2]) * image.clientWidth}px`;
+    cursor.style.top = `${box[1] * image.clientHeight}px`;
+    cursor.style.height = `${box[3] * image.clientHeight}px`;
+    cursor.hidden = false;
+    const values = curves.map((curve) => [curve, curve.y[nearest(curve.x, at)]]).filter(([, value]) => value !== null);
+    reading.textContent = `${name} ${at} ${unit}: ` + values.map(([curve, value]) => `${curve.name} ${value} ${curve.unit}`.trim()).join(" · ");
+  };
+  plot.addEventListener("pointermove", (event) => {
+    const image = plot.querySelector("img").getBoundingClientRect();
+    const x = (event.clientX - image.left) / image.width;
+    const y = (event.clientY - image.top) / image.height;
+    const panel = panels.findIndex(({ box }) => x >= box[0] && x <= box[0] + box[2] && y >= box[1] - 0.05 && y <= box[1] + box[3] + 0.05);
+    if (panel < 0) return;
+    const { box, range, curves } = panels[panel];
+    const share = (x - box[0]) / box[2];
+    const at = range[2] ? range[0] * (range[1] / range[0]) ** share : range[0] + share * (range[1] - range[0]);
+    show(panel, nearest(curves[0].x, at));
+  });
+  plot.addEventListener("keydown", (event) => {
+    const step = { ArrowRight: [0, 1], ArrowLeft: [0, -1], ArrowDown: [1, 0], ArrowUp: [-1, 0] }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    const panel = Math.min(Math.max(place.panel + step[0], 0), panels.length - 1);
+    const last = panels[panel].curves[0].x.length - 1;
+    show(panel, Math.min(Math.max(place.index + step[1], 0), last));
+  });
+}
+
+function nearest(values, wanted) {
+  let best = 0;
+  values.forEach((value, index) => { if (value !== null && Math.abs(value - wanted) < Math.abs(values[best] - wanted)) best = index; });
+  return best;
+}

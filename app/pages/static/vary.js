@@ -1,0 +1,98 @@
+// A study's page: it grows without script; with it the study can be stopped, and points opened from the figure.
+"use strict";
+
+const stop = () => document.getElementById("stop");
+let loading = document.readyState === "loading";
+
+document.addEventListener("click", (event) => {
+  if (event.target.id !== "stop") return;
+  window.stop();
+  loading = false;
+  event.target.hidden = true;
+  document.getElementById("state").textContent = "Stopped; what was calculated so far is shown.";
+});
+
+document.addEventListener("change", (event) => {
+  const axis = event.target.matches("select[name=x], select[name=y]") ? event.target.name : null;
+  if (!axis) return;
+  for (const part of ["from", "to", "scale"]) document.getElementById(`f.${axis}.${part}`).value = "";
+  if (document.querySelector("select[name=x]").value) event.target.form.requestSubmit();
+});
+
+function watch() {
+  if (!loading) return;
+  if (stop()) stop().hidden = false;
+  else setTimeout(watch, 30);
+}
+
+function finish() {
+  loading = false;
+  if (stop()) stop().hidden = true;
+  prepareCopy((text) => { document.getElementById("state").textContent = text; });
+  document.querySelectorAll(".plot").forEach((plot) => (plot.dataset.study ? prepareStudy(plot) : plot.dataset.series && prepareChart(plot)));
+}
+
+// The point under the pointer or the arrow keys; a click or the Enter key opens its case.
+function prepareStudy(plot) {
+  const study = JSON.parse(plot.dataset.study);
+  const [xs, ys] = [study.axes[0].at, study.axes[1]?.at ?? [null]];
+  const reading = plot.parentElement.querySelector(".reading");
+  const ring = document.createElement("span");
+  ring.className = "ring";
+  ring.hidden = true;
+  plot.append(ring);
+  let at = [0, 0];
+  const value = (i, j) => study.out[i * ys.length + j];
+  const share = (number, [low, high, log]) => (log ? Math.log(number / low) / Math.log(high / low) : (number - low) / (high - low));
+  const place = (i, j) => [share(xs[i], study.ranges[0]), share(study.map ? ys[j] : value(i, j), study.ranges[1])];
+  const show = (i, j) => {
+    at = [i, j];
+    const image = plot.querySelector("img");
+    const [x, y] = place(i, j);
+    ring.hidden = value(i, j) === null && !study.map;
+    ring.style.left = `${(study.box[0] + x * study.box[2]) * image.clientWidth}px`;
+    ring.style.top = `${(study.box[1] + (1 - y) * study.box[3]) * image.clientHeight}px`;
+    const named = study.axes.map((axis, rank) => `${axis.name} ${rounded(axis.at[at[rank]])} ${axis.unit}`.trim());
+    const found = value(i, j) === null ? "no solution" : `${rounded(value(i, j))} ${study.unit}`.trim();
+    reading.textContent = `${named.join(", ")}: ${study.title} ${found}. Click to open this case.`;
+  };
+  const open = ([i, j]) => {
+    const [path, query] = study.address.split("?");
+    const fields = new URLSearchParams(query);
+    fields.set(study.axes[0].path, xs[i]);
+    if (study.axes[1]) fields.set(study.axes[1].path, ys[j]);
+    location.href = `${path}?${fields}`;
+  };
+  const nearestPoint = (event) => {
+    const image = plot.querySelector("img").getBoundingClientRect();
+    const x = ((event.clientX - image.left) / image.width - study.box[0]) / study.box[2];
+    const y = 1 - ((event.clientY - image.top) / image.height - study.box[1]) / study.box[3];
+    if (x < -0.03 || x > 1.03 || y < -0.05 || y > 1.05) return null;
+    const i = least(xs.map((_, index) => Math.abs(share(xs[index], study.ranges[0]) - x)));
+    return [i, least(ys.map((_, index) => Math.abs(place(i, index)[1] - y)))];
+  };
+  plot.classList.add("opens");
+  plot.addEventListener("pointermove", (event) => { const found = nearestPoint(event); if (found) show(...found); });
+  plot.addEventListener("click", (event) => { const found = nearestPoint(event); if (found) open(found); });
+  plot.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") { open(at); return; }
+    const step = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    show(...[xs, ys].map((values, rank) => Math.min(Math.max(at[rank] + step[rank], 0), values.length - 1)));
+  });
+}
+
+function least(distances) {
+  let best = 0;
+  distances.forEach((distance, index) => { if (distance < distances[best]) best = index; });
+  return best;
+}
+
+function rounded(value) {
+  return typeof value === "number" ? Number(value.toPrecision(5)) : value;
+}
+
+watch();
+if (document.readyState === "complete") finish();
+else window.addEventListener("load", finish);

@@ -1,0 +1,378 @@
+"""Studies on the pages: what a query asks, the figures' numbers, links that open the case of a point, refusals."""
+
+import json
+import re
+from contextlib import suppress
+from html import unescape
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+
+from app.calculations import CALCULATIONS, Calculation
+from app.contract.fields import leaf_at, leaves
+from app.figures.data import Axis, values
+from app.figures.drawing import draw
+from app.figures.rendering import MEDIA_TYPES
+from app.figures.sweep import MOST_CURVES, Coordinate, Grid, figures_of
+from app.library import examples
+from app.pages.query import STUDY_NAMES, VIEW_NAMES, body_of, pairs_of, pairs_of_query, split_views
+from app.pages.templating import page_path
+from app.pages.vary import views
+from app.pages.vary.choices import shown_outputs, varied
+from app.pages.vary.examples import STUDIES, StudyExample
+from app.pages.vary.gathered import Gathered
+from app.pages.vary.wish import case_of
+from app.pages.views import Asked
+from app.problems import Unprocessable
+from app.reading import InvalidBody
+from app.studies.lines import point_line
+from app.studies.points import solve_point
+
+MOST, DEADLINE_S = 2500, 30.0
+CALCULATION = {each.path: each for each in CALCULATIONS}
+COUPLING = "pahl-axial-displacement"
+LOADS = "xue-pair-1-modified"
+SLOPE, CROWNING = "modifications.helix_slope_um", "modifications.lead_crowning_um"
+MAP = {"x": SLOPE, "x.from": "-20", "x.to": "20", "x.count": "3", "y": CROWNING, "y.from": "0", "y.to": "30"}
+# One quick case of each endpoint that has one.
+QUICK = (COUPLING, "pahl-sleeve-orbit", "pahl-recommended-crowning", "milian-table-1", "fzg-type-a")
+
+
+def asked(name: str, **said: str) -> Asked:
+    example = examples()[name]
+    return Asked(page_path(CALCULATION[example.endpoint]), pairs_of(example.request), said)
+
+
+def solved(found: Asked) -> tuple[views.Study, Gathered]:
+    study = views.planned(found, MOST, DEADLINE_S)
+    gathered = Gathered(study.sweep.total)
+    for index in range(study.sweep.total):
+        overrides = study.sweep.plan.overrides(index)
+        point = solve_point(study.sweep.question, overrides)
+        gathered.add(json.loads(json.dumps(point_line(index, study.sweep.plan.at(index), point))))
+    gathered.add({"type": "end", "elapsed_s": 1.0})
+    return study, gathered
+
+
+def study_of(example: StudyExample) -> Asked:
+    path, _, query = example.address.partition("?")
+    pairs, said = split_views(pairs_of_query(query))
+    return Asked(path.removesuffix("/vary"), pairs, said)
+
+
+def test_what_a_study_says_is_no_field_of_a_request() -> None:
+    for calculation in CALCULATIONS:
+        assert not VIEW_NAMES & {leaf.path for leaf in leaves(calculation.request)}
+
+
+@pytest.mark.parametrize("example", STUDIES, ids=lambda each: each.title)
+def test_every_study_to_start_from_is_one(example: StudyExample) -> None:
+    opened = views.opened(study_of(example), MOST, DEADLINE_S)
+    assert opened.status == 200
+    assert opened.study is not None
+    assert opened.tail.endswith(b"</html>\n") or opened.tail.strip().endswith(b"</html>")
+
+
+def test_every_endpoint_has_a_study_to_start_from() -> None:
+    assert {each.calculation.path for each in STUDIES} == set(CALCULATION)
+
+
+def test_the_crowning_that_forgives_is_a_map_of_17_by_11() -> None:
+    study = views.planned(study_of(STUDIES[0]), MOST, DEADLINE_S)
+    assert [len(axis.values or ()) for axis in study.sweep.plan.axes] == [17, 11]
+    slopes = study.sweep.plan.axes[0].values
+    assert slopes is not None
+    assert (slopes[0], slopes[-1]) == (-20.0, 20.0)
+
+
+@pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
+def test_every_number_of_a_case_is_varied_by_its_name_alone(calculation: Calculation) -> None:
+    """Around its value, inside what is allowed; one that has no value may ask for a range, in words."""
+    found = asked(next(each.name for each in examples().values() if each.endpoint == calculation.path))
+    case = case_of(calculation, found.pairs)
+    for choice in varied(calculation, case, words=False):
+        said = Asked(found.path, found.pairs, {"x": choice.path})
+        if case_value(case, choice.path):
+            assert views.planned(said, MOST, DEADLINE_S).sweep.total > 1, choice
+        else:
+            with suppress(Unprocessable, InvalidBody):
+                assert views.planned(said, MOST, DEADLINE_S).sweep.total > 1, choice
+
+
+def case_value(case: dict[str, Any], path: str) -> Any:
+    here: Any = case
+    for part in path.split("."):
+        here = here[int(part)] if isinstance(here, list) else (here or {}).get(part)
+    return here
+
+
+@pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
+def test_every_output_that_can_be_shown_is_told_by_a_study(calculation: Calculation) -> None:
+    example = next(each for each in examples().values() if each.endpoint == calculation.path)
+    found = asked(example.name)
+    case = case_of(calculation, found.pairs)
+    said = {"x": next(each.path for each in varied(calculation, case, words=False) if case_value(case, each.path))}
+    for choice in shown_outputs(calculation):
+        assert views.planned(Asked(found.path, found.pairs, said | {"show": choice.path}), MOST, DEADLINE_S)
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_a_points_link_opens_the_case_that_was_solved(name: str) -> None:
+    found = asked(name)
+    calculation = found.calculation
+    field = next(
+        choice.path
+        for choice in varied(calculation, case_of(calculation, found.pairs), words=False)
+        if choice.path.endswith(("torque_n_m", "speed_rpm", "torque_n_m"))
+    )
+    study, gathered = solved(Asked(found.path, found.pairs, {"x": field, "x.count": "3"}))
+    for index, value in enumerate(gathered.out):
+        _, _, query = study.opened(index).partition("?")
+        body = body_of(calculation.request, pairs_of_query(query))
+        alone = solve_point(study.sweep.question._replace(base=body), {})
+        assert alone.out == [value]
+        assert value is not None
+
+
+def test_a_link_of_a_field_that_excludes_others_leaves_them_out() -> None:
+    found = asked("starter-industrial-scuffing")
+    study = views.planned(
+        Asked(found.path, found.pairs, {"x": "load.pinion_torque_n_m", "x.from": "1000", "x.to": "2000"}),
+        MOST,
+        DEADLINE_S,
+    )
+    names = dict(pairs_of_query(study.opened(0).partition("?")[2]))
+    assert "load.pinion_torque_n_m" in names
+    assert "load.power_kw" not in names
+
+
+def test_an_item_of_a_list_is_varied_and_opened() -> None:
+    found = asked("starter-coupling-pitch-errors")
+    study, gathered = solved(
+        Asked(
+            found.path, found.pairs, {"x": "coupling.pitch_errors_um.3", "x.from": "-20", "x.to": "20", "x.count": "3"}
+        )
+    )
+    assert gathered.status == ["ok", "ok", "ok"] or "refused" not in gathered.status
+    body = body_of(found.calculation.request, pairs_of_query(study.opened(2).partition("?")[2]))
+    assert body["coupling"]["pitch_errors_um"][3] == 20
+
+
+def test_the_figures_numbers_are_the_points() -> None:
+    study, gathered = solved(asked(LOADS, **MAP, **{"y.count": "7"}, show="pressure.max_mpa"))
+    found = np.array(gathered.out).reshape(3, 7)
+    drawn = {name: views.file(study, gathered, name, "csv").decode().splitlines() for name in ("map", "worst")}
+    rows = [list(map(float, line.split(","))) for line in drawn["map"][1:]]
+    assert [row[2] for row in rows] == found.T.ravel().tolist()
+    assert drawn["map"][0] == "helix crowning [µm],helix slope [µm],largest Hertz pressure [MPa]"
+    worst = [float(line.split(",")[1]) for line in drawn["worst"][1:]]
+    assert worst == found.max(axis=0).tolist()
+    own = [float(line.split(",")[2]) for line in drawn["worst"][1:]]
+    assert own == found[1].tolist()
+
+
+def test_the_best_point_is_the_one_of_the_sweeps_end(client: httpx.Client) -> None:
+    study = views.planned(asked(LOADS, **MAP, **{"y.count": "7"}), MOST, DEADLINE_S)
+    lines = client.get(study.links.view(".ndjson")).text.splitlines()
+    gathered = Gathered(study.sweep.total)
+    for line in lines:
+        gathered.add(json.loads(line))
+    page = views.whole(study, gathered).decode()
+    best = json.loads(lines[-1])["best"]
+    assert f"at helix slope {best['at'][0]:g} µm, helix crowning {best['at'][1]:g} µm" in page
+
+
+def grid(*sizes: int, **more: Any) -> Grid:
+    rng = np.random.default_rng(1)
+    fields = [
+        Coordinate(
+            Axis(f"field {rank}", "mm", magnitude=False), values(np.linspace(-1, 1, size)), own=0.0, scatters=True
+        )
+        for rank, size in enumerate(sizes)
+    ]
+    return Grid(
+        fields[0], fields[1] if len(fields) > 1 else None, Axis("output", "N"), values(rng.random(sizes)), **more
+    )
+
+
+@pytest.mark.parametrize(
+    ("sizes", "names"),
+    [((5,), ["curve"]), ((5, MOST_CURVES), ["family"]), ((5, MOST_CURVES + 1), ["map", "worst"])],
+)
+def test_one_field_is_a_curve_few_values_are_curves_more_are_a_map(sizes: tuple[int, ...], names: list[str]) -> None:
+    assert list(figures_of(grid(*sizes))) == names
+
+
+def test_nothing_vouches_for_a_row_with_a_point_without_solution() -> None:
+    found = grid(5, 7)
+    known = found.values.copy()
+    known[2, 3] = np.nan
+    figure = figures_of(Grid(found.x, found.y, found.output, values(known)))["worst"]
+    assert np.flatnonzero(np.isnan(figure.panels[0].lines[0].y)).tolist() == [3]
+
+
+@pytest.mark.parametrize("greatest", [False, True])
+def test_the_worst_is_the_other_end_of_the_best(greatest: bool) -> None:
+    found = grid(5, 7, greatest=greatest)
+    line = figures_of(found)["worst"].panels[0].lines[0]
+    ends = found.values.min(axis=0) if greatest else found.values.max(axis=0)
+    assert line.y.tolist() == ends.tolist()
+    assert found.best is not None
+    assert found.values[found.best] == (found.values.max() if greatest else found.values.min())
+
+
+@pytest.mark.parametrize("sizes", [(5,), (5, 3), (5, 7), (2,), (2, 7)])
+def test_figures_are_drawn_while_few_or_no_points_are_there(sizes: tuple[int, ...]) -> None:
+    whole = grid(*sizes)
+    for count in (0, 1, whole.values.size // 2):
+        known = np.full(whole.values.size, np.nan)
+        known[:count] = whole.values.ravel()[:count]
+        part = Grid(whole.x, whole.y, whole.output, values(known.reshape(sizes)))
+        assert all(draw(figure, "svg") for figure in figures_of(part).values())
+
+
+def test_a_map_over_even_ratios_puts_its_points_where_the_axes_have_them() -> None:
+    x = Coordinate(Axis("speed", log=True, magnitude=False, limits=(1.0, 100.0)), values([1.0, 10.0, 100.0]))
+    y = Coordinate(Axis("load", magnitude=False), values(np.arange(8.0)))
+    known = np.tile([[0.0], [1.0], [0.0]], (1, 8))
+    image = views_image(Grid(x, y, Axis("output"), values(known)))
+    assert np.argmax(image[0]) == image.shape[1] // 2
+
+
+def views_image(found: Grid) -> Any:
+    from app.figures.maps import _image, map_ranges  # noqa: PLC0415
+
+    panel = figures_of(found)["map"].panels[0]
+    assert panel.map is not None
+    return _image(panel.map, *map_ranges(panel, panel.map))
+
+
+@pytest.mark.parametrize(
+    ("said", "control", "message"),
+    [
+        ({"x": "coupling.tooth"}, "x", "there is no coupling.tooth"),
+        ({"x": "coupling"}, "x", "is a section"),
+        ({"x": "operation.arrangement"}, "x", "no numbers"),
+        ({"x": "operation.torque_n_m", "x.from": "abc"}, "x.from", "number"),
+        ({"x": "operation.torque_n_m", "x.from": "1e400"}, "x.from", "finite"),
+        ({"x": "operation.torque_n_m", "x.from": "5", "x.to": "5"}, "x.from", "the same"),
+        ({"x": "operation.torque_n_m", "x.from": "0", "x.scale": "log"}, "x.from", "above zero"),
+        ({"x": "operation.torque_n_m", "x.scale": "cubic"}, "x.scale", "linear"),
+        ({"x": "operation.torque_n_m", "x.count": "2501"}, "x.count", "at most 2500"),
+        ({"x": "operation.torque_n_m", "x.count": "1.5"}, "x.count", "whole number"),
+        ({"x": "operation.misalignment_deg", "x.to": "90"}, "x.from", "at most"),
+        ({"x": "operation.torque_n_m", "y": "operation.torque_n_m"}, "x.count", "varied twice"),
+        ({"x": "operation.torque_n_m", "show": "axial_thrust"}, "show", "is a section"),
+        ({"x": "operation.torque_n_m", "show": "lubrication.regime.name"}, "show", "no number"),
+        ({"x": "operation.torque_n_m", "best": "largest"}, "best", "least, greatest"),
+    ],
+)
+def test_what_is_refused_stands_at_its_control(said: dict[str, str], control: str, message: str) -> None:
+    opened = views.opened(asked(COUPLING, **said), MOST, DEADLINE_S)
+    assert opened.status == 422
+    page = unescape(opened.head.decode())
+    found = re.search(rf'id="f\.{re.escape(control)}-fault">([^<]*)<', page)
+    assert found is not None, re.findall(r'<div class="problem".*?</div>', page, re.DOTALL)
+    assert message in found[1]
+
+
+def test_a_decimal_comma_is_read() -> None:
+    study = views.planned(asked(COUPLING, x="operation.misalignment_deg", **{"x.to": "0,1"}), MOST, DEADLINE_S)
+    axis = study.sweep.plan.axes[0].values
+    assert axis is not None
+    assert axis[-1] == 0.1
+
+
+def test_whole_numbers_are_varied_in_whole_steps() -> None:
+    said = {"x": "coupling.teeth", "x.from": "40", "x.to": "50"}
+    for count, values_wanted in (("3", [40, 45, 50]), ("21", list(range(40, 51)))):
+        axis = views.planned(asked(COUPLING, **said, **{"x.count": count}), MOST, DEADLINE_S).sweep.plan.axes[0]
+        assert axis.values == values_wanted
+
+
+def test_words_make_a_family() -> None:
+    study = views.planned(
+        asked(COUPLING, x="operation.misalignment_deg", **{"x.count": "3"}, y="operation.arrangement"), MOST, DEADLINE_S
+    )
+    words = study.sweep.plan.axes[1].values
+    assert words is not None
+    assert set(words) == set(leaf_options("operation.arrangement"))
+
+
+def leaf_options(path: str) -> tuple[Any, ...]:
+    leaf = leaf_at(CALCULATION["/v1/coupling"].request, path)
+    assert leaf is not None
+    return leaf.options
+
+
+@pytest.mark.parametrize(
+    "query",
+    [
+        "x=<script>alert(1)</script>&coupling.teeth=52",
+        "x=operation.torque_n_m&show=<img src=x onerror=alert(1)>&coupling.teeth=52",
+        'x=operation.torque_n_m&x.from="><script>&coupling.teeth=52',
+        'x=operation.torque_n_m&theme="><script>&coupling.teeth="><script>',
+        "x=" + "a." * 3000 + "b&coupling.teeth=52",
+        "x=operation.torque_n_m&x.count=99999999999999999999999&coupling.teeth=52",
+        "x=operation.torque_n_m&unknown=1",
+        "coupling=1&coupling.teeth=52&x=operation.torque_n_m",
+        "&".join(f"a{index}=1" for index in range(1500)),
+    ],
+)
+def test_hostile_queries_get_a_clear_page(client: httpx.Client, query: str) -> None:
+    answer = client.get(f"/coupling/vary?{query}", follow_redirects=True)
+    assert 400 <= answer.status_code < 500
+    assert "default-src 'self'" in answer.headers["content-security-policy"]
+    body = answer.text.partition("<body>")[2]
+    assert "<script" not in body
+    assert "<img src=x" not in body
+    assert body.rstrip().endswith("</html>")
+
+
+def test_a_page_grows_and_ends_with_the_same_points_as_its_files(client: httpx.Client) -> None:
+    study = views.planned(study_of(STUDIES[1]), MOST, DEADLINE_S)
+    page = client.get(study.links.view(""))
+    assert page.status_code == 200
+    assert "244 points in" in page.text
+    told = client.get(study.links.view(".ndjson"))
+    points = [json.loads(line) for line in told.text.splitlines()][1:-1]
+    data = json.loads(unescape(re.findall(r'data-study="([^"]+)"', page.text)[0]))
+    assert data["out"] == [point["out"][0] for point in points if point["type"] == "point"]
+    table = client.get(study.links.view(".csv"))
+    assert table.headers["content-type"].startswith("text/csv")
+    assert len(table.text.splitlines()) == 245
+
+
+def test_empty_fields_are_dropped_by_a_redirect(client: httpx.Client) -> None:
+    query = "coupling.teeth=52&coupling.module_mm=&x=operation.torque_n_m&y=&y.from="
+    answer = client.get(f"/coupling/vary?{query}")
+    assert answer.status_code == 303
+    assert answer.headers["location"] == "/coupling/vary?coupling.teeth=52&x=operation.torque_n_m"
+
+
+def test_figures_are_files(client: httpx.Client) -> None:
+    said = {"x": "operation.misalignment_deg", "y": "operation.axial_velocity_mm_per_s", "y.count": "7"}
+    links = views.StudyLinks(asked(COUPLING, **said))
+    for image_format, kind in MEDIA_TYPES.items():
+        answer = client.get(links.image("map", image_format))
+        assert answer.headers["content-type"] == kind
+        assert answer.content == client.get(links.image("map", image_format)).content
+    assert client.get(links.image("curve", "svg")).status_code == 404
+    assert client.get(links.image("pie", "svg")).status_code == 404
+    assert client.get(links.image("map", "gif")).status_code == 404
+
+
+def test_a_posted_study_is_the_same(client: httpx.Client) -> None:
+    links = views.StudyLinks(asked(COUPLING, x="operation.torque_n_m", **{"x.count": "3"}))
+    path, _, query = links.view(".csv").partition("?")
+    form = {"Content-Type": "application/x-www-form-urlencoded"}
+    assert client.post(path, content=query, headers=form).content == client.get(links.view(".csv")).content
+
+
+def test_the_names_of_a_study_are_those_of_its_form() -> None:
+    page = views.opened(asked(COUPLING, x="operation.torque_n_m"), MOST, DEADLINE_S).head.decode()
+    names = set(re.findall(r'<(?:input|select)\b[^>]*?\bname="([^"]+)"', page))
+    assert names >= STUDY_NAMES
+    assert names - STUDY_NAMES == set(dict(asked(COUPLING).pairs))

@@ -1,0 +1,28 @@
+"""What tests in a browser share: addresses of examples, sideways scrolling, the accessibility checker."""
+
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Page
+
+from app.calculations import BY_PATH
+from app.library import examples
+from app.pages.links import example_link
+
+PHONE = {"width": 360, "height": 740}
+
+
+def address_of(name: str) -> str:
+    """The page of an example."""
+    example = examples()[name]
+    return example_link(BY_PATH[example.endpoint], example)
+
+
+def overflow(page: Page) -> int:
+    """By how much a page is wider than its window."""
+    width: int = page.evaluate("document.documentElement.scrollWidth - window.innerWidth")
+    return width
+
+
+def serious(page: Page) -> list[tuple[str, str]]:
+    """What the accessibility checker finds that is serious or worse."""
+    found = Axe().run(page).response["violations"]
+    return [(each["id"], each["nodes"][0]["html"]) for each in found if each["impact"] in {"serious", "critical"}]

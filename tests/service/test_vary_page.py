@@ -1,0 +1,114 @@
+"""Studies in a real browser: the figure grows, a point opens its case, stop, share, download; without script too."""
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from app.pages.vary.examples import STUDIES
+from tests.service.browsing import PHONE, address_of, overflow, serious
+
+pytestmark = pytest.mark.service
+
+MAP, THRUST = STUDIES[0].address, STUDIES[1].address
+SLOW = re.sub(r"x\.count=\d+", "x.count=300", re.sub(r"y\.count=\d+", "y.count=8", MAP))
+COUPLING = "pahl-axial-displacement"
+
+
+def test_from_a_case_to_a_curve_and_back_to_the_case_of_a_point(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(COUPLING))
+    page.get_by_role("link", name="Vary").click()
+    page.locator("select[name=x]").select_option("operation.misalignment_deg")
+    expect(page.locator(".frame .chart img").last).to_be_visible()
+    expect(page).to_have_url(re.compile(r"x=operation\.misalignment_deg"))
+    page.locator('[name="x.to"]').fill("0,2")
+    page.get_by_role("button", name="Draw").click()
+    expect(page).to_have_url(re.compile(r"x\.to=0%2C2|x\.to=0,2"))
+    plot = page.locator("#figure-curve .plot")
+    box = plot.bounding_box()
+    assert box is not None
+    plot.hover(position={"x": box["width"] / 2, "y": box["height"] / 2})
+    reading = page.locator("#figure-curve .reading")
+    expect(reading).to_contain_text("axial thrust")
+    said = reading.inner_text()
+    plot.click(position={"x": box["width"] / 2, "y": box["height"] / 2})
+    expect(page.locator(".card").first).to_be_visible()
+    chosen = page.locator('[name="operation.misalignment_deg"]').input_value()
+    assert float(chosen) == pytest.approx(float(re.findall(r"misalignment ([\d.]+)", said)[0]), rel=1e-4)
+    thrust = page.locator('[data-path="axial_thrust.force_n"]').inner_text().replace("\u202f", "").replace(" ", "")
+    assert float(thrust) == pytest.approx(float(re.findall(r"thrust ([\d.]+)", said)[0]), rel=1e-3)
+
+
+def test_the_figure_grows_while_points_come_and_stop_ends_it(visit: Callable[..., Page], server: str) -> None:
+    page = visit("/")
+    page.goto(SLOW, wait_until="commit")
+    done = page.locator(".frame:visible .progress")
+    expect(done).to_contain_text("of 2400 points")
+    first = done.inner_text()
+    expect(done).not_to_have_text(first)
+    assert page.locator(".frame:visible").count() == 1
+    page.locator("#stop").click()
+    expect(page.locator("#state")).to_contain_text("Stopped")
+    expect(page.locator(".frame:visible .chart img")).to_be_visible()
+    running = page.request.get(f"{server}/metrics")
+    for _ in range(50):
+        if re.search(r"^tribodrive_studies\S* 0(\.0)?$", running.text(), re.MULTILINE):
+            break
+        page.wait_for_timeout(100)
+        running = page.request.get(f"{server}/metrics")
+    assert re.search(r"^tribodrive_studies\S* 0(\.0)?$", running.text(), re.MULTILINE)
+
+
+def test_a_map_opens_the_case_of_a_point_by_keyboard(visit: Callable[..., Page]) -> None:
+    page = visit(MAP)
+    page.locator("#figure-map .plot").focus()
+    for key in ("ArrowRight", "ArrowRight", "ArrowUp"):
+        page.keyboard.press(key)
+    expect(page.locator("#figure-map .reading")).to_contain_text("helix slope -15 µm, helix crowning 3 µm")
+    page.keyboard.press("Enter")
+    expect(page.locator(".card").first).to_be_visible()
+    assert page.locator('[name="modifications.helix_slope_um"]').input_value() == "-15"
+    assert page.locator('[name="modifications.lead_crowning_um"]').input_value() == "3"
+
+
+def test_without_script(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(COUPLING), java_script_enabled=False)
+    page.get_by_role("link", name="Vary").click()
+    page.locator("select[name=x]").select_option("operation.torque_n_m")
+    page.get_by_role("button", name="Draw").click()
+    expect(page.locator(".frame:visible .chart img")).to_have_count(1)
+    page.locator("summary", has_text="Points").click()
+    page.get_by_role("link", name="open the case at").nth(3).click()
+    expect(page.locator(".card").first).to_be_visible()
+
+
+def test_share_and_download(visit: Callable[..., Page], tmp_path: Path) -> None:
+    page = visit(THRUST)
+    page.locator("#copy").click()
+    expect(page.locator("#state")).to_have_text("Link copied.")
+    assert visit(page.evaluate("navigator.clipboard.readText()")).locator("#figure-family").count() == 1
+    lines = page.request.get(page.get_by_role("link", name="NDJSON").get_attribute("href") or "").text().splitlines()
+    assert json.loads(lines[-1])["type"] == "end"
+    with page.expect_download() as download:
+        page.get_by_label(re.compile("as PDF")).first.click()
+    file = tmp_path / "figure.pdf"
+    download.value.save_as(file)
+    assert file.read_bytes().startswith(b"%PDF")
+
+
+def test_the_start_page_leads_to_the_crowning_that_forgives(visit: Callable[..., Page]) -> None:
+    page = visit("/")
+    page.get_by_role("link", name="Which crowning forgives").click()
+    expect(page.locator("#figure-map")).to_be_visible()
+    expect(page.locator("#figure-worst")).to_be_visible()
+
+
+@pytest.mark.parametrize("address", ["/coupling/vary", MAP, THRUST, THRUST.replace("x.to=0.15", "x.to=abc")])
+def test_phone_and_accessibility(visit: Callable[..., Page], address: str) -> None:
+    for scheme in ("light", "dark"):
+        page = visit(address, viewport=PHONE, color_scheme=scheme)
+        assert overflow(page) == 0
+        assert serious(page) == []
