@@ -14,7 +14,7 @@ from solvers.contact.ehl import (
     continuation,
     solve,
 )
-from solvers.contact.ehl.shear import STRESS_LIMIT
+from solvers.contact.ehl.film.shear import STRESS_LIMIT
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid

@@ -7,7 +7,8 @@ import pytest
 
 from app.published.xue import paper_pair
 from solvers.contact import ehl
-from solvers.contact.ehl import budget, continuation, path
+from solvers.contact.ehl import path
+from solvers.contact.ehl.solution import budget, continuation
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
