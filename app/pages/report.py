@@ -45,10 +45,11 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """The inputs of a section; `items` are the indices of its columns."""
+    """The inputs of a section; `items` are the indices of its columns, `listed` where it is one of a list."""
 
     title: str
     items: tuple[int, ...]
+    listed: bool
     rows: tuple[Row, ...]
 
 
@@ -79,7 +80,7 @@ def _inputs(case: Case) -> list[Table]:
         if leaf is None or (value is None and leaf.exclusive):
             continue
         origin = "given" if path in given else "assumed" if path in assumed else "default"
-        text = shown(value, 6) if not isinstance(value, list) else ", ".join(shown(item, 6) for item in value)
+        text = _text(value)
         if value is None and leaf.default_text:
             text = leaf.default_text
         section, index, name = _place(path)
@@ -87,6 +88,13 @@ def _inputs(case: Case) -> list[Table]:
         cells = sections.setdefault(section, {}).setdefault(name, row).cells
         cells[index] = Cell(f"{text} {row.unit}" if value is not None and row.unit else text, origin)
     return [table for title, rows in sections.items() for table in _tables(title, tuple(rows.values()))]
+
+
+def _text(value: Any) -> str:
+    """A number, a word, or a list of them; a matrix by its rows."""
+    if not isinstance(value, list):
+        return shown(value, 6)
+    return ", ".join(f"({_text(item)})" if isinstance(item, list) else _text(item) for item in value)
 
 
 def _place(path: str) -> tuple[str, int, str]:
@@ -100,6 +108,6 @@ def _tables(title: str, rows: tuple[Row, ...]) -> list[Table]:
     """A section as a table, or as several where its items are too many to stand side by side."""
     items = sorted({index for row in rows for index in row.cells})
     return [
-        Table(title, tuple(some), rows)
+        Table(title, tuple(some), len(items) > 1, rows)
         for some in (items[start : start + SIDE_BY_SIDE] for start in range(0, len(items), SIDE_BY_SIDE))
     ]
