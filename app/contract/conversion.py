@@ -83,6 +83,7 @@ def from_si(group: type[Documented], result: Any, detail: Detail, skip: frozense
     return content
 
 
+@cache
 def above(group: type[Documented], detail: Detail) -> dict[str, Any]:
     """The fields of a group above a level of detail, as pydantic's `exclude` names them."""
     level = LEVELS.index(detail)

@@ -102,11 +102,17 @@ def draw_mark(canvas: Canvas, mark: Mark) -> None:
     canvas.placer.add_box(x - 0.05, y - 0.05, x + 0.05, y + 0.05)
 
 
-def name_mark(canvas: Canvas, mark: Mark) -> None:
-    """Its text beside it."""
+def name_marks(canvas: Canvas, marks: tuple[Mark, ...]) -> None:
+    """Their texts beside them, the highest first, so that none takes another's place; several hues name their own."""
+    several = len({mark.hue for mark in marks}) > 1
+    for mark in sorted(marks, key=lambda mark: -mark.y):
+        _name_mark(canvas, mark, canvas.theme.writing[mark.hue] if several else canvas.theme.ink)
+
+
+def _name_mark(canvas: Canvas, mark: Mark, color: str) -> None:
     x, y = (float(value) for value in canvas.inches(mark.x, mark.y))
     place = canvas.placer.place(mark.text, TEXT, around(x, y, mark.text, TEXT, bold=True), bold=True)
-    canvas.write(place, mark.text, TEXT, canvas.theme.ink, bold=True)
+    canvas.write(place, mark.text, TEXT, color, bold=True)
 
 
 def end_width(panel: Panel) -> float:

@@ -7,7 +7,7 @@ from app.figures.annotations import (
     draw_span,
     name_level,
     name_line_ends,
-    name_mark,
+    name_marks,
     name_span,
 )
 from app.figures.canvas import Canvas
@@ -37,8 +37,7 @@ def draw_panel(canvas: Canvas, panel: Panel, *, tick_names: bool) -> None:
 
 
 def _write_texts(canvas: Canvas, panel: Panel) -> None:
-    for mark in panel.marks:
-        name_mark(canvas, mark)
+    name_marks(canvas, panel.marks)
     for level in panel.levels:
         name_level(canvas, level)
     for span in panel.spans:

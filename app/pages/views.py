@@ -235,5 +235,10 @@ def _place(calculation: Calculation, path: str) -> str:
 
 
 def _title(calculation: Calculation, path: str) -> str:
+    """What people call the field; a section is called by those around it too."""
     leaf = leaf_at(calculation.request, path)
-    return leaf.title if leaf else path
+    if leaf is not None:
+        return leaf.title
+    parts, known = path.split("."), branches(calculation.request)
+    around = [".".join(parts[: end + 1]) for end in range(len(parts))]
+    return ", ".join(known[each].title for each in around if each in known) or path

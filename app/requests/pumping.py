@@ -1,5 +1,6 @@
 """Pumping: requests of /v1/pumping and /v1/pumping/choking-speed."""
 
+from dataclasses import replace
 from typing import Annotated, Any
 
 from pydantic import Field
@@ -7,7 +8,7 @@ from pydantic import Field
 from app.contract.conversion import to_si
 from app.contract.quantities import Input
 from app.requests.common import Request, Section
-from app.requests.gears import Gears
+from app.requests.gears import RACK_TIP_RADIUS, Gears
 from app.requests.pumping_options import AXIAL_SPEED_ONLY, MILIAN, PumpingOptions
 from solvers.pumping import inputs as si
 
@@ -36,13 +37,9 @@ class PumpingGears(BacklashGears):
 
     rack_tip_radius: Annotated[
         float,
-        Input(
-            "rack tip radius coefficient",
-            "ρ_fP*",
-            "ISO 53",
+        replace(
+            RACK_TIP_RADIUS,
             text="tip radius coefficient of the rack, at most the full radius",
-            ge=0,
-            le=0.6,
             assumed="a usual ground fillet; the paper gives none",
         ),
     ] = 0.25

@@ -1,5 +1,6 @@
 """Scuffing of a gear pair: request of /v1/scuffing."""
 
+from dataclasses import replace
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import model_validator
@@ -12,6 +13,7 @@ from app.requests.line_contact import FilmModel
 from app.requests.load_distribution import LoadDistributionModel, LoadDistributionRequest
 from app.requests.materials import XUE
 from app.requests.oil import Oil
+from app.requests.temperatures import OIL_TEMPERATURE, SCUFFING_TEMPERATURE
 from solvers.scuffing import inputs as si
 from solvers.scuffing.inputs import BulkMethod, OilSupply
 
@@ -49,24 +51,10 @@ class ContactTemperatures(Section):
     oil_supply: Annotated[
         OilSupply, Input("oil supply", "X_S", TR_13989, assumed="spray lubrication; it decides the estimated bulk")
     ] = _TEMPERATURES.oil_supply
-    oil_c: Annotated[
-        float,
-        Input(
-            "oil temperature", "θ_oil", f"{XUE}, Eq. 26", ge=-70, le=500, tolerance=5, assumed="60 °C, as in the paper"
-        ),
-    ] = 60.0
+    oil_c: Annotated[float, replace(OIL_TEMPERATURE, assumed="60 °C, as in the paper")] = 60.0
     scuffing_c: Annotated[
         float | None,
-        Input(
-            "scuffing temperature",
-            "θ_S",
-            f"{XUE}, Eq. 26",
-            text="scuffing temperature of oil and material",
-            ge=-70,
-            le=1500,
-            default_text="by `scuffing_test`; with neither no safety factor",
-            tolerance=20,
-        ),
+        replace(SCUFFING_TEMPERATURE, default_text="by `scuffing_test`; with neither no safety factor"),
     ] = None
     scuffing_test: Annotated[
         ScuffingTest | None, Input("scuffing test", text="instead of the temperature: the stage at which the oil fails")

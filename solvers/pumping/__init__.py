@@ -1,8 +1,8 @@
 """Air and mist pumped by meshing teeth.
 
 Data flows inputs, checks -> space (tooth space, its section, the stroke table; the face between grooves) -> flow (gas,
-duct, record) -> one of gas, chain and incompressible -> lead_correction, pulsation (all gathered by `model.solve`).
-`spaces` prepares what no speed changes and picks the flow model; on top of it choking and speed_scan.
+duct, record) -> one of gas, chain and incompressible -> resolution, lead_correction, pulsation (all gathered by
+`model.solve`). `spaces` prepares what no speed changes and picks the flow model; on top of it choking and speed_scan.
 """
 
 from solvers.pumping.choking import choking_speeds

@@ -196,6 +196,14 @@ def test_incompressible_cannot_choke() -> None:
     assert refusal.value.code == "choking_not_modelled"
 
 
+def test_spaces_that_nothing_lets_out_choke_at_every_speed() -> None:
+    # the search once went down without end
+    sealed = replace(PLAIN, model=PumpingModel(flow=Flow.POCKET_CHAIN, slices=10, discharge_coefficient=0.0))
+    with pytest.raises(InvalidInput) as refusal:
+        choking_speeds(ChokingInputs(sealed, 6000.0))
+    assert refusal.value.code == "always_choked"
+
+
 def other(pinion: GearTeeth, wheel: GearTeeth) -> PumpingSetup:
     return replace(PLAIN, gears=GearPairInputs(pinion, wheel, 5e-3, 0.05, helix_angle=0.2))
 

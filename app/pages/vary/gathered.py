@@ -1,7 +1,6 @@
 """The points of a sweep that have come so far, as lines tell them, and as a figure's data."""
 
 from collections import Counter
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import nan
 from typing import Any
@@ -91,7 +90,7 @@ def grid_of(wish: Wish, sweep: Sweep, gathered: Gathered, limit: float | None) -
     )
 
 
-def _coordinate(varied: Varied, listed: Sequence[Scalar | list[Scalar]]) -> tuple[Coordinate, list[int]]:
+def _coordinate(varied: Varied, listed: list[Scalar | list[Scalar]]) -> tuple[Coordinate, list[int]]:
     """The values of a field in rising order, and the places where they stand in the sweep."""
     leaf: Leaf = varied.leaf
     if not all(isinstance(each, int | float) and not isinstance(each, bool) for each in listed):
