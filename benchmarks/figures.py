@@ -59,9 +59,8 @@ def main() -> None:
         times = {each: min(_cpu_ms(lambda: draw(figure, each)) for _ in range(REPEATS)) for each in ("svg", "png")}  # noqa: B023
         late = " over its aim" * (times["svg"] > AIMS_MS[any(panel.map is not None for panel in figure.panels)])
         print(f"{name:20} {times['svg']:8.0f} {times['png']:8.0f} {len(draw(figure, 'svg')) / 1e3:6.0f}{late}")
-    print(
-        f"memory added: {shared - before:.0f} MB by import, which workers share; {resident_mb() - shared:.0f} MB by drawing"
-    )
+    by_import, by_drawing = shared - before, resident_mb() - shared
+    print(f"memory added: {by_import:.0f} MB by import, which workers share; {by_drawing:.0f} MB by drawing")
 
 
 def _cpu_ms(function: Any) -> float:
