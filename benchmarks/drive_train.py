@@ -9,7 +9,7 @@ from dataclasses import replace
 from time import perf_counter
 
 from solvers.drive_train import solve
-from solvers.drive_train.corners import Range, default_ranges, run_corners
+from solvers.drive_train.corners import default_ranges, run_corners, single
 from solvers.drive_train.design import Variable, design
 from solvers.drive_train.outcome import outcome
 from solvers.drive_train.thermal_lead import gas_heat
@@ -39,7 +39,7 @@ def pumped() -> None:
 
 def all_corners() -> None:
     """256 runs: the default ranges and two heights of tip relief."""
-    ranges = (*default_ranges(INPUTS), Range(f"{SHAPE}.tip_relief", (12e-6, 18e-6)))
+    ranges = (*default_ranges(INPUTS), single(f"{SHAPE}.tip_relief", (12e-6, 18e-6)))
     found = run_corners(INPUTS, ranges)
     assert (found.runs, found.failed) == (256, 0)
 
@@ -58,7 +58,7 @@ def search() -> None:
             Variable((f"{SHAPE}.lead_crowning",), 0.0, 20e-6),
             Variable((f"{SHAPE}.tip_relief", f"{SHAPE}.root_relief"), 0.0, 30e-6),
         ],
-        [Range("couplings", machines), Range("heat.wall_response", (0.3, 0.9))],
+        [single("couplings", machines), single("heat.wall_response", (0.3, 0.9))],
         collective=[{"mesh.distribution.load.pinion_torque": share * torque} for share in (1.0, 0.5)],
     )
 

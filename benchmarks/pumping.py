@@ -10,6 +10,7 @@ from time import perf_counter
 
 import numpy as np
 
+from app.published.milian import CASE_1, CASE_2
 from benchmarks.pumping_numpy import numpy_step
 from solvers.gears.inputs import GearPairInputs
 from solvers.gears.pair import gear_pair
@@ -24,14 +25,14 @@ from solvers.pumping import (
     choking_speeds,
     solve,
 )
-from solvers.pumping.duct import active_range, empty_record
-from solvers.pumping.gas_dynamics import duct
-from solvers.pumping.gas_march import march
-from solvers.pumping.gas_step import Cells, empty_cells, set_walls, step
-from solvers.pumping.spaces import face_stretches, prepare
-from solvers.pumping.stroke import stroke_table
-from solvers.pumping.tooth_space import tooth_space
-from tests.milian import CASE_1, CASE_2
+from solvers.pumping.flow.duct import active_range
+from solvers.pumping.flow.record import empty_record
+from solvers.pumping.gas.cells import Cells, empty_cells, set_walls
+from solvers.pumping.gas.march import march
+from solvers.pumping.gas.step import step
+from solvers.pumping.space.stroke import stroke_table
+from solvers.pumping.space.tooth_space import tooth_space
+from solvers.pumping.spaces import face_stretches, prepare, space_duct
 
 ONE_SET = PumpingModel(spaces=Spaces.PINION)
 SPEED = 9267 * pi / 30
@@ -59,7 +60,7 @@ def mid_stroke() -> tuple[Callable[[], object], Callable[[], object], float]:
     mesh = prepare(PumpingSetup(CASE_1, model=ONE_SET))
     space = mesh.spaces[0]
     stretch = face_stretches(mesh.setup, 100)[0]
-    part = duct(space.table, stretch, space.lag, SPEED, 1.0, transport=True)
+    part = space_duct(mesh, space, SPEED, stretch, transport=True)
     full = np.linspace(space.table.limits.start, space.lag * stretch.centres[-1] + 0.3 * space.table.limits.start, 81)
     cells = empty_cells(100)
     march(mesh.gas, part, cells, full, empty_record(mesh.gas, full.size, 100, 4000), 2)

@@ -4,13 +4,7 @@ from dataclasses import replace
 from math import radians
 
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, angular_speed, torque_from_power
-
-PAPER_MODEL = Model(contact="linear", section="transverse")
-PAPER_MODIFICATIONS = Modifications(profile_crowning=10e-6, lead_crowning=10e-6, tip_relief=5e-6)
-HELIX_AND_WIDTH = {1: (9.8, 20.0), 2: (9.8, 40.0), 3: (20.2, 20.0), 4: (20.2, 40.0)}
-PAPER_SPEED = angular_speed(2000.0)
-PAPER_LOAD = Load(torque_from_power(50e3, PAPER_SPEED), PAPER_SPEED)
+from solvers.scuffing.inputs import LoadDistributionInputs
 
 # FZG type A (published.md of the specifications): centre distance and profile shifts are rounded.
 FZG_A = GearPairInputs(
@@ -27,23 +21,6 @@ INCH_PAIR = GearPairInputs(
 )
 # The wheel's tip reaches past the pinion's base tangent point.
 UNDERCUT_PAIR = GearPairInputs(GearTeeth(12), GearTeeth(60), 2e-3, 20e-3, helix_angle=radians(15), rack_tip_radius=0.38)
-
-
-def paper_gears(pair: int) -> GearPairInputs:
-    """Gear pair 1 to 4 of Xue, Zhang and Wang, Table 1."""
-    helix, width = HELIX_AND_WIDTH[pair]
-    return GearPairInputs(
-        GearTeeth(23), GearTeeth(30), 3e-3, width * 1e-3, helix_angle=radians(helix), rack_tip_radius=0.38
-    )
-
-
-def paper_pair(
-    pair: int, modifications: Modifications | None = None, model: Model = PAPER_MODEL
-) -> LoadDistributionInputs:
-    """Gear pair 1 to 4 under 50 kW at 2000 1/min."""
-    return LoadDistributionInputs(
-        gears=paper_gears(pair), load=PAPER_LOAD, modifications=modifications or Modifications(), model=model
-    )
 
 
 def with_torque(inputs: LoadDistributionInputs, torque: float) -> LoadDistributionInputs:

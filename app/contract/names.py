@@ -44,8 +44,8 @@ def _paths(section: Documented, prefix: str, si_prefix: tuple[str, ...]) -> Iter
             yield from _paths(value, f"{path}.", si_path)
         elif isinstance(value, list):
             for index, item in enumerate(value):
+                yield f"{path}.{index}", (*si_path, str(index))
                 if isinstance(item, Documented):
-                    yield f"{path}.{index}", (*si_path, str(index))
                     yield from _paths(item, f"{path}.{index}.", (*si_path, str(index)))
 
 

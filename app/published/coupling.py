@@ -1,150 +1,13 @@
 """Gear couplings: Pahl 1978, Bloch's hand method, Calistrat's measurements."""
 
-from dataclasses import replace
-from functools import cache
-from math import asin, log, pi, radians, tan
+from math import asin, pi, radians
 
-import numpy as np
-from scipy.optimize import brentq, minimize_scalar
-
-from app.published.statement import Statement, above, below, between, equals
-from solvers.coupling import recommend, solve, solve_orbit
-from solvers.coupling.inputs import (
-    Arrangement,
-    Coupling,
-    CouplingInputs,
-    Friction,
-    Operation,
-    RecommendationInputs,
-)
-from solvers.coupling.results import CouplingResult, OrbitResult
+from app.published import pahl
+from app.published.bloch import END_CONTACT, bloch
+from app.published.statement import INDEPENDENT, Statement, above, below, between, equals
 
 PAHL = "Pahl 1978"
-INDEPENDENT = "the paper shows a curve; the number is an independent calculation's"
 BLOCH = "Bloch, Improving Machinery Reliability, pp. 208-210"
-HEAVY, SLIGHT = 1.0, 11.0  # crowning ratios
-CREEP = 2e-3  # axial velocity [m/s]
-
-
-@cache
-def pahl(
-    misalignment_deg: float,
-    *,
-    torque: float = 3000.0,
-    speed: float = 200.0,
-    axial_velocity: float = 0.0,
-    arrangement: Arrangement = "single",
-    friction: float | None = 0.2,
-    crowning: float = HEAVY,
-    hub_distance: float = 0.2,
-) -> CouplingResult:
-    """The coupling of the figures: 52 teeth of module 3 mm."""
-    return solve(
-        _design(misalignment_deg, torque, speed, axial_velocity, arrangement, friction, crowning, hub_distance)
-    )
-
-
-def _design(
-    misalignment_deg: float,
-    torque: float = 3000.0,
-    speed: float = 200.0,
-    axial_velocity: float = 0.0,
-    arrangement: Arrangement = "single",
-    friction: float | None = 0.2,
-    crowning: float = HEAVY,
-    hub_distance: float = 0.2,
-) -> CouplingInputs:
-    steel = Coupling(
-        teeth=52, module=3e-3, face_width=24e-3, tooth_height=6e-3, crowning_ratio=crowning, hub_distance=hub_distance
-    )
-    return CouplingInputs(
-        steel,
-        Operation(torque, speed, radians(misalignment_deg), axial_velocity, arrangement),
-        friction=Friction(friction),
-    )
-
-
-def _concentration(misalignment_deg: float) -> float:
-    return pahl(misalignment_deg).load_distribution.load_concentration or 0.0
-
-
-def _loaded(misalignment_deg: float) -> float:
-    return float(pahl(misalignment_deg).load_distribution.loaded_teeth)
-
-
-@cache
-def _orbit(misalignment_deg: float) -> OrbitResult:
-    """Fig. 5: 2 um of first and third harmonic in the pitch errors, 1000 1/s."""
-    phi = 2.0 * pi / 52 * np.arange(52)
-    errors = tuple(2e-6 * np.cos(phi) + 2e-6 * np.cos(3 * phi + 0.7))
-    design = _design(misalignment_deg, speed=1000.0)
-    return solve_orbit(replace(design, coupling=replace(design.coupling, pitch_errors=errors)))
-
-
-def _third_over_first(misalignment_deg: float) -> float:
-    harmonics = _orbit(misalignment_deg).inertia_force.harmonics_y
-    return float(harmonics[3] / harmonics[1])
-
-
-def _overlap_one(crowning: float) -> float:
-    """Misalignment [deg] at which the contact areas of a tooth just overlap."""
-
-    def excess(misalignment_deg: float) -> float:
-        return (pahl(misalignment_deg, friction=None, crowning=crowning).lubrication.contact_overlap or 0.0) - 1.0
-
-    return float(brentq(excess, 0.01, 1.0))
-
-
-def _film(misalignment_deg: float, crowning: float) -> CouplingResult:
-    return pahl(misalignment_deg, friction=None, crowning=crowning)
-
-
-def _least_friction(crowning: float, low: float, high: float) -> tuple[float, float]:
-    """Misalignment [deg] and value of the lowest friction."""
-    found = minimize_scalar(
-        lambda misalignment: _film(misalignment, crowning).lubrication.friction_coefficient,
-        bounds=(low, high),
-        method="bounded",
-    )
-    return float(found.x), float(found.fun)
-
-
-def _fraction(speed: float) -> float:
-    return pahl(0.05, speed=speed, axial_velocity=CREEP).axial_thrust.fraction_of_limit or 0.0
-
-
-def _offset_thrust(friction: float = 0.2, hub_distance: float = 0.2) -> float:
-    return pahl(0.1, arrangement="parallel_offset", friction=friction, hub_distance=hub_distance).axial_thrust.force
-
-
-def _friction_exponent() -> float:
-    return log(_offset_thrust(0.3) / _offset_thrust(0.05)) / log(6.0)
-
-
-@cache
-def _crowning(low_deg: float, high_deg: float) -> float:
-    design = _design(0.1, friction=None)
-    found = recommend(RecommendationInputs(design, radians(low_deg), radians(high_deg)))
-    return found.crowning_ratio or 0.0
-
-
-TORQUE, DIAMETER, FACE = 21806.0, 0.2286, 0.033
-END_CONTACT = FACE / 2 * tan(radians(20.0)) / (DIAMETER / 2 * radians(0.057))
-
-
-@cache
-def bloch(crowning: float = HEAVY, stiffness: float = 2.8e8) -> CouplingResult:
-    """Bloch's coupling; the book does not give the teeth, 72 of diametral pitch 8 fit the diameter."""
-    design = Coupling(
-        teeth=72,
-        module=DIAMETER / 72,
-        face_width=FACE,
-        tooth_height=2 * DIAMETER / 72,
-        crowning_ratio=crowning,
-        tooth_stiffness=stiffness,
-    )
-    return solve(CouplingInputs(design, Operation(TORQUE, 500.0, radians(0.057)), friction=Friction(0.3)))
-
 
 STATEMENTS: tuple[Statement, ...] = (
     equals(
@@ -152,17 +15,17 @@ STATEMENTS: tuple[Statement, ...] = (
         f"{PAHL}, Fig. 3",
         1.247,
         "-",
-        lambda: _concentration(0.2),
+        lambda: pahl.concentration(0.2),
         5e-3,
         INDEPENDENT,
     ),
-    equals("the same at 1°", f"{PAHL}, Fig. 3", 4.018, "-", lambda: _concentration(1.0), 5e-3, INDEPENDENT),
+    equals("the same at 1°", f"{PAHL}, Fig. 3", 4.018, "-", lambda: pahl.concentration(1.0), 5e-3, INDEPENDENT),
     equals(
         "fewer teeth carry as the misalignment grows: teeth at 1°",
         f"{PAHL}, Fig. 3",
         22,
         "-",
-        lambda: _loaded(1.0),
+        lambda: pahl.loaded(1.0),
         0.0,
         INDEPENDENT,
     ),
@@ -171,17 +34,17 @@ STATEMENTS: tuple[Statement, ...] = (
         f"{PAHL}, Fig. 5",
         0.546,
         "-",
-        lambda: _third_over_first(0.3),
+        lambda: pahl.third_over_first(0.3),
         2e-2,
         INDEPENDENT,
     ),
-    below("the same at 0.1°: a sinusoid", f"{PAHL}, Fig. 5", 1e-3, "-", lambda: _third_over_first(0.1)),
+    below("the same at 0.1°: a sinusoid", f"{PAHL}, Fig. 5", 1e-3, "-", lambda: pahl.third_over_first(0.1)),
     equals(
         "contact overlap 1, heavily crowned, at",
         f"{PAHL}, Fig. 7",
         0.168,
         "°",
-        lambda: _overlap_one(HEAVY),
+        lambda: pahl.overlap_one(pahl.HEAVY),
         1e-2,
         INDEPENDENT,
     ),
@@ -190,7 +53,7 @@ STATEMENTS: tuple[Statement, ...] = (
         f"{PAHL}, Fig. 7",
         0.0507,
         "°",
-        lambda: _overlap_one(SLIGHT),
+        lambda: pahl.overlap_one(pahl.SLIGHT),
         1e-2,
         INDEPENDENT,
     ),
@@ -199,7 +62,7 @@ STATEMENTS: tuple[Statement, ...] = (
         f"{PAHL}, Fig. 8",
         0.494,
         "-",
-        lambda: _film(0.2, SLIGHT).lubrication.inlet_factor,
+        lambda: pahl.film(0.2, pahl.SLIGHT).lubrication.inlet_factor,
         2e-3,
         INDEPENDENT,
     ),
@@ -208,32 +71,41 @@ STATEMENTS: tuple[Statement, ...] = (
         f"{PAHL}, Fig. 9",
         0.2,
         "-",
-        lambda: _film(0.4, HEAVY).lubrication.load_capacity_coefficient or 0.0,
+        lambda: pahl.film(0.4, pahl.HEAVY).lubrication.load_capacity_coefficient or 0.0,
     ),
     equals(
         "least friction of the heavily crowned coupling",
         f"{PAHL}, Fig. 11",
         0.05,
         "-",
-        lambda: _least_friction(HEAVY, 0.2, 0.8)[1],
+        lambda: pahl.least_friction(pahl.HEAVY, 0.2, 0.8)[1],
         1e-2,
         "its sliding velocity is a calibration of ours",
     ),
-    equals("at a misalignment of", f"{PAHL}, Fig. 11", 0.4, "°", lambda: _least_friction(HEAVY, 0.2, 0.8)[0], 2e-2),
+    equals(
+        "at a misalignment of", f"{PAHL}, Fig. 11", 0.4, "°", lambda: pahl.least_friction(pahl.HEAVY, 0.2, 0.8)[0], 2e-2
+    ),
     below(
         "least friction of the slightly crowned coupling",
         f"{PAHL}, Fig. 11",
         0.01,
         "-",
-        lambda: _least_friction(SLIGHT, 0.05, 0.2)[1],
+        lambda: pahl.least_friction(pahl.SLIGHT, 0.05, 0.2)[1],
     ),
-    equals("at a misalignment of", f"{PAHL}, Fig. 11", 0.1, "°", lambda: _least_friction(SLIGHT, 0.05, 0.2)[0], 0.1),
+    equals(
+        "at a misalignment of",
+        f"{PAHL}, Fig. 11",
+        0.1,
+        "°",
+        lambda: pahl.least_friction(pahl.SLIGHT, 0.05, 0.2)[0],
+        0.1,
+    ),
     equals(
         "coaxial thrust at 3000 N m",
         f"{PAHL}, Fig. 14",
         8186.0,
         "N",
-        lambda: pahl(0.0, axial_velocity=CREEP).axial_thrust.force,
+        lambda: pahl.pahl(0.0, axial_velocity=pahl.CREEP).axial_thrust.force,
         1e-5,
         INDEPENDENT,
     ),
@@ -242,15 +114,15 @@ STATEMENTS: tuple[Statement, ...] = (
         f"{PAHL}, Fig. 16",
         0.1,
         "-",
-        lambda: _fraction(200.0),
+        lambda: pahl.fraction(200.0),
     ),
-    above("share that is left at a quarter of the speed", f"{PAHL}, Fig. 15", 0.1, "-", lambda: _fraction(50.0)),
+    above("share that is left at a quarter of the speed", f"{PAHL}, Fig. 15", 0.1, "-", lambda: pahl.fraction(50.0)),
     equals(
         "thrust of equally loaded teeth, closed form",
         f"{PAHL}, Fig. 14",
-        8186.0 * 2 / pi * asin(CREEP / (radians(0.05) * 200 * 0.078)),
+        8186.0 * 2 / pi * asin(pahl.CREEP / (radians(0.05) * 200 * 0.078)),
         "N",
-        lambda: pahl(0.05, axial_velocity=CREEP).axial_thrust.uniform_load_force,
+        lambda: pahl.pahl(0.05, axial_velocity=pahl.CREEP).axial_thrust.uniform_load_force,
         1e-5,
     ),
     equals(
@@ -258,7 +130,7 @@ STATEMENTS: tuple[Statement, ...] = (
         f"{PAHL}, Fig. 17",
         2.0,
         "-",
-        _friction_exponent,
+        pahl.friction_exponent,
         5e-3,
     ),
     equals(
@@ -266,7 +138,7 @@ STATEMENTS: tuple[Statement, ...] = (
         f"{PAHL}, Fig. 13",
         2.0,
         "-",
-        lambda: _offset_thrust(hub_distance=0.1) / _offset_thrust(),
+        lambda: pahl.offset_thrust(hub_distance=0.1) / pahl.offset_thrust(),
         1e-2,
     ),
     below(
@@ -274,14 +146,14 @@ STATEMENTS: tuple[Statement, ...] = (
         f"{PAHL}, Fig. 13",
         1e-6,
         "-",
-        lambda: abs(pahl(0.3, arrangement="angular").axial_thrust.force) * 0.078 / 3000.0,
+        lambda: abs(pahl.pahl(0.3, arrangement="angular").axial_thrust.force) * 0.078 / 3000.0,
     ),
     equals(
         "crowning ratio for 0.05° to 0.1°",
         f"{PAHL}, conclusion",
         17.2,
         "-",
-        lambda: _crowning(0.05, 0.1),
+        lambda: pahl.crowning(0.05, 0.1),
         2e-2,
         INDEPENDENT,
     ),
@@ -290,7 +162,7 @@ STATEMENTS: tuple[Statement, ...] = (
         f"{PAHL}, conclusion",
         6.97,
         "-",
-        lambda: _crowning(0.1, 0.3),
+        lambda: pahl.crowning(0.1, 0.3),
         2e-2,
         INDEPENDENT,
     ),
@@ -316,6 +188,6 @@ STATEMENTS: tuple[Statement, ...] = (
         "Calistrat, J. Mech. Des. 103 (1981)",
         0.16,
         "-",
-        lambda: _film(0.1, HEAVY).lubrication.friction_coefficient,
+        lambda: pahl.film(0.1, pahl.HEAVY).lubrication.friction_coefficient,
     ),
 )

@@ -1,82 +1,31 @@
-"""Pumping of the air-oil mist: Milian, Distretti, Leoni and Velex 2004.
-
-The tables give no face width, backlash, groove or ambient: 200 mm, 0.3 mm, 16 mm, 101325 Pa and 50 C are assumed.
-"""
+"""Pumping of the air-oil mist: Milian, Distretti, Leoni and Velex 2004."""
 
 from dataclasses import replace
-from functools import cache
-from math import log2, pi, radians
+from math import log2
 
-from app.published.statement import Statement, above, below, between, equals
-from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.pumping import (
-    Flow,
-    Gap,
-    Groove,
-    PumpingInputs,
-    PumpingModel,
-    PumpingResult,
-    PumpingSetup,
-    Spaces,
-    solve,
-)
-from solvers.pumping.results import SpacesResult
+from app.published.milian import CASE_1, CASE_2, GROOVE, PRINTED, SPEED_1, SPEED_2, TABLE_1, TIP, pinion, run
+from app.published.statement import INDEPENDENT, Statement, above, below, between, equals
+from solvers.pumping import Flow, Groove, PumpingModel, PumpingResult
 
 MILIAN = "Milian 2004"
-INDEPENDENT = "the paper shows a curve; the number is an independent calculation's"
-
-TABLE_1 = GearPairInputs(
-    GearTeeth(47, 0.291, 1.0, 1.475), GearTeeth(103, 0.322, 1.0, 1.474), 6.8e-3, 0.2, radians(22.5)
-)
-CASE_1 = GearPairInputs(
-    GearTeeth(47, 0.16, 0.9919, 1.47921),
-    GearTeeth(117, 0.05, 0.9925, 1.47885),
-    7e-3,
-    0.2,
-    radians(20),
-    radians(12.75),
-    0.590,
-)
-CASE_2 = GearPairInputs(
-    GearTeeth(52, 0.198, 0.9891, 1.47469),
-    GearTeeth(79, 0.21, 0.9894, 1.47507),
-    6.8e-3,
-    0.2,
-    radians(22.5),
-    radians(10),
-    0.455,
-)
-SPEEDS = {1: 9267.0, 2: 8962.0}  # rpm of the pinion
-CONTACT = PumpingModel(wall_transport=False, spaces=Spaces.PINION)
-TIP = replace(CONTACT, gap=Gap.TIP)
-GROOVE = (Groove(0.1, 0.016),)
+CASES = {1: (CASE_1, SPEED_1), 2: (CASE_2, SPEED_2)}
 
 
-@cache
 def case(
     number: int,
     speed: float | None = None,
     grooves: tuple[Groove, ...] = (),
-    model: PumpingModel = CONTACT,
+    model: PumpingModel = PRINTED,
     face_width: float = 0.2,
 ) -> PumpingResult:
     """One of the paper's two cases at a speed [rpm], its own where none is given."""
-    gears = replace(CASE_1 if number == 1 else CASE_2, face_width=face_width)
-    setup = PumpingSetup(gears, 0.3e-3, grooves, model=model)
-    return solve(PumpingInputs(setup, (SPEEDS[number] if speed is None else speed) * pi / 30))
+    gears, own = CASES[number]
+    return run(replace(gears, face_width=face_width), own if speed is None else speed, model, grooves=grooves)
 
 
-@cache
 def table_1(flow: Flow = Flow.INCOMPRESSIBLE, discharge: float = 1.0, slices: int | None = None) -> PumpingResult:
     """The spur gears of Table 1 with tip gaps at 1000 rpm."""
-    model = replace(TIP, flow=flow, discharge_coefficient=discharge, slices=slices)
-    return solve(PumpingInputs(PumpingSetup(TABLE_1, 0.0, model=model), 1000.0 * pi / 30))
-
-
-def pinion(result: PumpingResult) -> SpacesResult:
-    """The pinion's spaces, which are the paper's."""
-    assert result.pinion_spaces is not None
-    return result.pinion_spaces
+    return run(TABLE_1, 1000.0, replace(TIP, flow=flow, discharge_coefficient=discharge), slices, 0.0)
 
 
 def _rise(result: PumpingResult) -> float:

@@ -4,6 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
 
+INDEPENDENT = "the paper shows a curve; the number is an independent calculation's"
+
 
 @dataclass(frozen=True, slots=True)
 class Row:

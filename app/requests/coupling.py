@@ -5,18 +5,10 @@ from typing import Annotated, Any
 from app.contract.conversion import to_si
 from app.contract.quantities import Input
 from app.requests.common import Request, Section
-from app.requests.coupling_design import (
-    FIG_8,
-    FIG_13,
-    PAHL,
-    CouplingDesign,
-    CouplingLoad,
-    CouplingLubricant,
-    CouplingOperation,
-    CouplingOperationRange,
-    CrownedCoupling,
-)
+from app.requests.coupling_design import FIG_8, FIG_13, PAHL, CouplingDesign, CrownedCoupling
 from app.requests.coupling_friction import CouplingFriction
+from app.requests.coupling_lubricant import CouplingLubricant
+from app.requests.coupling_operation import CouplingLoad, CouplingOperation, CouplingOperationRange
 from solvers.coupling import inputs as si
 
 _DEFAULTS = si.ModelOptions()

@@ -118,11 +118,8 @@ class DriveTrainRequest(Request):
 
     def _temperatures(self) -> mesh.Temperatures:
         """The solver's temperatures, the contact's bulk by default between those of the teeth."""
-        fields, teeth = to_si(self.temperatures), to_si(self.thermal)
-        bulk = fields["bulk"]
-        if bulk is None:
-            bulk = (teeth["pinion_bulk"] + teeth["wheel_bulk"]) / 2
-        return mesh.Temperatures(bulk, fields["oil"], fields["scuffing"])
+        teeth = to_si(self.thermal)
+        return self.temperatures.contact_temperatures((teeth["pinion_bulk"] + teeth["wheel_bulk"]) / 2)
 
     def _viscosity(self, temperature: float) -> float:
         """Viscosity [Pa s] of the gears' oil at a temperature [K]."""
@@ -144,7 +141,7 @@ class DriveTrainRequest(Request):
         )
         return mesh.ScuffingInputs(
             distribution=distribution,
-            lubricant=self.lubricant.lubricant(temperatures.bulk),
+            lubricant=self.lubricant.lubricant(),
             oil=self.lubricant.oil(),
             temperatures=temperatures,
             lubrication=self.model.lubrication,
@@ -161,6 +158,7 @@ class DriveTrainRequest(Request):
         """Of reliefs that are zero, of bearings and couplings of another kind, of effects that are left out."""
         unused = set(self.modifications.unused_defaults("modifications"))
         unused |= self.lubricant.unused_defaults("lubricant")
+        unused |= self.temperatures.unused_temperature_defaults("temperatures")
         unused |= self.model.unused_pumping_defaults("model")
         if self.model.friction != "given":
             unused.add("friction_coefficient")

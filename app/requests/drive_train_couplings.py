@@ -7,8 +7,9 @@ from pydantic import Field
 from app.contract.conversion import to_si
 from app.contract.quantities import Input
 from app.requests.common import Section
-from app.requests.coupling_design import CouplingLubricant, CrownedCoupling
+from app.requests.coupling_design import CrownedCoupling
 from app.requests.coupling_friction import CouplingFriction
+from app.requests.coupling_lubricant import CouplingLubricant
 from app.requests.drive_train_shafts import Pair
 from solvers.coupling.inputs import proportioned
 from solvers.drive_train import inputs as si

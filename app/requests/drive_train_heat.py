@@ -5,6 +5,7 @@ from typing import Annotated
 from app.contract.quantities import Input
 from app.requests.common import Section
 from app.requests.materials import XUE
+from app.requests.scuffing import ContactTemperatures
 from solvers.drive_train import inputs as si
 
 _HEAT = si.Heat()
@@ -74,7 +75,7 @@ class ToothHeat(Section):
     ] = _HEAT.bulk_includes_pumping
 
 
-class TrainTemperatures(Section):
+class TrainTemperatures(ContactTemperatures):
     """Temperatures of contact and oil."""
 
     bulk_c: Annotated[
@@ -86,23 +87,9 @@ class TrainTemperatures(Section):
             text="bulk temperature of the contact, at which the oil enters",
             ge=-70,
             le=500,
-            default_text="the mean of the tooth temperatures",
+            default_text="the mean of the tooth temperatures, or estimated",
             assumed="the mean of the two tooth temperatures",
             tolerance=5,
-        ),
-    ] = None
-    oil_c: Annotated[float, Input("oil temperature", "θ_oil", f"{XUE}, Eq. 26", ge=-70, le=500, tolerance=5)] = 60.0
-    scuffing_c: Annotated[
-        float | None,
-        Input(
-            "scuffing temperature",
-            "θ_S",
-            f"{XUE}, Eq. 26",
-            text="scuffing temperature of oil and material",
-            ge=-70,
-            le=1500,
-            default_text="no safety factor",
-            tolerance=20,
         ),
     ] = None
     local_bulk: Annotated[

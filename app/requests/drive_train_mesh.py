@@ -10,7 +10,8 @@ from app.contract.quantities import Input
 from app.requests.common import Section
 from app.requests.flank_modifications import FlankModifications
 from app.requests.load_distribution import ScuffingLoad
-from app.requests.pumping import BacklashGears, PumpingOptions
+from app.requests.pumping import BacklashGears
+from app.requests.pumping_options import PumpingOptions
 from app.requests.scuffing import ScuffingModel
 from solvers.drive_train import inputs as si
 from solvers.gears.inputs import GearPairInputs

@@ -1,5 +1,6 @@
 """Flank modification and misalignment of a gear pair."""
 
+from dataclasses import replace
 from typing import Annotated
 
 from app.contract.quantities import Input
@@ -11,6 +12,14 @@ DEVIATIONS = "ISO/TR 10064-3"
 NO_LENGTHS = "the paper gives no relief lengths"
 
 _DEFAULTS = si.Modifications()
+_PROFILE_RELIEF_LENGTH = Input(
+    "relief length",
+    text="length along the line of action",
+    ge=1e-3,
+    le=1000,
+    default_text="to the single contact, a tenth to half of the path",
+    assumed=NO_LENGTHS,
+)
 
 
 class FlankModifications(Section):
@@ -76,15 +85,7 @@ class FlankModifications(Section):
     ] = _DEFAULTS.tip_relief
     tip_relief_length_mm: Annotated[
         float | None,
-        Input(
-            "tip relief length",
-            "L_Ca",
-            text="length along the line of action",
-            ge=1e-3,
-            le=1000,
-            default_text="to the single contact, a tenth to half of the path",
-            assumed=NO_LENGTHS,
-        ),
+        replace(_PROFILE_RELIEF_LENGTH, title="tip relief length", symbol="L_Ca"),
     ] = _DEFAULTS.tip_relief_length
     root_relief_um: Annotated[
         float,
@@ -92,15 +93,7 @@ class FlankModifications(Section):
     ] = _DEFAULTS.root_relief
     root_relief_length_mm: Annotated[
         float | None,
-        Input(
-            "root relief length",
-            "L_Cf",
-            text="length along the line of action",
-            ge=1e-3,
-            le=1000,
-            default_text="to the single contact, a tenth to half of the path",
-            assumed=NO_LENGTHS,
-        ),
+        replace(_PROFILE_RELIEF_LENGTH, title="root relief length", symbol="L_Cf"),
     ] = _DEFAULTS.root_relief_length
     end_relief_um: Annotated[
         float, Input("end relief", "C_e", XUE, text="relief at both ends of the face", ge=0, le=1000, tolerance=3)

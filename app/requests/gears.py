@@ -8,6 +8,9 @@ from app.requests.common import Section
 from solvers.gears.inputs import GearPairInputs, GearTeeth, normal_section
 
 ISO_21771 = "ISO 21771"
+RACK_TIP_RADIUS = Input(
+    "rack tip radius coefficient", "ρ_fP*", "ISO 53", text="tip radius coefficient of the rack", ge=0, le=0.6
+)
 
 
 class GearMember(Section):

@@ -1,5 +1,6 @@
 """The loaded gear pair: request of /v1/scuffing/load-distribution."""
 
+from dataclasses import replace
 from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import model_validator
@@ -9,7 +10,7 @@ from app.contract.conversion import to_si
 from app.contract.quantities import Input
 from app.requests.common import Request, Section
 from app.requests.flank_modifications import FlankModifications
-from app.requests.gears import Gears
+from app.requests.gears import RACK_TIP_RADIUS, Gears
 from app.requests.materials import XUE, Surface
 from solvers.scuffing import inputs as si
 
@@ -23,15 +24,7 @@ class ScuffingGears(Gears):
 
     rack_tip_radius: Annotated[
         float,
-        Input(
-            "rack tip radius coefficient",
-            "ρ_fP*",
-            "ISO 53",
-            text="tip radius coefficient of the rack",
-            ge=0,
-            le=0.6,
-            assumed="rack A of ISO 53; the paper gives none",
-        ),
+        replace(RACK_TIP_RADIUS, assumed="rack A of ISO 53; the paper gives none"),
     ] = 0.38
 
 

@@ -1,5 +1,6 @@
 """Scuffing of a gear pair: request of /v1/scuffing."""
 
+from dataclasses import replace
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import model_validator
@@ -12,6 +13,7 @@ from app.requests.line_contact import FilmModel
 from app.requests.load_distribution import LoadDistributionModel, LoadDistributionRequest
 from app.requests.materials import XUE
 from app.requests.oil import Oil
+from app.requests.temperatures import OIL_TEMPERATURE, SCUFFING_TEMPERATURE
 from solvers.scuffing import inputs as si
 from solvers.scuffing.inputs import BulkMethod, OilSupply
 
@@ -36,10 +38,61 @@ class ScuffingTest(Section):
     ] = None
 
 
-class ScuffingTemperatures(Section):
-    """Temperatures of teeth and oil."""
+class ContactTemperatures(Section):
+    """Temperatures of teeth and oil, as numbers or by what practice makes of test and supply."""
 
     exclusive: ClassVar = (("scuffing_c", "scuffing_test"),)
+
+    bulk_c: Annotated[float | None, Input("bulk temperature")] = None
+    bulk_method: Annotated[
+        BulkMethod,
+        Input("bulk temperature method", None, TR_13989, text="given, or estimated from oil, its supply and flash"),
+    ] = _TEMPERATURES.bulk_method
+    oil_supply: Annotated[
+        OilSupply, Input("oil supply", "X_S", TR_13989, assumed="spray lubrication; it decides the estimated bulk")
+    ] = _TEMPERATURES.oil_supply
+    oil_c: Annotated[float, replace(OIL_TEMPERATURE, assumed="60 °C, as in the paper")] = 60.0
+    scuffing_c: Annotated[
+        float | None,
+        replace(SCUFFING_TEMPERATURE, default_text="by `scuffing_test`; with neither no safety factor"),
+    ] = None
+    scuffing_test: Annotated[
+        ScuffingTest | None, Input("scuffing test", text="instead of the temperature: the stage at which the oil fails")
+    ] = None
+
+    @model_validator(mode="after")
+    def one_way(self) -> Self:
+        """One bulk temperature, one scuffing temperature."""
+        if self.bulk_method == "estimated" and self.bulk_c is not None:
+            raise PydanticCustomError("exclusive", "bulk_c and an estimated bulk are both given; keep one")
+        if self.scuffing_c is not None and self.scuffing_test is not None:
+            raise PydanticCustomError("exclusive", "scuffing_c and scuffing_test are both given; keep one")
+        return self
+
+    def contact_temperatures(self, bulk: float | None = None) -> si.Temperatures:
+        """The solver's temperatures; where nothing is said of the bulk it is that [K], by default the oil's."""
+        fields = to_si(self)
+        test = None
+        if self.scuffing_test is not None:
+            said = to_si(self.scuffing_test)
+            test = si.ScuffingTest(**{name: said[name] for name in si.ScuffingTest.__dataclass_fields__})
+        own = next(each for each in (fields["bulk"], bulk, fields["oil"]) if each is not None)
+        return si.Temperatures(
+            bulk=own,
+            oil=fields["oil"],
+            scuffing=fields["scuffing"],
+            scuffing_test=test,
+            bulk_method=fields["bulk_method"],
+            oil_supply=fields["oil_supply"],
+        )
+
+    def unused_temperature_defaults(self, section: str) -> frozenset[str]:
+        """What the way of saying bulk and scuffing temperature leaves out of a result."""
+        return frozenset({f"{section}.bulk_c"} if self.bulk_method == "estimated" else {f"{section}.oil_supply"})
+
+
+class ScuffingTemperatures(ContactTemperatures):
+    """Temperatures of teeth and oil."""
 
     bulk_c: Annotated[
         float | None,
@@ -55,35 +108,6 @@ class ScuffingTemperatures(Section):
             assumed="360 K, the paper's bulk temperature; `bulk_method` estimates it from the oil",
         ),
     ] = 86.85
-    bulk_method: Annotated[
-        BulkMethod,
-        Input("bulk temperature method", None, TR_13989, text="given, or estimated from oil, its supply and flash"),
-    ] = _TEMPERATURES.bulk_method
-    oil_supply: Annotated[
-        OilSupply, Input("oil supply", "X_S", TR_13989, assumed="spray lubrication; it decides the estimated bulk")
-    ] = _TEMPERATURES.oil_supply
-    oil_c: Annotated[
-        float,
-        Input(
-            "oil temperature", "θ_oil", f"{XUE}, Eq. 26", ge=-70, le=500, tolerance=5, assumed="60 °C, as in the paper"
-        ),
-    ] = 60.0
-    scuffing_c: Annotated[
-        float | None,
-        Input(
-            "scuffing temperature",
-            "θ_S",
-            f"{XUE}, Eq. 26",
-            text="scuffing temperature of oil and material",
-            ge=-70,
-            le=1500,
-            default_text="by `scuffing_test`; with neither no safety factor",
-            tolerance=20,
-        ),
-    ] = None
-    scuffing_test: Annotated[
-        ScuffingTest | None, Input("scuffing test", text="instead of the temperature: the stage at which the oil fails")
-    ] = None
 
     @model_validator(mode="before")
     @classmethod
@@ -94,29 +118,11 @@ class ScuffingTemperatures(Section):
         return given
 
     @model_validator(mode="after")
-    def one_way(self) -> Self:
-        """One bulk temperature, one scuffing temperature."""
-        if self.bulk_method == "estimated" and self.bulk_c is not None:
-            raise PydanticCustomError("exclusive", "bulk_c and an estimated bulk are both given; keep one")
+    def known_bulk(self) -> Self:
+        """A bulk temperature that is given is a number."""
         if self.bulk_method == "given" and self.bulk_c is None:
             raise PydanticCustomError("missing_bulk", "give bulk_c, or bulk_method estimated")
-        if self.scuffing_c is not None and self.scuffing_test is not None:
-            raise PydanticCustomError("exclusive", "scuffing_c and scuffing_test are both given; keep one")
         return self
-
-    def temperatures(self) -> si.Temperatures:
-        """The solver's temperatures."""
-        fields = to_si(self)
-        test = None
-        if self.scuffing_test is not None:
-            said = to_si(self.scuffing_test)
-            test = si.ScuffingTest(**{name: said[name] for name in si.ScuffingTest.__dataclass_fields__})
-        bulk = fields["oil"] if fields["bulk"] is None else fields["bulk"]
-        return si.Temperatures(**(fields | {"bulk": bulk, "scuffing_test": test}))
-
-    def unused_temperature_defaults(self, section: str) -> frozenset[str]:
-        """What the way of saying bulk and scuffing temperature leaves out of a result."""
-        return frozenset({f"{section}.bulk_c"} if self.bulk_method == "estimated" else {f"{section}.oil_supply"})
 
 
 class ScuffingModel(LoadDistributionModel, FilmModel):
@@ -173,7 +179,7 @@ class ScuffingRequest(LoadDistributionRequest):
             distribution=self.distribution(),
             lubricant=self.lubricant.lubricant(),
             oil=self.lubricant.oil(),
-            temperatures=self.temperatures.temperatures(),
+            temperatures=self.temperatures.contact_temperatures(),
             lubrication=self.model.lubrication,
             friction=self.model.friction,
             film=self.model.film(),

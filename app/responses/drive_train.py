@@ -107,11 +107,13 @@ class TrainFlash(Group):
 class TrainSafety(Group):
     """Safety against scuffing; thermal EHL values are null in closed form, or where a point is not known."""
 
-    blok_feature: Annotated[float | None, Output("scuffing safety on the feature line", "S_B,1", limit=1.0)]
-    blok_flank: Annotated[float | None, Output("scuffing safety on the flank", "S_B,2", limit=1.0)]
+    blok_feature: Annotated[
+        float | None, Output("scuffing safety on the feature line", "S_B,1", limit=1.0, bound="lower")
+    ]
+    blok_flank: Annotated[float | None, Output("scuffing safety on the flank", "S_B,2", limit=1.0, bound="lower")]
     blok_at: Annotated[FlankPlace | None, Output("hottest place by Blok", text="null without load")]
     thermal_ehl_feature: Annotated[
-        float | None, Output("scuffing safety by thermal EHL on the feature line", "S_T,1", limit=1.0)
+        float | None, Output("scuffing safety by thermal EHL on the feature line", "S_T,1", limit=1.0, bound="lower")
     ]
     thermal_ehl_profile: Annotated[
         float | None,
@@ -120,11 +122,19 @@ class TrainSafety(Group):
             "S_T,2",
             text="on the profile line through the hottest place by Blok",
             limit=1.0,
+            bound="lower",
         ),
     ]
     minimum: Annotated[
         float | None,
-        Output("scuffing safety", "S_B", text="least of all; null where one is unknown", headline=1, limit=1.0),
+        Output(
+            "scuffing safety",
+            "S_B",
+            text="least of all; null where one is unknown",
+            headline=1,
+            limit=1.0,
+            bound="lower",
+        ),
     ]
 
 

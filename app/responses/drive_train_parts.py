@@ -3,8 +3,9 @@
 from typing import Annotated
 
 from app.contract.quantities import Output
-from app.responses.common import Derived, Group
+from app.responses.common import Group
 from app.responses.gear_mesh import Values
+from app.responses.load_distribution import MeshDerived
 
 XY = "X, Y"
 HUBS = "the unit's hub, the machine's"
@@ -138,20 +139,18 @@ class HeatInForce(Group):
 
 
 class TemperaturesInForce(Group):
-    """Bulk temperature."""
+    """Bulk and scuffing temperature."""
 
-    bulk_c: Annotated[float, Output("bulk temperature used", "θ_M")]
+    bulk_c: Annotated[float, Output("bulk temperature used", "θ_M", text="given, the teeth's mean, or estimated")]
+    scuffing_c: Annotated[
+        float | None,
+        Output("scuffing temperature used", "θ_S", text="given or by a test; null with neither"),
+    ]
 
 
-class DriveTrainDerived(Derived):
+class DriveTrainDerived(MeshDerived):
     """What the request left open, in groups named as its sections are."""
 
-    pinion_torque_n_m: Annotated[float, Output("pinion torque used", "T_1")]
-    power_kw: Annotated[float, Output("power used", "P")]
-    centre_distance_mm: Annotated[float, Output("centre distance used", "a")]
-    tip_relief_length_mm: Annotated[float, Output("tip relief length used", "L_Ca")]
-    root_relief_length_mm: Annotated[float, Output("root relief length used", "L_Cf")]
-    end_relief_length_mm: Annotated[float, Output("end relief length used", "L_Ce")]
     contact_load_factor: Annotated[
         float, Output("load factor of the contacts", "K", text="K_A K_v K_γ, on the load of the contacts only")
     ]

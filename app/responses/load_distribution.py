@@ -19,8 +19,8 @@ Gaps = list[float | None]
 MAP = ("profile_fraction", "face_fraction")
 
 
-class ScuffingDerived(Derived):
-    """Load and lengths where the request left them open, and what is used of the rack."""
+class MeshDerived(Derived):
+    """Load and lengths where the request left them open."""
 
     pinion_torque_n_m: Annotated[float, Output("pinion torque used", "T_1")]
     power_kw: Annotated[float, Output("power used", "P")]
@@ -28,6 +28,11 @@ class ScuffingDerived(Derived):
     tip_relief_length_mm: Annotated[float, Output("tip relief length used", "L_Ca")]
     root_relief_length_mm: Annotated[float, Output("root relief length used", "L_Cf")]
     end_relief_length_mm: Annotated[float, Output("end relief length used", "L_Ce")]
+
+
+class ScuffingDerived(MeshDerived):
+    """Load and lengths where the request left them open, and what is used of the rack."""
+
     rack_tip_radius: Annotated[
         float, Output("rack tip radius used", "ρ_fP*", text="in normal modules, as far as both racks have room for it")
     ]

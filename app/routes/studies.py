@@ -3,7 +3,7 @@
 import asyncio
 from collections.abc import AsyncGenerator, Callable, Coroutine
 from contextlib import ExitStack, aclosing
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Protocol
 
 from fastapi import APIRouter, Body, Query, Request, Response
 from fastapi.responses import StreamingResponse
@@ -11,24 +11,48 @@ from fastapi.routing import APIRoute
 from starlette.types import Receive, Scope, Send
 
 from app.contract.messages import Fault
-from app.library import examples
 from app.problems import documented
 from app.reading import InvalidBody
 from app.routes.calculations import require_json
+from app.routes.study_examples import CORNERS_EXAMPLES, DESIGN_EXAMPLES, SENSITIVITY_EXAMPLES, SWEEP_EXAMPLES
 from app.settings import Settings
 from app.start_up import StartUp
-from app.studies import sensitivity, sweep
+from app.studies import corners, design_plan, sensitivity, sweep
+from app.studies.engine import Pool
 from app.studies.lines import encoded, json_line
 from app.studies.office import Office
+from app.studies.points import Question
 from app.studies.requests import SensitivityRequest, SweepRequest
-from app.studies.sensitivity import Sensitivity, plan_sensitivity
-from app.studies.stream import Clock, guarded
-from app.studies.sweep import Sweep, plan_sweep
+from app.studies.stream import Clock, Lines, guarded
+from app.studies.unit_requests import CornersRequest, DesignRequest
 from app.workers.admission import Runner
 
 Format = Literal["ndjson", "csv"]
 MEDIA_TYPES: dict[Format, str] = {"ndjson": "application/x-ndjson", "csv": "text/csv"}
 PATIENCE_S = 10.0  # beyond the study's deadline, for a client that reads slowly
+
+
+class Study(Protocol):
+    """A study that has passed its checks."""
+
+    @property
+    def question(self) -> Question:
+        """What is the same at every point."""
+
+    @property
+    def total(self) -> int:
+        """How many points it has at most."""
+
+    def lines(self, pool: Pool, clock: Clock) -> Lines:
+        """All lines but those of progress."""
+
+
+PLANNERS: dict[str, Callable[[bytes, int, float], Study]] = {
+    sweep.PATH: sweep.plan_sweep,
+    sensitivity.PATH: sensitivity.plan_sensitivity,
+    corners.PATH: corners.plan_corners,
+    design_plan.PATH: design_plan.plan_design,
+}
 
 
 class StudyStream(StreamingResponse):
@@ -59,11 +83,11 @@ class StudyRoute(APIRoute):
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         """What answers a request."""
-        planner: Callable[..., Sweep | Sensitivity] = plan_sweep if self.path == sweep.PATH else plan_sensitivity
+        planner = PLANNERS[self.path]
 
         async def handle(http: Request) -> Response:
             require_json(http)
-            written_as: Format = wanted_format(http) if self.path == sweep.PATH else "ndjson"
+            written_as: Format = wanted_format(http) if planner is sweep.plan_sweep else "ndjson"
             start_up: StartUp = http.app.state.start_up
             start_up.require_any()
             office: Office = http.app.state.office
@@ -76,7 +100,7 @@ class StudyRoute(APIRoute):
                 start_up.require(study.question.endpoint)
                 clock = Clock(study.total)
                 lines = guarded(study.lines(await office.pool(), clock), clock, limits.study_deadline_s)
-                encode = study.table().encode if written_as == "csv" else json_line
+                encode = study.table().encode if isinstance(study, sweep.Sweep) and written_as == "csv" else json_line
                 patience = limits.study_deadline_s + PATIENCE_S
                 return StudyStream(encoded(lines, encode), MEDIA_TYPES[written_as], patience, stack.pop_all())
 
@@ -99,62 +123,6 @@ router = APIRouter(
     route_class=StudyRoute,
     responses=documented(400, 408, 413, 415, 422, 431, 500, 503, 504),
 )
-
-_COUPLING = examples()["pahl-axial-displacement"]
-_LOADS = examples()["xue-pair-1-modified"]
-SWEEP_EXAMPLES: dict[str, dict[str, Any]] = {
-    "map": {
-        "summary": "Which crowning forgives misalignment: a map of pressure, and its best point",
-        "value": {
-            "endpoint": _LOADS.endpoint,
-            "request": _LOADS.request,
-            "vary": [
-                {"path": "modifications.helix_slope_um", "start": -20, "stop": 20, "count": 9},
-                {"path": "modifications.lead_crowning_um", "values": [0, 5, 10, 20]},
-            ],
-            "outputs": ["pressure.max_mpa", "load.face_load_factor"],
-            "best": {
-                "minimise": "pressure.max_mpa",
-                "where": [{"output": "load.face_load_factor", "max": 1.5}],
-            },
-        },
-    },
-    "cases": {
-        "summary": "A load spectrum",
-        "value": {
-            "endpoint": _COUPLING.endpoint,
-            "request": _COUPLING.request,
-            "cases": [
-                {"operation.torque_n_m": 3000, "operation.speed_rpm": 1910},
-                {"operation.torque_n_m": 4500, "operation.speed_rpm": 1500},
-            ],
-        },
-    },
-    "sample": {
-        "summary": "Tolerances at random",
-        "value": {
-            "endpoint": _COUPLING.endpoint,
-            "request": _COUPLING.request,
-            "sample": {
-                "count": 64,
-                "ranges": [
-                    {"path": "operation.misalignment_deg", "min": 0.03, "max": 0.08},
-                    {"path": "lubricant.viscosity_pa_s", "min": 0.02, "max": 0.03},
-                ],
-            },
-        },
-    },
-}
-SENSITIVITY_EXAMPLES: dict[str, dict[str, Any]] = {
-    "coupling": {
-        "summary": "What moves the axial thrust most",
-        "value": {
-            "endpoint": _COUPLING.endpoint,
-            "request": _COUPLING.request,
-            "outputs": ["axial_thrust.force_n"],
-        },
-    }
-}
 
 
 def _streams(what: str, *formats: Format) -> dict[int | str, dict[str, Any]]:
@@ -201,5 +169,43 @@ async def run_sensitivity(
 
     `change` is what one step does to the output, `elasticity` per cent of the output for a per cent of the input;
     `kink` says that the two sides differ by more than 10 %.
+    """
+    raise NotImplementedError(body)  # documents the endpoint; StudyRoute answers
+
+
+@router.post(
+    corners.PATH,
+    operation_id="drive_train_corners",
+    summary="A gear unit at every corner of what nobody knows better",
+    response_class=Response,
+    responses=_streams(
+        "a line for the ranges, each corner, the extremes of each output, and one for the end", "ndjson"
+    ),
+)
+async def run_corners(
+    body: Annotated[CornersRequest, Body(openapi_examples=CORNERS_EXAMPLES)],
+) -> Response:
+    """Every corner is the unit's own answer, up to 256 of them; `extremes` say where each output is least and largest.
+
+    Where no output needs the thermal film, corners leave it out, which makes them twenty times as fast and their
+    warnings fewer. The end warns `no_convergence_of_corner` where corners have no answer; their lines say why.
+    """
+    raise NotImplementedError(body)  # documents the endpoint; StudyRoute answers
+
+
+@router.post(
+    design_plan.PATH,
+    operation_id="drive_train_design",
+    summary="The correction of a gear unit that is best at its worst corner",
+    response_class=Response,
+    responses=_streams("a line for the search, one for each correction tried, and one for the end", "ndjson"),
+)
+async def run_design(
+    body: Annotated[DesignRequest, Body(openapi_examples=DESIGN_EXAMPLES)],
+) -> Response:
+    """COBYQA from the request's own correction, each judged at every operating point and corner.
+
+    The objective of a correction is that of its worst corner. `safety.minimum` counts the thermal film, a second a
+    corner; with `safety.blok_flank`, or `model.lubrication` in closed form, the search is twenty times as fast.
     """
     raise NotImplementedError(body)  # documents the endpoint; StudyRoute answers

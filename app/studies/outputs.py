@@ -28,13 +28,14 @@ def chosen(calculation: Calculation, wanted: list[str] | None) -> Outputs:
     """The outputs asked for, by default the headline numbers; Unprocessable for what the answer does not have."""
     if wanted is None:
         return Outputs(headlines(calculation.response))
-    return Outputs(tuple(_output(calculation, path, place, wanted) for place, path in enumerate(wanted)))
+    for place, path in enumerate(wanted):
+        if path in wanted[:place]:
+            raise Unprocessable("duplicate_path", f"{path} is asked for twice", f"outputs.{place}")
+    return Outputs(tuple(output(calculation, path, f"outputs.{place}") for place, path in enumerate(wanted)))
 
 
-def _output(calculation: Calculation, path: str, place: int, wanted: list[str]) -> Leaf:
-    where = f"outputs.{place}"
-    if path in wanted[:place]:
-        raise Unprocessable("duplicate_path", f"{path} is asked for twice", where)
+def output(calculation: Calculation, path: str, where: str) -> Leaf:
+    """A value that a study can tell; Unprocessable at `where` of the study for what the answer does not have."""
     leaf = scalar_at(calculation.response, path, where, "unknown_output")
     if leaf.detail != "summary":
         raise Unprocessable("not_scalar", f"{path} belongs to a curve or field, which a study does not tell", where)

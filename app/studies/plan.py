@@ -19,7 +19,7 @@ class PlannedAxis:
 
     path: str | list[str]
     leaves: tuple[Leaf, ...]
-    values: list[Scalar] | None
+    values: list[Scalar | list[Scalar]] | None
 
     def header(self) -> dict[str, Any]:
         """What the first line says of it; fields that move together in different units have none in common."""
@@ -36,14 +36,14 @@ class Plan:
     cases: list[Overrides] | None = None
     sample: np.ndarray[Any, Any] | None = None
 
-    def at(self, index: int) -> list[Scalar] | Overrides:
+    def at(self, index: int) -> list[Scalar | list[Scalar]] | Overrides:
         """Coordinates of a point, or its overrides in a list of cases."""
         if self.cases is not None:
             return self.cases[index]
         if self.sample is not None:
-            values: list[Scalar] = self.sample[index].tolist()
+            values: list[Scalar | list[Scalar]] = self.sample[index].tolist()
             return values
-        at: list[Scalar] = []
+        at: list[Scalar | list[Scalar]] = []
         for axis in reversed(self.axes):
             assert axis.values is not None
             index, place = divmod(index, len(axis.values))
@@ -55,11 +55,20 @@ class Plan:
         at = self.at(index)
         if isinstance(at, dict):
             return at
-        return {leaf.path: value for axis, value in zip(self.axes, at, strict=True) for leaf in axis.leaves}
+        return {
+            leaf.path: own
+            for axis, value in zip(self.axes, at, strict=True)
+            for leaf, own in zip(axis.leaves, _each(value, axis.leaves), strict=True)
+        }
 
 
-class _Request(NamedTuple):
-    """The request that a sweep varies."""
+def _each(value: Scalar | list[Scalar], leaves: tuple[Leaf, ...]) -> list[Scalar]:
+    """A value for each of the fields that move together."""
+    return value if isinstance(value, list) else [value] * len(leaves)
+
+
+class Varied(NamedTuple):
+    """The request that a study varies."""
 
     model: type[Documented]
     base: dict[str, Any]
@@ -77,17 +86,25 @@ def planned(sweep: SweepRequest, model: type[Documented], most: int) -> Plan:
 
     Raises Unprocessable with a path into the sweep for whatever the schema already tells to be impossible.
     """
-    request = _Request(model, sweep.request)
+    request = Varied(model, sweep.request)
     if sweep.cases is not None:
-        return _listed(sweep.cases, request, most)
+        return listed(sweep.cases, request, most, "cases")
     if sweep.sample is not None:
         check_count(sweep.sample.count, most, "sample.count")
         return _sampled(sweep.sample, request)
     assert sweep.vary is not None
-    check_count(prod(_length(axis, f"vary.{place}") for place, axis in enumerate(sweep.vary)), most, "vary")
-    _check_distinct([path for axis in sweep.vary for path in axis.paths], "vary")
-    axes = [_axis(axis, request, f"vary.{place}") for place, axis in enumerate(sweep.vary)]
-    return Plan(axes, prod(len(axis.values or ()) for axis in axes))
+    return grid(sweep.vary, request, "vary", most)
+
+
+def grid(axes: list[Axis], request: Varied, place: str, most: int) -> Plan:
+    """The product of axes that stand at `place` of a study; at most `most` points.
+
+    Raises Unprocessable as `planned` does.
+    """
+    check_count(prod(_length(axis, f"{place}.{number}") for number, axis in enumerate(axes)), most, place)
+    check_distinct([path for axis in axes for path in axis.paths], place)
+    found = [_axis(axis, request, f"{place}.{number}") for number, axis in enumerate(axes)]
+    return Plan(found, prod(len(axis.values or ()) for axis in found))
 
 
 def check_count(count: int, most: int, place: str) -> None:
@@ -96,13 +113,14 @@ def check_count(count: int, most: int, place: str) -> None:
         raise Unprocessable("too_many_points", f"the study has {count} points; at most {most} are allowed", place)
 
 
-def _check_distinct(paths: list[str], place: str) -> None:
+def check_distinct(paths: list[str], place: str) -> None:
+    """Refuse a field that is varied twice."""
     for path in paths:
         if paths.count(path) > 1:
             raise Unprocessable("duplicate_path", f"{path} is varied twice", place)
 
 
-def _check_value(leaf: Leaf, value: Scalar, place: str) -> None:
+def check_value(leaf: Leaf, value: Scalar, place: str) -> None:
     """Refuse a value that the field's schema does not take."""
     found = fault(leaf, value)
     if found is not None:
@@ -110,15 +128,18 @@ def _check_value(leaf: Leaf, value: Scalar, place: str) -> None:
         raise Unprocessable(code, f"{leaf.path}: {message}", place)
 
 
-def _listed(cases: list[Overrides], request: _Request, most: int) -> Plan:
-    """The points of a list of cases."""
-    check_count(len(cases), most, "cases")
+def listed(cases: list[Overrides], request: Varied, most: int, place: str) -> Plan:
+    """The points of a list of cases that stands at `place` of a study.
+
+    Raises Unprocessable as `planned` does.
+    """
+    check_count(len(cases), most, place)
     leaves: dict[str, Leaf] = {}
     for number, case in enumerate(cases):
         for path, value in case.items():
             if path not in leaves:
-                leaves[path] = request.leaf(path, f"cases.{number}")
-            _check_value(leaves[path], value, f"cases.{number}")
+                leaves[path] = request.leaf(path, f"{place}.{number}")
+            check_value(leaves[path], value, f"{place}.{number}")
     return Plan([], len(cases), cases=cases)
 
 
@@ -132,18 +153,21 @@ def _length(axis: Axis, place: str) -> int:
     raise Unprocessable("values_or_range", "give either values, or start, stop and count", place)
 
 
-def _axis(axis: Axis, request: _Request, place: str) -> PlannedAxis:
+def _axis(axis: Axis, request: Varied, place: str) -> PlannedAxis:
     leaves = tuple(request.leaf(path, f"{place}.path") for path in axis.paths)
     values = axis.values if axis.values is not None else _spread(axis, place)
-    for leaf in leaves:
-        for value in values:
-            _check_value(leaf, value, place)
+    for number, value in enumerate(values):
+        if isinstance(value, list) and (isinstance(axis.path, str) or len(value) != len(leaves)):
+            message = "give one value for all fields of the axis, or of a list of fields each its own"
+            raise Unprocessable("values_per_field", message, f"{place}.values.{number}")
+        for leaf, own in zip(leaves, _each(value, leaves), strict=True):
+            check_value(leaf, own, place)
     if all(leaf.kind == "integer" for leaf in leaves):
         values = [int(value) if isinstance(value, float) else value for value in values]
     return PlannedAxis(axis.path, leaves, values)
 
 
-def _spread(axis: Axis, place: str) -> list[Scalar]:
+def _spread(axis: Axis, place: str) -> list[Scalar | list[Scalar]]:
     """Even steps, or even ratios, from start to stop."""
     assert axis.start is not None
     assert axis.stop is not None
@@ -155,9 +179,9 @@ def _spread(axis: Axis, place: str) -> list[Scalar]:
     return list(np.geomspace(axis.start, axis.stop, axis.count).tolist())
 
 
-def _sampled(sample: Sample, request: _Request) -> Plan:
+def _sampled(sample: Sample, request: Varied) -> Plan:
     """The random points, the same for the same seed."""
-    _check_distinct([each.path for each in sample.ranges], "sample.ranges")
+    check_distinct([each.path for each in sample.ranges], "sample.ranges")
     leaves = []
     for number, each in enumerate(sample.ranges):
         place = f"sample.ranges.{number}"
@@ -165,7 +189,7 @@ def _sampled(sample: Sample, request: _Request) -> Plan:
         if leaf.kind == "integer":
             raise Unprocessable("not_integer", f"{each.path} takes whole numbers; vary it or list cases", place)
         for value in (each.min, each.max):
-            _check_value(leaf, value, place)
+            check_value(leaf, value, place)
         if each.min > each.max:
             raise Unprocessable("out_of_range", f"{each.path}: min is above max", place)
         leaves.append(leaf)

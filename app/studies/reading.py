@@ -1,4 +1,4 @@
-"""What both kinds of study check before their first line."""
+"""What all kinds of study check before their first line."""
 
 from typing import Any
 
@@ -10,9 +10,10 @@ from app.requests.common import Request
 from app.responses.common import MODEL_VERSION
 from app.studies.points import with_overrides
 from app.studies.requests import Overrides, StudyRequest
+from app.studies.unit_requests import UnitStudy
 
 
-def calculation_of(study: StudyRequest) -> Calculation:
+def calculation_of(study: StudyRequest | UnitStudy) -> Calculation:
     """The calculation that a study asks."""
     if study.endpoint not in BY_PATH:
         raise Unprocessable("unknown_endpoint", f"there are {', '.join(BY_PATH)}", "endpoint")
@@ -31,7 +32,7 @@ def checked_base(calculation: Calculation, base: dict[str, Any], first: Override
         raise InvalidBody(found) from None
 
 
-def case_of_study(path: str, study: StudyRequest) -> str:
+def case_of_study(path: str, study: StudyRequest | UnitStudy) -> str:
     """The hash of a study; equal for equal numbers."""
     try:
         return case_of(path, study.model_dump(), MODEL_VERSION)

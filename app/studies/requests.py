@@ -1,4 +1,4 @@
-"""What a study is asked: the body of POST /v1/sweep and POST /v1/sensitivity."""
+"""What a study is asked: the body of POST /v1/sweep and POST /v1/sensitivity, and what other studies share of it."""
 
 import re
 from typing import Annotated, Any, Literal, Self
@@ -34,6 +34,10 @@ def _scalar(value: Any) -> Any:
     return value
 
 
+def _scalars(value: Any) -> Any:
+    return [_scalar(each) for each in value] if isinstance(value, list) else _scalar(value)
+
+
 Scalar = bool | int | float | str | None
 _PATH_SCHEMA: dict[str, Any] = {"type": "string", "pattern": f"^{_PATH.pattern}$"}
 _PATHS_SCHEMA = {"type": "array", "items": _PATH_SCHEMA, "minItems": 1, "maxItems": MOST_FIELDS_TOGETHER}
@@ -50,20 +54,29 @@ _SCALAR_SCHEMA = {
 FieldPath = Annotated[Any, AfterValidator(_field_path), WithJsonSchema(_PATH_SCHEMA)]
 FieldPaths = Annotated[Any, AfterValidator(_field_paths), WithJsonSchema({"anyOf": [_PATH_SCHEMA, _PATHS_SCHEMA]})]
 Value = Annotated[Any, AfterValidator(_scalar), WithJsonSchema(_SCALAR_SCHEMA)]
+Values = Annotated[
+    Any,
+    AfterValidator(_scalars),
+    WithJsonSchema({"anyOf": [*_SCALAR_SCHEMA["anyOf"], {"type": "array", "items": _SCALAR_SCHEMA}]}),
+]
 Overrides = dict[str, Scalar]
 
 
-class _Part(BaseModel):
+class Part(BaseModel):
     """A part of a study: unknown fields are refused, numbers are finite."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
-class Axis(_Part):
+class Axis(Part):
     """One axis of a grid: the values a field takes, listed or spread between two ends."""
 
     path: Annotated[FieldPaths, Input("varied field", text="dotted path of the field, or several that move together")]
-    values: Annotated[list[Value] | None, Field(min_length=1), Input("values", text="the values one by one")] = None
+    values: Annotated[
+        list[Values] | None,
+        Field(min_length=1),
+        Input("values", text="the values one by one; a list gives each of several fields its own"),
+    ] = None
     start: Annotated[float | None, Input("first value", text="first value of an even spread")] = None
     stop: Annotated[float | None, Input("last value", text="last value of an even spread")] = None
     count: Annotated[
@@ -79,7 +92,7 @@ class Axis(_Part):
         return self.path if isinstance(self.path, list) else [self.path]
 
 
-class Range(_Part):
+class Range(Part):
     """The range of one sampled field."""
 
     path: Annotated[FieldPath, Input("sampled field", text="dotted path of the field")]
@@ -87,7 +100,7 @@ class Range(_Part):
     max: Annotated[float, Input("upper end")]
 
 
-class Sample(_Part):
+class Sample(Part):
     """Points spread at random over ranges."""
 
     method: Annotated[
@@ -103,7 +116,7 @@ class Sample(_Part):
     ]
 
 
-class Bound(_Part):
+class Bound(Part):
     """A limit on one output."""
 
     output: Annotated[FieldPath, Input("limited output", text="dotted path of one of the outputs")]
@@ -111,7 +124,7 @@ class Bound(_Part):
     max: Annotated[float | None, Input("largest value allowed")] = None
 
 
-class Best(_Part):
+class Best(Part):
     """Which point is the best one."""
 
     minimise: Annotated[FieldPath | None, Input("output to minimise")] = None
@@ -131,7 +144,7 @@ class Best(_Part):
         return str(self.minimise or self.maximise)
 
 
-class StudyRequest(_Part):
+class StudyRequest(Part):
     """What every study is about: one endpoint, one request."""
 
     endpoint: Annotated[str, Input("endpoint", text="the endpoint that is asked, as in GET /v1/examples")]

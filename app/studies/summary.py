@@ -52,6 +52,16 @@ class Summary:
             self._assume(each)
 
     @property
+    def extremes(self) -> dict[str, dict[str, Extreme]]:
+        """Least and largest value of every output that has any, as `min` and `max`."""
+        return self._ranges
+
+    @property
+    def answered(self) -> int:
+        """How many points have an answer."""
+        return self._counts["ok"] + self._counts["ok_with_warnings"]
+
+    @property
     def values(self) -> np.ndarray[Any, Any] | None:
         """The outputs of a random sample, a row a point, NaN where there is none."""
         if self._plan.sample is None:

@@ -1,12 +1,12 @@
 """Rotor angles and weights for means over one tooth pitch, or one revolution where pitch errors break the symmetry."""
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from math import asin, pi
 
 import numpy as np
 
-from solvers.arrays import FloatArray
+from solvers.arrays import FloatArray, frozen
 from solvers.coupling.friction_sums import FrictionSums, friction_sums
 from solvers.coupling.inputs import Coupling, CouplingInputs
 from solvers.coupling.kinematics import MeshMotion, ToothPositions, positions_per_pitch, tooth_positions
@@ -55,22 +55,30 @@ def rotor_samples(coupling: Coupling, mesh: MeshMotion, axial_velocity: float) -
     Friction jumps where a tooth's relative velocity changes sign; breaking the pitch there leaves an integrand that
     is continuous, with kinks only where a tooth comes under load. Several hundred midpoints do no better.
     """
-    pitch = 2.0 * pi / coupling.teeth
-    breaks = [angle % pitch for angle in friction_reversals(mesh, axial_velocity)]
-    if coupling.pitch_errors is None:
+    uneven = coupling.pitch_errors is not None
+    return _samples(coupling.teeth, uneven, tuple(friction_reversals(mesh, axial_velocity)))
+
+
+@lru_cache(maxsize=4)
+def _samples(teeth: int, uneven: bool, reversals: tuple[float, ...]) -> RotorSamples:
+    """The same points at any misalignment while nothing moves along the axis."""
+    pitch = 2.0 * pi / teeth
+    breaks = [angle % pitch for angle in reversals]
+    if uneven:
+        nodes, weights = _gauss_rule(positions_per_pitch(teeth))
+        turns = teeth
+    else:
         breaks += [pitch * part / _PITCH_PARTS for part in range(_PITCH_PARTS)]
         nodes, weights = _gauss_rule(_PITCH_NODES)
         turns = 1
-    else:
-        nodes, weights = _gauss_rule(positions_per_pitch(coupling.teeth))
-        turns = coupling.teeth
     edges = np.array(sorted({0.0, pitch, *breaks}))
     middle, half = (edges[1:] + edges[:-1]) / 2.0, (edges[1:] - edges[:-1]) / 2.0
     keep = half > 1e-12 * pitch
     one_pitch = (middle[keep, None] + half[keep, None] * nodes).ravel()
     weight = (half[keep, None] * weights).ravel() / (pitch * turns)
     angles = (one_pitch + pitch * np.arange(turns)[:, None]).ravel()
-    return RotorSamples(weight=np.tile(weight, turns), teeth=tooth_positions(angles, coupling.teeth))
+    found = tooth_positions(angles, teeth)
+    return RotorSamples(frozen(np.tile(weight, turns)), ToothPositions(frozen(found.sine), frozen(found.cosine)))
 
 
 def loaded_mesh(inputs: CouplingInputs, mesh: MeshMotion) -> LoadedMesh:

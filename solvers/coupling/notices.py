@@ -89,21 +89,25 @@ def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication:
 
 
 def orbit_notices(
-    fewest_teeth: int, displacement: tuple[float, float | None], harmonics: tuple[float, float | None]
+    fewest_teeth: int,
+    displacement: float,
+    displacement_uncertainty: float | None,
+    harmonic: float,
+    harmonic_uncertainty: float | None,
 ) -> Iterator[Notice]:
-    """Notices about the place and the resolution of an orbit; each value with its uncertainty."""
+    """Notices about the place and the resolution of an orbit, by its largest displacement [m] and harmonic [N]."""
     if fewest_teeth < 3:
         message = "at some rotor angle fewer than three teeth carry: the place of the sleeve is not unique there"
         yield Notice("sleeve_position", message, "torque")
-    if displacement[0] < LEAST_ORBIT:
+    if displacement < LEAST_ORBIT:
         return
-    if displacement[1] is None or harmonics[1] is None:
+    if displacement_uncertainty is None or harmonic_uncertainty is None:
         message = "with twice the orders the orbit does not settle: how certain it is cannot be told"
         yield Notice("orbit_resolution", message, "speed")
         return
     uncertain = (
-        (displacement[1] / displacement[0], "largest displacement"),
-        (harmonics[1] / harmonics[0] if harmonics[0] > 0.0 else 0.0, "largest harmonic of the force"),
+        (displacement_uncertainty / displacement, "largest displacement"),
+        (harmonic_uncertainty / harmonic if harmonic > 0.0 else 0.0, "largest harmonic of the force"),
     )
     share, name = max(uncertain)
     if share > ORBIT_RESOLUTION:

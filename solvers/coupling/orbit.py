@@ -12,8 +12,9 @@ from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.kinematics import MeshMotion, mesh_motion, revolution, tooth_positions
 from solvers.coupling.load_distribution import LOADED
 from solvers.coupling.notices import orbit_notices
+from solvers.coupling.orbit_results import InertiaForce, Orbit, OrbitResult
 from solvers.coupling.peaks import largest_value
-from solvers.coupling.results import Geometry, InertiaForce, Orbit, OrbitResult
+from solvers.coupling.results import Geometry
 from solvers.coupling.tooth_loads import floating_loads
 from solvers.errors import InvalidInput, NoSolution
 
@@ -193,8 +194,10 @@ def _result(angles: FloatArray, settled: _SettledPath, finer: _SettledPath | Non
         warnings=tuple(
             orbit_notices(
                 fewest_teeth=settled.fewest,
-                displacement=(settled.farthest, displacement_uncertainty),
-                harmonics=(float(harmonics.max()), harmonics_uncertainty),
+                displacement=settled.farthest,
+                displacement_uncertainty=displacement_uncertainty,
+                harmonic=float(harmonics.max()),
+                harmonic_uncertainty=harmonics_uncertainty,
             )
         ),
     )

@@ -27,7 +27,8 @@ from solvers.coupling.geometry import tooth_geometry
 from solvers.coupling.inputs import Coupling, RecommendationInputs
 from solvers.coupling.limits import SLIDING_VELOCITY_LIMIT
 from solvers.coupling.model import solve
-from solvers.coupling.results import CouplingResult, CrowningScan, Recommendation, RecommendedPoint
+from solvers.coupling.recommendation_results import CrowningScan, Recommendation, RecommendedPoint
+from solvers.coupling.results import CouplingResult
 from solvers.errors import InvalidInput
 from solvers.notices import Notice
 

@@ -1,6 +1,7 @@
-"""What the coupling model answers, in SI: lengths [m], angles [rad], forces [N], moments [N m], arrays read-only.
+"""What the coupling model answers at one operating point, in SI, arrays read-only.
 
-A value that has no meaning is None, and a notice in `warnings` says why.
+Lengths [m], angles [rad], forces [N], moments [N m]. A value that has no meaning is None, and a notice in `warnings`
+says why.
 """
 
 from dataclasses import dataclass
@@ -190,90 +191,5 @@ class CouplingResult:
     axial_thrust: AxialThrust
     losses: Losses
     limits: Limits
-    derived: Coupling
-    warnings: tuple[Notice, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Orbit:
-    """Path of the sleeve centre against the hub over one revolution."""
-
-    rotor_angle: FloatArray
-    x: FloatArray
-    y: FloatArray
-
-
-@dataclass(frozen=True, slots=True)
-class InertiaForce:
-    """Inertia force of the sleeve mass of one mesh over the orbit's rotor angles; harmonics are amplitudes 2 |c_k|.
-
-    Order 0 comes first and is the magnitude of the mean.
-    """
-
-    x: FloatArray
-    y: FloatArray
-    harmonics_x: FloatArray
-    harmonics_y: FloatArray
-
-
-@dataclass(frozen=True, slots=True)
-class OrbitResult:
-    """One revolution of a floating sleeve under its own inertia.
-
-    `sweeps` over the revolution until it repeated to `change` [m]. The uncertainties are how far the largest
-    displacement [m] and any harmonic of the force [N] move with twice the rotor angles and orders; None where that
-    path does not settle. `derived` is the tooth that moves.
-    """
-
-    orbit: Orbit
-    inertia_force: InertiaForce
-    max_displacement: float
-    displacement_uncertainty: float | None
-    harmonics_uncertainty: float | None
-    sweeps: int
-    change: float
-    derived: Geometry
-    warnings: tuple[Notice, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class RecommendedPoint:
-    """The recommended coupling at one end of the misalignment range."""
-
-    contact_overlap: float
-    load_capacity_coefficient: float
-    friction_coefficient: float
-    axial_thrust: float
-    sliding_velocity: float
-
-
-@dataclass(frozen=True, slots=True)
-class CrowningScan:
-    """How crowning trades off, one value a crowning ratio whose contact can be computed.
-
-    The smallest load capacity coefficient and the largest overlap over the range of misalignment.
-    """
-
-    crowning_ratio: FloatArray
-    min_load_capacity_coefficient: FloatArray
-    max_contact_overlap: FloatArray
-    feasible: tuple[bool, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Recommendation:
-    """The crowning ratio with the largest load capacity that meets every constraint over the range.
-
-    Where there is none, `feasible` is False, `failed_constraint` names the constraint that excludes it
-    (`contact_overlap`, `edge_contact`, `hertz_pressure`, `contact_width`, `sliding_velocity`) and the rest is None.
-    """
-
-    feasible: bool
-    crowning_ratio: float | None
-    min_load_capacity_coefficient: float | None
-    failed_constraint: str | None
-    at_min: RecommendedPoint | None
-    at_max: RecommendedPoint | None
-    scan: CrowningScan
     derived: Coupling
     warnings: tuple[Notice, ...]

@@ -1,6 +1,6 @@
 """Balance of a floating sleeve between two meshes under friction: the kernels.
 
-Units as in tooth_balance. First index of a pair: the mesh, left (0) or right (1).
+Units as in floating_balance. First index of a pair: the mesh, left (0) or right (1).
 """
 
 from math import hypot
@@ -9,7 +9,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.coupling.tooth_balance import float_sleeve, solve_loaded
+from solvers.coupling.floating_balance import ALONG_X, ALONG_Y, ROTATION, SHIFT_X, SHIFT_Y, float_sleeve, solve_loaded
 
 MAX_ITERATIONS = 150
 SUBSTITUTIONS = 5
@@ -38,14 +38,14 @@ def add_friction_moment(
         if ahead[i] > 0.0:
             for axis in range(2):
                 moment[axis] += arm[axis, i] * ahead[i]
-                weighted[axis, 0] += arm[axis, i]
-                weighted[axis, 1] -= arm[axis, i] * normal[0, i]
-                weighted[axis, 2] -= arm[axis, i] * normal[1, i]
+                weighted[axis, ROTATION] += arm[axis, i]
+                weighted[axis, SHIFT_X] -= arm[axis, i] * normal[ALONG_X, i]
+                weighted[axis, SHIFT_Y] -= arm[axis, i] * normal[ALONG_Y, i]
     for axis in range(2):
         # The Hessian is symmetric: its inverse times the weights is the derivative by (torque, force).
         solve_loaded(hessian, weighted[axis], row, free)
-        slope[axis, 0] += sense * row[1]
-        slope[axis, 1] += sense * row[2]
+        slope[axis, ALONG_X] += sense * row[SHIFT_X]
+        slope[axis, ALONG_Y] += sense * row[SHIFT_Y]
 
 
 @kernel
@@ -76,9 +76,9 @@ def unbalanced_force(
         add_friction_moment(ahead[mesh], normal[mesh], arm[mesh], hessian, sense, gap, slope)
     gap[:] = lever * gap - force
     slope *= -lever
-    slope[0, 0] += 1.0
-    slope[1, 1] += 1.0
-    return hypot(gap[0], gap[1])
+    slope[ALONG_X, ALONG_X] += 1.0
+    slope[ALONG_Y, ALONG_Y] += 1.0
+    return hypot(gap[ALONG_X], gap[ALONG_Y])
 
 
 @kernel
@@ -112,16 +112,17 @@ def balance_sleeve(
                 substitutions = SUBSTITUTIONS
         if length == 1.0 or substitutions > 0:
             accepted[:], accepted_residual = force, residual
-            determinant = slope[0, 0] * slope[1, 1] - slope[0, 1] * slope[1, 0]
+            (xx, xy), (yx, yy) = slope
+            determinant = xx * yy - xy * yx
             if substitutions > 0 or abs(determinant) < 1e-6:
                 substitutions = max(0, substitutions - 1)
                 length = 0.5
                 step[:] = gap
             else:
-                step[0] = (slope[1, 1] * gap[0] - slope[0, 1] * gap[1]) / determinant
-                step[1] = (slope[0, 0] * gap[1] - slope[1, 0] * gap[0]) / determinant
+                step[ALONG_X] = (yy * gap[ALONG_X] - xy * gap[ALONG_Y]) / determinant
+                step[ALONG_Y] = (xx * gap[ALONG_Y] - yx * gap[ALONG_X]) / determinant
         force[:] = accepted + length * step
-        size = hypot(force[0], force[1])
+        size = hypot(force[ALONG_X], force[ALONG_Y])
         if size > force_limit:
             force *= force_limit / size
     return accepted_residual

@@ -9,10 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.arrays import FloatArray, IntArray
+from solvers.coupling.floating_balance import ROTATION, SHIFT_X, floating_rows
 from solvers.coupling.geometry import pitch_radius
 from solvers.coupling.inputs import Coupling
 from solvers.coupling.kinematics import MeshMotion, ToothPositions, flank_normals, tangential_displacement
-from solvers.coupling.tooth_balance import centred_rows, floating_rows
+from solvers.coupling.tooth_balance import centred_rows
 from solvers.errors import NoSolution
 
 
@@ -68,7 +69,7 @@ def floating_loads(
     rows = interference.shape[0]
     share, state, iterations = np.zeros_like(interference), np.zeros((rows, 3)), np.zeros(rows, dtype=np.int64)
     floating_rows(interference, normal, force / unit_force, share, state, iterations)
-    return ToothLoads(unit_force * share, unit * state[:, 0], unit * state[:, 1:], iterations)
+    return ToothLoads(unit_force * share, unit * state[:, ROTATION], unit * state[:, SHIFT_X:], iterations)
 
 
 def mesh_loads(

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from math import atan2, cos, hypot, pi, sin, sqrt
 
 import numpy as np
-from scipy.optimize import brentq
 
 from solvers.arrays import FloatArray
+from solvers.compiled import kernel
 from solvers.drive_train.inputs import Bearing, JournalBearing, LinearBearing
 from solvers.errors import NoSolution
 
@@ -31,6 +31,7 @@ class BearingState:
     friction_power: float = 0.0
 
 
+@kernel
 def load_number(eccentricity: float) -> float:
     """Load of the short bearing over eta omega (D/2) L^3 / (4 c^2), with the film where pressure is positive (pi)."""
     square = eccentricity**2
@@ -90,9 +91,20 @@ def _eccentricity(load: float) -> float:
     if load > load_number(LARGEST_ECCENTRICITY):
         message = "a plain bearing's film cannot carry its load; it would be thinner than a thousandth of the clearance"
         raise NoSolution("journal", message, {"load_number": load})
-    return float(brentq(lambda e: load_number(e) - load, 0.0, LARGEST_ECCENTRICITY, xtol=1e-17, rtol=1e-15))
+    return _carrying(load)
 
 
+@kernel
+def _carrying(load: float) -> float:
+    """Newton's steps from the right: the load number is convex, so they descend to its root."""
+    eccentricity, before = LARGEST_ECCENTRICITY, 1.0
+    while eccentricity < before:
+        before = eccentricity
+        eccentricity -= (load_number(eccentricity) - load) / _load_slope(eccentricity)
+    return max(eccentricity, 0.0)
+
+
+@kernel
 def _load_slope(eccentricity: float) -> float:
     """Derivative of `load_number`."""
     rest, root = 1 - eccentricity**2, sqrt(pi**2 * (1 - eccentricity**2) + 16 * eccentricity**2)

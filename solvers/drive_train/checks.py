@@ -10,6 +10,8 @@ from solvers.gears.path_of_contact import PathOfContact
 NAMES = ("pinion_shaft", "wheel_shaft")
 COLLAR_BEYOND_TEETH = 3.0  # normal modules
 LEAST_BEARING_DISTANCE = 0.5  # face widths
+LEAST_STIFFNESS = 1e6  # N/m, of the symmetric part in its weakest direction
+ROUNDING = 1e-9  # of numbers that come from other units
 
 
 def check_inputs(inputs: DriveTrainInputs, path: PathOfContact) -> None:
@@ -54,8 +56,8 @@ def _check_bearings(inputs: DriveTrainInputs, shaft: Shaft, name: str) -> None:
             raise InvalidInput("bearing_outside", message, f"{name}.bearings.{k}.position")
         if isinstance(bearing, LinearBearing):
             matrix = np.array(bearing.stiffness)
-            if np.linalg.eigvalsh((matrix + matrix.T) / 2).min() <= 0.0:
-                message = "the symmetric part of a bearing's stiffness must be positive definite"
+            if np.linalg.eigvalsh((matrix + matrix.T) / 2).min() < LEAST_STIFFNESS * (1 - ROUNDING):
+                message = "the symmetric part of a bearing's stiffness needs at least 1 N/um in every direction"
                 raise InvalidInput("stiffness_matrix", message, f"{name}.bearings.{k}.stiffness")
     distance = abs(shaft.bearings[0].position - shaft.bearings[1].position)
     if distance <= COINCIDENT:

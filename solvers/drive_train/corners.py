@@ -1,12 +1,11 @@
 """Worst corners: every combination of the ends of what nobody knows better."""
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from itertools import product
 from math import prod
 from typing import Any
 
-from solvers.arrays import FloatArray
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft
 from solvers.drive_train.outcome import FIGURES, Outcome, check_figure, outcome
 from solvers.drive_train.variation import varied
@@ -18,14 +17,29 @@ FRICTION = (0.05, 0.25)
 THRUST = (0.0, 1.0)
 RESPONSE = (0.3, 1.0)
 CLEARANCE = 0.1
+QUARTERS: tuple[Callable[[float, float], tuple[float, float]], ...] = (
+    lambda x, y: (x, y),
+    lambda x, y: (-y, x),
+    lambda x, y: (-x, -y),
+    lambda x, y: (y, -x),
+)
 
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """Values that an input may take, at a dotted name."""
+    """Values that inputs at dotted names take together, a row for each choice."""
 
-    name: str
-    values: tuple[Any, ...]
+    names: tuple[str, ...]
+    values: tuple[tuple[Any, ...], ...]
+
+    def choices(self) -> Iterator[dict[str, Any]]:
+        """The values by their names, row by row."""
+        return (dict(zip(self.names, row, strict=True)) for row in self.values)
+
+
+def single(name: str, values: Iterable[Any]) -> Range:
+    """The values of one input."""
+    return Range((name,), tuple((value,) for value in values))
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,35 +62,45 @@ class Corners:
 
 
 def default_ranges(inputs: DriveTrainInputs) -> tuple[Range, ...]:
-    """Friction and thrust of the couplings, direction of their offset, wall response, tilt of each shaft by clearance.
+    """Wall response, tilt of each shaft by clearance; friction, direction of the offset and thrust of the couplings.
 
-    The clearances of a shaft's two bearings move 10 % in opposite senses, for what they share does not tilt.
+    The clearances of a shaft's two bearings move 10 % in opposite senses, for what they share does not tilt. Couplings
+    move together: in all combinations of their own, two would need 2,048 runs.
     """
-    ranges = [Range("heat.wall_response", RESPONSE)] if inputs.effects.thermal else []
+    ranges = [single("heat.wall_response", RESPONSE)] if inputs.effects.thermal else []
     if inputs.effects.shafts:
+        named = (("pinion_shaft", inputs.pinion_shaft), ("wheel_shaft", inputs.wheel_shaft))
+        ranges += [_clearances(name, shaft) for name, shaft in named]
+    if inputs.acting_couplings:
         ranges += [
-            Range(f"{name}.bearings", (_clearances(shaft, CLEARANCE), _clearances(shaft, -CLEARANCE)))
-            for name, shaft in (("pinion_shaft", inputs.pinion_shaft), ("wheel_shaft", inputs.wheel_shaft))
-            if any(isinstance(bearing, JournalBearing) for bearing in shaft.bearings)
+            _together(inputs, "friction.coefficient", FRICTION),
+            _offsets(inputs),
+            _together(inputs, "thrust_fraction", THRUST),
         ]
-    for k, coupling in enumerate(inputs.acting_couplings):
-        x, y = coupling.offset
-        ranges += [
-            Range(f"couplings.{k}.friction.coefficient", FRICTION),
-            Range(f"couplings.{k}.offset", ((x, y), (-y, x), (-x, -y), (y, -x))),
-            Range(f"couplings.{k}.thrust_fraction", THRUST),
-        ]
-    return tuple(ranges)
+    return tuple(one for one in ranges if one.names)
 
 
-def _clearances(shaft: Shaft, share: float) -> tuple[Any, ...]:
-    """Bearings with clearances up by a share at the first, down at the second."""
-    return tuple(
-        replace(bearing, radial_clearance=bearing.clearance * (1 + sign * share))
-        if isinstance(bearing, JournalBearing)
-        else bearing
-        for bearing, sign in zip(shaft.bearings, (1.0, -1.0), strict=True)
+def _clearances(name: str, shaft: Shaft) -> Range:
+    """Clearances of plain bearings up by a share at the first, down at the second, and the reverse."""
+    plain = [(k, bearing.clearance) for k, bearing in enumerate(shaft.bearings) if isinstance(bearing, JournalBearing)]
+    return Range(
+        tuple(f"{name}.bearings.{k}.radial_clearance" for k, _ in plain),
+        tuple(tuple(own * (1 + sign * (1 - 2 * k) * CLEARANCE) for k, own in plain) for sign in (1, -1)),
     )
+
+
+def _together(inputs: DriveTrainInputs, name: str, values: tuple[float, ...]) -> Range:
+    """The same values of all couplings."""
+    names = tuple(f"couplings.{k}.{name}" for k in range(len(inputs.acting_couplings)))
+    return Range(names, tuple((value,) * len(names) for value in values))
+
+
+def _offsets(inputs: DriveTrainInputs) -> Range:
+    """The offsets of all couplings that have one, turned by quarters."""
+    given = [(k, one.offset) for k, one in enumerate(inputs.acting_couplings) if any(one.offset)]
+    names = tuple(f"couplings.{k}.offset.{axis}" for k, _ in given for axis in range(2))
+    turned = ([pair for _, (x, y) in given for pair in turn(x, y)] for turn in QUARTERS)
+    return Range(names, tuple(map(tuple, turned)))
 
 
 def run_corners(
@@ -85,7 +109,7 @@ def run_corners(
     figures: Sequence[str] = FIGURES,
     progress: Callable[[int, int], None] | None = None,
 ) -> Corners:
-    """Extremes of the figures over the product of the ranges, each run from its neighbour's gap.
+    """Extremes of the figures over the product of the ranges.
 
     Raises InvalidInput (too_many_corners, unknown_name, unknown_figure and what `outcome` raises).
     """
@@ -98,35 +122,40 @@ def run_corners(
     smallest: dict[str, Extreme] = {}
     largest: dict[str, Extreme] = {}
     failed = 0
-    for done, (corner, found) in enumerate(_outcomes(inputs, chosen), start=1):
+    for done, corner in enumerate(combinations(chosen), start=1):
+        found = _outcome(inputs, corner)
         if found is None:
             failed += 1
         else:
             _note(found, corner, figures, smallest, largest)
         if progress is not None:
             progress(done, runs)
-    warnings = () if not failed else (_unconverged(failed),)
+    warnings = () if not failed else (unconverged(failed),)
     return Corners(smallest, largest, runs, failed, warnings)
 
 
-def _unconverged(failed: int) -> Notice:
+def unconverged(failed: int) -> Notice:
+    """What extremes over corners have to say where some have no solution."""
     return Notice(
         "no_convergence_of_corner", f"{failed} corners have no solution; the extremes are of the rest", "ranges"
     )
 
 
-def _outcomes(inputs: DriveTrainInputs, ranges: tuple[Range, ...]) -> Iterator[tuple[dict[str, Any], Outcome | None]]:
-    """Every corner and its outcome."""
-    start: FloatArray | None = None
-    for values in product(*(one.values for one in ranges)):
-        corner = {one.name: value for one, value in zip(ranges, values, strict=True)}
-        try:
-            found = outcome(varied(inputs, corner), start)
-        except NoSolution:
-            yield corner, None
-        else:
-            start = found.gap
-            yield corner, found
+def combinations(ranges: Sequence[Range]) -> Iterator[dict[str, Any]]:
+    """Every corner: the product of the ranges, the last fastest."""
+    for choices in product(*(list(one.choices()) for one in ranges)):
+        yield {name: value for choice in choices for name, value in choice.items()}
+
+
+def _outcome(inputs: DriveTrainInputs, corner: dict[str, Any]) -> Outcome | None:
+    """A corner's outcome; None without solution.
+
+    Each starts anew: a neighbour's gap saves no step of the iteration, and every corner stands for itself this way.
+    """
+    try:
+        return outcome(varied(inputs, corner))
+    except NoSolution:
+        return None
 
 
 def _note(

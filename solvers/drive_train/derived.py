@@ -41,9 +41,10 @@ class DerivedHeat:
 
 @dataclass(frozen=True, slots=True)
 class DerivedTemperatures:
-    """Bulk temperature of the contact [K]."""
+    """Bulk temperature of the contact and scuffing temperature [K]; None where there is none."""
 
     bulk: float
+    scuffing: float | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +84,7 @@ def derived(inputs: DriveTrainInputs, mesh: LoadDistribution) -> Derived:
             for one in inputs.couplings
         ),
         thermal=DerivedHeat(*inputs.heat.responses(ratio)),
-        temperatures=DerivedTemperatures(inputs.mesh.temperatures.bulk),
+        temperatures=DerivedTemperatures(inputs.mesh.temperatures.bulk, inputs.mesh.temperatures.scuffing),
     )
 
 

@@ -34,7 +34,7 @@ def warnings_of(unit: Unit, found: Equilibrium) -> list[tuple[Notice, ...]]:
 
 def _tilt_sizes(unit: Unit, found: Equilibrium) -> list[Vector2]:
     """Tilts [rad] of both hubs of every coupling, at least the least."""
-    tilts = found.tilts.reshape(len(unit.couplings), 2, 2)
+    tilts = found.hubs.tilts.reshape(len(unit.couplings), 2, 2)
     return [(max(hypot(*a), LEAST_TILT), max(hypot(*b), LEAST_TILT)) for a, b in tilts]
 
 
@@ -44,7 +44,7 @@ def coupling_results(
     """Loads of the couplings on their shafts; the conjugate moments m = -Z x M turned back to M."""
     results = []
     for k, (port, pair) in enumerate(zip(unit.couplings, hubs, strict=True)):
-        tilts, loads = found.tilts[4 * k : 4 * k + 4], found.loads[unit.stations.size + 4 * k :][:4]
+        tilts, loads = found.hubs.tilts[4 * k : 4 * k + 4], found.loads[unit.stations.size + 4 * k :][:4]
         sizes = (hypot(tilts[0], tilts[1]), hypot(tilts[2], tilts[3]))
         results.append(
             CouplingResult(

@@ -3,8 +3,9 @@
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
-from solvers.drive_train.balance import Equilibrium, LoadedMesh, respond, uniform_force
+from solvers.drive_train.balance import Equilibrium, LoadedMesh, uniform_force
 from solvers.drive_train.face_curves import face_crown, face_mean, face_slope
+from solvers.drive_train.hub_balance import respond
 from solvers.drive_train.influence import Unit
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import GapCurves, Misalignment, Parts
@@ -41,7 +42,7 @@ def _even_gap(inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, found: Equ
     count = unit.stations.size
     if not inputs.effects.shafts:
         return np.zeros(count)
-    return respond(unit, uniform_force(mesh.transmitted, count), found.tilts).motion[:count]
+    return respond(unit, uniform_force(mesh.transmitted, count), found.hubs).motion[:count]
 
 
 def gap_parts(unit: Unit, loads: FloatArray) -> Parts:

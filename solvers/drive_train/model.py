@@ -9,6 +9,7 @@ from solvers.drive_train.balance import Equilibrium, LoadedMesh, equilibrium
 from solvers.drive_train.checks import check_inputs
 from solvers.drive_train.derived import derived
 from solvers.drive_train.elements import coupling_results, hubs_of, shaft_results, warnings_of
+from solvers.drive_train.hub_balance import loads_at_rest
 from solvers.drive_train.influence import Unit, unit
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.losses import force_balance, train_losses
@@ -17,9 +18,9 @@ from solvers.drive_train.notices import coupling_notices, load_notices, shaft_no
 from solvers.drive_train.results import Convergence, DriveTrainResult, FaceLoad
 from solvers.drive_train.safety import flank_heat
 from solvers.drive_train.thermal_lead import ThermalLead, gas_heat, no_heat, thermal_lead
-from solvers.errors import InvalidInput
 from solvers.scuffing.model import distribution, mesh_of
 from solvers.scuffing.results import LoadDistribution
+from solvers.scuffing.temperatures import with_friction, with_temperatures
 
 LEAST_POINTS = 400  # of the gap over the face, the stations among them
 
@@ -35,10 +36,6 @@ class Prepared:
 
 def prepare(inputs: DriveTrainInputs) -> Prepared:
     """The parts ready to be brought together. Raises what `check_inputs`, `mesh_of` and `gas_heat` raise."""
-    temperatures = inputs.mesh.temperatures
-    if temperatures.scuffing is not None and temperatures.scuffing <= temperatures.oil:
-        message = "the scuffing temperature must lie above the oil temperature"
-        raise InvalidInput("scuffing_temperature", message, "temperatures.scuffing")
     given = mesh_of(inputs.mesh.distribution)
     check_inputs(inputs, given.path)
     system = unit(inputs, given.path)
@@ -76,7 +73,7 @@ def settle(inputs: DriveTrainInputs, prepared: Prepared, start: FloatArray | Non
     mesh = prepared.mesh
     response = mesh.respond(gap)
     force, by_gap = mesh.scale * response.force, mesh.scale * response.derivative
-    return Equilibrium(gap, 0.0, force, np.zeros(0), mesh.balance(gap), by_gap, 0, 0.0)
+    return Equilibrium(gap, 0.0, force, loads_at_rest(prepared.unit), mesh.balance(gap), by_gap, 0, 0.0)
 
 
 def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTrainResult:
@@ -85,10 +82,12 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     Raises InvalidInput (codes of `check_inputs` and of the three models) and NoSolution (drive_train, load_balance,
     journal).
     """
+    inputs = replace(inputs, mesh=with_friction(inputs.mesh))
     prepared = prepare(inputs)
     system, mesh, thermal = prepared.unit, prepared.mesh, prepared.thermal
     found = settle(inputs, prepared, start)
     spread = distribution(inputs.mesh.distribution, mesh.prepared, found.balance)
+    inputs = replace(inputs, mesh=with_temperatures(inputs.mesh, spread))
     hubs = hubs_of(system, found)
     couplings = coupling_results(system, found, hubs)
     shafts = shaft_results(inputs, mesh.prepared.path, system, found, couplings)

@@ -12,14 +12,15 @@ from solvers.drive_train.model import Prepared, prepare, settle
 from solvers.drive_train.safety import flank_heat
 from solvers.errors import InvalidInput
 from solvers.scuffing.model import distribution
+from solvers.scuffing.temperatures import with_friction, with_temperatures
 
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
     """K_H_beta, Blok's safety over the flank, pressure [Pa], slopes of the gap [m], peak-to-peak TE [m]; arrays apart.
 
-    `shares` is the load along the face over its mean, `temperature` Blok's over the flank [profile, face] [K]; `gap`
-    starts a similar unit.
+    `shares` is the load along the face over its mean, `temperature` Blok's over the flank [profile, face] [K], which
+    the safety holds against `limit`; `gap` starts a similar unit.
     """
 
     face_load_factor: float | None
@@ -31,6 +32,7 @@ class Outcome:
     transmission_error_peak_to_peak: float
     shares: FloatArray
     temperature: FloatArray
+    limit: float | None
     gap: FloatArray
 
 
@@ -59,8 +61,9 @@ def outcome(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Outcom
 
 def outcome_of(inputs: DriveTrainInputs, prepared: Prepared, found: Equilibrium) -> Outcome:
     """The figures of a unit whose gap is known; the thermal film is left out."""
-    spread = distribution(inputs.mesh.distribution, prepared.mesh.prepared, found.balance)
-    closed = replace(inputs, mesh=replace(inputs.mesh, lubrication="closed_form"))
+    rubbing = with_friction(inputs.mesh)
+    spread = distribution(rubbing.distribution, prepared.mesh.prepared, found.balance)
+    closed = replace(inputs, mesh=replace(with_temperatures(rubbing, spread), lubrication="closed_form"))
     heat = flank_heat(closed, spread, prepared.thermal)
     shares = np.trapezoid(spread.flank.line_load, axis=0)
     mean = float(np.trapezoid(shares) / (shares.size - 1))
@@ -75,5 +78,6 @@ def outcome_of(inputs: DriveTrainInputs, prepared: Prepared, found: Equilibrium)
         transmission_error_peak_to_peak=spread.transmission_error.peak_to_peak,
         shares=np.asarray(shares) / (mean if mean > 0.0 else 1.0),
         temperature=heat.temperature,
+        limit=closed.mesh.temperatures.scuffing,
         gap=found.gap,
     )

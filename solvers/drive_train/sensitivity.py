@@ -110,11 +110,10 @@ def _factor_at(side: Outcome, base: Outcome) -> float:
 
 def _safety_at(inputs: DriveTrainInputs, side: Outcome, base: Outcome) -> float | None:
     """Safety by the contact temperature where the unchanged unit is hottest; None without a scuffing temperature."""
-    limits = inputs.mesh.temperatures
-    if limits.scuffing is None:
+    if side.limit is None:
         return None
     place = np.unravel_index(int(np.argmax(base.temperature)), base.temperature.shape)
-    return safety_factor(limits.scuffing, limits.oil, float(side.temperature[place]))
+    return safety_factor(side.limit, inputs.mesh.temperatures.oil, float(side.temperature[place]))
 
 
 def _by_gap(prepared: Prepared, base: Outcome, found: Equilibrium) -> FloatArray:

@@ -8,7 +8,6 @@ from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import DriveTrainResult, States
 from solvers.errors import NoSolution
 from solvers.notices import Notice
-from solvers.scuffing.temperatures import with_friction
 
 
 def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTrainResult:
@@ -17,7 +16,6 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     What only the cold unit warns of stands among the warnings. Raises what `model.solve` raises for the hot unit; a
     cold one without solution is a warning.
     """
-    inputs = replace(inputs, mesh=with_friction(inputs.mesh))
     found = model.solve(inputs, start)
     if "cold" not in inputs.states:
         return found

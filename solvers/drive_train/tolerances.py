@@ -77,17 +77,16 @@ def run_tolerances(
     _check(scatters, runs, figures)
     cube = qmc.LatinHypercube(len(scatters), rng=np.random.default_rng(seed)).random(runs)
     low, high = (np.array([getattr(scatter, end) for scatter in scatters]) for end in ("low", "high"))
-    kept, rows, start = [], [], None
+    kept, rows = [], []
     for done, sample in enumerate(low + cube * (high - low), start=1):
         unit = varied(inputs, {scatter.name: float(x) for scatter, x in zip(scatters, sample, strict=True)})
         try:
-            found = outcome(unit, start)
+            found = outcome(unit)
         except NoSolution:
             continue
         finally:
             if progress is not None:
                 progress(done, runs)
-        start = found.gap
         kept.append(sample)
         rows.append([np.nan if (value := getattr(found, name)) is None else value for name in figures])
     if not kept:

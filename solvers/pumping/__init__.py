@@ -1,4 +1,9 @@
-"""Air and mist pumped by meshing teeth: gear pair, tooth space, stroke table, flow, heating and power."""
+"""Air and mist pumped by meshing teeth.
+
+Data flows inputs, checks -> space (tooth space, its section, the stroke table; the face between grooves) -> flow (gas,
+duct, record) -> one of gas, chain and incompressible -> resolution, lead_correction, pulsation (all gathered by
+`model.solve`). `spaces` prepares what no speed changes and picks the flow model; on top of it choking and speed_scan.
+"""
 
 from solvers.pumping.choking import choking_speeds
 from solvers.pumping.inputs import (

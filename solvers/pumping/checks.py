@@ -4,9 +4,9 @@ from math import ceil, floor, isfinite, log10, sqrt
 from typing import NoReturn
 
 from solvers.errors import InvalidInput
-from solvers.pumping.face import Stretch
-from solvers.pumping.gas_dynamics import LEAST_SLICES
+from solvers.pumping.gas.gas_dynamics import LEAST_SLICES
 from solvers.pumping.inputs import Flow, PumpingSetup, rpm
+from solvers.pumping.space.face import Stretch
 
 LEAST_TEETH = 5
 NARROW = 0.5  # of the widest slice: below it grooves are the reason for short steps

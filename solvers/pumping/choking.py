@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from itertools import pairwise
 from math import exp, log, sqrt
+from operator import itemgetter
+from typing import NoReturn
 
 from scipy.optimize import brentq
 
@@ -27,7 +29,7 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
     """Lowest pinion speeds that choke the gaps or the exits of any of the spaces asked for.
 
     Radial gaps choke where the largest pressure reaches the critical ratio, exits where the ambient pressure asks for
-    Mach 1. Raises InvalidInput and NoSolution as `solve` does, and choking_not_modelled.
+    Mach 1. Raises InvalidInput and NoSolution as `solve` does, choking_not_modelled and always_choked.
     """
     setup, top = inputs.setup, log(inputs.search_limit)
     if setup.model.flow is Flow.INCOMPRESSIBLE:
@@ -59,10 +61,12 @@ class _Demand:
         self._known: dict[float, tuple[float, float]] = {}
 
     def radial(self, log_speed: float) -> float:
-        return self._solved(log_speed)[0]
+        pressure, _ = self._solved(log_speed)
+        return pressure
 
     def axial(self, log_speed: float) -> float:
-        return self._solved(log_speed)[1]
+        _, exit_demand = self._solved(log_speed)
+        return exit_demand
 
     def _solved(self, log_speed: float) -> tuple[float, float]:
         if log_speed not in self._known:
@@ -76,9 +80,16 @@ class _Demand:
 def _scan(demands: list[_Demand], top: float) -> list[float]:
     """Speeds from the search limit down to where nothing chokes, in ascending order."""
     speeds = [top]
-    while len(speeds) <= _STEPS_DOWN and any(max(d.radial(speeds[-1]), d.axial(speeds[-1])) >= 0.0 for d in demands):
+    while any(max(demand.radial(speeds[-1]), demand.axial(speeds[-1])) >= 0.0 for demand in demands):
+        if len(speeds) > _STEPS_DOWN:
+            _refuse_sealed(exp(speeds[-1]))
         speeds.append(speeds[-1] - _STEP_DOWN)
     return speeds[::-1]
+
+
+def _refuse_sealed(speed: float) -> NoReturn:
+    message = f"the spaces are still choked at {rpm(speed):.3g} rpm of the pinion: nothing lets the gas out in time"
+    raise InvalidInput("always_choked", message, "discharge_coefficient")
 
 
 def _lowest(demands: list[tuple[Excess, Excess]], scan: list[float]) -> float | None:
@@ -86,13 +97,11 @@ def _lowest(demands: list[tuple[Excess, Excess]], scan: list[float]) -> float | 
     roots = [(root, fine) for rough, fine in demands if (root := _coarse_root(rough, scan)) is not None]
     if not roots:
         return None
-    root, fine = min(roots, key=lambda pair: pair[0])
+    root, fine = min(roots, key=itemgetter(0))
     return _refined(fine, root, scan[-1])
 
 
 def _coarse_root(excess: Excess, scan: list[float]) -> float | None:
-    if excess(scan[0]) >= 0.0:
-        return scan[0]
     for low, high in pairwise(scan):
         if excess(high) >= 0.0:
             return float(brentq(excess, low, high, xtol=1e-2))

@@ -4,10 +4,10 @@ import numpy as np
 
 from solvers.arrays import frozen
 from solvers.errors import InvalidInput
-from solvers.pumping.flow import EndFlow, ExitMasses, SpaceFlow
+from solvers.pumping.flow.nozzle import Gas
+from solvers.pumping.flow.space_flow import EndFlow, ExitMasses, SpaceFlow
 from solvers.pumping.inputs import rpm
-from solvers.pumping.nozzle import Gas
-from solvers.pumping.stroke import StrokeTable
+from solvers.pumping.space.stroke import StrokeTable
 
 
 def incompressible(

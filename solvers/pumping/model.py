@@ -7,11 +7,11 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.notices import Notice
 from solvers.pumping.checks import check_speed
-from solvers.pumping.flow import SpaceFlow
+from solvers.pumping.flow.nozzle import Gas
+from solvers.pumping.flow.space_flow import SpaceFlow
 from solvers.pumping.inputs import PumpingInputs
 from solvers.pumping.lead_correction import LeadCorrection, lead_correction
 from solvers.pumping.notices import flow_notices, net_flow_notices, resolution_notices, speed_notices
-from solvers.pumping.nozzle import Gas
 from solvers.pumping.pulsation import Pulsation, pulsation
 from solvers.pumping.resolution import net_uncertainty, radial_uncertainty, resolution
 from solvers.pumping.results import (
@@ -25,9 +25,9 @@ from solvers.pumping.results import (
     Stroke,
     Totals,
 )
+from solvers.pumping.space.stroke import StrokeTable
+from solvers.pumping.space.tooth_space import normal_backlash
 from solvers.pumping.spaces import Mesh, Space, derived, face_stretches, flow_at, halved_flow_at, prepare
-from solvers.pumping.stroke import StrokeTable
-from solvers.pumping.tooth_space import normal_backlash
 
 
 def solve(inputs: PumpingInputs) -> PumpingResult:
@@ -99,7 +99,7 @@ def _spaces_result(gas: Gas, space: Space, flow: SpaceFlow, halved: SpaceFlow, f
         static_temperature_rise=_rise(gas, flow.mean_temperature),
         peak_pressure_ratio=frozen(flow.peak_pressure / gas.pressure),
     )
-    hottest = _hottest(flow.position, profile.temperature_rise)
+    hottest, largest_rise = _hottest(flow.position, profile.temperature_rise)
     return SpacesResult(
         stroke=_stroke(space.table),
         peak_pressure_ratio=flow.largest_pressure / gas.pressure,
@@ -108,8 +108,8 @@ def _spaces_result(gas: Gas, space: Space, flow: SpaceFlow, halved: SpaceFlow, f
         peak_axial_velocity=flow.largest_velocity,
         radial_choked=flow.largest_pressure * gas.critical_ratio > gas.pressure,
         axial_choked=flow.exit_demand > 1.0,
-        max_temperature_rise=hottest[1],
-        hottest_position=hottest[0],
+        max_temperature_rise=largest_rise,
+        hottest_position=hottest,
         pumping_power=frequency * flow.work,
         work_per_space=flow.work,
         mass_flow=_mass_flow(flow, halved, frequency),

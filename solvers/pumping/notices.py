@@ -6,8 +6,8 @@ from solvers.gears.notices import pair_notices
 from solvers.gears.pair import GearPair
 from solvers.gears.path_of_contact import PathOfContact
 from solvers.notices import Notice
+from solvers.pumping.flow.nozzle import Gas
 from solvers.pumping.inputs import Flow, PumpingSetup
-from solvers.pumping.nozzle import Gas
 from solvers.pumping.results import MassFlow, Resolution
 
 FEW_TEETH = 12

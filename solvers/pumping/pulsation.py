@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
-from solvers.pumping.flow import SpaceFlow
+from solvers.pumping.flow.space_flow import SpaceFlow
 
 HARMONICS = 8
 

@@ -8,8 +8,8 @@ the finer one (J. Fluids Eng. 116, 1994, 405).
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.pumping.flow import SpaceFlow
-from solvers.pumping.nozzle import Gas
+from solvers.pumping.flow.nozzle import Gas
+from solvers.pumping.flow.space_flow import SpaceFlow
 from solvers.pumping.results import Resolution
 
 SAFETY = 3.0

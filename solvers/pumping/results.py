@@ -6,7 +6,7 @@ from solvers.arrays import FloatArray
 from solvers.notices import Notice
 from solvers.pumping.lead_correction import LeadCorrection
 from solvers.pumping.pulsation import Pulsation
-from solvers.pumping.stroke import StrokeTable
+from solvers.pumping.space.stroke import StrokeTable
 
 
 @dataclass(frozen=True, slots=True)

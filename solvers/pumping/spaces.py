@@ -3,26 +3,29 @@
 from dataclasses import dataclass
 from math import tan
 
+import numpy as np
+
 from solvers.arrays import FloatArray
 from solvers.gears.gear import rack_tip_radius
 from solvers.gears.pair import GearPair
 from solvers.gears.path_of_contact import PathOfContact, meshing_path
 from solvers.notices import Notice
+from solvers.pumping.chain.pocket_chain import STEPS, pocket_chain
 from solvers.pumping.checks import check_setup, refuse_cost
-from solvers.pumping.duct import Duct
-from solvers.pumping.face import Stretch, stretches
-from solvers.pumping.flow import SpaceFlow
-from solvers.pumping.gas_dynamics import LEAST_SLICES, cell_steps, duct, gas_dynamics, sample_angles
+from solvers.pumping.flow.duct import Duct
+from solvers.pumping.flow.nozzle import Gas, gas
+from solvers.pumping.flow.space_flow import SpaceFlow
+from solvers.pumping.gas.gas_dynamics import LEAST_SLICES, cell_steps, gas_dynamics
 from solvers.pumping.incompressible import incompressible
 from solvers.pumping.inputs import Flow, PumpingSetup, Spaces
 from solvers.pumping.notices import setup_notices
-from solvers.pumping.nozzle import Gas, gas
-from solvers.pumping.pocket_chain import STEPS, pocket_chain
 from solvers.pumping.results import Derived
-from solvers.pumping.stroke import StrokeTable, stroke_table
-from solvers.pumping.tooth_space import tooth_space
+from solvers.pumping.space.face import Stretch, stretches
+from solvers.pumping.space.stroke import StrokeTable, stroke_table
+from solvers.pumping.space.tooth_space import tooth_space
 
 CELL_STEP_LIMIT = 5_000_000  # some ten seconds
+_ANGLES = 201
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +137,7 @@ def _single_pocket(mesh: Mesh, space: Space, pinion_speed: float, table: StrokeT
 
 
 def _chain(mesh: Mesh, space: Space, pinion_speed: float, parts: list[Stretch], steps: int) -> SpaceFlow:
-    ducts = [(part, _duct(mesh, space, pinion_speed, part, transport=False)) for part in parts]
+    ducts = [(part, space_duct(mesh, space, pinion_speed, part, transport=False)) for part in parts]
     return pocket_chain(mesh.gas, ducts, _angles(mesh, space), mesh.setup.model.closure, steps)
 
 
@@ -144,7 +147,7 @@ def _gas(mesh: Mesh, space: Space, pinion_speed: float, parts: list[Stretch]) ->
 
 def _gas_ducts(mesh: Mesh, space: Space, pinion_speed: float, parts: list[Stretch]) -> list[tuple[Stretch, Duct]]:
     transport = mesh.setup.model.wall_transport
-    return [(part, _duct(mesh, space, pinion_speed, part, transport=transport)) for part in parts]
+    return [(part, space_duct(mesh, space, pinion_speed, part, transport=transport)) for part in parts]
 
 
 def _check_cost(mesh: Mesh, pinion_speed: float, parts: list[Stretch], limit: int) -> None:
@@ -157,10 +160,23 @@ def _check_cost(mesh: Mesh, pinion_speed: float, parts: list[Stretch], limit: in
         refuse_cost(pinion_speed, parts, dearest / limit)
 
 
-def _duct(mesh: Mesh, space: Space, pinion_speed: float, part: Stretch, *, transport: bool) -> Duct:
-    discharge = mesh.setup.model.discharge_coefficient
-    return duct(space.table, part, space.lag, pinion_speed * space.speed_ratio, discharge, transport=transport)
+def space_duct(mesh: Mesh, space: Space, pinion_speed: float, part: Stretch, *, transport: bool) -> Duct:
+    """A stretch of the spaces of one gear as a duct, at a pinion speed [rad/s]; `transport` by flanks or none."""
+    table = space.table
+    return Duct(
+        start=part.start,
+        width=part.width,
+        cells=part.cells,
+        lag=space.lag,
+        speed=pinion_speed * space.speed_ratio,
+        first_angle=table.limits.start,
+        angle_step=(table.limits.end - table.limits.start) / (table.angle.size - 1),
+        table=table.columns(wall_transport=transport),
+        discharge=mesh.setup.model.discharge_coefficient,
+    )
 
 
 def _angles(mesh: Mesh, space: Space) -> FloatArray:
-    return sample_angles(space.table, space.lag, mesh.setup.gears.face_width)
+    """Angles of the owner [rad] from the first slice's entry to the last one's exit, where fields are recorded."""
+    limits = space.table.limits
+    return np.linspace(limits.start, limits.end + space.lag * mesh.setup.gears.face_width, _ANGLES)

@@ -15,8 +15,8 @@ def speed_scan(setup: PumpingSetup, speeds: FloatArray) -> ChokingCurves:
     Raises InvalidInput with the codes of `prepare`.
     """
     mesh = prepare(setup)
-    points = np.array([_point(mesh, float(speed)) for speed in speeds])
-    return ChokingCurves(frozen(speeds), frozen(points[:, 0]), frozen(points[:, 1]))
+    pressure, demand = np.array([_point(mesh, float(speed)) for speed in speeds]).T
+    return ChokingCurves(pinion_speed=frozen(speeds), peak_pressure_ratio=frozen(pressure), exit_mach=frozen(demand))
 
 
 def _point(mesh: Mesh, speed: float) -> tuple[float, float]:

@@ -9,7 +9,7 @@ from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.gears.path_of_contact import ContactPlane
 from solvers.scuffing.contact_lines import line_count, line_ends
-from solvers.scuffing.loaded_zones import LEAST_SAMPLES, MOST_ZONES, gap_on_line, loaded_zones, valley
+from solvers.scuffing.loaded_zones import HIGH, LEAST_SAMPLES, LOW, MOST_ZONES, gap_on_line, loaded_zones, valley
 from solvers.scuffing.modification import MOST_EDGES, Gap, gap_at, smooth_parts
 from solvers.scuffing.tables import tabulated
 from solvers.scuffing.tooth_stiffness import PairCompliance, line_load
@@ -45,7 +45,7 @@ def slice_table(mesh: Mesh, slices: int) -> FloatArray:
 @kernel
 def _cut(mesh: Mesh, line: float, j: int, zone: FloatArray, slices: int, table: FloatArray, count: int) -> int:
     """Add equal slices of a stretch of line j, given by its first and last y [m], to the table's columns."""
-    low, high = zone[0], zone[1]
+    low, high = zone
     step = (high - low) / slices
     for i in range(slices):
         y = low + (i + 0.5) * step
@@ -64,21 +64,21 @@ def _parts(
     mesh: Mesh, line: float, ends: tuple[float, float], slices: int, reach: float, zones: FloatArray
 ) -> tuple[int, float]:
     """Write the loaded stretches of a line, of which none holds a kink; their number and length in y [m]."""
-    edges = np.empty(MOST_EDGES)
+    edges, (first_y, last_y) = np.empty(MOST_EDGES), ends
     last = smooth_parts(mesh.gap, line, mesh.plane.tan_base_helix, ends, edges) - 1
     count, length = 0, 0.0
     for k in range(last):
-        part = (edges[k], edges[k + 1])
-        if part[1] <= part[0]:
+        low, high = edges[k], edges[k + 1]
+        if high <= low:
             continue
         if reach == np.inf:
-            zones[count, 0], zones[count, 1] = part
+            zones[count, LOW], zones[count, HIGH] = low, high
             found = 1
         else:
-            samples = max(LEAST_SAMPLES, ceil(slices * (part[1] - part[0]) / (ends[1] - ends[0])))
-            found = loaded_zones(mesh.gap, mesh.plane, line, part, samples, reach, zones[count:])
+            samples = max(LEAST_SAMPLES, ceil(slices * (high - low) / (last_y - first_y)))
+            found = loaded_zones(mesh.gap, mesh.plane, line, (low, high), samples, reach, zones[count:])
         for zone in zones[count : count + found]:
-            length += zone[1] - zone[0]
+            length += zone[HIGH] - zone[LOW]
         count += found
     return count, length
 
@@ -99,7 +99,7 @@ def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, tab
         stretches, loaded = _parts(mesh, line, (low, high), slices, reach, zones)
         length += loaded / plane.cos_base_helix
         for zone in zones[:stretches]:
-            pieces = ceil(slices * (zone[1] - zone[0]) / loaded - 1e-9)
+            pieces = ceil(slices * (zone[HIGH] - zone[LOW]) / loaded - 1e-9)
             first, count = count, _cut(mesh, line, j, zone, max(pieces, 1), table, count)
             lowest, highest = _range(mesh, line, zone, table, first, count)
             least, most = min(least, lowest), max(most, highest)
@@ -109,8 +109,8 @@ def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, tab
 @kernel
 def _range(mesh: Mesh, line: float, zone: FloatArray, table: FloatArray, first: int, last: int) -> tuple[float, float]:
     """Least and largest gap [m] on a stretch that the columns from `first` to `last` cover."""
-    at_low = gap_on_line(mesh.gap, mesh.plane, line, zone[0])
-    at_high = gap_on_line(mesh.gap, mesh.plane, line, zone[1])
+    low, high = zone
+    at_low, at_high = gap_on_line(mesh.gap, mesh.plane, line, low), gap_on_line(mesh.gap, mesh.plane, line, high)
     least, most = min(at_low, at_high), max(at_low, at_high)
     lowest = first
     for n in range(first, last):
@@ -118,9 +118,9 @@ def _range(mesh: Mesh, line: float, zone: FloatArray, table: FloatArray, first: 
         if table[GAP, n] < table[GAP, lowest]:
             lowest = n
     if table[GAP, lowest] < least:
-        step = (zone[1] - zone[0]) / (last - first)
+        step = (high - low) / (last - first)
         y = valley(mesh.gap, mesh.plane, line, table[Y, lowest] - step, table[Y, lowest] + step)
-        least = min(table[GAP, lowest], gap_on_line(mesh.gap, mesh.plane, line, min(max(y, zone[0]), zone[1])))
+        least = min(table[GAP, lowest], gap_on_line(mesh.gap, mesh.plane, line, min(max(y, low), high)))
     return least, most
 
 

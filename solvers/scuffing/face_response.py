@@ -13,8 +13,7 @@ from solvers.compiled import kernel
 from solvers.errors import NoSolution
 from solvers.scuffing.contact_lines import RollPositions
 from solvers.scuffing.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, LOAD, OMEGA, Mesh, Y, gather, slice_table
-from solvers.scuffing.load_balance import TOLERANCE
-from solvers.scuffing.position_balance import newton, solve_position
+from solvers.scuffing.position_balance import TOLERANCE, solve_near
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,12 +76,8 @@ def _respond(
     springs = np.zeros(spread.size)
     for i in range(phase.size):
         count = gather(mesh, phase[i], side[i], slices, np.inf, table).slices
-        table[OMEGA, :count] = omega[i, :count]
-        residual = np.inf
-        if error[i] == error[i]:
-            error[i], residual, _ = newton(table, count, mesh.compliance.logarithmic, force, error[i])
-        if not residual <= TOLERANCE:
-            error[i], residual, _ = solve_position(table, count, mesh.compliance.logarithmic, force)
+        near = i if error[i] == error[i] else max(i - 1, 0)
+        error[i], residual, _ = solve_near(table, count, mesh.compliance.logarithmic, force, error[near], omega[near])
         omega[i, :count] = table[OMEGA, :count]
         worst = max(worst, residual)
         springs[:] = 0.0

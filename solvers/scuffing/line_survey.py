@@ -12,6 +12,7 @@ from solvers.scuffing.contact_lines import COINCIDENT, line_count, line_ends
 from solvers.scuffing.contact_slices import GAP, LENGTH, LIMIT, LINE, LOAD, Mesh, X, Y, load_at
 from solvers.scuffing.modification import MOST_EDGES, smooth_parts
 
+VALUE, AT_X, AT_Y = range(3)  # columns of peaks
 EQUAL = 1e-9  # peaks nearer than this, relatively, are the same; a spur gear's single pair has the same load all along
 
 
@@ -45,28 +46,32 @@ class Peak:
 def empty_survey(mesh: Mesh, positions: int) -> Survey:
     """A survey of nothing."""
     return Survey(
-        np.zeros(positions),
-        np.zeros(positions),
-        np.zeros(positions),
-        np.zeros(positions),
-        np.zeros(positions),
-        np.zeros((positions, 3)),
-        np.zeros((positions, 3)),
-        np.zeros((positions, line_count(mesh.plane))),
+        friction_moment=np.zeros(positions),
+        loaded_length=np.zeros(positions),
+        length=np.zeros(positions),
+        held=np.zeros(positions),
+        undefined=np.zeros(positions),
+        peak_load=np.zeros((positions, 3)),
+        peak_pressure=np.zeros((positions, 3)),
+        line_forces=np.zeros((positions, line_count(mesh.plane))),
     )
+
+
+@kernel
+def _put(peaks: FloatArray, i: int, value: float, x: float, y: float) -> None:
+    peaks[i, VALUE], peaks[i, AT_X], peaks[i, AT_Y] = value, x, y
 
 
 @kernel
 def _note_peaks(mesh: Mesh, survey: Survey, i: int, load: float, at: tuple[float, float]) -> None:
     x, y = at
-    if load > survey.peak_load[i, 0] * (1.0 + EQUAL):
-        survey.peak_load[i, 0], survey.peak_load[i, 1], survey.peak_load[i, 2] = load, x, y
+    if load > survey.peak_load[i, VALUE] * (1.0 + EQUAL):
+        _put(survey.peak_load, i, load, x, y)
     radius = reduced_radius(mesh.plane, x)
     if radius < mesh.plane.least_radius:
         survey.undefined[i] += load > 0.0
-    elif load > survey.peak_pressure[i, 0] * radius * (1.0 + EQUAL):
-        survey.peak_pressure[i, 0] = load / radius
-        survey.peak_pressure[i, 1], survey.peak_pressure[i, 2] = x, y
+    elif load > survey.peak_pressure[i, VALUE] * radius * (1.0 + EQUAL):
+        _put(survey.peak_pressure, i, load / radius, x, y)
 
 
 @kernel
@@ -106,5 +111,8 @@ def reaches_base_circle(survey: Survey) -> bool:
 
 def largest(peaks: FloatArray) -> Peak | None:
     """The largest of the peaks of all roll positions, the first of equals; None where nothing is loaded."""
-    row = peaks[np.argmax(peaks[:, 0] >= peaks[:, 0].max() * (1.0 - EQUAL))]
-    return Peak(float(row[0]), float(row[1]), float(row[2])) if row[0] > 0.0 else None
+    values = peaks[:, VALUE]
+    first = int(np.argmax(values >= values.max() * (1.0 - EQUAL)))
+    if values[first] <= 0.0:
+        return None
+    return Peak(float(values[first]), float(peaks[first, AT_X]), float(peaks[first, AT_Y]))

@@ -27,7 +27,7 @@ from solvers.scuffing.contact_slices import (
     slice_table,
 )
 from solvers.scuffing.line_survey import Survey, empty_survey, survey_ends, survey_slices
-from solvers.scuffing.position_balance import solve_position
+from solvers.scuffing.position_balance import TOLERANCE, solve_near, solve_position
 
 MAX_COVERS = 20  # of the lines of one roll position by slices
 SETTLED = 1e-6  # change of the approach between two covers
@@ -36,7 +36,10 @@ MAX_HALVINGS = 8  # of the steps between roll positions
 MOST_ADDED = 1000  # roll positions
 LEAST_LINE_LOAD = 0.1  # N/m, mean; the approach it makes is near the rounding of large gaps
 LEAST_SPREAD = 1e-12  # m, of a kinematic error
-TOLERANCE = 1e-10  # relative force above which there is no solution
+
+
+Start = tuple[FloatArray, FloatArray]
+"""TE [m] by roll position, and omega by roll position and slice."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,27 +62,34 @@ class LoadBalance:
     bent_steps: int = 0
 
 
-def balance_load(mesh: Mesh, rolls: RollPositions, force: float, slices: int) -> LoadBalance:
+def balance_load(
+    mesh: Mesh, rolls: RollPositions, force: float, slices: int, start: Start | None = None
+) -> LoadBalance:
     """TE over the roll positions, and over those added between, under the force [N]; the kinematic error without one.
 
-    A force that presses the lines by less than `LEAST_LINE_LOAD` counts as none. Raises NoSolution load_balance if the
-    iteration ends short of the force.
+    `start` holds TE and the slices' omegas of the same mesh under a similar gap. A force that presses the lines by less
+    than `LEAST_LINE_LOAD` counts as none. Raises NoSolution load_balance if the iteration ends short of the force.
     """
     if force < LEAST_LINE_LOAD * mesh.plane.face_width:
         force = 0.0
-    balance = _balanced(mesh, rolls, force, slices)
+    balance = _balanced(mesh, rolls, force, slices, _nothing(rolls) if start is None else start)
     for _ in range(MAX_HALVINGS):
         bent = _bent_steps(balance)
         if bent.size == 0 or bent.size > MOST_ADDED:
             break
         phase = balance.rolls.phase
         between = RollPositions((phase[bent] + phase[bent + 1]) / 2, np.zeros(bent.size), np.zeros(bent.size, bool))
-        balance = _merged(balance, _balanced(mesh, between, force, slices), bent + 1)
+        balance = _merged(balance, _balanced(mesh, between, force, slices, _nothing(between)), bent + 1)
     return replace(balance, bent_steps=_bent_steps(balance).size)
 
 
-def _balanced(mesh: Mesh, rolls: RollPositions, force: float, slices: int) -> LoadBalance:
-    error, unloaded, residual, steps, survey = _balance(mesh, rolls.phase, rolls.side, force, slices)
+def _nothing(rolls: RollPositions) -> Start:
+    """A start that knows nothing."""
+    return np.full(rolls.phase.size, np.nan), np.zeros((rolls.phase.size, 0))
+
+
+def _balanced(mesh: Mesh, rolls: RollPositions, force: float, slices: int, start: Start) -> LoadBalance:
+    error, unloaded, residual, steps, survey = _balance(mesh, rolls.phase, rolls.side, force, slices, *start)
     worst = float(np.max(residual))
     if not worst <= TOLERANCE:
         raise NoSolution("load_balance", "the load balance did not converge", {"relative_force": worst})
@@ -130,8 +140,9 @@ def _settle(
     Forces vanish at the ends of what is loaded, so that an error of TE moves the next one in second order only.
     """
     covers, steps, settled = 0, 0.0, False
+    phase, side = at
     while not settled:
-        cover = gather(mesh, at[0], at[1], slices, error, table)
+        cover = gather(mesh, phase, side, slices, error, table)
         before = error
         error, residual, more = solve_position(table, cover.slices, mesh.compliance.logarithmic, force)
         covers, steps = covers + 1, steps + more
@@ -141,7 +152,7 @@ def _settle(
 
 @kernel
 def _balance(
-    mesh: Mesh, phase: FloatArray, side: FloatArray, force: float, slices: int
+    mesh: Mesh, phase: FloatArray, side: FloatArray, force: float, slices: int, known: FloatArray, omega: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, Survey]:
     """TE, least gap, residual and steps at each roll position, and the survey of the loaded lines."""
     error, unloaded = np.empty(phase.size), np.empty(phase.size)
@@ -153,13 +164,15 @@ def _balance(
         survey.length[i], unloaded[i] = cover.length, cover.least
         error[i] = cover.least
         if force > 0.0:
-            error[i], residual[i], steps[i] = solve_position(table, cover.slices, mesh.compliance.logarithmic, force)
+            error[i], residual[i], steps[i] = solve_near(
+                table, cover.slices, mesh.compliance.logarithmic, force, known[i], omega[i]
+            )
             if error[i] < cover.most:
                 at = (phase[i], side[i])
                 cover, error[i], residual[i], steps[i] = _settle(mesh, at, slices, force, cover.least, error[i], table)
             survey.loaded_length[i] = cover.length
             survey_slices(mesh, table, cover.slices, error[i], survey, i)
-        survey_ends(mesh, phase[i], side[i], error[i], survey, i)
+            survey_ends(mesh, phase[i], side[i], error[i], survey, i)
     return error, unloaded, residual, steps, survey
 
 

@@ -5,6 +5,7 @@ from solvers.compiled import kernel
 from solvers.gears.path_of_contact import ContactPlane
 from solvers.scuffing.modification import Gap, gap_at
 
+LOW, HIGH = range(2)  # columns of zones
 MOST_ZONES = 12  # of one line; what more there were joins the last
 LEAST_SAMPLES = 8  # of a smooth part
 BISECTIONS = 45
@@ -52,9 +53,9 @@ def _note(zones: FloatArray, count: int, low: float, high: float) -> int:
     if high <= low:
         return count
     if count == MOST_ZONES:
-        zones[count - 1, 1] = high
+        zones[count - 1, HIGH] = high
         return count
-    zones[count, 0], zones[count, 1] = low, high
+    zones[count, LOW], zones[count, HIGH] = low, high
     return count + 1
 
 

@@ -11,6 +11,7 @@ MAX_STEPS = 60
 LEAST_OMEGA = 2.0  # of the start, whose compliance must stay positive
 ROUNDING = 1e-14  # relative force at which Newton has nothing left to gain
 NEAR_ROUNDING = 1e-12
+TOLERANCE = 1e-10  # relative force above which there is no solution
 
 
 @kernel
@@ -75,3 +76,16 @@ def newton(table: FloatArray, count: int, logarithmic: float, force: float, erro
 def solve_position(table: FloatArray, count: int, logarithmic: float, force: float) -> tuple[float, float, float]:
     """TE [m], relative residual and steps at one roll position."""
     return newton(table, count, logarithmic, force, _secant_start(table, count, logarithmic, force))
+
+
+@kernel
+def solve_near(
+    table: FloatArray, count: int, logarithmic: float, force: float, error: float, omega: FloatArray
+) -> tuple[float, float, float]:
+    """The same from the TE [m] and the omegas of a similar position; from nothing where TE is NaN or that fails."""
+    if not np.isnan(error):
+        table[OMEGA, :count] = omega[:count]
+        error, residual, steps = newton(table, count, logarithmic, force, error)
+        if residual <= TOLERANCE:
+            return error, residual, steps
+    return solve_position(table, count, logarithmic, force)

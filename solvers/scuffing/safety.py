@@ -11,7 +11,6 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.contact.film import dowson_higginson_minimum, thickness_ratio
 from solvers.contact.hertz import reduced_modulus
-from solvers.errors import InvalidInput
 from solvers.lubricants import oil_in_use
 from solvers.scuffing.blok import blok_flash
 from solvers.scuffing.feature_line import feature_line
@@ -39,14 +38,13 @@ SURVEY_POINTS = 4001  # of the formulas along the feature line, to find where th
 def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     """Load distribution and scuffing check.
 
-    Raises what `model.solve` raises; InvalidInput scuffing_temperature if the oil is not cooler than that, and what
-    the thermal EHL solver raises if it refuses every point.
+    Raises what `model.solve`, `with_friction` and `with_temperatures` raise, and what the thermal EHL solver raises if
+    it refuses every point.
     """
     inputs = with_friction(inputs)
     distribution = solve(inputs.distribution)
     inputs = with_temperatures(inputs, distribution)
     temperatures = inputs.temperatures
-    _check_temperatures(temperatures)
     line = _checked_line(inputs, distribution)
     path = _closed_form_path(inputs, line)
     thermal: ThermalPath | None = None
@@ -121,15 +119,6 @@ def _derived(inputs: ScuffingInputs, mesh: Derived) -> ScuffingDerived:
 def safety_factor(scuffing: float, oil: float, contact: float) -> float | None:
     """S = (t_s - t_oil) / (max t_B - t_oil) (Eq. 26), temperatures in one unit; None where the rise is not positive."""
     return (scuffing - oil) / (contact - oil) if contact > oil else None
-
-
-def _check_temperatures(temperatures: Temperatures) -> None:
-    if temperatures.scuffing is not None and temperatures.scuffing <= temperatures.oil:
-        raise InvalidInput(
-            "scuffing_temperature",
-            "the scuffing temperature must lie above the oil temperature",
-            "temperatures.scuffing",
-        )
 
 
 def _safety(temperatures: Temperatures, contact: ContactTemperature) -> Safety | None:

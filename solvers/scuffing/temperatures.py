@@ -33,7 +33,8 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution) ->
     """The inputs with bulk and scuffing temperature as numbers and the oil as it enters the contact.
 
     Raises InvalidInput no_bulk_estimate where the flash temperature has no mean, oil_temperature where an oil by its
-    sheet would be too hot or too cold, and what `lubricant_factor` raises.
+    sheet would be too hot or too cold, scuffing_temperature where the oil is not cooler than that, and what
+    `lubricant_factor` raises.
     """
     temperatures = inputs.temperatures
     if temperatures.bulk_method == "estimated":
@@ -43,6 +44,9 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution) ->
         factor = _oil_factor(inputs) if test.lubricant_factor is None else test.lubricant_factor
         limit = scuffing_temperature(test.fzg_stage, test.structure_factor, factor)
         temperatures = replace(temperatures, scuffing=limit)
+    if temperatures.scuffing is not None and temperatures.scuffing <= temperatures.oil:
+        message = "the scuffing temperature must lie above the oil temperature"
+        raise InvalidInput("scuffing_temperature", message, "temperatures.scuffing")
     if inputs.oil is not None and not COLDEST_OIL <= temperatures.bulk <= HOTTEST_OIL:
         message = (
             f"the oil would enter at {temperatures.bulk - 273.15:.4g} °C, where no grade or data sheet tells what it "

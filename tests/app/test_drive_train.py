@@ -371,6 +371,8 @@ REFUSED: list[tuple[str, str, Callable[[], dict[str, Any]]]] = [
     ),
     ("stiffness_matrix", f"{BEARINGS}/1/stiffness_n_per_um", lambda: linear([[300, 400], [400, 300]])),
     ("stiffness_matrix", f"{BEARINGS}/1/stiffness_n_per_um", lambda: linear(-5)),
+    ("stiffness_matrix", f"{BEARINGS}/1/stiffness_n_per_um", lambda: linear(0.99)),
+    ("stiffness_matrix", f"{BEARINGS}/1/stiffness_n_per_um", lambda: linear([[100, 99.5], [99.5, 100]])),
     ("thrust_collar_radius", "/thrust_collar/radius_mm", lambda: request(thrust_collar={"radius_mm": 100})),
     ("lead_curve", CURVE, lambda: curve([100, 50], [0, 1])),
     ("lead_curve", CURVE, lambda: curve([0, 201], [0, 1])),
@@ -416,6 +418,50 @@ def test_bad_values_are_named(post: Post, changes: dict[str, Any], pointer: str)
     response = post(PATH, bearing(request(), **changes))
     assert response.status_code == 422
     assert {error["pointer"] for error in response.json()["errors"]} == {pointer}
+
+
+def test_the_softest_bearing_of_all_is_answered(post: Post) -> None:
+    """1 N/um is in; under the example's load the shaft would leave its coupling, so no effect of shafts here."""
+    body = linear([[1, -0.5], [0.5, 1]]) | {"effects": {"shafts": False}}
+    assert post(PATH, body).status_code == 200
+
+
+@pytest.mark.parametrize("method", ["given", "estimated"])
+def test_the_limit_may_come_from_a_scuffing_test_and_the_bulk_from_the_supply(post: Post, method: str) -> None:
+    """As of /v1/scuffing for rigid shafts without heat; on the flank the unit is judged at the same numbers."""
+    words = {"bulk_method": method, "oil_supply": "dip", "scuffing_test": {"fzg_stage": 9, "lubricant_factor": 0.9}}
+    words |= {"bulk_c": 80} if method == "given" else {}
+    body = request(effects={"shafts": False, "thermal": False})
+    body["temperatures"] = {"oil_c": 50, **words}
+    found = answered(post, body)
+    shared = ("modifications", "lubricant", "friction_coefficient", "temperatures")
+    own = {name: body[name] for name in shared if name in body}
+    gears = {name: value for name, value in body["gears"].items() if name not in {"hand", "normal_backlash_mm"}}
+    load = {"power_kw": body["operation"]["power_kw"], "pinion_speed_rpm": body["operation"]["pinion_speed_rpm"]}
+    model = {"lubrication": "closed_form"}
+    mesh = post("/v1/scuffing", {"gears": gears, "load": load, "model": model, **own}).json()
+    assert found["derived"]["temperatures"]["scuffing_c"] == mesh["safety"]["scuffing_c"]
+    assert found["derived"]["temperatures"]["bulk_c"] == pytest.approx(mesh["contact_temperature"]["bulk_c"], rel=1e-12)
+    contact = found["derived"]["temperatures"]["bulk_c"] + found["flash"]["feature_k"]
+    limit = found["derived"]["temperatures"]["scuffing_c"]
+    assert found["safety"]["blok_feature"] == pytest.approx((limit - 50) / (contact - 50))
+    assert "temperatures.bulk_c" not in {each["field"] for each in found["assumptions"]}
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        {"bulk_method": "estimated", "bulk_c": 80},
+        {"scuffing_c": 200, "scuffing_test": {"fzg_stage": 9}},
+    ],
+)
+def test_temperatures_are_said_once(post: Post, words: dict[str, Any]) -> None:
+    body = request()
+    body["temperatures"] = words
+    response = post(PATH, body)
+    assert response.status_code == 422
+    (only,) = response.json()["errors"]
+    assert (only["code"], only["pointer"]) == ("exclusive", "/temperatures")
 
 
 def test_a_film_that_cannot_carry_is_no_solution(post: Post) -> None:

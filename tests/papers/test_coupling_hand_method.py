@@ -6,39 +6,17 @@ the whole load on the worst teeth. The book does not give the teeth; 72 of diame
 Calistrat, J. Mech. Des. 103 (1981), p. 54: friction of high-speed gear couplings up to 0.16, usually far lower.
 """
 
-from math import cos, radians, tan
+from math import cos, radians
 
 import numpy as np
 import pytest
 
-from solvers.coupling import solve
+from app.published.bloch import DIAMETER, END_CONTACT, FACE, TORQUE, bloch
 from solvers.coupling.friction import mixed_friction, regime_friction
-from solvers.coupling.inputs import Coupling, CouplingInputs, Friction, MixedFrictionCurve, Operation
-from solvers.coupling.results import CouplingResult
+from solvers.coupling.inputs import MixedFrictionCurve
 
-TORQUE, DIAMETER, FACE, FRICTION = 21806.0, 0.2286, 0.033, 0.3
-MISALIGNMENT = radians(0.057)
 COSINE = cos(radians(20.0))
-# The crowning whose contact just reaches the end of the face.
-END_CONTACT_RATIO = FACE / 2 * tan(radians(20.0)) / (DIAMETER / 2 * MISALIGNMENT)
 SOFT, STIFF = 1e5, 1e14  # tooth stiffness [N/m]: equal loads, load on the worst teeth alone
-
-
-def bloch(ratio: float = 1.0, stiffness: float = 2.8e8, axial_velocity: float = 0.0) -> CouplingResult:
-    return solve(
-        CouplingInputs(
-            Coupling(
-                teeth=72,
-                module=DIAMETER / 72,
-                face_width=FACE,
-                tooth_height=2 * DIAMETER / 72,
-                crowning_ratio=ratio,
-                tooth_stiffness=stiffness,
-            ),
-            Operation(TORQUE, 500.0, MISALIGNMENT, axial_velocity),
-            friction=Friction(FRICTION),
-        )
-    )
 
 
 def test_axial_force_bound_of_60_9_kn() -> None:
@@ -55,15 +33,15 @@ def test_friction_moment_lies_between_the_bounds() -> None:
 def test_friction_moment_reaches_both_bounds(stiffness: float, moment: float) -> None:
     # The hand method takes the tangential force for the normal one, a factor cos(alpha). Loaded teeth stand within
     # half a pitch (2.5 degrees) of the tilt position, hence 1 - cos(2.5 deg) = 1e-3.
-    assert bloch(END_CONTACT_RATIO, stiffness).losses.friction_moment * COSINE == pytest.approx(moment, rel=1e-3)
+    assert bloch(END_CONTACT, stiffness).losses.friction_moment * COSINE == pytest.approx(moment, rel=1e-3)
 
 
 def test_contact_shift_moment_stays_below_its_bound_and_reaches_it() -> None:
     bound = TORQUE * FACE / DIAMETER
     assert bound == pytest.approx(3150.0, rel=1e-3)
     assert 0.0 < bloch().losses.contact_shift_moment < bound
-    assert bloch(END_CONTACT_RATIO, SOFT).losses.contact_shift_moment == pytest.approx(bound / 2, rel=1e-3)
-    assert bloch(END_CONTACT_RATIO, STIFF).losses.contact_shift_moment == pytest.approx(bound, rel=2e-3)
+    assert bloch(END_CONTACT, SOFT).losses.contact_shift_moment == pytest.approx(bound / 2, rel=1e-3)
+    assert bloch(END_CONTACT, STIFF).losses.contact_shift_moment == pytest.approx(bound, rel=2e-3)
 
 
 def test_a_turning_misaligned_coupling_resists_axial_motion_far_less_than_a_standing_one() -> None:

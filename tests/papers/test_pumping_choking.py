@@ -4,9 +4,9 @@ from math import pi
 
 import pytest
 
+from app.published.milian import CASE_1, CASE_2, PRINTED, SPEED_1, SPEED_2, TIP
 from solvers.gears.inputs import GearPairInputs
 from solvers.pumping import ChokingInputs, ChokingSpeeds, PumpingModel, PumpingSetup, choking_speeds
-from tests.milian import CASE_1, CASE_2, PRINTED, SPEED_1, SPEED_2, TIP
 
 
 def search(gears: GearPairInputs, backlash: float, model: PumpingModel, limit: float = 60000) -> ChokingSpeeds:

@@ -10,11 +10,7 @@ from math import log2, pi, sqrt
 import numpy as np
 import pytest
 
-from solvers.gears.inputs import GearPairInputs
-from solvers.materials import Solid
-from solvers.pumping import Ambient, PumpingInputs, PumpingModel, PumpingSetup, solve
-from solvers.pumping.nozzle import choked_mass_flux, gas, mass_flux
-from tests.milian import (
+from app.published.milian import (
     CASE_1,
     CASE_2,
     CHAIN,
@@ -29,6 +25,10 @@ from tests.milian import (
     pinion,
     run,
 )
+from solvers.gears.inputs import GearPairInputs
+from solvers.materials import Solid
+from solvers.pumping import Ambient, PumpingInputs, PumpingModel, PumpingSetup, solve
+from solvers.pumping.flow.nozzle import choked_mass_flux, gas, mass_flux
 
 CASES = [(CASE_1, SPEED_1), (CASE_2, SPEED_2)]
 

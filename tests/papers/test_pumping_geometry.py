@@ -6,13 +6,13 @@ from math import degrees, hypot, pi
 import numpy as np
 import pytest
 
+from app.published.milian import CASE_1, CASE_2, TABLE_1, TIP, pinion, run
 from solvers.gears.inputs import GearPairInputs
 from solvers.gears.pair import gear_pair
 from solvers.pumping.inputs import Gap
-from solvers.pumping.section import section
-from solvers.pumping.stroke import StrokeTable, stroke_table
-from solvers.pumping.tooth_space import circumferential_backlash, normal_backlash, tooth_space
-from tests.milian import CASE_1, CASE_2, TABLE_1, TIP, pinion, run
+from solvers.pumping.space.section import section
+from solvers.pumping.space.stroke import StrokeTable, stroke_table
+from solvers.pumping.space.tooth_space import circumferential_backlash, normal_backlash, tooth_space
 
 
 @pytest.fixture(scope="module")

@@ -10,6 +10,7 @@ from math import cos
 import numpy as np
 import pytest
 
+from app.published.xue import PAPER_SPEED, paper_gears, paper_pair
 from solvers.contact import hertz
 from solvers.contact.film import dowson_higginson_minimum, thickness_ratio, thickness_regime
 from solvers.contact.flash import blok_flash_temperature
@@ -22,7 +23,6 @@ from solvers.scuffing import solve_load_distribution, solve_scuffing
 from solvers.scuffing.inputs import ScuffingInputs, Temperatures
 from solvers.scuffing.safety import safety_factor
 from solvers.scuffing.safety_results import Scuffing
-from tests.gear_pairs import PAPER_SPEED, paper_gears, paper_pair
 
 STEEL = Solid()
 MODULUS = hertz.reduced_modulus(STEEL, STEEL)

@@ -13,6 +13,7 @@ from math import radians
 import numpy as np
 import pytest
 
+from app.published.xue import PAPER_MODIFICATIONS, paper_gears, paper_pair
 from solvers.contact import hertz
 from solvers.gears.pair import gear_pair
 from solvers.gears.path_of_contact import path_of_contact, reduced_radius
@@ -21,7 +22,6 @@ from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.contact_lines import contact_lengths
 from solvers.scuffing.inputs import Model, Modifications
 from solvers.scuffing.results import LoadDistribution
-from tests.gear_pairs import PAPER_MODIFICATIONS, paper_gears, paper_pair
 
 PAIRS = (1, 2, 3, 4)
 STIFF = 0.006

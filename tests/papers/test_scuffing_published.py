@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from app.published.xue import PAPER_LOAD, paper_pair
 from solvers.contact import hertz
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
@@ -19,7 +20,7 @@ from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modific
 from solvers.scuffing.load_balance import line_loads
 from solvers.scuffing.mesh_stiffness import standard_stiffness
 from solvers.scuffing.tooth_stiffness import linear_contact_compliance
-from tests.gear_pairs import FZG_A, FZG_TORQUES, PAPER_LOAD, paper_pair, with_torque
+from tests.gear_pairs import FZG_A, FZG_TORQUES, with_torque
 
 STEEL = Solid()
 MODULUS = hertz.reduced_modulus(STEEL, STEEL)

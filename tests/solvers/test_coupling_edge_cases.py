@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
+from app.published.pahl import pahl_coupling
 from solvers.coupling import recommend, solve, solve_orbit
 from solvers.coupling.inputs import (
     Arrangement,
@@ -22,9 +23,9 @@ from solvers.coupling.inputs import (
     Operation,
     RecommendationInputs,
 )
-from solvers.coupling.results import CouplingResult, Recommendation
+from solvers.coupling.recommendation_results import Recommendation
+from solvers.coupling.results import CouplingResult
 from solvers.errors import InvalidInput, NoSolution, SolverError
-from tests.couplings import pahl_coupling
 from tests.properties import examples
 
 

@@ -1,15 +1,18 @@
 """What must not change the answer, and what must scale it."""
 
 from dataclasses import replace
-from math import pi
+from math import pi, tan
 
+import numpy as np
 import pytest
 from hypothesis import assume
 from hypothesis import strategies as st
 
+from app.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from solvers.coupling import solve
 from solvers.coupling.inputs import CouplingInputs, ModelOptions
-from tests.couplings import PITCH_RADIUS, TEETH, pahl_coupling, random_pitch_errors
+from tests.couplings import random_pitch_errors
+from tests.plain_coupling import PlainMesh, midpoints
 from tests.properties import examples
 
 misalignments = st.floats(0.01, 1.0)
@@ -74,11 +77,15 @@ def test_sense_of_rotation_does_not_matter_to_magnitudes(inputs: CouplingInputs)
 
 
 @examples(30, 300, couplings())
-def test_friction_power_is_moment_times_tilting_speed_plus_thrust_times_axial_velocity(inputs: CouplingInputs) -> None:
-    result, operation = solve(inputs), inputs.operation
-    tilting = result.losses.friction_moment * abs(operation.speed * operation.misalignment)
-    axial = result.axial_thrust.force * operation.axial_velocity
-    assert result.losses.friction_power == pytest.approx(tilting + axial, rel=1e-9)
+def test_thrust_moment_and_power_are_those_of_the_teeth_one_by_one(inputs: CouplingInputs) -> None:
+    centred = replace(inputs, model=replace(inputs.model, sleeve="centred"))
+    turns = 1 if inputs.coupling.pitch_errors is None else TEETH
+    force, moment, power = PlainMesh(centred).friction(midpoints(400 * turns, 2 * pi * turns / TEETH), 0.2)
+    result = solve(centred)
+    missed = 2 * 0.2 * result.lubrication.max_normal_force / 400  # jumps of friction within a step of the rotor
+    assert result.axial_thrust.force == pytest.approx(force, abs=missed)
+    assert result.losses.friction_moment == pytest.approx(moment, abs=missed * PITCH_RADIUS)
+    assert result.losses.friction_power == pytest.approx(power, rel=1e-4)
 
 
 @examples(30, 300, couplings())
@@ -156,11 +163,16 @@ def test_similar_couplings_behave_alike(inputs: CouplingInputs, scale: float) ->
 
 
 @examples(30, 300, st.integers(8, 100), misalignments)
-def test_teeth_and_module_at_constant_diameter_keep_the_equal_share_of_a_soft_ring(teeth: int, delta: float) -> None:
+def test_a_soft_ring_of_any_number_of_teeth_shares_by_closed_form(teeth: int, delta: float) -> None:
+    # All teeth carry: mean T/(r_o z), and c_t r_o delta^2/(2 tan alpha) (sin^2 phi - 1/2) beside it.
     inputs = pahl_coupling(delta, teeth=teeth, module=2 * PITCH_RADIUS / teeth, tooth_stiffness=1e5, tooth_height=0.05)
     load = solve(inputs).load_distribution
-    assert load.mean_tangential_force == pytest.approx(3000 / (PITCH_RADIUS * teeth), rel=1e-12)
-    assert load.load_concentration == pytest.approx(1.0, abs=0.05)
+    mean = 3000 / (PITCH_RADIUS * teeth)
+    spread = 1e5 * PITCH_RADIUS * inputs.operation.misalignment**2 / (2 * tan(inputs.coupling.pressure_angle))
+    sine = np.sin(2 * pi / teeth * np.arange(teeth))
+    assert load.loaded_teeth == teeth
+    assert load.curves.tangential_force == pytest.approx(mean + spread * (sine**2 - 0.5), rel=1e-9)
+    assert load.load_concentration == pytest.approx(1 + spread / mean * ((sine**2).max() - 0.5), rel=1e-9)
 
 
 @examples(15, 100, couplings())

@@ -8,12 +8,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.published.pahl import TEETH, harmonic_pitch_errors, pahl_coupling
 from solvers.coupling import kinematics, orbit, solve, solve_orbit
 from solvers.coupling.geometry import tooth_geometry
 from solvers.coupling.kinematics import flank_normals, mesh_motion, tooth_positions
 from solvers.coupling.tooth_loads import ToothLoads, floating_loads
 from solvers.errors import InvalidInput, NoSolution
-from tests.couplings import TEETH, harmonic_pitch_errors, pahl_coupling, random_pitch_errors
+from tests.couplings import random_pitch_errors
 
 ERRORS = harmonic_pitch_errors((1, 2e-6, 0.0), (3, 2e-6, 0.7))
 

@@ -9,21 +9,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import root
 
+from app.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from solvers.coupling import solve
 from solvers.coupling.averaging import rotor_samples
 from solvers.coupling.geometry import offset_misalignment, tooth_geometry
 from solvers.coupling.inputs import Arrangement, CouplingInputs, KinematicModel, ModelOptions
-from solvers.coupling.kinematics import (
-    flank_normals,
-    relative_velocity,
-    sliding_velocity,
-    tangential_displacement,
-    tooth_positions,
-)
 from solvers.coupling.sleeve_equilibrium import sleeve_equilibrium, two_meshes
-from solvers.coupling.tooth_loads import centred_loads
 from solvers.errors import NoSolution
-from tests.couplings import PITCH_RADIUS, TEETH, pahl_coupling, random_pitch_errors
+from tests.couplings import random_pitch_errors
+from tests.plain_coupling import PlainMesh, midpoints
 
 ALPHA = radians(20.0)
 STIFFNESS = 2.8e8
@@ -31,15 +25,12 @@ STIFFNESS = 2.8e8
 
 def six_equations(inputs: CouplingInputs, friction: float, velocity: float, angle: float) -> tuple[float, float]:
     """Thrust on the left and on the right shaft at one rotor angle, by a general root finder, lengths in um."""
-    geometry = tooth_geometry(inputs.coupling)
-    meshes, teeth = two_meshes(inputs, geometry), tooth_positions(np.array([angle]), TEETH)
-    ahead = [tangential_displacement(mesh, teeth)[0] for mesh in meshes]
-    if inputs.coupling.pitch_errors is not None:
-        ahead = [w + np.array(inputs.coupling.pitch_errors) for w in ahead]
-    normal = [flank_normals(mesh, teeth)[0] for mesh in meshes]
-    direction = [
-        np.sign(relative_velocity(mesh, teeth, v))[0] for mesh, v in zip(meshes, (-velocity, velocity), strict=True)
-    ]
+    right_tilt = 1 if inputs.operation.arrangement == "parallel_offset" else -1
+    meshes = PlainMesh(inputs), PlainMesh(inputs, side=-1, tilt=right_tilt)
+    phi = meshes[0].angles(np.array([angle]))[0]
+    ahead = [mesh.ahead(phi) for mesh in meshes]
+    normal = [mesh.normals(phi) for mesh in meshes]
+    direction = [np.sign(v + mesh.sliding(phi)) for mesh, v in zip(meshes, (-velocity, velocity), strict=True)]
 
     def forces(x: np.ndarray) -> list[np.ndarray]:
         states = 1e-6 * x.reshape(2, 3)
@@ -49,8 +40,8 @@ def six_equations(inputs: CouplingInputs, friction: float, velocity: float, angl
         tangential = forces(x)
         lateral = [normal[i] @ tangential[i] for i in range(2)]
         axial = [friction / cos(ALPHA) * tangential[i] * direction[i] for i in range(2)]
-        moment_x = PITCH_RADIUS * sum((force * teeth.sine[0]).sum() for force in axial)
-        moment_y = -PITCH_RADIUS * sum((force * teeth.cosine[0]).sum() for force in axial)
+        moment_x = PITCH_RADIUS * sum((force * np.sin(phi)).sum() for force in axial)
+        moment_y = -PITCH_RADIUS * sum((force * np.cos(phi)).sum() for force in axial)
         half = inputs.coupling.hub_distance / 2
         return np.array(
             [
@@ -88,20 +79,21 @@ def test_sleeve_equilibrium_solves_the_six_equations(
     assert left == pytest.approx(right, rel=1e-6, abs=1e-4)
 
 
+@pytest.mark.parametrize("kinematics", ["tangential", "spatial"])
 @pytest.mark.parametrize("errors", [None, random_pitch_errors(3)])
 @pytest.mark.parametrize("misalignment", [0.06, 0.6])
-def test_mean_of_one_mesh_agrees_with_many_midpoints(misalignment: float, errors: tuple[float, ...] | None) -> None:
-    inputs = pahl_coupling(misalignment, axial_velocity=2e-3, pitch_errors=errors)
-    rows = 4000 if errors is None else 600 * TEETH
-    angles = (np.arange(rows) + 0.5) / rows * (2 * pi / TEETH if errors is None else 2 * pi)
-    mesh, teeth = two_meshes(inputs, tooth_geometry(inputs.coupling))[0], tooth_positions(angles, TEETH)
-    loads = centred_loads(inputs.coupling, mesh, teeth, 3000.0)
-    mean = 0.2 / cos(ALPHA) * (loads.tangential_force * np.sign(2e-3 + sliding_velocity(mesh, teeth))).sum() / rows
+def test_mean_of_one_mesh_agrees_with_many_midpoints(
+    misalignment: float, errors: tuple[float, ...] | None, kinematics: KinematicModel
+) -> None:
+    model = ModelOptions(kinematics=kinematics)
+    inputs = pahl_coupling(misalignment, axial_velocity=2e-3, pitch_errors=errors, model=model)
+    rotor = midpoints(4000, 2 * pi / TEETH) if errors is None else midpoints(600 * TEETH, 2 * pi)
+    force, moment, power = PlainMesh(inputs).friction(rotor, 0.2)
     result = solve(inputs)
     # A midpoint rule misses up to half a step of a jump of 2 mu F_n.
-    assert result.axial_thrust.force == pytest.approx(mean, abs=0.2 * result.lubrication.max_normal_force / 500)
-    sliding = np.abs(2e-3 + sliding_velocity(mesh, teeth))
-    power = 0.2 / cos(ALPHA) * (loads.tangential_force * sliding).sum() / rows
+    missed = 0.2 * result.lubrication.max_normal_force / 500
+    assert result.axial_thrust.force == pytest.approx(force, abs=missed)
+    assert result.losses.friction_moment == pytest.approx(moment, abs=missed * PITCH_RADIUS)
     assert result.losses.friction_power == pytest.approx(power, rel=1e-5)
 
 
@@ -119,15 +111,8 @@ def test_mean_over_a_revolution_is_as_good_with_few_and_with_many_teeth(teeth: i
     errors = tuple(2e-6 * np.random.default_rng(5).normal(size=teeth))
     module = 2 * PITCH_RADIUS / teeth
     inputs = pahl_coupling(0.06, axial_velocity=2e-3, teeth=teeth, module=module, pitch_errors=errors)
-    rows = 16 * 3200
-    mesh = two_meshes(inputs, tooth_geometry(inputs.coupling))[0]
-    force = power = 0.0
-    for part in range(16):
-        positions = tooth_positions((np.arange(part, rows, 16) + 0.5) / rows * 2 * pi, teeth)
-        tangential = centred_loads(inputs.coupling, mesh, positions, 3000.0).tangential_force
-        sliding = sliding_velocity(mesh, positions)
-        force += 0.2 / cos(ALPHA) * (tangential * np.sign(2e-3 + sliding)).sum() / rows
-        power += 0.2 / cos(ALPHA) * (tangential * np.abs(2e-3 + sliding)).sum() / rows
+    parts = [PlainMesh(inputs).friction(midpoints(51200, 2 * pi)[part::16], 0.2) for part in range(16)]
+    force, _, power = np.mean(parts, axis=0)
     result = solve(inputs)
     assert result.axial_thrust.force == pytest.approx(force, abs=2e-4 * result.axial_thrust.coaxial_limit)
     assert result.losses.friction_power == pytest.approx(power, rel=1e-4)

@@ -5,16 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from solvers.arrays import FloatArray
 from solvers.coupling.inputs import Friction
 from solvers.drive_train import solve
-from solvers.drive_train.corners import Range, default_ranges, run_corners
-from solvers.drive_train.design import Variable, design
-from solvers.drive_train.inputs import DriveTrainInputs, Effects
+from solvers.drive_train.corners import combinations, default_ranges, run_corners, single
+from solvers.drive_train.design import Variable, design, search
+from solvers.drive_train.inputs import DriveTrainInputs, Effects, RigidBearing
 from solvers.drive_train.outcome import outcome
 from solvers.drive_train.sensitivity import Tolerance, sensitivity
 from solvers.drive_train.tolerances import Scatter, run_tolerances
 from solvers.drive_train.variation import value_at, varied
-from solvers.errors import InvalidInput
+from solvers.errors import InvalidInput, NoSolution
 from solvers.scuffing.inputs import LeadCurve, Resolution
 from tests.drive_trains import COUPLING, GROUND, turbo_gear
 
@@ -92,9 +93,9 @@ def test_gap_at_a_station_moves_the_load_as_the_derivative_says() -> None:
 def test_corners_hold_every_combination() -> None:
     inputs = coarse(turbo_gear(GROUND))
     ranges = [
-        Range("couplings.0.friction.coefficient", (0.05, 0.25)),
-        Range("couplings.0.offset", ((0.0, 400e-6), (0.0, -400e-6))),
-        Range("heat.wall_response", (0.3, 1.0)),
+        single("couplings.0.friction.coefficient", (0.05, 0.25)),
+        single("couplings.0.offset", ((0.0, 400e-6), (0.0, -400e-6))),
+        single("heat.wall_response", (0.3, 1.0)),
     ]
     steps: list[tuple[int, int]] = []
     found = run_corners(inputs, ranges, progress=lambda done, runs: steps.append((done, runs)))
@@ -112,8 +113,8 @@ def test_corners_hold_every_combination() -> None:
     for name in ("face_load_factor", "safety", "total_slope"):
         values = {key: getattr(one, name) for key, one in singles.items()}
         lowest = min(values, key=values.__getitem__)
-        assert found.smallest[name].value == pytest.approx(values[lowest], rel=1e-8)
-        assert found.largest[name].value == pytest.approx(max(values.values()), rel=1e-8)
+        assert found.smallest[name].value == values[lowest]
+        assert found.largest[name].value == max(values.values())
         assert found.smallest[name].corner == {
             "couplings.0.friction.coefficient": lowest[0],
             "couplings.0.offset": (0.0, lowest[1]),
@@ -122,18 +123,38 @@ def test_corners_hold_every_combination() -> None:
 
 
 def test_default_ranges() -> None:
-    names = [one.name for one in default_ranges(turbo_gear())]
-    assert names == [
-        "heat.wall_response",
-        "pinion_shaft.bearings",
-        "wheel_shaft.bearings",
-        "couplings.0.friction.coefficient",
-        "couplings.0.offset",
-        "couplings.0.thrust_fraction",
-    ]
-    assert default_ranges(replace(turbo_gear(), effects=Effects(False, False, False))) == ()
-    offsets = default_ranges(turbo_gear())[4].values
-    assert offsets == ((0.0, 400e-6), (-400e-6, 0.0), (-0.0, -400e-6), (400e-6, -0.0))
+    inputs = turbo_gear()
+    response, pinion, wheel, friction, offset, thrust = default_ranges(inputs)
+    assert (response.names, response.values) == (("heat.wall_response",), ((0.3,), (1.0,)))
+    for shaft, clearances, own in (("pinion", pinion, 130e-6), ("wheel", wheel, 150e-6)):
+        assert clearances.names == tuple(f"{shaft}_shaft.bearings.{k}.radial_clearance" for k in (0, 1))
+        assert np.array(clearances.values) == pytest.approx(own * np.array([[1.1, 0.9], [0.9, 1.1]]))
+    assert list(friction.choices()) == [{"couplings.0.friction.coefficient": mu} for mu in (0.05, 0.25)]
+    assert offset.names == ("couplings.0.offset.0", "couplings.0.offset.1")
+    assert offset.values == ((0.0, 400e-6), (-400e-6, 0.0), (0.0, -400e-6), (400e-6, 0.0))
+    assert (thrust.names, thrust.values) == (("couplings.0.thrust_fraction",), ((0.0,), (1.0,)))
+    assert len(list(combinations(default_ranges(inputs)))) == 128
+
+
+def test_default_ranges_leave_out_what_moves_nothing() -> None:
+    inputs = turbo_gear()
+    assert default_ranges(replace(inputs, effects=Effects(False, False, False))) == ()
+    aligned = replace(inputs, couplings=(replace(COUPLING, offset=(0.0, 0.0)),))
+    assert not [name for one in default_ranges(aligned) for name in one.names if "offset" in name]
+    rigid = replace(
+        inputs, pinion_shaft=replace(inputs.pinion_shaft, bearings=(RigidBearing(0.22), RigidBearing(0.62)))
+    )
+    assert not [name for one in default_ranges(rigid) for name in one.names if name.startswith("pinion_shaft")]
+
+
+def test_two_couplings_move_together() -> None:
+    inputs = turbo_gear()
+    both = replace(inputs, couplings=(COUPLING, replace(COUPLING, shaft="wheel", offset=(1e-4, 0.0))))
+    *_, friction, offset, thrust = default_ranges(both)
+    assert friction.values == ((0.05, 0.05), (0.25, 0.25))
+    assert offset.values[1] == (-400e-6, 0.0, 0.0, 1e-4)
+    assert thrust.names == ("couplings.0.thrust_fraction", "couplings.1.thrust_fraction")
+    assert len(list(combinations(default_ranges(both)))) == 128
 
 
 def test_tolerances_by_latin_hypercube() -> None:
@@ -203,7 +224,7 @@ def test_the_robust_design() -> None:
         for friction, offset in ((0.05, 400e-6), (0.25, 400e-6), (0.25, -400e-6))
     ]
     torque = inputs.mesh.distribution.load.pinion_torque
-    corners = [Range("couplings", tuple(machines)), Range("heat.wall_response", (0.3, 0.9))]
+    corners = [single("couplings", tuple(machines)), single("heat.wall_response", (0.3, 0.9))]
     powers = [{"mesh.distribution.load.pinion_torque": share * torque} for share in (1.0, 0.5)]
     variables = [
         Variable((f"{SHAPE}.helix_slope",), 0.0, 100e-6),
@@ -221,19 +242,40 @@ def test_the_robust_design() -> None:
 
 def test_a_design_search_improves_the_worst_corner() -> None:
     inputs = coarse(turbo_gear())
-    corners = [Range("couplings.0.friction.coefficient", (0.05, 0.25))]
+    corners = [single("couplings.0.friction.coefficient", (0.05, 0.25))]
     slope = Variable((f"{SHAPE}.helix_slope",), 0.0, 100e-6)
     found = design(inputs, [slope], corners, evaluations=14)
     assert found.evaluations <= 14
     assert found.objective_best > found.objective_start + 0.3
     assert 25e-6 < found.best[0] < 75e-6
-    assert max(trial.objective for trial in found.history) == found.objective_best
+    assert max(trial.objective or 0.0 for trial in found.history) == found.objective_best
     worst = [
         outcome(varied(inputs, {**found.worst_corner, f"{SHAPE}.helix_slope": found.best[0]})).safety,
-        outcome(varied(inputs, {f"{SHAPE}.helix_slope": found.best[0], corners[0].name: 0.25})).safety,
-        outcome(varied(inputs, {f"{SHAPE}.helix_slope": found.best[0], corners[0].name: 0.05})).safety,
+        outcome(varied(inputs, {f"{SHAPE}.helix_slope": found.best[0], corners[0].names[0]: 0.25})).safety,
+        outcome(varied(inputs, {f"{SHAPE}.helix_slope": found.best[0], corners[0].names[0]: 0.05})).safety,
     ]
     assert found.objective_best == pytest.approx(min(value for value in worst if value is not None), rel=1e-8)
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e9])
+def test_a_search_keeps_away_from_where_there_is_no_solution(scale: float) -> None:
+    """Whatever the size of the figure: its best is at 0.6, beyond 0.7 there is nothing."""
+    tried: list[tuple[float, float | None]] = []
+
+    def judge(unit: FloatArray) -> float | None:
+        figure = None if unit[0] > 0.7 else scale * (1.0 + abs(float(unit[0]) - 0.6))
+        tried.append((float(unit[0]), figure))
+        return figure
+
+    search(judge, np.array([0.2]), 40)
+    assert any(figure is None for _, figure in tried)
+    assert min((figure, place) for place, figure in tried if figure is not None)[1] == pytest.approx(0.6, abs=0.01)
+
+
+def test_a_search_needs_a_start() -> None:
+    with pytest.raises(NoSolution) as failure:
+        search(lambda _: None, np.array([0.5]), 10)
+    assert failure.value.code == "design"
 
 
 def test_refusals_of_studies() -> None:
@@ -242,7 +284,7 @@ def test_refusals_of_studies() -> None:
         ("unknown_name", lambda: varied(inputs, {"couplings.3.position": 0.0})),
         ("unknown_name", lambda: value_at(inputs, "mesh.nothing")),
         ("unknown_figure", lambda: run_corners(inputs, [], ["safest"])),
-        ("too_many_corners", lambda: run_corners(inputs, [Range("face_start", tuple(range(257)))])),
+        ("too_many_corners", lambda: run_corners(inputs, [single("face_start", tuple(range(257)))])),
         ("scatter_range", lambda: run_tolerances(inputs, [Scatter("face_start", 1.0, 1.0)])),
         ("scatter_range", lambda: run_tolerances(inputs, [])),
         ("runs_range", lambda: run_tolerances(inputs, [Scatter("face_start", 0.3, 0.33)], runs=3)),

@@ -4,9 +4,12 @@ from dataclasses import replace
 
 import pytest
 
-from solvers.contact.ehl import Contact, LineContactInputs, Model, path, solve, solve_path
+from solvers.contact.ehl import Contact, LineContactInputs, Model, Temperatures, path, solve, solve_path
+from solvers.contact.ehl.budget import STEPS_IN_ALL, Budget, Resolution
 from solvers.contact.ehl.continuation import Attempt
+from solvers.contact.ehl.problem import Problem
 from solvers.errors import InvalidInput
+from solvers.lubricants import Lubricant
 
 
 def contacts(points: int = 8, step: float = 0.1) -> list[LineContactInputs]:
@@ -75,6 +78,55 @@ def test_failed_point_neither_stops_nor_fills(monkeypatch: pytest.MonkeyPatch) -
     assert [r.status == "no_solution" for r in results] == [k == 2 for k in range(8)]
     assert results[2].friction is None
     assert len(seen) == 3  # the first, the failed one again, and the one behind it
+
+
+def near_the_pitch_point() -> list[LineContactInputs]:
+    """A turbo pair's Newtonian contacts: a steep fall of pressure that goes from node to node along the path."""
+    at = LineContactInputs(
+        Contact(3.35e5, 0.0246, 21.09, 20.04),
+        lubricant=Lubricant(viscosity=0.00824),
+        temperatures=Temperatures(344.3, 344.3, 344.3),
+        model=Model(rheology="newtonian"),
+    )
+    speeds = [(21.09 + 0.1737 * k, 20.04 - 0.156 * k) for k in range(5)]
+    return [replace(at, contact=replace(at.contact, speed_1=one, speed_2=other)) for one, other in speeds]
+
+
+def test_hard_points_are_solved_as_they_are_alone() -> None:
+    """Once films were up to 1.3 % off: the fall stood one node from where it stands alone."""
+    alone = [solve(inputs) for inputs in near_the_pitch_point()]
+    forward, backward = solve_path(near_the_pitch_point()), solve_path(near_the_pitch_point()[::-1])[::-1]
+    for expected, *found in zip(alone, forward, backward, strict=True):
+        assert expected.status != "no_solution"
+        assert expected.friction is not None
+        for along in found:
+            assert along.film.minimum == pytest.approx(expected.film.minimum, rel=0.003)
+            assert along.friction is not None
+            assert along.friction.coefficient == pytest.approx(expected.friction.coefficient, rel=0.003)
+
+
+def test_a_point_that_its_neighbours_do_not_lead_to_is_the_contact_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    warm = path.polish
+    monkeypatch.setattr(path, "polish", lambda *given: replace(warm(*given), converged=False))
+    for inputs, along in zip(contacts(3), solve_path(contacts(3)), strict=True):
+        assert along.film == solve(inputs).film
+
+
+def test_many_failures_in_a_row_take_the_steps_but_not_the_chance_of_those_behind(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    given: list[float] = []
+    cold = path.solve_cold
+
+    def counted(p: Problem, resolution: Resolution, steps: Budget) -> Attempt:
+        given.append(steps.remaining)
+        return replace(cold(p, resolution, steps), converged=len(given) > path.HOPELESS + 2)
+
+    monkeypatch.setattr(path, "solve_cold", counted)
+    results = solve_path(contacts(path.HOPELESS + 6, 0.04))
+    whole, share = STEPS_IN_ALL, path.SHARE_WITHOUT_HOPE
+    assert given == [whole] * path.HOPELESS + [share * whole] * 3
+    assert [result.status != "no_solution" for result in results] == [False] * (path.HOPELESS + 2) + [True] * 4
 
 
 def test_empty_path() -> None:

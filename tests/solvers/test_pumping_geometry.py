@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 from shapely import Polygon
 
+from app.published.milian import CASE_1, CASE_2, TABLE_1
 from solvers.arrays import FloatArray
 from solvers.errors import InvalidInput
 from solvers.gears.fillet import fillet_point, fillet_sector_area, root_profile
@@ -14,11 +15,10 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
 from solvers.gears.path_of_contact import PathOfContact, meshing_path
 from solvers.pumping.inputs import Gap, PumpingSetup
-from solvers.pumping.section import section
-from solvers.pumping.stroke import stroke_table
-from solvers.pumping.tooth_space import ToothSpace, stroke_limits, tooth_space
+from solvers.pumping.space.section import section
+from solvers.pumping.space.stroke import stroke_table
+from solvers.pumping.space.tooth_space import ToothSpace, stroke_limits, tooth_space
 from tests.meshing_pairs import setups
-from tests.milian import CASE_1, CASE_2, TABLE_1
 from tests.pumping_cases import rough_gears
 
 RANDOM = settings(max_examples=120, derandomize=True, suppress_health_check=[HealthCheck.filter_too_much])

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from app.published.milian import CASE_1, SPEED_1, pinion
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.notices import pair_notices
@@ -21,7 +22,6 @@ from solvers.pumping.lead_correction import EXPANSION, lead_correction
 from solvers.pumping.results import SpacesResult
 from solvers.pumping.spaces import prepare
 from tests.gear_pairs import FZG_A, INCH_PAIR
-from tests.milian import CASE_1, SPEED_1, pinion
 from tests.pumping_cases import SCANS, check_books, check_no_jump, check_resolution, random_gears, rough_gears
 
 WEAK = PumpingSetup(

@@ -7,6 +7,7 @@ from math import pi
 
 import pytest
 
+from app.published.milian import CASE_1, TABLE_1
 from solvers.errors import InvalidInput, NoSolution
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.path_of_contact import meshing_path
@@ -27,7 +28,6 @@ from solvers.pumping import (
 )
 from solvers.pumping import model as pumping_model
 from solvers.pumping.spaces import flow_at
-from tests.milian import CASE_1, TABLE_1
 
 PLAIN = PumpingSetup(CASE_1, model=PumpingModel(slices=20, spaces=Spaces.PINION))
 
@@ -194,6 +194,14 @@ def test_incompressible_cannot_choke() -> None:
     with pytest.raises(InvalidInput) as refusal:
         choking_speeds(ChokingInputs(spur(), 1000.0))
     assert refusal.value.code == "choking_not_modelled"
+
+
+def test_spaces_that_nothing_lets_out_choke_at_every_speed() -> None:
+    # the search once went down without end
+    sealed = replace(PLAIN, model=PumpingModel(flow=Flow.POCKET_CHAIN, slices=10, discharge_coefficient=0.0))
+    with pytest.raises(InvalidInput) as refusal:
+        choking_speeds(ChokingInputs(sealed, 6000.0))
+    assert refusal.value.code == "always_choked"
 
 
 def other(pinion: GearTeeth, wheel: GearTeeth) -> PumpingSetup:

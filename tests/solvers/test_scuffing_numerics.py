@@ -9,6 +9,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from app.published.xue import PAPER_MODIFICATIONS, paper_gears, paper_pair
 from solvers.contact.hertz import half_width, reduced_modulus
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
@@ -20,7 +21,6 @@ from solvers.scuffing.inputs import LeadCurve, Model, Modifications, Resolution
 from solvers.scuffing.modification import gap, gaps_at, lead_table, misalignment_slope
 from solvers.scuffing.tooth_compliance import bending_compliance, load_points, root_rotation, section_gear, tooth_shape
 from solvers.scuffing.tooth_stiffness import line_load, pair_compliance, single_stiffness
-from tests.gear_pairs import PAPER_MODIFICATIONS, paper_gears, paper_pair
 
 STEEL = Solid()
 

@@ -6,6 +6,7 @@ from math import radians
 import numpy as np
 import pytest
 
+from app.published.xue import PAPER_LOAD, paper_pair
 from solvers.contact import ehl
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
@@ -17,7 +18,6 @@ from solvers.scuffing.inputs import (
     Temperatures,
 )
 from solvers.scuffing.safety_results import Scuffing
-from tests.gear_pairs import PAPER_LOAD, paper_pair
 from tests.modified_pairs import (
     PATH_POINTS,
     check_path,

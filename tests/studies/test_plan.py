@@ -89,7 +89,18 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
     "nothing": (sweep(), "", "vary_cases_or_sample"),
     "two kinds": (sweep(vary=[SPEED], cases=[{}]), "", "vary_cases_or_sample"),
     "infinite": (vary(axis("operation.speed_rpm", float("inf"))), "/vary/0/values/0", "scalar_type"),
-    "a list for a value": (vary(axis("operation.speed_rpm", 1, [2])), "/vary/0/values/1", "scalar_type"),
+    "a list for a value": (vary(axis("operation.speed_rpm", 1, [2])), "/vary/0/values/1", "values_per_field"),
+    "too few for each": (
+        vary({"path": ["operation.speed_rpm", "coupling.teeth"], "values": [[1000, 50], [1]]}),
+        "/vary/0/values/1",
+        "values_per_field",
+    ),
+    "a list in a list": (vary(axis("operation.speed_rpm", [[2]])), "/vary/0/values/0", "scalar_type"),
+    "one of each out of range": (
+        vary({"path": ["operation.speed_rpm", "coupling.teeth"], "values": [[1000, 1]]}),
+        "/vary/0",
+        "out_of_range",
+    ),
     "unknown part": (sweep(vary=[SPEED], colour=1), "/colour", "extra_forbidden"),
     "unknown endpoint": ({**vary(SPEED), "endpoint": "/v1/sweep"}, "/endpoint", "unknown_endpoint"),
     "unknown output": (sweep(vary=[SPEED], outputs=["axial_thrust.force"]), "/outputs/0", "unknown_output"),
@@ -220,6 +231,13 @@ def test_fields_that_move_together() -> None:
     study = planned(loads(vary=[together]))
     assert study.plan.overrides(1) == {"materials.pinion.roughness_um": 6, "materials.wheel.roughness_um": 6}
     assert study.plan.axes[0].header() == {"path": together["path"], "unit": "µm", "values": [5, 6]}
+
+
+def test_fields_that_move_together_each_to_its_own() -> None:
+    together = axis("", [5, 1], [6, 2], 3) | {"path": ["materials.pinion.roughness_um", "materials.wheel.roughness_um"]}
+    plan = planned(loads(vary=[together])).plan
+    assert [list(plan.overrides(k).values()) for k in range(3)] == [[5, 1], [6, 2], [3, 3]]
+    assert plan.at(1) == [[6, 2]]
 
 
 def test_place_of_a_list_and_words_and_null() -> None:

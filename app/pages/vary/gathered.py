@@ -90,7 +90,7 @@ def grid_of(wish: Wish, sweep: Sweep, gathered: Gathered, limit: float | None) -
     )
 
 
-def _coordinate(varied: Varied, listed: list[Scalar]) -> tuple[Coordinate, list[int]]:
+def _coordinate(varied: Varied, listed: list[Scalar | list[Scalar]]) -> tuple[Coordinate, list[int]]:
     """The values of a field in rising order, and the places where they stand in the sweep."""
     leaf: Leaf = varied.leaf
     if not all(isinstance(each, int | float) and not isinstance(each, bool) for each in listed):

@@ -59,11 +59,6 @@ def budget_for(resolution: Resolution) -> Budget:
     return Budget(max(STEPS_IN_ALL, STEPS_ON_FINEST * price(resolution, resolution.nodes)))
 
 
-def refinement_budget(contacts: int) -> Budget:
-    """What finer meshes for so many contacts may take."""
-    return Budget(STEPS_TO_REFINE * contacts)
-
-
 def price(resolution: Resolution, nodes: int) -> float:
     """Time of a step over that of one at 121 x 21 nodes: columns, dense products, dense factors (fitted)."""
     relative = nodes / 121

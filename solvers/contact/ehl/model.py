@@ -4,7 +4,7 @@ from dataclasses import replace
 from math import isfinite
 
 from solvers.contact.ehl import measures, verification
-from solvers.contact.ehl.budget import STEPS_TO_REFINE, Budget, Resolution, budget_for, refinement_budget
+from solvers.contact.ehl.budget import STEPS_TO_REFINE, Budget, Resolution, budget_for
 from solvers.contact.ehl.checks import check
 from solvers.contact.ehl.continuation import TIGHT, Attempt, solve_cold
 from solvers.contact.ehl.dimensionless import (
@@ -44,7 +44,7 @@ def solve(inputs: LineContactInputs) -> LineContactResult:
     resolution = resolution_for(inputs)
     budget = budget_for(resolution)
     attempt = solve_cold(constants, resolution, budget)
-    return conclude(inputs, constants, resolution, attempt, budget.spent, refinement_budget(1))
+    return conclude(inputs, constants, resolution, attempt, budget.spent)
 
 
 def resolution_for(inputs: LineContactInputs) -> Resolution:
@@ -65,11 +65,10 @@ def conclude(
     resolution: Resolution,
     attempt: Attempt,
     iterations: int,
-    for_refinement: Budget,
 ) -> LineContactResult:
     """Everything read off an attempt, on a finer mesh if it needs one; why not, if it fails any criterion.
 
-    `iterations` led to the attempt; `for_refinement` is what finer meshes may take.
+    `iterations` led to the attempt.
     """
     scales = groups(inputs)
     dimensionless = _dimensionless(inputs, scales)
@@ -97,7 +96,7 @@ def conclude(
     if not attempt.converged:
         return replace(unsolved, warnings=(*notices, failure_notice(unsolved.convergence)))
     measures.settle(constants, attempt, inputs.model.thermal)
-    steps = for_refinement.part(STEPS_TO_REFINE)
+    steps = Budget(STEPS_TO_REFINE)
     attempt, error = refined(inputs, constants, resolution, attempt, steps)
     convergence = _convergence(inputs, attempt, iterations + steps.spent)
     found = _read(inputs, constants, attempt, replace(unsolved, convergence=convergence))

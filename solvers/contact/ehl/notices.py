@@ -93,7 +93,5 @@ def mesh_notices(error: MeshError | None) -> list[Notice]:
 
 def failure_notice(convergence: Convergence) -> Notice:
     """Why there is no solution."""
-    if convergence.iterations == 0:
-        return Notice("untried", "no steps were left: too many contacts before it did not converge", "nodes")
     message = f"{FAILURES[convergence.stage]} on {convergence.nodes} nodes; try other nodes or ree_eyring"
     return Notice("not_converged", message, "nodes")

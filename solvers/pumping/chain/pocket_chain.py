@@ -4,13 +4,14 @@ from math import ceil
 
 from solvers.arrays import FloatArray
 from solvers.errors import NoSolution
-from solvers.pumping.chain_march import march_chain
-from solvers.pumping.chain_step import empty_pockets
-from solvers.pumping.duct import Duct, empty_record
-from solvers.pumping.face import Stretch
-from solvers.pumping.flow import March, SpaceFlow, space_flow
+from solvers.pumping.chain.march import march_chain
+from solvers.pumping.chain.pockets import empty_pockets
+from solvers.pumping.flow.duct import Duct
+from solvers.pumping.flow.nozzle import Gas
+from solvers.pumping.flow.record import empty_record
+from solvers.pumping.flow.space_flow import March, SpaceFlow, space_flow
 from solvers.pumping.inputs import Closure
-from solvers.pumping.nozzle import Gas
+from solvers.pumping.space.face import Stretch
 
 STEPS = 2000  # at least
 _REFINEMENTS = (1, 2, 4, 8)  # of the steps, until Newton's method converges in all of them

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from solvers.compiled import kernel
-from solvers.pumping.nozzle import Gas, flux_squared
+from solvers.pumping.flow.nozzle import Gas, flux_squared
 
 _NEWTON_LIMIT = 30
 _TOLERANCE = 1e-5  # of the last correction: Newton's next one would be its square

@@ -5,8 +5,32 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
-from solvers.pumping.duct import ACTIVE, BEGUN, ENDED, PEAK, STAGNATION, STATIC, WORK, Record
-from solvers.pumping.face import Stretch
+from solvers.pumping.flow.record import (
+    ACTIVE,
+    BEGUN,
+    ENDED,
+    HIGH_END,
+    HIGH_OUTFLOW,
+    IDLE,
+    LARGEST_DEMAND,
+    LARGEST_MACH,
+    LARGEST_PRESSURE,
+    LARGEST_VELOCITY,
+    LOW_END,
+    LOW_OUTFLOW,
+    MACH,
+    PEAK,
+    PRESSURE,
+    SMALLEST_PRESSURE,
+    STAGNATION,
+    STATIC,
+    TEMPERATURE,
+    TIME,
+    WALLS,
+    WORK,
+    Record,
+)
+from solvers.pumping.space.face import Stretch
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +102,7 @@ def space_flow(angle: FloatArray, marches: list[March], *, conserves_energy: boo
     records = [march.record for march in marches]
     field = np.concatenate([record.field for record in records], axis=1)
     profile = np.concatenate([record.profile for record in records])
-    largest, smallest, mach, velocity, demand = np.array([record.extremes for record in records]).T
+    extremes = np.array([record.extremes for record in records])
     mass = np.array([record.mass for record in records])
     energy = np.array([record.energy for record in records])
     mass_error = (mass[:, BEGUN].sum() - mass[:, ENDED:].sum()) / mass[:, BEGUN].sum()
@@ -86,17 +110,17 @@ def space_flow(angle: FloatArray, marches: list[March], *, conserves_energy: boo
     return SpaceFlow(
         angle=frozen(angle),
         position=frozen(np.concatenate([march.stretch.centres for march in marches])),
-        pressure=frozen(field[:, :, 0]),
-        mach=frozen(field[:, :, 1]),
-        stagnation_temperature=frozen(field[:, :, 2]),
+        pressure=frozen(field[:, :, PRESSURE]),
+        mach=frozen(field[:, :, MACH]),
+        stagnation_temperature=frozen(field[:, :, TEMPERATURE]),
         mean_temperature=frozen(profile[:, STATIC] / profile[:, ACTIVE]),
         mean_stagnation_temperature=frozen(profile[:, STAGNATION] / profile[:, ACTIVE]),
         peak_pressure=frozen(profile[:, PEAK]),
-        largest_pressure=float(largest.max()),
-        smallest_pressure=float(smallest.min()),
-        largest_mach=float(mach.max()),
-        largest_velocity=float(velocity.max()),
-        exit_demand=float(demand.max()),
+        largest_pressure=float(extremes[:, LARGEST_PRESSURE].max()),
+        smallest_pressure=float(extremes[:, SMALLEST_PRESSURE].min()),
+        largest_mach=float(extremes[:, LARGEST_MACH].max()),
+        largest_velocity=float(extremes[:, LARGEST_VELOCITY].max()),
+        exit_demand=float(extremes[:, LARGEST_DEMAND].max()),
         work=float(energy[:, WORK].sum()),
         masses=_exit_masses(marches),
         mass_error=float(abs(mass_error)),
@@ -109,16 +133,17 @@ def space_flow(angle: FloatArray, marches: list[March], *, conserves_energy: boo
 def _exit_masses(marches: list[March]) -> ExitMasses:
     front = rear = grooves = radial = reset = 0.0
     for march in marches:
-        begun, ended, low, high, walls, idle = march.record.mass
+        mass = march.record.mass
+        low, high = mass[LOW_END], mass[HIGH_END]
         front, grooves = (front + low, grooves) if march.stretch.opens_front else (front, grooves + low)
         rear, grooves = (rear + high, grooves) if march.stretch.opens_rear else (rear, grooves + high)
-        radial += walls
-        reset += ended - begun + idle
+        radial += mass[WALLS]
+        reset += mass[ENDED] - mass[BEGUN] + mass[IDLE]
     return ExitMasses(front=front, rear=rear, radial=radial, grooves=grooves, reset=reset)
 
 
 def _end_flow(marches: list[March]) -> EndFlow:
-    time = np.concatenate([march.record.ends[: march.steps, 0] for march in marches])
-    front = [march.record.ends[: march.steps, 1] * march.stretch.opens_front for march in marches]
-    rear = [march.record.ends[: march.steps, 2] * march.stretch.opens_rear for march in marches]
+    time = np.concatenate([march.record.ends[: march.steps, TIME] for march in marches])
+    front = [march.record.ends[: march.steps, LOW_OUTFLOW] * march.stretch.opens_front for march in marches]
+    rear = [march.record.ends[: march.steps, HIGH_OUTFLOW] * march.stretch.opens_rear for march in marches]
     return EndFlow(frozen(time), frozen(np.concatenate(front)), frozen(np.concatenate(rear)))

@@ -8,14 +8,11 @@ Backward Euler, the wall work with the mean pressure of the step; Newton's metho
 its blocks of two by two eliminated along the chain. All amounts are per metre of face.
 """
 
-from typing import NamedTuple
-
-import numpy as np
-
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.pumping.duct import Duct
-from solvers.pumping.nozzle import Gas, mass_flux
+from solvers.pumping.chain.pockets import CONTENT, END, HEAT, MASS, PRESSURE, START, Pockets
+from solvers.pumping.flow.duct import Duct
+from solvers.pumping.flow.nozzle import Gas, mass_flux
 
 _NEWTON_LIMIT = 200
 _TOLERANCE = 1e-10
@@ -23,45 +20,11 @@ _ROUNDING = 1e-7  # residual accepted once Newton's method no longer lowers it: 
 _HALVINGS = 12
 
 
-class Pockets(NamedTuple):
-    """Arrays of a chain.
-
-    `old` and `new` (pockets, 2): pressure [Pa], mass [kg/m]; `area` (pockets, 2) at the start and the end of the step
-    [m^2] and `gap` [m] at its end; `opening` (faces) [m^2]; `flow` (faces, 2) mass and heat towards the high end
-    [kg/s, W], `leak` (pockets, 2) outwards [kg/(s m), W/m]; `residual` (pockets, 2), `lower`, `diagonal`, `upper`
-    (pockets, 2, 2) and `correction` (pockets, 2) of Newton's method, `trial` (pockets, 2) its candidate, `error` (1,)
-    its largest residual relative to the ambient content.
-    """
-
-    old: FloatArray
-    new: FloatArray
-    area: FloatArray
-    gap: FloatArray
-    opening: FloatArray
-    flow: FloatArray
-    leak: FloatArray
-    residual: FloatArray
-    lower: FloatArray
-    diagonal: FloatArray
-    upper: FloatArray
-    correction: FloatArray
-    trial: FloatArray
-    error: FloatArray
-
-
-def empty_pockets(pockets: int) -> Pockets:
-    """Arrays for so many pockets."""
-    two, blocks = (pockets, 2), (pockets, 2, 2)
-    faces = pockets + 1
-    shapes = [two, two, two, (pockets,), (faces,), (faces, 2), two, two, blocks, blocks, blocks, two, two, (1,)]
-    return Pockets(*[np.zeros(shape) for shape in shapes])
-
-
 @kernel
 def advance(gas: Gas, duct: Duct, pockets: Pockets, low: int, high: int, dt: float, isentropic: bool) -> bool:
     """Pressure and mass of the pockets low..high after dt [s]; whether Newton's method converged."""
     for i in range(low, high):
-        pockets.new[i, 0], pockets.new[i, 1] = pockets.old[i, 0], pockets.old[i, 1]
+        pockets.new[i, PRESSURE], pockets.new[i, CONTENT] = pockets.old[i, PRESSURE], pockets.old[i, CONTENT]
     error = _assemble(gas, duct, pockets, pockets.new, low, high, dt, isentropic)
     for _ in range(_NEWTON_LIMIT):
         pockets.error[0] = error
@@ -84,7 +47,7 @@ def advance(gas: Gas, duct: Duct, pockets: Pockets, low: int, high: int, dt: flo
             _settle(gas, duct, pockets, low, high, dt, isentropic)
             return True
         for i in range(low, high):
-            pockets.new[i, 0], pockets.new[i, 1] = pockets.trial[i, 0], pockets.trial[i, 1]
+            pockets.new[i, PRESSURE], pockets.new[i, CONTENT] = pockets.trial[i, PRESSURE], pockets.trial[i, CONTENT]
         error = trial_error
     return False
 
@@ -95,15 +58,15 @@ def _settle(gas: Gas, duct: Duct, pockets: Pockets, low: int, high: int, dt: flo
     g = gas.exponent
     for i in range(low, high):
         old_area, area = pockets.area[i]
-        mass = (pockets.flow[i, 0] - pockets.flow[i + 1, 0]) / duct.width - pockets.leak[i, 0]
-        heat = (pockets.flow[i, 1] - pockets.flow[i + 1, 1]) / duct.width - pockets.leak[i, 1]
-        pockets.new[i, 1] = pockets.old[i, 1] + dt * mass
+        mass = (pockets.flow[i, MASS] - pockets.flow[i + 1, MASS]) / duct.width - pockets.leak[i, MASS]
+        heat = (pockets.flow[i, HEAT] - pockets.flow[i + 1, HEAT]) / duct.width - pockets.leak[i, HEAT]
+        pockets.new[i, CONTENT] = pockets.old[i, CONTENT] + dt * mass
         if isentropic:
-            pockets.new[i, 0] = gas.pressure * (pockets.new[i, 1] / (gas.density * area)) ** g
+            pockets.new[i, PRESSURE] = gas.pressure * (pockets.new[i, CONTENT] / (gas.density * area)) ** g
         else:
             work = 0.5 * (area - old_area)
-            energy = pockets.old[i, 0] * (old_area / (g - 1.0) - work) + dt * heat
-            pockets.new[i, 0] = energy / (area / (g - 1.0) + work)
+            energy = pockets.old[i, PRESSURE] * (old_area / (g - 1.0) - work) + dt * heat
+            pockets.new[i, PRESSURE] = energy / (area / (g - 1.0) + work)
 
 
 @kernel
@@ -124,9 +87,9 @@ def _assemble(
     _leak(gas, duct, pockets, x, low, high, dt, isentropic)
     _exchange(gas, duct, pockets, x, low, high, dt, isentropic)
     for i in range(low, high):
-        mass = gas.density * pockets.area[i, 1]
-        energy = mass if isentropic else gas.pressure * pockets.area[i, 1] / (g - 1.0)
-        error = max(error, abs(pockets.residual[i, 0]) / mass, abs(pockets.residual[i, 1]) / energy)
+        mass = gas.density * pockets.area[i, END]
+        energy = mass if isentropic else gas.pressure * pockets.area[i, END] / (g - 1.0)
+        error = max(error, abs(pockets.residual[i, MASS]) / mass, abs(pockets.residual[i, HEAT]) / energy)
     return error
 
 
@@ -136,20 +99,20 @@ def _store(gas: Gas, pockets: Pockets, x: FloatArray, low: int, high: int, isent
     g = gas.exponent
     residual, block = pockets.residual, pockets.diagonal
     for i in range(low, high):
-        p, old_area, area = x[i, 0], pockets.area[i, 0], pockets.area[i, 1]
+        p, old_area, area = x[i, PRESSURE], pockets.area[i, START], pockets.area[i, END]
         for row in range(2):
             for column in range(2):
                 pockets.lower[i, row, column], pockets.upper[i, row, column] = 0.0, 0.0
-        residual[i, 0] = x[i, 1] - pockets.old[i, 1]
-        block[i, 0, 0], block[i, 0, 1] = 0.0, 1.0
+        residual[i, MASS] = x[i, CONTENT] - pockets.old[i, CONTENT]
+        block[i, MASS, PRESSURE], block[i, MASS, CONTENT] = 0.0, 1.0
         if isentropic:
             mass = gas.density * area * (p / gas.pressure) ** (1.0 / g)
-            residual[i, 1] = x[i, 1] - mass
-            block[i, 1, 0], block[i, 1, 1] = -mass / (g * p), 1.0
+            residual[i, HEAT] = x[i, CONTENT] - mass
+            block[i, HEAT, PRESSURE], block[i, HEAT, CONTENT] = -mass / (g * p), 1.0
         else:
             work = 0.5 * (area - old_area)
-            residual[i, 1] = p * (area / (g - 1.0) + work) - pockets.old[i, 0] * (old_area / (g - 1.0) - work)
-            block[i, 1, 0], block[i, 1, 1] = area / (g - 1.0) + work, 0.0
+            residual[i, HEAT] = p * (area / (g - 1.0) + work) - pockets.old[i, PRESSURE] * (old_area / (g - 1.0) - work)
+            block[i, HEAT, PRESSURE], block[i, HEAT, CONTENT] = area / (g - 1.0) + work, 0.0
 
 
 @kernel
@@ -159,7 +122,7 @@ def _leak(
     """Flow through the radial gaps."""
     residual, block = pockets.residual, pockets.diagonal
     for i in range(low, high):
-        p, m, area = x[i, 0], x[i, 1], pockets.area[i, 1]
+        p, m, area = x[i, PRESSURE], x[i, CONTENT], pockets.area[i, END]
         gap = duct.discharge * pockets.gap[i]
         if p >= gas.pressure:
             flux, by_p, by_m, _ = _discharge(gas, p, m, area, gas.pressure)
@@ -169,14 +132,14 @@ def _leak(
             inflow, _, by_down = mass_flux(gas, gas.pressure, gas.temperature, p)
             flux, by_p, by_m = -inflow, -by_down, 0.0
             heat, heat_by_p, heat_by_m = gas.heat_capacity * gas.temperature, 0.0, 0.0
-        pockets.leak[i, 0], pockets.leak[i, 1] = gap * flux, gap * flux * heat
-        residual[i, 0] += dt * gap * flux
-        block[i, 0, 0] += dt * gap * by_p
-        block[i, 0, 1] += dt * gap * by_m
+        pockets.leak[i, MASS], pockets.leak[i, HEAT] = gap * flux, gap * flux * heat
+        residual[i, MASS] += dt * gap * flux
+        block[i, MASS, PRESSURE] += dt * gap * by_p
+        block[i, MASS, CONTENT] += dt * gap * by_m
         if not isentropic:
-            residual[i, 1] += dt * gap * flux * heat
-            block[i, 1, 0] += dt * gap * (by_p * heat + flux * heat_by_p)
-            block[i, 1, 1] += dt * gap * (by_m * heat + flux * heat_by_m)
+            residual[i, HEAT] += dt * gap * flux * heat
+            block[i, HEAT, PRESSURE] += dt * gap * (by_p * heat + flux * heat_by_p)
+            block[i, HEAT, CONTENT] += dt * gap * (by_m * heat + flux * heat_by_m)
 
 
 @kernel
@@ -185,20 +148,21 @@ def _exchange(
 ) -> None:
     """Flow through the faces between two pockets, and between a pocket and the ambient."""
     for face in range(low, high + 1):
-        left = x[face - 1, 0] if face > low else gas.pressure
-        right = x[face, 0] if face < high else gas.pressure
+        left = x[face - 1, PRESSURE] if face > low else gas.pressure
+        right = x[face, PRESSURE] if face < high else gas.pressure
         source, sink, direction = (face - 1, face, 1.0) if left >= right else (face, face - 1, -1.0)
         opening = duct.discharge * pockets.opening[face]
         upstream, downstream = max(left, right), min(left, right)
         if low <= source < high:
-            area, m = pockets.area[source, 1], x[source, 1]
+            area, m = pockets.area[source, END], x[source, CONTENT]
             flux, by_p, by_m, by_down = _discharge(gas, upstream, m, area, downstream)
             heat = gas.heat_capacity * upstream * area / (m * gas.constant)
             heat_by_p, heat_by_m = heat / upstream, -heat / m
         else:
             flux, by_p, by_down = mass_flux(gas, upstream, gas.temperature, downstream)
             heat, by_m, heat_by_p, heat_by_m = gas.heat_capacity * gas.temperature, 0.0, 0.0, 0.0
-        pockets.flow[face, 0], pockets.flow[face, 1] = direction * opening * flux, direction * opening * flux * heat
+        pockets.flow[face, MASS] = direction * opening * flux
+        pockets.flow[face, HEAT] = direction * opening * flux * heat
         share = dt * opening / duct.width
         for end in range(2):
             i, sign = (source, share) if end == 0 else (sink, -share)
@@ -207,15 +171,15 @@ def _exchange(
             own = pockets.diagonal
             other = pockets.upper if i == face - 1 else pockets.lower
             by_source, by_sink = (own, other) if end == 0 else (other, own)
-            pockets.residual[i, 0] += sign * flux
-            by_source[i, 0, 0] += sign * by_p
-            by_source[i, 0, 1] += sign * by_m
-            by_sink[i, 0, 0] += sign * by_down
+            pockets.residual[i, MASS] += sign * flux
+            by_source[i, MASS, PRESSURE] += sign * by_p
+            by_source[i, MASS, CONTENT] += sign * by_m
+            by_sink[i, MASS, PRESSURE] += sign * by_down
             if not isentropic:
-                pockets.residual[i, 1] += sign * flux * heat
-                by_source[i, 1, 0] += sign * (by_p * heat + flux * heat_by_p)
-                by_source[i, 1, 1] += sign * (by_m * heat + flux * heat_by_m)
-                by_sink[i, 1, 0] += sign * by_down * heat
+                pockets.residual[i, HEAT] += sign * flux * heat
+                by_source[i, HEAT, PRESSURE] += sign * (by_p * heat + flux * heat_by_p)
+                by_source[i, HEAT, CONTENT] += sign * (by_m * heat + flux * heat_by_m)
+                by_sink[i, HEAT, PRESSURE] += sign * by_down * heat
 
 
 @kernel

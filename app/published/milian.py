@@ -1,4 +1,4 @@
-"""The gears of Milian, Distretti, Leoni, Velex (Gear Technology, May/June 2004), and how the tests run them.
+"""The gears of Milian, Distretti, Leoni and Velex (Gear Technology, May/June 2004), and how they are run.
 
 The tables give no face width, backlash, groove width or ambient: 200 mm, 0.3 mm, 16 mm, 101325 Pa and 50 degC are
 assumed. The tables' module is the normal module: only then are the centre distances the round 590 and 455 mm.
@@ -46,7 +46,7 @@ CASE_2 = GearPairInputs(
 )
 SPEED_1, SPEED_2 = 9267.0, 8962.0  # rpm of the pinion
 GROOVE = (Groove(0.1, 0.016),)
-PRINTED = PumpingModel(wall_transport=False, spaces=Spaces.PINION)  # what the reference numbers were computed with
+PRINTED = PumpingModel(wall_transport=False, spaces=Spaces.PINION)  # as the paper's equations
 TIP = replace(PRINTED, gap=Gap.TIP)
 CHAIN = replace(PRINTED, flow=Flow.POCKET_CHAIN)
 ISENTROPIC = replace(CHAIN, closure=Closure.ISENTROPIC)
@@ -62,7 +62,7 @@ def run(
     backlash: float = 0.3e-3,
     grooves: tuple[Groove, ...] = (),
 ) -> PumpingResult:
-    """One operating point at a speed in rpm; solved once in a test session."""
+    """One operating point at a speed in rpm; solved once in a process."""
     setup = PumpingSetup(gears, backlash, grooves, model=replace(model, slices=slices))
     return solve(PumpingInputs(setup, speed * pi / 30))
 

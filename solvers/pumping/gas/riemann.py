@@ -6,7 +6,7 @@ A state is (density [kg/m^3], velocity [m/s], pressure [Pa]); a flux is (mass, m
 import numpy as np
 
 from solvers.compiled import kernel
-from solvers.pumping.nozzle import Gas
+from solvers.pumping.flow.nozzle import Gas
 
 
 @kernel

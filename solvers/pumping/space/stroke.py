@@ -8,8 +8,8 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.compiled import kernel
 from solvers.errors import InvalidInput
-from solvers.pumping.section import section
-from solvers.pumping.tooth_space import StrokeLimits, ToothSpace, stroke_limits
+from solvers.pumping.space.section import section
+from solvers.pumping.space.tooth_space import StrokeLimits, ToothSpace, stroke_limits
 
 POSITIONS = 361
 
@@ -48,23 +48,26 @@ def stroke_table(space: ToothSpace, *, minimum_gap: float = 0.0, positions: int 
     """
     limits = stroke_limits(space)
     angle = np.linspace(limits.start, limits.end, positions)
-    values = np.empty((positions, 4))
-    _tabulate(space, angle, values)
-    _check_area(angle, values[:, 0])
+    area, left, right, carried = np.empty((4, positions))
+    _tabulate(space, angle, area, left, right, carried)
+    _check_area(angle, area)
     return StrokeTable(
         limits=limits,
         angle=frozen(angle),
-        area=frozen(values[:, 0].copy()),
-        clearance_left=frozen(np.maximum(values[:, 1], minimum_gap)),
-        clearance_right=frozen(np.maximum(values[:, 2], minimum_gap)),
-        carried=frozen(values[:, 3] - values[0, 3]),
+        area=frozen(area),
+        clearance_left=frozen(np.maximum(left, minimum_gap)),
+        clearance_right=frozen(np.maximum(right, minimum_gap)),
+        carried=frozen(carried - carried[0]),
     )
 
 
 @kernel
-def _tabulate(space: ToothSpace, angle: FloatArray, values: FloatArray) -> None:
+def _tabulate(
+    space: ToothSpace, angle: FloatArray, area: FloatArray, left: FloatArray, right: FloatArray, carried: FloatArray
+) -> None:
     for i in range(angle.size):
-        values[i, 0], values[i, 1], values[i, 2], values[i, 3] = section(space, angle[i])
+        found = section(space, angle[i])
+        area[i], left[i], right[i], carried[i] = found.area, found.left, found.right, found.carried
 
 
 def _check_area(angle: FloatArray, area: FloatArray) -> None:

@@ -8,67 +8,31 @@ Second order in space and time: limited linear reconstruction and a half-step pr
 wall work by a two-stage, L-stable, stiffly accurate Runge-Kutta method around the fluxes of the half step.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.pumping.duct import Duct, stroke_share, wall_values
-from solvers.pumping.leakage import Stage, Walls, implicit_stage
-from solvers.pumping.nozzle import Gas
-from solvers.pumping.riemann import front_face, hllc, reservoir_face
+from solvers.pumping.flow.duct import AREA, CARRIED, CLEARANCE, Duct
+from solvers.pumping.flow.nozzle import Gas
+from solvers.pumping.gas.cells import (
+    DEMAND,
+    DENSITY,
+    ENERGY,
+    GIVEN,
+    LEAKED,
+    MACH,
+    MASS,
+    MOMENTUM,
+    OUTWARD,
+    PRESSURE,
+    VELOCITY,
+    WORKED,
+    Cells,
+)
+from solvers.pumping.gas.leakage import Stage, Walls, implicit_stage
+from solvers.pumping.gas.riemann import front_face, hllc, reservoir_face
 
 _DIAGONAL = 1.0 - np.sqrt(0.5)  # of the two-stage method
-
-
-class Cells(NamedTuple):
-    """Arrays of a duct, each (cells, 3) or (faces, 3).
-
-    `content` per metre (mass, momentum, energy), `state` (density, velocity, pressure); `walls` at the start of the
-    step and `next_walls` at its end (area, clearance, carried gas); `slope` and `half` of the state; `loss` over the
-    step (leaked mass, energy lost to the walls, gauge work done by them; per metre); `face_area` and `flux` at the
-    half step; `ends` (2, 3) of the low and the high end: Mach number asked for, Mach number, velocity outwards [m/s];
-    `leak` (cells,) the latest leakage, a first guess for the next [kg/(s m)]; `share` (cells,) of the step in which a
-    cell's centre is in its stroke: outside it the walls stand still and nothing leaks.
-    """
-
-    content: FloatArray
-    state: FloatArray
-    next_content: FloatArray
-    next_state: FloatArray
-    walls: FloatArray
-    next_walls: FloatArray
-    slope: FloatArray
-    half: FloatArray
-    loss: FloatArray
-    face_area: FloatArray
-    flux: FloatArray
-    ends: FloatArray
-    leak: FloatArray
-    share: FloatArray
-
-
-def empty_cells(cells: int) -> Cells:
-    """Arrays for a duct of so many cells."""
-    wide, faces = (cells, 3), cells + 1
-    shapes = [wide, wide, wide, wide, wide, wide, wide, wide, wide, (faces,), (faces, 3), (2, 3), (cells,), (cells,)]
-    return Cells(*[np.zeros(shape) for shape in shapes])
-
-
-@kernel
-def set_walls(duct: Duct, cells: Cells, low: int, high: int, angle: float, turn: float) -> None:
-    """Walls of the active cells at the start and the end of a step, areas of their faces in its middle."""
-    for i in range(low, high):
-        z = duct.start + (i + 0.5) * duct.width
-        now, after = wall_values(duct, z, angle), wall_values(duct, z, angle + turn)
-        share = stroke_share(duct, z, angle, turn)
-        cells.share[i] = share
-        for k in range(3):
-            cells.walls[i, k], cells.next_walls[i, k] = now[k], after[k]
-        cells.walls[i, 1], cells.next_walls[i, 1] = share * now[1], share * after[1]
-    for i in range(low, high + 1):
-        cells.face_area[i] = wall_values(duct, duct.start + i * duct.width, angle + 0.5 * turn)[0]
 
 
 @kernel
@@ -96,7 +60,7 @@ def _set_slopes(cells: Cells, low: int, high: int, order: int) -> None:
             else:
                 back, ahead = state[i, k] - state[i - 1, k], state[i + 1, k] - state[i, k]
                 slope[i, k] = 2.0 * back * ahead / (back + ahead) if back * ahead > 0.0 else 0.0
-        for k in (0, 2):
+        for k in (DENSITY, PRESSURE):
             if 0.5 * abs(slope[i, k]) >= 0.9 * state[i, k]:
                 slope[i, :] = 0.0
 
@@ -114,10 +78,10 @@ def _end_slope(nearest: float, next_one: float) -> float:
 def _walls(duct: Duct, now: FloatArray, after: FloatArray, i: int, fraction: float, dt: float) -> Walls:
     """Walls of cell i after a fraction of the step."""
     return Walls(
-        now[i, 0] + fraction * (after[i, 0] - now[i, 0]),
-        (after[i, 0] - now[i, 0]) / dt,
-        duct.discharge * (now[i, 1] + fraction * (after[i, 1] - now[i, 1])),
-        (after[i, 2] - now[i, 2]) / dt,
+        now[i, AREA] + fraction * (after[i, AREA] - now[i, AREA]),
+        (after[i, AREA] - now[i, AREA]) / dt,
+        duct.discharge * (now[i, CLEARANCE] + fraction * (after[i, CLEARANCE] - now[i, CLEARANCE])),
+        (after[i, CARRIED] - now[i, CARRIED]) / dt,
     )
 
 
@@ -128,29 +92,32 @@ def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
     w, s, c, area, half = cells.state, cells.slope, cells.content, cells.face_area, cells.half
     for i in range(low, high):
         left, right = area[i], area[i + 1]
-        r_l, u_l, p_l = w[i, 0] - 0.5 * s[i, 0], w[i, 1] - 0.5 * s[i, 1], w[i, 2] - 0.5 * s[i, 2]
-        r_r, u_r, p_r = w[i, 0] + 0.5 * s[i, 0], w[i, 1] + 0.5 * s[i, 1], w[i, 2] + 0.5 * s[i, 2]
-        mass = c[i, 0] - share * (right * r_r * u_r - left * r_l * u_l)
-        force = w[i, 2] * (right - left)
-        momentum = c[i, 1] - share * (right * (r_r * u_r**2 + p_r) - left * (r_l * u_l**2 + p_l) - force)
+        rho, u, p = w[i]
+        by_rho, by_u, by_p = s[i]
+        r_l, u_l, p_l = rho - 0.5 * by_rho, u - 0.5 * by_u, p - 0.5 * by_p
+        r_r, u_r, p_r = rho + 0.5 * by_rho, u + 0.5 * by_u, p + 0.5 * by_p
+        mass = c[i, MASS] - share * (right * r_r * u_r - left * r_l * u_l)
+        force = p * (right - left)
+        momentum = c[i, MOMENTUM] - share * (right * (r_r * u_r**2 + p_r) - left * (r_l * u_l**2 + p_l) - force)
         enthalpy_l = g / (g - 1.0) * p_l + 0.5 * r_l * u_l**2
         enthalpy_r = g / (g - 1.0) * p_r + 0.5 * r_r * u_r**2
-        energy = c[i, 2] - share * (right * u_r * enthalpy_r - left * u_l * enthalpy_l)
+        energy = c[i, ENERGY] - share * (right * u_r * enthalpy_r - left * u_l * enthalpy_l)
         walls = _walls(duct, cells.walls, cells.next_walls, i, 0.5, dt)
         stage = implicit_stage(gas, walls, mass, momentum, energy, 0.5 * dt, cells.leak[i])
         if not stage.fits:
             return False
-        half[i, 0], half[i, 1], half[i, 2] = stage.mass / walls.area, stage.momentum / stage.mass, stage.pressure
+        half[i, DENSITY], half[i, VELOCITY] = stage.mass / walls.area, stage.momentum / stage.mass
+        half[i, PRESSURE] = stage.pressure
     return True
 
 
 @kernel
 def _edge(w: FloatArray, s: FloatArray, i: int, side: float) -> tuple[float, float, float]:
     """State w at a cell's edge by the slope s; that of the cell itself where the slope leads too far."""
-    rho, p = w[i, 0] + side * s[i, 0], w[i, 2] + side * s[i, 2]
-    if rho < 0.1 * w[i, 0] or p < 0.1 * w[i, 2]:
-        return w[i, 0], w[i, 1], w[i, 2]
-    return rho, w[i, 1] + side * s[i, 1], p
+    rho, p = w[i, DENSITY] + side * s[i, DENSITY], w[i, PRESSURE] + side * s[i, PRESSURE]
+    if rho < 0.1 * w[i, DENSITY] or p < 0.1 * w[i, PRESSURE]:
+        return w[i, DENSITY], w[i, VELOCITY], w[i, PRESSURE]
+    return rho, w[i, VELOCITY] + side * s[i, VELOCITY], p
 
 
 @kernel
@@ -161,7 +128,7 @@ def _set_fluxes(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> None
         rho_l, u_l, p_l = _edge(half, slope, i - 1, 0.5)
         rho_r, u_r, p_r = _edge(half, slope, i, -0.5)
         mass, momentum, energy = hllc(gas.exponent, rho_l, u_l, p_l, rho_r, u_r, p_r)
-        flux[i, 0], flux[i, 1], flux[i, 2] = area[i] * mass, area[i] * momentum, area[i] * energy
+        flux[i, MASS], flux[i, MOMENTUM], flux[i, ENERGY] = area[i] * mass, area[i] * momentum, area[i] * energy
     _set_end(gas, cells, low, low, 0)
     if high < duct.cells:
         _set_front(gas, duct, cells, high)
@@ -175,10 +142,10 @@ def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
     rho, u, p = _edge(cells.half, cells.slope, cell, 0.5 * outward)
     rho_f, v, p_f, mach = reservoir_face(gas, rho, outward * u, p)
     area, g = cells.face_area[face], gas.exponent
-    cells.flux[face, 0] = outward * area * rho_f * v
-    cells.flux[face, 1] = area * (rho_f * v * v + p_f)
-    cells.flux[face, 2] = outward * area * v * (g / (g - 1.0) * p_f + 0.5 * rho_f * v * v)
-    cells.ends[end, 0], cells.ends[end, 1], cells.ends[end, 2] = mach, v / np.sqrt(g * p_f / rho_f), v
+    cells.flux[face, MASS] = outward * area * rho_f * v
+    cells.flux[face, MOMENTUM] = area * (rho_f * v * v + p_f)
+    cells.flux[face, ENERGY] = outward * area * v * (g / (g - 1.0) * p_f + 0.5 * rho_f * v * v)
+    cells.ends[end, DEMAND], cells.ends[end, MACH], cells.ends[end, OUTWARD] = mach, v / np.sqrt(g * p_f / rho_f), v
 
 
 @kernel
@@ -187,9 +154,9 @@ def _set_front(gas: Gas, duct: Duct, cells: Cells, high: int) -> None:
     rho, u, p = _edge(cells.half, cells.slope, high - 1, 0.5)
     rho_f, v, p_f = front_face(gas, duct.speed / duct.lag, rho, u, p)
     area, g = cells.face_area[high], gas.exponent
-    cells.flux[high, 0] = area * rho_f * v
-    cells.flux[high, 1] = area * (rho_f * v * v + p_f)
-    cells.flux[high, 2] = area * v * (g / (g - 1.0) * p_f + 0.5 * rho_f * v * v)
+    cells.flux[high, MASS] = area * rho_f * v
+    cells.flux[high, MOMENTUM] = area * (rho_f * v * v + p_f)
+    cells.flux[high, ENERGY] = area * v * (g / (g - 1.0) * p_f + 0.5 * rho_f * v * v)
 
 
 @kernel
@@ -197,17 +164,19 @@ def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
     """Content at the end of the step from the fluxes of its middle, leakage and wall work in two implicit stages."""
     flux, area, c, loss, h = cells.flux, cells.face_area, cells.content, cells.loss, _DIAGONAL * dt
     for i in range(low, high):
-        mass = (flux[i, 0] - flux[i + 1, 0]) / duct.width
-        force = cells.half[i, 2] * (area[i + 1] - area[i])
-        momentum = (flux[i, 1] - flux[i + 1, 1] + force) / duct.width
-        energy = (flux[i, 2] - flux[i + 1, 2]) / duct.width
+        mass = (flux[i, MASS] - flux[i + 1, MASS]) / duct.width
+        force = cells.half[i, PRESSURE] * (area[i + 1] - area[i])
+        momentum = (flux[i, MOMENTUM] - flux[i + 1, MOMENTUM] + force) / duct.width
+        energy = (flux[i, ENERGY] - flux[i + 1, ENERGY]) / duct.width
         early, late = dt - h, h
         walls = _walls(duct, cells.walls, cells.next_walls, i, _DIAGONAL, dt)
+        old_mass, old_momentum, old_energy = c[i]
         first = implicit_stage(
-            gas, walls, c[i, 0] + h * mass, c[i, 1] + h * momentum, c[i, 2] + h * energy, h, cells.leak[i]
+            gas, walls, old_mass + h * mass, old_momentum + h * momentum, old_energy + h * energy, h, cells.leak[i]
         )
         walls = _walls(duct, cells.walls, cells.next_walls, i, 1.0, dt)
-        full_mass, full_momentum, full_energy = c[i, 0] + dt * mass, c[i, 1] + dt * momentum, c[i, 2] + dt * energy
+        full_mass, full_momentum = old_mass + dt * mass, old_momentum + dt * momentum
+        full_energy = old_energy + dt * energy
         last = implicit_stage(
             gas,
             walls,
@@ -222,10 +191,10 @@ def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
             last = implicit_stage(gas, walls, full_mass, full_momentum, full_energy, dt, cells.leak[i])
         if not last.fits:
             return False
-        loss[i, 0] = early * first.leak + late * last.leak
-        loss[i, 1] = early * first.energy_rate + late * last.energy_rate
+        loss[i, LEAKED] = early * first.leak + late * last.leak
+        loss[i, GIVEN] = early * first.energy_rate + late * last.energy_rate
         gauge = early * (gas.pressure - first.pressure) + late * (gas.pressure - last.pressure)
-        loss[i, 2] = gauge * walls.growth
+        loss[i, WORKED] = gauge * walls.growth
         cells.leak[i] = last.leak
         _store(gas, cells.next_content, cells.next_state, i, last, walls.area)
     return True
@@ -233,6 +202,6 @@ def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
 
 @kernel
 def _store(gas: Gas, content: FloatArray, state: FloatArray, i: int, stage: Stage, area: float) -> None:
-    content[i, 0], content[i, 1], content[i, 2] = stage.mass, stage.momentum, stage.energy
-    state[i, 0], state[i, 1] = stage.mass / area, stage.momentum / stage.mass
-    state[i, 2] = (gas.exponent - 1.0) * (stage.energy - 0.5 * stage.momentum**2 / stage.mass) / area
+    content[i, MASS], content[i, MOMENTUM], content[i, ENERGY] = stage.mass, stage.momentum, stage.energy
+    state[i, DENSITY], state[i, VELOCITY] = stage.mass / area, stage.momentum / stage.mass
+    state[i, PRESSURE] = (gas.exponent - 1.0) * (stage.energy - 0.5 * stage.momentum**2 / stage.mass) / area

@@ -1,0 +1,29 @@
+"""The coupling of Bloch's hand method (Improving Machinery Reliability, pp. 208-210)."""
+
+from functools import cache
+from math import radians, tan
+
+from solvers.coupling import solve
+from solvers.coupling.inputs import Coupling, CouplingInputs, Friction, Operation
+from solvers.coupling.results import CouplingResult
+
+TORQUE, DIAMETER, FACE, FRICTION = 21806.0, 0.2286, 0.033, 0.3  # N m, m, m, -
+MISALIGNMENT = radians(0.057)
+END_CONTACT = FACE / 2 * tan(radians(20.0)) / (DIAMETER / 2 * MISALIGNMENT)
+"""The crowning ratio whose contact just reaches the end of the face."""
+
+
+@cache
+def bloch(crowning: float = 1.0, stiffness: float = 2.8e8, axial_velocity: float = 0.0) -> CouplingResult:
+    """Bloch's coupling; the book does not give the teeth, 72 of diametral pitch 8 fit the diameter."""
+    design = Coupling(
+        teeth=72,
+        module=DIAMETER / 72,
+        face_width=FACE,
+        tooth_height=2 * DIAMETER / 72,
+        crowning_ratio=crowning,
+        tooth_stiffness=stiffness,
+    )
+    return solve(
+        CouplingInputs(design, Operation(TORQUE, 500.0, MISALIGNMENT, axial_velocity), friction=Friction(FRICTION))
+    )

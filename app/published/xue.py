@@ -1,0 +1,109 @@
+"""Xue, Zhang and Wang 2020: the four gear pairs, the contact at A, and the numbers the figures tell."""
+
+from dataclasses import replace
+from functools import cache
+from math import radians
+
+import numpy as np
+
+from solvers.contact import ehl
+from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.scuffing import solve_load_distribution, solve_scuffing
+from solvers.scuffing.inputs import (
+    Load,
+    LoadDistributionInputs,
+    Model,
+    Modifications,
+    ScuffingInputs,
+    angular_speed,
+    torque_from_power,
+)
+from solvers.scuffing.results import LoadDistribution
+from solvers.scuffing.safety_results import Scuffing
+
+HELIX_AND_WIDTH = {1: (9.8, 20.0), 2: (9.8, 40.0), 3: (20.2, 20.0), 4: (20.2, 40.0)}
+PAPER_SPEED = angular_speed(2000.0)
+PAPER_LOAD = Load(torque_from_power(50e3, PAPER_SPEED), PAPER_SPEED)
+PAPER_MODEL = Model(contact="linear", section="transverse")
+CALIBRATED_MODEL = replace(PAPER_MODEL, tooth_stiffness="parabola", load_convention="paper")
+PAPER_MODIFICATIONS = Modifications(profile_crowning=10e-6, lead_crowning=10e-6, tip_relief=5e-6)
+
+# Point A of gear pair 1 under 273 N/mm, all temperatures 360 K
+POINT_A = ehl.Contact(2.73e5, 4.015e-3, 1.0179, 3.7076)
+
+
+def paper_gears(number: int) -> GearPairInputs:
+    """Gear pair 1 to 4 of Table 1."""
+    helix, width = HELIX_AND_WIDTH[number]
+    return GearPairInputs(
+        GearTeeth(23), GearTeeth(30), 3e-3, width * 1e-3, helix_angle=radians(helix), rack_tip_radius=0.38
+    )
+
+
+def paper_pair(
+    number: int, modifications: Modifications | None = None, model: Model = PAPER_MODEL
+) -> LoadDistributionInputs:
+    """Gear pair 1 to 4 under 50 kW at 2000 1/min."""
+    return LoadDistributionInputs(paper_gears(number), PAPER_LOAD, modifications or Modifications(), model=model)
+
+
+@cache
+def pair(number: int, model: Model = PAPER_MODEL, modifications: Modifications | None = None) -> LoadDistribution:
+    """The load on one of them."""
+    return solve_load_distribution(paper_pair(number, modifications, model))
+
+
+@cache
+def scuffing() -> Scuffing:
+    """The thermal path of pair 1."""
+    return solve_scuffing(ScuffingInputs(paper_pair(1)))
+
+
+@cache
+def point_a(rheology: ehl.Rheology = "ree_eyring", *, thermal: bool = True) -> ehl.LineContactResult:
+    """The contact at A on 241 nodes."""
+    model = replace(ehl.Model(), thermal=thermal, nodes=241)
+    return ehl.solve(ehl.LineContactInputs(POINT_A, model=replace(model, rheology=rheology)))
+
+
+def film(rheology: ehl.Rheology = "ree_eyring", *, thermal: bool = True) -> float:
+    """Fig. 20: thinnest film at A [um]."""
+    return (point_a(rheology, thermal=thermal).film.minimum or 0.0) * 1e6
+
+
+def mid_film_temperature() -> float:
+    """Fig. 21: largest temperature in the middle of the film at A [K]."""
+    temperature = point_a().temperature
+    assert temperature is not None
+    return temperature.mid_film_max
+
+
+def centre_pressure() -> float:
+    """Fig. 20: largest pressure at A [GPa]."""
+    pressure = point_a().pressure
+    assert pressure is not None
+    return pressure.maximum * 1e-9
+
+
+def root_load(number: int, model: Model) -> float:
+    """Fig. 11: line load where the mesh begins [N/mm]."""
+    return float(pair(number, model).feature_line.line_load[0]) * 1e-3
+
+
+def film_over_formula() -> float:
+    """Fig. 23: largest ratio of the computed film to the formula's along the path."""
+    path = scuffing().path
+    assert path.minimum_film is not None
+    return float(np.nanmax(path.minimum_film / path.dowson_higginson))
+
+
+def thinnest_psi() -> float:
+    """Fig. 23: where on the path the film is thinnest."""
+    return scuffing().film.min_at_psi or 0.0
+
+
+def helix_slope_pressure(slope: float) -> float:
+    """Fig. 17: largest pressure of pair 4 with this helix slope [m]."""
+    largest = pair(4, PAPER_MODEL, replace(PAPER_MODIFICATIONS, helix_slope=slope)).pressure.max
+    assert largest is not None
+    return largest

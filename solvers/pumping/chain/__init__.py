@@ -1,0 +1,1 @@
+"""The paper's chain of pockets: pockets -> step -> march -> pocket_chain."""

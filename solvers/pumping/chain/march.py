@@ -1,0 +1,164 @@
+"""The march of a chain of pockets through its strokes: pockets that come and go, and the books."""
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.compiled import kernel
+from solvers.pumping.chain.pockets import CONTENT, END, HEAT, MASS, PRESSURE, START, Pockets
+from solvers.pumping.chain.step import advance
+from solvers.pumping.flow import record as columns
+from solvers.pumping.flow.duct import Duct, active_range, wall_at
+from solvers.pumping.flow.nozzle import Gas, throat_mach
+from solvers.pumping.flow.record import (
+    BEGUN,
+    ENDED,
+    IDLE,
+    LOW_END,
+    LOW_OUTFLOW,
+    TIME,
+    WALLS,
+    WORK,
+    Record,
+    book,
+    book_demand,
+    book_means,
+    book_pressure,
+    book_speed,
+)
+
+
+@kernel
+def march_chain(
+    gas: Gas, duct: Duct, pockets: Pockets, angles: FloatArray, substeps: int, record: Record, isentropic: bool
+) -> int:
+    """March over all `angles` [rad] in equal steps; their number, or -1 if one did not converge."""
+    turn = (angles[-1] - angles[0]) / ((angles.size - 1) * substeps)
+    dt = turn / duct.speed
+    low, high, taken = 0, 0, 0
+    for k in range(1, angles.size):
+        for _ in range(substeps):
+            angle = angles[0] + taken * turn
+            new_low, new_high = active_range(duct, angle + 0.5 * turn)
+            _renew(gas, duct, pockets, record, low, high, new_low, new_high, angle)
+            low, high = new_low, new_high
+            _set_walls(duct, pockets, low, high, angle, turn)
+            if high > low and not advance(gas, duct, pockets, low, high, dt, isentropic):
+                return -1
+            record.ends[taken, TIME] = (taken + 0.5) * dt
+            if high > low:
+                _book_ends(gas, duct, pockets, record, low, high, dt, taken)
+                for face in range(low, high + 1):
+                    _book_jet(gas, pockets, record, face, low, high)
+                _book_pockets(gas, duct, pockets, record, low, high, dt)
+            taken += 1
+        _sample(gas, pockets, record, low, high, k)
+    _renew(gas, duct, pockets, record, low, high, 0, 0, angles[-1])
+    return taken
+
+
+@kernel
+def _renew(
+    gas: Gas,
+    duct: Duct,
+    pockets: Pockets,
+    record: Record,
+    low: int,
+    high: int,
+    new_low: int,
+    new_high: int,
+    angle: float,
+) -> None:
+    """Give the content of pockets whose stroke is over back, fill those whose stroke begins with ambient gas."""
+    per_energy = gas.exponent - 1.0
+    for i in range(low, high):
+        if i < new_low or i >= new_high:
+            energy = pockets.old[i, PRESSURE] * pockets.area[i, END] / per_energy * duct.width
+            book(record, ENDED, pockets.old[i, CONTENT] * duct.width, energy)
+    for i in range(new_low, new_high):
+        if i < low or i >= high:
+            area = wall_at(duct, duct.start + (i + 0.5) * duct.width, angle).area
+            pockets.old[i, PRESSURE], pockets.old[i, CONTENT] = gas.pressure, gas.density * area
+            book(record, BEGUN, pockets.old[i, CONTENT] * duct.width, gas.pressure * area / per_energy * duct.width)
+
+
+@kernel
+def _set_walls(duct: Duct, pockets: Pockets, low: int, high: int, angle: float, turn: float) -> None:
+    for i in range(low, high):
+        z = duct.start + (i + 0.5) * duct.width
+        after = wall_at(duct, z, angle + turn)
+        pockets.area[i, START] = wall_at(duct, z, angle).area
+        pockets.area[i, END], pockets.gap[i] = after.area, after.clearance
+    for face in range(low, high + 1):
+        pockets.opening[face] = wall_at(duct, duct.start + face * duct.width, angle + turn).area
+
+
+@kernel
+def _temperature(gas: Gas, pockets: Pockets, i: int, when: int) -> float:
+    """Temperature of a pocket [K] by its area at the START or the END of the step."""
+    temperature: float = pockets.old[i, PRESSURE] * pockets.area[i, when] / (pockets.old[i, CONTENT] * gas.constant)
+    return temperature
+
+
+@kernel
+def _mach(gas: Gas, pockets: Pockets, face: int, low: int, high: int) -> float:
+    """Mach number in the narrowest section of the jet through a face."""
+    left = pockets.new[face - 1, PRESSURE] if face > low else gas.pressure
+    right = pockets.new[face, PRESSURE] if face < high else gas.pressure
+    return throat_mach(gas, max(left, right), min(left, right))
+
+
+@kernel
+def _sample(gas: Gas, pockets: Pockets, record: Record, low: int, high: int, k: int) -> None:
+    """Field of the active pockets at a recorded angle."""
+    for i in range(low, high):
+        mach = max(_mach(gas, pockets, i, low, high), _mach(gas, pockets, i + 1, low, high))
+        record.field[k, i, columns.PRESSURE], record.field[k, i, columns.MACH] = pockets.old[i, PRESSURE], mach
+        record.field[k, i, columns.TEMPERATURE] = _temperature(gas, pockets, i, END)
+
+
+@kernel
+def _book_ends(
+    gas: Gas, duct: Duct, pockets: Pockets, record: Record, low: int, high: int, dt: float, taken: int
+) -> None:
+    """Book what left through both ends of the active pockets: ends of the duct, or borders to idle pockets."""
+    for end in range(2):
+        face, outward = (low, -1.0) if end == 0 else (high, 1.0)
+        open_end = (low == 0) if end == 0 else (high == duct.cells)
+        entry = LOW_END + end if open_end else IDLE
+        mass = outward * pockets.flow[face, MASS] * dt
+        book(record, entry, mass, outward * pockets.flow[face, HEAT] * dt)
+        if open_end:
+            record.ends[taken, LOW_OUTFLOW + end] = mass
+            inside = pockets.new[low if end == 0 else high - 1, PRESSURE]
+            asked = (gas.pressure / inside) ** ((1.0 - gas.exponent) / gas.exponent) - 1.0
+            book_demand(record, np.sqrt(max(2.0 / (gas.exponent - 1.0) * asked, 0.0)))
+
+
+@kernel
+def _book_jet(gas: Gas, pockets: Pockets, record: Record, face: int, low: int, high: int) -> None:
+    """Book Mach number and velocity in the jet through a face."""
+    source = face - 1 if pockets.flow[face, MASS] > 0.0 else face
+    stagnation = gas.temperature
+    if low <= source < high:
+        content = pockets.new[source, CONTENT] * gas.constant
+        stagnation = pockets.new[source, PRESSURE] * pockets.area[source, END] / content
+    mach = _mach(gas, pockets, face, low, high)
+    static = stagnation / (1.0 + 0.5 * (gas.exponent - 1.0) * mach * mach)
+    book_speed(record, mach, mach * np.sqrt(gas.exponent * gas.constant * static))
+
+
+@kernel
+def _book_pockets(gas: Gas, duct: Duct, pockets: Pockets, record: Record, low: int, high: int, dt: float) -> None:
+    """Book what the walls did, means and extremes, and take over the new state."""
+    old, new = pockets.old, pockets.new
+    for i in range(low, high):
+        growth = pockets.area[i, END] - pockets.area[i, START]
+        mean = 0.5 * (old[i, PRESSURE] + new[i, PRESSURE])
+        energy = (pockets.leak[i, HEAT] * dt + mean * growth) * duct.width
+        book(record, WALLS, pockets.leak[i, MASS] * dt * duct.width, energy)
+        record.energy[WORK] -= (mean - gas.pressure) * growth * duct.width
+        before = _temperature(gas, pockets, i, START)
+        old[i, PRESSURE], old[i, CONTENT] = new[i, PRESSURE], new[i, CONTENT]
+        temperature = 0.5 * (before + _temperature(gas, pockets, i, END))
+        book_means(record, i, temperature, temperature, dt, 1.0)
+        book_pressure(record, i, new[i, PRESSURE])

@@ -1,0 +1,79 @@
+"""A stretch of tooth space as a duct: its grid and its moving walls."""
+
+from typing import NamedTuple
+
+from solvers.arrays import FloatArray
+from solvers.compiled import kernel
+
+AREA, CLEARANCE, CARRIED = range(3)  # columns of tables of walls
+
+
+class Duct(NamedTuple):
+    """A stretch of a tooth space cut into equal cells.
+
+    `start` [m] from the end that meshes first, `width` of a cell [m], `cells`; `lag` of the stroke per metre of face
+    [rad/m]; `speed` of the owner [rad/s]; `table` of area, total clearance and carried gas at `first_angle` +
+    k `angle_step` [rad]; `discharge` coefficient of the radial gaps.
+    """
+
+    start: float
+    width: float
+    cells: int
+    lag: float
+    speed: float
+    first_angle: float
+    angle_step: float
+    table: FloatArray
+    discharge: float
+
+
+class Wall(NamedTuple):
+    """Section of a tooth space [m^2], clearance of its two sides [m], gas that the flanks carry off [m^2]."""
+
+    area: float
+    clearance: float
+    carried: float
+
+
+@kernel
+def wall_at(duct: Duct, z: float, angle: float) -> Wall:
+    """The walls at z [m] when the owner stands at `angle` [rad]; end values outside the stroke."""
+    position = (angle - duct.lag * z - duct.first_angle) / duct.angle_step
+    last = duct.table.shape[0] - 1
+    position = min(max(position, 0.0), float(last))
+    k = min(int(position), last - 1)
+    f = position - k
+    low, high = duct.table[k], duct.table[k + 1]
+    return Wall(
+        (1.0 - f) * low[AREA] + f * high[AREA],
+        (1.0 - f) * low[CLEARANCE] + f * high[CLEARANCE],
+        (1.0 - f) * low[CARRIED] + f * high[CARRIED],
+    )
+
+
+@kernel
+def active_range(duct: Duct, angle: float) -> tuple[int, int]:
+    """First active cell and the one after the last: those whose centre's phase lies in the stroke."""
+    low, high = 0, 0
+    for i in range(duct.cells):
+        phase = angle - duct.lag * (duct.start + (i + 0.5) * duct.width)
+        if phase > stroke_end(duct):
+            low = i + 1
+        if phase >= duct.first_angle:
+            high = i + 1
+    return low, max(low, high)
+
+
+@kernel
+def stroke_end(duct: Duct) -> float:
+    """Phase at which the stroke ends [rad]."""
+    end: float = duct.first_angle + duct.angle_step * (duct.table.shape[0] - 1)
+    return end
+
+
+@kernel
+def stroke_share(duct: Duct, z: float, angle: float, turn: float) -> float:
+    """Share of a step of `turn` from `angle` [rad] in which the place z [m] is in its stroke."""
+    phase = angle - duct.lag * z
+    inside = min(phase + turn, stroke_end(duct)) - max(phase, duct.first_angle)
+    return min(max(inside / turn, 0.0), 1.0)

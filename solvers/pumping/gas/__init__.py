@@ -1,0 +1,1 @@
+"""Quasi-one-dimensional gas dynamics: riemann, leakage -> cells -> step -> books -> march -> gas_dynamics."""

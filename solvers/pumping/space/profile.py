@@ -1,0 +1,134 @@
+"""Both profiles of a side of a tooth space, and the nearest point of one to a point of the other.
+
+Normals of an involute are tangents of its base circle, so the foot of a point on a flank needs no search; the areas
+under involutes and circular arcs are elementary. Only a foot on the root fillet is searched for.
+"""
+
+import numpy as np
+
+from solvers.compiled import kernel
+from solvers.gears.fillet import RackFillet, fillet_point, fillet_sector_area
+from solvers.pumping.space.tooth_space import ToothSpace
+
+_SCAN = 17  # fillet points that bracket the nearest one
+_GOLDEN = 0.6180339887498949
+
+
+@kernel
+def involute(roll: float, base: float) -> float:
+    """Polar angle of an involute at a roll length [m] [rad]."""
+    angle: float = roll / base - np.arctan(roll / base)
+    return angle
+
+
+@kernel
+def sector(roll: float, base: float) -> float:
+    """1/2 integral r^2 dpsi along an involute from its base circle [m^2]."""
+    return roll**3 / (6.0 * base)
+
+
+@kernel
+def sector_to_involute(space: ToothSpace, roll: float) -> float:
+    """Area between the owner's centre and half a space's profile up to a roll length of its involute [m^2]."""
+    base = space.base_radius
+    return space.root.sector_area + sector(roll, base) - sector(space.root.involute_roll, base)
+
+
+@kernel
+def _distance_to_fillet(fillet: RackFillet, t: float, radius: float, angle: float) -> float:
+    r, psi = fillet_point(fillet, t)
+    distance: float = np.sqrt((r - radius) ** 2 + 4.0 * r * radius * np.sin(0.5 * (psi - angle)) ** 2)
+    return distance
+
+
+@kernel
+def _nearest_on_fillet(fillet: RackFillet, radius: float, angle: float) -> tuple[float, float]:
+    """Arc parameter and distance [m] of the fillet's point nearest to (radius, angle from the space's centre)."""
+    step = fillet.end / (_SCAN - 1)
+    best, nearest = 0, np.inf
+    for k in range(_SCAN):
+        distance = _distance_to_fillet(fillet, k * step, radius, angle)
+        if distance < nearest:
+            best, nearest = k, distance
+    low, high = max(best - 1, 0) * step, min(best + 1, _SCAN - 1) * step
+    for _ in range(36):
+        inner, outer = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+        if _distance_to_fillet(fillet, inner, radius, angle) < _distance_to_fillet(fillet, outer, radius, angle):
+            high = outer
+        else:
+            low = inner
+    t = 0.5 * (low + high)
+    return t, _distance_to_fillet(fillet, t, radius, angle)
+
+
+@kernel
+def _foot_on_flank(space: ToothSpace, radius: float, angle: float) -> tuple[float, float]:
+    """Roll length of the flank's point nearest to (radius, angle from the space's centre), and its distance [m]."""
+    base, start = space.base_radius, space.root.involute_roll
+    if radius > base:
+        roll = np.sqrt(radius**2 - base**2)
+        foot = base * (angle + np.arctan(roll / base) - space.base_half_angle)
+        if start <= foot <= space.tip_roll:
+            return foot, abs(roll - foot)
+    else:
+        foot = start
+    foot = min(max(foot, start), space.tip_roll)
+    psi = space.base_half_angle + involute(foot, base)
+    r = np.hypot(base, foot)
+    return foot, np.sqrt((r - radius) ** 2 + 4.0 * r * radius * np.sin(0.5 * (psi - angle)) ** 2)
+
+
+@kernel
+def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[float, float, float, float]:
+    """Nearest point of half a space's profile: distance [m], radius [m], half angle [rad], sector below [m^2]."""
+    root, base = space.root, space.base_radius
+    roll, distance = _foot_on_flank(space, radius, angle)
+    r, psi = np.hypot(base, roll), space.base_half_angle + involute(roll, base)
+    area = sector_to_involute(space, roll)
+    bottom = min(max(angle, 0.0), root.root_half_angle)
+    gap = np.hypot(root.root_radius * np.sin(bottom - angle), radius - root.root_radius * np.cos(bottom - angle))
+    if gap < distance:
+        distance, r, psi, area = gap, root.root_radius, bottom, 0.5 * bottom * root.root_radius**2
+    if roll <= root.involute_roll or radius < np.hypot(base, root.involute_roll):
+        t, gap = _nearest_on_fillet(root.fillet, radius, angle)
+        if gap < distance:
+            r, psi = fillet_point(root.fillet, t)
+            distance = gap if radius - r > r * (angle - psi) else 0.0  # a fillet proud of the involute meets the mate
+            area = 0.5 * root.root_half_angle * root.root_radius**2 + fillet_sector_area(root.fillet, t)
+    return distance, r, psi, area
+
+
+@kernel
+def foot_on_mate(space: ToothSpace, radius: float, angle: float) -> tuple[float, float]:
+    """Roll length of the mate's flank nearest to (radius, angle from its tooth's centre), and its distance [m]."""
+    base = space.mate_base_radius
+    foot = 0.0
+    if radius > base:
+        roll = np.sqrt(radius**2 - base**2)
+        foot = base * (space.mate_base_half_angle - angle + np.arctan(roll / base))
+        if 0.0 <= foot <= space.mate_tip_roll:
+            return foot, abs(roll - foot)
+    foot = min(max(foot, 0.0), space.mate_tip_roll)
+    half_angle = space.mate_base_half_angle - involute(foot, base)
+    r = np.hypot(base, foot)
+    return foot, np.sqrt((r - radius) ** 2 + 4.0 * r * radius * np.sin(0.5 * (half_angle - angle)) ** 2)
+
+
+@kernel
+def from_mate(
+    space: ToothSpace, angle: float, mate_angle: float, mate_roll: float
+) -> tuple[float, float, float, float]:
+    """Nearest point of half a space's profile to a point of the mate's flank, as `nearest_on_profile` tells it."""
+    radius = np.hypot(space.mate_base_radius, mate_roll)
+    mu = mate_angle - space.mate_base_half_angle + involute(mate_roll, space.mate_base_radius)
+    x, y = radius * np.sin(mu), space.centre_distance - radius * np.cos(mu)
+    return nearest_on_profile(space, np.hypot(x, y), angle - np.arctan2(x, y))
+
+
+@kernel
+def from_own(space: ToothSpace, angle: float, mate_angle: float, roll: float) -> tuple[float, float]:
+    """Foot on the mate's flank of a point of the own one, as `foot_on_mate` tells it."""
+    radius = np.hypot(space.base_radius, roll)
+    theta = angle - space.base_half_angle - involute(roll, space.base_radius)
+    x, y = radius * np.sin(theta), space.centre_distance - radius * np.cos(theta)
+    return foot_on_mate(space, np.hypot(x, y), mate_angle - np.arctan2(x, y))

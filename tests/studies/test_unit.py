@@ -1,0 +1,357 @@
+"""Corners and design of a gear unit: points as the endpoint answers them, extremes, the search, every refusal."""
+
+import asyncio
+import copy
+import json
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.calculations import BY_PATH
+from app.evaluate import evaluate
+from app.library import examples
+from app.problems import Unprocessable, faults_of
+from app.reading import InvalidBody
+from app.studies.corners import plan_corners
+from app.studies.design import next_trial
+from app.studies.design_plan import plan_design
+from app.studies.engine import Pool
+from app.studies.fields import value_at
+from app.studies.lines import encoded, json_line
+from app.studies.points import with_overrides
+from app.studies.stream import Clock, guarded
+from app.studies.sweep import plan_sweep
+from app.studies.unit import lightened
+from solvers.arrays import FloatArray
+from solvers.drive_train.corners import run_corners, single
+from solvers.drive_train.design import Variable, design, search
+from tests.pools import InlinePool
+
+UNIT = BY_PATH["/v1/drive-train"]
+TURBO = examples()["starter-turbo-gear-drive-train"].request
+CLOSED = {**TURBO, "model": {**TURBO.get("model", {}), "lubrication": "closed_form"}}
+FRICTION = {"path": "couplings.0.friction.coefficient", "values": [0.05, 0.25]}
+RESPONSE = {"path": "thermal.wall_response", "values": [0.3, 1.0]}
+OFFSETS = ["couplings.0.offset_um.0", "couplings.0.offset_um.1"]
+K, SAFETY = "load.face_load_factor", "safety.blok_flank"
+FILM = [f"pinion_shaft.bearings.0.{name}" for name in ("viscosity_pa_s", "radial_clearance_um", "width_mm")]
+CARRIES, TOO_THIN = [0.014, 130, 110], [1e-5, 1000, 20]
+HELIX = {"path": "modifications.helix_slope_um", "min": 0, "max": 100}
+Planner = Callable[[bytes, int, float], Any]
+
+
+def lines_of(planner: Planner, pool: Pool | None = None, **body: Any) -> list[dict[str, Any]]:
+    study = planner(json.dumps({"request": CLOSED, **body}).encode(), 2500, 30.0)
+
+    async def run() -> bytes:
+        clock = Clock(study.total)
+        lines = guarded(study.lines(pool or InlinePool(), clock), clock, 600)
+        return b"".join([piece async for piece in encoded(lines, json_line)])
+
+    return [json.loads(line) for line in asyncio.run(run()).splitlines()]
+
+
+def timeless(lines: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    return [{key: value for key, value in line.items() if key != "elapsed_s"} for line in lines]
+
+
+def answered(overrides: dict[str, Any], outputs: list[str], base: dict[str, Any] = CLOSED) -> list[Any]:
+    """What the endpoint itself answers."""
+    found = evaluate(UNIT, UNIT.request.model_validate(with_overrides(UNIT, base, overrides)))
+    return [value_at(found, path) for path in outputs]
+
+
+def test_corners_are_the_units_own_answers() -> None:
+    ranges = [{"path": OFFSETS, "values": [[0, 400], [0, -400]]}, RESPONSE]
+    header, *points, of_factor, of_safety, end = lines_of(plan_corners, ranges=ranges, outputs=[K, SAFETY])
+    assert header["type"] == "corners"
+    assert header["total"] == len(points) == end["points"] == 4
+    assert [axis["path"] for axis in header["axes"]] == [OFFSETS, RESPONSE["path"]]
+    corners = [
+        {OFFSETS[0]: 0, OFFSETS[1]: offset, RESPONSE["path"]: response}
+        for offset in (400, -400)
+        for response in (0.3, 1.0)
+    ]
+    assert [point["out"] for point in points] == [answered(corner, [K, SAFETY]) for corner in corners]
+    for column, line in enumerate((of_factor, of_safety)):
+        values = [point["out"][column] for point in points]
+        assert (line["type"], line["output"]) == ("extremes", (K, SAFETY)[column])
+        assert line["min"] == {"value": min(values), "at": corners[int(np.argmin(values))]}
+        assert line["max"] == {"value": max(values), "at": corners[int(np.argmax(values))]}
+    assert (end["counts"], end["warnings"]) == ({"ok_with_warnings": 4}, [])
+
+
+def test_corners_are_the_solvers() -> None:
+    ranges = [FRICTION, RESPONSE, {"path": "couplings.0.thrust_fraction", "values": [0, 1]}]
+    found = {
+        line["output"]: line
+        for line in lines_of(plan_corners, ranges=ranges, outputs=[K, SAFETY])
+        if line["type"] == "extremes"
+    }
+    own = run_corners(
+        UNIT.request.model_validate(CLOSED).inputs(),
+        [
+            single("couplings.0.friction.coefficient", (0.05, 0.25)),
+            single("heat.wall_response", (0.3, 1.0)),
+            single("couplings.0.thrust_fraction", (0.0, 1.0)),
+        ],
+    )
+    for path, name in ((K, "face_load_factor"), (SAFETY, "safety")):
+        for end, extremes in (("min", own.smallest), ("max", own.largest)):
+            assert found[path][end]["value"] == extremes[name].value
+            assert list(found[path][end]["at"].values()) == list(extremes[name].corner.values())
+
+
+def test_studies_say_the_same_on_any_number_of_processes() -> None:
+    for planner, body in (
+        (plan_corners, {"ranges": [FRICTION, RESPONSE], "outputs": [K]}),
+        (plan_design, {"variables": [HELIX], "corners": [FRICTION], "objective": SAFETY, "evaluations": 3}),
+    ):
+        first, *others = (timeless(lines_of(planner, InlinePool(slots), **body)) for slots in (1, 3))
+        assert all(other == first for other in others)
+
+
+def test_the_usual_corners() -> None:
+    plan = plan_corners(json.dumps({"request": TURBO}).encode(), 2500, 30.0).plan
+    assert plan.total == 128
+    assert [(axis.path, axis.values) for axis in plan.axes] == [
+        ("thermal.wall_response", [0.3, 1.0]),
+        ([f"pinion_shaft.bearings.{k}.radial_clearance_um" for k in (0, 1)], [[143.0, 117.0], [117.0, 143.0]]),
+        ([f"wheel_shaft.bearings.{k}.radial_clearance_um" for k in (0, 1)], [[165.0, 135.0], [135.0, 165.0]]),
+        ("couplings.0.friction.coefficient", [0.05, 0.25]),
+        (OFFSETS, [[0.0, 400.0], [-400.0, 0.0], [0.0, -400.0], [400.0, 0.0]]),
+        ("couplings.0.thrust_fraction", [0.0, 1.0]),
+    ]
+    generator = examples()["starter-generator-gear-drive-train"].request
+    named = [axis.path for axis in plan_corners(json.dumps({"request": generator}).encode(), 2500, 30.0).plan.axes]
+    assert not [path for path in named if "clearance" in str(path)], "springs have no clearance"
+
+
+def test_corners_without_answer_are_told_and_left_out() -> None:
+    """A film too thin for its load, and two bearings at one place."""
+    far = {"path": "pinion_shaft.bearings.1.position_mm", "values": [620, 220]}
+    thin = {"path": FILM, "values": [CARRIES, TOO_THIN]}
+    header, *points, extremes, end = lines_of(plan_corners, ranges=[far, thin], outputs=[K])
+    assert [point["status"] for point in points] == ["ok_with_warnings", "no_solution", "refused", "refused"]
+    assert points[1]["warnings"] == ["journal"]
+    assert points[2]["error"]["code"] == "bearing_order"
+    assert extremes["min"] == extremes["max"]
+    assert extremes["min"]["value"] == points[0]["out"][0]
+    (warning,) = end["warnings"]
+    assert warning["code"] == "no_convergence_of_corner"
+    assert warning["message"].startswith("3 corners")
+    assert header["total"] == 4
+
+
+def test_only_what_is_asked_is_calculated() -> None:
+    both = {**TURBO, "states": ["hot", "cold"], "model": {"lubrication": "thermal_ehl", "feature_points": 21}}
+    for outputs, film, states in (
+        ([K, SAFETY], "closed_form", None),
+        (["safety.minimum"], "thermal_ehl", None),
+        (["states.cold.safety.blok_flank"], "closed_form", ["hot", "cold"]),
+        (["states.cold.safety.thermal_ehl_feature"], "thermal_ehl", ["hot", "cold"]),
+    ):
+        light = lightened(both, outputs)
+        assert light["model"] == {"lubrication": film, "feature_points": 21}
+        assert light.get("states") == states
+    assert both["states"] == ["hot", "cold"], "the request itself stays"
+    light = lightened({**TURBO, "states": ["hot", "cold"]}, [K, SAFETY])
+    assert answered({}, [K, SAFETY], light) == answered({}, [K, SAFETY], TURBO)
+
+
+def test_a_design_is_judged_at_its_worst_corner() -> None:
+    powers: list[dict[str, Any]] = [{"operation.power_kw": 12000}, {"operation.power_kw": 6000}]
+    header, *trials, end = lines_of(
+        plan_design, variables=[HELIX], corners=[FRICTION], collective=powers, objective=SAFETY, evaluations=3
+    )
+    assert (header["type"], header["direction"], header["corners"]) == ("design", "maximise", 4)
+    assert header["objective"] == {"path": SAFETY, "unit": None, "title": "scuffing safety on the flank"}
+    assert header["variables"] == [{"path": [HELIX["path"]], "unit": "µm", "min": 0.0, "max": 100.0}]
+    cases = [{**power, FRICTION["path"]: friction} for power in powers for friction in (0.05, 0.25)]
+    for trial in (trials[0], trials[-1]):
+        values = [answered({**trial["at"], **case}, [SAFETY])[0] for case in cases]
+        assert trial["objective"] == min(values)
+        assert trial["worst_corner"] == cases[int(np.argmin(values))]
+    assert end["start"] == trials[0]["at"] == {HELIX["path"]: 50.0}
+    assert end["objective_start"] == trials[0]["objective"]
+    best = max(trials, key=lambda trial: trial["objective"])
+    assert (end["best"], end["objective_best"]) == (best["at"], best["objective"])
+    assert end["worst_corner"] == best["worst_corner"]
+    assert end["evaluations"] == len(trials) == len(end["history"]) == 3
+    assert [each["objective"] for each in end["history"]] == [trial["objective"] for trial in trials]
+
+
+def test_the_search_is_the_solvers() -> None:
+    variable = {"path": RESPONSE["path"], "min": 0.2, "max": 1.4}
+    _, *trials, end = lines_of(
+        plan_design,
+        variables=[variable],
+        corners=[FRICTION],
+        objective=K,
+        direction="minimise",
+        evaluations=5,
+    )
+    own = design(
+        UNIT.request.model_validate(CLOSED).inputs(),
+        [Variable(("heat.wall_response",), 0.2, 1.4)],
+        [single("couplings.0.friction.coefficient", (0.05, 0.25))],
+        objective="face_load_factor",
+        evaluations=5,
+    )
+    assert [(*trial["at"].values(), trial["objective"]) for trial in trials] == [
+        (*trial.values, trial.objective) for trial in own.history
+    ]
+    assert end["objective_best"] == own.objective_best
+
+
+def test_trials_told_one_by_one_are_those_of_one_search() -> None:
+    """A ridge, and a corner of the square without solution."""
+
+    def figure(shares: FloatArray) -> float | None:
+        x, y = shares
+        return None if x + y > 1.5 else 2.0 + max(abs(x - 0.7), 2 * abs(y - x / 2)) + 0.1 * float(x * y)
+
+    whole: list[list[float]] = []
+
+    def judge(shares: FloatArray) -> float | None:
+        whole.append(shares.tolist())
+        return figure(shares)
+
+    search(judge, np.array([0.2, 0.9]), 30)
+    told: list[float | None] = []
+    for expected in whole:
+        shares = next_trial([0.2, 0.9], told, 30)
+        assert shares == expected
+        told.append(figure(np.array(shares)))
+    assert next_trial([0.2, 0.9], told, 30) is None
+    assert len(whole) <= 30
+
+
+def test_a_design_without_start_ends_with_an_error() -> None:
+    body = copy.deepcopy(CLOSED)
+    body["pinion_shaft"]["bearings"][0] |= {"viscosity_pa_s": 1e-5, "radial_clearance_um": 1000, "width_mm": 20}
+    _, trial, error = lines_of(plan_design, request=body, variables=[HELIX], objective=SAFETY)
+    assert (trial["objective"], trial["worst_corner"]) == (None, {})
+    assert (error["type"], error["code"]) == ("error", "no_start")
+
+
+def test_a_trial_without_answer_is_worse_than_all() -> None:
+    """The less oil the softer the shafts and the better the face, until a film no longer carries."""
+    body = copy.deepcopy(CLOSED)
+    body["pinion_shaft"]["bearings"][0] |= {"width_mm": 20, "radial_clearance_um": 1000}
+    viscosity = {"path": FILM[0], "min": 1e-5, "max": 0.02}
+    _, *trials, end = lines_of(
+        plan_design,
+        request=body,
+        variables=[viscosity],
+        objective="shafts.0.bearings.0.eccentricity_ratio",
+        direction="maximise",
+        evaluations=12,
+    )
+    unsolved = [trial for trial in trials if trial["objective"] is None]
+    assert len(unsolved) == end["unsolved"] > 0
+    assert end["objective_best"] == max(trial["objective"] or 0.0 for trial in trials)
+
+
+def test_a_map_over_speed_and_load_is_a_sweep() -> None:
+    axes = [
+        {"path": "operation.pinion_speed_rpm", "values": [8000, 10000]},
+        {"path": "operation.power_kw", "values": [6000, 12000]},
+    ]
+    outputs = [K, SAFETY, "shafts.0.thrust.upper_n", "losses.total_w"]
+    header, *points, end = lines_of(plan_sweep, endpoint="/v1/drive-train", vary=axes, outputs=outputs)
+    assert [each["unit"] for each in header["outputs"]] == [None, None, "N", "W"]
+    assert len(points) == 4
+    assert not [point for point in points if None in point["out"]]
+    thrust = [point["out"][2] for point in points]
+    assert thrust[0] / thrust[2] == pytest.approx(10000 / 8000), "as the torque"
+    assert points[3]["out"] == answered({}, outputs)
+    assert end["counts"] == {"ok_with_warnings": 4}
+
+
+def corners(**parts: Any) -> tuple[Planner, dict[str, Any]]:
+    return plan_corners, parts
+
+
+def search_of(**parts: Any) -> tuple[Planner, dict[str, Any]]:
+    return plan_design, {"variables": [HELIX], "objective": SAFETY, **parts}
+
+
+def axis(path: Any, *values: Any) -> dict[str, Any]:
+    return {"path": path, "values": list(values)}
+
+
+STILL = {**CLOSED, "effects": {"shafts": False, "coupling": False, "thermal": False}}
+WIDE = copy.deepcopy(CLOSED)
+WIDE["pinion_shaft"]["bearings"][0]["radial_clearance_um"] = 950
+LENGTH = "pinion_shaft.sections.0.length_mm"
+MANY = axis("face_start_mm", *range(257))
+REFUSED: dict[str, tuple[tuple[Planner, dict[str, Any]], str, str]] = {
+    "corner unknown": (corners(ranges=[axis("thermal.wall", 1)]), "/ranges/0/path", "unknown_path"),
+    "corner section": (corners(ranges=[axis("thermal", 1)]), "/ranges/0/path", "not_scalar"),
+    "corner range": (corners(ranges=[axis("thermal.wall_response", 3)]), "/ranges/0", "out_of_range"),
+    "corner whole": (corners(ranges=[axis("model.face_stations", 11.5)]), "/ranges/0", "not_integer"),
+    "corner twice": (corners(ranges=[RESPONSE, RESPONSE]), "/ranges", "duplicate_path"),
+    "corner empty": (corners(ranges=[{"path": LENGTH}]), "/ranges/0", "values_or_range"),
+    "corner each": (corners(ranges=[axis(OFFSETS, [1, 2, 3])]), "/ranges/0/values/0", "values_per_field"),
+    "corner many": (corners(ranges=[MANY]), "/ranges", "too_many_points"),
+    "corner none": (corners(ranges=[]), "/ranges", "no_corners"),
+    "corner still": (corners(request=STILL), "/ranges", "no_corners"),
+    "corner usual": (corners(request=WIDE), "/ranges/1", "out_of_range"),
+    "corner output": (corners(outputs=["safety.least"]), "/outputs/0", "unknown_output"),
+    "corner curve": (corners(outputs=["misalignment.curves.shaft_um.3"]), "/outputs/0", "not_scalar"),
+    "corner output twice": (corners(outputs=[K, K]), "/outputs/1", "duplicate_path"),
+    "corner base": (corners(request={**CLOSED, "colour": 1}), "/request/colour", "extra_forbidden"),
+    "corner part": (corners(colour=1), "/colour", "extra_forbidden"),
+    "design unknown": (
+        search_of(variables=[{**HELIX, "path": "modifications.helix_um"}]),
+        "/variables/0/path",
+        "unknown_path",
+    ),
+    "design words": (
+        search_of(variables=[{**HELIX, "path": "gears.hand"}]),
+        "/variables/0/path",
+        "not_continuous",
+    ),
+    "design whole": (
+        search_of(variables=[{"path": "gears.pinion.teeth", "min": 30, "max": 40}]),
+        "/variables/0/path",
+        "not_continuous",
+    ),
+    "design bounds": (search_of(variables=[{**HELIX, "max": 1e6}]), "/variables/0", "out_of_range"),
+    "design range": (search_of(variables=[{**HELIX, "min": 100}]), "/variables/0", "variable_range"),
+    "design none": (search_of(variables=[]), "/variables", "too_short"),
+    "design twice": (search_of(variables=[HELIX, HELIX]), "/variables", "duplicate_path"),
+    "design both": (search_of(corners=[axis(HELIX["path"], 1)]), "/corners", "duplicate_path"),
+    "design all": (
+        search_of(corners=[axis("operation.power_kw", 1)], collective=[{"operation.power_kw": 2}]),
+        "/collective",
+        "duplicate_path",
+    ),
+    "design corner": (search_of(corners=[axis("thermal.wall", 1)]), "/corners/0/path", "unknown_path"),
+    "design many corners": (search_of(corners=[MANY]), "/corners", "too_many_points"),
+    "design many cases": (
+        search_of(corners=[RESPONSE], collective=[{"operation.power_kw": 1 + k} for k in range(200)]),
+        "/corners",
+        "too_many_points",
+    ),
+    "design many points": (search_of(corners=[RESPONSE], evaluations=1000), "/evaluations", "too_many_points"),
+    "design operating point": (search_of(collective=[{}, {"operation.power": 2}]), "/collective/1", "unknown_path"),
+    "design power": (search_of(collective=[{"operation.power_kw": -2}]), "/collective/0", "out_of_range"),
+    "design objective": (search_of(objective="safety.least"), "/objective", "unknown_output"),
+    "design words to reach": (search_of(objective="status"), "/objective", "unknown_output"),
+    "design direction": (search_of(objective=K), "/direction", "direction_missing"),
+    "design base": (search_of(request={**CLOSED, "colour": 1}), "/request/colour", "extra_forbidden"),
+    "design nonsense": (search_of(direction="up"), "/direction", "literal_error"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_refused_with_place_and_code(case: str) -> None:
+    (planner, parts), pointer, code = REFUSED[case]
+    with pytest.raises((Unprocessable, InvalidBody)) as caught:
+        planner(json.dumps({"request": CLOSED, **parts}).encode(), 1999, 30.0)
+    fault = faults_of(caught.value)[0]
+    assert (fault["pointer"], fault["code"]) == (pointer, code)
