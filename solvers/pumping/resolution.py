@@ -13,6 +13,7 @@ from solvers.pumping.flow.space_flow import SpaceFlow
 from solvers.pumping.results import Resolution
 
 SAFETY = 3.0
+LOST = 1.0  # where a pressure is not known to its own size, no number is: the finer flow may be another one
 
 
 def resolution(gas: Gas, flows: list[SpaceFlow], halved: list[SpaceFlow]) -> Resolution:
@@ -22,6 +23,8 @@ def resolution(gas: Gas, flows: list[SpaceFlow], halved: list[SpaceFlow]) -> Res
         name: max(_relative(one[name], other[name]) for one, other in zip(fine, coarse, strict=True))
         for name in fine[0]
     }
+    if max(uncertain["peak_pressure"], uncertain["min_pressure"]) >= LOST:
+        uncertain = {name: max(share, LOST) for name, share in uncertain.items()}
     return Resolution(
         peak_pressure=uncertain["peak_pressure"],
         min_pressure=uncertain["min_pressure"],
