@@ -21,7 +21,7 @@ from solvers.errors import InvalidInput
 # For a guess to lead to its contact. Where pressure falls steeply between two nodes, the discrete film has a solution
 # for each pair of nodes that the fall may stand between. A guess that takes longer has lost its own, and where it ends
 # would depend on where it began: such a contact is solved from nothing, as it is alone.
-STEPS_FROM_NEIGHBOURS = 8.0
+STEPS_FROM_NEIGHBOURS = 5.0
 EXTRAPOLATION = ((1.0,), (-1.0, 2.0), (1.0, -3.0, 3.0))  # weights of so many states in the next
 HOPELESS = 12  # contacts that fail one after the other, even from nothing; those behind them hardly do better
 SHARE_WITHOUT_HOPE = 0.1  # of the steps of a contact alone, for each of those: enough for an easy one
