@@ -53,13 +53,15 @@ def main() -> None:
     from app.figures.drawing import draw  # noqa: PLC0415  its import is what is measured
 
     print(f"import {time.perf_counter() - started:.2f} s, {resident_mb() - before:.0f} MB")
+    shared = resident_mb()
     draw(figures[0][1], "svg")
     print(f"{'figure':20} {'svg ms':>8} {'png ms':>8} {'kB':>6}   CPU time, the best of {REPEATS}")
     for name, figure in figures:
         times = {each: min(_cpu_ms(lambda: draw(figure, each)) for _ in range(REPEATS)) for each in ("svg", "png")}  # noqa: B023
         late = " over its aim" * (times["svg"] > AIMS_MS[any(panel.map is not None for panel in figure.panels)])
         print(f"{name:20} {times['svg']:8.0f} {times['png']:8.0f} {len(draw(figure, 'svg')) / 1e3:6.0f}{late}")
-    print(f"memory added by import and drawing: {resident_mb() - before:.0f} MB")
+    by_import, by_drawing = shared - before, resident_mb() - shared
+    print(f"memory added: {by_import:.0f} MB by import, which workers share; {by_drawing:.0f} MB by drawing")
 
 
 def _cpu_ms(function: Any) -> float:

@@ -80,9 +80,10 @@ def chart_of(name: str, figure: Figure, theme: ThemeName) -> Chart:
     from app.figures.drawing import arranged  # noqa: PLC0415  only workers draw
 
     columns = columns_of(figure)
+    cells = [column.cells(MOST_LINES) for column in columns]
     slots, height = arranged(figure)
-    count = max((len(cells) for _, cells in columns), default=0)
-    lines = (tuple(_cell(cells, index) for _, cells in columns) for index in range(min(count, MOST_LINES)))
+    count = max((len(column.content) for column in columns), default=0)
+    lines = (tuple(_cell(each, index) for each in cells) for index in range(min(count, MOST_LINES)))
     return Chart(
         name=name,
         title=figure.title,
@@ -91,7 +92,7 @@ def chart_of(name: str, figure: Figure, theme: ThemeName) -> Chart:
         width=round(100 * WIDTH),
         height=round(100 * height),
         series=json.dumps([_panel(slot, height) for slot in slots if slot.panel.lines or slot.panel.bars]),
-        header=tuple(header for header, _ in columns),
+        header=tuple(column.header for column in columns),
         lines=tuple(lines),
         more=max(count - MOST_LINES, 0),
     )

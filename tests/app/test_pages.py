@@ -348,3 +348,18 @@ def test_assets_are_kept_by_browsers(client: httpx.Client) -> None:
         answer = client.get(address)
         assert answer.status_code == 200
         assert "immutable" in answer.headers["cache-control"]
+
+
+def test_a_report_tells_every_input_of_every_item() -> None:
+    """Sections of a shaft side by side, four at most; a stiffness by its rows; a link short as text only."""
+    example = "starter-generator-gear-drive-train"
+    html = views.report(asked(example), "http://host").content.decode()
+    request = examples()[example].request
+    for section in request["pinion_shaft"]["sections"]:
+        assert re.search(rf'<td class="right given">{section["outer_diameter_mm"]:g} mm</td>', html)
+    assert html.count("<caption>pinion shaft · sections</caption>") == -(-len(request["pinion_shaft"]["sections"]) // 4)
+    assert "(420, 160), (−90, 560) N/µm" in html
+    link = re.search(r'<dd class="link"><a href="([^"]*)">([^<]*)</a>', html)
+    assert link is not None
+    assert link[2].endswith("…")
+    assert len(link[1]) > 1000
