@@ -2,14 +2,19 @@
 
 import json
 from dataclasses import dataclass, replace
-from typing import Annotated, Any
+from types import SimpleNamespace
+from typing import Annotated, Any, ClassVar
+
+import pytest
 
 from app.calculations import CALCULATIONS
+from app.contract.conversion import from_si
 from app.contract.fields import leaf_at
 from app.contract.quantities import Output
 from app.evaluate import evaluate
 from app.formats.json import written
 from app.library import examples
+from app.responses.common import Group
 from app.responses.coupling import CouplingResponse
 from solvers.coupling.results import CouplingResult
 
@@ -46,3 +51,23 @@ def test_an_output_is_one_line_in_each_layer() -> None:
     assert (leaf.title, leaf.unit, leaf.symbol, leaf.headline) == ("longest day", "mm", "d", 1)
     schema = WiderResponse.model_json_schema(mode="serialization")["properties"]["longest_day_mm"]
     assert (schema["title"], schema["x-unit"], schema["x-headline"]) == ("longest day", "mm", 1)
+
+
+class Inner(Group):
+    """What another calculation answers."""
+
+    width_mm: Annotated[float, Output("width")]
+
+
+class Outer(Inner):
+    """And what is built on it."""
+
+    held: ClassVar = {Inner: "inner"}
+    height_mm: Annotated[float, Output("height")]
+    depth_mm: Annotated[float | None, Output("depth", of="deep")]
+
+
+@pytest.mark.parametrize(("deep", "depth"), [(SimpleNamespace(depth=0.5), 500.0), (None, None)])
+def test_an_output_is_read_from_the_member_that_holds_it(deep: object, depth: float | None) -> None:
+    result = SimpleNamespace(inner=SimpleNamespace(width=0.001, height=9.0), height=0.002, deep=deep)
+    assert from_si(Outer, result, "summary") == {"width_mm": 1.0, "height_mm": 2.0, "depth_mm": depth}

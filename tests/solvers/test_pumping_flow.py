@@ -1,7 +1,5 @@
-"""Flow models: exact limits, conservation, order of convergence, positivity at any speed."""
+"""Flow models: exact limits, conservation, positivity at any speed; grooves, helix, gaps and choking."""
 
-import itertools
-from collections.abc import Callable
 from dataclasses import replace
 from math import ceil, log2, pi, radians, tan
 
@@ -11,7 +9,6 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from app.published.milian import CASE_1, CHAIN, GROOVE, PRINTED, SPEED_1, TABLE_1, pinion, run
-from solvers.arrays import FloatArray
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
@@ -29,22 +26,7 @@ from solvers.pumping import (
     choking_speeds,
     solve,
 )
-from solvers.pumping.flow.duct import Duct
-from solvers.pumping.flow.nozzle import Gas, flux_squared, gas, mass_flux
-from solvers.pumping.flow.record import (
-    ACTIVE,
-    LARGEST_MACH,
-    LARGEST_PRESSURE,
-    PRESSURE,
-    STAGNATION,
-    WORK,
-    Record,
-    empty_record,
-)
-from solvers.pumping.gas.cells import empty_cells
-from solvers.pumping.gas.leakage import Walls, implicit_stage
-from solvers.pumping.gas.march import march
-from solvers.pumping.gas.riemann import hllc, reservoir_face
+from solvers.pumping.flow.nozzle import gas
 from solvers.pumping.space.tooth_space import stroke_limits, tooth_space
 from solvers.pumping.spaces import prepare
 from tests.meshing_pairs import setups
@@ -58,56 +40,6 @@ MODELS = [
     PumpingModel(flow=Flow.POCKET_CHAIN, slices=6),
     PumpingModel(flow=Flow.POCKET_CHAIN, closure=Closure.ISENTROPIC, slices=6),
 ]
-
-
-def smooth_march(cells: int, *, gap: float = 0.0, order: int = 2) -> tuple[Record, int]:
-    """A duct open at both ends whose section shrinks by half and grows again, with smooth start and end."""
-    place = np.linspace(0, 1, 20001)
-    area = 2e-4 * (1 - 0.5 * np.sin(pi * place) ** 4)
-    table = np.column_stack([area, np.full_like(place, gap), np.zeros_like(place)])
-    duct = Duct(0.0, 0.1 / cells, cells, 0.0, 400.0, 0.0, 1 / 20000, table, 1.0)
-    record = empty_record(AIR, 3, cells, 20000)
-    steps = march(AIR, duct, empty_cells(cells), np.linspace(0, 1, 3), record, order)
-    return record, steps
-
-
-def orders(values: list[FloatArray]) -> list[float]:
-    """Observed orders of successive halvings, from mean differences between neighbouring grids."""
-    errors = [np.abs(a - b.reshape(-1, 2).mean(axis=1)).mean() for a, b in itertools.pairwise(values)]
-    return [log2(a / b) for a, b in itertools.pairwise(errors)]
-
-
-@pytest.mark.parametrize(("gap", "least"), [(0.0, 1.85), (2e-3, 1.7)])
-def test_gas_dynamics_is_of_second_order_where_the_flow_is_smooth(gap: float, least: float) -> None:
-    # with gaps the square root of the nozzle law at p = p_e costs a little
-    records = [smooth_march(cells, gap=gap)[0] for cells in (25, 50, 100, 200, 400)]
-    assert min(orders([record.field[1, :, PRESSURE] for record in records])) > least
-    assert min(orders([record.profile[:, STAGNATION] / record.profile[:, ACTIVE] for record in records])) > least - 0.15
-
-
-def test_first_order_scheme_is_of_first_order() -> None:
-    records = [smooth_march(cells, order=1)[0] for cells in (50, 100, 200, 400)]
-    assert orders([record.field[1, :, PRESSURE] for record in records]) == pytest.approx([1, 1], abs=0.15)
-
-
-def test_both_orders_have_one_limit() -> None:
-    first, finer, second = smooth_march(200, order=1)[0], smooth_march(400, order=1)[0], smooth_march(200)[0]
-    assert 2 * finer.extremes[LARGEST_PRESSURE] - first.extremes[LARGEST_PRESSURE] == pytest.approx(
-        second.extremes[LARGEST_PRESSURE], rel=5e-4
-    )
-    assert 2 * finer.energy[WORK] - first.energy[WORK] == pytest.approx(second.energy[WORK], rel=2e-3)
-
-
-def test_gas_at_rest_stays_at_rest() -> None:
-    # a section that varies along the face but not in time moves nothing, with gaps or without: well balanced
-    place = np.linspace(0, 1, 201)
-    table = np.column_stack([2e-4 * (1 - 0.8 * np.sin(3 * place) ** 2), np.full_like(place, 1e-3), 0 * place])
-    still = 1e-9  # rad/s: the table hardly turns while sound crosses the duct many times
-    duct = Duct(0.0, 0.01, 20, 4.0, still, 0.0, 1 / 200, table, 1.0)
-    record = empty_record(AIR, 2, 20, 4000)
-    assert march(AIR, duct, empty_cells(20), np.array([0.85, 0.85 + 10e-3 * still]), record, 2) > 50
-    assert record.extremes[LARGEST_MACH] < 1e-10
-    assert record.extremes[LARGEST_PRESSURE] == pytest.approx(AIR.pressure, rel=1e-10)
 
 
 @RANDOM
@@ -295,99 +227,6 @@ def test_wheel_spaces_take_the_same_time() -> None:
     shaft_ratio = 47 / 117
     strokes = [spaces.stroke.end - spaces.stroke.start for spaces in (result.wheel_spaces, pinion(result))]
     assert strokes[0] / shaft_ratio == pytest.approx(strokes[1], rel=0.05)
-
-
-def test_flux_between_equal_states_is_the_exact_flux() -> None:
-    rho, u, p = 1.3, 120.0, 2e5
-    energy = p / 0.4 + 0.5 * rho * u * u
-    assert hllc(1.4, rho, u, p, rho, u, p) == pytest.approx((rho * u, rho * u * u + p, u * (energy + p)), rel=1e-14)
-
-
-def test_hllc_keeps_a_contact_at_rest() -> None:
-    assert hllc(1.4, 1.0, 0.0, 1e5, 3.0, 0.0, 1e5) == pytest.approx((0.0, 1e5, 0.0), abs=1e-9)
-
-
-@RANDOM
-@given(st.floats(0.2, 6), st.floats(-1.5, 1.5), st.floats(0.2, 10))
-def test_reservoir_face(density: float, mach: float, pressure: float) -> None:
-    rho, p = density * AIR.density, pressure * AIR.pressure
-    c = np.sqrt(1.4 * p / rho)
-    assume(mach + 2 / 0.4 > 0)
-    rho_f, v_f, p_f, demand = reservoir_face(AIR, rho, mach * c, p)
-    c_f = np.sqrt(1.4 * p_f / rho_f)
-    assert abs(v_f) <= c_f * (1 + 1e-12) or mach > 1
-    if -0.95 * c_f < v_f < 0:  # inflow keeps the stagnation state of the surroundings and the outgoing invariant
-        assert c_f**2 + 0.2 * v_f**2 == pytest.approx(AIR.sound_speed**2, rel=1e-9)
-        expanded = c * (p_f / p) ** (1 / 7)  # the cell's own gas at the pressure of the face
-        assert v_f + 5 * expanded == pytest.approx(mach * c + 5 * c, rel=1e-9)
-    elif 0 < demand < 1:  # unchoked outflow has the ambient pressure
-        assert p_f == pytest.approx(AIR.pressure, rel=1e-9)
-        assert v_f / c_f == pytest.approx(demand, rel=1e-9)
-    elif demand > 1 and mach < 1:
-        assert v_f == pytest.approx(c_f, rel=1e-12)
-
-
-def test_nozzle_law_down_to_any_pressure_drop() -> None:
-    for drop in (1e-3, 1e-6, 1e-9, 1e-12):
-        squared = flux_squared(AIR, 1e5, 300.0, 1e5 * (1 - drop))[0]
-        density = 1e5 / (AIR.constant * 300.0)
-        exact_drop = 1e5 - 1e5 * (1 - drop)
-        assert squared == pytest.approx(2 * density * exact_drop, rel=2 * drop + 1e-12)
-
-
-@RANDOM
-@given(st.floats(1.0, 8.0), st.floats(200, 900))
-def test_nozzle_derivatives(ratio: float, temperature: float) -> None:
-    up, down = ratio * 1e5, 1e5
-    assume(abs(ratio - 1 / AIR.critical_ratio) > 1e-3)
-    assume(ratio > 1 + 1e-4)
-    for law in (mass_flux, flux_squared):
-        _, by_up, by_down = law(AIR, up, temperature, down)
-        step = 1e-6 * (up - down)
-        assert by_up == pytest.approx(difference(law, up, temperature, down, step, 0.0), rel=1e-4)
-        assert by_down == pytest.approx(difference(law, up, temperature, down, 0.0, step), rel=1e-4, abs=1e-12)
-
-
-Law = Callable[[Gas, float, float, float], tuple[float, float, float]]
-
-
-def difference(law: Law, up: float, temperature: float, down: float, d_up: float, d_down: float) -> float:
-    ahead, back = law(AIR, up + d_up, temperature, down + d_down)[0], law(AIR, up - d_up, temperature, down - d_down)[0]
-    return (ahead - back) / (2 * (d_up + d_down))
-
-
-@RANDOM
-@given(
-    st.floats(0.1, 10),
-    st.floats(-300, 300),
-    st.floats(0, 5e-3),
-    st.floats(-0.3, 0.3),
-    st.floats(-7, -3),
-    st.floats(-40, 40),
-)
-def test_implicit_stage_meets_the_nozzle_law_and_closes_its_books(
-    pressure: float, velocity: float, gap: float, transport: float, log_time: float, growth: float
-) -> None:
-    area, h = 1e-4, 10.0**log_time
-    growth *= 0.02 * area / h
-    walls = Walls(area, growth, gap, transport * 0.1 * area / h)
-    mass = AIR.density * area * pressure**0.7
-    energy = pressure * AIR.pressure * area / 0.4 + 0.5 * mass * velocity**2
-    stage = implicit_stage(AIR, walls, mass, mass * velocity, energy, h, 0.0)
-    assume(stage.fits)
-    assert stage.mass == pytest.approx(mass - h * stage.leak, rel=1e-9)
-    assert stage.energy == pytest.approx(energy - h * stage.energy_rate, rel=1e-12)
-    inner = stage.energy - 0.5 * stage.momentum**2 / stage.mass
-    assert stage.pressure == pytest.approx(0.4 * inner / area, rel=1e-9)
-    temperature = stage.pressure * area / (stage.mass * AIR.constant)
-    if stage.pressure > AIR.pressure:
-        nozzle = gap * mass_flux(AIR, stage.pressure, temperature, AIR.pressure)[0]
-    else:
-        nozzle = -gap * mass_flux(AIR, AIR.pressure, AIR.temperature, stage.pressure)[0]
-    density = stage.mass / area if transport > 0 else AIR.density
-    expected = nozzle + walls.transport * density
-    scale = abs(nozzle) + gap * 1e-4 * AIR.density * AIR.sound_speed + mass / h * 1e-9
-    assert stage.leak == pytest.approx(expected, abs=2e-4 * scale)
 
 
 def test_choking_speed_is_where_the_flow_chokes() -> None:
