@@ -10,6 +10,7 @@ from typing import Any
 from app.calculations import CALCULATIONS, Calculation
 from app.evaluate import evaluate
 from app.figures.data import Figure, NoFigure
+from app.figures.registry import figures_of
 from app.library import examples
 
 CASES = (
@@ -31,11 +32,11 @@ def resident_mb() -> float:
     return pages * 4096 / 1e6
 
 
-def figures_of(calculation: Calculation, body: dict[str, Any]) -> list[tuple[str, Figure]]:
+def built_figures(calculation: Calculation, body: dict[str, Any]) -> list[tuple[str, Figure]]:
     """The data of every figure of a case, by name."""
     request = calculation.request.model_validate({**body, "detail": "fields"})
     answer, figures = evaluate(calculation, request), []
-    for declaration in calculation.figures:
+    for declaration in figures_of(calculation.path):
         try:
             figures.append((declaration.name, declaration.figure(request, answer)))
         except NoFigure as reason:
@@ -47,18 +48,20 @@ def main() -> None:
     """Print the table."""
     calculations = {calculation.path: calculation for calculation in CALCULATIONS}
     cases = [examples()[name] for name in CASES]
-    figures = [pair for case in cases for pair in figures_of(calculations[case.endpoint], case.request)]
+    figures = [pair for case in cases for pair in built_figures(calculations[case.endpoint], case.request)]
     before, started = resident_mb(), time.perf_counter()
     from app.figures.drawing import draw  # noqa: PLC0415  its import is what is measured
 
     print(f"import {time.perf_counter() - started:.2f} s, {resident_mb() - before:.0f} MB")
+    shared = resident_mb()
     draw(figures[0][1], "svg")
     print(f"{'figure':20} {'svg ms':>8} {'png ms':>8} {'kB':>6}   CPU time, the best of {REPEATS}")
     for name, figure in figures:
         times = {each: min(_cpu_ms(lambda: draw(figure, each)) for _ in range(REPEATS)) for each in ("svg", "png")}  # noqa: B023
         late = " over its aim" * (times["svg"] > AIMS_MS[any(panel.map is not None for panel in figure.panels)])
         print(f"{name:20} {times['svg']:8.0f} {times['png']:8.0f} {len(draw(figure, 'svg')) / 1e3:6.0f}{late}")
-    print(f"memory added by import and drawing: {resident_mb() - before:.0f} MB")
+    by_import, by_drawing = shared - before, resident_mb() - shared
+    print(f"memory added: {by_import:.0f} MB by import, which workers share; {by_drawing:.0f} MB by drawing")
 
 
 def _cpu_ms(function: Any) -> float:

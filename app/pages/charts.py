@@ -10,6 +10,7 @@ import numpy as np
 from app.figures.comparison import compared
 from app.figures.data import Bars, Figure, Line, NoFigure, Panel, Role, ThemeName, Values
 from app.figures.declaration import Declaration
+from app.figures.registry import figures_of
 from app.figures.rendering import written
 from app.figures.style import WIDTH
 from app.figures.tables import columns_of
@@ -64,7 +65,7 @@ def figure_of(declaration: Declaration, case: Case, variant: Case | None) -> Fig
 def charts(case: Case, variant: Case | None, theme: ThemeName) -> tuple[list[Chart], list[Missing]]:
     """Every figure of a case, and those that it lacks."""
     found, missing = [], []
-    for declaration in case.calculation.figures:
+    for declaration in figures_of(case.calculation.path):
         try:
             figure = figure_of(declaration, case, variant)
         except NoFigure as reason:
@@ -79,9 +80,10 @@ def chart_of(name: str, figure: Figure, theme: ThemeName) -> Chart:
     from app.figures.drawing import arranged  # noqa: PLC0415  only workers draw
 
     columns = columns_of(figure)
+    cells = [column.cells(MOST_LINES) for column in columns]
     slots, height = arranged(figure)
-    count = max((len(cells) for _, cells in columns), default=0)
-    lines = (tuple(_cell(cells, index) for _, cells in columns) for index in range(min(count, MOST_LINES)))
+    count = max((len(column.content) for column in columns), default=0)
+    lines = (tuple(_cell(each, index) for each in cells) for index in range(min(count, MOST_LINES)))
     return Chart(
         name=name,
         title=figure.title,
@@ -90,7 +92,7 @@ def chart_of(name: str, figure: Figure, theme: ThemeName) -> Chart:
         width=round(100 * WIDTH),
         height=round(100 * height),
         series=json.dumps([_panel(slot, height) for slot in slots if slot.panel.lines or slot.panel.bars]),
-        header=tuple(header for header, _ in columns),
+        header=tuple(column.header for column in columns),
         lines=tuple(lines),
         more=max(count - MOST_LINES, 0),
     )

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from app.calculations import CALCULATIONS, Calculation
 from app.contract.fields import ITEM, leaves
 from app.evaluate import evaluate
+from app.figures.registry import figures_of
 from app.formats.json import written
 from app.library import examples
 from app.pages import views
@@ -122,7 +123,7 @@ def test_figures_and_links_of_the_page(name: str) -> None:
     html = page(name)
     calculation = CALCULATION[examples()[name].endpoint]
     shown = html.count('<figure class="chart"') + html.count('<p class="missing">')
-    assert shown == len(calculation.figures)
+    assert shown == len(figures_of(calculation.path))
     assert html.count("data:image/svg+xml;base64,") == html.count('<figure class="chart"') > 0
     for view in ("result.csv?", "result.json?", "report?"):
         assert f'href="{page_path(calculation)}/{view}' in html
