@@ -35,7 +35,7 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
 def _apart(places: list[float]) -> FloatArray:
     """Places in order, without those that only rounding tells from their neighbour and that would hide it."""
     found = np.unique(places)
-    return found[np.append(np.diff(found) > SAME * (found[-1] - found[0]), True)]
+    return np.asarray(found[np.append(np.diff(found) > SAME * (found[-1] - found[0]), True)])
 
 
 def face_loads(balance: LoadBalance, y: FloatArray) -> FloatArray:
