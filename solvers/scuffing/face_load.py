@@ -13,6 +13,7 @@ SUBSTEPS = 4  # of a step between roll positions, where lines are loaded in part
 FACE_POINTS = 101
 ZOOMS = 4
 ZOOM_POINTS = 7
+SAME = 1e-6  # of the range looked at, or of a length
 
 
 def face_load_factor(balance: LoadBalance, y: float) -> float:
@@ -22,13 +23,19 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
     The mean is the force in balance over the face.
     """
     plane = balance.mesh.plane
-    places = np.unique([*np.linspace(0.0, plane.face_width, FACE_POINTS), *kinks_along_face(balance.mesh.gap), y])
+    places = _apart([*np.linspace(0.0, plane.face_width, FACE_POINTS), *kinks_along_face(balance.mesh.gap), y])
     for _ in range(ZOOMS):
         shares = face_loads(balance, places)
         top = int(np.argmax(shares))
         low, high = places[max(top - 1, 0)], places[min(top + 1, places.size - 1)]
-        places = np.unique(np.append(np.linspace(low, high, ZOOM_POINTS), places[top]))
+        places = _apart([*np.linspace(low, high, ZOOM_POINTS), places[top]])
     return float(shares.max() * plane.face_width / (balance.force * plane.cos_base_helix))
+
+
+def _apart(places: list[float]) -> FloatArray:
+    """Places in order, without those that only rounding tells from their neighbour and that would hide it."""
+    found = np.unique(places)
+    return np.asarray(found[np.append(np.diff(found) > SAME * (found[-1] - found[0]), True)])
 
 
 def face_loads(balance: LoadBalance, y: FloatArray) -> FloatArray:
@@ -36,7 +43,7 @@ def face_loads(balance: LoadBalance, y: FloatArray) -> FloatArray:
     plane = balance.mesh.plane
     starts = line_loads(balance, np.zeros(y.size), y)
     ends = line_loads(balance, np.full(y.size, plane.path_length), y)
-    in_part = np.any(balance.survey.loaded_length < balance.survey.length)
+    in_part = np.any(balance.survey.loaded_length < (1 - SAME) * balance.survey.length)
     substeps = SUBSTEPS if in_part else 1
     return _face_loads(balance.mesh, balance.rolls.phase, balance.transmission_error, substeps, y, starts, ends)
 
