@@ -4,8 +4,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from app.figures.declaration import Declaration
-from app.figures.registry import FIGURES
 from app.requests.common import Request
 from app.requests.coupling import CouplingRequest, RecommendationRequest, SleeveOrbitRequest
 from app.requests.drive_train import DriveTrainRequest
@@ -35,11 +33,6 @@ class Calculation:
     request: type[Request]
     solve: Callable[[Any], Any]
     response: type[Response]
-
-    @property
-    def figures(self) -> tuple[Declaration, ...]:
-        """Its figures."""
-        return FIGURES.get(self.path, ())
 
 
 CALCULATIONS = (

@@ -8,7 +8,7 @@ from app.requests.common import Request
 from app.requests.drive_train import DriveTrainRequest
 from app.requests.pumping import ChokingSpeedRequest
 from app.requests.scuffing import ScuffingRequest
-from solvers.contact.ehl.budget import Resolution, price
+from solvers.contact.ehl.solution.budget import Resolution, price
 
 
 class Cost(NamedTuple):

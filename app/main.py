@@ -23,6 +23,9 @@ DESCRIPTION = """Tribology of high-speed drive trains: gear couplings (Pahl), ai
 (Milian, Distretti, Leoni, Velex), load distribution and scuffing of helical gears (Xue, Zhang, Wang).
 Units are in the field names; every example below runs as it stands."""
 
+# Slow to load or asked for by studies: random samples need scipy.stats, a drawing half a second and 70 MB.
+WORKERS_SHARE = ("scipy.stats", "app.figures.drawing", "app.studies.sweep")
+
 
 def create_app(settings: Settings | None = None) -> FastAPI:
     """The service; settings come from the environment unless given."""
@@ -30,7 +33,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        app.state.pool = Pool(settings.workers, settings.worker_memory_mb)
+        app.state.pool = Pool(settings.workers, settings.worker_memory_mb, WORKERS_SHARE)
         app.state.start_up = StartUp(app.state.pool)
         app.state.settings = settings
         app.state.runner = Runner(settings, app.state.pool)

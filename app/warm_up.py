@@ -10,6 +10,7 @@ from functools import cache
 from numba.core import event
 
 from app.calculations import CALCULATIONS
+from app.figures.registry import figures_of
 from app.figures.rendering import render
 from app.formats.json import answer
 from app.library import examples
@@ -30,7 +31,7 @@ SLEEVE = Stage("coupling sleeve", 70, ("pahl-sleeve-orbit", "pahl-z-arrangement"
 LOADS = Stage("load distribution", 32, ("fzg-type-a", "xue-pair-1-modified"))
 PUMPING = Stage(
     "pumping",
-    96,
+    104,
     (
         "milian-case-1",
         "milian-case-1-choking",
@@ -73,7 +74,7 @@ def calculate(name: str) -> None:
     request = calculation.request.model_validate(example.request)
     answer(calculation, request)
     if name == DRAWN:
-        render(calculation, calculation.figures[0], request, "svg", "light")
+        render(calculation, figures_of(calculation.path)[0], request, "svg", "light")
 
 
 class _Ticks(event.Listener):

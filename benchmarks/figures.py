@@ -10,6 +10,7 @@ from typing import Any
 from app.calculations import CALCULATIONS, Calculation
 from app.evaluate import evaluate
 from app.figures.data import Figure, NoFigure
+from app.figures.registry import figures_of
 from app.library import examples
 
 CASES = (
@@ -31,11 +32,11 @@ def resident_mb() -> float:
     return pages * 4096 / 1e6
 
 
-def figures_of(calculation: Calculation, body: dict[str, Any]) -> list[tuple[str, Figure]]:
+def built_figures(calculation: Calculation, body: dict[str, Any]) -> list[tuple[str, Figure]]:
     """The data of every figure of a case, by name."""
     request = calculation.request.model_validate({**body, "detail": "fields"})
     answer, figures = evaluate(calculation, request), []
-    for declaration in calculation.figures:
+    for declaration in figures_of(calculation.path):
         try:
             figures.append((declaration.name, declaration.figure(request, answer)))
         except NoFigure as reason:
@@ -47,7 +48,7 @@ def main() -> None:
     """Print the table."""
     calculations = {calculation.path: calculation for calculation in CALCULATIONS}
     cases = [examples()[name] for name in CASES]
-    figures = [pair for case in cases for pair in figures_of(calculations[case.endpoint], case.request)]
+    figures = [pair for case in cases for pair in built_figures(calculations[case.endpoint], case.request)]
     before, started = resident_mb(), time.perf_counter()
     from app.figures.drawing import draw  # noqa: PLC0415  its import is what is measured
 

@@ -114,10 +114,11 @@ def points_alone(inputs: ScuffingInputs, result: Scuffing, every: int = 1) -> di
 
 def points_of(inputs: ScuffingInputs, result: Scuffing) -> ContactPoints:
     """Load, radius and speeds at the points of a path."""
-    plane, psi, given = result.path_of_contact.plane, result.path.psi, inputs.distribution
+    mesh, psi, given = result.distribution, result.path.psi, inputs.distribution
     modulus = reduced_modulus(given.pinion_material, given.wheel_material)
+    plane = mesh.path_of_contact.plane
     x, y = psi * plane.path_length, psi * plane.face_width
-    return contact_points(result.path_of_contact, result.balance, x, y, given.load.pinion_speed, modulus)
+    return contact_points(mesh.path_of_contact, mesh.balance, x, y, given.load.pinion_speed, modulus)
 
 
 def check_path(inputs: ScuffingInputs, every: int = 1) -> Scuffing:
@@ -127,9 +128,10 @@ def check_path(inputs: ScuffingInputs, every: int = 1) -> Scuffing:
     """
     result = solve_scuffing(inputs)
     path = result.path
-    curves = (path.minimum_film, path.friction_coefficient, path.pinion_flash, path.wheel_flash)
-    assert all(curve is not None for curve in curves)
-    film, friction, pinion, wheel = (np.asarray(curve) for curve in curves)
+    thermal = path.thermal
+    assert thermal is not None
+    film, friction = thermal.minimum_film, thermal.friction_coefficient
+    pinion, wheel = thermal.pinion_flash, thermal.wheel_flash
     for point, alone in points_alone(inputs, result, every).items():
         if alone.status == "no_solution":
             continue

@@ -23,6 +23,12 @@ class _Field:
     unit: Unit | None
     level: int
     group: type[Documented] | None
+    holder: str | None
+
+    def value(self, result: Any) -> Any:
+        """What a solver's result holds for it; None where it lacks the member that would."""
+        part = getattr(result, self.holder) if self.holder else result
+        return None if part is None else getattr(part, self.si_name)
 
 
 @cache
@@ -33,7 +39,14 @@ def _fields(model: type[Documented]) -> tuple[_Field, ...]:
 def _field(model: type[Documented], name: str, info: FieldInfo) -> _Field:
     output = next((item for item in info.metadata if isinstance(item, Output)), None)
     level = LEVELS.index(output.detail) if output else 0
-    return _Field(name, split_unit(name)[0], model.unit_of(name), level, group_of(info.annotation))
+    holder = output.of if output and output.of else _holder(model, name)
+    return _Field(name, split_unit(name)[0], model.unit_of(name), level, group_of(info.annotation), holder)
+
+
+def _holder(model: type[Documented], name: str) -> str | None:
+    """The member that holds a field inherited from a model that another result fills."""
+    origin = next(each for each in model.__mro__ if name in each.__annotations__)
+    return next((member for extended, member in model.held.items() if issubclass(extended, origin)), None)
 
 
 def group_of(annotation: Any) -> type[Documented] | None:
@@ -73,7 +86,7 @@ def from_si(group: type[Documented], result: Any, detail: Detail, skip: frozense
     content: dict[str, Any] = {}
     for field in _fields(group):
         if field.level <= level and field.name not in skip:
-            value, unit = getattr(result, field.si_name), field.unit
+            value, unit = field.value(result), field.unit
             if field.group is not None and isinstance(value, tuple | list):
                 content[field.name] = [from_si(field.group, item, detail) for item in value]
             elif field.group is not None and value is not None:
@@ -83,6 +96,7 @@ def from_si(group: type[Documented], result: Any, detail: Detail, skip: frozense
     return content
 
 
+@cache
 def above(group: type[Documented], detail: Detail) -> dict[str, Any]:
     """The fields of a group above a level of detail, as pydantic's `exclude` names them."""
     level = LEVELS.index(detail)

@@ -88,7 +88,8 @@ class Output:
     mean where no field does. `headline` ranks the numbers that decide, 1 to 3. `limit` is the number, or the dotted
     field of request or answer, that bounds the value; `bound` says on which side a verdict about it finds the value
     safe: below an upper limit, above a lower one. `needs` is the request field without which there is no value,
-    `verdict` the field of the answer that judges it in words.
+    `verdict` the field of the answer that judges it in words. `of` is the member of the solver's result that holds the
+    value, where it is not the result itself.
     """
 
     title: str
@@ -103,6 +104,7 @@ class Output:
     bound: Bound | None = None
     needs: str | None = None
     verdict: str | None = None
+    of: str | None = None
 
     @property
     def axes(self) -> tuple[str, ...]:
@@ -157,12 +159,14 @@ class Documented(BaseModel):
 
     `exclusive` lists groups of fields of which at most one is given. `member_unit` is the unit of the fields whose own
     names carry none: a group `mass_flow_g_per_s` says it once for its members.
-    `solver_names` are the parts of dotted names that the solver spells otherwise, with the fields' spelling.
+    `solver_names` are the parts of dotted names that the solver spells otherwise, with the fields' spelling. `held`
+    are the members of the solver's result that hold what the models extended here show.
     """
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
     member_unit: ClassVar[Unit | None] = None
     solver_names: ClassVar[dict[str, str]] = {}
+    held: ClassVar[dict[type, str]] = {}
 
     @classmethod
     def unit_of(cls, name: str) -> Unit | None:

@@ -23,3 +23,8 @@ FIGURES: dict[str, tuple[Declaration, ...]] = {
     "/v1/scuffing/line-contact": line_contact.FIGURES,
     "/v1/drive-train": drive_train.FIGURES,
 }
+
+
+def figures_of(endpoint: str) -> tuple[Declaration, ...]:
+    """What can be drawn of a case of an endpoint."""
+    return FIGURES.get(endpoint, ())

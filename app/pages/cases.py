@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from app.calculations import Calculation
 from app.evaluate import evaluate
+from app.figures.registry import figures_of
 from app.pages.query import Pairs, body_of
 from app.problems import Unprocessable
 from app.reading import InvalidBody, validated
@@ -64,5 +65,5 @@ def _dotted(pointer: str) -> str:
 
 def _request(calculation: Calculation, pairs: Pairs) -> Request:
     request = validated(calculation.request, body_of(calculation.request, pairs))
-    details = {figure.detail for figure in calculation.figures}
+    details = {figure.detail for figure in figures_of(calculation.path)}
     return request.model_copy(update={"detail": "fields" if "fields" in details else "curves"})

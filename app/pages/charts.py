@@ -10,6 +10,7 @@ import numpy as np
 from app.figures.comparison import compared
 from app.figures.data import Bars, Figure, Line, NoFigure, Panel, Role, ThemeName, Values
 from app.figures.declaration import Declaration
+from app.figures.registry import figures_of
 from app.figures.rendering import written
 from app.figures.style import WIDTH
 from app.figures.tables import columns_of
@@ -64,7 +65,7 @@ def figure_of(declaration: Declaration, case: Case, variant: Case | None) -> Fig
 def charts(case: Case, variant: Case | None, theme: ThemeName) -> tuple[list[Chart], list[Missing]]:
     """Every figure of a case, and those that it lacks."""
     found, missing = [], []
-    for declaration in case.calculation.figures:
+    for declaration in figures_of(case.calculation.path):
         try:
             figure = figure_of(declaration, case, variant)
         except NoFigure as reason:

@@ -15,18 +15,42 @@ from app.pages.typesetting import shown, symbol
 
 NAMES = ("project", "part", "author", "checker", "notes")
 LONGEST_TEXT = 200
+LONGEST_LINK = 240  # as text; what it leads to is the whole
+SIDE_BY_SIDE = 4  # items of a list
 PAPERS = {"a4": "A4", "letter": "letter"}
 
 
 @dataclass(frozen=True, slots=True)
-class Input:
-    """An input: `origin` is given, assumed or default."""
+class Cell:
+    """The value of an input: `origin` is given, assumed or default."""
+
+    value: str
+    origin: str
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """An input; of items of a list that stand side by side, the same input of each by its index."""
 
     label: str
     symbol: Markup
-    value: str
     unit: str
-    origin: str
+    cells: dict[int, Cell]
+
+    @property
+    def origin(self) -> str:
+        """Where its values come from."""
+        return ", ".join(dict.fromkeys(cell.origin for cell in self.cells.values()))
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """The inputs of a section; `items` are the indices of its columns, `listed` where it is one of a list."""
+
+    title: str
+    items: tuple[int, ...]
+    listed: bool
+    rows: tuple[Row, ...]
 
 
 def context(case: Case, views: dict[str, str], address: str, link: str) -> dict[str, Any]:
@@ -41,25 +65,49 @@ def context(case: Case, views: dict[str, str], address: str, link: str) -> dict[
         "body": body.replace("'", "\\u0027"),
         "address": address,
         "link": link,
+        "link_text": link if len(link) <= LONGEST_LINK else f"{link[:LONGEST_LINK]}…",
         "about": about_of(case.calculation),
     }
 
 
-def _inputs(case: Case) -> dict[str, list[Input]]:
+def _inputs(case: Case) -> list[Table]:
     """Every input by section, in the order of the schema."""
     given = set(flattened(case.request.model_dump(exclude_unset=True)))
     assumed = {each.field for each in case.response.assumptions}
-    sections: dict[str, list[Input]] = {}
+    sections: dict[str, dict[str, Row]] = {}
     for path, value in flattened(case.response.inputs).items():
         leaf = leaf_at(type(case.request), path)
         if leaf is None or (value is None and leaf.exclusive):
             continue
         origin = "given" if path in given else "assumed" if path in assumed else "default"
-        text = shown(value, 6) if not isinstance(value, list) else ", ".join(shown(item, 6) for item in value)
+        text = _text(value)
         if value is None and leaf.default_text:
             text = leaf.default_text
-        section = path.rpartition(".")[0].replace(".", " · ").replace("_", " ") or "general"
-        unit = leaf.unit or "" if value is not None else ""
-        title = leaf.title.partition(",")[0]
-        sections.setdefault(section, []).append(Input(title, symbol(leaf.symbol), text, unit, origin))
-    return sections
+        section, index, name = _place(path)
+        row = Row(leaf.title.partition(",")[0], symbol(leaf.symbol), leaf.unit or "", {})
+        cells = sections.setdefault(section, {}).setdefault(name, row).cells
+        cells[index] = Cell(f"{text} {row.unit}" if value is not None and row.unit else text, origin)
+    return [table for title, rows in sections.items() for table in _tables(title, tuple(rows.values()))]
+
+
+def _text(value: Any) -> str:
+    """A number, a word, or a list of them; a matrix by its rows."""
+    if not isinstance(value, list):
+        return shown(value, 6)
+    return ", ".join(f"({_text(item)})" if isinstance(item, list) else _text(item) for item in value)
+
+
+def _place(path: str) -> tuple[str, int, str]:
+    """The section of an input, its index among the items of a list, its name."""
+    *section, name = path.split(".")
+    index = int(section.pop()) if section and section[-1].isdecimal() else 0
+    return " · ".join(part.replace("_", " ") for part in section) or "general", index, name
+
+
+def _tables(title: str, rows: tuple[Row, ...]) -> list[Table]:
+    """A section as a table, or as several where its items are too many to stand side by side."""
+    items = sorted({index for row in rows for index in row.cells})
+    return [
+        Table(title, tuple(some), len(items) > 1, rows)
+        for some in (items[start : start + SIDE_BY_SIDE] for start in range(0, len(items), SIDE_BY_SIDE))
+    ]

@@ -116,14 +116,14 @@ def change(now: Any, before: Any) -> str:
 
 
 def flattened(content: Any, prefix: str = "") -> dict[str, Any]:
-    """Plain values and lists of numbers by dotted path."""
+    """Plain values, lists and matrices of numbers by dotted path."""
     if isinstance(content, dict):
         return {
             path: value
             for name, inner in content.items()
             for path, value in flattened(inner, f"{prefix}.{name}" if prefix else name).items()
         }
-    if isinstance(content, list) and any(isinstance(item, dict | list) for item in content):
+    if isinstance(content, list) and any(isinstance(item, dict) for item in content):
         return {
             path: value
             for index, inner in enumerate(content)

@@ -7,6 +7,7 @@ from app.calculations import CALCULATIONS, Calculation
 from app.contract.fields import headlines, leaf_at
 from app.contract.tree import branches
 from app.figures.data import NoFigure, ThemeName
+from app.figures.registry import figures_of
 from app.figures.rendering import Format, written
 from app.formats import csv
 from app.formats.json import written as json_written
@@ -121,7 +122,7 @@ def figure(asked: Asked, name: str, image_format: Format) -> Shown:
     """One figure as a file."""
     case = solved(asked.calculation, asked.pairs, asked.kept)
     variant, _ = _variant(asked)
-    declaration = next(each for each in asked.calculation.figures if each.name == name)
+    declaration = next(each for each in figures_of(asked.calculation.path) if each.name == name)
     try:
         data = figure_of(declaration, case, variant)
     except NoFigure as reason:

@@ -93,8 +93,8 @@ def root_load(number: int, model: Model) -> float:
 def film_over_formula() -> float:
     """Fig. 23: largest ratio of the computed film to the formula's along the path."""
     path = scuffing().path
-    assert path.minimum_film is not None
-    return float(np.nanmax(path.minimum_film / path.dowson_higginson))
+    assert path.thermal is not None
+    return float(np.nanmax(path.thermal.minimum_film / path.dowson_higginson))
 
 
 def thinnest_psi() -> float:

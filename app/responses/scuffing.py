@@ -1,6 +1,6 @@
 """Scuffing of a gear pair: response of /v1/scuffing."""
 
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from app.contract.quantities import Output
 from app.responses.common import Group
@@ -19,6 +19,8 @@ LIMIT = "safety.scuffing_c"
 
 class ScuffingOilDerived(ScuffingDerived, OilDerived):
     """Load and lengths, and the oil as it enters the contact."""
+
+    held: ClassVar = {ScuffingDerived: "mesh", OilDerived: "oil"}
 
     kinematic_viscosity_100_mm2_per_s: Annotated[
         float | None, Output("kinematic viscosity used at 100 °C", "ν_100", text="null without grade or data sheet")
@@ -161,8 +163,12 @@ class ScuffingPathCurves(Group):
         Gaps,
         Output("flash temperature by Blok", "Δθ_fl,B", FIG_22, text="by Blok; null at a base circle", axis="psi"),
     ]
-    pinion_flash_k: Annotated[Gaps | None, Output("flash temperature of the pinion", "Δθ_fl1", FIG_22, axis="psi")]
-    wheel_flash_k: Annotated[Gaps | None, Output("flash temperature of the wheel", "Δθ_fl2", FIG_22, axis="psi")]
+    pinion_flash_k: Annotated[
+        Gaps | None, Output("flash temperature of the pinion", "Δθ_fl1", FIG_22, axis="psi", of="thermal")
+    ]
+    wheel_flash_k: Annotated[
+        Gaps | None, Output("flash temperature of the wheel", "Δθ_fl2", FIG_22, axis="psi", of="thermal")
+    ]
     dowson_higginson_um: Annotated[
         Gaps,
         Output(
@@ -173,11 +179,13 @@ class ScuffingPathCurves(Group):
             axis="psi",
         ),
     ]
-    minimum_film_um: Annotated[Gaps | None, Output("minimum film", "h_min", FIG_23, axis="psi")]
-    central_film_um: Annotated[Gaps | None, Output("central film", "h_c", axis="psi")]
-    max_pressure_mpa: Annotated[Gaps | None, Output("largest film pressure", "p_max", axis="psi")]
-    friction_coefficient: Annotated[Gaps | None, Output("local coefficient of friction", "μ", axis="psi")]
-    film_max_temperature_c: Annotated[Gaps | None, Output("largest film temperature", "θ_max", axis="psi")]
+    minimum_film_um: Annotated[Gaps | None, Output("minimum film", "h_min", FIG_23, axis="psi", of="thermal")]
+    central_film_um: Annotated[Gaps | None, Output("central film", "h_c", axis="psi", of="thermal")]
+    max_pressure_mpa: Annotated[Gaps | None, Output("largest film pressure", "p_max", axis="psi", of="thermal")]
+    friction_coefficient: Annotated[Gaps | None, Output("local coefficient of friction", "μ", axis="psi", of="thermal")]
+    film_max_temperature_c: Annotated[
+        Gaps | None, Output("largest film temperature", "θ_max", axis="psi", of="thermal")
+    ]
     thickness_ratio: Annotated[
         Gaps,
         Output(
@@ -194,6 +202,8 @@ class ScuffingPathCurves(Group):
 
 class ScuffingResponse(LoadDistributionResponse):
     """Load distribution and scuffing check; sections are missing where there is no solution."""
+
+    held: ClassVar = {LoadDistributionResponse: "distribution"}
 
     flash: Annotated[FlashTemperature | None, Output("flash temperature")] = None
     contact_temperature: Annotated[ContactTemperatureResult | None, Output("contact temperature")] = None

@@ -9,6 +9,7 @@ from pydantic import BaseModel
 from app.calculations import CALCULATIONS, Calculation
 from app.contract.messages import Fault
 from app.contract.quantities import Output
+from app.figures.registry import figures_of
 from app.figures.rendering import MEDIA_TYPES, Format, render
 from app.library import body_of
 from app.problems import documented
@@ -20,7 +21,7 @@ FORMATS: tuple[Format, ...] = get_args(Format)
 THEMES: tuple[Theme, ...] = get_args(Theme)
 # A figure fetched alone runs nothing and loads nothing; its styles and images are its own.
 ALONE = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
-_FIGURES = {each.path: {figure.name: figure for figure in each.figures} for each in CALCULATIONS}
+_FIGURES = {each.path: {figure.name: figure for figure in figures_of(each.path)} for each in CALCULATIONS}
 
 router = APIRouter(tags=["figures"])
 
@@ -41,7 +42,7 @@ async def list_figures() -> list[FigureSummary]:
     return [
         FigureSummary(endpoint=calculation.path, name=figure.name, title=figure.title, source=figure.source)
         for calculation in CALCULATIONS
-        for figure in calculation.figures
+        for figure in figures_of(calculation.path)
     ]
 
 
@@ -104,5 +105,5 @@ def _add(calculation: Calculation) -> None:
 
 
 for each in CALCULATIONS:
-    if each.figures:
+    if figures_of(each.path):
         _add(each)

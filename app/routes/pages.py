@@ -9,6 +9,7 @@ from fastapi.responses import RedirectResponse
 
 from app.answers import Answers, key_of
 from app.calculations import CALCULATIONS, Calculation
+from app.figures.registry import figures_of
 from app.figures.rendering import MEDIA_TYPES
 from app.library import examples
 from app.pages import views
@@ -64,7 +65,7 @@ def _add_about(model: str) -> None:
 
 def _add(calculation: Calculation) -> None:
     path = page_path(calculation)
-    names = [figure.name for figure in calculation.figures]
+    names = [figure.name for figure in figures_of(calculation.path)]
 
     async def page(http: Request) -> Response:
         return await _answer(http, calculation, path, PAGE_POLICY, HTML, views.page)

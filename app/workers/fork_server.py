@@ -7,7 +7,7 @@ import pickle
 import signal
 import socket
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, cast
 
 from app.processes import child_command, is_stopped
@@ -92,13 +92,13 @@ class ForkServer:
         self._lock = asyncio.Lock()
 
     @classmethod
-    def start(cls) -> "ForkServer":
-        """Start the process; it answers once it has imported what it needs."""
+    def start(cls, modules: Sequence[str]) -> "ForkServer":
+        """Start the process; it answers once it has imported what it needs, and the modules its workers will use."""
         ours, theirs = socket.socketpair()
         ours.setblocking(False)
         environment = {**os.environ, **dict.fromkeys(ONE_THREAD, "1")}
         with theirs:
-            command = child_command("app.workers.template")
+            command = child_command("app.workers.template", *modules)
             process = subprocess.Popen(command, stdin=theirs.fileno(), env=environment)  # noqa: S603
         return cls(process, ours)
 

@@ -5,7 +5,7 @@ import contextlib
 import logging
 import os
 from collections import deque
-from collections.abc import AsyncIterator, Callable, Coroutine
+from collections.abc import AsyncIterator, Callable, Coroutine, Sequence
 from contextlib import asynccontextmanager
 from typing import Any
 
@@ -22,11 +22,12 @@ logger = logging.getLogger("tribodrive")
 
 
 class Pool:
-    """Workers forked from one template, and who waits for them."""
+    """Workers forked from one template that has loaded `modules`, and who waits for them."""
 
-    def __init__(self, size: int, memory_mb: int) -> None:
+    def __init__(self, size: int, memory_mb: int, modules: Sequence[str] = ()) -> None:
         self._size = size
         self._memory_mb = memory_mb
+        self._modules = modules
         self._template: ForkServer | None = None
         self._warm: list[str] = []
         self._workers: set[Worker] = set()
@@ -41,7 +42,7 @@ class Pool:
     @asynccontextmanager
     async def running(self) -> AsyncIterator[None]:
         """The template runs and is supervised while the context is open; afterwards no process is left."""
-        self._template = ForkServer.start()
+        self._template = ForkServer.start(self._modules)
         self.spawn_task(self._repeat(SUPERVISION_S, self._supervise))
         self.spawn_task(self._repeat(PING_EVERY_S, self._ping))
         try:
@@ -197,7 +198,7 @@ class Pool:
 
     async def _restart_template(self) -> None:
         self._running_template().close()
-        self._template = ForkServer.start()
+        self._template = ForkServer.start(self._modules)
         with contextlib.suppress(TemplateLost):
             for example in list(self._warm):
                 await self._template.warm(example)

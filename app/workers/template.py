@@ -12,16 +12,13 @@ A process id is free for another process only after `reap`: the service can neve
 """
 
 import gc
+import importlib
 import logging
 import os
 import signal
 import socket
 import sys
 
-import scipy.stats  # noqa: F401  what random samples need, likewise
-
-import app.figures.drawing  # half a second and 70 MB, which every worker shares
-import app.studies.sweep  # noqa: F401
 from app.warm_up import calculate
 from app.workers import worker
 
@@ -31,7 +28,9 @@ logger = logging.getLogger("tribodrive")
 
 
 def main() -> None:
-    """Obey commands until the service hangs up."""
+    """Load the modules named on the command line, then obey commands until the service hangs up."""
+    for name in sys.argv[1:]:
+        importlib.import_module(name)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     with socket.socket(fileno=os.dup(sys.stdin.fileno())) as control:
         null = os.open(os.devnull, os.O_RDWR)

@@ -4,14 +4,14 @@ The closed forms are Blok's flash temperature (Eq. 25) and Dowson and Higginson'
 solution of every point stands beside them where it is asked for.
 """
 
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.contact.film import dowson_higginson_minimum, thickness_ratio
 from solvers.contact.hertz import reduced_modulus
-from solvers.lubricants import oil_in_use
+from solvers.lubricants import OilInUse, oil_in_use
 from solvers.scuffing.blok import blok_flash
 from solvers.scuffing.feature_line import feature_line
 from solvers.scuffing.inputs import ScuffingInputs, Temperatures
@@ -26,10 +26,11 @@ from solvers.scuffing.safety_results import (
     Scuffing,
     ScuffingDerived,
     ScuffingPath,
+    ThermalPath,
 )
 from solvers.scuffing.scuffing_practice import scuffing_risk
 from solvers.scuffing.temperatures import with_friction, with_temperatures
-from solvers.scuffing.thermal_path import CURVES, ThermalPath, thermal_path
+from solvers.scuffing.thermal_path import thermal_path
 from solvers.scuffing.verdict import largest_flash, path_notices, thinnest_film, unknown_points, without_thermal
 
 SURVEY_POINTS = 4001  # of the formulas along the feature line, to find where they are largest and smallest
@@ -65,16 +66,15 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
         thermal_ehl_max=None if flash.thermal_ehl_max is None else temperatures.bulk + flash.thermal_ehl_max,
     )
     safety = _safety(temperatures, contact_temperature)
-    found = {item.name: getattr(distribution, item.name) for item in fields(distribution)}
-    found["derived"] = _derived(inputs, distribution.derived)
-    found["warnings"] = warnings + path_notices(distribution, path, contact_temperature, safety, unknown)
     return Scuffing(
-        **found,
+        distribution=distribution,
         flash=flash,
         contact_temperature=contact_temperature,
         film=film,
         safety=safety,
         path=path,
+        derived=_derived(inputs, distribution.derived),
+        warnings=warnings + path_notices(distribution, path, contact_temperature, safety, unknown),
         unsolved_points=path.status.count("no_solution") + path.status.count("refused"),
     )
 
@@ -109,8 +109,8 @@ def _checked_line(inputs: ScuffingInputs, distribution: LoadDistribution) -> Fea
 def _derived(inputs: ScuffingInputs, mesh: Derived) -> ScuffingDerived:
     """What follows from the inputs for mesh and oil."""
     return ScuffingDerived(
-        **{item.name: getattr(mesh, item.name) for item in fields(mesh)},
-        **oil_in_use(inputs.lubricant),
+        mesh=mesh,
+        oil=OilInUse(**oil_in_use(inputs.lubricant)),
         kinematic_viscosity_100=None if inputs.oil is None else inputs.oil.kinematic_viscosity_100,
         density_15=None if inputs.oil is None else inputs.oil.reference_density,
     )
@@ -167,5 +167,4 @@ def _with_thermal(inputs: ScuffingInputs, path: ScuffingPath, thermal: ThermalPa
     status = tuple(
         formula if formula == "refused" else solved for formula, solved in zip(path.status, thermal.status, strict=True)
     )
-    curves = {name: getattr(thermal, name) for name in CURVES}
-    return replace(path, status=status, thickness_ratio=frozen(ratio), **curves)
+    return replace(path, status=status, thickness_ratio=frozen(ratio), thermal=thermal)

@@ -6,6 +6,7 @@ from typing import Literal
 from solvers.arrays import FloatArray
 from solvers.contact.film import Regime
 from solvers.lubricants import OilInUse
+from solvers.notices import Notice
 from solvers.scuffing.results import Derived, LoadDistribution
 from solvers.scuffing.scuffing_practice import ScuffingRisk
 
@@ -58,12 +59,38 @@ class Safety:
     verdict: ScuffingRisk | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
-class ScuffingDerived(OilInUse, Derived):
-    """Also the oil as it enters the contact, and where a sheet gives it nu at 100 C [m^2/s], rho at 15 C [kg/m^3]."""
+@dataclass(frozen=True, slots=True)
+class ScuffingDerived:
+    """What follows for mesh and oil as it enters the contact; where a sheet gives it nu at 100 C, rho at 15 C.
 
+    kinematic_viscosity_100 [m^2/s], density_15 [kg/m^3].
+    """
+
+    mesh: Derived
+    oil: OilInUse
     kinematic_viscosity_100: float | None
     density_15: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class ThermalPath:
+    """Point by point: status, flash temperatures of both flanks [K], films [m], pressure [Pa], friction, film [K].
+
+    What was not solved is NaN. A point refused because its load is too light has bounds instead: it is no hotter
+    (flash_bound [K]) and its film no thinner (film_bound [m]) than under the lightest load that the solver takes.
+    """
+
+    status: tuple[PointStatus, ...]
+    warnings: tuple[Notice, ...]
+    flash_bound: FloatArray
+    film_bound: FloatArray
+    pinion_flash: FloatArray
+    wheel_flash: FloatArray
+    minimum_film: FloatArray
+    central_film: FloatArray
+    max_pressure: FloatArray
+    friction_coefficient: FloatArray
+    film_max_temperature: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,9 +99,9 @@ class ScuffingPath:
 
     psi is equidistant but for the places where Blok's flash temperature is largest and the film of the formula
     thinnest. Where nothing is loaded or nothing moves the status is "unloaded", film and ratio are NaN and Blok's flash
-    temperature is 0; where the reduced radius vanishes under load it is "refused" and all is NaN. What only the thermal
-    EHL solution knows is None in closed form and NaN at points it did not solve ("no_solution") or would not take
-    ("refused"). The thickness ratio is that of the thermal film if there is one.
+    temperature is 0; where the reduced radius vanishes under load it is "refused" and all is NaN. `thermal` is None in
+    closed form; points that it did not solve are "no_solution", those it would not take "refused". The thickness ratio
+    is that of its film if there is one.
     """
 
     psi: FloatArray
@@ -82,23 +109,22 @@ class ScuffingPath:
     blok_flash: FloatArray
     dowson_higginson: FloatArray
     thickness_ratio: FloatArray
-    pinion_flash: FloatArray | None = None
-    wheel_flash: FloatArray | None = None
-    minimum_film: FloatArray | None = None
-    central_film: FloatArray | None = None
-    max_pressure: FloatArray | None = None
-    friction_coefficient: FloatArray | None = None
-    film_max_temperature: FloatArray | None = None
+    thermal: ThermalPath | None = None
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Scuffing(LoadDistribution):
-    """The load distribution and the scuffing check on it; `safety` is None without a scuffing temperature."""
+class Scuffing:
+    """The scuffing check on a load distribution; `safety` is None without a scuffing temperature.
 
+    `warnings` are those of the load distribution and of the check.
+    """
+
+    distribution: LoadDistribution
     flash: Flash
     contact_temperature: ContactTemperature
     film: Film
     safety: Safety | None
     path: ScuffingPath
     derived: ScuffingDerived
-    unsolved_points: int = 0
+    warnings: tuple[Notice, ...]
+    unsolved_points: int

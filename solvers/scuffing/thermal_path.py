@@ -1,17 +1,17 @@
 """The thermal EHL solution along a line of the flank: film, flash temperatures and friction under the local load."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import fields, replace
 
 import numpy as np
 
-from solvers.arrays import BoolArray, FloatArray, frozen
+from solvers.arrays import BoolArray, frozen
 from solvers.contact import ehl
 from solvers.errors import InvalidInput
 from solvers.notices import Notice
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.results import ContactPoints
-from solvers.scuffing.safety_results import PointStatus
+from solvers.scuffing.safety_results import PointStatus, ThermalPath
 
 # What a contact is given, by the name of the scuffing input that decides it; other names are the same.
 FIELDS = {
@@ -21,36 +21,7 @@ FIELDS = {
     "temperatures": "temperatures.bulk",
 }
 
-CURVES = (
-    "pinion_flash",
-    "wheel_flash",
-    "minimum_film",
-    "central_film",
-    "max_pressure",
-    "friction_coefficient",
-    "film_max_temperature",
-)
-
-
-@dataclass(frozen=True, slots=True)
-class ThermalPath:
-    """Point by point: status, flash temperatures of both flanks [K], films [m], pressure [Pa], friction, film [K].
-
-    What was not solved is NaN. A point refused because its load is too light has bounds instead: it is no hotter
-    (flash_bound [K]) and its film no thinner (film_bound [m]) than under the lightest load that the solver takes.
-    """
-
-    status: tuple[PointStatus, ...]
-    warnings: tuple[Notice, ...]
-    flash_bound: FloatArray
-    film_bound: FloatArray
-    pinion_flash: FloatArray
-    wheel_flash: FloatArray
-    minimum_film: FloatArray
-    central_film: FloatArray
-    max_pressure: FloatArray
-    friction_coefficient: FloatArray
-    film_max_temperature: FloatArray
+CURVES = tuple(item.name for item in fields(ThermalPath) if item.name not in {"status", "warnings"})
 
 
 def thermal_path(inputs: ScuffingInputs, points: ContactPoints, loaded: BoolArray) -> ThermalPath:
@@ -70,7 +41,7 @@ def thermal_path(inputs: ScuffingInputs, points: ContactPoints, loaded: BoolArra
     }
     results = dict(zip(solvable, ehl.solve_path(list(solvable.values())), strict=True))
     status: list[PointStatus] = ["unloaded"] * loaded.size
-    curves = {name: np.full(loaded.size, np.nan) for name in (*CURVES, "flash_bound", "film_bound")}
+    curves = {name: np.full(loaded.size, np.nan) for name in CURVES}
     for point, result in results.items():
         status[point] = result.status
         if result.status != "no_solution":

@@ -11,8 +11,7 @@ from solvers.arrays import FloatArray
 from solvers.contact.film import thickness_regime
 from solvers.notices import Notice
 from solvers.scuffing.results import LoadDistribution
-from solvers.scuffing.safety_results import ContactTemperature, Film, Flash, Safety, ScuffingPath
-from solvers.scuffing.thermal_path import ThermalPath
+from solvers.scuffing.safety_results import ContactTemperature, Film, Flash, Safety, ScuffingPath, ThermalPath
 
 
 def unknown_points(thermal: ThermalPath, bulk: float | FloatArray) -> int:
@@ -34,9 +33,9 @@ def largest_flash(path: ScuffingPath) -> Flash:
         blok_max=float(path.blok_flash[hottest]),
         blok_at_psi=float(path.psi[hottest]) if path.blok_flash[hottest] > 0.0 else None,
     )
-    if path.pinion_flash is None or path.wheel_flash is None or not _any_number(path.pinion_flash):
+    if path.thermal is None or not _any_number(path.thermal.pinion_flash):
         return flash
-    either = np.fmax(path.pinion_flash, path.wheel_flash)
+    either = np.fmax(path.thermal.pinion_flash, path.thermal.wheel_flash)
     hottest = int(np.nanargmax(either))
     return replace(flash, thermal_ehl_max=float(either[hottest]), thermal_ehl_at_psi=float(path.psi[hottest]))
 
@@ -46,7 +45,7 @@ def thinnest_film(path: ScuffingPath) -> Film:
     if not _any_number(path.dowson_higginson):
         return Film()
     formula = float(np.nanmin(path.dowson_higginson))
-    judged = path.dowson_higginson if path.minimum_film is None else path.minimum_film
+    judged = path.dowson_higginson if path.thermal is None else path.thermal.minimum_film
     if not _any_number(judged):
         return Film(dowson_higginson_min=formula)
     thinnest = int(np.nanargmin(judged))
@@ -56,7 +55,7 @@ def thinnest_film(path: ScuffingPath) -> Film:
         min_at_psi=float(path.psi[thinnest]),
         thickness_ratio=ratio,
         thickness_regime=thickness_regime(ratio),
-        thermal_ehl_min=None if path.minimum_film is None else float(judged[thinnest]),
+        thermal_ehl_min=None if path.thermal is None else float(judged[thinnest]),
     )
 
 

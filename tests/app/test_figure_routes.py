@@ -9,6 +9,7 @@ import httpx
 import pytest
 
 from app.calculations import CALCULATIONS
+from app.figures.registry import figures_of
 from app.library import examples
 
 Post = Callable[[str, object], httpx.Response]
@@ -20,7 +21,7 @@ LOADS = "/v1/coupling/figures/tooth-loads"
 def test_list_names_every_figure(client: httpx.Client) -> None:
     listed = client.get("/v1/figures").json()
     assert [(item["endpoint"], item["name"]) for item in listed] == [
-        (calculation.path, figure.name) for calculation in CALCULATIONS for figure in calculation.figures
+        (calculation.path, figure.name) for calculation in CALCULATIONS for figure in figures_of(calculation.path)
     ]
     assert all(item["formats"] == ["svg", "png", "pdf", "csv"] for item in listed)
     assert all(item["title"] and item["source"] for item in listed)

@@ -17,6 +17,7 @@ from app.evaluate import evaluate
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, Role
 from app.figures.drawing import draw
+from app.figures.registry import figures_of
 from app.figures.tables import table
 from app.library import examples
 
@@ -97,13 +98,13 @@ def solved(name: str) -> tuple[Any, Any]:
 @cache
 def figure(name: str, which: str) -> Figure:
     request, answer = solved(name)
-    declared = {each.name: each for each in CALCULATION[examples()[name].endpoint].figures}
+    declared = {each.name: each for each in figures_of(examples()[name].endpoint)}
     return declared[which].figure(request, answer)
 
 
 def figures(name: str) -> Iterator[tuple[str, Figure]]:
     """All figures of an example; those that it may lack are checked for their reason."""
-    for declaration in CALCULATION[examples()[name].endpoint].figures:
+    for declaration in figures_of(examples()[name].endpoint):
         try:
             yield declaration.name, figure(name, declaration.name)
         except NoFigure as reason:
@@ -154,11 +155,11 @@ def answered(answer: Documented, unit: str | None, shown: np.ndarray[Any, Any]) 
 
 def test_every_figure_of_the_table_exists() -> None:
     for path, names in FIGURES.items():
-        declared = {each.name for each in CALCULATION[path].figures}
+        declared = {each.name for each in figures_of(path)}
         assert names <= declared, path
-    assert {each.name for each in CALCULATION["/v1/scuffing"].figures} >= FIGURES["/v1/scuffing/load-distribution"]
+    assert {each.name for each in figures_of("/v1/scuffing")} >= FIGURES["/v1/scuffing/load-distribution"]
     for calculation in CALCULATIONS:
-        assert calculation.figures, calculation.path
+        assert figures_of(calculation.path), calculation.path
 
 
 @pytest.mark.parametrize("name", QUICK)
@@ -269,7 +270,7 @@ def test_contact_track_is_as_wide_as_the_hertz_contact() -> None:
 
 def test_choking_scan_repeats_the_pumping_endpoint_and_crosses_its_limits_at_the_speeds_found() -> None:
     request, answer = solved("milian-case-1-choking")
-    (declaration,) = CALCULATION["/v1/pumping/choking-speed"].figures
+    (declaration,) = figures_of("/v1/pumping/choking-speed")
     data = declaration.figure(request, answer)
     for panel, found in zip(
         data.panels, (answer.axial_choking_speed_rpm, answer.radial_choking_speed_rpm), strict=True
@@ -313,7 +314,7 @@ def partly_unsolved() -> tuple[Any, Any]:
 
 def test_unsolved_points_are_gaps_counted_in_the_subtitle() -> None:
     request, answer = partly_unsolved()
-    declared = {each.name: each for each in CALCULATION["/v1/scuffing"].figures}
+    declared = {each.name: each for each in figures_of("/v1/scuffing")}
     for which in ("contact-temperature", "film", "friction"):
         data = declared[which].figure(request, answer)
         assert "2 points without solution" in data.subtitle
@@ -330,7 +331,7 @@ def test_unsolved_points_are_gaps_counted_in_the_subtitle() -> None:
 def test_a_case_without_solution_has_no_figure() -> None:
     request, answer = solved("pahl-heavily-crowned")
     unsolved = answer.model_copy(update={"status": "no_solution"})
-    for declaration in CALCULATION["/v1/coupling"].figures:
+    for declaration in figures_of("/v1/coupling"):
         with pytest.raises(NoFigure, match="no solution") as reason:
             declaration.figure(request, unsolved)
         assert reason.value.code == "no_solution"

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from app.calculations import CALCULATIONS, Calculation
 from app.contract.fields import ITEM, leaves
 from app.evaluate import evaluate
+from app.figures.registry import figures_of
 from app.formats.json import written
 from app.library import examples
 from app.pages import views
@@ -122,7 +123,7 @@ def test_figures_and_links_of_the_page(name: str) -> None:
     html = page(name)
     calculation = CALCULATION[examples()[name].endpoint]
     shown = html.count('<figure class="chart"') + html.count('<p class="missing">')
-    assert shown == len(calculation.figures)
+    assert shown == len(figures_of(calculation.path))
     assert html.count("data:image/svg+xml;base64,") == html.count('<figure class="chart"') > 0
     for view in ("result.csv?", "result.json?", "report?"):
         assert f'href="{page_path(calculation)}/{view}' in html
@@ -347,3 +348,18 @@ def test_assets_are_kept_by_browsers(client: httpx.Client) -> None:
         answer = client.get(address)
         assert answer.status_code == 200
         assert "immutable" in answer.headers["cache-control"]
+
+
+def test_a_report_tells_every_input_of_every_item() -> None:
+    """Sections of a shaft side by side, four at most; a stiffness by its rows; a link short as text only."""
+    example = "starter-generator-gear-drive-train"
+    html = views.report(asked(example), "http://host").content.decode()
+    request = examples()[example].request
+    for section in request["pinion_shaft"]["sections"]:
+        assert re.search(rf'<td class="right given">{section["outer_diameter_mm"]:g} mm</td>', html)
+    assert html.count("<caption>pinion shaft · sections</caption>") == -(-len(request["pinion_shaft"]["sections"]) // 4)
+    assert "(420, 160), (−90, 560) N/µm" in html
+    link = re.search(r'<dd class="link"><a href="([^"]*)">([^<]*)</a>', html)
+    assert link is not None
+    assert link[2].endswith("…")
+    assert len(link[1]) > 1000

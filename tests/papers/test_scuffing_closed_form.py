@@ -37,7 +37,7 @@ def scuffing(pair: int) -> Scuffing:
 
 def at_start_of_mesh(line_load: float) -> dict[str, float]:
     """The contact at A1 of pair 1 under a line load [N/m]."""
-    path = scuffing(1).path_of_contact
+    path = scuffing(1).distribution.path_of_contact
     speed_1, speed_2 = path.surface_speeds(0.0, PAPER_SPEED)
     radius = float(reduced_radius(path.plane, 0.0))
     return {"line_load": line_load, "speed_1": speed_1, "speed_2": speed_2, "radius": radius}

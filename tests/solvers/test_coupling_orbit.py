@@ -68,6 +68,17 @@ def test_slow_orbit_is_the_static_place_of_the_sleeve() -> None:
     assert result.max_displacement == pytest.approx(np.hypot(*loads.displacement.T).max(), rel=1e-6)
 
 
+def test_the_farthest_place_is_found_between_the_positions_of_an_orbit() -> None:
+    inputs = pahl_coupling(0.5, speed=1000.0, pitch_errors=ERRORS)
+    result = solve_orbit(inputs)
+    fine = 16 * len(result.orbit.rotor_angle)
+    force = 16 * np.fft.irfft(np.fft.rfft([result.inertia_force.x, result.inertia_force.y]), n=fine).T
+    mesh = mesh_motion(inputs.coupling, tooth_geometry(inputs.coupling), inputs.operation, "tangential")
+    teeth = tooth_positions(2 * np.pi / fine * np.arange(fine), TEETH)
+    place = floating_loads(inputs.coupling, mesh, teeth, 3000.0, force).displacement
+    assert result.max_displacement == pytest.approx(np.hypot(*place.T).max(), rel=1e-5)
+
+
 @settings(max_examples=40)
 # Above 1000 rad/s and near one degree the twelfth order nears its resonance with the few loaded teeth.
 @given(st.floats(0.0, 1.0), st.floats(1.0, 1000.0), st.integers(0, 1000))

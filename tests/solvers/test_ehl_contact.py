@@ -10,11 +10,10 @@ from solvers.contact.ehl import (
     LineContactResult,
     Model,
     Temperatures,
-    budget,
-    continuation,
     solve,
 )
-from solvers.contact.ehl.shear import STRESS_LIMIT
+from solvers.contact.ehl.film.shear import STRESS_LIMIT
+from solvers.contact.ehl.solution import budget, continuation
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid

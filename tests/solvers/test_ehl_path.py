@@ -5,9 +5,9 @@ from dataclasses import replace
 import pytest
 
 from solvers.contact.ehl import Contact, LineContactInputs, Model, Temperatures, path, solve, solve_path
-from solvers.contact.ehl.budget import STEPS_IN_ALL, Budget, Resolution
-from solvers.contact.ehl.continuation import Attempt
 from solvers.contact.ehl.problem import Problem
+from solvers.contact.ehl.solution.budget import STEPS_IN_ALL, Budget, Resolution
+from solvers.contact.ehl.solution.continuation import Attempt
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant
 

@@ -229,6 +229,36 @@ def test_power_is_what_the_walls_do_against_the_gauge_pressure(
     assert result.total.pumping_power == pytest.approx(power, rel=2e-3)
 
 
+def test_mean_temperatures_are_those_of_the_field() -> None:
+    # over the stroke of each slice; the static one is by u^2/(2 c_p), up to 19 K, below the stagnation temperature
+    spaces = pinion(run(CASE_1, SPEED_1))
+    field, profile = spaces.field, spaces.profile
+    assert field.temperature_rise is not None
+    stagnation = AIR.temperature + field.temperature_rise
+    static = stagnation / (1 + 0.2 * field.axial_mach**2)
+    phase = field.angle[:, None] - 2 * np.sin(CASE_1.helix_angle) / (47 * 7e-3) * field.position
+    inside = (phase >= spaces.stroke.start) & (phase <= spaces.stroke.end)
+    for temperature, rise in ((stagnation, profile.temperature_rise), (static, profile.static_temperature_rise)):
+        means = [
+            np.trapezoid(column[here], angle[here]) / np.ptp(angle[here])
+            for column, angle, here in zip(temperature.T, phase.T, inside.T, strict=True)
+        ]
+        assert rise == pytest.approx(np.array(means) - AIR.temperature, abs=0.3)
+
+
+def test_pulses_of_two_equal_gears_alternate() -> None:
+    # a space of the wheel is in the middle half a period after one of the pinion: odd orders cancel, even ones double
+    gears = GearPairInputs(GearTeeth(40, 0.1), GearTeeth(40, 0.1), 5e-3, 0.1, radians(20), rack_tip_radius=0.25)
+    alone, both = (
+        solve(PumpingInputs(PumpingSetup(gears, 0.0, model=PumpingModel(gap=Gap.TIP, spaces=spaces)), 600.0)).pulsation
+        for spaces in (Spaces.PINION, Spaces.BOTH)
+    )
+    for end in ("front_mass_flow", "rear_mass_flow"):
+        single, together = getattr(alone, end), getattr(both, end)
+        assert together[1::2] == pytest.approx(2 * single[1::2], rel=0.02)
+        assert together[::2].max() < 0.02 * single[0]
+
+
 def test_groove_as_wide_as_it_is_cuts_the_face_in_two() -> None:
     result = pinion(run(CASE_1, 9267, grooves=GROOVE))
     position = result.profile.position

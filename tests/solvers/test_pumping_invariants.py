@@ -148,6 +148,16 @@ def test_lead_of_case_1() -> None:
     assert lead.curves.correction == pytest.approx(-lead.curves.growth)
 
 
+def test_crown_is_the_height_of_the_middle_above_the_ends() -> None:
+    pair = gear_pair(replace(CASE_1, helix_angle=0.0, centre_distance=None))
+    place = np.linspace(-0.5, 0.5, 41)
+    lead = lead_correction(pair, (place + 0.5) * 0.2, 20.0 * (1 - 4 * place**2))
+    curve = lead.curves.correction
+    assert lead.crown == pytest.approx(curve[20] - 0.5 * (curve[0] + curve[-1]), rel=1e-9)
+    radial = EXPANSION * pair.pinion_working_radius * sin(pair.working_pressure_angle)
+    assert lead.crown == pytest.approx(-20 * radial, rel=1e-9)
+
+
 def test_uniform_warmth_turns_the_helix() -> None:
     pair = gear_pair(CASE_1)
     lead = lead_correction(pair, np.linspace(0.001, 0.199, 100), np.full(100, 15.0))

@@ -20,6 +20,7 @@ from solvers.scuffing.inputs import (
     angular_speed,
 )
 from solvers.scuffing.results import LoadDistribution
+from solvers.scuffing.safety_results import Scuffing
 from tests.gear_pairs import UNDERCUT_PAIR, with_torque
 from tests.modified_pairs import random_pair
 
@@ -34,7 +35,7 @@ def solve_gears(
     )
 
 
-def codes(result: LoadDistribution) -> set[str]:
+def codes(result: LoadDistribution | Scuffing) -> set[str]:
     return {notice.code for notice in result.warnings}
 
 
@@ -232,7 +233,11 @@ def test_undercut_takes_the_verdict_and_nothing_else() -> None:
     assert 0 < refused.sum() == result.unsolved_points < 5
     for curve in (result.path.blok_flash, result.path.dowson_higginson):
         assert np.all(np.isnan(curve) == refused)
-    assert (result.flash.blok_max, result.film.dowson_higginson_min, result.pressure.max) == (None, None, None)
+    assert (result.flash.blok_max, result.film.dowson_higginson_min, result.distribution.pressure.max) == (
+        None,
+        None,
+        None,
+    )
     assert [notice.code for notice in result.warnings].count("path_reaches_base_circle") == 1
     assert "no_film" not in codes(result)
 
@@ -242,7 +247,8 @@ def test_where_pressure_has_no_largest_value_flash_has_none_either() -> None:
     lifted = LoadDistributionInputs(UNDERCUT_PAIR, Load(50.0, angular_speed(1000)), Modifications(helix_slope=-60e-6))
     result = solve_scuffing(ScuffingInputs(lifted, lubrication="closed_form"))
     assert np.all(np.isfinite(result.path.blok_flash))
-    assert (result.pressure.max, result.flash.blok_max, result.contact_temperature.blok_max) == (None, None, None)
+    assert (result.distribution.pressure.max, result.flash.blok_max) == (None, None)
+    assert result.contact_temperature.blok_max is None
     assert [notice.code for notice in result.warnings].count("path_reaches_base_circle") == 1
 
 
@@ -356,7 +362,7 @@ def test_contact_is_lost_over_part_of_the_flank() -> None:
 def test_no_film_where_the_feature_line_is_not_loaded() -> None:
     heavy = Modifications(lead_crowning=80e-6)
     result = solve_scuffing(ScuffingInputs(paper_pair(4, heavy), lubrication="closed_form"))
-    bare = result.feature_line.line_load[[0, -1]] == 0
+    bare = result.distribution.feature_line.line_load[[0, -1]] == 0
     assert np.all(bare)
     assert np.isnan(result.path.dowson_higginson[0])
     assert result.path.blok_flash[0] == 0.0
@@ -367,7 +373,7 @@ def test_no_film_where_the_feature_line_is_not_loaded() -> None:
 def test_no_film_in_the_middle_of_a_hollow_flank_is_for_its_crowning() -> None:
     hollow = Modifications(lead_crowning=-400e-6)
     result = solve_scuffing(ScuffingInputs(with_torque(paper_pair(4, hollow), 1.0), lubrication="closed_form"))
-    assert result.feature_line.line_load[25] == 0.0
+    assert result.distribution.feature_line.line_load[25] == 0.0
     assert ("no_film", "modifications") in {(notice.code, notice.field) for notice in result.warnings}
 
 

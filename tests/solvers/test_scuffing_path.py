@@ -82,14 +82,15 @@ def check_backwards(inputs: ScuffingInputs, result: Scuffing) -> None:
     solved = [k for k, status in enumerate(result.path.status) if status in {"ok", "ok_with_warnings"}]
     points = points_of(inputs, result)
     backward = ehl.solve_path([contact_at(inputs, points, k) for k in reversed(solved)])
-    assert result.path.minimum_film is not None
-    assert result.path.pinion_flash is not None
+    assert result.path.thermal is not None
     for k, along in zip(reversed(solved), backward, strict=True):
         if along.status == "no_solution":
             continue
         assert along.temperature is not None
-        assert along.film.minimum == pytest.approx(result.path.minimum_film[k], rel=0.01)
-        assert along.temperature.surface_1_flash == pytest.approx(result.path.pinion_flash[k], rel=0.01, abs=0.5)
+        assert along.film.minimum == pytest.approx(result.path.thermal.minimum_film[k], rel=0.01)
+        assert along.temperature.surface_1_flash == pytest.approx(
+            result.path.thermal.pinion_flash[k], rel=0.01, abs=0.5
+        )
 
 
 @pytest.mark.parametrize("seed", [4, 13])

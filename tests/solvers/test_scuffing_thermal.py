@@ -7,7 +7,8 @@ import pytest
 
 from app.published.xue import paper_pair
 from solvers.contact import ehl
-from solvers.contact.ehl import budget, continuation, path
+from solvers.contact.ehl import path
+from solvers.contact.ehl.solution import budget, continuation
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
@@ -38,10 +39,9 @@ def pair_1() -> Scuffing:
 
 
 def numbers(result: Scuffing) -> np.ndarray:
-    path = result.path
-    rows = (path.pinion_flash, path.wheel_flash, path.minimum_film, path.friction_coefficient)
-    assert all(row is not None for row in rows)
-    return np.array(rows)
+    path = result.path.thermal
+    assert path is not None
+    return np.array((path.pinion_flash, path.wheel_flash, path.minimum_film, path.friction_coefficient))
 
 
 def test_every_point_is_solved(pair_1: Scuffing) -> None:
@@ -56,13 +56,13 @@ def test_formulas_stand_beside_the_solution_unchanged(pair_1: Scuffing) -> None:
     assert pair_1.path.dowson_higginson == pytest.approx(formulas.path.dowson_higginson, rel=1e-15)
     assert pair_1.flash.blok_max == formulas.flash.blok_max
     assert formulas.flash.thermal_ehl_max is None
-    assert formulas.path.pinion_flash is None
+    assert formulas.path.thermal is None
 
 
 def test_thermal_film_is_thinner_than_the_formula_along_the_whole_path(pair_1: Scuffing) -> None:
     # the paper: "h_min of the TEHL is below Dowson's"
-    assert pair_1.path.minimum_film is not None
-    assert (pair_1.path.minimum_film < pair_1.path.dowson_higginson).all()
+    assert pair_1.path.thermal is not None
+    assert (pair_1.path.thermal.minimum_film < pair_1.path.dowson_higginson).all()
 
 
 def test_film_is_thinnest_and_flash_highest_where_the_pinion_root_meets(pair_1: Scuffing) -> None:
@@ -71,20 +71,18 @@ def test_film_is_thinnest_and_flash_highest_where_the_pinion_root_meets(pair_1: 
 
 
 def test_the_slower_flank_is_the_hotter_one(pair_1: Scuffing) -> None:
-    assert pair_1.path.pinion_flash is not None
-    assert pair_1.path.wheel_flash is not None
-    sliding = pair_1.feature_line.sliding[[0, -1]]
+    assert pair_1.path.thermal is not None
+    sliding = pair_1.distribution.feature_line.sliding[[0, -1]]
     assert sliding[0] < 0.0 < sliding[1]
-    assert pair_1.path.pinion_flash[0] > pair_1.path.wheel_flash[0]
-    assert pair_1.path.pinion_flash[-1] < pair_1.path.wheel_flash[-1]
+    assert pair_1.path.thermal.pinion_flash[0] > pair_1.path.thermal.wheel_flash[0]
+    assert pair_1.path.thermal.pinion_flash[-1] < pair_1.path.thermal.wheel_flash[-1]
 
 
 def test_maxima_and_safety_follow_from_the_path() -> None:
     temperatures = Temperatures(scuffing=433.15)
     result = solve_scuffing(inputs(temperatures=temperatures))
-    assert result.path.pinion_flash is not None
-    assert result.path.wheel_flash is not None
-    largest = max(result.path.pinion_flash.max(), result.path.wheel_flash.max())
+    assert result.path.thermal is not None
+    largest = max(result.path.thermal.pinion_flash.max(), result.path.thermal.wheel_flash.max())
     assert result.flash.thermal_ehl_max == largest
     assert result.contact_temperature.thermal_ehl_max == temperatures.bulk + largest
     assert result.safety is not None
@@ -95,7 +93,7 @@ def test_maxima_and_safety_follow_from_the_path() -> None:
 def test_a_point_of_the_path_is_the_contact_solved_alone(pair_1: Scuffing) -> None:
     given, middle = inputs(), 4
     alone = solve_scuffing(given)
-    line = alone.feature_line
+    line = alone.distribution.feature_line
     point = int(np.flatnonzero(np.isclose(line.psi, pair_1.path.psi[middle]))[0])
     contact = ehl.solve(
         ehl.LineContactInputs(
@@ -108,9 +106,9 @@ def test_a_point_of_the_path_is_the_contact_solved_alone(pair_1: Scuffing) -> No
             model=COARSE,
         )
     )
-    assert pair_1.path.minimum_film is not None
+    assert pair_1.path.thermal is not None
     # the path shares one mesh, graded for its mean film: 61 nodes cost up to 4 % against another grading
-    assert contact.film.minimum == pytest.approx(pair_1.path.minimum_film[middle], rel=0.04)
+    assert contact.film.minimum == pytest.approx(pair_1.path.thermal.minimum_film[middle], rel=0.04)
 
 
 def test_unloaded_points_have_no_numbers_and_do_not_disturb_the_others() -> None:

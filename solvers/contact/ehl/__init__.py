@@ -1,4 +1,8 @@
-"""The lubricated line contact: pressure, film, temperature and friction, isothermal or thermal."""
+"""The lubricated line contact: pressure, film, temperature and friction, isothermal or thermal.
+
+Data flows inputs, checks -> dimensionless -> problem -> grid -> film -> heat -> solution -> measures, verification,
+refinement -> results, notices (all gathered by `model.solve` for one contact, by `path.solve_path` for many).
+"""
 
 from solvers.contact.ehl.checks import check, lightest
 from solvers.contact.ehl.inputs import Contact, LineContactInputs, Model, Rheology, Temperatures

@@ -3,10 +3,8 @@
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
-from solvers.contact.ehl.continuation import Attempt
-from solvers.contact.ehl.fluxes import VALUE
+from solvers.contact.ehl.film.fluxes import VALUE
 from solvers.contact.ehl.inputs import LineContactInputs
-from solvers.contact.ehl.isothermal import evaluate_isothermal
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.results import (
     ContactCurves,
@@ -16,7 +14,9 @@ from solvers.contact.ehl.results import (
     ContactPressure,
     ContactTemperature,
 )
-from solvers.contact.ehl.state import evaluate_state
+from solvers.contact.ehl.solution.continuation import Attempt
+from solvers.contact.ehl.solution.isothermal import evaluate_isothermal
+from solvers.contact.ehl.solution.state import evaluate_state
 
 PEAK_ZONE = 0.1  # half widths behind the centre: what lies before is the Hertz maximum
 

@@ -4,9 +4,7 @@ from dataclasses import replace
 from math import isfinite
 
 from solvers.contact.ehl import measures, verification
-from solvers.contact.ehl.budget import STEPS_TO_REFINE, Budget, Resolution, budget_for
 from solvers.contact.ehl.checks import check
-from solvers.contact.ehl.continuation import TIGHT, Attempt, solve_cold
 from solvers.contact.ehl.dimensionless import (
     Groups,
     dowson_higginson_film,
@@ -27,6 +25,8 @@ from solvers.contact.ehl.results import (
     LineContactResult,
     Stage,
 )
+from solvers.contact.ehl.solution.budget import STEPS_TO_REFINE, Budget, Resolution, budget_for
+from solvers.contact.ehl.solution.continuation import TIGHT, Attempt, solve_cold
 from solvers.lubricants import Lubricant, oil_in_use
 
 WORST_BALANCE = 1e-3

@@ -4,13 +4,13 @@ from dataclasses import replace
 from math import ceil, isfinite, log2, sqrt
 
 from solvers.contact.ehl import measures
-from solvers.contact.ehl.budget import Budget, Resolution, price
-from solvers.contact.ehl.continuation import TIGHT, Attempt, interpolate, polish
+from solvers.contact.ehl.grid.mesh import grid_for
 from solvers.contact.ehl.inputs import LineContactInputs
-from solvers.contact.ehl.mesh import grid_for
 from solvers.contact.ehl.notices import LARGEST_MESH_ERROR
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.results import MeshError
+from solvers.contact.ehl.solution.budget import Budget, Resolution, price
+from solvers.contact.ehl.solution.continuation import TIGHT, Attempt, interpolate, polish
 
 FINEST = 481
 STEPS_ON_FINER = 20.0

@@ -4,7 +4,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.contact.ehl.dense import add_scaled, dot
+from solvers.contact.ehl.grid.dense import add_scaled, dot
 
 
 @kernel

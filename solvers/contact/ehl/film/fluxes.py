@@ -6,8 +6,8 @@ import numpy as np
 
 from solvers.arrays import BoolArray, FloatArray
 from solvers.compiled import kernel
-from solvers.contact.ehl.dense import multiply
-from solvers.contact.ehl.mesh import Grid
+from solvers.contact.ehl.grid.dense import multiply
+from solvers.contact.ehl.grid.mesh import Grid
 from solvers.contact.ehl.problem import Problem
 
 # Columns of the coefficient arrays: value, and derivatives by p, by G = h dp/dx and by h.

@@ -8,13 +8,13 @@ from typing import Literal
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.contact.ehl.budget import Budget, Resolution, price
-from solvers.contact.ehl.coupled import solve_coupled
-from solvers.contact.ehl.isothermal import solve_isothermal
-from solvers.contact.ehl.mesh import Grid, grid_for
+from solvers.contact.ehl.grid.mesh import Grid, grid_for
 from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.state import State, Work, no_steps, work_arrays
-from solvers.contact.ehl.temperature import march_temperatures
+from solvers.contact.ehl.solution.budget import Budget, Resolution, price
+from solvers.contact.ehl.solution.coupled import solve_coupled
+from solvers.contact.ehl.solution.isothermal import solve_isothermal
+from solvers.contact.ehl.solution.state import State, Work, no_steps, work_arrays
+from solvers.contact.ehl.solution.temperature import march_temperatures
 
 Stage = Literal["isothermal", "coupling"]
 

@@ -25,7 +25,7 @@ class Resolution:
 
 @dataclass(slots=True)
 class Budget:
-    """Newton steps left, in units of a step at 121 x 21 nodes; it bounds every solve, and every path of them.
+    """Newton steps left, in units of a step at 121 x 21 nodes; it bounds every solve.
 
     What is spent of a part is spent of the whole it is a part `of`.
     """

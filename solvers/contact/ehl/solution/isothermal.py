@@ -4,19 +4,19 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.contact.ehl.dense import solved
-from solvers.contact.ehl.fluxes import BY_G, BY_H, BY_P, VALUE, assemble_faces, film_shape, pressure_gradients
-from solvers.contact.ehl.mesh import Grid
-from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.reynolds import (
+from solvers.contact.ehl.film.fluxes import BY_G, BY_H, BY_P, VALUE, assemble_faces, film_shape, pressure_gradients
+from solvers.contact.ehl.film.reynolds import (
     PATIENCE,
     RUPTURE_TOLERANCE,
     apply_pressure_step,
     assemble_system,
     release_cavitated,
 )
-from solvers.contact.ehl.shear import STRESS_LIMIT
-from solvers.contact.ehl.state import State, Work
+from solvers.contact.ehl.film.shear import STRESS_LIMIT
+from solvers.contact.ehl.grid.dense import solved
+from solvers.contact.ehl.grid.mesh import Grid
+from solvers.contact.ehl.problem import Problem
+from solvers.contact.ehl.solution.state import State, Work
 from solvers.lubricants import density, log_viscosity, pressure_part
 
 EARLY = 5  # iterations with a tighter clip

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
-from solvers.contact.ehl.deflection import deflection_matrix
-from solvers.contact.ehl.heat_matrix import heat_matrix
+from solvers.contact.ehl.grid.deflection import deflection_matrix
+from solvers.contact.ehl.grid.heat_matrix import heat_matrix
 
 SHORTEST_INLET = 4.0
 CLEARANCE = 40.0  # undeformed gap at the inlet over the central film

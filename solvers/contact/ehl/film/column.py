@@ -4,9 +4,9 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import inlined_kernel
-from solvers.contact.ehl.fluxes import BY_G, BY_H, BY_P, VALUE, FlowCoefficients
+from solvers.contact.ehl.film.fluxes import BY_G, BY_H, BY_P, VALUE, FlowCoefficients
+from solvers.contact.ehl.film.shear import Film, shear_eyring, shear_newtonian, stress_response, viscosities
 from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.shear import Film, shear_eyring, shear_newtonian, stress_response, viscosities
 
 
 @inlined_kernel

@@ -4,14 +4,15 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import inlined_kernel, kernel
-from solvers.contact.ehl.column import evaluate_column
-from solvers.contact.ehl.dense import dot
-from solvers.contact.ehl.energy import Heat, column_balance, face_edges, factor_column, solve_column, surface_history
-from solvers.contact.ehl.fluxes import film_shape
-from solvers.contact.ehl.mesh import Grid
+from solvers.contact.ehl.film.column import evaluate_column
+from solvers.contact.ehl.film.fluxes import film_shape
+from solvers.contact.ehl.film.shear import Film
+from solvers.contact.ehl.grid.dense import dot
+from solvers.contact.ehl.grid.mesh import Grid
+from solvers.contact.ehl.heat.balance import Heat, column_balance, face_edges, surface_history
+from solvers.contact.ehl.heat.elimination import factor_column, solve_column
 from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.shear import Film
-from solvers.contact.ehl.state import State, Work
+from solvers.contact.ehl.solution.state import State, Work
 
 LARGEST_STEP = 40.0  # K
 COLUMN_ITERATIONS = 60

@@ -6,9 +6,8 @@ import numpy as np
 
 from solvers.arrays import BoolArray, FloatArray
 from solvers.compiled import kernel
-from solvers.contact.ehl.column import evaluate_column
-from solvers.contact.ehl.energy import Heat, column_balance, face_edges, heat_arrays, surface_history
-from solvers.contact.ehl.fluxes import (
+from solvers.contact.ehl.film.column import evaluate_column
+from solvers.contact.ehl.film.fluxes import (
     VALUE,
     FaceFluxes,
     FlowCoefficients,
@@ -18,9 +17,10 @@ from solvers.contact.ehl.fluxes import (
     flow_coefficients,
     pressure_gradients,
 )
-from solvers.contact.ehl.mesh import Grid
+from solvers.contact.ehl.film.shear import Film, film_arrays, limited_gradient
+from solvers.contact.ehl.grid.mesh import Grid
+from solvers.contact.ehl.heat.balance import Heat, column_balance, face_edges, heat_arrays, surface_history
 from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.shear import Film, film_arrays, limited_gradient
 
 
 class State(NamedTuple):

@@ -4,9 +4,7 @@ import numpy as np
 
 from solvers.arrays import BoolArray, FloatArray
 from solvers.compiled import kernel
-from solvers.contact.ehl.dense import dot, factor, substitute
-from solvers.contact.ehl.energy import factor_column
-from solvers.contact.ehl.fluxes import (
+from solvers.contact.ehl.film.fluxes import (
     BY_G,
     BY_H,
     BY_P,
@@ -15,18 +13,20 @@ from solvers.contact.ehl.fluxes import (
     film_shape,
     pressure_gradients,
 )
-from solvers.contact.ehl.krylov import combine_basis, extend_basis
-from solvers.contact.ehl.mesh import Grid
-from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.reynolds import (
+from solvers.contact.ehl.film.reynolds import (
     PATIENCE,
     RUPTURE_TOLERANCE,
     apply_pressure_step,
     assemble_system,
     release_cavitated,
 )
-from solvers.contact.ehl.state import State, Work, evaluate_state
-from solvers.contact.ehl.temperature import inlet_step, temperature_step
+from solvers.contact.ehl.grid.dense import dot, factor, substitute
+from solvers.contact.ehl.grid.mesh import Grid
+from solvers.contact.ehl.heat.elimination import factor_column
+from solvers.contact.ehl.problem import Problem
+from solvers.contact.ehl.solution.krylov import combine_basis, extend_basis
+from solvers.contact.ehl.solution.state import State, Work, evaluate_state
+from solvers.contact.ehl.solution.temperature import inlet_step, temperature_step
 
 LARGEST_PRESSURE_STEP = 0.3
 LARGEST_TEMPERATURE_STEP = 40.0  # K

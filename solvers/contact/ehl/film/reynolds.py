@@ -4,9 +4,9 @@ import numpy as np
 
 from solvers.arrays import BoolArray, FloatArray
 from solvers.compiled import kernel
-from solvers.contact.ehl.dense import add_scaled
-from solvers.contact.ehl.fluxes import FaceFluxes, film_shape
-from solvers.contact.ehl.mesh import Grid
+from solvers.contact.ehl.film.fluxes import FaceFluxes, film_shape
+from solvers.contact.ehl.grid.dense import add_scaled
+from solvers.contact.ehl.grid.mesh import Grid
 
 PATIENCE = 10  # iterations before the rupture tolerance counts
 RUPTURE_TOLERANCE = 5e-3  # of the flux

@@ -1,0 +1,1 @@
+"""The heat in a film, column by column: balance -> elimination."""

@@ -1,0 +1,1 @@
+"""How a contact is solved: state -> temperature, krylov -> coupled; isothermal; budget -> continuation."""
