@@ -5,7 +5,7 @@ Margins are computed, not searched for: nothing is measured by drawing it. Equal
 
 from dataclasses import dataclass
 from io import BytesIO
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from typing import Any
 
 from matplotlib import rc_context
@@ -44,7 +44,7 @@ METADATA: dict[str, dict[str, str | None]] = {
 class Slot:
     """Place of a panel on the sheet in inches, from its top left corner; whether it shows its abscissa.
 
-    Lying bars share the range of their `peers`.
+    Lying bars share the range of their `peers`; a panel whose left neighbour has its `ordinate` does not name it again.
     """
 
     panel: Panel
@@ -54,6 +54,7 @@ class Slot:
     height: float
     abscissa: bool
     peers: tuple[Panel, ...] = ()
+    ordinate: bool = True
 
 
 class BareAxes(Axes):
@@ -125,9 +126,18 @@ def _beside(figure: Figure, top: float) -> list[Slot]:
     width = free / len(panels)
     top += max(_above(panel, width) for panel in panels)
     edges = list(accumulate((left + width + right + 0.12 for left, right in margins), initial=EDGE))
+    named = [True, *(panel.y.label != left.y.label for left, panel in pairwise(panels))]
     return [
-        Slot(panel, edge + left, top, width, min(_height(panel, 1, width), 1.35 * width + 0.4), abscissa=True)
-        for panel, edge, (left, _) in zip(panels, edges[:-1], margins, strict=True)
+        Slot(
+            panel,
+            edge + left,
+            top,
+            width,
+            min(_height(panel, 1, width), 1.35 * width + 0.4),
+            abscissa=True,
+            ordinate=name,
+        )
+        for panel, edge, (left, _), name in zip(panels, edges[:-1], margins, named, strict=True)
     ]
 
 
@@ -193,7 +203,8 @@ def _draw_names(sheet: Sheet, slot: Slot, height: float, theme: Theme) -> None:
         _name_colors(sheet, panel.map, lift, height, theme)
     start = slot.left if panel.rows else slot.left - TICKS + 0.1
     if not panel.rows:
-        sheet.text(start / WIDTH, 1.0 - lift / height, name, fontsize=SMALL, color=theme.muted)
+        if slot.ordinate:
+            sheet.text(start / WIDTH, 1.0 - lift / height, name, fontsize=SMALL, color=theme.muted)
         lift -= LABEL_LINE
     if panel.title:
         lift -= 0.01

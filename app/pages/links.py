@@ -54,6 +54,11 @@ class Links:
         """The case with a field varied."""
         return self.view("vary", theme=self.theme)
 
+    @property
+    def influence(self) -> str:
+        """Which input of the case matters."""
+        return self.view("influence", theme=self.theme)
+
     def image(self, figure: str, image_format: str) -> str:
         """One figure as a file."""
         return self.view(f"figures/{figure}.{image_format}", ref=self.ref, theme=self.theme)

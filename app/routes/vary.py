@@ -9,9 +9,8 @@ from fastapi import APIRouter, HTTPException, Request, Response
 
 from app.calculations import CALCULATIONS, Calculation
 from app.figures.rendering import MEDIA_TYPES as IMAGE_TYPES
-from app.figures.rendering import Format
 from app.pages.templating import page_path
-from app.pages.vary import views
+from app.pages.vary import influence, views
 from app.pages.vary.gathered import Gathered
 from app.problems import DeadlineExceeded, WorkerLost
 from app.routes.pages import (
@@ -31,7 +30,9 @@ from app.start_up import StartUp
 from app.studies.engine import twice_if_lost
 from app.studies.lines import StudyBroke, encoded, json_line
 from app.studies.office import Office
+from app.studies.sensitivity import Sensitivity
 from app.studies.stream import Clock, Lines, guarded
+from app.studies.sweep import Sweep
 from app.workers.admission import Runner
 
 FIRST_FRAME_S = 0.3
@@ -44,17 +45,18 @@ NOT_DRAWN = (
 )
 
 router = APIRouter(include_in_schema=False)
-Pieces = Callable[[views.Study, Lines, Office], AsyncGenerator[bytes, None]]
+Pieces = Callable[[Lines, Office], AsyncGenerator[bytes, None]]
+Asking = Sweep | Sensitivity
 
 
 def _add(calculation: Calculation) -> None:
-    path = f"{page_path(calculation)}/vary"
+    path, influence_path = (f"{page_path(calculation)}/{below}" for below in ("vary", "influence"))
 
     async def page(http: Request) -> Response:
-        try:
-            return await _page(http, calculation, path)
-        except TROUBLES as error:
-            return trouble_page(error)
+        return await _page(http, calculation, path, views.opened, _grown)
+
+    async def matters(http: Request) -> Response:
+        return await _page(http, calculation, influence_path, influence.opened, _ranked)
 
     async def lines(http: Request, media: str) -> Response:
         """Every point, as the sweep's endpoint tells it."""
@@ -63,10 +65,10 @@ def _add(calculation: Calculation) -> None:
             raise HTTPException(404, f"There are {', '.join(f'vary.{each}' for each in kinds)}")
         study = await _study(http, calculation)
 
-        def pieces(study: views.Study, found: Lines, _: Office) -> AsyncGenerator[bytes, None]:
+        def pieces(found: Lines, _: Office) -> AsyncGenerator[bytes, None]:
             return encoded(found, study.sweep.table().encode if media == "csv" else json_line)
 
-        return await _stream(http, study, pieces, kinds[media], DOCUMENT_POLICY)
+        return await _stream(http, study.sweep, pieces, kinds[media], DOCUMENT_POLICY)
 
     async def figure(http: Request, name: str, image_format: str) -> Response:
         """One figure of the whole study as a file."""
@@ -76,27 +78,36 @@ def _add(calculation: Calculation) -> None:
         study = await _study(http, calculation)
         if name not in study.figures:
             raise HTTPException(404, f"This study has {', '.join(study.figures)}")
-        return await _stream(http, study, _file_pieces(name, image_format), kinds[image_format], DOCUMENT_POLICY)
+        pieces = _file_pieces(study, name, image_format)
+        return await _stream(http, study.sweep, pieces, kinds[image_format], DOCUMENT_POLICY)
 
     router.add_api_route(path, page, methods=METHODS)
+    router.add_api_route(influence_path, matters, methods=METHODS)
     router.add_api_route(f"{path}.{{media}}", lines, methods=METHODS)
     router.add_api_route(f"{path}/figures/{{name}}.{{image_format}}", figure, methods=METHODS)
 
 
-async def _page(http: Request, calculation: Calculation, path: str) -> Response:
-    """The page, whole where there is nothing to calculate."""
-    asked, clean = await asked_of(http, calculation)
-    if not clean and http.scope["method"] == "GET":
-        return sent_on(path, asked)
-    if asked.pairs:
-        _start_up(http).require(calculation.path)
-    limits = _limits(http)
-    opened: views.Opened = await _runner(http).run(
-        http.receive, views.opened, asked, limits.most_study_points, limits.deadline_s
-    )
-    if opened.study is None:
-        return html(opened.head + opened.tail, opened.status)
-    return await _stream(http, opened.study, _page_pieces(opened), HTML, PAGE_POLICY)
+async def _page(
+    http: Request,
+    calculation: Calculation,
+    place: str,
+    view: Callable[..., Any],
+    growing: Callable[[Any], tuple[Asking, Pieces]],
+) -> Response:
+    """A study's page, whole where there is nothing to calculate."""
+    try:
+        asked, clean = await asked_of(http, calculation)
+        if not clean and http.scope["method"] == "GET":
+            return sent_on(place, asked)
+        if asked.pairs:
+            _start_up(http).require(calculation.path)
+        limits = _limits(http)
+        opened = await _runner(http).run(http.receive, view, asked, limits.most_study_points, limits.deadline_s)
+        if opened.study is None:
+            return html(opened.head + opened.tail, opened.status)
+        return await _stream(http, *growing(opened), HTML, PAGE_POLICY)
+    except TROUBLES as error:
+        return trouble_page(error)
 
 
 async def _study(http: Request, calculation: Calculation) -> views.Study:
@@ -110,22 +121,25 @@ async def _study(http: Request, calculation: Calculation) -> views.Study:
     return study
 
 
-async def _stream(http: Request, study: views.Study, pieces: Pieces, media: str, policy: str) -> Response:
+async def _stream(http: Request, study: Asking, pieces: Pieces, media: str, policy: str) -> Response:
     """What is made of the lines of a study, while they come."""
     office: Office = http.app.state.office
     limits = _limits(http)
     with ExitStack() as stack:
         stack.enter_context(office.place())
-        clock = Clock(study.sweep.total)
-        lines = guarded(study.sweep.lines(await office.pool(), clock), clock, limits.study_deadline_s)
+        clock = Clock(study.total)
+        lines = guarded(study.lines(await office.pool(), clock), clock, limits.study_deadline_s)
         patience = limits.study_deadline_s + PATIENCE_S
         headers = {"Content-Security-Policy": policy}
-        return StudyStream(pieces(study, lines, office), media, patience, stack.pop_all(), headers)
+        return StudyStream(pieces(lines, office), media, patience, stack.pop_all(), headers)
 
 
-def _page_pieces(opened: views.Opened) -> Pieces:
-    async def pieces(study: views.Study, lines: Lines, office: Office) -> AsyncGenerator[bytes, None]:
-        """The page's head, figures that replace each other, its tail."""
+def _grown(opened: views.Opened) -> tuple[Asking, Pieces]:
+    """A sweep, and its page: head, figures that replace each other, tail."""
+    assert opened.study is not None
+    study = opened.study
+
+    async def pieces(lines: Lines, office: Office) -> AsyncGenerator[bytes, None]:
         yield opened.head
         gathered, started, due = Gathered(study.sweep.total), time.perf_counter(), FIRST_FRAME_S
         async with aclosing(lines):
@@ -139,7 +153,22 @@ def _page_pieces(opened: views.Opened) -> Pieces:
         yield await _drawn(office, views.whole, study, gathered)
         yield opened.tail
 
-    return pieces
+    return study.sweep, pieces
+
+
+def _ranked(opened: influence.Opened) -> tuple[Asking, Pieces]:
+    """A study of sensitivity, and its page: head, figure, tail."""
+    assert opened.study is not None
+    study = opened.study
+
+    async def pieces(lines: Lines, office: Office) -> AsyncGenerator[bytes, None]:
+        yield opened.head
+        async with aclosing(lines):
+            found = [line async for group in lines for line in group if line["type"] != "progress"]
+        yield await _drawn(office, influence.whole, study, found)
+        yield opened.tail
+
+    return study.sensitivity, pieces
 
 
 async def _drawn(office: Office, view: Callable[..., bytes], *arguments: Any) -> bytes:
@@ -150,8 +179,8 @@ async def _drawn(office: Office, view: Callable[..., bytes], *arguments: Any) ->
     return drawn
 
 
-def _file_pieces(name: str, image_format: Format | str) -> Pieces:
-    async def pieces(study: views.Study, lines: Lines, office: Office) -> AsyncGenerator[bytes, None]:
+def _file_pieces(study: views.Study, name: str, image_format: str) -> Pieces:
+    async def pieces(lines: Lines, office: Office) -> AsyncGenerator[bytes, None]:
         """The file in one piece; a study that breaks off has none."""
         gathered = Gathered(study.sweep.total)
         async with aclosing(lines):

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from app.figures.data import Axis, Figure, Hue, Line, Mark, Panel, ThemeName, values
+from app.figures.data import Axis, Figure, Hue, Line, Map, Mark, Panel, ThemeName, values
 from app.figures.drawing import draw
 from app.figures.style import THEMES
 
@@ -44,3 +44,14 @@ def test_the_name_of_a_single_curves_point_is_plain_ink() -> None:
     marks = (PANEL.marks[0],)
     found = texts(Panel(x=PANEL.x, y=PANEL.y, lines=PANEL.lines[:1], marks=marks))
     assert THEMES["light"].ink.lower() in found["2.00"][0]
+
+
+def test_maps_side_by_side_name_a_common_ordinate_once() -> None:
+    """The second name would meet that of the colours."""
+    x = values(X[:5])
+    chart = Map("gap between the unloaded flanks", "µm", x, x, values(np.outer(x, x)))
+    first = Panel(x=Axis("face"), y=Axis("profile (0: A, 1: E)"), map=chart)
+    other = Panel(x=Axis("face"), y=Axis("angle"), map=chart)
+    for panels, count in (((first, first), 1), ((other, first), 1), ((first, other, first), 2)):
+        image = draw(Figure("", panels, title="maps", beside=True), "svg").decode()
+        assert image.count(">profile (0: A, 1: E)<") == count

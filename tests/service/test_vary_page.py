@@ -16,6 +16,7 @@ pytestmark = pytest.mark.service
 MAP, THRUST = STUDIES[0].address, STUDIES[1].address
 SLOW = re.sub(r"x\.count=\d+", "x.count=300", re.sub(r"y\.count=\d+", "y.count=8", MAP))
 COUPLING = "pahl-axial-displacement"
+INFLUENCE = address_of(COUPLING).replace("?", "/influence?", 1)
 
 
 def test_from_a_case_to_a_curve_and_back_to_the_case_of_a_point(visit: Callable[..., Page]) -> None:
@@ -106,7 +107,17 @@ def test_the_start_page_leads_to_the_crowning_that_forgives(visit: Callable[...,
     expect(page.locator("#figure-worst")).to_be_visible()
 
 
-@pytest.mark.parametrize("address", ["/coupling/vary", MAP, THRUST, THRUST.replace("x.to=0.15", "x.to=abc")])
+def test_which_input_matters_leads_to_its_curve(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(COUPLING), java_script_enabled=False)
+    page.get_by_role("link", name="What matters").click()
+    expect(page.locator("#figure-influence")).to_be_visible()
+    first = page.locator(".results tbody a").first
+    expect(first).to_have_text("misalignment")
+    first.click()
+    expect(page.locator("#figure-curve")).to_be_visible()
+
+
+@pytest.mark.parametrize("address", ["/coupling/vary", INFLUENCE, MAP, THRUST, THRUST.replace("x.to=0.15", "x.to=abc")])
 def test_phone_and_accessibility(visit: Callable[..., Page], address: str) -> None:
     for scheme in ("light", "dark"):
         page = visit(address, viewport=PHONE, color_scheme=scheme)

@@ -63,13 +63,18 @@ def controls(
         for name in AXES
         for choices in [varied(calculation, case, words=name == "y")]
     )
-    first = headlines(calculation.response)[0]
     ends = (("", "by the output"), ("least", "least"), ("greatest", "greatest"))
     return Controls(
         axes,
-        _menu("show", "output", first.title, said, faults, shown_outputs(calculation)),
+        output_menu(calculation, said, faults),
         _select("best", "the best is", said, faults, ends),
     )
+
+
+def output_menu(calculation: Calculation, said: dict[str, str], faults: dict[str, str]) -> Menu:
+    """The outputs that a study can tell."""
+    first = headlines(calculation.response)[0]
+    return _menu("show", "output", first.title, said, faults, shown_outputs(calculation))
 
 
 def _menu(

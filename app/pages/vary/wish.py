@@ -56,14 +56,20 @@ def case_of(calculation: Calculation, pairs: Pairs) -> dict[str, Any]:
 def wish_of(calculation: Calculation, case: dict[str, Any], said: dict[str, str]) -> Wish:
     """What is asked for; raises Unprocessable with a path into the sweep."""
     fields = [_varied(calculation, case, said, name, place) for place, name in enumerate(AXES) if said.get(name)]
-    first = headlines(calculation.response)[0].path
-    output = scalar_at(calculation.response, said.get("show", first), "outputs.0", "unknown_output")
-    if output.kind not in NUMBERS:
-        raise Unprocessable("unknown_output", f"{output.path} is no number", "outputs.0")
+    output = shown_output(calculation, said)
     best = said.get("best", "greatest" if output.bound == "lower" else "least")
     if best not in {"least", "greatest"}:
         raise Unprocessable("literal_error", "best: allowed are least, greatest", "best")
     return Wish(tuple(fields), output, best == "greatest")
+
+
+def shown_output(calculation: Calculation, said: dict[str, str]) -> Leaf:
+    """The output asked for, else the first headline; raises Unprocessable."""
+    first = headlines(calculation.response)[0].path
+    output = scalar_at(calculation.response, said.get("show", first), "outputs.0", "unknown_output")
+    if output.kind not in NUMBERS:
+        raise Unprocessable("unknown_output", f"{output.path} is no number", "outputs.0")
+    return output
 
 
 def _varied(calculation: Calculation, case: dict[str, Any], said: dict[str, str], name: str, place: int) -> Varied:

@@ -1,0 +1,116 @@
+"""The page that says which input matters: its figure and table say what the study says, its links draw the curve."""
+
+import asyncio
+import json
+import re
+from html import unescape
+from typing import Any
+
+import httpx
+import pytest
+
+from app.calculations import BY_PATH
+from app.library import examples
+from app.pages.query import pairs_of, pairs_of_query, split_views
+from app.pages.templating import page_path
+from app.pages.typesetting import shown
+from app.pages.vary import influence, views
+from app.pages.views import Asked
+from app.studies.stream import Clock
+from tests.pools import InlinePool
+
+MOST, DEADLINE_S = 2500, 30.0
+COUPLING = "pahl-axial-displacement"
+
+
+def asked(name: str, **said: str) -> Asked:
+    example = examples()[name]
+    return Asked(page_path(BY_PATH[example.endpoint]), pairs_of(example.request), said)
+
+
+def lines_of(study: influence.Study) -> list[dict[str, Any]]:
+    async def run() -> list[dict[str, Any]]:
+        clock = Clock(study.sensitivity.total)
+        return [line async for group in study.sensitivity.lines(InlinePool(), clock) for line in group]
+
+    found: list[dict[str, Any]] = json.loads(json.dumps(asyncio.run(run())))
+    return found
+
+
+def result_of(found: Asked) -> tuple[list[dict[str, Any]], str]:
+    study = influence.opened(found, MOST, DEADLINE_S).study
+    assert study is not None
+    lines = lines_of(study)
+    return lines, unescape(influence.whole(study, lines).decode())
+
+
+@pytest.mark.parametrize("name", [COUPLING, "pahl-sleeve-orbit", "milian-table-1-incompressible", "fzg-type-a"])
+def test_the_table_says_what_the_study_says(name: str) -> None:
+    found = asked(name)
+    lines, page = result_of(found)
+    moved = [line for line in lines[:-1] if line["change"] is not None]
+    rows = re.findall(r'<tr><td><a href="([^"]+)">([^<]+)</a></td>(.*?)</tr>', page, re.DOTALL)
+    assert len(rows) == min(len(moved), influence.MOST_ROWS)
+    for line, (address, _, cells) in zip(moved, rows, strict=False):
+        assert f">{shown(line['change'], 4)}<" in cells
+        assert f">{shown(line['elasticity'], 3)}<" in cells
+        path, _, query = address.partition("?")
+        pairs, said = split_views(pairs_of_query(query))
+        assert path == f"{found.path}/vary"
+        assert pairs == found.pairs
+        assert said["x"] == line["path"]
+    first = Asked(found.path, *split_views(pairs_of_query(rows[0][0].partition("?")[2])))
+    assert views.planned(first, MOST, DEADLINE_S).sweep.total > 1
+
+
+def test_the_figure_shows_the_most_influential_first() -> None:
+    lines, page = result_of(asked(COUPLING))
+    alt = re.findall(r'alt="([^"]+)"', page)[0]
+    assert alt.startswith("What moves the axial thrust most. 757 N now; misalignment, number of teeth and module first")
+    assert [line["path"] for line in lines[:3]] == [
+        "operation.misalignment_deg",
+        "coupling.teeth",
+        "coupling.module_mm",
+    ]
+
+
+def test_a_case_without_the_output_says_so() -> None:
+    study = influence.opened(asked(COUPLING), MOST, DEADLINE_S).study
+    assert study is not None
+    *lines, end = lines_of(study)
+    nothing = [{**line, "change": None, "derivative": None} for line in lines]
+    without = {**end, "outputs": [{**end["outputs"][0], "value": None}]}
+    assert "The case has no axial thrust" in influence.whole(study, [*nothing, without]).decode()
+    still = [{**line, "change": 0.0, "derivative": 0.0} for line in lines]
+    assert "No input moves the axial thrust" in influence.whole(study, [*still, end]).decode()
+
+
+def test_a_study_that_breaks_off_says_why() -> None:
+    study = influence.opened(asked(COUPLING), MOST, DEADLINE_S).study
+    assert study is not None
+    page = influence.whole(
+        study, [{"type": "error", "code": "study_deadline", "message": "<b>too long</b>", "done": 3}]
+    )
+    assert "&lt;b&gt;too long&lt;/b&gt;" in page.decode()
+
+
+@pytest.mark.parametrize(
+    ("said", "message"),
+    [({"show": "axial_thrust"}, "is a section"), ({"show": "<script>"}, "there is no <script>")],
+)
+def test_a_wrong_output_is_refused(said: dict[str, str], message: str) -> None:
+    opened = influence.opened(asked(COUPLING, **said), MOST, DEADLINE_S)
+    assert opened.status == 422
+    assert b"<script>" not in opened.head.partition(b"<body>")[2]
+    assert message in unescape(opened.head.decode())
+
+
+def test_the_page_by_its_address(client: httpx.Client) -> None:
+    links = asked(COUPLING).links
+    page = client.get(links.influence)
+    assert page.status_code == 200
+    assert page.text.rstrip().endswith("</html>")
+    assert "What moves the axial thrust most" in page.text
+    assert client.get("/coupling/influence").status_code == 200
+    assert client.get("/coupling/influence?coupling.teeth=abc").status_code == 422
+    assert client.get("/coupling/influence?" + "&".join(f"a{i}=1" for i in range(1500))).status_code == 400
