@@ -13,10 +13,10 @@ from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.path_of_contact import meshing_path
 from solvers.scuffing import solve_load_distribution
-from solvers.scuffing.contact_lines import contact_lengths
-from solvers.scuffing.face_load import face_loads
+from solvers.scuffing.balance.load_balance import line_loads
+from solvers.scuffing.distribution.face_load import face_loads
+from solvers.scuffing.flank.contact_lines import contact_lengths
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, Modifications, Resolution
-from solvers.scuffing.load_balance import line_loads
 from solvers.scuffing.results import LoadDistribution
 
 RESOLUTIONS = ("roll_positions", "slices", "profile_points", "face_points", "feature_points")

@@ -14,7 +14,7 @@ from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.scuffing import solve_scuffing
-from solvers.scuffing.feature_line import contact_points
+from solvers.scuffing.distribution.feature_line import contact_points
 from solvers.scuffing.inputs import (
     Load,
     LoadDistributionInputs,
@@ -26,7 +26,7 @@ from solvers.scuffing.inputs import (
 )
 from solvers.scuffing.results import ContactPoints
 from solvers.scuffing.safety_results import Scuffing
-from solvers.scuffing.thermal_path import contact_at
+from solvers.scuffing.thermal.thermal_path import contact_at
 
 # Module [mm], pitch-line velocity [m/s], face width over pinion diameter, load intensity F_t/(b d_1) [N/mm^2],
 # viscosity [Pa s], bulk temperature [K]: lowest and highest of each kind of pair.

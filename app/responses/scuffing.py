@@ -9,7 +9,7 @@ from app.responses.load_distribution import Gaps, LoadDistributionResponse, Scuf
 from app.responses.oil import OilDerived
 from solvers.contact.film import Regime
 from solvers.scuffing.safety_results import PointStatus
-from solvers.scuffing.scuffing_practice import ScuffingRisk
+from solvers.scuffing.thermal.practice import ScuffingRisk
 
 FIG_22 = f"{XUE}, Fig. 22"
 FIG_23 = f"{XUE}, Fig. 23"

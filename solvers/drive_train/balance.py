@@ -15,9 +15,9 @@ from solvers.drive_train.face_curves import face_mean
 from solvers.drive_train.hub_balance import HubLoads, Yielding, loads_at_rest, respond
 from solvers.drive_train.influence import Unit
 from solvers.errors import NoSolution
-from solvers.scuffing.contact_slices import Mesh
-from solvers.scuffing.face_response import FaceResponse, face_response
-from solvers.scuffing.load_balance import LoadBalance, balance_load
+from solvers.scuffing.balance.contact_slices import Mesh
+from solvers.scuffing.balance.face_response import FaceResponse, face_response
+from solvers.scuffing.balance.load_balance import LoadBalance, balance_load
 from solvers.scuffing.model import PreparedMesh
 
 TOLERANCE = 1e-12  # m

@@ -10,7 +10,7 @@ from solvers.drive_train.influence import Unit
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import GapCurves, Misalignment, Parts
 from solvers.drive_train.thermal_lead import ThermalLead
-from solvers.scuffing.modification import gaps_at
+from solvers.scuffing.flank.modification import gaps_at
 
 
 def misalignment(

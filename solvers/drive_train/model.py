@@ -20,7 +20,7 @@ from solvers.drive_train.safety import flank_heat
 from solvers.drive_train.thermal_lead import ThermalLead, gas_heat, no_heat, thermal_lead
 from solvers.scuffing.model import distribution, mesh_of
 from solvers.scuffing.results import LoadDistribution
-from solvers.scuffing.temperatures import with_friction, with_temperatures
+from solvers.scuffing.thermal.temperatures import with_friction, with_temperatures
 
 LEAST_POINTS = 400  # of the gap over the face, the stations among them
 

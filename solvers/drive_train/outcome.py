@@ -12,7 +12,7 @@ from solvers.drive_train.model import Prepared, prepare, settle
 from solvers.drive_train.safety import flank_heat
 from solvers.errors import InvalidInput
 from solvers.scuffing.model import distribution
-from solvers.scuffing.temperatures import with_friction, with_temperatures
+from solvers.scuffing.thermal.temperatures import with_friction, with_temperatures
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,12 +10,12 @@ from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import FlashPlaces, TrainSafety
 from solvers.drive_train.thermal_lead import ThermalLead
 from solvers.notices import Notice
-from solvers.scuffing.blok import blok_flash
-from solvers.scuffing.feature_line import contact_points
+from solvers.scuffing.distribution.feature_line import contact_points
 from solvers.scuffing.results import ContactPoints, LoadDistribution, Place
 from solvers.scuffing.safety import safety_factor
-from solvers.scuffing.thermal_path import thermal_path
-from solvers.scuffing.verdict import unknown_points
+from solvers.scuffing.thermal.blok import blok_flash
+from solvers.scuffing.thermal.thermal_path import thermal_path
+from solvers.scuffing.thermal.verdict import unknown_points
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from solvers.arrays import BoolArray, FloatArray, frozen
 from solvers.gears.path_of_contact import PathOfContact
 from solvers.notices import Notice
-from solvers.scuffing.load_balance import LoadBalance
+from solvers.scuffing.balance.load_balance import LoadBalance
 
 
 @dataclass(frozen=True, slots=True)

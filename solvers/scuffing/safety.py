@@ -12,10 +12,9 @@ from solvers.arrays import FloatArray, frozen
 from solvers.contact.film import dowson_higginson_minimum, thickness_ratio
 from solvers.contact.hertz import reduced_modulus
 from solvers.lubricants import OilInUse, oil_in_use
-from solvers.scuffing.blok import blok_flash
-from solvers.scuffing.feature_line import feature_line
+from solvers.scuffing.balance.line_survey import reaches_base_circle
+from solvers.scuffing.distribution.feature_line import feature_line
 from solvers.scuffing.inputs import ScuffingInputs, Temperatures
-from solvers.scuffing.line_survey import reaches_base_circle
 from solvers.scuffing.model import solve
 from solvers.scuffing.results import Derived, FeatureLine, LoadDistribution
 from solvers.scuffing.safety_results import (
@@ -28,10 +27,11 @@ from solvers.scuffing.safety_results import (
     ScuffingPath,
     ThermalPath,
 )
-from solvers.scuffing.scuffing_practice import scuffing_risk
-from solvers.scuffing.temperatures import with_friction, with_temperatures
-from solvers.scuffing.thermal_path import thermal_path
-from solvers.scuffing.verdict import largest_flash, path_notices, thinnest_film, unknown_points, without_thermal
+from solvers.scuffing.thermal.blok import blok_flash
+from solvers.scuffing.thermal.practice import scuffing_risk
+from solvers.scuffing.thermal.temperatures import with_friction, with_temperatures
+from solvers.scuffing.thermal.thermal_path import thermal_path
+from solvers.scuffing.thermal.verdict import largest_flash, path_notices, thinnest_film, unknown_points, without_thermal
 
 SURVEY_POINTS = 4001  # of the formulas along the feature line, to find where they are largest and smallest
 

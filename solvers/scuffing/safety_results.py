@@ -8,7 +8,7 @@ from solvers.contact.film import Regime
 from solvers.lubricants import OilInUse
 from solvers.notices import Notice
 from solvers.scuffing.results import Derived, LoadDistribution
-from solvers.scuffing.scuffing_practice import ScuffingRisk
+from solvers.scuffing.thermal.practice import ScuffingRisk
 
 PointStatus = Literal["ok", "ok_with_warnings", "no_solution", "refused", "unloaded"]
 

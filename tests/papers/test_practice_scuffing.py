@@ -7,7 +7,7 @@ from solvers.errors import InvalidInput
 from solvers.gears.path_of_contact import meshing_path
 from solvers.materials import Solid
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, OilSupply, angular_speed
-from solvers.scuffing.scuffing_practice import (
+from solvers.scuffing.thermal.practice import (
     bulk_temperature,
     lubricant_factor,
     mean_friction,

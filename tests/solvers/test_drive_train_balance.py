@@ -30,9 +30,9 @@ from solvers.drive_train.thermal_lead import thermal_lead
 from solvers.errors import NoSolution
 from solvers.gears.inputs import GearTeeth
 from solvers.scuffing import solve_load_distribution
-from solvers.scuffing.face_response import face_response
+from solvers.scuffing.balance.face_response import face_response
+from solvers.scuffing.balance.load_balance import balance_load
 from solvers.scuffing.inputs import LeadCurve, LoadDistributionInputs, Resolution
-from solvers.scuffing.load_balance import balance_load
 from solvers.scuffing.model import mesh_of
 from tests.drive_trains import COUPLING, GROUND, NO_EFFECTS, SPEED, turbo_gear
 from tests.properties import examples

@@ -14,9 +14,9 @@ from solvers.gears.pair import gear_pair
 from solvers.gears.path_of_contact import PathOfContact, path_of_contact
 from solvers.materials import Solid
 from solvers.scuffing import solve_load_distribution
-from solvers.scuffing.contact_lines import contact_lengths, roll_positions, total_lengths
+from solvers.scuffing.flank.contact_lines import contact_lengths, roll_positions, total_lengths
+from solvers.scuffing.flank.modification import gap, gaps_at
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, Resolution
-from solvers.scuffing.modification import gap, gaps_at
 from solvers.scuffing.results import LoadDistribution
 
 EXAMPLES = settings(

@@ -17,10 +17,10 @@ from solvers.gears.pair import gear_pair
 from solvers.gears.path_of_contact import path_of_contact, reduced_radius
 from solvers.materials import Solid
 from solvers.scuffing import solve_load_distribution
+from solvers.scuffing.flank.modification import gap, gaps_at, lead_table, misalignment_slope
 from solvers.scuffing.inputs import LeadCurve, Model, Modifications, Resolution
-from solvers.scuffing.modification import gap, gaps_at, lead_table, misalignment_slope
-from solvers.scuffing.tooth_compliance import bending_compliance, load_points, root_rotation, section_gear, tooth_shape
-from solvers.scuffing.tooth_stiffness import line_load, pair_compliance, single_stiffness
+from solvers.scuffing.teeth.compliance import bending_compliance, load_points, root_rotation, section_gear, tooth_shape
+from solvers.scuffing.teeth.stiffness import line_load, pair_compliance, single_stiffness
 
 STEEL = Solid()
 

@@ -10,8 +10,8 @@ from app.published.xue import paper_gears, paper_pair
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.path_of_contact import meshing_path
 from solvers.scuffing import solve_load_distribution
+from solvers.scuffing.flank.modification import gap
 from solvers.scuffing.inputs import Model, Modifications, Resolution
-from solvers.scuffing.modification import gap
 from tests import flanks
 from tests.gear_pairs import with_torque
 

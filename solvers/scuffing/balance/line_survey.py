@@ -8,9 +8,9 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.gears.path_of_contact import reduced_radius
-from solvers.scuffing.contact_lines import COINCIDENT, line_count, line_ends
-from solvers.scuffing.contact_slices import GAP, LENGTH, LIMIT, LINE, LOAD, Mesh, X, Y, load_at
-from solvers.scuffing.modification import MOST_EDGES, smooth_parts
+from solvers.scuffing.balance.contact_slices import GAP, LENGTH, LIMIT, LINE, LOAD, Mesh, X, Y, load_at
+from solvers.scuffing.flank.contact_lines import COINCIDENT, line_count, line_ends
+from solvers.scuffing.flank.modification import MOST_EDGES, smooth_parts
 
 VALUE, AT_X, AT_Y = range(3)  # columns of peaks
 EQUAL = 1e-9  # peaks nearer than this, relatively, are the same; a spur gear's single pair has the same load all along

@@ -1,10 +1,10 @@
 """Friction loss of the mesh at a constant coefficient of friction."""
 
 from solvers.gears.path_of_contact import PathOfContact
+from solvers.scuffing.balance.load_balance import LoadBalance
+from solvers.scuffing.distribution.transmission_error import period_mean
 from solvers.scuffing.inputs import Load
-from solvers.scuffing.load_balance import LoadBalance
 from solvers.scuffing.results import FrictionLoss
-from solvers.scuffing.transmission_error import period_mean
 
 
 def friction_loss(path: PathOfContact, balance: LoadBalance, load: Load, friction_coefficient: float) -> FrictionLoss:

@@ -7,9 +7,9 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.contact import hertz
 from solvers.gears.path_of_contact import PathOfContact, reduced_radius
-from solvers.scuffing.flank import contact_pressure
-from solvers.scuffing.load_balance import LoadBalance, line_loads
-from solvers.scuffing.load_sharing import iso_load_sharing
+from solvers.scuffing.balance.load_balance import LoadBalance, line_loads
+from solvers.scuffing.distribution.flank_maps import contact_pressure
+from solvers.scuffing.distribution.load_sharing import iso_load_sharing
 from solvers.scuffing.results import ContactPoints, FeatureLine
 
 

@@ -18,16 +18,16 @@ from solvers.arrays import FloatArray, IntArray
 from solvers.compiled import kernel
 from solvers.errors import NoSolution
 from solvers.gears.path_of_contact import ContactPlane
-from solvers.scuffing.contact_lines import RollPositions
-from solvers.scuffing.contact_slices import (
+from solvers.scuffing.balance.contact_slices import (
     Cover,
     Mesh,
     gather,
     load_at,
     slice_table,
 )
-from solvers.scuffing.line_survey import Survey, empty_survey, survey_ends, survey_slices
-from solvers.scuffing.position_balance import TOLERANCE, solve_near, solve_position
+from solvers.scuffing.balance.line_survey import Survey, empty_survey, survey_ends, survey_slices
+from solvers.scuffing.balance.position_balance import TOLERANCE, solve_near, solve_position
+from solvers.scuffing.flank.contact_lines import RollPositions
 
 MAX_COVERS = 20  # of the lines of one roll position by slices
 SETTLED = 1e-6  # change of the approach between two covers

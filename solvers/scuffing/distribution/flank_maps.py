@@ -5,8 +5,8 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.contact import hertz
 from solvers.gears.path_of_contact import reduced_radius
-from solvers.scuffing.load_balance import LoadBalance, line_loads
-from solvers.scuffing.modification import gaps_at
+from solvers.scuffing.balance.load_balance import LoadBalance, line_loads
+from solvers.scuffing.flank.modification import gaps_at
 from solvers.scuffing.results import Flank
 
 

@@ -11,9 +11,20 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.errors import NoSolution
-from solvers.scuffing.contact_lines import RollPositions
-from solvers.scuffing.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, LOAD, OMEGA, Mesh, Y, gather, slice_table
-from solvers.scuffing.position_balance import TOLERANCE, solve_near
+from solvers.scuffing.balance.contact_slices import (
+    CONSTANT,
+    GAP,
+    LENGTH,
+    LIMIT,
+    LOAD,
+    OMEGA,
+    Mesh,
+    Y,
+    gather,
+    slice_table,
+)
+from solvers.scuffing.balance.position_balance import TOLERANCE, solve_near
+from solvers.scuffing.flank.contact_lines import RollPositions
 
 
 @dataclass(frozen=True, slots=True)

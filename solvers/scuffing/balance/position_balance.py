@@ -4,8 +4,8 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.scuffing.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, LOAD, OMEGA
-from solvers.scuffing.tooth_stiffness import line_load
+from solvers.scuffing.balance.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, LOAD, OMEGA
+from solvers.scuffing.teeth.stiffness import line_load
 
 MAX_STEPS = 60
 LEAST_OMEGA = 2.0  # of the start, whose compliance must stay positive

@@ -9,8 +9,8 @@ from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.errors import InvalidInput
 from solvers.gears.path_of_contact import PathOfContact
+from solvers.scuffing.flank.tables import tabulated
 from solvers.scuffing.inputs import LeadCurve, Modifications
-from solvers.scuffing.tables import tabulated
 
 LEAD_POINTS = 401
 MOST_EDGES = 6

@@ -3,7 +3,7 @@
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.gears.path_of_contact import ContactPlane
-from solvers.scuffing.modification import Gap, gap_at
+from solvers.scuffing.flank.modification import Gap, gap_at
 
 LOW, HIGH = range(2)  # columns of zones
 MOST_ZONES = 12  # of one line; what more there were joins the last

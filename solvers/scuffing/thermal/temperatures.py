@@ -10,11 +10,11 @@ import numpy as np
 from solvers.contact.hertz import reduced_modulus
 from solvers.errors import InvalidInput
 from solvers.gears.path_of_contact import meshing_path
-from solvers.scuffing.blok import blok_flash
-from solvers.scuffing.feature_line import feature_line
+from solvers.scuffing.distribution.feature_line import feature_line
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.results import LoadDistribution
-from solvers.scuffing.scuffing_practice import bulk_temperature, lubricant_factor, mean_friction, scuffing_temperature
+from solvers.scuffing.thermal.blok import blok_flash
+from solvers.scuffing.thermal.practice import bulk_temperature, lubricant_factor, mean_friction, scuffing_temperature
 
 COLDEST_OIL, HOTTEST_OIL = 223.15, 573.15  # K, the range of reference temperatures
 MEAN_POINTS = 1001  # of the mean flash temperature along the path

@@ -8,11 +8,11 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.gears.path_of_contact import ContactPlane
-from solvers.scuffing.contact_lines import line_count, line_ends
-from solvers.scuffing.loaded_zones import HIGH, LEAST_SAMPLES, LOW, MOST_ZONES, gap_on_line, loaded_zones, valley
-from solvers.scuffing.modification import MOST_EDGES, Gap, gap_at, smooth_parts
-from solvers.scuffing.tables import tabulated
-from solvers.scuffing.tooth_stiffness import PairCompliance, line_load
+from solvers.scuffing.flank.contact_lines import line_count, line_ends
+from solvers.scuffing.flank.loaded_zones import HIGH, LEAST_SAMPLES, LOW, MOST_ZONES, gap_on_line, loaded_zones, valley
+from solvers.scuffing.flank.modification import MOST_EDGES, Gap, gap_at, smooth_parts
+from solvers.scuffing.flank.tables import tabulated
+from solvers.scuffing.teeth.stiffness import PairCompliance, line_load
 
 # Rows of the slice table
 X, Y, LENGTH, GAP, CONSTANT, LIMIT, OMEGA, LOAD, LINE = range(9)

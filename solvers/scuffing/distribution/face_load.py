@@ -4,10 +4,10 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.scuffing.contact_lines import line_count
-from solvers.scuffing.contact_slices import Mesh, load_at
-from solvers.scuffing.load_balance import LoadBalance, line_loads
-from solvers.scuffing.modification import kinks_along_face
+from solvers.scuffing.balance.contact_slices import Mesh, load_at
+from solvers.scuffing.balance.load_balance import LoadBalance, line_loads
+from solvers.scuffing.flank.contact_lines import line_count
+from solvers.scuffing.flank.modification import kinks_along_face
 
 SUBSTEPS = 4  # of a step between roll positions, where lines are loaded in part
 FACE_POINTS = 101

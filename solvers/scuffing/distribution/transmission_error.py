@@ -3,7 +3,7 @@
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
-from solvers.scuffing.load_balance import LoadBalance
+from solvers.scuffing.balance.load_balance import LoadBalance
 from solvers.scuffing.results import ErrorCurves, TransmissionError
 
 HARMONICS = 5

@@ -21,7 +21,7 @@ from solvers.gears.gear import Gear
 from solvers.gears.path_of_contact import PathOfContact, reduced_radius
 from solvers.materials import Solid
 from solvers.scuffing.inputs import Model
-from solvers.scuffing.tooth_compliance import bending_compliance, load_points, section_gear, tooth_shape
+from solvers.scuffing.teeth.compliance import bending_compliance, load_points, section_gear, tooth_shape
 
 TABLE_POINTS = 801
 LEAST_RADIUS = 1e-6  # normal modules; on a base circle it vanishes, and the half width with it

@@ -8,10 +8,10 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.gears.pair import GearPair
 from solvers.gears.path_of_contact import PathOfContact
-from solvers.scuffing.load_balance import LoadBalance
+from solvers.scuffing.balance.load_balance import LoadBalance
+from solvers.scuffing.distribution.transmission_error import period_mean
 from solvers.scuffing.results import Stiffness, StiffnessCurves
-from solvers.scuffing.tooth_stiffness import single_stiffness
-from solvers.scuffing.transmission_error import period_mean
+from solvers.scuffing.teeth.stiffness import single_stiffness
 
 CURVE_POINTS = 101
 REFERENCE_LOAD = 100e3  # N/m, for which ISO 6336-1 states c'; stands in where there is no load

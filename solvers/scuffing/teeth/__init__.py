@@ -1,0 +1,1 @@
+"""How a pair of teeth yields: compliance of one tooth -> stiffness of two in contact."""

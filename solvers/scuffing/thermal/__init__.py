@@ -1,0 +1,1 @@
+"""How hot the contact runs: practice, blok -> temperatures -> thermal_path -> verdict."""
