@@ -12,9 +12,12 @@ from unittest.mock import patch
 import numpy as np
 from numpy.random import Generator
 
-from solvers.coupling import averaging, kinematics, recommend, recommendation, solve, solve_orbit
+from solvers.coupling import recommend, solve, solve_orbit
+from solvers.coupling.crowning import recommendation
+from solvers.coupling.friction import averaging
 from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
 from solvers.coupling.results import CouplingResult
+from solvers.coupling.teeth import kinematics
 from solvers.errors import SolverError
 from tests.couplings import random_inputs
 

@@ -7,7 +7,7 @@ from app.figures.declaration import Declaration, present
 from app.figures.wording import number
 from app.requests.coupling import RecommendationRequest, SleeveOrbitRequest
 from app.responses.coupling import RecommendationResponse, SleeveOrbitResponse
-from solvers.coupling.friction import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES
+from solvers.coupling.friction.regimes import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES
 
 ROTOR = Axis(
     "rotor angle θ", "°", limits=(0.0, 360.0), ticks=(0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0, 360.0)

@@ -9,7 +9,7 @@ from app.figures.declaration import present
 from app.figures.wording import number
 from app.requests.coupling import CouplingRequest
 from app.responses.coupling import CouplingResponse
-from solvers.coupling.friction import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES, friction_regime
+from solvers.coupling.friction.regimes import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES, friction_regime
 
 MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}
 

@@ -10,7 +10,7 @@ from app.contract.quantities import Input
 from app.requests.common import Section
 from app.requests.coupling_design import FIG_13, PAHL
 from solvers.coupling import inputs as si
-from solvers.coupling.geometry import offset_misalignment
+from solvers.coupling.teeth.geometry import offset_misalignment
 
 
 class CouplingLoad(Section):

@@ -1,11 +1,12 @@
 """Gear couplings after Pahl.
 
-Data flow: inputs -> geometry -> kinematics -> tooth loads -> lubrication -> friction -> axial thrust -> losses; the
-sleeve's orbit needs the tooth loads alone, the recommended crowning the lubrication.
+Data flows inputs, checks -> teeth (geometry, motion, shares of the load) -> friction (film, regimes, losses) -> sleeve
+(balance of two meshes, axial thrust), all gathered with load_distribution and notices by `model.solve`. The sleeve's
+orbit needs the teeth alone; on top of the model stands crowning, which recommends.
 """
 
+from solvers.coupling.crowning.recommendation import recommend
 from solvers.coupling.model import solve
 from solvers.coupling.orbit import solve_orbit
-from solvers.coupling.recommendation import recommend
 
 __all__ = ["recommend", "solve", "solve_orbit"]

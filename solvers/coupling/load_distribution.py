@@ -5,12 +5,12 @@ from math import cos, pi
 import numpy as np
 
 from solvers.arrays import frozen
-from solvers.coupling.friction_sums import ROUNDING
+from solvers.coupling.friction.sums import ROUNDING
 from solvers.coupling.inputs import CouplingInputs
-from solvers.coupling.kinematics import MeshMotion, tooth_positions
-from solvers.coupling.limits import unloading_misalignment
 from solvers.coupling.results import Geometry, LoadCurves, LoadDistribution
-from solvers.coupling.tooth_loads import mesh_loads
+from solvers.coupling.teeth.kinematics import MeshMotion, tooth_positions
+from solvers.coupling.teeth.limits import unloading_misalignment
+from solvers.coupling.teeth.loads import mesh_loads
 
 LOADED = 1e-6
 """Tooth force over the mean one from which a tooth counts as loaded."""

@@ -7,15 +7,15 @@ import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.coupling.checks import check_inputs
-from solvers.coupling.geometry import pitch_radius, tooth_geometry
 from solvers.coupling.inputs import CouplingInputs
-from solvers.coupling.kinematics import MeshMotion, mesh_motion, revolution, tooth_positions
 from solvers.coupling.load_distribution import LOADED
 from solvers.coupling.notices import orbit_notices
 from solvers.coupling.orbit_results import InertiaForce, Orbit, OrbitResult
-from solvers.coupling.peaks import largest_value
 from solvers.coupling.results import Geometry
-from solvers.coupling.tooth_loads import floating_loads
+from solvers.coupling.teeth.geometry import pitch_radius, tooth_geometry
+from solvers.coupling.teeth.kinematics import MeshMotion, mesh_motion, revolution, tooth_positions
+from solvers.coupling.teeth.loads import floating_loads
+from solvers.coupling.teeth.peaks import largest_value
 from solvers.errors import InvalidInput, NoSolution
 
 MAX_SWEEPS = 50

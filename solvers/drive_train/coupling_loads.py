@@ -18,15 +18,15 @@ import numpy as np
 
 from solvers import coupling as gear_coupling
 from solvers.arrays import FloatArray
-from solvers.coupling.averaging import loaded_mesh
 from solvers.coupling.checks import check_contact, check_inputs
-from solvers.coupling.friction import friction_coefficient
-from solvers.coupling.geometry import pitch_radius, tooth_geometry
+from solvers.coupling.friction.averaging import loaded_mesh
+from solvers.coupling.friction.losses import losses
+from solvers.coupling.friction.lubrication import film_state
+from solvers.coupling.friction.regimes import friction_coefficient
 from solvers.coupling.inputs import CouplingInputs, Operation
-from solvers.coupling.kinematics import mesh_motion
-from solvers.coupling.limits import coaxial_limit
-from solvers.coupling.losses import losses
-from solvers.coupling.lubrication import film_state
+from solvers.coupling.teeth.geometry import pitch_radius, tooth_geometry
+from solvers.coupling.teeth.kinematics import mesh_motion
+from solvers.coupling.teeth.limits import coaxial_limit
 from solvers.drive_train.inputs import CouplingFriction, UnitCoupling
 from solvers.errors import InvalidInput
 from solvers.notices import Notice

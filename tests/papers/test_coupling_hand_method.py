@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from app.published.bloch import DIAMETER, END_CONTACT, FACE, TORQUE, bloch
-from solvers.coupling.friction import mixed_friction, regime_friction
+from solvers.coupling.friction.regimes import mixed_friction, regime_friction
 from solvers.coupling.inputs import MixedFrictionCurve
 
 COSINE = cos(radians(20.0))

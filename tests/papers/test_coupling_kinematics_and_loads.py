@@ -10,13 +10,13 @@ import pytest
 
 from app.published.pahl import PITCH_RADIUS, TEETH, harmonic_pitch_errors, pahl_coupling
 from solvers.coupling import solve, solve_orbit
-from solvers.coupling.geometry import tooth_geometry
+from solvers.coupling.friction.lubrication import max_normal_force
 from solvers.coupling.inputs import KinematicModel, ModelOptions, SleeveSupport
-from solvers.coupling.kinematics import displacement_peak, mesh_motion, tooth_positions
-from solvers.coupling.lubrication import max_normal_force
 from solvers.coupling.orbit_results import OrbitResult
 from solvers.coupling.results import KinematicCurves
-from solvers.coupling.tooth_loads import centred_loads
+from solvers.coupling.teeth.geometry import tooth_geometry
+from solvers.coupling.teeth.kinematics import displacement_peak, mesh_motion, tooth_positions
+from solvers.coupling.teeth.loads import centred_loads
 from tests.couplings import random_pitch_errors
 
 ALPHA = radians(20.0)

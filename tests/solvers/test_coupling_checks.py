@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from numpy.random import Generator
 
-from solvers.coupling import kinematics, solve, solve_orbit
+from solvers.coupling import solve, solve_orbit
 from solvers.coupling.inputs import SleeveSupport
+from solvers.coupling.teeth import kinematics
 from tests.coupling_checks import CHECKS, finer
 from tests.couplings import random_inputs
 

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from app.published.pahl import pahl_coupling
 from solvers.coupling import recommend, solve, solve_orbit
+from solvers.coupling.crowning.results import Recommendation
 from solvers.coupling.inputs import (
     Arrangement,
     Coupling,
@@ -23,7 +24,6 @@ from solvers.coupling.inputs import (
     Operation,
     RecommendationInputs,
 )
-from solvers.coupling.recommendation_results import Recommendation
 from solvers.coupling.results import CouplingResult
 from solvers.errors import InvalidInput, NoSolution, SolverError
 from tests.properties import examples

@@ -9,10 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.published.pahl import TEETH, harmonic_pitch_errors, pahl_coupling
-from solvers.coupling import kinematics, orbit, solve, solve_orbit
-from solvers.coupling.geometry import tooth_geometry
-from solvers.coupling.kinematics import flank_normals, mesh_motion, tooth_positions
-from solvers.coupling.tooth_loads import ToothLoads, floating_loads
+from solvers.coupling import orbit, solve, solve_orbit
+from solvers.coupling.teeth import kinematics
+from solvers.coupling.teeth.geometry import tooth_geometry
+from solvers.coupling.teeth.kinematics import flank_normals, mesh_motion, tooth_positions
+from solvers.coupling.teeth.loads import ToothLoads, floating_loads
 from solvers.errors import InvalidInput, NoSolution
 from tests.couplings import random_pitch_errors
 

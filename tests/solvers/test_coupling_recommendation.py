@@ -9,7 +9,7 @@ import pytest
 
 from app.published.pahl import pahl_coupling
 from solvers.coupling import recommend, solve
-from solvers.coupling.crowning_window import at_misalignment, crowning_state, crowning_window
+from solvers.coupling.crowning.window import at_misalignment, crowning_state, crowning_window
 from solvers.coupling.inputs import ModelOptions, RecommendationInputs
 from solvers.errors import InvalidInput
 from tests.couplings import random_pitch_errors

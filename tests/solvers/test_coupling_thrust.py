@@ -11,10 +11,10 @@ from scipy.optimize import root
 
 from app.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from solvers.coupling import solve
-from solvers.coupling.averaging import rotor_samples
-from solvers.coupling.geometry import offset_misalignment, tooth_geometry
+from solvers.coupling.friction.averaging import rotor_samples
 from solvers.coupling.inputs import Arrangement, CouplingInputs, KinematicModel, ModelOptions
-from solvers.coupling.sleeve_equilibrium import sleeve_equilibrium, two_meshes
+from solvers.coupling.sleeve.equilibrium import sleeve_equilibrium, two_meshes
+from solvers.coupling.teeth.geometry import offset_misalignment, tooth_geometry
 from solvers.errors import NoSolution
 from tests.couplings import random_pitch_errors
 from tests.plain_coupling import PlainMesh, midpoints

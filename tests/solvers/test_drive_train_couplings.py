@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from solvers.arrays import FloatArray
-from solvers.coupling.geometry import pitch_radius
 from solvers.coupling.inputs import Friction
+from solvers.coupling.teeth.geometry import pitch_radius
 from solvers.drive_train.coupling_loads import (
     CouplingPort,
     coupling_loads,

@@ -4,11 +4,11 @@ from math import cos, hypot, pi
 
 import numpy as np
 
-from solvers.coupling.averaging import LoadedMesh
-from solvers.coupling.friction_sums import without_rounding
+from solvers.coupling.friction.averaging import LoadedMesh
+from solvers.coupling.friction.sums import without_rounding
 from solvers.coupling.inputs import CouplingInputs
-from solvers.coupling.kinematics import contact_position, flank_normals
 from solvers.coupling.results import Geometry, Losses
+from solvers.coupling.teeth.kinematics import contact_position, flank_normals
 
 
 def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, friction: float) -> Losses:

@@ -2,13 +2,13 @@
 
 from math import asin, copysign, cos, pi, tan
 
-from solvers.coupling.averaging import LoadedMesh
-from solvers.coupling.friction import static_friction
-from solvers.coupling.friction_sums import without_rounding
+from solvers.coupling.friction.averaging import LoadedMesh
+from solvers.coupling.friction.regimes import static_friction
+from solvers.coupling.friction.sums import without_rounding
 from solvers.coupling.inputs import Coupling, CouplingInputs, Operation
-from solvers.coupling.limits import coaxial_limit
 from solvers.coupling.results import AxialThrust, Geometry, SelfInducedThrust
-from solvers.coupling.sleeve_equilibrium import sleeve_equilibrium
+from solvers.coupling.sleeve.equilibrium import sleeve_equilibrium
+from solvers.coupling.teeth.limits import coaxial_limit
 
 
 def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> tuple[float, float]:

@@ -16,19 +16,19 @@ from scipy.optimize import minimize_scalar
 
 from solvers.arrays import frozen
 from solvers.coupling.checks import MAX_MISALIGNMENT, check_inputs
-from solvers.coupling.crowning_window import (
+from solvers.coupling.crowning.results import CrowningScan, Recommendation, RecommendedPoint
+from solvers.coupling.crowning.window import (
     MIN_CROWNING_RATIO,
     CrowningState,
     at_misalignment,
     crowning_state,
     crowning_window,
 )
-from solvers.coupling.geometry import tooth_geometry
 from solvers.coupling.inputs import Coupling, RecommendationInputs
-from solvers.coupling.limits import SLIDING_VELOCITY_LIMIT
 from solvers.coupling.model import solve
-from solvers.coupling.recommendation_results import CrowningScan, Recommendation, RecommendedPoint
 from solvers.coupling.results import CouplingResult
+from solvers.coupling.teeth.geometry import tooth_geometry
+from solvers.coupling.teeth.limits import SLIDING_VELOCITY_LIMIT
 from solvers.errors import InvalidInput
 from solvers.notices import Notice
 

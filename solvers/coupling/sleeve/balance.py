@@ -1,6 +1,6 @@
 """Balance of a floating sleeve between two meshes under friction: the kernels.
 
-Units as in floating_balance. First index of a pair: the mesh, left (0) or right (1).
+Units as in teeth.floating_balance. First index of a pair: the mesh, left (0) or right (1).
 """
 
 from math import hypot
@@ -9,7 +9,15 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.coupling.floating_balance import ALONG_X, ALONG_Y, ROTATION, SHIFT_X, SHIFT_Y, float_sleeve, solve_loaded
+from solvers.coupling.teeth.floating_balance import (
+    ALONG_X,
+    ALONG_Y,
+    ROTATION,
+    SHIFT_X,
+    SHIFT_Y,
+    float_sleeve,
+    solve_loaded,
+)
 
 MAX_ITERATIONS = 150
 SUBSTITUTIONS = 5

@@ -12,14 +12,14 @@ from math import cos, hypot, pi
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.coupling.averaging import RotorSamples, rotor_samples
-from solvers.coupling.friction_sums import without_rounding
+from solvers.coupling.friction.averaging import RotorSamples, rotor_samples
+from solvers.coupling.friction.sums import without_rounding
 from solvers.coupling.inputs import CouplingInputs
-from solvers.coupling.kinematics import MeshMotion, flank_normals, mesh_motion, relative_velocity
-from solvers.coupling.limits import coaxial_limit
 from solvers.coupling.results import Geometry
-from solvers.coupling.sleeve_balance import FORCE_TOLERANCE, balance_rows
-from solvers.coupling.tooth_loads import elastic_rotation, interference_at_rest
+from solvers.coupling.sleeve.balance import FORCE_TOLERANCE, balance_rows
+from solvers.coupling.teeth.kinematics import MeshMotion, flank_normals, mesh_motion, relative_velocity
+from solvers.coupling.teeth.limits import coaxial_limit
+from solvers.coupling.teeth.loads import elastic_rotation, interference_at_rest
 from solvers.errors import NoSolution
 
 _LIMIT_MARGIN = 0.9999

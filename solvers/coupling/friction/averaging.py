@@ -7,10 +7,10 @@ from math import asin, pi
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
-from solvers.coupling.friction_sums import FrictionSums, friction_sums
+from solvers.coupling.friction.sums import FrictionSums, friction_sums
 from solvers.coupling.inputs import Coupling, CouplingInputs
-from solvers.coupling.kinematics import MeshMotion, ToothPositions, positions_per_pitch, tooth_positions
-from solvers.coupling.tooth_loads import mesh_loads
+from solvers.coupling.teeth.kinematics import MeshMotion, ToothPositions, positions_per_pitch, tooth_positions
+from solvers.coupling.teeth.loads import mesh_loads
 
 _PITCH_PARTS = 3
 _PITCH_NODES = 8

@@ -10,7 +10,8 @@ from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.contact.hertz import half_width, maximum_pressure
 from solvers.coupling.inputs import Coupling, CouplingInputs, ModelOptions
-from solvers.coupling.kinematics import (
+from solvers.coupling.results import Geometry
+from solvers.coupling.teeth.kinematics import (
     MeshMotion,
     ToothPositions,
     displacement_peak,
@@ -20,9 +21,8 @@ from solvers.coupling.kinematics import (
     revolution,
     tooth_positions,
 )
-from solvers.coupling.peaks import largest_value
-from solvers.coupling.results import Geometry
-from solvers.coupling.tooth_loads import mesh_loads
+from solvers.coupling.teeth.loads import mesh_loads
+from solvers.coupling.teeth.peaks import largest_value
 from solvers.materials import Solid
 
 UNBOUNDED_LOAD = 0.20395702057972376

@@ -7,10 +7,10 @@ from math import exp, log
 from scipy.optimize import brentq
 
 from solvers.coupling.checks import MAX_CONTACT_PRESSURE, MAX_CONTACT_WIDTH
-from solvers.coupling.geometry import tooth_geometry
+from solvers.coupling.friction.lubrication import film_state
 from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
-from solvers.coupling.kinematics import max_contact_travel, mesh_motion
-from solvers.coupling.lubrication import film_state
+from solvers.coupling.teeth.geometry import tooth_geometry
+from solvers.coupling.teeth.kinematics import max_contact_travel, mesh_motion
 
 MIN_CROWNING_RATIO = 0.2
 MAX_CROWNING_RATIO = 1000.0

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.arrays import FloatArray, IntArray
-from solvers.coupling.floating_balance import ROTATION, SHIFT_X, floating_rows
-from solvers.coupling.geometry import pitch_radius
 from solvers.coupling.inputs import Coupling
-from solvers.coupling.kinematics import MeshMotion, ToothPositions, flank_normals, tangential_displacement
-from solvers.coupling.tooth_balance import centred_rows
+from solvers.coupling.teeth.floating_balance import ROTATION, SHIFT_X, floating_rows
+from solvers.coupling.teeth.geometry import pitch_radius
+from solvers.coupling.teeth.kinematics import MeshMotion, ToothPositions, flank_normals, tangential_displacement
+from solvers.coupling.teeth.torque_balance import centred_rows
 from solvers.errors import NoSolution
 
 

@@ -3,10 +3,10 @@
 from dataclasses import replace
 from math import cos, pi, sqrt
 
-from solvers.coupling.geometry import pitch_radius
 from solvers.coupling.inputs import Coupling, CouplingInputs
-from solvers.coupling.kinematics import displacement_peak_to_peak, mesh_motion
 from solvers.coupling.results import Geometry, Limits
+from solvers.coupling.teeth.geometry import pitch_radius
+from solvers.coupling.teeth.kinematics import displacement_peak_to_peak, mesh_motion
 
 SLIDING_VELOCITY_LIMIT = 0.12
 """Steady sliding of gear couplings [m/s], Tribology Handbook B4.6; transients may tilt 1.6 times as far."""

@@ -1,6 +1,6 @@
 """How a floating sleeve balances the torque and a lateral force on the teeth of one mesh: the kernels.
 
-Units as in tooth_balance. Tooth i interferes by u_i = psi + w_i - e . d_i: e is the sleeve's displacement, d_i the
+Units as in torque_balance. Tooth i interferes by u_i = psi + w_i - e . d_i: e is the sleeve's displacement, d_i the
 flank normal over cos(alpha).
 
 The sleeve minimises the convex energy sum max(0, u_i)^2/2 - psi - force . e, quadratic in pieces. Newton's steps are
@@ -15,7 +15,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray, IntArray
 from solvers.compiled import kernel
-from solvers.coupling.tooth_balance import turn_to_torque
+from solvers.coupling.teeth.torque_balance import turn_to_torque
 
 MAX_ITERATIONS = 10_000
 BALANCE_TOLERANCE = 1e-13

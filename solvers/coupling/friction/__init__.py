@@ -1,0 +1,1 @@
+"""Friction on the teeth: lubrication -> regimes; sums -> averaging -> losses."""

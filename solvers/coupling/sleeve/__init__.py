@@ -1,0 +1,1 @@
+"""The sleeve between two meshes under friction: balance -> equilibrium -> thrust."""
