@@ -9,10 +9,10 @@ from dataclasses import replace
 from time import perf_counter
 
 from solvers.drive_train import solve
-from solvers.drive_train.corners import default_ranges, run_corners, single
-from solvers.drive_train.design import Variable, design
-from solvers.drive_train.outcome import outcome
-from solvers.drive_train.thermal_lead import gas_heat
+from solvers.drive_train.gap.thermal_lead import gas_heat
+from solvers.drive_train.studies.corners import default_ranges, run_corners, single
+from solvers.drive_train.studies.design import Variable, design
+from solvers.drive_train.studies.outcome import outcome
 from tests.drive_trains import COUPLING, GROUND, SPEED, turbo_gear
 
 REPEATS = 20

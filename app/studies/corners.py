@@ -16,7 +16,7 @@ from app.studies.stream import Clock, Line, Lines
 from app.studies.summary import NO_STATISTICS, Extreme, Summary
 from app.studies.unit import MOST_CORNERS, lightened, usual_corners
 from app.studies.unit_requests import ENDPOINT, CornersRequest
-from solvers.drive_train.corners import unconverged
+from solvers.drive_train.studies.corners import unconverged
 
 PATH = f"{ENDPOINT}/corners"
 

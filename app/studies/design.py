@@ -12,7 +12,7 @@ from app.studies.points import Question
 from app.studies.requests import Overrides
 from app.studies.stream import Clock, Line, Lines
 from solvers.arrays import FloatArray
-from solvers.drive_train.design import search
+from solvers.drive_train.studies.design import search
 
 
 @dataclass(frozen=True, slots=True)

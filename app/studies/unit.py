@@ -9,7 +9,7 @@ from app.contract.units import split_unit
 from app.requests.common import Request
 from app.studies.fields import set_value
 from app.studies.requests import Axis, Scalar
-from solvers.drive_train.corners import MOST_RUNS, default_ranges
+from solvers.drive_train.studies.corners import MOST_RUNS, default_ranges
 
 MOST_CORNERS = MOST_RUNS
 COLD = "states.cold."

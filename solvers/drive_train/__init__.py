@@ -1,9 +1,9 @@
 """A gear unit whole: coupling, shafts in bearings, pumped heat and mesh agree on one gap over the face.
 
-Data flows inputs, checks -> frame -> shaft, bearings, coupling_loads -> influence (one system by its ports),
-thermal_lead -> balance -> misalignment, elements, thrust_budget, safety, losses (all gathered by `model.solve`, for
-the hot unit and the cold one by `states.solve`).
-Studies on top: corners, sensitivity, tolerances, design. Own derivation; sources stand with the equations.
+Data flows inputs, checks -> shafts (with bearings and couplings one system, known by its ports) -> gap (its balance
+with the mesh, and what it comes from) -> elements, losses, safety; all gathered, with notices, by `model.solve`, for
+the hot unit and the cold one by `states.solve`. On top stand studies of many units.
+Own derivation; sources stand with the equations.
 """
 
 from solvers.drive_train.states import solve

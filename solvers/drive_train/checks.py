@@ -3,7 +3,7 @@
 import numpy as np
 
 from solvers.drive_train.inputs import DriveTrainInputs, LinearBearing, Shaft
-from solvers.drive_train.shaft import COINCIDENT
+from solvers.drive_train.shafts.shaft import COINCIDENT
 from solvers.errors import InvalidInput
 from solvers.gears.path_of_contact import PathOfContact
 

@@ -5,13 +5,13 @@ from math import hypot
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
-from solvers.drive_train.balance import Equilibrium
-from solvers.drive_train.bearings import BearingState
-from solvers.drive_train.coupling_loads import LEAST_TILT, HubMoments, hub_moments, hub_warnings
-from solvers.drive_train.influence import ShaftPorts, Unit
+from solvers.drive_train.gap.balance import Equilibrium
 from solvers.drive_train.inputs import DriveTrainInputs, Vector2
 from solvers.drive_train.results import BearingResult, CouplingResult, ShaftCurves, ShaftResult
-from solvers.drive_train.thrust_budget import mesh_thrust, thrust_budget
+from solvers.drive_train.shafts.bearings import BearingState
+from solvers.drive_train.shafts.coupling_loads import LEAST_TILT, HubMoments, hub_moments, hub_warnings
+from solvers.drive_train.shafts.influence import ShaftPorts, Unit
+from solvers.drive_train.shafts.thrust_budget import mesh_thrust, thrust_budget
 from solvers.gears.path_of_contact import PathOfContact
 from solvers.notices import Notice
 

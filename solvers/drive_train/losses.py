@@ -3,10 +3,10 @@
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.drive_train.balance import Equilibrium
-from solvers.drive_train.influence import ShaftPorts, Unit
+from solvers.drive_train.gap.balance import Equilibrium
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import CouplingResult, ForceBalance, ShaftResult, TrainLosses
+from solvers.drive_train.shafts.influence import ShaftPorts, Unit
 
 
 def train_losses(

@@ -5,19 +5,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
-from solvers.drive_train.balance import Equilibrium, LoadedMesh, equilibrium
 from solvers.drive_train.checks import check_inputs
 from solvers.drive_train.derived import derived
 from solvers.drive_train.elements import coupling_results, hubs_of, shaft_results, warnings_of
-from solvers.drive_train.hub_balance import loads_at_rest
-from solvers.drive_train.influence import Unit, unit
+from solvers.drive_train.gap.balance import Equilibrium, LoadedMesh, equilibrium
+from solvers.drive_train.gap.hub_balance import loads_at_rest
+from solvers.drive_train.gap.misalignment import misalignment
+from solvers.drive_train.gap.thermal_lead import ThermalLead, gas_heat, no_heat, thermal_lead
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.losses import force_balance, train_losses
-from solvers.drive_train.misalignment import misalignment
 from solvers.drive_train.notices import coupling_notices, load_notices, shaft_notices
 from solvers.drive_train.results import Convergence, DriveTrainResult, FaceLoad
 from solvers.drive_train.safety import flank_heat
-from solvers.drive_train.thermal_lead import ThermalLead, gas_heat, no_heat, thermal_lead
+from solvers.drive_train.shafts.influence import Unit, unit
 from solvers.scuffing.model import distribution, mesh_of
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.thermal.temperatures import with_friction, with_temperatures

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from solvers.arrays import FloatArray
 from solvers.drive_train.derived import Derived
 from solvers.drive_train.inputs import Vector2
-from solvers.drive_train.thrust_budget import Thrust
+from solvers.drive_train.shafts.thrust_budget import Thrust
 from solvers.notices import Notice
 from solvers.scuffing.results import LoadDistribution, Place
 

@@ -6,9 +6,9 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.contact.hertz import reduced_modulus
+from solvers.drive_train.gap.thermal_lead import ThermalLead
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import FlashPlaces, TrainSafety
-from solvers.drive_train.thermal_lead import ThermalLead
 from solvers.notices import Notice
 from solvers.scuffing.distribution.feature_line import contact_points
 from solvers.scuffing.results import ContactPoints, LoadDistribution, Place

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from solvers.coupling.inputs import Friction
 from solvers.drive_train import solve
-from solvers.drive_train.face_curves import face_mean
+from solvers.drive_train.gap.face_curves import face_mean
+from solvers.drive_train.gap.thermal_lead import thermal_lead
 from solvers.drive_train.inputs import (
     Arrangement,
     Bearing,
@@ -25,8 +26,7 @@ from solvers.drive_train.inputs import (
     UnitCoupling,
 )
 from solvers.drive_train.model import prepare, settle
-from solvers.drive_train.outcome import outcome
-from solvers.drive_train.thermal_lead import thermal_lead
+from solvers.drive_train.studies.outcome import outcome
 from solvers.errors import NoSolution
 from solvers.gears.inputs import GearTeeth
 from solvers.scuffing import solve_load_distribution

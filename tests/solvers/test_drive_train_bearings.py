@@ -6,8 +6,8 @@ from math import atan2, degrees, hypot, pi, sqrt
 import numpy as np
 import pytest
 
-from solvers.drive_train.bearings import attitude_angle, bearing_state, film_force, load_number
 from solvers.drive_train.inputs import JournalBearing, LinearBearing, RigidBearing
+from solvers.drive_train.shafts.bearings import attitude_angle, bearing_state, film_force, load_number
 from solvers.errors import NoSolution
 
 JOURNAL = JournalBearing(0.0, 0.16, 0.11, 0.014, 130e-6)

@@ -10,7 +10,8 @@ import pytest
 from solvers.arrays import FloatArray
 from solvers.coupling.inputs import Friction
 from solvers.coupling.teeth.geometry import pitch_radius
-from solvers.drive_train.coupling_loads import (
+from solvers.drive_train.inputs import Alignment, UnitCoupling
+from solvers.drive_train.shafts.coupling_loads import (
     CouplingPort,
     coupling_loads,
     coupling_port,
@@ -18,7 +19,6 @@ from solvers.drive_train.coupling_loads import (
     hub_moments,
     sliding_tilt,
 )
-from solvers.drive_train.inputs import Alignment, UnitCoupling
 from tests.drive_trains import COUPLING, SPEED
 
 TORQUE = 12e6 / SPEED

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from solvers.contact import ehl
+from solvers.drive_train.gap.thermal_lead import no_heat
 from solvers.drive_train.safety import FlankHeat, flank_heat
-from solvers.drive_train.thermal_lead import no_heat
 from solvers.scuffing import solve_scuffing
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, ScuffingInputs, Temperatures, angular_speed
 from solvers.scuffing.model import solve

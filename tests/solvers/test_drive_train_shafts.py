@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from solvers.arrays import FloatArray
-from solvers.drive_train.face_curves import face_crown, face_mean, face_slope
-from solvers.drive_train.influence import Unit, unit
+from solvers.drive_train.gap.face_curves import face_crown, face_mean, face_slope
 from solvers.drive_train.inputs import DriveTrainInputs, Effects, RigidBearing, Shaft, ShaftSection
-from solvers.drive_train.shaft import GRAVITY, area, second_moment, shaft_model, shear_coefficient
+from solvers.drive_train.shafts.influence import Unit, unit
+from solvers.drive_train.shafts.shaft import GRAVITY, area, second_moment, shaft_model, shear_coefficient
 from solvers.scuffing.model import mesh_of
 from tests.drive_trains import turbo_gear
 

@@ -8,13 +8,13 @@ import pytest
 from solvers.arrays import FloatArray
 from solvers.coupling.inputs import Friction
 from solvers.drive_train import solve
-from solvers.drive_train.corners import combinations, default_ranges, run_corners, single
-from solvers.drive_train.design import Variable, design, search
 from solvers.drive_train.inputs import DriveTrainInputs, Effects, RigidBearing
-from solvers.drive_train.outcome import outcome
-from solvers.drive_train.sensitivity import Tolerance, sensitivity
-from solvers.drive_train.tolerances import Scatter, run_tolerances
-from solvers.drive_train.variation import value_at, varied
+from solvers.drive_train.studies.corners import combinations, default_ranges, run_corners, single
+from solvers.drive_train.studies.design import Variable, design, search
+from solvers.drive_train.studies.outcome import outcome
+from solvers.drive_train.studies.sensitivity import Tolerance, sensitivity
+from solvers.drive_train.studies.tolerances import Scatter, run_tolerances
+from solvers.drive_train.studies.variation import value_at, varied
 from solvers.errors import InvalidInput, NoSolution
 from solvers.scuffing.inputs import LeadCurve, Resolution
 from tests.drive_trains import COUPLING, GROUND, turbo_gear

@@ -25,8 +25,8 @@ from app.studies.stream import Clock, guarded
 from app.studies.sweep import plan_sweep
 from app.studies.unit import lightened
 from solvers.arrays import FloatArray
-from solvers.drive_train.corners import run_corners, single
-from solvers.drive_train.design import Variable, design, search
+from solvers.drive_train.studies.corners import run_corners, single
+from solvers.drive_train.studies.design import Variable, design, search
 from tests.pools import InlinePool
 
 UNIT = BY_PATH["/v1/drive-train"]

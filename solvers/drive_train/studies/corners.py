@@ -7,8 +7,8 @@ from math import prod
 from typing import Any
 
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft
-from solvers.drive_train.outcome import FIGURES, Outcome, check_figure, outcome
-from solvers.drive_train.variation import varied
+from solvers.drive_train.studies.outcome import FIGURES, Outcome, check_figure, outcome
+from solvers.drive_train.studies.variation import varied
 from solvers.errors import InvalidInput, NoSolution
 from solvers.notices import Notice
 

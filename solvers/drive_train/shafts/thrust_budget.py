@@ -5,9 +5,9 @@ API 613 (5th ed., 2003) adds the coupling's force numerically and loads a thrust
 
 from dataclasses import dataclass
 
-from solvers.drive_train.coupling_loads import CouplingPort, hub_moments
-from solvers.drive_train.frame import Frame
 from solvers.drive_train.inputs import DriveTrainInputs
+from solvers.drive_train.shafts.coupling_loads import CouplingPort, hub_moments
+from solvers.drive_train.shafts.frame import Frame
 from solvers.gears.path_of_contact import PathOfContact
 
 USABLE = 0.5  # of the ultimate rating

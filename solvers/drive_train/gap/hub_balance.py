@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.drive_train.coupling_loads import CouplingPort, coupling_loads, softened
-from solvers.drive_train.influence import Unit
+from solvers.drive_train.shafts.coupling_loads import CouplingPort, coupling_loads, softened
+from solvers.drive_train.shafts.influence import Unit
 from solvers.errors import NoSolution
 
 TILT_TOLERANCE = 1e-13  # rad

@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.drive_train.balance import Equilibrium
-from solvers.drive_train.face_curves import face_slope
+from solvers.drive_train.gap.balance import Equilibrium
+from solvers.drive_train.gap.face_curves import face_slope
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.model import Prepared, prepare, settle
 from solvers.drive_train.safety import flank_heat

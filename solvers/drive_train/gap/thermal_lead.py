@@ -13,7 +13,7 @@ import numpy as np
 
 from solvers import pumping
 from solvers.arrays import FloatArray
-from solvers.drive_train.face_curves import face_mean
+from solvers.drive_train.gap.face_curves import face_mean
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.gears.path_of_contact import PathOfContact
 from solvers.notices import Notice

@@ -11,12 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.drive_train.bearings import BearingState, bearing_state
-from solvers.drive_train.coupling_loads import CouplingPort, coupling_port
-from solvers.drive_train.frame import Frame, frame
 from solvers.drive_train.inputs import DriveTrainInputs, Shaft
-from solvers.drive_train.shaft import GRAVITY, ShaftModel, shaft_model
-from solvers.drive_train.thrust_budget import collar_force
+from solvers.drive_train.shafts.bearings import BearingState, bearing_state
+from solvers.drive_train.shafts.coupling_loads import CouplingPort, coupling_port
+from solvers.drive_train.shafts.frame import Frame, frame
+from solvers.drive_train.shafts.shaft import GRAVITY, ShaftModel, shaft_model
+from solvers.drive_train.shafts.thrust_budget import collar_force
 from solvers.gears.path_of_contact import PathOfContact
 
 

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.drive_train.face_curves import face_mean
-from solvers.drive_train.hub_balance import HubLoads, Yielding, loads_at_rest, respond
-from solvers.drive_train.influence import Unit
+from solvers.drive_train.gap.face_curves import face_mean
+from solvers.drive_train.gap.hub_balance import HubLoads, Yielding, loads_at_rest, respond
+from solvers.drive_train.shafts.influence import Unit
 from solvers.errors import NoSolution
 from solvers.scuffing.balance.contact_slices import Mesh
 from solvers.scuffing.balance.face_response import FaceResponse, face_response

@@ -8,8 +8,8 @@ from scipy.stats import binom, qmc, spearmanr
 
 from solvers.arrays import FloatArray, frozen
 from solvers.drive_train.inputs import DriveTrainInputs
-from solvers.drive_train.outcome import FIGURES, check_figure, outcome
-from solvers.drive_train.variation import varied
+from solvers.drive_train.studies.outcome import FIGURES, check_figure, outcome
+from solvers.drive_train.studies.variation import varied
 from solvers.errors import InvalidInput, NoSolution
 
 QUANTILES = (0.05, 0.5, 0.95)

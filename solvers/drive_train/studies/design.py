@@ -8,10 +8,10 @@ import numpy as np
 from scipy.optimize import Bounds, minimize
 
 from solvers.arrays import FloatArray
-from solvers.drive_train.corners import MOST_RUNS, Range, combinations
 from solvers.drive_train.inputs import DriveTrainInputs
-from solvers.drive_train.outcome import outcome
-from solvers.drive_train.variation import value_at, varied
+from solvers.drive_train.studies.corners import MOST_RUNS, Range, combinations
+from solvers.drive_train.studies.outcome import outcome
+from solvers.drive_train.studies.variation import value_at, varied
 from solvers.errors import InvalidInput, NoSolution
 
 Objective = Literal["safety", "max_pressure", "face_load_factor"]

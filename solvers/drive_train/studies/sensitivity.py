@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
-from solvers.drive_train.balance import Equilibrium, uniform_force
+from solvers.drive_train.gap.balance import Equilibrium, uniform_force
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.model import Prepared, prepare, settle
-from solvers.drive_train.outcome import Outcome, outcome, outcome_of
-from solvers.drive_train.variation import value_at, varied
+from solvers.drive_train.studies.outcome import Outcome, outcome, outcome_of
+from solvers.drive_train.studies.variation import value_at, varied
 from solvers.errors import InvalidInput
 from solvers.scuffing.safety import safety_factor
 

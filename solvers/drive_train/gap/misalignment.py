@@ -3,13 +3,13 @@
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
-from solvers.drive_train.balance import Equilibrium, LoadedMesh, uniform_force
-from solvers.drive_train.face_curves import face_crown, face_mean, face_slope
-from solvers.drive_train.hub_balance import respond
-from solvers.drive_train.influence import Unit
+from solvers.drive_train.gap.balance import Equilibrium, LoadedMesh, uniform_force
+from solvers.drive_train.gap.face_curves import face_crown, face_mean, face_slope
+from solvers.drive_train.gap.hub_balance import respond
+from solvers.drive_train.gap.thermal_lead import ThermalLead
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import GapCurves, Misalignment, Parts
-from solvers.drive_train.thermal_lead import ThermalLead
+from solvers.drive_train.shafts.influence import Unit
 from solvers.scuffing.flank.modification import gaps_at
 
 

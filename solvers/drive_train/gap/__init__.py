@@ -1,0 +1,1 @@
+"""The gap over the face: face_curves -> thermal_lead; hub_balance -> balance -> misalignment, by cause."""

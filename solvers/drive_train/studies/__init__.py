@@ -1,0 +1,1 @@
+"""Many units instead of one: variation, outcome -> corners -> design; sensitivity; tolerances."""
