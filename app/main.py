@@ -24,7 +24,7 @@ DESCRIPTION = """Tribology of high-speed drive trains: gear couplings (Pahl), ai
 Units are in the field names; every example below runs as it stands."""
 
 # Slow to load or asked for by studies: random samples need scipy.stats, a drawing half a second and 70 MB.
-WORKERS_SHARE = ("scipy.stats", "app.figures.drawing", "app.studies.sweep")
+WORKERS_SHARE = ("scipy.stats", "app.figures.drawing.image", "app.studies.sweep")
 
 
 def create_app(settings: Settings | None = None) -> FastAPI:

@@ -1,6 +1,7 @@
 """The figures of each endpoint."""
 
-from app.figures import (
+from app.figures.declaration import Declaration
+from app.figures.models import (
     choking,
     coupling,
     coupling_companions,
@@ -10,7 +11,6 @@ from app.figures import (
     pumping,
     scuffing,
 )
-from app.figures.declaration import Declaration
 
 FIGURES: dict[str, tuple[Declaration, ...]] = {
     "/v1/coupling": coupling.FIGURES,

@@ -43,6 +43,6 @@ def written(figure: Figure, image_format: Format, theme: ThemeName) -> bytes:
     """The figure as an image, or its numbers."""
     if image_format == "csv":
         return table(figure)
-    from app.figures.drawing import draw  # noqa: PLC0415  only workers draw: half a second and 70 MB
+    from app.figures.drawing.image import draw  # noqa: PLC0415  only workers draw: half a second and 70 MB
 
     return draw(figure, image_format, theme)

@@ -10,9 +10,9 @@ import numpy as np
 from app.figures.comparison import compared
 from app.figures.data import Bars, Figure, Line, NoFigure, Panel, Role, ThemeName, Values
 from app.figures.declaration import Declaration
+from app.figures.drawing.style import WIDTH
 from app.figures.registry import figures_of
 from app.figures.rendering import written
-from app.figures.style import WIDTH
 from app.figures.tables import columns_of
 from app.pages.cases import Case
 
@@ -77,7 +77,7 @@ def charts(case: Case, variant: Case | None, theme: ThemeName) -> tuple[list[Cha
 
 def chart_of(name: str, figure: Figure, theme: ThemeName) -> Chart:
     """A figure drawn, with its values."""
-    from app.figures.drawing import arranged  # noqa: PLC0415  only workers draw
+    from app.figures.drawing.image import arranged  # noqa: PLC0415  only workers draw
 
     columns = columns_of(figure)
     cells = [column.cells(MOST_LINES) for column in columns]
@@ -114,7 +114,7 @@ def _cell(cells: list[str], index: int) -> str:
 
 def _panel(slot: Any, height: float) -> dict[str, Any]:
     """Where a panel lies, as fractions of the image, and its curves."""
-    from app.figures.canvas import ranges  # noqa: PLC0415  only workers draw
+    from app.figures.drawing.canvas import ranges  # noqa: PLC0415  only workers draw
 
     panel: Panel = slot.panel
     x, _ = ranges(panel, slot.width, slot.height)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from app.figures.data import Axis, Figure, Hue, Line, Map, Mark, Panel, ThemeName, values
-from app.figures.drawing import draw
-from app.figures.style import THEMES
+from app.figures.drawing.image import draw
+from app.figures.drawing.style import THEMES
 
 X = np.linspace(0.0, 1.0, 41)
 PEAK = 4.0 * X * (1.0 - X)

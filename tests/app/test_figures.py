@@ -16,7 +16,7 @@ from app.contract.quantities import Documented
 from app.evaluate import evaluate
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, Role
-from app.figures.drawing import draw
+from app.figures.drawing.image import draw
 from app.figures.registry import figures_of
 from app.figures.tables import table
 from app.library import examples

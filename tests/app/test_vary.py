@@ -13,7 +13,7 @@ import pytest
 from app.calculations import CALCULATIONS, Calculation
 from app.contract.fields import leaf_at, leaves
 from app.figures.data import Axis, values
-from app.figures.drawing import draw
+from app.figures.drawing.image import draw
 from app.figures.rendering import MEDIA_TYPES
 from app.figures.sweep import MOST_CURVES, Coordinate, Grid, figures_of
 from app.library import examples
@@ -242,7 +242,7 @@ def test_a_map_over_even_ratios_puts_its_points_where_the_axes_have_them() -> No
 
 
 def views_image(found: Grid) -> Any:
-    from app.figures.maps import _image, map_ranges  # noqa: PLC0415
+    from app.figures.drawing.maps import _image, map_ranges  # noqa: PLC0415
 
     panel = figures_of(found)["map"].panels[0]
     assert panel.map is not None

@@ -192,10 +192,10 @@ def _points(study: Study, gathered: Gathered, figure: Figure) -> str:
     """What the script needs to tell the point under the pointer and to open its case."""
     if not all(is_leaf(study.asked.calculation, each.path) for each in study.wish.fields):
         return ""
-    from app.figures.canvas import ranges  # noqa: PLC0415  only workers draw
-    from app.figures.drawing import arranged  # noqa: PLC0415
-    from app.figures.maps import map_ranges  # noqa: PLC0415
-    from app.figures.style import WIDTH  # noqa: PLC0415
+    from app.figures.drawing.canvas import ranges  # noqa: PLC0415  only workers draw
+    from app.figures.drawing.image import arranged  # noqa: PLC0415
+    from app.figures.drawing.maps import map_ranges  # noqa: PLC0415
+    from app.figures.drawing.style import WIDTH  # noqa: PLC0415
 
     slots, height = arranged(figure)
     slot, panel = slots[0], figure.panels[0]

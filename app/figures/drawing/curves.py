@@ -5,9 +5,9 @@ from matplotlib.collections import PolyCollection
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
-from app.figures.canvas import Canvas, spacing
 from app.figures.data import Area, Bars, Line, Ribbon, Role, Values
-from app.figures.style import SMALL, text_height, text_width
+from app.figures.drawing.canvas import Canvas, spacing
+from app.figures.drawing.style import SMALL, text_height, text_width
 
 DASHES = {Role.RESULT: "solid", Role.REFERENCE: (0, (1.2, 1.8)), Role.VARIANT: (0, (4.5, 2.2))}
 WIDTHS = {Role.RESULT: 1.7, Role.REFERENCE: 1.5, Role.VARIANT: 1.3}

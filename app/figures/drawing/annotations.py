@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from app.figures.canvas import Canvas, legend_entries, named_at_end
-from app.figures.curves import DASHES
 from app.figures.data import Bars, Level, Line, Mark, Panel, Span
-from app.figures.labels import Place, around, spread
-from app.figures.style import SMALL, TEXT, text_height, text_width
+from app.figures.drawing.canvas import Canvas, legend_entries, named_at_end
+from app.figures.drawing.curves import DASHES
+from app.figures.drawing.labels import Place, around, spread
+from app.figures.drawing.style import SMALL, TEXT, text_height, text_width
 
 END_GAP = 0.07
 END_SPACING = 0.155

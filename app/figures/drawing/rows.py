@@ -7,12 +7,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
-from app.figures.annotations import draw_level, name_level
-from app.figures.canvas import Canvas
 from app.figures.data import Axis, Panel, Role, Row
-from app.figures.labels import Place, Placer
-from app.figures.scales import Range, chosen_range
-from app.figures.style import TEXT, Theme, text_height, text_width
+from app.figures.drawing.annotations import draw_level, name_level
+from app.figures.drawing.canvas import Canvas
+from app.figures.drawing.labels import Place, Placer
+from app.figures.drawing.scales import Range, chosen_range
+from app.figures.drawing.style import TEXT, Theme, text_height, text_width
 from app.figures.wording import number
 
 PITCH = 0.3  # inches from row to row

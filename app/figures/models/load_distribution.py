@@ -4,7 +4,7 @@ import numpy as np
 
 from app.figures.data import ORDER, Axis, Bars, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Role, Values, values
 from app.figures.declaration import Declaration, present
-from app.figures.flank_maps import MAPS
+from app.figures.models.flank_maps import MAPS
 from app.figures.wording import number, percent
 from app.requests.load_distribution import LoadDistributionRequest
 from app.responses.load_distribution import LoadDistributionResponse

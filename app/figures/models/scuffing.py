@@ -4,7 +4,7 @@ import numpy as np
 
 from app.figures.data import Axis, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Role, Span, Values, values
 from app.figures.declaration import Declaration, present
-from app.figures.load_distribution import PATH, path_points, unnamed
+from app.figures.models.load_distribution import PATH, path_points, unnamed
 from app.figures.wording import number
 from app.requests.scuffing import ScuffingRequest
 from app.responses.scuffing import ScuffingPathCurves, ScuffingResponse

@@ -5,12 +5,12 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm, Normalize
 
-from app.figures.annotations import draw_mark, name_span
-from app.figures.canvas import Canvas
 from app.figures.data import Axis, Map, Panel, Scale, Values
-from app.figures.labels import Place, Placer, around
-from app.figures.scales import Range, chosen_range, nice_ticks
-from app.figures.style import SMALL, TEXT, Theme, text_width
+from app.figures.drawing.annotations import draw_mark, name_span
+from app.figures.drawing.canvas import Canvas
+from app.figures.drawing.labels import Place, Placer, around
+from app.figures.drawing.scales import Range, chosen_range, nice_ticks
+from app.figures.drawing.style import SMALL, TEXT, Theme, text_width
 from app.figures.wording import number
 
 COLOURS = {Scale.MAGNITUDE: "cividis", Scale.RATIO: "RdBu_r", Scale.SIGNED: "RdBu_r"}

@@ -20,7 +20,7 @@ from app.figures.data import (
     values,
 )
 from app.figures.declaration import Declaration, present
-from app.figures.friction_map import friction_map
+from app.figures.models.friction_map import friction_map
 from app.figures.wording import number, percent
 from app.requests.coupling import CouplingRequest
 from app.responses.coupling import CouplingResponse

@@ -7,7 +7,7 @@ import numpy as np
 
 from app.figures.data import Axis, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Role, Row, Span, Values, values
 from app.figures.declaration import Declaration, present
-from app.figures.drive_train_maps import MAPS
+from app.figures.models.drive_train_maps import MAPS
 from app.figures.wording import number, percent
 from app.requests.drive_train import DriveTrainRequest
 from app.requests.drive_train_shafts import UnitShaft

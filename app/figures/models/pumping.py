@@ -20,7 +20,7 @@ from app.figures.data import (
     values,
 )
 from app.figures.declaration import Declaration, present
-from app.figures.pumping_maps import MAPS, critical_ratio, spaces
+from app.figures.models.pumping_maps import MAPS, critical_ratio, spaces
 from app.figures.wording import number, ratio
 from app.requests.pumping import PumpingRequest
 from app.responses.pumping import PumpingResponse

@@ -8,9 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
 from app.figures.data import Bars, Line, Panel, Role, Values
-from app.figures.labels import Place, Placer
-from app.figures.scales import Range, chosen_range, nice_ticks
-from app.figures.style import SMALL, Theme
+from app.figures.drawing.labels import Place, Placer
+from app.figures.drawing.scales import Range, chosen_range, nice_ticks
+from app.figures.drawing.style import SMALL, Theme
 
 TICK_GAP = 0.05
 LEGEND_BEYOND = 4  # lines

@@ -4,7 +4,7 @@ import numpy as np
 
 from app.figures.data import Critical, Figure, Map, Mark, NoFigure, Panel, matrix, values
 from app.figures.declaration import Declaration, present
-from app.figures.flank_maps import FACE, PROFILE
+from app.figures.models.flank_maps import FACE, PROFILE
 from app.figures.wording import number, percent
 from app.requests.drive_train import DriveTrainRequest
 from app.responses.drive_train import DriveTrainResponse

@@ -6,7 +6,7 @@ import numpy as np
 
 from app.figures.data import Axis, Figure, Hue, Level, Line, Panel, values
 from app.figures.declaration import Declaration
-from app.figures.pumping_maps import critical_ratio
+from app.figures.models.pumping_maps import critical_ratio
 from app.figures.wording import number
 from app.requests.pumping import ChokingSpeedRequest
 from app.responses.pumping import ChokingSpeedResponse

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from app.figures.data import Values
-from app.figures.style import text_height, text_width
+from app.figures.drawing.style import text_height, text_width
 
 CURVE_STEP = 0.04  # spacing of the points that stand for a curve
 GAP = 0.02  # kept around a text

@@ -15,14 +15,14 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure as Sheet
 
-from app.figures.annotations import end_width, legend_rows
-from app.figures.canvas import Canvas, ranges
 from app.figures.data import Figure, Map, Panel, ThemeName
-from app.figures.labels import Placer
-from app.figures.maps import BAR_GAP, BAR_WIDTH, color_bar_width, draw_color_bar, draw_map
-from app.figures.panels import LEGEND_SPACING, draw_panel
-from app.figures.rows import draw_rows, names_width, rows_height, rows_range
-from app.figures.style import DPI, SMALL, TEXT, THEMES, TITLE, WIDTH, Theme, settings, wrapped
+from app.figures.drawing.annotations import end_width, legend_rows
+from app.figures.drawing.canvas import Canvas, ranges
+from app.figures.drawing.labels import Placer
+from app.figures.drawing.maps import BAR_GAP, BAR_WIDTH, color_bar_width, draw_color_bar, draw_map
+from app.figures.drawing.panels import LEGEND_SPACING, draw_panel
+from app.figures.drawing.rows import draw_rows, names_width, rows_height, rows_range
+from app.figures.drawing.style import DPI, SMALL, TEXT, THEMES, TITLE, WIDTH, Theme, settings, wrapped
 
 EDGE, TICKS = 0.18, 0.46  # left and right of everything; room for the ordinate's numbers
 TITLE_LINE, SUBTITLE_LINE, HEAD_GAP = 0.24, 0.165, 0.1

@@ -1,6 +1,7 @@
 """Draws one panel of curves and bars."""
 
-from app.figures.annotations import (
+from app.figures.data import Panel
+from app.figures.drawing.annotations import (
     draw_legend,
     draw_level,
     draw_mark,
@@ -10,9 +11,8 @@ from app.figures.annotations import (
     name_marks,
     name_span,
 )
-from app.figures.canvas import Canvas
-from app.figures.curves import draw_area, draw_bars, draw_line, draw_ribbon
-from app.figures.data import Panel
+from app.figures.drawing.canvas import Canvas
+from app.figures.drawing.curves import draw_area, draw_bars, draw_line, draw_ribbon
 
 LEGEND_SPACING = 0.17
 

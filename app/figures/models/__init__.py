@@ -1,0 +1,1 @@
+"""What is drawn of each model's answers; nothing here knows how."""
