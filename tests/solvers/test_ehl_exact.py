@@ -49,7 +49,7 @@ def couette_errors(sliding: float, nodes: int) -> tuple[float, float]:
         evaluate_column(fixed, 1, t[1], 0.0, 0.0, height, film, coefficients, above)
         column_balance(fixed, 1, 1e-5, t, 0.0, height, 0.0, film, heat)
         factor_column(1, film, heat)
-        step[1] = -heat.residual[1]
+        step[1] = -heat.column.residual[1]
         solve_column(1, film, heat, step)
         t[1] += step[1] * min(1.0, 40.0 / max(float(np.abs(step[1]).max()), 1e-9))
     assert float(np.abs(step[1]).max()) < 1e-9
@@ -57,7 +57,7 @@ def couette_errors(sliding: float, nodes: int) -> tuple[float, float]:
     rise = log(1.0 + eighth) / beta
     stress = sqrt(8.0 * oil.thermal_conductivity * oil.viscosity / beta) / height
     stress *= asinh(sqrt(eighth)) / sqrt(1.0 + eighth)
-    return float(t[1].max() - wall) / rise - 1.0, float(film.mid_stress[1]) / stress - 1.0
+    return float(t[1].max() - wall) / rise - 1.0, float(film.mid.stress[1]) / stress - 1.0
 
 
 def test_thermal_couette_flow() -> None:
@@ -121,7 +121,7 @@ def test_column_at_one_temperature_is_the_closed_form(rheology: str, p: float, g
     stress = uniform_film(given_, p, g, h, log_a, b)
     numeric = coefficients.b[0, VALUE] - exp(coefficients.log_a[0, VALUE]) * h * g
     assert numeric == pytest.approx(b[VALUE] - exp(log_a[VALUE]) * h * g, rel=5e-4)
-    assert film.mid_stress[0] == pytest.approx(stress, rel=5e-4)
+    assert film.mid.stress[0] == pytest.approx(stress, rel=5e-4)
 
 
 @pytest.mark.parametrize("rheology", ["newtonian", "ree_eyring"])
@@ -135,13 +135,13 @@ def test_derivatives_of_a_column(rheology: str) -> None:
         shifted = t.copy()
         shifted[7] += warmer
         evaluate_column(given_, 0, shifted, p, g, h, film, coefficients, above)
-        return np.array([coefficients.log_a[0, VALUE], coefficients.b[0, VALUE], film.mid_stress[0]])
+        return np.array([coefficients.log_a[0, VALUE], coefficients.b[0, VALUE], film.mid.stress[0]])
 
     at = np.array([0.9e9, 3e7, 0.5e-6, 0.0])
     value(*at)
     exact = np.column_stack([coefficients.log_a[0, 1:], coefficients.b[0, 1:]])
-    stress = [film.mid_by_p[0], film.mid_by_g[0], film.mid_by_h[0], film.mid_by_temperature[0, 7]]
-    by_t = [film.log_a_by_temperature[0, 7], film.b_by_temperature[0, 7]]
+    stress = [film.mid.by_p[0], film.mid.by_g[0], film.mid.by_h[0], film.mid.by_temperature[0, 7]]
+    by_t = [film.flow.log_a_by_temperature[0, 7], film.flow.b_by_temperature[0, 7]]
     for k, width in enumerate((1e4, 3e2, 5e-12, 1e-3)):
         step = np.zeros(4)
         step[k] = width

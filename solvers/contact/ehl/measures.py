@@ -100,7 +100,7 @@ def friction(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> C
     work, contact = attempt.work, inputs.contact
     p = attempt.state.pressure * problem.maximum_pressure
     gradient = work.height * problem.gap_scale * work.gradient * problem.maximum_pressure / problem.half_width
-    stress = work.film.mid_stress
+    stress = work.film.mid.stress
     share = _share(problem, attempt, inputs)
     middle, first, second = (abs(float(share @ s)) for s in (stress, stress - 0.5 * gradient, stress + 0.5 * gradient))
     loaded = p > 0.1 * min(problem.maximum_pressure, float(p.max()))
@@ -117,7 +117,7 @@ def friction(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> C
 
 def friction_coefficient(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> float:
     """Coefficient of friction from the mid-film stress alone."""
-    return abs(float(_share(problem, attempt, inputs) @ attempt.work.film.mid_stress))
+    return abs(float(_share(problem, attempt, inputs) @ attempt.work.film.mid.stress))
 
 
 def _share(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> FloatArray:
@@ -137,9 +137,9 @@ def heat(problem: Problem, attempt: Attempt) -> ContactHeat:
     width = attempt.grid.weights[1:] * problem.half_width
     generated = generated_heat(problem, attempt)
     compression = float(width @ heats.compression[1:])
-    to_surfaces = [float(width @ flux[1:]) for flux in (heats.flux_1, heats.flux_2)]
-    inlet = np.diff(_layer_edges(0.5 * (attempt.work.film.stream[0] + attempt.work.film.stream[1])))
-    outlet = np.diff(_layer_edges(attempt.work.film.stream[-1]))
+    to_surfaces = [float(width @ flux[1:]) for flux in (heats.surfaces.flux_1, heats.surfaces.flux_2)]
+    inlet = np.diff(_layer_edges(0.5 * (attempt.work.film.flow.stream[0] + attempt.work.film.flow.stream[1])))
+    outlet = np.diff(_layer_edges(attempt.work.film.flow.stream[-1]))
     entering = np.where(inlet > 0.0, t[0], t[1])
     convected = problem.specific_heat * float(outlet @ t[-1] - inlet @ entering)
     defect = generated + compression - sum(to_surfaces) - convected
@@ -167,13 +167,13 @@ def curves(problem: Problem, attempt: Attempt, thermal: bool) -> ContactCurves:
         pressure=frozen(attempt.state.pressure * problem.maximum_pressure),
         hertz_pressure=frozen(np.sqrt(np.maximum(1.0 - x**2, 0.0)) * problem.maximum_pressure),
         film=frozen(film_heights(problem, attempt)),
-        shear_stress=frozen(attempt.work.film.mid_stress * attempt.work.heat.fluid_fraction),
+        shear_stress=frozen(attempt.work.film.mid.stress * attempt.work.heat.fluid_fraction),
         fluid_fraction=frozen(attempt.work.heat.fluid_fraction),
         mid_film_temperature=frozen(mid_film(t)) if thermal else None,
         surface_1_temperature=frozen(t[:, 0].copy()) if thermal else None,
         surface_2_temperature=frozen(t[:, -1].copy()) if thermal else None,
-        surface_1_heat_flux=frozen(attempt.work.heat.flux_1) if thermal else None,
-        surface_2_heat_flux=frozen(attempt.work.heat.flux_2) if thermal else None,
+        surface_1_heat_flux=frozen(attempt.work.heat.surfaces.flux_1) if thermal else None,
+        surface_2_heat_flux=frozen(attempt.work.heat.surfaces.flux_2) if thermal else None,
     )
 
 

@@ -13,31 +13,32 @@ def factor_column(i: int, film: Film, heat: Heat) -> None:
 
     The rank-one part carries what keeps a sliding film from running away: warmer oil shears at less stress.
     """
-    m = film.stress.shape[1]
-    responses = heat.responses[i]
+    m = film.shear.stress.shape[1]
+    column = heat.column
+    responses = column.responses[i]
     for c in range(1, 4):
         for k in range(m + 1):
             responses[k, c] = -responses[k, c]
-    heat.pivot[i, 0] = 1.0 / heat.pivot[i, 0]
+    column.pivot[i, 0] = 1.0 / column.pivot[i, 0]
     for k in range(1, m + 1):
-        heat.lower[i, k] *= -heat.pivot[i, k - 1]
-        heat.upper[i, k - 1] = -heat.upper[i, k - 1]
-        heat.pivot[i, k] = 1.0 / (heat.pivot[i, k] - heat.lower[i, k] * heat.upper[i, k - 1])
+        column.lower[i, k] *= -column.pivot[i, k - 1]
+        column.upper[i, k - 1] = -column.upper[i, k - 1]
+        column.pivot[i, k] = 1.0 / (column.pivot[i, k] - column.lower[i, k] * column.upper[i, k - 1])
         for c in range(4):
-            responses[k, c] -= heat.lower[i, k] * responses[k - 1, c]
+            responses[k, c] -= column.lower[i, k] * responses[k - 1, c]
     for c in range(4):
-        responses[m, c] *= heat.pivot[i, m]
+        responses[m, c] *= column.pivot[i, m]
     for k in range(m - 1, -1, -1):
         for c in range(4):
-            responses[k, c] = (responses[k, c] - heat.upper[i, k] * responses[k + 1, c]) * heat.pivot[i, k]
-    by_temperature = film.mid_by_temperature[i]
+            responses[k, c] = (responses[k, c] - column.upper[i, k] * responses[k + 1, c]) * column.pivot[i, k]
+    by_temperature = film.mid.by_temperature[i]
     heating, p, g, h = 1.0, 0.0, 0.0, 0.0
     for k in range(m + 1):
         heating += by_temperature[k] * responses[k, HEATING]
         p += by_temperature[k] * responses[k, BY_P]
         g += by_temperature[k] * responses[k, BY_G]
         h += by_temperature[k] * responses[k, BY_H]
-    heat.sherman[i] = 1.0 / heating
+    column.sherman[i] = 1.0 / heating
     for k in range(m + 1):
         responses[k, BY_P] -= responses[k, HEATING] * p / heating
         responses[k, BY_G] -= responses[k, HEATING] * g / heating
@@ -47,15 +48,16 @@ def factor_column(i: int, film: Film, heat: Heat) -> None:
 @inlined_kernel
 def solve_column(i: int, film: Film, heat: Heat, vector: FloatArray) -> None:
     """Solve the linearised column i for row i of `vector` (n, k), in place."""
+    column, by_temperature = heat.column, film.mid.by_temperature
     m = vector.shape[1] - 1
-    row, lower, upper, pivot = vector[i], heat.lower[i], heat.upper[i], heat.pivot[i]
+    row, lower, upper, pivot = vector[i], column.lower[i], column.upper[i], column.pivot[i]
     for k in range(1, m + 1):
         row[k] -= lower[k] * row[k - 1]
     row[m] *= pivot[m]
-    total = film.mid_by_temperature[i, m] * row[m]
+    total = by_temperature[i, m] * row[m]
     for k in range(m - 1, -1, -1):
         row[k] = (row[k] - upper[k] * row[k + 1]) * pivot[k]
-        total += film.mid_by_temperature[i, k] * row[k]
-    total *= heat.sherman[i]
+        total += by_temperature[i, k] * row[k]
+    total *= column.sherman[i]
     for k in range(m + 1):
-        row[k] -= heat.responses[i, k, HEATING] * total
+        row[k] -= column.responses[i, k, HEATING] * total

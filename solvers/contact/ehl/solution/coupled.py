@@ -41,11 +41,11 @@ FROZEN = 1e4
 def include_temperature(work: Work) -> None:
     """Make the derivatives of A and B total: with the response of temperature."""
     film, log_a, b = work.film, work.coefficients.log_a, work.coefficients.b
-    n, nodes, count = work.heat.responses.shape
+    n, nodes, count = work.heat.column.responses.shape
     for i in range(1, n):
-        responses = work.heat.responses[i]
+        responses = work.heat.column.responses[i]
         for k in range(nodes):
-            a_slope, b_slope = film.log_a_by_temperature[i, k], film.b_by_temperature[i, k]
+            a_slope, b_slope = film.flow.log_a_by_temperature[i, k], film.flow.b_by_temperature[i, k]
             for c in range(BY_P, count):
                 log_a[i, c] += a_slope * responses[k, c]
                 b[i, c] += b_slope * responses[k, c]
@@ -61,8 +61,8 @@ def add_temperature_changes(
     for i in range(1, n):
         for k in range(nodes):
             change = step[i, k] - given[i, k]
-            log_a[i] += work.film.log_a_by_temperature[i, k] * change
-            b[i] += work.film.b_by_temperature[i, k] * change
+            log_a[i] += work.film.flow.log_a_by_temperature[i, k] * change
+            b[i] += work.film.flow.b_by_temperature[i, k] * change
     add_flux_changes(work.faces, cavitated, log_a, b, residual)
 
 
@@ -80,7 +80,7 @@ def pressure_responses(
         dp = step[i] * problem.maximum_pressure
         dh = (change[i] - 0.5 * grid.x[i] ** 2) * problem.gap_scale
         dg = slope * (slopes[i] * work.height[i] * problem.gap_scale + work.gradient[i] * dh)
-        responses = work.heat.responses[i]
+        responses = work.heat.column.responses[i]
         for k in range(given.shape[1]):
             given[i, k] = responses[k, BY_P] * dp + responses[k, BY_G] * dg + responses[k, BY_H] * dh
 

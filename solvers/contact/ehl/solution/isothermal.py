@@ -70,7 +70,7 @@ def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) 
         h = work.height[i] * problem.gap_scale
         p, g = state.pressure[i] * problem.maximum_pressure, h * work.gradient[i] * slope
         coefficients = work.coefficients
-        work.film.mid_stress[i] = uniform_film(problem, p, g, h, coefficients.log_a[i], coefficients.b[i])
+        work.film.mid.stress[i] = uniform_film(problem, p, g, h, coefficients.log_a[i], coefficients.b[i])
     assemble_faces(
         problem, grid.x, state.pressure, work.height, work.gradient, state.cavitated, work.coefficients, work.faces
     )

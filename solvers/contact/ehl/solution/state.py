@@ -70,7 +70,7 @@ def evaluate_flow(problem: Problem, grid: Grid, state: State, work: Work) -> boo
     """Film, stress and flow of every column; whether the guard on the pressure gradient acted."""
     film_shape(grid, state.pressure, state.separation[0], work.height)
     pressure_gradients(grid.x, state.pressure, state.cavitated, work.gradient)
-    above = np.empty(work.film.stress.shape[1])
+    above = np.empty(work.film.shear.stress.shape[1])
     slope = problem.maximum_pressure / problem.half_width
     limited = False
     for i in range(grid.x.size):
@@ -95,32 +95,33 @@ def match_stream(problem: Problem, state: State, work: Work) -> None:
     profile of the last full one in a fraction of the gap. So convection conserves mass on the way to the solution,
     too.
     """
-    film, heat = work.film, work.heat
+    flow, heat = work.film.flow, work.heat
     flux = work.faces.flux[state.pressure.argmax()] * problem.flux_scale
-    last = film.stream.shape[1] - 1
+    last = flow.stream.shape[1] - 1
     for i in range(state.pressure.size):
         heat.fluid_fraction[i] = 1.0
         if state.cavitated[i]:
             drag = work.coefficients.b[i, VALUE] * work.height[i] * problem.gap_scale
             heat.fluid_fraction[i] = min(flux / drag, 1.0)
-            film.stream[i] = film.stream[i - 1]
+            flow.stream[i] = flow.stream[i - 1]
         else:
-            defect = flux - film.couette[i, last]
+            defect = flux - flow.couette[i, last]
             for k in range(last + 1):
-                film.stream[i, k] = film.couette[i, k] + defect * film.poiseuille[i, k]
-    face_edges(film.stream, heat.edges)
+                flow.stream[i, k] = flow.couette[i, k] + defect * flow.poiseuille[i, k]
+    face_edges(flow.stream, heat.convection.edges)
 
 
 @kernel
 def balance_columns(problem: Problem, grid: Grid, state: State, work: Work, damping: float) -> None:
     """Heat balance of every column at the present temperatures; `damping` see column_balance."""
+    surfaces = work.heat.surfaces
     slope = problem.maximum_pressure / problem.half_width
-    work.heat.flux_1[0], work.heat.flux_2[0] = 0.0, 0.0
+    surfaces.flux_1[0], surfaces.flux_2[0] = 0.0, 0.0
     for i in range(1, grid.x.size):
         h = work.height[i] * problem.gap_scale
         g = limited_gradient(problem, h * work.gradient[i] * slope)
         width = grid.weights[i] * problem.half_width
-        surface_history(problem, i, grid.heat, work.heat)
+        surface_history(problem, i, grid.heat, surfaces)
         column_balance(problem, i, width, state.temperature, g, h, damping, work.film, work.heat)
 
 

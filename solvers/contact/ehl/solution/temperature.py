@@ -9,7 +9,7 @@ from solvers.contact.ehl.film.fluxes import film_shape
 from solvers.contact.ehl.film.shear import Film
 from solvers.contact.ehl.grid.dense import dot
 from solvers.contact.ehl.grid.mesh import Grid
-from solvers.contact.ehl.heat.balance import Heat, column_balance, face_edges, surface_history
+from solvers.contact.ehl.heat.balance import Convection, Heat, column_balance, face_edges, surface_history
 from solvers.contact.ehl.heat.elimination import factor_column, solve_column
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.solution.state import State, Work
@@ -33,23 +33,23 @@ def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -
     flux = problem.laws.density * 0.5 * (u1 + u2) * work.height[np.abs(grid.x).argmin()] * problem.gap_scale
     for k in range(nodes):
         zeta = k / (nodes - 1)
-        film.stream[:, k] = flux * (u1 * zeta + 0.5 * (u2 - u1) * zeta * zeta) / (0.5 * (u1 + u2))
-    face_edges(film.stream, heat.edges)
+        film.flow.stream[:, k] = flux * (u1 * zeta + 0.5 * (u2 - u1) * zeta * zeta) / (0.5 * (u1 + u2))
+    face_edges(film.flow.stream, heat.convection.edges)
     temperature[0] = problem.inlet
     temperature[0, 0], temperature[0, nodes - 1] = problem.bulk_1, problem.bulk_2
-    heat.flux_1[0], heat.flux_2[0] = 0.0, 0.0
+    heat.surfaces.flux_1[0], heat.surfaces.flux_2[0] = 0.0, 0.0
     heat.fluid_fraction[:] = 1.0
     for i in range(1, n):
         h = work.height[i] * problem.gap_scale
         p = max(state.pressure[i], 0.0) * problem.maximum_pressure
         temperature[i] = temperature[i - 1]
-        surface_history(problem, i, grid.heat, heat)
+        surface_history(problem, i, grid.heat, heat.surfaces)
         for _ in range(COLUMN_ITERATIONS):
             evaluate_column(problem, i, temperature[i], p, 0.0, h, film, work.coefficients, above)
             width = grid.weights[i] * problem.half_width
             column_balance(problem, i, width, temperature, 0.0, h, 0.0, film, heat)
             factor_column(i, film, heat)
-            step[i] = -heat.residual[i]
+            step[i] = -heat.column.residual[i]
             solve_column(i, film, heat, step)
             largest = np.abs(step[i]).max()
             temperature[i] += min(1.0, LARGEST_STEP / max(largest, LARGEST_STEP)) * step[i]
@@ -58,10 +58,10 @@ def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -
 
 
 @kernel
-def last_reverse(heat: Heat) -> int:
+def last_reverse(convection: Convection) -> int:
     """The last column into which oil flows from the right; 0: none."""
-    for i in range(heat.from_right.shape[0] - 2, 0, -1):
-        if heat.from_right[i].max() > 0.0:
+    for i in range(convection.from_right.shape[0] - 2, 0, -1):
+        if convection.from_right[i].max() > 0.0:
             return i
     return 0
 
@@ -69,16 +69,17 @@ def last_reverse(heat: Heat) -> int:
 @inlined_kernel
 def _relax_column(i: int, film: Film, heat: Heat, given: FloatArray, weight: float, step: FloatArray) -> None:
     """Temperature step of column i from those of its neighbours and of the surfaces upstream; `given` is added."""
+    convection, surfaces = heat.convection, heat.surfaces
     n, m = step.shape[0], step.shape[1] - 1
     for k in range(m + 1):
-        inflow = heat.from_left[i, k] * step[i - 1, k]
+        inflow = convection.from_left[i, k] * step[i - 1, k]
         if i + 1 < n:
-            inflow += heat.from_right[i, k] * step[i + 1, k]
+            inflow += convection.from_right[i, k] * step[i + 1, k]
         if k == 0:
-            inflow = inflow * heat.gain_1[i] + heat.change_1[i]
+            inflow = inflow * surfaces.gain_1[i] + surfaces.change_1[i]
         elif k == m:
-            inflow = inflow * heat.gain_2[i] + heat.change_2[i]
-        step[i, k] = inflow - weight * heat.residual[i, k]
+            inflow = inflow * surfaces.gain_2[i] + surfaces.change_2[i]
+        step[i, k] = inflow - weight * heat.column.residual[i, k]
     solve_column(i, film, heat, step)
     for k in range(m + 1):
         step[i, k] += given[i, k]
@@ -94,18 +95,19 @@ def temperature_step(
     The residual counts with `weight`: 1 for a Newton step, 0 for the derivative alone.
     """
     n, last = step.shape[0], step.shape[1] - 1
+    surfaces, residual = heat.surfaces, heat.column.residual
     flux_1, flux_2 = np.zeros(n), np.zeros(n)
-    reverse = last_reverse(heat)
+    reverse = last_reverse(heat.convection)
     step[:, :] = 0.0
     for sweep in range(REVERSE_SWEEPS if reverse > 0 else 1):
         final = sweep == REVERSE_SWEEPS - 1 or reverse == 0
         for i in range(1, n if final else reverse + 1):
-            heat.change_1[i] = problem.surface_heating_1 * dot(grid.heat[i, :i], flux_1[:i])
-            heat.change_2[i] = problem.surface_heating_2 * dot(grid.heat[i, :i], flux_2[:i])
+            surfaces.change_1[i] = problem.surface_heating_1 * dot(grid.heat[i, :i], flux_1[:i])
+            surfaces.change_2[i] = problem.surface_heating_2 * dot(grid.heat[i, :i], flux_2[:i])
             _relax_column(i, film, heat, given, weight, step)
-            own_1 = step[i, 0] - heat.change_1[i] + weight * heat.residual[i, 0]
-            own_2 = step[i, last] - heat.change_2[i] + weight * heat.residual[i, last]
-            flux_1[i], flux_2[i] = own_1 / heat.gain_1[i], own_2 / heat.gain_2[i]
+            own_1 = step[i, 0] - surfaces.change_1[i] + weight * residual[i, 0]
+            own_2 = step[i, last] - surfaces.change_2[i] + weight * residual[i, last]
+            flux_1[i], flux_2[i] = own_1 / surfaces.gain_1[i], own_2 / surfaces.gain_2[i]
         if not final:
             for i in range(reverse - 1, 0, -1):
                 _relax_column(i, film, heat, given, weight, step)
@@ -120,7 +122,7 @@ def inlet_step(problem: Problem, work: Work, temperature: FloatArray, step: Floa
     """
     nodes = step.shape[1]
     u1, u2 = problem.speed_1, problem.speed_2
-    mean = work.film.stream[0, nodes - 1] / (problem.laws.density * work.height[0] * problem.gap_scale)
+    mean = work.film.flow.stream[0, nodes - 1] / (problem.laws.density * work.height[0] * problem.gap_scale)
     step[0, 0] = problem.bulk_1 - temperature[0, 0]
     step[0, nodes - 1] = problem.bulk_2 - temperature[0, nodes - 1]
     for k in range(1, nodes - 1):
