@@ -42,7 +42,7 @@ MODELS = [
 ]
 
 
-@RANDOM
+@settings(RANDOM, max_examples=50)
 @given(setups(), st.floats(200, 60000), st.sampled_from(MODELS), st.sampled_from(list(Gap)))
 def test_any_pair_at_any_speed(setup: PumpingSetup, speed: float, model: PumpingModel, gap: Gap) -> None:
     try:
@@ -62,7 +62,7 @@ def test_any_pair_at_any_speed(setup: PumpingSetup, speed: float, model: Pumping
     assert np.isfinite(result.total.pumping_power)
 
 
-@RANDOM
+@settings(RANDOM, max_examples=40)
 @given(setups())
 def test_power_grows_with_the_cube_of_a_low_speed(setup: PumpingSetup) -> None:
     assert low_speed_exponent(setup, MODELS[2]) == pytest.approx(3, abs=0.02)
