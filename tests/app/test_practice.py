@@ -285,6 +285,20 @@ def test_ester_has_no_friction_law() -> None:
             "1.2 mm is below half a module; cm or inches?",
         ),
         (
+            "/v1/scuffing/load-distribution",
+            PAIR | {"model": {}},
+            {"gears.face_width_mm": 250},
+            "gears.face_width_mm",
+            "250 mm is beyond 3 pitch diameters of the pinion; cm?",
+        ),
+        (
+            "/v1/scuffing/load-distribution",
+            PAIR | {"model": {}},
+            {"load.power_kw": 900},
+            "load",
+            "the Hertz pressure of 5917 MPa is beyond what steel carries; too much load?",
+        ),
+        (
             "/v1/coupling",
             COUPLING,
             {"coupling.tooth_height_mm": 13},
