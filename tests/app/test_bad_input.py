@@ -37,6 +37,13 @@ def changed(request: dict[str, Any], path: tuple[str, ...], value: object) -> di
     return request
 
 
+def with_a_short_path(calculation: Calculation, request: dict[str, Any]) -> dict[str, Any]:
+    """The request with five points along a thermal path, if it has one: contacts are not what is tried here."""
+    if ("model", "path_points") in number_fields(calculation.request):
+        return changed(request, ("model", "path_points"), 5)
+    return request
+
+
 def send(client: httpx.Client, path: str, body: object) -> httpx.Response:
     """Post with the NaN and Infinity that strict encoders refuse."""
     return client.post(path, content=json.dumps(body), headers={"Content-Type": "application/json"})
@@ -56,7 +63,6 @@ def pointers(response: httpx.Response) -> set[str]:
     return {error["pointer"] for error in assert_problem(response)["errors"]}
 
 
-PATH_POINTS = ("model", "path_points")  # five will do where contacts are solved by the hundred
 CASES = [(each, path) for each in CALCULATIONS for path in number_fields(each.request)]
 
 
@@ -112,13 +118,10 @@ def test_the_input_is_not_echoed(client: httpx.Client) -> None:
 
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
 def test_nothing_gives_500(client: httpx.Client, calculation: Calculation) -> None:
-    fields = list(number_fields(calculation.request))
-    for path in fields:
+    for path in number_fields(calculation.request):
         for value in HOSTILE:
-            example = example_of(calculation)
-            if PATH_POINTS in fields:
-                changed(example, PATH_POINTS, 5)
-            response = send(client, calculation.path, changed(example, path, value))
+            request = changed(with_a_short_path(calculation, example_of(calculation)), path, value)
+            response = send(client, calculation.path, request)
             assert response.status_code in {200, 422}, (path, value, response.text)
 
 
@@ -146,6 +149,6 @@ def test_ends_of_every_range_are_answered(client: httpx.Client, example: Example
     calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
     for path in number_fields(calculation.request):
         for value in range_ends(calculation.request, path):
-            request = changed(copy.deepcopy(example.request), path, value)
+            request = changed(with_a_short_path(calculation, copy.deepcopy(example.request)), path, value)
             response = send(client, calculation.path, {**request, "detail": "summary"})
             assert response.status_code in {200, 422}, (path, value, response.text)
