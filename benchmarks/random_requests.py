@@ -146,9 +146,9 @@ def refuse(constant: str) -> float:
 
 
 def tried(seed: int) -> tuple[str, str, float]:
-    """The endpoint; what became of a request: its status, "refused", or what went wrong; how long it took [s]."""
+    """The endpoint; what became of a request: its status, "refused", or what went wrong; its CPU time [s]."""
     path, body = request(seed)
-    began = time.perf_counter()
+    began = time.process_time()  # what others do on the machine does not count
     try:
         content = answer_body(path, json.dumps(body).encode(), settings().deadline_s)
         outcome = str(json.loads(content, parse_constant=refuse)["status"])
@@ -159,7 +159,7 @@ def tried(seed: int) -> tuple[str, str, float]:
     except Exception:  # noqa: BLE001  that is what is looked for
         print(f"seed {seed}: {path} {json.dumps(body)}\n{traceback.format_exc()}", flush=True)
         outcome = "FAILED"
-    return path, outcome, time.perf_counter() - began
+    return path, outcome, time.process_time() - began
 
 
 def main(first: int, count: int) -> None:
