@@ -53,23 +53,27 @@ def print_times(benchmark: str, figures: Sequence[Figure]) -> None:
     """Print the table of a benchmark, a module's name, as its command line asks for it."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--against", metavar="REVISION", help="print the times of a previous version too")
+    parser.add_argument("--only", metavar="TEXT", default="", help="print the figures whose names hold a text")
     parser.add_argument(ANSWERS_FOR, action="store_true", dest="answers", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.answers:
         _answer(figures)
-    elif arguments.against:
-        _print_ratios(benchmark, figures, arguments.against)
-    else:
-        print("| figure | measured | aim |\n|---|---|---|")
-        for figure in figures:
-            print(f"| {figure.name} | {1e3 * best(figure.run):.2f} ms | {figure.target:g} ms |", flush=True)
+        return
+    wanted = [index for index, figure in enumerate(figures) if arguments.only in figure.name]
+    if arguments.against:
+        _print_ratios(benchmark, figures, wanted, arguments.against)
+        return
+    print("| figure | measured | aim |\n|---|---|---|")
+    for figure in (figures[index] for index in wanted):
+        print(f"| {figure.name} | {1e3 * best(figure.run):.2f} ms | {figure.target:g} ms |", flush=True)
 
 
-def _print_ratios(benchmark: str, figures: Sequence[Figure], revision: str) -> None:
+def _print_ratios(benchmark: str, figures: Sequence[Figure], wanted: Sequence[int], revision: str) -> None:
     """Best times of both versions, and the median of the ratios of what was measured side by side."""
     print(f"| figure | measured | {revision} | ratio | aim |\n|---|---|---|---|---|")
     with _sources_of(revision) as previous, _process(benchmark, ROOT) as now, _process(benchmark, previous) as before:
-        for index, figure in enumerate(figures):
+        for index in wanted:
+            figure = figures[index]
             pairs = [(_asked(now, index), _asked(before, index)) for _ in range(ROUNDS)]
             ours, theirs = (1e3 * min(times) for times in zip(*pairs, strict=True))
             ratio = median(old / new for new, old in pairs)
