@@ -27,7 +27,7 @@ TABLE_POINTS = 801
 LEAST_RADIUS = 1e-6  # normal modules; on a base circle it vanishes, and the half width with it
 SHALLOWEST = 2.0  # half-space depth over contact half width
 OMEGA_STEPS = 12
-LAST_STEP = 1e-4  # of omega; its fourth power bounds what is left, so the next step would be rounding
+LAST_STEP = 5e-4  # of omega; its fourth power bounds what is left, so the next step would be rounding
 
 
 class PairCompliance(NamedTuple):
