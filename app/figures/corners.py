@@ -23,5 +23,5 @@ def corners(output: Axis, found: list[Uncertain]) -> Figure:
     )
     worst = next(each.worst for each in found if each.decides)
     finding = f"worst {number(worst, output.unit or '')}, where the red values meet"
-    axis = Axis(f"{output.title}, the worst with this value", output.unit)
-    return Figure(finding, (Panel(x=axis, y=Axis("uncertain input"), rows=rows),), title="What each uncertainty can do")
+    panel = Panel(x=output, y=Axis("uncertain input"), rows=rows)
+    return Figure(finding, (panel,), title="The worst that each value of an uncertain input can lead to")

@@ -49,7 +49,7 @@ def _result(study: Asking, lines: list[Line]) -> Result:
     outputs = [each["path"] for each in header["outputs"]]
     case, other = case_at(study.asked, {}, outputs), case_at(study.asked, worst, outputs)
     found = {"corners": corners(Axis(output.title, output.unit), _uncertain(study, lines, worst))}
-    found |= load_figure(other, case, "at the worst corner")
+    found |= load_figure(other, case, "worst corner", "worst corner and, dashed, as described: ")
     return Result(
         progress,
         found,
@@ -68,15 +68,16 @@ def worst_end(output: Leaf) -> str:
     return "min" if output.bound == "lower" else "max"
 
 
-def load_figure(case: Case, reference: Case, name: str) -> dict[str, Figure]:
-    """Load along the face of a case, dashed beside it that of the case that was asked about; nothing without load."""
+def load_figure(case: Case, reference: Case, name: str, finding: str) -> dict[str, Figure]:
+    """Load along the face of a case, and dashed that of the case as described; nothing without load."""
     try:
         own, given = (LOAD_ALONE.figure(each.request, each.response) for each in (case, reference))
     except NoFigure:
         return {}
-    figure = compared(own, given, "as described")
-    finding = f"{name} {own.finding}; dashed: as described, {given.finding}"
-    return {LOAD_ALONE.name: replace(figure, finding=finding)}
+    (panel,) = compared(own, given, "as described").panels
+    line, *dashed = panel.lines
+    panel = replace(panel, lines=(replace(line, title=name), *(replace(each, title="as described") for each in dashed)))
+    return {LOAD_ALONE.name: replace(own, finding=f"{finding}{own.finding}, dashed {given.finding}", panels=(panel,))}
 
 
 def corner_table(title: str, asked: Asked, case: Case, corner: Overrides) -> Table:
@@ -98,8 +99,8 @@ def corner_table(title: str, asked: Asked, case: Case, corner: Overrides) -> Tab
 
 def named(leaf: Leaf) -> str:
     """Title of an input; which one it is where there are several."""
-    places = [int(part) + 1 for part in leaf.path.split(".") if part.isdecimal()]
-    return " ".join([leaf.title, *map(str, places)])
+    places = [str(int(part) + 1) for part in leaf.path.split(".") if part.isdecimal()]
+    return " ".join([leaf.title, *([".".join(places)] if places else [])])
 
 
 def _uncertain(study: Asking, lines: list[Line], worst: Overrides) -> list[Uncertain]:

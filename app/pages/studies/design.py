@@ -105,7 +105,8 @@ def _result(study: Asking, lines: list[Line]) -> Result:
         **load_figure(
             case_at(asked, {**best, **end["worst_corner"]}, outputs),
             case_at(asked, start, outputs),
-            "each at its worst corner: ground so",
+            "ground so",
+            "each at its worst corner, dashed as described: ",
         ),
     }
     case, ground = case_at(asked, {}, outputs), case_at(asked, best, outputs)
