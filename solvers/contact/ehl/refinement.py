@@ -20,20 +20,14 @@ STEPS_ON_FINER = 20.0
 STEPS_ON_COARSER = 12
 # A step of the contact on half the nodes after which its numbers are known well enough: dP, dT [K].
 NEAR = (0.12, 12.0)
-# What is left of the difference that half as many nodes make, for each part of a number: 1/3 in second order; less is
-# observed where heat decides, and least at a spike.
-LEFT: dict[str, tuple[float, ...]] = {
-    "central_film": (1 / 3,),
-    "minimum_film": (1 / 3,),
-    "centre_pressure": (1 / 3,),
-    "friction": (1 / 2,),
-    "surface_1_flash": (1 / 2, 1 / 1.5),
-    "surface_2_flash": (1 / 2, 1 / 1.5),
-    "generated_heat": (1 / 2,),
-}
-# A fall of pressure between two nodes, in p_H. Half as many nodes have it between the same two, wherever it ought to
-# be, and so agree with the others more than either do with the truth: their difference then counts whole.
-STEEP = 0.5
+# What is left of the difference that half as many nodes make: 1/3 in second order. Where pressure falls steeply from
+# one node to the next, half as many nodes have the fall between the same two, wherever it ought to be, and agree with
+# the others more than either do with the truth: all of their difference is left where it falls by p_H/2.
+SECOND_ORDER = 1 / 3
+LEFT_BY_FALL = 2.0
+AT_INLET = {"central_film", "centre_pressure"}  # decided there, whatever the pressure does at the outlet
+BEFORE_SPIKES = 0.5  # half widths behind the centre: spikes of pressure stand further back
+KINKED = {"surface_1_flash": 0, "surface_2_flash": -1}  # and the surface's place across the film
 LEAST = {"friction": 1e-3, "surface_1_flash": 25.0, "surface_2_flash": 25.0}  # [-], [K]: smaller numbers count as these
 
 
@@ -88,44 +82,58 @@ def mesh_error(
         return None
     measures.settle(constants, coarse, resolution.thermal)
     fine, other = (_parts(inputs, constants, found) for found in (attempt, coarse))
-    steep = _steepest_fall(attempt) > STEEP
+    left = max(SECOND_ORDER, min(LEFT_BY_FALL * _steepest_fall(attempt), 1.0))
     errors = {}
     for name, parts in fine.items():
-        left = (1.0,) * len(parts) if steep else LEFT[name]
-        moved = sum(k * abs(a - b) for k, a, b in zip(left, parts, other[name], strict=True))
-        errors[name] = moved / max(abs(sum(parts)), LEAST.get(name, 0.0))
-    # Where the film is thinnest there flows what passes the centre.
+        moved = sum(abs(part - of_coarse) for part, of_coarse in zip(parts, other[name], strict=True))
+        missing = (SECOND_ORDER if name in AT_INLET else left) * moved
+        if name in KINKED:
+            missing = max(missing, _kink(attempt, KINKED[name]))
+        errors[name] = missing / max(abs(sum(parts)), LEAST.get(name, 0.0))
+    # What passes the centre flows where the film is thinnest, too.
     errors["minimum_film"] = max(errors["minimum_film"], errors["central_film"])
     return MeshError(**errors) if all(map(isfinite, errors.values())) else None
 
 
 def _steepest_fall(attempt: Attempt) -> float:
-    """The largest fall of P between two nodes behind the centre."""
+    """The largest fall of P from one node to the next, behind the centre."""
     return float(-np.diff(attempt.state.pressure[attempt.grid.x > 0.0]).min())
+
+
+def _kink(attempt: Attempt, surface: int) -> float:
+    """How far a surface's temperature at one node behind the centre stands above the mean of both neighbours [K].
+
+    The heat of a spike that no other node sees: as much again comes with a node that stands nearer to it.
+    """
+    t = attempt.state.temperature[attempt.grid.x > 0.0, surface]
+    return float((t[1:-1] - 0.5 * (t[:-2] + t[2:])).max())
 
 
 def _parts(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> dict[str, tuple[float, ...]]:
     """What is reported of a contact, but for local maxima, by the names of `MeshError`, as sums of parts.
 
-    A flash temperature is that of the centre and what is added up to its maximum: more nodes cool the one, as the film
-    thickens, and heat the other where it is the work of a spike. The errors of their sum can cancel on one mesh.
+    Friction, heat and flash temperatures are parted where spikes begin: more nodes thicken the film, so that there is
+    less heat before, and sharpen the spikes, so that there is more behind. Their sum can stay the same from one mesh to
+    the next and move on another.
     """
     heights = measures.film_heights(constants, attempt)
     parts: dict[str, tuple[float, ...]] = {
-        "central_film": (measures.at_centre(attempt, heights),),
+        "central_film": (measures.at_place(attempt, heights),),
         "minimum_film": (float(heights.min()),),
-        "centre_pressure": (measures.at_centre(attempt, attempt.state.pressure),),
-        "friction": (measures.friction_coefficient(constants, attempt, inputs),),
+        "centre_pressure": (measures.at_place(attempt, attempt.state.pressure),),
+        "friction": _before_and_behind(attempt, measures.friction_by_node(constants, attempt, inputs)),
     }
     if inputs.model.thermal:
-        temperature = attempt.state.temperature
-        parts["surface_1_flash"] = _flash_parts(attempt, temperature[:, 0], constants.bulk_1)
-        parts["surface_2_flash"] = _flash_parts(attempt, temperature[:, -1], constants.bulk_2)
-        parts["generated_heat"] = (measures.generated_heat(constants, attempt),)
+        parts["generated_heat"] = _before_and_behind(attempt, measures.heat_by_node(constants, attempt))
+        for name, surface in KINKED.items():
+            t = attempt.state.temperature[:, surface]
+            before = measures.at_place(attempt, t, BEFORE_SPIKES)
+            bulk = (constants.bulk_1, constants.bulk_2)[surface]
+            parts[name] = (before - bulk, float(t.max()) - before)
     return parts
 
 
-def _flash_parts(attempt: Attempt, surface: FloatArray, bulk: float) -> tuple[float, float]:
-    """Flash temperature of a surface in the centre, and how much higher its maximum is [K]."""
-    centre = measures.at_centre(attempt, surface)
-    return centre - bulk, float(surface.max()) - centre
+def _before_and_behind(attempt: Attempt, by_node: FloatArray) -> tuple[float, float]:
+    """Sums of what the nodes before and behind the place where spikes begin contribute (n,)."""
+    before = attempt.grid.x <= BEFORE_SPIKES
+    return float(by_node[before].sum()), float(by_node[~before].sum())
