@@ -140,7 +140,7 @@ def test_resolution_does_not_decide(check: object) -> None:
 SPIKES = [
     pytest.param(22, 4, id="cooler film and sharper spike cancel in the flash temperature"),
     pytest.param(22, 7, id="pressure falls between the same two nodes on both meshes"),
-    pytest.param(122, 26, id="film of the constriction meets itself on its way"),
+    pytest.param(122, 26, id="errors of the thinnest film cancel, not those of the centre"),
     pytest.param(122, 101, id="flash 5.2 % off, 0.03 % stated"),
     pytest.param(901, 35, id="friction before and behind the spike's place cancels"),
     pytest.param(901, 72, id="the hottest place moves onto the spike"),

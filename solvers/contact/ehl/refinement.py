@@ -24,6 +24,7 @@ NEAR = (0.12, 12.0)
 # one node to the next, half as many nodes have the fall between the same two, wherever it ought to be, and agree with
 # the others more than either do with the truth: all of their difference is left where it falls by p_H/2.
 SECOND_ORDER = 1 / 3
+LEFT = {"friction": 1 / 2, "generated_heat": 1 / 2}  # less than second order is observed where heat decides
 LEFT_BY_FALL = 2.0
 AT_INLET = {"central_film", "centre_pressure"}  # decided there, whatever the pressure does at the outlet
 BEFORE_SPIKES = 0.5  # half widths behind the centre: spikes of pressure stand further back
@@ -44,18 +45,19 @@ class Comparison:
     kinks: dict[str, float]
 
     def smooth_error(self) -> MeshError:
-        """What second order leaves: the part of the error that more nodes soon mend."""
-        return self._error(SECOND_ORDER, {})
+        """What is left where nothing is steep: the part of the error that more nodes soon mend."""
+        return self._error(0.0, {})
 
     def error(self) -> MeshError:
         """What is left, that of spikes included: no mesh here resolves those, and they may take more of it than one."""
-        return self._error(max(SECOND_ORDER, min(LEFT_BY_FALL * self.fall, 1.0)), self.kinks)
+        return self._error(min(LEFT_BY_FALL * self.fall, 1.0), self.kinks)
 
-    def _error(self, left: float, kinks: dict[str, float]) -> MeshError:
+    def _error(self, left_at_spike: float, kinks: dict[str, float]) -> MeshError:
         errors = {}
         for name, parts in self.fine.items():
             moved = sum(abs(part - of_coarse) for part, of_coarse in zip(parts, self.coarse[name], strict=True))
-            missing = max((SECOND_ORDER if name in AT_INLET else left) * moved, kinks.get(name, 0.0))
+            left = max(LEFT.get(name, SECOND_ORDER), 0.0 if name in AT_INLET else left_at_spike)
+            missing = max(left * moved, kinks.get(name, 0.0))
             errors[name] = missing / max(abs(sum(parts)), LEAST.get(name, 0.0))
         # What passes the centre flows where the film is thinnest, too.
         errors["minimum_film"] = max(errors["minimum_film"], errors["central_film"])
