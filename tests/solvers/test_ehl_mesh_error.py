@@ -116,20 +116,51 @@ def check_doubled_nodes(inputs: LineContactInputs) -> None:
 
 
 def check_doubled_film_nodes(inputs: LineContactInputs) -> None:
-    """Twice the nodes across the film move every number by less than 1 % or what the answer states."""
+    """Twice the nodes across the film move every number by less than 1 %, or 1.5 % where the answer states as much.
+
+    They move mu by 0.3 % mostly. The one number of some hundred contacts beyond 1 % is a friction of 0.0064 (1.06 %)
+    under a spike in the centre of a light contact (M = 1, L = 36), which leaves 3 to 7 % of it uncertain anyway.
+    """
     result = solve(inputs)
     doubled = solve(replace(inputs, model=replace(inputs.model, film_nodes=2 * inputs.model.film_nodes - 1)))
     if "no_solution" in {result.status, doubled.status}:
         return
     assert result.mesh_error is not None
     for name, moved in differences(result, doubled).items():
-        assert moved < max(0.01, result.mesh_error.known[name]), (name, inputs)
+        assert moved < max(0.01, min(result.mesh_error.known[name], 0.015)), (name, inputs)
 
 
 @pytest.mark.parametrize("check", [check_doubled_nodes, check_doubled_film_nodes])
 def test_resolution_does_not_decide(check: object) -> None:
     for inputs in random_contacts(AS_GIVEN, 8, seed=21):
         check(inputs)  # type: ignore[operator]
+
+
+# Newtonian contacts of which half the nodes once said too little: seed, index, what it was.
+SPIKES = [
+    pytest.param(22, 4, id="cooler film and sharper spike cancel in the flash temperature"),
+    pytest.param(22, 7, id="pressure falls between the same two nodes on both meshes"),
+    pytest.param(122, 26, id="errors of the thinnest film cancel, not those of the centre"),
+    pytest.param(122, 101, id="flash 5.2 % off, 0.03 % stated"),
+    pytest.param(901, 35, id="friction before and behind the spike's place cancels"),
+    pytest.param(901, 72, id="the hottest place moves onto the spike"),
+    pytest.param(903, 54, id="kink of the wall on one node"),
+]
+
+
+@pytest.mark.parametrize(("seed", "index"), SPIKES)
+def test_spikes_are_not_taken_for_resolved(seed: int, index: int) -> None:
+    check_doubled_nodes(random_contacts(replace(AS_GIVEN, rheology="newtonian"), index + 1, seed)[index])
+
+
+def test_what_a_spike_leaves_is_stated_rather_than_chased() -> None:
+    """Its smooth part is below 2 %, and more nodes would sharpen the spike."""
+    result = solve(random_contacts(Model(rheology="newtonian"), 35, seed=22)[34])
+    assert result.convergence.nodes == 121
+    assert result.mesh_error is not None
+    assert result.mesh_error.surface_1_flash is not None
+    assert 0.02 < result.mesh_error.surface_1_flash < 0.05  # 481 nodes: 3.9 %
+    assert "mesh_error" in {warning.code for warning in result.warnings}
 
 
 @pytest.mark.slow

@@ -46,7 +46,7 @@ class Temperatures:
 class Model:
     """Physics and resolution; eyring_stress [Pa], `nodes` along the contact, `film_nodes` across the film.
 
-    `refine` adds nodes until the estimated error of the mesh is below 2 %.
+    `refine` adds nodes until the estimated error of the mesh, but for what spikes of pressure leave, is below 2 %.
     The paper's film is Newtonian; near pure rolling its friction is not physical, so Ree-Eyring is the default.
     """
 

@@ -1,6 +1,6 @@
 """What the mesh costs in accuracy: the error estimated from half as many nodes, and a finer mesh where it is large."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import ceil, isfinite, log2, sqrt
 
 import numpy as np
@@ -24,11 +24,44 @@ NEAR = (0.12, 12.0)
 # one node to the next, half as many nodes have the fall between the same two, wherever it ought to be, and agree with
 # the others more than either do with the truth: all of their difference is left where it falls by p_H/2.
 SECOND_ORDER = 1 / 3
+LEFT = {"friction": 1 / 2, "generated_heat": 1 / 2}  # less than second order is observed where heat decides
 LEFT_BY_FALL = 2.0
 AT_INLET = {"central_film", "centre_pressure"}  # decided there, whatever the pressure does at the outlet
 BEFORE_SPIKES = 0.5  # half widths behind the centre: spikes of pressure stand further back
-KINKED = {"surface_1_flash": 0, "surface_2_flash": -1}  # and the surface's place across the film
+SURFACES = {"surface_1_flash": 0, "surface_2_flash": -1}  # places across the film
 LEAST = {"friction": 1e-3, "surface_1_flash": 25.0, "surface_2_flash": 25.0}  # [-], [K]: smaller numbers count as these
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """A contact and the same on half the nodes: numbers in parts, by the names of `MeshError`.
+
+    With the steepest fall of P from one node to the next and the kinks of the surfaces' temperatures [K].
+    """
+
+    fine: dict[str, tuple[float, ...]]
+    coarse: dict[str, tuple[float, ...]]
+    fall: float
+    kinks: dict[str, float]
+
+    def smooth_error(self) -> MeshError:
+        """What is left where nothing is steep: the part of the error that more nodes soon mend."""
+        return self._error(0.0, {})
+
+    def error(self) -> MeshError:
+        """What is left, that of spikes included: no mesh here resolves those, and they may take more of it than one."""
+        return self._error(min(LEFT_BY_FALL * self.fall, 1.0), self.kinks)
+
+    def _error(self, left_at_spike: float, kinks: dict[str, float]) -> MeshError:
+        errors = {}
+        for name, parts in self.fine.items():
+            moved = sum(abs(part - of_coarse) for part, of_coarse in zip(parts, self.coarse[name], strict=True))
+            left = max(LEFT.get(name, SECOND_ORDER), 0.0 if name in AT_INLET else left_at_spike)
+            missing = max(left * moved, kinks.get(name, 0.0))
+            errors[name] = missing / max(abs(sum(parts)), LEAST.get(name, 0.0))
+        # What passes the centre flows where the film is thinnest, too.
+        errors["minimum_film"] = max(errors["minimum_film"], errors["central_film"])
+        return MeshError(**errors)
 
 
 def refined(
@@ -39,9 +72,9 @@ def refined(
     It stays on its mesh if that is fine enough, the finest or all that was asked for, and if the finer one does not
     converge within the steps left. What decides is the contact itself, never how its solution was found.
     """
-    error = mesh_error(inputs, constants, resolution, attempt)
-    while inputs.model.refine and not acceptable(error) and resolution.nodes < FINEST:
-        resolution = replace(resolution, nodes=finer_nodes(resolution.nodes, error))
+    found = compared(inputs, constants, resolution, attempt)
+    while inputs.model.refine and not acceptable(found) and resolution.nodes < FINEST:
+        resolution = replace(resolution, nodes=finer_nodes(resolution.nodes, found))
         grid = grid_for(resolution.gap, resolution.nodes)
         guess = interpolate(attempt.state, attempt.grid.x, grid.x)
         steps = budget.part(STEPS_ON_FINER * price(resolution, resolution.nodes))
@@ -50,29 +83,29 @@ def refined(
             break
         attempt = finer
         measures.settle(constants, attempt, inputs.model.thermal)
-        error = mesh_error(inputs, constants, resolution, attempt)
-    return attempt, error
+        found = compared(inputs, constants, resolution, attempt)
+    return attempt, None if found is None else found.error()
 
 
-def acceptable(error: MeshError | None) -> bool:
-    """Whether a mesh is fine enough."""
-    return error is not None and error.largest <= LARGEST_MESH_ERROR
+def acceptable(found: Comparison | None) -> bool:
+    """Whether a mesh is so fine that a finer one is not worth its price."""
+    return found is not None and found.smooth_error().largest <= LARGEST_MESH_ERROR
 
 
-def finer_nodes(nodes: int, error: MeshError | None) -> int:
+def finer_nodes(nodes: int, found: Comparison | None) -> int:
     """Nodes that bring an error of second order below the limit, in steps of sqrt(2) so that meshes are shared."""
-    excess = 4.0 if error is None else min(error.largest / LARGEST_MESH_ERROR, 16.0)
+    excess = 4.0 if found is None else min(found.smooth_error().largest / LARGEST_MESH_ERROR, 16.0)
     half_octaves = max(ceil(log2(excess)), 1)
     return min(round((nodes - 1) * sqrt(2.0) ** half_octaves) + 1, FINEST)
 
 
-def mesh_error(
+def compared(
     inputs: LineContactInputs, constants: Problem, resolution: Resolution, attempt: Attempt
-) -> MeshError | None:
-    """Error of each number from its difference to the same contact on every other node (Richardson).
+) -> Comparison | None:
+    """A contact beside the same on every other node (Richardson); None if that is not found.
 
     So near is that contact that one Newton step mostly finds it; a spike or a film that runs hot takes more, as half
-    the nodes keep the peak they are given. None if it is not found.
+    the nodes keep the peak they are given.
     """
     grid = grid_for(resolution.gap, resolution.nodes // 2 + 1)
     state = interpolate(attempt.state, attempt.grid.x, grid.x)
@@ -82,17 +115,10 @@ def mesh_error(
         return None
     measures.settle(constants, coarse, resolution.thermal)
     fine, other = (_parts(inputs, constants, found) for found in (attempt, coarse))
-    left = max(SECOND_ORDER, min(LEFT_BY_FALL * _steepest_fall(attempt), 1.0))
-    errors = {}
-    for name, parts in fine.items():
-        moved = sum(abs(part - of_coarse) for part, of_coarse in zip(parts, other[name], strict=True))
-        missing = (SECOND_ORDER if name in AT_INLET else left) * moved
-        if name in KINKED:
-            missing = max(missing, _kink(attempt, KINKED[name]))
-        errors[name] = missing / max(abs(sum(parts)), LEAST.get(name, 0.0))
-    # What passes the centre flows where the film is thinnest, too.
-    errors["minimum_film"] = max(errors["minimum_film"], errors["central_film"])
-    return MeshError(**errors) if all(map(isfinite, errors.values())) else None
+    if not all(isfinite(sum(parts)) for found in (fine, other) for parts in found.values()):
+        return None
+    kinks = {name: _kink(attempt, surface) for name, surface in SURFACES.items()} if inputs.model.thermal else {}
+    return Comparison(fine, other, _steepest_fall(attempt), kinks)
 
 
 def _steepest_fall(attempt: Attempt) -> float:
@@ -125,7 +151,7 @@ def _parts(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> d
     }
     if inputs.model.thermal:
         parts["generated_heat"] = _before_and_behind(attempt, measures.heat_by_node(constants, attempt))
-        for name, surface in KINKED.items():
+        for name, surface in SURFACES.items():
             t = attempt.state.temperature[:, surface]
             before = measures.at_place(attempt, t, BEFORE_SPIKES)
             bulk = (constants.bulk_1, constants.bulk_2)[surface]
