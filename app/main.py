@@ -11,7 +11,7 @@ from app.answers import Answers
 from app.compression import Compression
 from app.protection import Protection
 from app.responses.common import MODEL_VERSION
-from app.routes import calculations, figures, pages, service, studies, vary
+from app.routes import calculations, figures, pages, service, studies, study_pages, vary
 from app.settings import MEBIBYTE, Settings
 from app.settings import settings as settings_from_environment
 from app.start_up import StartUp
@@ -50,7 +50,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         lifespan=lifespan,
         redoc_url=None,
     )
-    for routes in (calculations, figures, studies, pages, vary, service):
+    for routes in (calculations, figures, studies, pages, vary, study_pages, service):
         app.include_router(routes.router)
     problems.install(app)
     app.add_middleware(Compression)
