@@ -116,30 +116,30 @@ def test_reservoir_face(density: float, mach: float, pressure: float) -> None:
 
 def test_nozzle_law_down_to_any_pressure_drop() -> None:
     for drop in (1e-3, 1e-6, 1e-9, 1e-12):
-        squared = flux_squared(AIR, 1e5, 300.0, 1e5 * (1 - drop))[0]
         density = 1e5 / (AIR.constant * 300.0)
+        squared = flux_squared(AIR, 1e5, density, 1e5 * (1 - drop))[0]
         exact_drop = 1e5 - 1e5 * (1 - drop)
         assert squared == pytest.approx(2 * density * exact_drop, rel=2 * drop + 1e-12)
 
 
 @RANDOM
-@given(st.floats(1.0, 8.0), st.floats(200, 900))
-def test_nozzle_derivatives(ratio: float, temperature: float) -> None:
+@given(st.floats(1.0, 8.0), st.floats(0.1, 5.0))
+def test_nozzle_derivatives(ratio: float, density: float) -> None:
     up, down = ratio * 1e5, 1e5
     assume(abs(ratio - 1 / AIR.critical_ratio) > 1e-3)
     assume(ratio > 1 + 1e-4)
     for law in (mass_flux, flux_squared):
-        _, by_up, by_down = law(AIR, up, temperature, down)
+        _, by_up, by_down = law(AIR, up, density, down)
         step = 1e-6 * (up - down)
-        assert by_up == pytest.approx(difference(law, up, temperature, down, step, 0.0), rel=1e-4)
-        assert by_down == pytest.approx(difference(law, up, temperature, down, 0.0, step), rel=1e-4, abs=1e-12)
+        assert by_up == pytest.approx(difference(law, up, density, down, step, 0.0), rel=1e-4)
+        assert by_down == pytest.approx(difference(law, up, density, down, 0.0, step), rel=1e-4, abs=1e-12)
 
 
 Law = Callable[[Gas, float, float, float], tuple[float, float, float]]
 
 
-def difference(law: Law, up: float, temperature: float, down: float, d_up: float, d_down: float) -> float:
-    ahead, back = law(AIR, up + d_up, temperature, down + d_down)[0], law(AIR, up - d_up, temperature, down - d_down)[0]
+def difference(law: Law, up: float, density: float, down: float, d_up: float, d_down: float) -> float:
+    ahead, back = law(AIR, up + d_up, density, down + d_down)[0], law(AIR, up - d_up, density, down - d_down)[0]
     return (ahead - back) / (2 * (d_up + d_down))
 
 
@@ -166,11 +166,10 @@ def test_implicit_stage_meets_the_nozzle_law_and_closes_its_books(
     assert stage.energy == pytest.approx(energy - h * stage.energy_rate, rel=1e-12)
     inner = stage.energy - 0.5 * stage.momentum**2 / stage.mass
     assert stage.pressure == pytest.approx(0.4 * inner / area, rel=1e-9)
-    temperature = stage.pressure * area / (stage.mass * AIR.constant)
     if stage.pressure > AIR.pressure:
-        nozzle = gap * mass_flux(AIR, stage.pressure, temperature, AIR.pressure)[0]
+        nozzle = gap * mass_flux(AIR, stage.pressure, stage.mass / area, AIR.pressure)[0]
     else:
-        nozzle = -gap * mass_flux(AIR, AIR.pressure, AIR.temperature, stage.pressure)[0]
+        nozzle = -gap * mass_flux(AIR, AIR.pressure, AIR.density, stage.pressure)[0]
     density = stage.mass / area if transport > 0 else AIR.density
     expected = nozzle + walls.transport * density
     scale = abs(nozzle) + gap * 1e-4 * AIR.density * AIR.sound_speed + mass / h * 1e-9

@@ -102,10 +102,9 @@ def _passages(gas: Gas, left: Side, right: Side) -> tuple[Passage, Passage]:
     """
     forward = left.pressure >= right.pressure
     source, sink = (left, right) if forward else (right, left)
-    temperature = source.pressure * source.area / (source.mass * gas.constant)
-    flux, by_upstream, by_p_sink = mass_flux(gas, source.pressure, temperature, sink.pressure)
-    by_p, by_m = by_upstream - 0.5 * flux / source.pressure, 0.5 * flux / source.mass
-    heat = gas.heat_capacity * temperature
+    flux, by_p, by_p_sink = mass_flux(gas, source.pressure, source.mass / source.area, sink.pressure)
+    by_m = 0.5 * flux / source.mass
+    heat = gas.heat_capacity * source.pressure * source.area / (source.mass * gas.constant)
     energy, energy_by_p_sink = flux * heat, by_p_sink * heat
     energy_by_p, energy_by_m = by_p * heat + energy / source.pressure, by_m * heat - energy / source.mass
     if forward:

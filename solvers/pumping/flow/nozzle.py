@@ -12,7 +12,7 @@ _LINEAR = 1e-7  # relative pressure drop below which the flux is continued linea
 
 
 class Gas(NamedTuple):
-    """The perfect gas and its ambient state, SI."""
+    """The perfect gas and its ambient state, SI; ratios of pressure and density from rest to the speed of sound."""
 
     exponent: float
     constant: float
@@ -22,6 +22,7 @@ class Gas(NamedTuple):
     density: float
     sound_speed: float
     critical_ratio: float
+    critical_density_ratio: float
 
 
 def gas(ambient: Ambient) -> Gas:
@@ -36,43 +37,44 @@ def gas(ambient: Ambient) -> Gas:
         density=ambient.pressure / (constant * ambient.temperature),
         sound_speed=sqrt(exponent * constant * ambient.temperature),
         critical_ratio=(2.0 / (exponent + 1.0)) ** (exponent / (exponent - 1.0)),
+        critical_density_ratio=(2.0 / (exponent + 1.0)) ** (1.0 / (exponent - 1.0)),
     )
 
 
 @kernel
-def flux_squared(gas: Gas, upstream: float, temperature: float, downstream: float) -> tuple[float, float, float]:
-    """Square of the mass flux [kg/(s m^2)]^2 from stagnation (upstream, temperature) to a pressure not above it.
+def flux_squared(gas: Gas, upstream: float, density: float, downstream: float) -> tuple[float, float, float]:
+    """Square of the mass flux [kg/(s m^2)]^2 from rest at (upstream, density) to a pressure not above it.
 
-    With it the derivatives by the upstream and the downstream pressure. Exact down to any pressure drop; below a drop
-    of nought it goes on linearly, negative.
+    G^2 = 2 g/(g - 1) p rho y (y - x) with x the ratio of the pressures, y = x^(1/g) that of the densities. With it the
+    derivatives by the upstream and the downstream pressure at a fixed density upstream. Exact down to any pressure
+    drop; below a drop of nought it goes on linearly, negative.
     """
     g = gas.exponent
     drop = (upstream - downstream) / upstream
     if drop <= 0.0:
-        slope = 2.0 * upstream / (gas.constant * temperature)
+        slope = 2.0 * density
         return slope * (upstream - downstream), slope, -slope
-    scale = 2.0 * g / ((g - 1.0) * gas.constant * temperature) * upstream
+    scale = 2.0 * g / (g - 1.0) * density
     if drop >= 1.0 - gas.critical_ratio:
-        x = gas.critical_ratio
-        y = x ** (1.0 / g)
-        choked = scale * upstream * y * (y - x)
-        return choked, 2.0 * choked / upstream, 0.0
+        x, y = gas.critical_ratio, gas.critical_density_ratio
+        slope = scale * y * (y - x)
+        return slope * upstream, slope, 0.0
     grown = np.expm1(np.log1p(-drop) / g)
     y, x = 1.0 + grown, 1.0 - drop
-    by_upstream = scale * (1.0 - 1.0 / g) * y * (2.0 * y - x)
+    by_upstream = scale * y * (y + (x - 2.0 * y) / g)
     by_downstream = scale * y / x * (2.0 * y / g - (1.0 + 1.0 / g) * x)
     return scale * upstream * y * (grown + drop), by_upstream, by_downstream
 
 
 @kernel
-def mass_flux(gas: Gas, upstream: float, temperature: float, downstream: float) -> tuple[float, float, float]:
-    """Mass flux G [kg/(s m^2)] and its derivatives by upstream and downstream pressure at fixed temperature."""
+def mass_flux(gas: Gas, upstream: float, density: float, downstream: float) -> tuple[float, float, float]:
+    """Mass flux G [kg/(s m^2)] and its derivatives by upstream and downstream pressure at fixed density upstream."""
     drop = (upstream - downstream) / upstream
     if drop < _LINEAR:
-        edge = flux_squared(gas, upstream, temperature, upstream * (1.0 - _LINEAR))[0]
+        edge = flux_squared(gas, upstream, density, upstream * (1.0 - _LINEAR))[0]
         slope = np.sqrt(edge) / (_LINEAR * upstream)
         return slope * (upstream - downstream), slope, -slope
-    squared, by_upstream, by_downstream = flux_squared(gas, upstream, temperature, downstream)
+    squared, by_upstream, by_downstream = flux_squared(gas, upstream, density, downstream)
     flux = np.sqrt(squared)
     return flux, 0.5 * by_upstream / flux, 0.5 * by_downstream / flux
 

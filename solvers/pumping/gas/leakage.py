@@ -118,13 +118,13 @@ def _outflow(gas: Gas, walls: Walls, mass: float, inner: float, h: float, guess:
     out = min(guess, 0.5 * mass / h)
     for _ in range(_NEWTON_LIMIT):
         content = (mass - h * out) / thinned
-        enthalpy = g / (g - 1.0) * area / content
+        density = content / area
+        enthalpy = g / (g - 1.0) / density
         pressure = inner / (stiffness + h * out * enthalpy)
-        temperature = pressure * area / (content * gas.constant)
-        squared, by_pressure, _ = flux_squared(gas, pressure, temperature, gas.pressure)
+        squared, by_pressure, _ = flux_squared(gas, pressure, density, gas.pressure)
         shrink = h / (content * thinned)
         pressure_slope = -pressure * pressure / inner * h * enthalpy * (1.0 + out * shrink)
-        slope = by_pressure * pressure_slope - squared * (pressure_slope / pressure + shrink)
+        slope = by_pressure * pressure_slope - squared * shrink
         new = _improved(out, gap**2 * squared, gap**2 * slope)
         new = min(max(new, 0.0), 0.5 * (out + mass / h))
         if abs(new - out) <= _TOLERANCE * new:
@@ -141,7 +141,7 @@ def _inflow(gas: Gas, walls: Walls, energy: float, momentum: float, mass: float,
     for _ in range(_NEWTON_LIMIT):
         content = mass + h * inflow
         pressure = (energy + h * inflow * heat - 0.5 * momentum**2 / content) / stiffness
-        squared, _, by_pressure = flux_squared(gas, gas.pressure, gas.temperature, pressure)
+        squared, _, by_pressure = flux_squared(gas, gas.pressure, gas.density, pressure)
         slope = by_pressure * h * (heat + 0.5 * (momentum / content) ** 2) / stiffness
         new = _improved(inflow, gap**2 * squared, gap**2 * slope)
         if abs(new - inflow) <= _TOLERANCE * new:

@@ -93,6 +93,7 @@ def front_face(gas: Gas, speed: float, rho: float, v: float, p: float) -> tuple[
         gas.density * warming ** (1.0 / (g - 1.0)),
         gas.sound_speed * np.sqrt(warming),
         gas.critical_ratio,
+        gas.critical_density_ratio,
     )
     rho_f, v_f, p_f, _ = reservoir_face(wind, rho, v - head, p)
     return rho_f, v_f + head, p_f

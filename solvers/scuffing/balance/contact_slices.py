@@ -125,14 +125,13 @@ def _range(mesh: Mesh, line: float, zone: FloatArray, table: FloatArray, first: 
 
 
 @kernel
-def load_at(mesh: Mesh, error: float, x: float, y: float, omega: float) -> tuple[float, float]:
-    """Line load w [N/m] at one point of the plane under the approach `error` [m], and omega, guessed by `omega`."""
-    points_per_metre = mesh.compliance.points_per_metre
+def load_under(compliance: PairCompliance, approach: float, x: float, omega: float) -> tuple[float, float]:
+    """Line load w [N/m] of a pair pressed together by `approach` [m] at x [m], and omega, guessed by `omega`."""
     load, _, omega = line_load(
-        error - gap_at(mesh.gap, x, y),
-        tabulated(mesh.compliance.constant, points_per_metre, x),
-        mesh.compliance.logarithmic,
-        tabulated(mesh.compliance.limit, points_per_metre, x),
+        approach,
+        tabulated(compliance.constant, compliance.points_per_metre, x),
+        compliance.logarithmic,
+        tabulated(compliance.limit, compliance.points_per_metre, x),
         omega,
     )
     return load, omega

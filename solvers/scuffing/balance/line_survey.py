@@ -8,9 +8,9 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.gears.path_of_contact import reduced_radius
-from solvers.scuffing.balance.contact_slices import GAP, LENGTH, LIMIT, LINE, LOAD, Mesh, X, Y, load_at
+from solvers.scuffing.balance.contact_slices import GAP, LENGTH, LIMIT, LINE, LOAD, Mesh, X, Y, load_under
 from solvers.scuffing.flank.contact_lines import COINCIDENT, line_count, line_ends
-from solvers.scuffing.flank.modification import MOST_EDGES, smooth_parts
+from solvers.scuffing.flank.modification import MOST_EDGES, gap_at, smooth_parts
 
 VALUE, AT_X, AT_Y = range(3)  # columns of peaks
 EQUAL = 1e-9  # peaks nearer than this, relatively, are the same; a spur gear's single pair has the same load all along
@@ -100,7 +100,7 @@ def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Sur
             for edge in edges[: smooth_parts(mesh.gap, line, plane.tan_base_helix, (low, high), edges)]:
                 y = min(edge, plane.face_width)
                 x = min(max(line - y * plane.tan_base_helix, 0.0), plane.path_length)
-                load, _ = load_at(mesh, error, x, y, 0.0)
+                load, _ = load_under(mesh.compliance, error - gap_at(mesh.gap, x, y), x, 0.0)
                 _note_peaks(mesh, survey, i, load, (x, y))
 
 

@@ -18,10 +18,11 @@ from solvers.arrays import FloatArray, IntArray
 from solvers.compiled import kernel
 from solvers.errors import NoSolution
 from solvers.gears.path_of_contact import ContactPlane
-from solvers.scuffing.balance.contact_slices import OMEGA, Cover, Mesh, gather, load_at, slice_table
+from solvers.scuffing.balance.contact_slices import OMEGA, Cover, Mesh, gather, load_under, slice_table
 from solvers.scuffing.balance.line_survey import Survey, empty_survey, survey_ends, survey_slices
 from solvers.scuffing.balance.position_balance import TOLERANCE, solve_near
 from solvers.scuffing.flank.contact_lines import RollPositions
+from solvers.scuffing.flank.modification import gaps_at
 
 MAX_COVERS = 20  # of the lines of one roll position by slices
 SETTLED = 1e-6  # change of the approach between two covers
@@ -185,23 +186,31 @@ def _error_at(plane: ContactPlane, phase: FloatArray, error: FloatArray, x: floa
 
 
 @kernel
-def _line_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
+def _line_loads(
+    mesh: Mesh, phase: FloatArray, error: FloatArray, x: FloatArray, y: FloatArray, gap: FloatArray
+) -> FloatArray:
+    plane, compliance = mesh.plane, mesh.compliance
     loads, omega = np.empty(x.size), 0.0
     for i in range(x.size):
-        local = _error_at(mesh.plane, phase, error, x[i], y[i])
-        loads[i], omega = load_at(mesh, local, x[i], y[i], omega)
+        approach = _error_at(plane, phase, error, x[i], y[i]) - gap[i]
+        loads[i], omega = load_under(compliance, approach, x[i], omega)
     return loads
 
 
-def line_loads(balance: LoadBalance, x: FloatArray, y: FloatArray) -> FloatArray:
-    """Line load w [N/m] at points (x, y) of the plane, arrays of one shape; 0 where the flanks stand apart."""
+def line_loads(balance: LoadBalance, x: FloatArray, y: FloatArray, gap: FloatArray | None = None) -> FloatArray:
+    """Line load w [N/m] at points (x, y) of the plane, arrays of one shape; 0 where the flanks stand apart.
+
+    `gap` is Delta [m] there, where it is known already.
+    """
     if balance.force == 0.0:
         return np.zeros(np.shape(x))
+    found = gaps_at(balance.mesh.gap, x, y) if gap is None else gap
     loads = _line_loads(
         balance.mesh,
         balance.rolls.phase,
         balance.transmission_error,
         np.ravel(x).astype(float),
         np.ravel(y).astype(float),
+        np.ravel(found),
     )
     return loads.reshape(np.shape(x))

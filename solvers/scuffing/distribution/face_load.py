@@ -4,10 +4,10 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.scuffing.balance.contact_slices import Mesh, load_at
+from solvers.scuffing.balance.contact_slices import Mesh, load_under
 from solvers.scuffing.balance.load_balance import LoadBalance, line_loads
 from solvers.scuffing.flank.contact_lines import line_count
-from solvers.scuffing.flank.modification import kinks_along_face
+from solvers.scuffing.flank.modification import kinks_along_face, lead_gap, profile_gap
 
 SUBSTEPS = 4  # of a step between roll positions, where lines are loaded in part
 FACE_POINTS = 101
@@ -61,21 +61,27 @@ def _face_loads(
     starts: FloatArray,
     ends: FloatArray,
 ) -> FloatArray:
-    """Trapezia along the path from A to E, whose loads are known, over the roll positions whose lines pass between."""
-    plane, loads, omega = mesh.plane, np.zeros(y.size), 0.0
+    """Trapezia along the path from A to E, whose loads are known, over the roll positions whose lines pass between.
+
+    Each step between roll positions ends where the next begins, but for those at which TE jumps.
+    """
+    plane, compliance, form = mesh.plane, mesh.compliance, mesh.gap
+    loads, omega = np.zeros(y.size), 0.0
     for k in range(y.size):
-        x, load = 0.0, starts[k]
+        x, load, across = 0.0, starts[k], lead_gap(form, y[k])
         for j in range(line_count(plane)):
             for i in range(phase.size - 1):
                 first = phase[i] + j * plane.base_pitch - y[k] * plane.tan_base_helix
                 step = (phase[i + 1] - phase[i]) / substeps
-                for n in range(substeps + 1 if step > 0.0 else 0):
+                jumped = i == 0 or phase[i] == phase[i - 1]
+                for n in range(0 if jumped else 1, substeps + 1 if step > 0.0 else 0):
                     following = first + n * step
                     if not 0.0 < following < plane.path_length:
                         continue
-                    local = error[i] + (error[i + 1] - error[i]) * n / substeps
+                    approach = error[i] + (error[i + 1] - error[i]) * n / substeps
+                    approach -= profile_gap(form, following) + across
                     before = load
-                    load, omega = load_at(mesh, local, following, y[k], omega)
+                    load, omega = load_under(compliance, approach, following, omega)
                     loads[k] += 0.5 * (before + load) * (following - x)
                     x = following
         loads[k] += 0.5 * (load + ends[k]) * (plane.path_length - x)

@@ -15,11 +15,12 @@ def flank(balance: LoadBalance, modulus: float, profile_points: int, face_points
     plane = balance.mesh.plane
     profile, face = np.linspace(0.0, 1.0, profile_points), np.linspace(0.0, 1.0, face_points)
     x, y = np.meshgrid(profile * plane.path_length, face * plane.face_width, indexing="ij")
-    load = line_loads(balance, x, y)
+    gap = gaps_at(balance.mesh.gap, x, y)
+    load = line_loads(balance, x, y, gap)
     return Flank(
         profile_fraction=frozen(profile),
         face_fraction=frozen(face),
-        modification=frozen(gaps_at(balance.mesh.gap, x, y)),
+        modification=frozen(gap),
         line_load=frozen(load),
         pressure=frozen(contact_pressure(balance, x, load, modulus)),
     )

@@ -115,16 +115,27 @@ def _relief(amplitude: float, length: float, distance: float, exponent: float) -
 
 
 @kernel
-def gap_at(form: Gap, x: float, y: float) -> float:
-    """Delta [m] at distance x [m] from A and y [m] from the end that meshes first; positive: material missing."""
+def profile_gap(form: Gap, x: float) -> float:
+    """The part of Delta [m] that changes along the path, at distance x [m] from A."""
     xi = x / form.path_length - 0.5
-    eta = y / form.face_width - 0.5
-    value = 4.0 * form.profile_crowning * xi * xi + 4.0 * form.lead_crowning * eta * eta
-    value += form.profile_slope * xi + form.helix_slope * eta
+    value = 4.0 * form.profile_crowning * xi * xi + form.profile_slope * xi
     value += _relief(form.tip_relief, form.tip_relief_length, form.path_length - x, form.exponent)
-    value += _relief(form.root_relief, form.root_relief_length, x, form.exponent)
+    return value + _relief(form.root_relief, form.root_relief_length, x, form.exponent)
+
+
+@kernel
+def lead_gap(form: Gap, y: float) -> float:
+    """The part of Delta [m] that changes over the face, at y [m] from the end that meshes first."""
+    eta = y / form.face_width - 0.5
+    value = 4.0 * form.lead_crowning * eta * eta + form.helix_slope * eta
     value += tabulated(form.lead, (form.lead.size - 1) / form.face_width, y)
     return value + _relief(form.end_relief, form.end_relief_length, min(y, form.face_width - y), form.exponent)
+
+
+@kernel
+def gap_at(form: Gap, x: float, y: float) -> float:
+    """Delta [m] at distance x [m] from A and y [m] from the end that meshes first; positive: material missing."""
+    return profile_gap(form, x) + lead_gap(form, y)
 
 
 @kernel
