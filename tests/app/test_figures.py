@@ -439,11 +439,16 @@ def test_shaft_lines_carry_the_reactions_at_their_bearings() -> None:
 def test_thrust_names_the_bearing_of_each_limit_where_they_differ() -> None:
     request, answer = solved("starter-generator-gear-drive-train")
 
+    def bearing(shaft: Any, ultimate: float | None) -> Any:
+        thrust = shaft.thrust_bearing.model_copy(update={"ultimate_load_n": ultimate})
+        return shaft.model_copy(update={"thrust_bearing": thrust})
+
     def limits(pinion: float | None, wheel: float | None) -> set[tuple[str, float]]:
-        given = request.model_copy(deep=True)
-        given.pinion_shaft.thrust_bearing.ultimate_load_n = pinion
-        given.wheel_shaft.thrust_bearing.ultimate_load_n = wheel
-        (panel,) = drive_train.thrust(given, answer).panels
+        shafts = {
+            "pinion_shaft": bearing(request.pinion_shaft, pinion),
+            "wheel_shaft": bearing(request.wheel_shaft, wheel),
+        }
+        (panel,) = drive_train.thrust(request.model_copy(update=shafts), answer).panels
         assert {-level.value for level in panel.levels} == {level.value for level in panel.levels}
         return {(level.name, level.value) for level in panel.levels if level.value > 0.0}
 
