@@ -15,10 +15,10 @@ Pairs = list[tuple[str, str]]
 
 # What a study of a case varies or may choose, how often, and which output it shows.
 LOWER, UPPER, TRIALS = "low.", "high.", "trials"
-MOST_CHOSEN = 10
+CHOSEN = 3  # ranges of a search
 STUDY_NAMES = frozenset(
     {f"{axis}{part}" for axis in ("x", "y") for part in ("", ".from", ".to", ".count", ".scale")}
-    | {f"{end}{place}" for end in (LOWER, UPPER) for place in range(MOST_CHOSEN)}
+    | {f"{end}{place}" for end in (LOWER, UPPER) for place in range(CHOSEN)}
     | {"show", "best", TRIALS}
 )
 VIEW_NAMES = STUDY_NAMES | {"ref", "theme", "curve", "paper", "project", "part", "author", "checker", "notes"}

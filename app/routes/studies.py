@@ -135,6 +135,7 @@ async def run_sweep(
 
     Lines are `sweep`, then `point` in order with the first axis slowest, `progress` when nothing else was sent for two
     seconds, and `end`; or `error`, which ends a study that broke off. A stream without `end` or `error` was cut off.
+    The end of a sample tells 5, 50 and 95 % quantiles and in `quantile_bounds` what holds each with 90 % confidence.
     """
     raise NotImplementedError(body, written_as)  # documents the endpoint; StudyRoute answers
 

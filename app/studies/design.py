@@ -40,11 +40,15 @@ class Choice:
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """A correction, its objective at its worst case, and that case; None where a case has no answer."""
+    """A correction, its objective at its worst case, and that case; None where a case has no answer.
+
+    `figures` are what the search makes small: the objective at every case, with a sign.
+    """
 
     correction: Overrides
     objective: float | None
     worst: Overrides
+    figures: list[float] | None = None
 
     def line(self, index: int) -> Line:
         """The line of the trial."""
@@ -77,11 +81,11 @@ class Design:
         """All lines but those of progress: the variables, a line a trial, the end."""
         yield [self._header()]
         trials: list[Trial] = []
-        figures: list[float | None] = []
+        figures: list[list[float] | None] = []
         while shares := await twice_if_lost(pool, next_trial, self.start, figures, self.evaluations):
             trial = await self._judged(pool, clock, shares)
             trials.append(trial)
-            figures.append(None if trial.objective is None else self.sign * trial.objective)
+            figures.append(trial.figures)
             yield [trial.line(len(trials) - 1)]
             if figures[0] is None:
                 message = "the unit that the search starts from has no answer at its worst corner"
@@ -102,8 +106,9 @@ class Design:
                 if objective is None:
                     return Trial(correction, None, self.cases[index])
                 objectives.append(objective)
-        worst = max(range(len(objectives)), key=lambda k: self.sign * objectives[k])
-        return Trial(correction, objectives[worst], self.cases[worst])
+        figures = [self.sign * objective for objective in objectives]
+        worst = max(range(len(figures)), key=lambda k: figures[k])
+        return Trial(correction, objectives[worst], self.cases[worst], figures)
 
     def _correction(self, shares: Sequence[float]) -> Overrides:
         return {
@@ -142,16 +147,16 @@ class Design:
         }
 
 
-def next_trial(start: Sequence[float], figures: Sequence[float | None], most: int) -> list[float] | None:
+def next_trial(start: Sequence[float], figures: Sequence[list[float] | None], most: int) -> list[float] | None:
     """Where the search looks next, in shares of the ranges, or None at its end; runs in a worker.
 
-    The search itself is run again up to there: it takes a millisecond a trial, and needs no thread that waits.
+    The search itself is run again up to there: it takes some milliseconds a trial, and needs no thread that waits.
     """
     told = iter(figures)
 
-    def judge(shares: FloatArray) -> float | None:
-        for figure in told:
-            return figure
+    def judge(shares: FloatArray) -> FloatArray | None:
+        for found in told:
+            return None if found is None else np.array(found)
         raise _Asked(shares.tolist())
 
     try:

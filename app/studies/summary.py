@@ -11,7 +11,6 @@ from app.studies.plan import Plan
 from app.studies.points import Point
 from app.studies.requests import Best
 
-QUANTILES = (0.05, 0.5, 0.95)
 LEAST_CORRELATED = 3
 NOTHING = float("nan")
 
@@ -120,17 +119,24 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, int | float)
 
 
-NO_STATISTICS: dict[str, Any] = {"quantiles": None, "rank_correlation": None}
+NO_STATISTICS: dict[str, Any] = {"quantiles": None, "quantile_bounds": None, "rank_correlation": None}
 
 
 def statistics(
     inputs: np.ndarray[Any, Any], outputs: np.ndarray[Any, Any], input_paths: list[str], output_paths: list[str]
 ) -> dict[str, Any]:
-    """Quantiles and rank correlation of a random sample, a row a point; runs in a worker."""
+    """Quantiles with their bounds and rank correlation of a random sample, a row a point; runs in a worker.
+
+    Bounds hold a quantile with 90 % confidence, whatever the distribution; null where the sample is too small for one.
+    """
+    from solvers.drive_train.studies.tolerances import QUANTILES, quantile  # noqa: PLC0415  as spearmanr below
+
     there = {path: ~np.isnan(outputs[:, place]) for place, path in enumerate(output_paths)}
     columns = {path: outputs[there[path], place] for place, path in enumerate(output_paths) if there[path].any()}
+    found = {path: [quantile(np.sort(values), share) for share in QUANTILES] for path, values in columns.items()}
     return {
-        "quantiles": {path: np.quantile(values, QUANTILES).tolist() for path, values in columns.items()},
+        "quantiles": {path: [each.value for each in own] for path, own in found.items()},
+        "quantile_bounds": {path: [[each.low, each.high] for each in own] for path, own in found.items()},
         "rank_correlation": {
             path: {
                 name: _rank_correlation(inputs[there[path], place], values) for place, name in enumerate(input_paths)

@@ -17,6 +17,7 @@ from app.evaluate import evaluate
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, Role
 from app.figures.drawing.image import draw
+from app.figures.models import drive_train
 from app.figures.registry import figures_of
 from app.figures.tables import table
 from app.library import examples
@@ -433,3 +434,31 @@ def test_shaft_lines_carry_the_reactions_at_their_bearings() -> None:
         assert sorted(mark.x for mark in panel.marks) == sorted(2 * [each.position_mm for each in given.bearings])
         heights = [value for bearing in state.bearings for value in bearing.displacement_um]
         assert sorted(mark.y for mark in panel.marks) == pytest.approx(sorted(heights), abs=1e-6)
+
+
+def test_thrust_names_the_bearing_of_each_limit_where_they_differ() -> None:
+    request, answer = solved("starter-generator-gear-drive-train")
+
+    def bearing(shaft: Any, ultimate: float | None) -> Any:
+        thrust = shaft.thrust_bearing.model_copy(update={"ultimate_load_n": ultimate})
+        return shaft.model_copy(update={"thrust_bearing": thrust})
+
+    def limits(pinion: float | None, wheel: float | None) -> set[tuple[str, float]]:
+        shafts = {
+            "pinion_shaft": bearing(request.pinion_shaft, pinion),
+            "wheel_shaft": bearing(request.wheel_shaft, wheel),
+        }
+        (panel,) = drive_train.thrust(request.model_copy(update=shafts), answer).panels
+        assert {-level.value for level in panel.levels} == {level.value for level in panel.levels}
+        return {(level.name, level.value) for level in panel.levels if level.value > 0.0}
+
+    assert limits(None, None) == set()
+    assert limits(None, 4e4) == limits(4e4, 4e4) == {("half the ultimate load", 2e4)}
+    assert limits(2e4, 4e4) == {("half the ultimate, pinion", 1e4), ("half the ultimate, wheel", 2e4)}
+
+
+def test_rounding_errors_are_no_misalignment() -> None:
+    request, answer = solved("starter-generator-gear-drive-train")
+    parts = answer.misalignment.model_copy(update={"thermal_slope_um": -7.6e-15, "thermal_range_um": 12.0})
+    finding = drive_train.gap(request, answer.model_copy(update={"misalignment": parts})).finding
+    assert "heat 0 µm" in finding

@@ -36,6 +36,12 @@ def asked(name: str = UNIT, **said: str) -> Asked:
     return Asked(page_path(BY_PATH[example.endpoint]), pairs_of(example.request), said)
 
 
+def small(**said: str) -> Asked:
+    """A unit with two corners."""
+    whole = asked(**said)
+    return Asked(whole.path, [*whole.pairs, ("effects.coupling", "false")], said)
+
+
 def answered(study: Asking) -> list[dict[str, Any]]:
     async def run() -> list[dict[str, Any]]:
         clock = Clock(study.study.total)
@@ -47,7 +53,8 @@ def answered(study: Asking) -> list[dict[str, Any]]:
 
 @cache
 def studied(page: StudyPage) -> tuple[Asking, list[dict[str, Any]], str]:
-    study = pages.planned(page, asked(trials="5"), MOST, DEADLINE_S)
+    found = small(trials="5") if page is DESIGN else asked()
+    study = pages.planned(page, found, MOST, DEADLINE_S)
     lines = answered(study)
     return study, lines, unescape(pages.whole(study, lines).decode())
 
@@ -146,7 +153,7 @@ def test_what_is_wrong_stands_at_its_control(said: dict[str, str], control: str)
 
 @pytest.mark.parametrize("page", [CORNERS, DESIGN], ids=lambda page: page.offer.name)
 def test_a_unit_without_the_output_says_which_to_choose(page: StudyPage) -> None:
-    bare = asked()
+    bare = small()
     without = Asked(bare.path, [pair for pair in bare.pairs if not pair[0].startswith("temperatures.scuffing")])
     study = pages.planned(page, without, MOST, DEADLINE_S)
     text = pages.whole(study, answered(study)).decode()
@@ -161,14 +168,14 @@ def test_a_study_that_breaks_off_says_why(page: StudyPage) -> None:
 
 
 def test_links_alone_lead_from_a_unit_to_its_worst_corner_and_to_what_to_grind(client: httpx.Client) -> None:
-    page = unescape(client.get(asked().links.page).text)
+    page = unescape(client.get(small().links.page).text)
     for offer in offers_of(BY_PATH["/v1/drive-train"]):
-        assert f'href="{asked().links.study(offer.name)}"' in page
+        assert f'href="{small().links.study(offer.name)}"' in page
     start = unescape(client.get("/drive-train/corners").text)
     assert f'href="{asked().links.study("corners")}"' in start
     coupling = unescape(client.get("/coupling/corners", follow_redirects=False).text)
     assert "not found" in coupling.lower()
-    found = client.get(asked().links.study("corners"))
+    found = client.get(small().links.study("corners"))
     assert found.status_code == 200
     assert found.text.rstrip().endswith("</html>")
     assert "Open the worst corner" in found.text
@@ -176,7 +183,7 @@ def test_links_alone_lead_from_a_unit_to_its_worst_corner_and_to_what_to_grind(c
 
 
 def test_lines_and_figures_by_their_addresses(client: httpx.Client) -> None:
-    links = asked().links
+    links = small().links
     lines = [json.loads(line) for line in client.get(links.view("corners.ndjson")).text.splitlines()]
     assert [lines[0]["type"], lines[-1]["type"]] == ["corners", "end"]
     svg = client.get(links.view("corners/figures/corners.svg"))

@@ -18,6 +18,8 @@ from app.figures.rendering import MEDIA_TYPES
 from app.figures.sweep import MOST_CURVES, Coordinate, Grid, figures_of
 from app.library import examples
 from app.pages.query import STUDY_NAMES, VIEW_NAMES, body_of, pairs_of, pairs_of_query, split_views
+from app.pages.studies import page as pages
+from app.pages.studies.design import DESIGN
 from app.pages.templating import page_path
 from app.pages.vary import views
 from app.pages.vary.choices import shown_outputs, varied
@@ -372,7 +374,9 @@ def test_a_posted_study_is_the_same(client: httpx.Client) -> None:
 
 
 def test_the_names_of_a_study_are_those_of_its_form() -> None:
-    page = views.opened(asked(COUPLING, x="operation.torque_n_m"), MOST, DEADLINE_S).head.decode()
-    names = set(re.findall(r'<(?:input|select)\b[^>]*?\bname="([^"]+)"', page))
-    assert names >= STUDY_NAMES
-    assert names - STUDY_NAMES == set(dict(asked(COUPLING).pairs))
+    varied_one, unit = asked(COUPLING, x="operation.torque_n_m"), asked("starter-generator-gear-drive-train")
+    forms = [views.opened(varied_one, MOST, DEADLINE_S), pages.opened(DESIGN, unit, MOST, DEADLINE_S)]
+    found = [set(re.findall(r'<(?:input|select)\b[^>]*?\bname="([^"]+)"', form.head.decode())) for form in forms]
+    assert set.union(*found) >= STUDY_NAMES
+    for names, case in zip(found, (varied_one, unit), strict=True):
+        assert names - STUDY_NAMES == set(dict(case.pairs))

@@ -47,6 +47,19 @@ def with_distribution(inputs: DriveTrainInputs, distribution: LoadDistributionIn
 # Today's load distribution
 
 
+def test_an_even_load_of_a_spur_gear_is_even_at_the_stations() -> None:
+    """Its lines run along the face, where slices and stations would beat against each other."""
+    inputs = replace(turbo_gear(), effects=NO_EFFECTS)
+    distribution = inputs.mesh.distribution
+    gears = replace(distribution.gears, helix_angle=0.0)
+    inputs = replace(
+        with_distribution(inputs, replace(distribution, gears=gears)),
+        pumping=replace(inputs.pumping, gears=replace(inputs.pumping.gears, helix_angle=0.0)),
+    )
+    force = solve(inputs).misalignment.curves.line_force
+    assert force == pytest.approx(np.full(force.size, force.mean()), rel=1e-9)
+
+
 @pytest.mark.parametrize("rigid", ["no effects", "stiff shafts in rigid bearings"])
 def test_rigid_shafts_are_todays_load_distribution(rigid: str) -> None:
     inputs = replace(turbo_gear(GROUND), effects=Effects(coupling=False, thermal=False))

@@ -262,10 +262,11 @@ def test_a_search_keeps_away_from_where_there_is_no_solution(scale: float) -> No
     """Whatever the size of the figure: its best is at 0.6, beyond 0.7 there is nothing."""
     tried: list[tuple[float, float | None]] = []
 
-    def judge(unit: FloatArray) -> float | None:
-        figure = None if unit[0] > 0.7 else scale * (1.0 + abs(float(unit[0]) - 0.6))
-        tried.append((float(unit[0]), figure))
-        return figure
+    def judge(unit: FloatArray) -> FloatArray | None:
+        x = float(unit[0])
+        figures = None if x > 0.7 else scale * (1.0 + np.array([x - 0.6, 0.6 - x]))
+        tried.append((x, None if figures is None else float(figures.max())))
+        return figures
 
     search(judge, np.array([0.2]), 40)
     assert any(figure is None for _, figure in tried)

@@ -4,6 +4,7 @@ import asyncio
 import csv
 import io
 import json
+from math import comb
 from typing import Any
 
 import numpy as np
@@ -61,7 +62,7 @@ def test_lines_of_a_grid() -> None:
     low, high = int(np.argmin(thrust)), int(np.argmax(thrust))
     assert end["ranges"][THRUST] == {"min": [thrust[low], low], "max": [thrust[high], high]}
     assert set(end["ranges"]) == {THRUST, FILM}
-    assert end["quantiles"] is end["rank_correlation"] is end["best"] is None
+    assert end["quantiles"] is end["quantile_bounds"] is end["rank_correlation"] is end["best"] is None
     assert "friction.static_coefficient" not in {each["field"] for each in end["assumptions"]}
 
 
@@ -160,6 +161,11 @@ def test_statistics_of_a_sample() -> None:
     at, thrust = np.array([point["at"] for point in points]), np.array([point["out"][0] for point in points])
     assert set(end["quantiles"]) == set(end["rank_correlation"]) == {THRUST}
     assert end["quantiles"][THRUST] == np.quantile(thrust, [0.05, 0.5, 0.95]).tolist()
+    ordered, bounds = np.sort(thrust).tolist(), end["quantile_bounds"][THRUST]
+    assert bounds == [[None, ordered[4]], [ordered[14], ordered[25]], [ordered[35], None]]
+    for share, beyond in ((0.05, 4), (0.5, 14), (0.5, 25)):
+        within = sum(comb(40, k) * share**k * (1 - share) ** (40 - k) for k in range(beyond + 1))
+        assert within < 0.05 if beyond == 14 else within >= 0.95
     for place, each in enumerate(ranges):
         expected = spearmanr(at[:, place], thrust).statistic
         assert end["rank_correlation"][THRUST][each["path"]] == pytest.approx(expected, abs=1e-15)

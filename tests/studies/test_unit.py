@@ -209,22 +209,23 @@ def test_the_search_is_the_solvers() -> None:
 def test_trials_told_one_by_one_are_those_of_one_search() -> None:
     """A ridge, and a corner of the square without solution."""
 
-    def figure(shares: FloatArray) -> float | None:
+    def figures(shares: FloatArray) -> FloatArray | None:
         x, y = shares
-        return None if x + y > 1.5 else 2.0 + max(abs(x - 0.7), 2 * abs(y - x / 2)) + 0.1 * float(x * y)
+        return None if x + y > 1.5 else 2.0 + np.array([abs(x - 0.7), 2 * (y - x / 2), x - 2 * y]) + 0.1 * x * y
 
     whole: list[list[float]] = []
 
-    def judge(shares: FloatArray) -> float | None:
+    def judge(shares: FloatArray) -> FloatArray | None:
         whole.append(shares.tolist())
-        return figure(shares)
+        return figures(shares)
 
     search(judge, np.array([0.2, 0.9]), 30)
-    told: list[float | None] = []
+    told: list[list[float] | None] = []
     for expected in whole:
         shares = next_trial([0.2, 0.9], told, 30)
         assert shares == expected
-        told.append(figure(np.array(shares)))
+        found = figures(np.array(shares))
+        told.append(None if found is None else found.tolist())
     assert next_trial([0.2, 0.9], told, 30) is None
     assert len(whole) <= 30
 

@@ -43,7 +43,14 @@ def draw_rows(axes: Axes, panel: Panel, x: Range, width: float, height: float, t
     for row in panel.rows:
         if row.name in names:
             others = [each for each in panel.rows if each.name == row.name and each is not row]
-            _row(canvas, row, PITCH * (len(own) - names.index(row.name) - 0.5), panel.x, others)
+            _row(
+                canvas,
+                row,
+                PITCH * (len(own) - names.index(row.name) - 0.5),
+                panel.x,
+                others,
+                crossed=bool(panel.levels),
+            )
     for level in panel.levels:
         name_level(canvas, level)
 
@@ -68,8 +75,11 @@ def _written(canvas: Canvas, value: float, axis: Axis) -> str:
     return number(0.0 if noise else value, axis.unit or "")
 
 
-def _row(canvas: Canvas, row: Row, middle: float, axis: Axis, others: Sequence[Row]) -> None:
-    """One bar with its name and value, which stands beyond the bars of `others` in the same place."""
+def _row(canvas: Canvas, row: Row, middle: float, axis: Axis, others: Sequence[Row], *, crossed: bool) -> None:
+    """One bar with its name and value, which stands beyond the bars of `others` in the same place.
+
+    Where levels may have `crossed` the value, it hides them.
+    """
     theme, thick = canvas.theme, BAR * PITCH
     color, variant = theme.drawing[row.hue], row.role is Role.VARIANT
     canvas.axes.add_patch(
@@ -98,6 +108,6 @@ def _row(canvas: Canvas, row: Row, middle: float, axis: Axis, others: Sequence[R
     x = float(canvas.x.places(tip)) * canvas.placer.width
     x = x + 0.06 if row.value >= 0.0 else x - width - 0.06
     place = canvas.placer.place(text, TEXT, [(x, middle - height / 2 - 0.01)], bold=True)
-    canvas.write(place, text, TEXT, theme.ink, bold=True)
+    canvas.write(replace(place, over_curve=crossed), text, TEXT, theme.ink, bold=True)
     name = Place(-text_width(row.name, TEXT) - 0.08, middle - height / 2 - 0.01, over_curve=False)
     canvas.write(name, row.name, TEXT, theme.writing[row.hue])

@@ -19,6 +19,7 @@ from solvers.drive_train.inputs import DriveTrainInputs, Effects
 
 OWN = "own derivation"
 NEWTONS = 1e3  # per kilonewton
+NOISE = 1e-9
 FACE = Axis("position on the face, from the end that meshes first", "mm", magnitude=False)
 PARTS = (
     ("bearings of the pinion", "films_pinion", Hue.BLUE),
@@ -59,7 +60,8 @@ def _shaft(request: DriveTrainRequest, name: str, given: UnitShaft, state: Shaft
         lines.append(line)
         for bearing, found in zip(given.bearings, state.bearings, strict=True):
             height = float(np.interp(bearing.position_mm, z, line.y))
-            marks.append(Mark(bearing.position_mm, height, number(found.reaction_n[plane] / NEWTONS, "kN"), hue))
+            reaction = _felt(found.reaction_n[plane], hypot(*found.reaction_n)) / NEWTONS
+            marks.append(Mark(bearing.position_mm, height, number(reaction, "kN"), hue))
     hubs = [Level(each.position_mm, "hub", vertical=True) for each in request.couplings if each.shaft == name]
     return Panel(
         x=axis,
@@ -69,6 +71,11 @@ def _shaft(request: DriveTrainRequest, name: str, given: UnitShaft, state: Shaft
         levels=tuple(hubs),
         spans=(Span(request.face_start_mm, request.face_start_mm + request.gears.face_width_mm, "face"),),
     )
+
+
+def _felt(value: float, whole: float) -> float:
+    """The value; what is rounding error beside the whole is zero."""
+    return 0.0 if abs(value) < NOISE * abs(whole) else value
 
 
 def gap(_: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
@@ -83,7 +90,14 @@ def gap(_: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
         Line("in all", y, values(curves.total_um), Hue.PURPLE),
     )
     axis = Axis("gap, positive where the flanks part", "µm", magnitude=False)
-    slopes = f"shafts {number(found.shaft_slope_um)}, heat {number(found.thermal_slope_um, 'µm')} over the face"
+    shafts, heat = (
+        _felt(slope, span)
+        for slope, span in (
+            (found.shaft_slope_um, found.shaft_range_um),
+            (found.thermal_slope_um, found.thermal_range_um),
+        )
+    )
+    slopes = f"shafts {number(shafts)}, heat {number(heat, 'µm')} over the face"
     wanted = f"grind {number(found.recommended_helix_slope_um, 'µm')} of helix slope"
     return Figure(f"{slopes}; {wanted}", (Panel(x=FACE, y=axis, lines=lines),))
 
@@ -163,14 +177,14 @@ def thrust(request: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
         )
         for name, state in zip(("pinion", "wheel"), shafts, strict=True)
     )
-    usable = {
-        0.5 * given.thrust_bearing.ultimate_load_n
-        for given in (request.pinion_shaft, request.wheel_shaft)
-        if given.thrust_bearing.ultimate_load_n is not None
-    }
+    given = (("pinion", request.pinion_shaft.thrust_bearing), ("wheel", request.wheel_shaft.thrust_bearing))
+    usable = {name: 0.5 * bearing.ultimate_load_n for name, bearing in given if bearing.ultimate_load_n is not None}
+    alike = len(set(usable.values())) == 1
     levels = [
-        Level(sign * load, "half the ultimate load" if sign > 0.0 else "", limit=True, vertical=True)
-        for load in usable
+        Level(sign * load, text if sign > 0.0 else "", limit=True, vertical=True)
+        for load, text in dict.fromkeys(
+            (load, "half the ultimate load" if alike else f"half the ultimate, {name}") for name, load in usable.items()
+        )
         for sign in (1.0, -1.0)
     ]
     turning = [name for name, state in zip(("pinion", "wheel"), shafts, strict=True) if state.thrust.reverses]

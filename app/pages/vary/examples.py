@@ -100,6 +100,14 @@ STUDIES = (
         "starter-turbo-gear-drive-train",
         _axis("x", "operation.power_kw", 4000, 16000, 7) | {"show": "safety.minimum", "best": "greatest"},
     ),
+    StudyExample(
+        "How evenly does the face carry, over speed and power?",
+        "face load factor as a map of 9 by 9 units",
+        "starter-turbo-gear-drive-train",
+        _axis("x", "operation.pinion_speed_rpm", 4000, 12000, 9)
+        | _axis("y", "operation.power_kw", 3000, 15000, 9)
+        | {"show": "load.face_load_factor"},
+    ),
 )
 
 

@@ -35,7 +35,8 @@ LEAST_STEP = 1 / 64
 class LoadedMesh:
     """The mesh under a gap `fixed` [m] at points of the face, the stations among them, and the shafts' on top.
 
-    `scale` turns the force of its contacts into the transverse force that the shafts carry.
+    `scale` turns the force of its contacts into the transverse force that the shafts carry. Lines that run along the
+    face have whole numbers of slices between stations, or some would get more of them than others.
     """
 
     prepared: PreparedMesh
@@ -67,7 +68,10 @@ class LoadedMesh:
 
     def respond(self, gap: FloatArray, start: FaceResponse | None = None) -> FaceResponse:
         """Force of the contacts at the stations, from the response to a similar gap."""
-        return face_response(self.under(gap), self.prepared.rolls, self.force, self.slices, self.stations.size, start)
+        count, slices = self.stations.size, self.slices
+        if self.prepared.path.plane.tan_base_helix == 0.0:
+            slices = -(-slices // (count - 1)) * (count - 1)
+        return face_response(self.under(gap), self.prepared.rolls, self.force, slices, count, start)
 
     def balance(self, gap: FloatArray, near: FaceResponse | None = None) -> LoadBalance:
         """The balance of the load with the shafts' gap [m], from the response to a similar gap."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
-from scipy.optimize import Bounds, minimize
+from scipy.optimize import Bounds, NonlinearConstraint, minimize
 
 from solvers.arrays import FloatArray
 from solvers.drive_train.inputs import DriveTrainInputs
@@ -19,7 +19,9 @@ EVALUATIONS = 60
 FIRST_STEP = 0.15  # of a variable's range
 LAST_STEP = 2e-3
 LEAST_GAIN = 1e-3  # of the start's figure, that another search must bring
-HOPELESS = 10.0  # of the start's figure; stands for a unit without solution
+STEEP = 0.2  # of the start's figure, which weighs as much as a variable's range
+HOPELESS = 5.0  # above the worst known; stands for a unit without solution
+MOST_STEPS = 100  # of the search for each evaluation; those that change the level alone cost nothing
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,14 +78,14 @@ def design(
     history: list[Trial] = []
     worst: list[dict[str, Any]] = []
 
-    def judge(unit: FloatArray) -> float | None:
+    def judge(unit: FloatArray) -> FloatArray | None:
         values = low + unit * (high - low)
-        figure, corner = _worst(inputs, variables, values, cases, objective)
-        history.append(Trial(tuple(values.tolist()), None if figure is None else sign * figure))
+        figures, corner = _figures(inputs, variables, values, cases, objective)
+        history.append(Trial(tuple(values.tolist()), None if figures is None else sign * float(figures.max())))
         worst.append(corner)
         if progress is not None:
             progress(len(history), evaluations)
-        return figure
+        return figures
 
     search(judge, (own - low) / (high - low), evaluations)
     best = min(
@@ -106,42 +108,65 @@ def _known(trial: Trial) -> float:
     return trial.objective
 
 
-def search(judge: Callable[[FloatArray], float | None], start: FloatArray, evaluations: int) -> None:
-    """Make the judge's figure small over the unit cube; None is a place without solution.
+def search(judge: Callable[[FloatArray], FloatArray | None], start: FloatArray, evaluations: int) -> None:
+    """Make the largest of the judge's figures small over the unit cube; None is a place without solution.
 
-    By COBYQA, which takes no derivatives. Its models may get stuck on a ridge where two corners are equally bad, so it
-    begins anew at the best place while that gains anything. Raises NoSolution design where the start has none.
+    By COBYQA, which takes no derivatives, on the place and a level that no figure may exceed and that is made small:
+    so every corner has a smooth model of its own, and a ridge where two are equally bad holds nothing up. It begins
+    anew at the best place while that gains anything. Raises NoSolution design where the start has none.
     """
-    known: list[tuple[float, FloatArray]] = []
-    scale = 0.0
+    known: dict[bytes, FloatArray] = {}
+    first = judge(np.clip(start, 0.0, 1.0))
+    if first is None:
+        raise NoSolution("design", "the unit the search starts from has no solution at some corner")
+    scale = STEEP * abs(float(first.max())) or 1.0
+    known[np.clip(start, 0.0, 1.0).tobytes()] = first / scale
 
-    def relative(unit: FloatArray) -> float:
-        nonlocal scale
-        unit = np.clip(unit, 0.0, 1.0)
-        figure = judge(unit)
-        if not known and figure is None:
-            raise NoSolution("design", "the unit the search starts from has no solution at some corner")
-        scale = scale or abs(figure or 0.0) or 1.0
-        known.append((HOPELESS if figure is None else figure / scale, unit))
-        return known[-1][0]
+    def figures(place: FloatArray) -> FloatArray:
+        unit = np.clip(place[:-1], 0.0, 1.0)
+        if unit.tobytes() not in known:
+            if len(known) == evaluations:
+                raise _Spent
+            found = judge(unit)
+            worst = max(float(each.max()) for each in known.values())
+            known[unit.tobytes()] = np.full(first.size, worst + HOPELESS) if found is None else found / scale
+        return known[unit.tobytes()]
 
-    place, before = np.clip(start, 0.0, 1.0), np.inf
-    while len(known) < evaluations:
-        minimize(
-            relative,
-            place,
-            method="COBYQA",
-            bounds=Bounds(np.zeros(start.size), np.ones(start.size)),
-            options={
-                "maxfev": evaluations - len(known),
-                "initial_tr_radius": FIRST_STEP,
-                "final_tr_radius": LAST_STEP,
-            },
-        )
-        figure, place = min(known, key=lambda trial: trial[0])
-        if before - figure < LEAST_GAIN:
+    before = np.inf
+    while (best := min(known, key=lambda unit: float(known[unit].max()))) and (
+        before - (level := float(known[best].max())) >= LEAST_GAIN / STEEP
+    ):
+        before = level
+        try:
+            _descend(figures, np.append(np.frombuffer(best), level), evaluations)
+        except _Spent:
             return
-        before = figure
+
+
+class _Spent(Exception):
+    """As many places have been judged as may be."""
+
+
+def _descend(figures: Callable[[FloatArray], FloatArray], start: FloatArray, evaluations: int) -> None:
+    """Lower the level, the last of the start's components, which no figure of the place before it may exceed."""
+    free = np.full(start.size - 1, 1.0)
+
+    def level(place: FloatArray) -> float:
+        figures(place)
+        return float(place[-1])
+
+    minimize(
+        level,
+        start,
+        method="COBYQA",
+        bounds=Bounds(np.append(0.0 * free, -np.inf), np.append(free, np.inf)),
+        constraints=[NonlinearConstraint(lambda place: figures(place) - place[-1], -np.inf, 0.0)],
+        options={
+            "maxfev": MOST_STEPS * evaluations,
+            "initial_tr_radius": FIRST_STEP,
+            "final_tr_radius": LAST_STEP,
+        },
+    )
 
 
 def _cases(
@@ -158,14 +183,14 @@ def _cases(
     return cases
 
 
-def _worst(
+def _figures(
     inputs: DriveTrainInputs,
     variables: Sequence[Variable],
     values: FloatArray,
     cases: list[dict[str, Any]],
     objective: Objective,
-) -> tuple[float | None, dict[str, Any]]:
-    """The figure to be made small at its worst case, and that case; None at a case without solution."""
+) -> tuple[FloatArray | None, dict[str, Any]]:
+    """The figures to be made small at every case, and the worst case; None at a case without solution."""
     chosen = {name: float(value) for variable, value in zip(variables, values, strict=True) for name in variable.names}
     found = []
     for case in cases:
@@ -176,5 +201,4 @@ def _worst(
         if figure is None:
             return None, case
         found.append(-figure if objective == "safety" else figure)
-    k = int(np.argmax(found))
-    return float(found[k]), cases[k]
+    return np.array(found), cases[int(np.argmax(found))]

@@ -119,7 +119,7 @@ def _distribution(names: list[str], samples: FloatArray, values: FloatArray, req
     ordered = np.sort(values)
     constant = ordered[0] == ordered[-1] or bool(np.isnan(ordered).any())
     return Distribution(
-        quantiles=tuple(_quantile(ordered, share) for share in QUANTILES),
+        quantiles=tuple(quantile(ordered, share) for share in QUANTILES),
         share_below=None if required is None else float(np.mean(values < required)),
         rank_correlation={
             name: 0.0 if constant else float(spearmanr(samples[:, i], values).statistic) for i, name in enumerate(names)
@@ -127,7 +127,7 @@ def _distribution(names: list[str], samples: FloatArray, values: FloatArray, req
     )
 
 
-def _quantile(ordered: FloatArray, share: float) -> Quantile:
+def quantile(ordered: FloatArray, share: float) -> Quantile:
     """The quantile and the order statistics that hold it with 90 % confidence: ranks are binomial."""
     runs, tail = ordered.size, (1 - CONFIDENCE) / 2
     low, high = int(binom.ppf(tail, runs, share)) - 1, int(binom.ppf(1 - tail, runs, share))
