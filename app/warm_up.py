@@ -1,11 +1,12 @@
 """The stages in which kernels are compiled and loaded: examples that between them touch every one.
 
-`python -m app.warm_up` compiles all of them and keeps the machine code on disk; with names of stages, only those.
+`python -m app.warm_up` compiles all of them and keeps the machine code on disk.
 """
 
-import sys
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache
+from importlib import import_module
 
 from numba.core import event
 
@@ -44,12 +45,15 @@ LINE_CONTACT = Stage("line contact", 153, ("xue-line-contact", "xue-line-contact
 
 DRIVE_TRAIN = Stage("drive train", 8, ("starter-turbo-gear-drive-train", "starter-generator-gear-drive-train"))
 
+# Slow to load or asked for by studies: random samples need scipy.stats, a drawing half a second and 70 MB.
+FIGURES = Stage("figures and studies", 0, ())
+MODULES = ("scipy.stats", "app.figures.drawing.image", "app.studies.sweep")
+DRAWN = COUPLING.examples[0]
+
 # What two cores compile side by side, each in this order; no stage needs kernels of one in the other track but the
 # drive train, which needs all: it comes last in the longer track and compiles what the other has not yet.
-TRACKS = ((COUPLING, SLEEVE, LOADS, PUMPING), (LINE_CONTACT, DRIVE_TRAIN))
+TRACKS = ((COUPLING, SLEEVE, LOADS, PUMPING, FIGURES), (LINE_CONTACT, DRIVE_TRAIN))
 STAGES = tuple(stage for track in TRACKS for stage in track)
-
-DRAWN = COUPLING.examples[0]  # loads what draws figures
 
 
 def content() -> str:
@@ -67,38 +71,64 @@ def _first_stages() -> dict[str, Stage]:
     return {examples()[name].endpoint: stage for stage in reversed(STAGES) for name in reversed(stage.examples)}
 
 
+def stage_of(name: str) -> Stage:
+    """The stage of this name."""
+    return next(stage for stage in STAGES if stage.name == name)
+
+
 def calculate(name: str) -> None:
     """Answer one example."""
     example = examples()[name]
     calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
+    answer(calculation, calculation.request.model_validate(example.request))
+
+
+def warm(stage: Stage) -> None:
+    """Load what the stage needs; kernels that are not kept are compiled."""
+    for name in stage.examples:
+        calculate(name)
+    if stage is FIGURES:
+        for module in MODULES:
+            import_module(module)
+        _draw()
+
+
+def _draw() -> None:
+    """Load what draws figures."""
+    example = examples()[DRAWN]
+    calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
     request = calculation.request.model_validate(example.request)
-    answer(calculation, request)
-    if name == DRAWN:
-        render(calculation, figures_of(calculation.path)[0], request, "svg", "light")
+    render(calculation, figures_of(calculation.path)[0], request, "svg", "light")
 
 
 class _Ticks(event.Listener):
-    """Prints a line for every kernel compiled, for the service to count."""
+    """Tells of every kernel compiled, for the service to count."""
+
+    def __init__(self, tell: Callable[[str], None]) -> None:
+        self._tell = tell
 
     def on_start(self, event: object) -> None:
         """A compilation begins: nothing to tell."""
 
     def on_end(self, _event: object) -> None:
         """A kernel is compiled."""
-        print("kernel", flush=True)  # noqa: T201
+        self._tell("kernel")
 
 
-def main(names: list[str]) -> None:
-    """Compile these stages, or all."""
-    event.register("numba:compile", _Ticks())
-    for stage in STAGES:
-        if not names or stage.name in names:
-            for name in stage.examples:
-                calculate(name)
-            print("stage", stage.name, flush=True)  # noqa: T201
-    if not names:
-        mark_complete(content())
+def compile_stages(stages: Iterable[Stage], tell: Callable[[str], None]) -> None:
+    """Have the kernels of these stages on disk; `tell` hears "kernel" and "stage ..." when one is."""
+    event.register("numba:compile", _Ticks(tell))
+    for stage in stages:
+        for name in stage.examples:
+            calculate(name)
+        tell(f"stage {stage.name}")
+
+
+def main() -> None:
+    """Compile all stages."""
+    compile_stages(STAGES, print)
+    mark_complete(content())
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()
