@@ -9,8 +9,7 @@ one that other kernels are compiled against.
 from collections.abc import Callable
 from typing import Any, ParamSpec, TypeVar, cast
 
-from llvmlite import binding
-from numba.core.codegen import JITCodeLibrary
+from numba.core.codegen import JITCodeLibrary, ll  # type: ignore[attr-defined]  # numba's way to llvmlite
 from numba.core.compiler import Compiler
 from numba.core.registry import CPUDispatcher
 
@@ -37,28 +36,28 @@ def inlined_kernel(function: Callable[P, R]) -> Callable[P, R]:
 
 
 class _LinkedOnly(JITCodeLibrary):
-    """The code of a bare kernel: optimised for others to link in; of its machine code, only the variables."""
+    """The code of a bare kernel: optimised for others to link in; as machine code there are only its variables."""
 
-    def _finalize_final_module(self) -> None:
+    def _finalize_final_module(self: Any) -> None:
         self._finalize_dynamic_globals()
         self._verify_declare_only_symbols()
         self._finalized = True
         linked = self._get_module_for_linking()
-        variables = [str(each) for each in linked.global_variables if each.linkage is binding.Linkage.common]
-        self._final_module = binding.parse_assembly(
-            "\n".join([str(self._codegen._create_empty_module(self.name)), *variables])
-        )
-        super()._finalize_final_module()
+        empty = str(self._codegen._create_empty_module(self.name))
+        variables = [str(each) for each in linked.global_variables if each.linkage is ll.Linkage.common]
+        self._final_module = ll.parse_assembly("\n".join([empty, *variables]))
+        JITCodeLibrary._finalize_final_module(self)
 
 
 class _BareCompiler(Compiler):
     """Numba's compiler with such a library in place of its own."""
 
-    def compile_extra(self, function: Callable[..., Any]) -> Any:
+    def compile_extra(self: Any, function: Callable[..., Any]) -> Any:
         """Compile the function."""
-        self.state.library = _LinkedOnly(self.state.targetctx.codegen(), function.__qualname__)
+        library: Any = _LinkedOnly
+        self.state.library = library(self.state.targetctx.codegen(), function.__qualname__)
         self.state.library.enable_object_caching()
-        return super().compile_extra(function)
+        return Compiler.compile_extra(self, function)
 
 
 class _Cached(CPUDispatcher):

@@ -9,7 +9,9 @@ sends one command at a time:
     reap PID         forget a process that has ended
     warm STAGE       load the kernels of a stage
 
-Garbage collection is off here, and on in every copy. A process id is free for another process only after `reap`: the service can never signal a stranger.
+Garbage collection is off here, and on in every copy.
+
+A process id is free for another process only after `reap`: the service can never signal a stranger.
 """
 
 import gc
