@@ -5,7 +5,6 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import cache
 from importlib import import_module
 
 from numba.core import event
@@ -20,33 +19,38 @@ from solvers.kernel_cache import mark_complete
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """A part of a model that becomes ready as a whole; `kernels` is about how many compilations it takes."""
+    """A part of a model that becomes ready as a whole, and the endpoints that then answer.
+
+    `kernels` is about how many compilations it takes.
+    """
 
     name: str
     kernels: int
+    endpoints: tuple[str, ...]
     examples: tuple[str, ...]
 
 
-COUPLING = Stage("coupling", 47, ("pahl-axial-displacement",))
-SLEEVE = Stage("coupling sleeve", 27, ("pahl-sleeve-orbit", "pahl-z-arrangement"))
-LOADS = Stage("load distribution", 59, ("fzg-type-a", "xue-pair-1-modified"))
-PUMPING = Stage(
-    "pumping",
-    106,
-    (
-        "milian-case-1",
-        "milian-case-1-choking",
-        "milian-case-1-groove",
-        "milian-case-1-pocket-chain",
-        "milian-table-1-incompressible",
-    ),
+COUPLING = Stage("coupling", 47, ("/v1/coupling",), ("pahl-axial-displacement",))
+SLEEVE = Stage(
+    "coupling sleeve",
+    27,
+    ("/v1/coupling/sleeve-orbit", "/v1/coupling/recommendation"),
+    ("pahl-sleeve-orbit", "pahl-z-arrangement"),
 )
-LINE_CONTACT = Stage("line contact", 130, ("xue-line-contact", "xue-line-contact-isothermal", "xue-pair-1-thermal"))
-
-DRIVE_TRAIN = Stage("drive train", 12, ("starter-turbo-gear-drive-train", "starter-generator-gear-drive-train"))
+LOADS = Stage("load distribution", 59, ("/v1/scuffing/load-distribution",), ("fzg-type-a",))
+PUMPING = Stage(
+    "pumping", 106, ("/v1/pumping", "/v1/pumping/choking-speed"), ("milian-case-1", "milian-case-1-pocket-chain")
+)
+LINE_CONTACT = Stage(
+    "line contact",
+    130,
+    ("/v1/scuffing/line-contact", "/v1/scuffing"),
+    ("xue-line-contact", "xue-line-contact-isothermal", "xue-pair-1-thermal"),
+)
+DRIVE_TRAIN = Stage("drive train", 12, ("/v1/drive-train",), ("starter-turbo-gear-drive-train",))
 
 # Slow to load or asked for by studies: random samples need scipy.stats, a drawing half a second and 70 MB.
-FIGURES = Stage("figures and studies", 0, ())
+FIGURES = Stage("figures and studies", 0, (), ())
 MODULES = ("scipy.stats", "app.figures.drawing.image", "app.studies.sweep")
 DRAWN = COUPLING.examples[0]
 
@@ -62,13 +66,8 @@ def content() -> str:
 
 
 def needed_for(endpoint: str) -> Stage:
-    """The stage after which an endpoint answers: the first with an example of it, else the last of all."""
-    return _first_stages().get(endpoint, STAGES[-1])
-
-
-@cache
-def _first_stages() -> dict[str, Stage]:
-    return {examples()[name].endpoint: stage for stage in reversed(STAGES) for name in reversed(stage.examples)}
+    """The stage after which an endpoint answers."""
+    return next((stage for stage in STAGES if endpoint in stage.endpoints), STAGES[-1])
 
 
 def stage_of(name: str) -> Stage:
