@@ -11,7 +11,7 @@ from app.answers import Answers
 from app.compression import Compression
 from app.protection import Protection
 from app.responses.common import MODEL_VERSION
-from app.routes import calculations, figures, pages, service, studies, vary
+from app.routes import calculations, figures, pages, service, studies, study_pages, vary
 from app.settings import MEBIBYTE, settings
 from app.start_up import StartUp
 from app.studies.office import Office
@@ -47,7 +47,7 @@ def create_app(template: ForkServer) -> FastAPI:
         lifespan=lifespan,
         redoc_url=None,
     )
-    for routes in (calculations, figures, studies, pages, vary, service):
+    for routes in (calculations, figures, studies, pages, vary, study_pages, service):
         app.include_router(routes.router)
     problems.install(app)
     app.add_middleware(Compression)

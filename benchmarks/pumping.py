@@ -1,17 +1,17 @@
-"""Times pumping on one core: geometry table, flow models, choking search, and the compiled gas step against numpy.
+"""Times of pumping: geometry table, flow models, choking search, and the compiled gas step against numpy.
 
-Run from the project's root: python -m benchmarks.pumping. Kernels are warm; the best of several repeats counts.
+Run from the project's root: python -m benchmarks.pumping [--against REVISION]
 """
 
 from collections.abc import Callable
 from dataclasses import replace
 from math import pi
-from time import perf_counter
 
 import numpy as np
 
 from app.published.milian import CASE_1, CASE_2
 from benchmarks.pumping_numpy import numpy_step
+from benchmarks.timing import Figure, print_times
 from solvers.gears.inputs import GearPairInputs
 from solvers.gears.pair import gear_pair
 from solvers.pumping import (
@@ -36,17 +36,6 @@ from solvers.pumping.spaces import face_stretches, prepare, space_duct
 
 ONE_SET = PumpingModel(spaces=Spaces.PINION)
 SPEED = 9267 * pi / 30
-
-
-def best(task: Callable[[], object], repeats: int = 7) -> float:
-    """Shortest time of a task [s], after one run to warm up."""
-    task()
-    times = []
-    for _ in range(repeats):
-        start = perf_counter()
-        task()
-        times.append(perf_counter() - start)
-    return min(times)
 
 
 def operating_point(gears: GearPairInputs, rpm: float, model: PumpingModel) -> Callable[[], object]:
@@ -81,31 +70,24 @@ def mid_stroke() -> tuple[Callable[[], object], Callable[[], object], float]:
     return compiled, vectorised, float((np.abs(cells.next_state - other.next_state) / scale).max())
 
 
-def main() -> None:
-    """Print the table."""
-    pair = gear_pair(CASE_1)
-    space = tooth_space(pair, 0.3e-3, Gap.CONTACT, of_pinion=True)
+def figures() -> tuple[Figure, ...]:
+    """The rows of the table."""
+    space = tooth_space(gear_pair(CASE_1), 0.3e-3, Gap.CONTACT, of_pinion=True)
     chain = replace(ONE_SET, flow=Flow.POCKET_CHAIN)
     search = ChokingInputs(PumpingSetup(CASE_1, model=ONE_SET), 60000 * pi / 30)
     both = ChokingInputs(PumpingSetup(CASE_1), 60000 * pi / 30)
-    rows = [
-        ("geometry table of one gear, 361 positions", best(lambda: stroke_table(space)), 30.0),
-        ("gas dynamics, 100 cells, case 1, 9267 rpm", best(operating_point(CASE_1, 9267, ONE_SET)), 50.0),
-        ("gas dynamics, 100 cells, case 2, 8962 rpm", best(operating_point(CASE_2, 8962, ONE_SET)), 50.0),
-        ("pocket chain, 10 pockets, case 1", best(operating_point(CASE_1, 9267, chain)), 40.0),
-        ("choking speeds, one set of spaces", best(lambda: choking_speeds(search), 3), 1000.0),
-        ("choking speeds, both sets", best(lambda: choking_speeds(both), 3), 1000.0),
-    ]
-    print(f"{'figure':45} {'measured':>12} {'target':>12}")
-    for name, seconds, target in rows:
-        print(f"{name:45} {1e3 * seconds:9.2f} ms {target:9.0f} ms")
-    compiled, vectorised, difference = mid_stroke()
-    fast, slow = best(compiled, 200), best(vectorised, 50)
-    print(
-        f"one gas step of 100 cells: compiled {1e6 * fast:.0f} us, numpy {1e6 * slow:.0f} us, ratio {slow / fast:.1f}"
+    compiled, vectorised, _ = mid_stroke()
+    return (
+        Figure("geometry table of one gear, 361 positions", lambda: stroke_table(space), 30.0),
+        Figure("gas dynamics, 100 cells, case 1, 9267 rpm", operating_point(CASE_1, 9267, ONE_SET), 18.0),
+        Figure("gas dynamics, 100 cells, case 2, 8962 rpm", operating_point(CASE_2, 8962, ONE_SET), 18.0),
+        Figure("pocket chain, 10 pockets, case 1", operating_point(CASE_1, 9267, chain), 10.0),
+        Figure("choking speeds, one set of spaces", lambda: choking_speeds(search), 1000.0),
+        Figure("choking speeds, both sets", lambda: choking_speeds(both), 1000.0),
+        Figure("one gas step of 100 cells, compiled", compiled, 0.1),
+        Figure("the same in numpy, for comparison", vectorised, 10.0),
     )
-    print(f"largest difference of the two states: {difference:.1e}")
 
 
 if __name__ == "__main__":
-    main()
+    print_times("benchmarks.pumping", figures())

@@ -14,6 +14,7 @@ from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.scuffing import solve_scuffing
+from solvers.scuffing.balance.load_balance import line_loads
 from solvers.scuffing.distribution.feature_line import contact_points
 from solvers.scuffing.inputs import (
     Load,
@@ -118,7 +119,8 @@ def points_of(inputs: ScuffingInputs, result: Scuffing) -> ContactPoints:
     modulus = reduced_modulus(given.pinion_material, given.wheel_material)
     plane = mesh.path_of_contact.plane
     x, y = psi * plane.path_length, psi * plane.face_width
-    return contact_points(mesh.path_of_contact, mesh.balance, x, y, given.load.pinion_speed, modulus)
+    load = line_loads(mesh.balance, x, y)
+    return contact_points(mesh.path_of_contact, mesh.balance, x, load, given.load.pinion_speed, modulus)
 
 
 def check_path(inputs: ScuffingInputs, every: int = 1) -> Scuffing:

@@ -54,10 +54,9 @@ class Links:
         """The case with a field varied."""
         return self.view("vary", theme=self.theme)
 
-    @property
-    def influence(self) -> str:
-        """Which input of the case matters."""
-        return self.view("influence", theme=self.theme)
+    def study(self, name: str) -> str:
+        """A study of the case that has a page of its own."""
+        return self.view(name, theme=self.theme)
 
     def image(self, figure: str, image_format: str) -> str:
         """One figure as a file."""

@@ -13,9 +13,13 @@ from app.reading import Unreadable
 
 Pairs = list[tuple[str, str]]
 
-# What a study of a case varies, and which output it shows.
+# What a study of a case varies or may choose, how often, and which output it shows.
+LOWER, UPPER, TRIALS = "low.", "high.", "trials"
+MOST_CHOSEN = 10
 STUDY_NAMES = frozenset(
-    {f"{axis}{part}" for axis in ("x", "y") for part in ("", ".from", ".to", ".count", ".scale")} | {"show", "best"}
+    {f"{axis}{part}" for axis in ("x", "y") for part in ("", ".from", ".to", ".count", ".scale")}
+    | {f"{end}{place}" for end in (LOWER, UPPER) for place in range(MOST_CHOSEN)}
+    | {"show", "best", TRIALS}
 )
 VIEW_NAMES = STUDY_NAMES | {"ref", "theme", "curve", "paper", "project", "part", "author", "checker", "notes"}
 PICK = "pick:"

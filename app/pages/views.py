@@ -18,6 +18,7 @@ from app.pages.charts import charts, figure_of
 from app.pages.fields import State, anchor
 from app.pages.form import form
 from app.pages.links import IMAGE_FORMATS, Links, example_link, examples_of
+from app.pages.offers import offers_of
 from app.pages.query import Pairs, normalised, pairs_of_query, split_views
 from app.pages.results import entries, flattened, groups
 from app.pages.templating import model_of, page_path, rendered
@@ -168,6 +169,7 @@ def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
         ref=asked.views.get("ref", ""),
         examples=[(example, example_link(calculation, example)) for example in examples_of(calculation)],
         formats=IMAGE_FORMATS,
+        offers=offers_of(calculation),
         headlines=headlines(calculation.response),
         field_link=lambda path: _place(calculation, path),
         field_title=lambda path: _title(calculation, path),

@@ -3,7 +3,7 @@
 import asyncio
 from collections.abc import AsyncGenerator, Callable, Coroutine
 from contextlib import ExitStack, aclosing
-from typing import Annotated, Any, Literal, Protocol
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Body, Query, Request, Response
 from fastapi.responses import StreamingResponse
@@ -18,33 +18,17 @@ from app.routes.study_examples import CORNERS_EXAMPLES, DESIGN_EXAMPLES, SENSITI
 from app.settings import Settings
 from app.start_up import StartUp
 from app.studies import corners, design_plan, sensitivity, sweep
-from app.studies.engine import Pool
 from app.studies.lines import encoded, json_line
 from app.studies.office import Office
-from app.studies.points import Question
 from app.studies.requests import SensitivityRequest, SweepRequest
-from app.studies.stream import Clock, Lines, guarded
+from app.studies.stream import Clock, guarded
+from app.studies.study import Study
 from app.studies.unit_requests import CornersRequest, DesignRequest
 from app.workers.admission import Runner
 
 Format = Literal["ndjson", "csv"]
 MEDIA_TYPES: dict[Format, str] = {"ndjson": "application/x-ndjson", "csv": "text/csv"}
 PATIENCE_S = 10.0  # beyond the study's deadline, for a client that reads slowly
-
-
-class Study(Protocol):
-    """A study that has passed its checks."""
-
-    @property
-    def question(self) -> Question:
-        """What is the same at every point."""
-
-    @property
-    def total(self) -> int:
-        """How many points it has at most."""
-
-    def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """All lines but those of progress."""
 
 
 PLANNERS: dict[str, Callable[[bytes, int, float], Study]] = {

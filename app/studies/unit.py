@@ -34,6 +34,11 @@ def _sent(path: str, value: float) -> Scalar:
     return float(f"{value if unit is None else (value - unit.offset) / unit.scale:.12g}") + 0.0
 
 
+def needs_film_or_state(output: str) -> bool:
+    """Whether an output asks for the thermal film or another state, which cost more than all else."""
+    return output.startswith(COLD) or output in BY_FILM
+
+
 def lightened(request: dict[str, Any], outputs: Sequence[str]) -> dict[str, Any]:
     """The request without thermal film and other states where no output tells of them; the outputs stay the same."""
     light = copy.deepcopy(request)

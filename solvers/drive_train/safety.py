@@ -10,6 +10,7 @@ from solvers.drive_train.gap.thermal_lead import ThermalLead
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import FlashPlaces, TrainSafety
 from solvers.notices import Notice
+from solvers.scuffing.balance.load_balance import line_loads
 from solvers.scuffing.distribution.feature_line import contact_points
 from solvers.scuffing.results import ContactPoints, LoadDistribution, Place
 from solvers.scuffing.safety import safety_factor
@@ -40,7 +41,8 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: Therma
     )
     psi = np.linspace(0.0, 1.0, inputs.mesh.path_points)
     along, across = psi * plane.path_length, psi * plane.face_width
-    feature, flank = _points(inputs, mesh, along, across), _points(inputs, mesh, x, y)
+    feature = _points(inputs, mesh, along, line_loads(mesh.balance, along, across))
+    flank = _points(inputs, mesh, x, mesh.flank.line_load)
     on_feature, on_flank = (blok_flash(inputs.mesh.distribution, points) for points in (feature, flank))
     warm_feature = on_feature + _bulk(inputs, thermal, across)
     warm_flank = on_flank + _bulk(inputs, thermal, y)
@@ -83,13 +85,13 @@ def _thermal_lines(
         return []
     profile = np.linspace(0.0, mesh.path_of_contact.plane.path_length, across.size)
     there = np.full(across.size, worst)
-    return [(feature, across), (_points(inputs, mesh, profile, there), there)]
+    return [(feature, across), (_points(inputs, mesh, profile, line_loads(mesh.balance, profile, there)), there)]
 
 
-def _points(inputs: DriveTrainInputs, mesh: LoadDistribution, x: FloatArray, y: FloatArray) -> ContactPoints:
+def _points(inputs: DriveTrainInputs, mesh: LoadDistribution, x: FloatArray, load: FloatArray) -> ContactPoints:
     given = inputs.mesh.distribution
     modulus = reduced_modulus(given.pinion_material, given.wheel_material)
-    return contact_points(mesh.path_of_contact, mesh.balance, x, y, given.load.pinion_speed, modulus)
+    return contact_points(mesh.path_of_contact, mesh.balance, x, load, given.load.pinion_speed, modulus)
 
 
 def _bulk(inputs: DriveTrainInputs, thermal: ThermalLead, y: FloatArray) -> FloatArray:

@@ -9,6 +9,7 @@ from solvers.pumping.inputs import Flow, PumpingSetup, rpm
 from solvers.pumping.space.face import Stretch
 
 LEAST_TEETH = 5
+LEAST_SPEED = 1e-100  # rad/s; below it a stroke's duration is no number any more
 NARROW = 0.5  # of the widest slice: below it grooves are the reason for short steps
 
 
@@ -60,7 +61,7 @@ def _check_incompressible(setup: PumpingSetup) -> None:
 
 def check_speed(pinion_speed: float) -> None:
     """Refuse standstill. Raises InvalidInput: speed_not_positive."""
-    if pinion_speed <= 0.0:
+    if pinion_speed < LEAST_SPEED:
         message = "the speed must be positive; towards standstill power vanishes and pressure is ambient"
         raise InvalidInput("speed_not_positive", message, "pinion_speed")
 

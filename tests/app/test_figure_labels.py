@@ -1,13 +1,25 @@
-"""Names of marked points stand at their own points."""
+"""Names of marked points stand at their own points; no text is cut, none lies over another."""
 
+import random
 import re
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import combinations
 
 import numpy as np
 import pytest
+from matplotlib import rc_context
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
+from matplotlib.transforms import Bbox
 
-from app.figures.data import Axis, Figure, Hue, Line, Map, Mark, Panel, ThemeName, values
-from app.figures.drawing.image import draw
-from app.figures.drawing.style import THEMES
+from app.calculations import BY_PATH
+from app.evaluate import evaluate
+from app.figures.data import Axis, Figure, Hue, Line, Map, Mark, NoFigure, Panel, ThemeName, values
+from app.figures.drawing.image import draw, drawn
+from app.figures.drawing.style import THEMES, settings
+from app.figures.registry import figures_of
+from app.library import Example, examples
 
 X = np.linspace(0.0, 1.0, 41)
 PEAK = 4.0 * X * (1.0 - X)
@@ -18,6 +30,66 @@ PANEL = Panel(
     lines=(Line("pinion", values(X), LOW), Line("wheel", values(X), HIGH, Hue.VERMILLION)),
     marks=(Mark(0.5, 2.0, "2.00"), Mark(0.45, 2.19, "2.19", Hue.VERMILLION)),
 )
+
+
+TOUCH = 0.025  # inches by which the boxes of two texts may meet: the room above and below their letters
+
+
+def boxes(figure: Figure) -> tuple[list[tuple[str, Bbox]], Bbox]:
+    """Every text of a figure with the box it fills, and the sheet's own box, in inches."""
+    theme = THEMES["light"]
+    with rc_context(settings(theme)):
+        sheet = drawn(figure, theme)
+        renderer = FigureCanvasAgg(sheet).get_renderer()
+        found = [text for text in sheet.findobj(Text) if text.get_visible() and text.get_text().strip()]
+        inches = sheet.dpi_scale_trans.inverted()
+        extents = [text.get_window_extent(renderer).transformed(inches) for text in found]
+        return [(text.get_text(), box) for text, box in zip(found, extents, strict=True)], sheet.bbox_inches
+
+
+def faults(figure: Figure) -> Iterator[str]:
+    """Texts that are cut, and texts that lie over others."""
+    texts, sheet = boxes(figure)
+    assert texts
+    for text, box in texts:
+        if not (box.x0 >= 0.0 and box.y0 >= 0.0 and box.x1 <= sheet.x1 and box.y1 <= sheet.y1):
+            yield f"{text!r} is cut"
+    for (text, box), (other, beside) in combinations(texts, 2):
+        shared = Bbox.intersection(box, beside)
+        if shared is not None and shared.width > TOUCH and shared.height > TOUCH:
+            yield f"{text!r} over {other!r}"
+
+
+def figures(example: Example) -> Iterator[Figure]:
+    """What is drawn of an example."""
+    calculation = BY_PATH[example.endpoint]
+    request = calculation.request.model_validate({**example.request, "detail": "fields"})
+    answer = evaluate(calculation, request)
+    for declaration in figures_of(example.endpoint):
+        try:
+            yield declaration.figure(request, answer)
+        except NoFigure:
+            continue
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", examples())
+def test_no_text_of_an_example_is_cut_or_over_another(name: str) -> None:
+    found = [fault for figure in figures(examples()[name]) for fault in faults(figure)]
+    assert not found
+
+
+def test_the_coupling_on_its_map_of_friction_hides_no_area() -> None:
+    """The point anywhere, in maps that end where Pahl's does and in maps that reach further."""
+    example = examples()["starter-turbo-coupling"]
+    (map_of_regimes,) = (each for each in figures(example) if each.title == "Friction regime of the coupling")
+    (panel,) = map_of_regimes.panels
+    choice = random.Random(1)
+    for _ in range(16):
+        overlap, capacity = 10 ** choice.uniform(-1.0, 1.7), 10 ** choice.uniform(-8.0, 1.0)
+        mark = Mark(overlap, capacity, f"Pu = {overlap:.3g}\nTr = {capacity:.3g}")
+        moved = replace(map_of_regimes, panels=(replace(panel, marks=(mark,)),))
+        assert not list(faults(moved)), mark.text
 
 
 def texts(panel: Panel, theme: ThemeName = "light") -> dict[str, tuple[str, float]]:

@@ -12,9 +12,12 @@ import pytest
 from app.calculations import BY_PATH
 from app.library import examples
 from app.pages.query import pairs_of, pairs_of_query, split_views
+from app.pages.studies import page as pages
+from app.pages.studies.declaration import Asking
+from app.pages.studies.influence import INFLUENCE, MOST_ROWS
 from app.pages.templating import page_path
 from app.pages.typesetting import shown
-from app.pages.vary import influence, views
+from app.pages.vary import views
 from app.pages.views import Asked
 from app.studies.stream import Clock
 from tests.pools import InlinePool
@@ -28,20 +31,20 @@ def asked(name: str, **said: str) -> Asked:
     return Asked(page_path(BY_PATH[example.endpoint]), pairs_of(example.request), said)
 
 
-def lines_of(study: influence.Study) -> list[dict[str, Any]]:
+def lines_of(study: Asking) -> list[dict[str, Any]]:
     async def run() -> list[dict[str, Any]]:
-        clock = Clock(study.sensitivity.total)
-        return [line async for group in study.sensitivity.lines(InlinePool(), clock) for line in group]
+        clock = Clock(study.study.total)
+        return [line async for group in study.study.lines(InlinePool(), clock) for line in group]
 
     found: list[dict[str, Any]] = json.loads(json.dumps(asyncio.run(run())))
     return found
 
 
 def result_of(found: Asked) -> tuple[list[dict[str, Any]], str]:
-    study = influence.opened(found, MOST, DEADLINE_S).study
+    study = pages.opened(INFLUENCE, found, MOST, DEADLINE_S).study
     assert study is not None
     lines = lines_of(study)
-    return lines, unescape(influence.whole(study, lines).decode())
+    return lines, unescape(pages.whole(study, lines).decode())
 
 
 @pytest.mark.parametrize("name", [COUPLING, "pahl-sleeve-orbit", "milian-table-1-incompressible", "fzg-type-a"])
@@ -50,7 +53,7 @@ def test_the_table_says_what_the_study_says(name: str) -> None:
     lines, page = result_of(found)
     moved = [line for line in lines[:-1] if line["change"] is not None]
     rows = re.findall(r'<tr><td><a href="([^"]+)">([^<]+)</a></td>(.*?)</tr>', page, re.DOTALL)
-    assert len(rows) == min(len(moved), influence.MOST_ROWS)
+    assert len(rows) == min(len(moved), MOST_ROWS)
     for line, (address, _, cells) in zip(moved, rows, strict=False):
         assert f">{shown(line['change'], 4)}<" in cells
         assert f">{shown(line['elasticity'], 3)}<" in cells
@@ -75,22 +78,20 @@ def test_the_figure_shows_the_most_influential_first() -> None:
 
 
 def test_a_case_without_the_output_says_so() -> None:
-    study = influence.opened(asked(COUPLING), MOST, DEADLINE_S).study
+    study = pages.opened(INFLUENCE, asked(COUPLING), MOST, DEADLINE_S).study
     assert study is not None
     *lines, end = lines_of(study)
     nothing = [{**line, "change": None, "derivative": None} for line in lines]
     without = {**end, "outputs": [{**end["outputs"][0], "value": None}]}
-    assert "The case has no axial thrust" in influence.whole(study, [*nothing, without]).decode()
+    assert "The case has no axial thrust" in pages.whole(study, [*nothing, without]).decode()
     still = [{**line, "change": 0.0, "derivative": 0.0} for line in lines]
-    assert "No input moves the axial thrust" in influence.whole(study, [*still, end]).decode()
+    assert "No input moves the axial thrust" in pages.whole(study, [*still, end]).decode()
 
 
 def test_a_study_that_breaks_off_says_why() -> None:
-    study = influence.opened(asked(COUPLING), MOST, DEADLINE_S).study
+    study = pages.opened(INFLUENCE, asked(COUPLING), MOST, DEADLINE_S).study
     assert study is not None
-    page = influence.whole(
-        study, [{"type": "error", "code": "study_deadline", "message": "<b>too long</b>", "done": 3}]
-    )
+    page = pages.whole(study, [{"type": "error", "code": "study_deadline", "message": "<b>too long</b>", "done": 3}])
     assert "&lt;b&gt;too long&lt;/b&gt;" in page.decode()
 
 
@@ -99,7 +100,7 @@ def test_a_study_that_breaks_off_says_why() -> None:
     [({"show": "axial_thrust"}, "is a section"), ({"show": "<script>"}, "there is no <script>")],
 )
 def test_a_wrong_output_is_refused(said: dict[str, str], message: str) -> None:
-    opened = influence.opened(asked(COUPLING, **said), MOST, DEADLINE_S)
+    opened = pages.opened(INFLUENCE, asked(COUPLING, **said), MOST, DEADLINE_S)
     assert opened.status == 422
     assert b"<script>" not in opened.head.partition(b"<body>")[2]
     assert message in unescape(opened.head.decode())
@@ -107,7 +108,7 @@ def test_a_wrong_output_is_refused(said: dict[str, str], message: str) -> None:
 
 def test_the_page_by_its_address(client: httpx.Client) -> None:
     links = asked(COUPLING).links
-    page = client.get(links.influence)
+    page = client.get(links.study("influence"))
     assert page.status_code == 200
     assert page.text.rstrip().endswith("</html>")
     assert "What moves the axial thrust most" in page.text

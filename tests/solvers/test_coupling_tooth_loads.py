@@ -35,18 +35,18 @@ def floating(inputs: CouplingInputs, force: tuple[float, float], angle: float = 
     return loads, (loads.tangential_force[:, None] * flank_normals(mesh, teeth)).sum(axis=2)[0]
 
 
-@examples(40, 200, arrays(float, st.integers(1, 80), elements=st.floats(-1e4, 1e4)))
-def test_common_rotation_equals_the_sorted_closed_form(interference: np.ndarray) -> None:
+@examples(60, 300, arrays(float, st.integers(1, 80), elements=st.floats(-1e4, 1e4)), st.floats(1e-9, 1e5))
+def test_common_rotation_equals_the_sorted_closed_form_from_any_start(interference: np.ndarray, start: float) -> None:
     falling = np.sort(interference)[::-1]
     candidates = (1.0 - np.cumsum(falling)) / np.arange(1, falling.size + 1)
     last = np.flatnonzero(candidates + falling > 0.0).max()
-    assert turn_to_torque(interference.copy()) == pytest.approx(candidates[last], rel=1e-9, abs=1e-9)
+    assert turn_to_torque(interference.copy(), start)[1] == pytest.approx(candidates[last], rel=1e-9, abs=1e-9)
 
 
 @examples(40, 200, arrays(float, st.integers(1, 80), elements=st.floats(-1e4, 1e4)))
 def test_shares_of_a_centred_sleeve_add_up_to_the_torque(interference: np.ndarray) -> None:
     ahead = interference.copy()
-    turn_to_torque(ahead)
+    turn_to_torque(ahead, 1.0)
     assert np.maximum(0.0, ahead).sum() == pytest.approx(1.0, abs=1e-12)
 
 

@@ -108,7 +108,8 @@ def test_isothermal_contacts(rheology: str, pressure: float, speed: float, visco
 def test_a_spike_without_a_limit_is_said_not_to_converge() -> None:
     """Isothermal and Newtonian at 1 GPa and 15 m/s: friction 1405, 3512, 5682 with 121, 241, 481 nodes.
 
-    Half the nodes, interpolated, keep the spike of all: one Newton step on them sees 1.7 % of error for 19 %.
+    Half the nodes, interpolated, keep the spike of all: one Newton step on them sees 3.4 % of error for 38 %. All of
+    what they make is stated, as the pressure falls from one node to the next.
     """
     model = Model(thermal=False, rheology="newtonian")
     inputs = at_pressure(1e9, 0.5, 15.0, 0.08, 4e-3, model)
@@ -118,7 +119,7 @@ def test_a_spike_without_a_limit_is_said_not_to_converge() -> None:
     assert coarse.friction is not None
     assert result.friction is not None
     moved = abs(coarse.friction.coefficient / result.friction.coefficient - 1.0)
-    assert result.mesh_error.friction == pytest.approx(0.5 * moved, rel=0.02)
+    assert result.mesh_error.friction == pytest.approx(moved, rel=0.02)
     assert "mesh_error" in {warning.code for warning in result.warnings}
     assert result.film.minimum == pytest.approx(coarse.film.minimum, rel=0.005)
 

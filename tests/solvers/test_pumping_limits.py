@@ -121,7 +121,7 @@ def test_jumping_feet_of_tip_gaps_are_named() -> None:
     assert "deg" in refusal.value.message
 
 
-@pytest.mark.parametrize("speed", [0.0, -100.0])
+@pytest.mark.parametrize("speed", [0.0, -100.0, 5e-312])
 def test_no_speed(speed: float) -> None:
     with pytest.raises(InvalidInput) as refusal:
         solved(PLAIN, speed)

@@ -68,7 +68,7 @@ def draw_bars(canvas: Canvas, bars: Bars, rank: int, count: int) -> None:
 
 
 def draw_area(canvas: Canvas, area: Area) -> None:
-    """A tinted rectangle with its text in the middle of what the axes show of it."""
+    """A tinted rectangle with as many lines of its text as fit in the middle of what the axes show of it."""
     left, right = max(area.left, canvas.x.low), min(area.right, canvas.x.high)
     bottom, top = max(area.bottom, canvas.y.low), min(area.top, canvas.y.high)
     theme = canvas.theme
@@ -85,10 +85,17 @@ def draw_area(canvas: Canvas, area: Area) -> None:
         )
     )
     x, y = canvas.inches(np.array([left, right]), np.array([bottom, top]))
-    middle = float(x.mean()), float(y.mean())
-    low, high = float(y[0]), float(y[1])
-    width, height = text_width(area.text, SMALL), text_height(area.text, SMALL)
-    levels = middle[1], high - height, low + height
-    corners = [(middle[0] - width / 2, level - height / 2) for level in levels]
-    place = canvas.placer.place(area.text, SMALL, corners)
-    canvas.write(place, area.text, SMALL, theme.muted, centred=True)
+    text = _fitting(area.text, float(x[1] - x[0]), float(y[1] - y[0]))
+    width, height = text_width(text, SMALL), text_height(text, SMALL)
+    levels = float(y.mean()), float(y[1]) - height, float(y[0]) + height
+    corners = [(float(x.mean()) - width / 2, level - height / 2) for level in levels]
+    place = canvas.placer.place(text, SMALL, corners)
+    canvas.write(place, text, SMALL, theme.muted, centred=True)
+
+
+def _fitting(text: str, width: float, height: float) -> str:
+    """The first lines of a text, as many as there is room for."""
+    lines = text.split("\n")
+    while lines and (text_width("\n".join(lines), SMALL) > width or text_height("\n".join(lines), SMALL) > height):
+        lines.pop()
+    return "\n".join(lines)

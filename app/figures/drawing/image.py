@@ -68,17 +68,23 @@ def draw(figure: Figure, image_format: str, theme_name: ThemeName = "light") -> 
     """The image in one of the formats svg, png and pdf."""
     theme = THEMES[theme_name]
     with rc_context(settings(theme)):
-        title, subtitle = _wrapped_head(figure)
-        slots, height = arranged(figure)
-        sheet = Sheet(figsize=(WIDTH, height), dpi=DPI)
-        _draw_head(sheet, title, subtitle, height, theme)
-        for slot in slots:
-            _draw_slot(sheet, slot, height, theme)
+        sheet = drawn(figure, theme)
         image = BytesIO()
         CANVASES[image_format](sheet)
         metadata = METADATA[image_format] | {"Title": figure.title}
         sheet.savefig(image, format=image_format, metadata=metadata, dpi=DPIS[image_format])
         return image.getvalue()
+
+
+def drawn(figure: Figure, theme: Theme) -> Sheet:
+    """The sheet with everything on it; inside the theme's settings."""
+    title, subtitle = _wrapped_head(figure)
+    slots, height = arranged(figure)
+    sheet = Sheet(figsize=(WIDTH, height), dpi=DPI)
+    _draw_head(sheet, title, subtitle, height, theme)
+    for slot in slots:
+        _draw_slot(sheet, slot, height, theme)
+    return sheet
 
 
 def arranged(figure: Figure) -> tuple[list[Slot], float]:

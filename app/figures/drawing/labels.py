@@ -13,7 +13,7 @@ from app.figures.drawing.style import text_height, text_width
 
 CURVE_STEP = 0.04  # spacing of the points that stand for a curve
 GAP = 0.02  # kept around a text
-_OVER_TEXT, _OUTSIDE = 1_000.0, 10_000.0
+_OVER_TEXT, _OUTSIDE = 1_000.0, 100.0  # for the whole text, for an inch
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,17 +70,20 @@ class Placer:
         """The first of the best of the candidates, lower left corners of the text; it is taken from then on."""
         width, height = text_width(text, size, bold=bold), text_height(text, size)
         cloud = np.concatenate(self.points) if self.points else np.zeros((0, 2))
-        costs = [self._cost(Box(x, y, x + width, y + height), cloud) for x, y in corners]
-        best = min(range(len(corners)), key=lambda index: (round(costs[index], 6), index))
-        x = min(max(corners[best][0], GAP), max(self.width - width - GAP, GAP))
-        y = min(max(corners[best][1], GAP), max(self.height - height - GAP, GAP))
-        chosen = Box(x, y, x + width, y + height)
+        boxes = [self._inside(x, y, width, height) for x, y in corners]
+        costs = [self._cost(box, corner, cloud) for box, corner in zip(boxes, corners, strict=True)]
+        chosen = boxes[min(range(len(corners)), key=lambda index: (round(costs[index], 6), index))]
         self.boxes.append(chosen)
-        return Place(x, y, over_curve=_hits(chosen, cloud) > 0)
+        return Place(chosen.left, chosen.bottom, over_curve=_hits(chosen, cloud) > 0)
 
-    def _cost(self, box: Box, cloud: Values) -> float:
-        outside = max(0.0, -box.left) + max(0.0, -box.bottom) + max(0.0, box.right - self.width)
-        outside += max(0.0, box.top - self.height)
+    def _inside(self, x: float, y: float, width: float, height: float) -> Box:
+        """The box from this corner, moved into the panel."""
+        left = min(max(x, GAP), max(self.width - width - GAP, GAP))
+        bottom = min(max(y, GAP), max(self.height - height - GAP, GAP))
+        return Box(left, bottom, left + width, bottom + height)
+
+    def _cost(self, box: Box, corner: tuple[float, float], cloud: Values) -> float:
+        outside = abs(box.left - corner[0]) + abs(box.bottom - corner[1])
         area = (box.right - box.left) * (box.top - box.bottom)
         padded = Box(box.left - GAP, box.bottom - GAP, box.right + GAP, box.top + GAP)
         texts = sum(padded.overlap(other) for other in self.boxes) / area

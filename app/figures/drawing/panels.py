@@ -37,12 +37,12 @@ def draw_panel(canvas: Canvas, panel: Panel, *, tick_names: bool) -> None:
 
 
 def _write_texts(canvas: Canvas, panel: Panel) -> None:
+    for area in panel.areas:
+        draw_area(canvas, area)  # its name can stand in few places, that of a mark in many
     name_marks(canvas, panel.marks)
     for level in panel.levels:
         name_level(canvas, level)
     for span in panel.spans:
         name_span(canvas, span)
-    for area in panel.areas:
-        draw_area(canvas, area)
     name_line_ends(canvas, panel)
     draw_legend(canvas, panel, LEGEND_SPACING)

@@ -1,6 +1,7 @@
 """Figures of a gear unit: its shafts, the gap between its flanks and how it comes about, the load that follows."""
 
 from dataclasses import replace
+from functools import partial
 from math import hypot
 
 import numpy as np
@@ -197,9 +198,11 @@ def losses(_: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
     return Figure(finding, (Panel(x=Axis("power lost", "W"), y=Axis("where"), rows=rows),))
 
 
+LOAD_ALONE = Declaration("face-load", "Load along the face", OWN, partial(face_load, others={}))
+GAP = Declaration("gap", "Gap over the face by parts", OWN, gap)
 FIGURES = (
     Declaration("shaft-lines", "Displaced shafts in both planes", OWN, shaft_lines),
-    Declaration("gap", "Gap over the face by parts", OWN, gap),
+    GAP,
     Declaration("slope-parts", "Where the misalignment comes from", OWN, slope_parts),
     Declaration(
         "face-load", "Load along the face, with and without each effect", OWN, face_load, compute=effects_apart

@@ -11,8 +11,9 @@ from app.figures.sweep import figures_of
 from app.figures.tables import table
 from app.pages.cases import Fault, faults_of
 from app.pages.charts import chart_of, embedded
-from app.pages.links import LONGEST_QUERY
-from app.pages.query import STUDY_NAMES, body_of, link, pairs_of
+from app.pages.links import IMAGE_FORMATS, LONGEST_QUERY
+from app.pages.points import address_at
+from app.pages.query import STUDY_NAMES, link
 from app.pages.templating import rendered
 from app.pages.typesetting import shown
 from app.pages.vary.controls import controls
@@ -22,11 +23,9 @@ from app.pages.vary.wish import Wish, case_of, field_at_fault, is_leaf, sweep_of
 from app.pages.views import REFUSED, Asked
 from app.reading import Unreadable
 from app.studies.fields import value_at
-from app.studies.points import with_overrides
 from app.studies.sweep import Sweep, plan_sweep
 
 FRAMES = "<!-- the figures -->"
-IMAGES: tuple[Format, ...] = ("svg", "png", "pdf", "csv")
 MOST_ROWS = 200
 
 
@@ -51,7 +50,7 @@ class Study:
 
     def opened(self, index: int) -> str:
         """The page of the case at a point."""
-        return _page_of(self.asked, self.sweep.plan.overrides(index))
+        return address_at(self.asked, self.sweep.plan.overrides(index))
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,7 +152,7 @@ def whole(study: Study, gathered: Gathered) -> bytes:
         "whole.html",
         charts=charts,
         links=study.links,
-        formats=IMAGES,
+        formats=IMAGE_FORMATS,
         gathered=gathered,
         study=study,
         rows=[_row(study, gathered, index) for index in range(min(gathered.done, MOST_ROWS))],
@@ -180,12 +179,6 @@ def _row(study: Study, gathered: Gathered, index: int) -> dict[str, Any]:
         "said": ", ".join(gathered.said[index]),
         "address": study.opened(index),
     }
-
-
-def _page_of(asked: Asked, overrides: dict[str, Any]) -> str:
-    body = with_overrides(asked.calculation, body_of(asked.calculation.request, asked.pairs), overrides)
-    del body["detail"]
-    return link(asked.path, pairs_of(body), theme=asked.views.get("theme", ""))
 
 
 def _points(study: Study, gathered: Gathered, figure: Figure) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 
 from app.calculations import Calculation
 from app.contract.fields import Leaf, headlines, leaf_at
-from app.pages.query import Pairs, body_of, number_of
+from app.pages.query import LOWER, TRIALS, UPPER, Pairs, body_of, number_of
 from app.pages.vary.choices import Range, grades_of, has_numbers, usual_range, words_of
 from app.problems import Unprocessable
 from app.reading import InvalidBody, validated
@@ -140,7 +140,7 @@ def sweep_of(calculation: Calculation, pairs: Pairs, wish: Wish) -> bytes:
 
 
 def field_at_fault(path: str) -> str:
-    """The control of the form that a path into the sweep means; a field of the case keeps its own name."""
+    """The control of the form that a path into the study means; a field of the case keeps its own name."""
     head, _, rest = path.partition(".")
     match head:
         case "vary":
@@ -148,7 +148,12 @@ def field_at_fault(path: str) -> str:
             name = AXES[int(place)] if place in {"0", "1"} else "x"
             known = {"path": "", "stop": ".to", "count": ".count", "scale": ".scale"}
             return name + (known.get(part, ".from") if place else ".count")
-        case "outputs":
+        case "variables":
+            place, _, part = rest.partition(".")
+            return f"{UPPER if part == 'max' else LOWER}{place}"
+        case "evaluations":
+            return TRIALS
+        case "outputs" | "objective":
             return "show"
         case "request":
             return rest

@@ -49,9 +49,9 @@ def temperature_range(attempt: Attempt) -> float:
     return float(np.ptp(attempt.state.temperature))
 
 
-def at_centre(attempt: Attempt, values: FloatArray) -> float:
-    """Value at x = 0, linear between nodes."""
-    return float(np.interp(0.0, attempt.grid.x, values))
+def at_place(attempt: Attempt, values: FloatArray, place: float = 0.0) -> float:
+    """Value in the centre or at another place [half widths], linear between nodes."""
+    return float(np.interp(place, attempt.grid.x, values))
 
 
 def pressure(problem: Problem, attempt: Attempt) -> ContactPressure:
@@ -62,7 +62,7 @@ def pressure(problem: Problem, attempt: Attempt) -> ContactPressure:
     others = inner[(x[inner] > PEAK_ZONE) & (p[inner] > 0.0)]
     second = int(others[p[others].argmax()]) if others.size else None
     return ContactPressure(
-        centre=at_centre(attempt, p) * problem.maximum_pressure,
+        centre=at_place(attempt, p) * problem.maximum_pressure,
         maximum=float(p[peak]) * problem.maximum_pressure,
         maximum_at=float(x[peak]) * problem.half_width,
         second_maximum=None if second is None else float(p[second]) * problem.maximum_pressure,
@@ -115,9 +115,9 @@ def friction(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> C
     )
 
 
-def friction_coefficient(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> float:
-    """Coefficient of friction from the mid-film stress alone."""
-    return abs(float(_share(problem, attempt, inputs) @ attempt.work.film.mid.stress))
+def friction_by_node(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> FloatArray:
+    """What the mid-film stress at each node adds to the coefficient of friction (n,), with the sign of the sliding."""
+    return np.asarray(_share(problem, attempt, inputs) * attempt.work.film.mid.stress)
 
 
 def _share(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> FloatArray:
@@ -126,16 +126,18 @@ def _share(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> Flo
     return width * attempt.work.heat.fluid_fraction / inputs.contact.line_load
 
 
-def generated_heat(problem: Problem, attempt: Attempt) -> float:
-    """Heat by shear in all columns but the first [W/m]."""
-    return float(attempt.grid.weights[1:] @ attempt.work.heat.generated[1:]) * problem.half_width
+def heat_by_node(problem: Problem, attempt: Attempt) -> FloatArray:
+    """Heat by shear in all columns (n,) [W/m]; the first, whose temperatures are given, counts none."""
+    heat = attempt.grid.weights * attempt.work.heat.generated * problem.half_width
+    heat[0] = 0.0
+    return np.asarray(heat)
 
 
 def heat(problem: Problem, attempt: Attempt) -> ContactHeat:
     """The heat balance of all columns but the first, whose temperatures are given."""
     heats, t = attempt.work.heat, attempt.state.temperature
     width = attempt.grid.weights[1:] * problem.half_width
-    generated = generated_heat(problem, attempt)
+    generated = float(heat_by_node(problem, attempt).sum())
     compression = float(width @ heats.compression[1:])
     to_surfaces = [float(width @ flux[1:]) for flux in (heats.surfaces.flux_1, heats.surfaces.flux_2)]
     inlet = np.diff(_layer_edges(0.5 * (attempt.work.film.flow.stream[0] + attempt.work.film.flow.stream[1])))

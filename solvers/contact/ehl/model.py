@@ -172,7 +172,7 @@ def _film(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> Fi
     heights = measures.film_heights(constants, attempt)
     thinnest = int(heights.argmin())
     return FilmThickness(
-        central=measures.at_centre(attempt, heights),
+        central=measures.at_place(attempt, heights),
         minimum=float(heights[thinnest]),
         minimum_at=float(attempt.grid.x[thinnest]) * constants.half_width,
         dowson_higginson=dowson_higginson_film(inputs),

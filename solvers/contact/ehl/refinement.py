@@ -3,6 +3,9 @@
 from dataclasses import replace
 from math import ceil, isfinite, log2, sqrt
 
+import numpy as np
+
+from solvers.arrays import FloatArray
 from solvers.contact.ehl import measures
 from solvers.contact.ehl.grid.mesh import grid_for
 from solvers.contact.ehl.inputs import LineContactInputs
@@ -17,16 +20,14 @@ STEPS_ON_FINER = 20.0
 STEPS_ON_COARSER = 12
 # A step of the contact on half the nodes after which its numbers are known well enough: dP, dT [K].
 NEAR = (0.12, 12.0)
-# What is left of the difference that half as many nodes make: 1/3 in second order; less is observed where heat decides.
-LEFT = {
-    "central_film": 1 / 3,
-    "minimum_film": 1 / 3,
-    "centre_pressure": 1 / 3,
-    "friction": 1 / 2,
-    "surface_1_flash": 1 / 1.5,
-    "surface_2_flash": 1 / 1.5,
-    "generated_heat": 1 / 2,
-}
+# What is left of the difference that half as many nodes make: 1/3 in second order. Where pressure falls steeply from
+# one node to the next, half as many nodes have the fall between the same two, wherever it ought to be, and agree with
+# the others more than either do with the truth: all of their difference is left where it falls by p_H/2.
+SECOND_ORDER = 1 / 3
+LEFT_BY_FALL = 2.0
+AT_INLET = {"central_film", "centre_pressure"}  # decided there, whatever the pressure does at the outlet
+BEFORE_SPIKES = 0.5  # half widths behind the centre: spikes of pressure stand further back
+KINKED = {"surface_1_flash": 0, "surface_2_flash": -1}  # and the surface's place across the film
 LEAST = {"friction": 1e-3, "surface_1_flash": 25.0, "surface_2_flash": 25.0}  # [-], [K]: smaller numbers count as these
 
 
@@ -80,25 +81,59 @@ def mesh_error(
     if not coarse.converged:
         return None
     measures.settle(constants, coarse, resolution.thermal)
-    fine, other = (_numbers(inputs, constants, found) for found in (attempt, coarse))
-    errors = {
-        name: LEFT[name] * abs(fine[name] - other[name]) / max(abs(fine[name]), LEAST.get(name, 0.0)) for name in fine
-    }
+    fine, other = (_parts(inputs, constants, found) for found in (attempt, coarse))
+    left = max(SECOND_ORDER, min(LEFT_BY_FALL * _steepest_fall(attempt), 1.0))
+    errors = {}
+    for name, parts in fine.items():
+        moved = sum(abs(part - of_coarse) for part, of_coarse in zip(parts, other[name], strict=True))
+        missing = (SECOND_ORDER if name in AT_INLET else left) * moved
+        if name in KINKED:
+            missing = max(missing, _kink(attempt, KINKED[name]))
+        errors[name] = missing / max(abs(sum(parts)), LEAST.get(name, 0.0))
+    # What passes the centre flows where the film is thinnest, too.
+    errors["minimum_film"] = max(errors["minimum_film"], errors["central_film"])
     return MeshError(**errors) if all(map(isfinite, errors.values())) else None
 
 
-def _numbers(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> dict[str, float]:
-    """What is reported of a contact, but for local maxima, by the names of `MeshError`."""
+def _steepest_fall(attempt: Attempt) -> float:
+    """The largest fall of P from one node to the next, behind the centre."""
+    return float(-np.diff(attempt.state.pressure[attempt.grid.x > 0.0]).min())
+
+
+def _kink(attempt: Attempt, surface: int) -> float:
+    """How far a surface's temperature at one node behind the centre stands above the mean of both neighbours [K].
+
+    The heat of a spike that no other node sees: as much again comes with a node that stands nearer to it.
+    """
+    t = attempt.state.temperature[attempt.grid.x > 0.0, surface]
+    return float((t[1:-1] - 0.5 * (t[:-2] + t[2:])).max())
+
+
+def _parts(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> dict[str, tuple[float, ...]]:
+    """What is reported of a contact, but for local maxima, by the names of `MeshError`, as sums of parts.
+
+    Friction, heat and flash temperatures are parted where spikes begin: more nodes thicken the film, so that there is
+    less heat before, and sharpen the spikes, so that there is more behind. Their sum can stay the same from one mesh to
+    the next and move on another.
+    """
     heights = measures.film_heights(constants, attempt)
-    numbers = {
-        "central_film": measures.at_centre(attempt, heights),
-        "minimum_film": float(heights.min()),
-        "centre_pressure": measures.at_centre(attempt, attempt.state.pressure),
-        "friction": measures.friction_coefficient(constants, attempt, inputs),
+    parts: dict[str, tuple[float, ...]] = {
+        "central_film": (measures.at_place(attempt, heights),),
+        "minimum_film": (float(heights.min()),),
+        "centre_pressure": (measures.at_place(attempt, attempt.state.pressure),),
+        "friction": _before_and_behind(attempt, measures.friction_by_node(constants, attempt, inputs)),
     }
     if inputs.model.thermal:
-        temperature = attempt.state.temperature
-        numbers["surface_1_flash"] = float(temperature[:, 0].max()) - constants.bulk_1
-        numbers["surface_2_flash"] = float(temperature[:, -1].max()) - constants.bulk_2
-        numbers["generated_heat"] = measures.generated_heat(constants, attempt)
-    return numbers
+        parts["generated_heat"] = _before_and_behind(attempt, measures.heat_by_node(constants, attempt))
+        for name, surface in KINKED.items():
+            t = attempt.state.temperature[:, surface]
+            before = measures.at_place(attempt, t, BEFORE_SPIKES)
+            bulk = (constants.bulk_1, constants.bulk_2)[surface]
+            parts[name] = (before - bulk, float(t.max()) - before)
+    return parts
+
+
+def _before_and_behind(attempt: Attempt, by_node: FloatArray) -> tuple[float, float]:
+    """Sums of what the nodes before and behind the place where spikes begin contribute (n,)."""
+    before = attempt.grid.x <= BEFORE_SPIKES
+    return float(by_node[before].sum()), float(by_node[~before].sum())

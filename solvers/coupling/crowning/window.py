@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 from solvers.coupling.checks import MAX_CONTACT_PRESSURE, MAX_CONTACT_WIDTH
 from solvers.coupling.friction.lubrication import film_state
 from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
+from solvers.coupling.results import Geometry
 from solvers.coupling.teeth.geometry import tooth_geometry
 from solvers.coupling.teeth.kinematics import max_contact_travel, mesh_motion
 
@@ -55,29 +56,32 @@ def at_misalignment(inputs: RecommendationInputs, ratio: float, misalignment: fl
 
 def crowning_state(inputs: RecommendationInputs, ratio: float) -> CrowningState:
     """Constraints and load capacity of a crowning ratio at both ends of the range."""
-    states = []
-    for misalignment in (inputs.min_misalignment, inputs.max_misalignment):
-        point = at_misalignment(inputs, ratio, misalignment)
-        geometry = tooth_geometry(point.coupling)
-        mesh = mesh_motion(point.coupling, geometry, point.operation, point.model.kinematics)
-        film = film_state(point, geometry, mesh)
-        reach = max_contact_travel(mesh) + film.contact_half_width
-        states.append(
-            CrowningState(
-                overlap=film.overlap,
-                edge=reach / (point.coupling.face_width / 2.0),
-                pressure=film.contact_pressure / MAX_CONTACT_PRESSURE,
-                width=film.contact_half_width / (MAX_CONTACT_WIDTH * geometry.normal_flank_radius),
-                load_capacity_coefficient=film.load_capacity_coefficient,
-            )
-        )
-    first, last = states
+    design = inputs.design
+    crowned = replace(design, coupling=replace(design.coupling, crowning_ratio=ratio))
+    geometry = tooth_geometry(crowned.coupling)
+    first = _state_at(inputs.min_misalignment, crowned, geometry)
+    last = _state_at(inputs.max_misalignment, crowned, geometry)
     return CrowningState(
         overlap=max(first.overlap, last.overlap),
         edge=max(first.edge, last.edge),
         pressure=max(first.pressure, last.pressure),
         width=max(first.width, last.width),
         load_capacity_coefficient=min(first.load_capacity_coefficient, last.load_capacity_coefficient),
+    )
+
+
+def _state_at(misalignment: float, crowned: CouplingInputs, geometry: Geometry) -> CrowningState:
+    """Constraints and load capacity at one misalignment [rad]: of all the film takes, it moves the mesh alone."""
+    operation = replace(crowned.operation, misalignment=misalignment)
+    mesh = mesh_motion(crowned.coupling, geometry, operation, crowned.model.kinematics)
+    film = film_state(crowned, geometry, mesh)
+    reach = max_contact_travel(mesh) + film.contact_half_width
+    return CrowningState(
+        overlap=film.overlap,
+        edge=reach / (crowned.coupling.face_width / 2.0),
+        pressure=film.contact_pressure / MAX_CONTACT_PRESSURE,
+        width=film.contact_half_width / (MAX_CONTACT_WIDTH * geometry.normal_flank_radius),
+        load_capacity_coefficient=film.load_capacity_coefficient,
     )
 
 

@@ -7,7 +7,7 @@ from math import asin, pi
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
-from solvers.coupling.friction.sums import FrictionSums, friction_sums
+from solvers.coupling.friction.sums import ToothSums, tooth_sums
 from solvers.coupling.inputs import Coupling, CouplingInputs
 from solvers.coupling.teeth.kinematics import MeshMotion, ToothPositions, positions_per_pitch, tooth_positions
 from solvers.coupling.teeth.loads import mesh_loads
@@ -27,17 +27,10 @@ class RotorSamples:
 
 @dataclass(frozen=True, slots=True)
 class LoadedMesh:
-    """One mesh over a pitch: its motion, where its teeth stand, their tangential forces (rows, teeth) [N], sums."""
+    """One mesh over a pitch: its motion, and what loads and friction of its teeth add up to."""
 
     motion: MeshMotion
-    weight: FloatArray
-    teeth: ToothPositions
-    tangential_force: FloatArray
-    friction: FrictionSums
-
-    def mean_sum(self, values: FloatArray) -> float:
-        """Sum over the teeth of values (rows, teeth), averaged over rotor angles."""
-        return float(self.weight @ values.sum(axis=1))
+    sums: ToothSums
 
 
 def friction_reversals(mesh: MeshMotion, axial_velocity: float) -> list[float]:
@@ -86,6 +79,12 @@ def loaded_mesh(inputs: CouplingInputs, mesh: MeshMotion) -> LoadedMesh:
     samples = rotor_samples(inputs.coupling, mesh, inputs.operation.axial_velocity)
     floating = inputs.model.sleeve == "floating"
     loads = mesh_loads(inputs.coupling, mesh, samples.teeth, inputs.operation.torque, floating=floating)
-    force, teeth, weight = loads.tangential_force, samples.teeth, samples.weight
-    sums = friction_sums(force, teeth.sine, teeth.cosine, weight, mesh.sliding, inputs.operation.axial_velocity)
-    return LoadedMesh(mesh, weight, teeth, force, sums)
+    sums = tooth_sums(
+        loads.tangential_force,
+        samples.teeth.sine,
+        samples.teeth.cosine,
+        samples.weight,
+        mesh.sliding,
+        inputs.operation.axial_velocity,
+    )
+    return LoadedMesh(mesh, sums)

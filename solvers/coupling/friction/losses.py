@@ -1,6 +1,6 @@
 """Friction power and the moments that bend the hub, one mesh, means over the rotor angles."""
 
-from math import cos, hypot, pi
+from math import cos, hypot, pi, tan
 
 import numpy as np
 
@@ -8,7 +8,6 @@ from solvers.coupling.friction.averaging import LoadedMesh
 from solvers.coupling.friction.sums import without_rounding
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.results import Geometry, Losses
-from solvers.coupling.teeth.kinematics import contact_position, flank_normals
 
 
 def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, friction: float) -> Losses:
@@ -19,7 +18,7 @@ def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, frict
     nothing tilts, and where nothing slides at all it is open. The power balance leaves M_f - T delta/2 of it to bend
     the driving hub, whatever the load distribution.
     """
-    operation, sums = inputs.operation, loaded.friction
+    operation, sums = inputs.operation, loaded.sums
     scale = friction / cos(inputs.coupling.pressure_angle)
     lever = scale * geometry.pitch_radius * float(np.sign(loaded.motion.sliding))
     friction_moment = lever * without_rounding(sums.tilting, sums.load)
@@ -49,15 +48,18 @@ def equal_loads_friction_moment(coaxial_limit: float, pitch_radius: float) -> fl
 def contact_shift_moment(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh) -> float:
     """M_s = |sum z_c F_n n_x| [N m], moment about the tilt axis of tooth forces off the middle of the face.
 
-    `tangential`: z_c = s_1 and the tangential part of n; R_t delta T/(2 r_o) for equal loads. `spatial`: z_c = s_1 -
-    delta r_o cos phi, the contact's place in the sleeve's frame, and all of n. Both equal sum F_t df_t/d delta. The y
-    components of n add T delta/2 about the pivot direction in space, which the power balance of the hub already holds.
+    Both factors are harmonics of phi: their product is one of sin^2, sin cos and cos^2. `tangential`: z_c = s_1 and
+    the tangential part of n; R_t delta T/(2 r_o) for equal loads. `spatial`: z_c = s_1 - delta r_o cos phi, the
+    contact's place in the sleeve's frame, and all of n. Both equal sum F_t df_t/d delta. The y components of n add
+    T delta/2 about the pivot direction in space, which the power balance of the hub already holds.
     """
-    teeth = loaded.teeth
-    arm = contact_position(loaded.motion, teeth)
-    if inputs.model.kinematics == "tangential":
-        normal_x = -loaded.motion.side * teeth.sine
-    else:
-        arm -= inputs.operation.misalignment * geometry.pitch_radius * teeth.cosine
-        normal_x = flank_normals(loaded.motion, teeth)[:, 0]
-    return abs(loaded.mean_sum(loaded.tangential_force * arm * normal_x))
+    motion, sums = loaded.motion, loaded.sums
+    arm_sin, arm_cos, normal_sin, normal_cos = motion.travel_sin, 0.0, -motion.side, 0.0
+    if inputs.model.kinematics == "spatial":
+        arm_cos = motion.travel_cos - inputs.operation.misalignment * geometry.pitch_radius
+        normal_cos = tan(motion.pressure_angle)
+    return abs(
+        arm_sin * normal_sin * sums.tilted
+        + (arm_sin * normal_cos + arm_cos * normal_sin) * sums.mixed
+        + arm_cos * normal_cos * sums.pivoted
+    )

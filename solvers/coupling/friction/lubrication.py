@@ -1,12 +1,12 @@
 """Contact surface overlap and hydrodynamic load capacity of the highest loaded tooth (Figs 7 and 8)."""
 
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache
 from math import atan, cos, inf, sin, sqrt, tan
 
 import numpy as np
 
-from solvers.arrays import FloatArray
+from solvers.arrays import FloatArray, frozen
 from solvers.compiled import kernel
 from solvers.contact.hertz import half_width, maximum_pressure
 from solvers.coupling.inputs import Coupling, CouplingInputs, ModelOptions
@@ -53,14 +53,24 @@ def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
     """
     peak = displacement_peak(mesh)
     if inputs.coupling.pitch_errors is None:
-        return float(_largest_forces(inputs, mesh, np.array([peak])).max())
-    return largest_value(peak + revolution(inputs.coupling.teeth), partial(_largest_forces, inputs, mesh))
+        return float(_largest_forces(inputs, mesh, _positions_at(peak, inputs.coupling.teeth)).max())
+
+    def largest_forces(angles: FloatArray) -> FloatArray:
+        return _largest_forces(inputs, mesh, tooth_positions(angles, inputs.coupling.teeth))
+
+    return largest_value(peak + revolution(inputs.coupling.teeth), largest_forces)
 
 
-def _largest_forces(inputs: CouplingInputs, mesh: MeshMotion, angles: FloatArray) -> FloatArray:
-    """Largest normal tooth force [N] at each rotor angle [rad]."""
+@lru_cache(maxsize=4)
+def _positions_at(angle: float, teeth: int) -> ToothPositions:
+    """Tooth positions at one rotor angle [rad]: f_t peaks at the same one whatever misalignment and crowning."""
+    found = tooth_positions(np.array([angle]), teeth)
+    return ToothPositions(frozen(found.sine), frozen(found.cosine))
+
+
+def _largest_forces(inputs: CouplingInputs, mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
+    """Largest normal tooth force [N] at each rotor angle."""
     coupling = inputs.coupling
-    teeth = tooth_positions(angles, coupling.teeth)
     loads = mesh_loads(coupling, mesh, teeth, inputs.operation.torque, floating=inputs.model.sleeve == "floating")
     largest: FloatArray = loads.tangential_force.max(axis=1) / cos(coupling.pressure_angle)
     return largest

@@ -1,4 +1,4 @@
-"""What friction adds up to over the teeth of one mesh, in one pass over rotor angles and teeth."""
+"""What loads and friction add up to over the teeth of one mesh, in one pass over rotor angles and teeth."""
 
 from typing import NamedTuple
 
@@ -9,12 +9,13 @@ ROUNDING = 1e-12
 """Share of what its parts may add up to below which a sum is their rounding."""
 
 
-class FrictionSums(NamedTuple):
+class ToothSums(NamedTuple):
     """Sums over the teeth of tangential force times direction and place, averaged over rotor angles.
 
     With the direction of friction sgn(v_r): `load` sum F_t, `axial` sum F_t sgn(v_r), `still` sum F_t of teeth without
     relative velocity, `tilting` sum F_t sgn(v_r) sin(phi), `pivoting` sum F_t sgn(v_r) cos(phi) [N]; `power` sum
-    F_t |v_r| [W].
+    F_t |v_r| [W]. Without friction: `tilted` sum F_t sin^2(phi), `mixed` sum F_t sin(phi) cos(phi), `pivoted` sum
+    F_t cos^2(phi) [N].
     """
 
     load: float
@@ -23,28 +24,34 @@ class FrictionSums(NamedTuple):
     tilting: float
     pivoting: float
     power: float
+    tilted: float
+    mixed: float
+    pivoted: float
 
 
 @kernel
-def friction_sums(
+def tooth_sums(
     force: FloatArray, sine: FloatArray, cosine: FloatArray, weight: FloatArray, sliding: float, axial_velocity: float
-) -> FrictionSums:
+) -> ToothSums:
     """Sums of `force`, `sine`, `cosine` (rows, teeth) under the relative velocity v_r = v_ax + v_G sin(phi)."""
-    load = axial = still = tilting = pivoting = power = 0.0
+    load = axial = still = tilting = pivoting = power = tilted = mixed = pivoted = 0.0
     for row in range(force.shape[0]):
         for i in range(force.shape[1]):
-            share = weight[row] * force[row, i]
-            velocity = axial_velocity + sliding * sine[row, i]
+            s, c, share = sine[row, i], cosine[row, i], weight[row] * force[row, i]
+            velocity = axial_velocity + sliding * s
             load += share
+            tilted += share * s * s
+            mixed += share * s * c
+            pivoted += share * c * c
             power += share * abs(velocity)
             if velocity == 0.0:
                 still += share
             else:
                 directed = share if velocity > 0.0 else -share
                 axial += directed
-                tilting += directed * sine[row, i]
-                pivoting += directed * cosine[row, i]
-    return FrictionSums(load, axial, still, tilting, pivoting, power)
+                tilting += directed * s
+                pivoting += directed * c
+    return ToothSums(load, axial, still, tilting, pivoting, power, tilted, mixed, pivoted)
 
 
 def without_rounding(value: float, scale: float) -> float:

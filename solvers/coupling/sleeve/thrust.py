@@ -18,7 +18,7 @@ def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> t
     mu F_n towards the slack. Without axial velocity the force is zero: half a turn later every tooth meets the same
     load under the opposite sliding.
     """
-    scale, sums = friction / cos(loaded.motion.pressure_angle), loaded.friction
+    scale, sums = friction / cos(loaded.motion.pressure_angle), loaded.sums
     force = without_rounding(sums.axial, sums.load) if axial_velocity != 0.0 else 0.0
     return scale * force, scale * sums.still
 

@@ -160,7 +160,7 @@ def float_sleeve(
     change = np.empty(ahead.size)
     for i in range(ahead.size):
         ahead[i] = interference[i] - state[SHIFT_X] * normal[ALONG_X, i] - state[SHIFT_Y] * normal[ALONG_Y, i]
-    state[ROTATION] = turn_to_torque(ahead)
+    _, state[ROTATION] = turn_to_torque(ahead, 1.0)
     for iteration in range(1, MAX_ITERATIONS + 1):
         add_up(ahead, normal, held, hessian)
         missing[ROTATION] = 1.0 - held[ROTATION]

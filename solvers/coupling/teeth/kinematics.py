@@ -60,9 +60,10 @@ def tooth_positions(rotor_angles: FloatArray, teeth: int) -> ToothPositions:
     pitch_angles = 2.0 * np.pi / teeth * np.arange(teeth)
     sin_pitch, cos_pitch = np.sin(pitch_angles), np.cos(pitch_angles)
     sin_rotor, cos_rotor = np.sin(rotor_angles)[:, None], np.cos(rotor_angles)[:, None]
-    return ToothPositions(
-        sine=sin_rotor * cos_pitch + cos_rotor * sin_pitch, cosine=cos_rotor * cos_pitch - sin_rotor * sin_pitch
-    )
+    sine, cosine = sin_rotor * cos_pitch, cos_rotor * cos_pitch
+    sine += cos_rotor * sin_pitch
+    cosine -= sin_rotor * sin_pitch
+    return ToothPositions(sine, cosine)
 
 
 def mesh_motion(

@@ -33,8 +33,10 @@ class ToothLoads:
 
 def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
     """How far each tooth is ahead, f_t + pitch error [m], shape (rows, teeth)."""
-    displacement = tangential_displacement(mesh, teeth)
-    return displacement if coupling.pitch_errors is None else displacement + np.asarray(coupling.pitch_errors)
+    ahead = tangential_displacement(mesh, teeth)
+    if coupling.pitch_errors is not None:
+        ahead += coupling.pitch_errors
+    return ahead
 
 
 def elastic_rotation(coupling: Coupling, torque: float) -> float:
@@ -44,15 +46,14 @@ def elastic_rotation(coupling: Coupling, torque: float) -> float:
 
 def centred_loads(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, torque: float) -> ToothLoads:
     """Loads of a sleeve held centred on the hub: exact for any torque >= 0."""
-    interference = interference_at_rest(coupling, mesh, teeth)
-    rows = interference.shape[0]
+    ahead = interference_at_rest(coupling, mesh, teeth)
+    rows = ahead.shape[0]
     displacement, iterations = np.zeros((rows, 2)), np.zeros(rows, dtype=np.int64)
     if torque == 0.0:
-        return ToothLoads(np.zeros_like(interference), -interference.max(axis=1), displacement, iterations)
-    unit = elastic_rotation(coupling, torque)
-    share, rotation = np.empty_like(interference), np.empty(rows)
-    centred_rows(interference / unit, share, rotation)
-    return ToothLoads(unit * coupling.tooth_stiffness * share, unit * rotation, displacement, iterations)
+        return ToothLoads(np.zeros_like(ahead), -ahead.max(axis=1), displacement, iterations)
+    unit, rotation = elastic_rotation(coupling, torque), np.empty(rows)
+    centred_rows(ahead, unit, unit * coupling.tooth_stiffness, rotation)
+    return ToothLoads(ahead, rotation, displacement, iterations)
 
 
 def floating_loads(

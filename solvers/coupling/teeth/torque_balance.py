@@ -10,44 +10,58 @@ from solvers.compiled import kernel
 
 
 @kernel
-def rotation_of_leads(lead: FloatArray) -> float:
-    """The psi at which sum max(0, psi + lead_i) = 1, exactly, for leads whose largest is zero.
+def _crossing(ahead: FloatArray, highest: float, psi: float) -> float:
+    """Where the teeth that psi > 0 loads would carry unit torque: Newton's step on sum max(0, psi + lead_i) = 1."""
+    count, total = 0, 0.0
+    for lead in ahead:
+        behind = lead - highest
+        if psi + behind > 0.0:
+            count += 1
+            total += behind
+    return (1.0 - total) / count
+
+
+@kernel
+def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
+    """The psi at which sum max(0, psi + lead_i) = 1, exactly, for leads w_i less the highest of them.
 
     Equal to sorting them in falling order and taking the largest k whose psi_k = (1 - sum_1..k lead)/k loads tooth k.
-    Newton from the right on the convex, piecewise linear sum drops at least one tooth a step and ends on it.
+    The sum is convex and linear in pieces: Newton's first step leads to the right of psi from any `start` > 0, the
+    others fall, each by at least one tooth less, until they have found the piece.
     """
-    loaded = lead.size + 1
+    psi = _crossing(ahead, highest, start)
+    following = _crossing(ahead, highest, psi)
+    while following < psi:
+        psi, following = following, _crossing(ahead, highest, following)
+    return psi
+
+
+@kernel
+def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
+    """Turn w_i in `ahead` into the u_i that carry unit torque.
+
+    Returns the common rotation psi against the highest w_i, which is sought from `start`, and against all.
+    """
+    highest: float = ahead[0]
+    for lead in ahead:
+        highest = max(highest, lead)
+    psi = rotation_of_leads(ahead, highest, start)
+    for i in range(ahead.size):
+        ahead[i] = ahead[i] - highest + psi
+    return psi, psi - highest
+
+
+@kernel
+def centred_rows(ahead: FloatArray, unit: float, unit_force: float, rotation: FloatArray) -> None:
+    """Turn how far teeth are ahead into the forces of a centred sleeve, row by row, and note its rotation.
+
+    `unit` and `unit_force` are what lengths and forces count in, T/(r_o c_t) and T/r_o.
+    """
     psi = 1.0
-    while True:
-        count = 0
-        total = 0.0
-        for behind in lead:
-            if psi + behind > 0.0:
-                count += 1
-                total += behind
-        if count == loaded:
-            return psi
-        loaded = count
-        psi = (1.0 - total) / count
-
-
-@kernel
-def turn_to_torque(ahead: FloatArray) -> float:
-    """Turn w_i in `ahead` into the u_i that carry unit torque; returns the common rotation psi."""
-    highest: float = ahead.max()
-    for i in range(ahead.size):
-        ahead[i] -= highest
-    psi = rotation_of_leads(ahead)
-    for i in range(ahead.size):
-        ahead[i] += psi
-    return psi - highest
-
-
-@kernel
-def centred_rows(interference: FloatArray, share: FloatArray, rotation: FloatArray) -> None:
-    """Shares and rotation of a centred sleeve, row by row."""
-    for row in range(interference.shape[0]):
-        share[row] = interference[row]
-        rotation[row] = turn_to_torque(share[row])
-        for i in range(interference.shape[1]):
-            share[row, i] = max(0.0, share[row, i])
+    for row in range(ahead.shape[0]):
+        for i in range(ahead.shape[1]):
+            ahead[row, i] /= unit
+        psi, turned = turn_to_torque(ahead[row], psi)
+        rotation[row] = unit * turned
+        for i in range(ahead.shape[1]):
+            ahead[row, i] = unit_force * max(0.0, ahead[row, i])

@@ -3,10 +3,11 @@
 Unknown is the gap g at the stations; the residual is g minus what shafts, bearings and couplings make of the load it
 leaves. Newton's step is (I - D B) dg = -R with B = dQ/dg of the mesh (mean over a base pitch: the mesh frequency lies
 far above any bending or film frequency, so the shafts follow the mean) and D the derivative of the gap by Q, the
-couplings' answer included. The mean of the gap belongs to the transmission error and is taken out.
+couplings' answer included. The mean of the gap belongs to the transmission error and is taken out. Most of the way is
+gone on a coarse mesh of roll positions and slices.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,10 +19,15 @@ from solvers.errors import NoSolution
 from solvers.scuffing.balance.contact_slices import Mesh
 from solvers.scuffing.balance.face_response import FaceResponse, face_response
 from solvers.scuffing.balance.load_balance import LoadBalance, balance_load
+from solvers.scuffing.flank.contact_lines import roll_positions
+from solvers.scuffing.flank.modification import kinks_along_face, kinks_along_path
 from solvers.scuffing.model import PreparedMesh
 
 TOLERANCE = 1e-12  # m
 ITERATIONS = 40
+COARSER = 4  # times fewer roll positions and slices, by which the gap changes by a nanometre
+ROUGH_TOLERANCE = 1e-9  # m
+ROUGH_ITERATIONS = 10
 LEAST_STEP = 1 / 64
 
 
@@ -50,6 +56,14 @@ class LoadedMesh:
         mesh = self.prepared.mesh
         lead = self.fixed + np.interp(points, self.stations, gap)
         return mesh._replace(gap=mesh.gap._replace(lead=lead))
+
+    @property
+    def coarser(self) -> "LoadedMesh":
+        """The same mesh at fewer roll positions and slices."""
+        given, form = self.prepared, self.prepared.mesh.gap
+        count = given.rolls.phase.size // COARSER
+        rolls = roll_positions(given.path.plane, count, kinks_along_path(form), kinks_along_face(form))
+        return replace(self, prepared=replace(given, rolls=rolls), slices=self.slices // COARSER)
 
     def respond(self, gap: FloatArray, start: FaceResponse | None = None) -> FaceResponse:
         """Force of the contacts at the stations, from the response to a similar gap."""
@@ -80,33 +94,46 @@ class Equilibrium:
 
 
 def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -> Equilibrium:
-    """Newton's iteration on the gap, from that of a uniform load or a known one.
+    """Newton's iteration on the gap, from a known one, else from that of a coarse mesh under a uniform load.
 
     Raises NoSolution drive_train with the residual [um] where it does not converge.
     """
-    count = unit.stations.size
     hubs = loads_at_rest(unit)
     if start is None:
-        answer = respond(unit, uniform_force(mesh.transmitted, count), hubs)
-        hubs, start = answer.hubs, centred(answer.motion[:count])
+        start, hubs = _rough(unit, mesh.coarser, hubs)
     state = _evaluate(unit, mesh, start, hubs, None)
     for iteration in range(1, ITERATIONS + 1):
-        matrix = np.eye(count) - mesh.scale * _centred_rows(state.answer.derivative) @ state.response.derivative
         if state.size <= TOLERANCE:
-            answer = state.answer
-            return Equilibrium(
-                gap=state.gap,
-                mean_gap=face_mean(answer.motion[:count]),
-                loads=np.concatenate([mesh.scale * state.response.force, answer.hubs.loads]),
-                hubs=answer.hubs,
-                balance=mesh.balance(state.gap, state.response),
-                by_gap=np.asarray(np.linalg.solve(matrix.T, mesh.scale * state.response.derivative.T).T, dtype=float),
-                iterations=iteration,
-                residual=state.size,
-            )
-        step = centred(np.asarray(np.linalg.solve(matrix, -state.residual), dtype=float))
-        state = _advance(unit, mesh, state, step)
+            return _settled(mesh, state, iteration)
+        state = _advance(unit, mesh, state)
     raise NoSolution("drive_train", "shafts and mesh found no common gap", {"residual_um": state.size * 1e6})
+
+
+def _rough(unit: Unit, mesh: LoadedMesh, hubs: HubLoads) -> tuple[FloatArray, HubLoads]:
+    """About the gap, and the loads of the hubs: how near they are is for the mesh itself to say."""
+    count = unit.stations.size
+    answer = respond(unit, uniform_force(mesh.transmitted, count), hubs)
+    state = _evaluate(unit, mesh, centred(answer.motion[:count]), answer.hubs, None)
+    for _ in range(ROUGH_ITERATIONS):
+        if state.size <= ROUGH_TOLERANCE:
+            break
+        state = _advance(unit, mesh, state)
+    return state.gap, state.answer.hubs
+
+
+def _settled(mesh: LoadedMesh, state: "_State", iterations: int) -> Equilibrium:
+    """What a gap that its load leaves means."""
+    answer, by_gap = state.answer, mesh.scale * state.response.derivative
+    return Equilibrium(
+        gap=state.gap,
+        mean_gap=face_mean(answer.motion[: state.gap.size]),
+        loads=np.concatenate([mesh.scale * state.response.force, answer.hubs.loads]),
+        hubs=answer.hubs,
+        balance=mesh.balance(state.gap, state.response),
+        by_gap=np.asarray(np.linalg.solve(_matrix(mesh, state).T, by_gap.T).T, dtype=float),
+        iterations=iterations,
+        residual=state.size,
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,9 +154,15 @@ def _evaluate(unit: Unit, mesh: LoadedMesh, gap: FloatArray, hubs: HubLoads, bef
     return _State(gap, response, answer, gap - centred(answer.motion[: gap.size]))
 
 
-def _advance(unit: Unit, mesh: LoadedMesh, state: _State, step: FloatArray) -> _State:
-    """The state after a step, halved while the residual does not fall."""
-    share = 1.0
+def _matrix(mesh: LoadedMesh, state: _State) -> FloatArray:
+    """I - D B."""
+    by_force = _centred_rows(state.answer.derivative)
+    return np.asarray(np.eye(state.gap.size) - mesh.scale * by_force @ state.response.derivative)
+
+
+def _advance(unit: Unit, mesh: LoadedMesh, state: _State) -> _State:
+    """The state after Newton's step, halved while the residual does not fall."""
+    step, share = centred(np.asarray(np.linalg.solve(_matrix(mesh, state), -state.residual), dtype=float)), 1.0
     while True:
         following = _evaluate(unit, mesh, state.gap + share * step, state.answer.hubs, state.response)
         if following.size < state.size or share < LEAST_STEP:

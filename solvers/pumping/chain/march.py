@@ -47,8 +47,7 @@ def march_chain(
             record.ends[taken, TIME] = (taken + 0.5) * dt
             if high > low:
                 _book_ends(gas, duct, pockets, record, low, high, dt, taken)
-                for face in range(low, high + 1):
-                    _book_jet(gas, pockets, record, face, low, high)
+                _book_jets(gas, pockets, record, low, high)
                 _book_pockets(gas, duct, pockets, record, low, high, dt)
             taken += 1
         _sample(gas, pockets, record, low, high, k)
@@ -83,37 +82,39 @@ def _renew(
 
 @kernel
 def _set_walls(duct: Duct, pockets: Pockets, low: int, high: int, angle: float, turn: float) -> None:
+    area, gap, opening = pockets.area, pockets.gap, pockets.opening
     for i in range(low, high):
         z = duct.start + (i + 0.5) * duct.width
         after = wall_at(duct, z, angle + turn)
-        pockets.area[i, START] = wall_at(duct, z, angle).area
-        pockets.area[i, END], pockets.gap[i] = after.area, after.clearance
+        area[i, START] = wall_at(duct, z, angle).area
+        area[i, END], gap[i] = after.area, after.clearance
     for face in range(low, high + 1):
-        pockets.opening[face] = wall_at(duct, duct.start + face * duct.width, angle + turn).area
+        opening[face] = wall_at(duct, duct.start + face * duct.width, angle + turn).area
 
 
 @kernel
-def _temperature(gas: Gas, pockets: Pockets, i: int, when: int) -> float:
-    """Temperature of a pocket [K] by its area at the START or the END of the step."""
-    temperature: float = pockets.old[i, PRESSURE] * pockets.area[i, when] / (pockets.old[i, CONTENT] * gas.constant)
-    return temperature
+def _temperature(gas: Gas, pressure: float, area: float, content: float) -> float:
+    """Temperature of a pocket [K]."""
+    return pressure * area / (content * gas.constant)
 
 
 @kernel
-def _mach(gas: Gas, pockets: Pockets, face: int, low: int, high: int) -> float:
-    """Mach number in the narrowest section of the jet through a face."""
-    left = pockets.new[face - 1, PRESSURE] if face > low else gas.pressure
-    right = pockets.new[face, PRESSURE] if face < high else gas.pressure
+def _mach(gas: Gas, left: float, right: float) -> float:
+    """Mach number in the narrowest section of the jet between two pressures [Pa]."""
     return throat_mach(gas, max(left, right), min(left, right))
 
 
 @kernel
 def _sample(gas: Gas, pockets: Pockets, record: Record, low: int, high: int, k: int) -> None:
     """Field of the active pockets at a recorded angle."""
+    new, area, field = pockets.new, pockets.area, record.field
+    mach = 0.0
     for i in range(low, high):
-        mach = max(_mach(gas, pockets, i, low, high), _mach(gas, pockets, i + 1, low, high))
-        record.field[k, i, columns.PRESSURE], record.field[k, i, columns.MACH] = pockets.old[i, PRESSURE], mach
-        record.field[k, i, columns.TEMPERATURE] = _temperature(gas, pockets, i, END)
+        p = new[i, PRESSURE]
+        before = mach if i > low else _mach(gas, gas.pressure, p)
+        mach = _mach(gas, p, new[i + 1, PRESSURE] if i + 1 < high else gas.pressure)
+        field[k, i, columns.PRESSURE], field[k, i, columns.MACH] = p, max(before, mach)
+        field[k, i, columns.TEMPERATURE] = _temperature(gas, p, area[i, END], new[i, CONTENT])
 
 
 @kernel
@@ -135,30 +136,40 @@ def _book_ends(
 
 
 @kernel
-def _book_jet(gas: Gas, pockets: Pockets, record: Record, face: int, low: int, high: int) -> None:
-    """Book Mach number and velocity in the jet through a face."""
-    source = face - 1 if pockets.flow[face, MASS] > 0.0 else face
-    stagnation = gas.temperature
-    if low <= source < high:
-        content = pockets.new[source, CONTENT] * gas.constant
-        stagnation = pockets.new[source, PRESSURE] * pockets.area[source, END] / content
-    mach = _mach(gas, pockets, face, low, high)
-    static = stagnation / (1.0 + 0.5 * (gas.exponent - 1.0) * mach * mach)
-    book_speed(record, mach, mach * np.sqrt(gas.exponent * gas.constant * static))
+def _book_jets(gas: Gas, pockets: Pockets, record: Record, low: int, high: int) -> None:
+    """Book the largest Mach number and velocity of the jets through the faces."""
+    new, area, flow = pockets.new, pockets.area, pockets.flow
+    largest, fastest = 0.0, 0.0
+    right = gas.pressure
+    for face in range(low, high + 1):
+        left, right = right, new[face, PRESSURE] if face < high else gas.pressure
+        source = face - 1 if flow[face, MASS] > 0.0 else face
+        stagnation = gas.temperature
+        if low <= source < high:
+            stagnation = _temperature(gas, new[source, PRESSURE], area[source, END], new[source, CONTENT])
+        mach = _mach(gas, left, right)
+        static = stagnation / (1.0 + 0.5 * (gas.exponent - 1.0) * mach * mach)
+        largest = max(largest, mach)
+        fastest = max(fastest, mach * np.sqrt(gas.exponent * gas.constant * static))
+    book_speed(record, largest, fastest)
 
 
 @kernel
 def _book_pockets(gas: Gas, duct: Duct, pockets: Pockets, record: Record, low: int, high: int, dt: float) -> None:
     """Book what the walls did, means and extremes, and take over the new state."""
-    old, new = pockets.old, pockets.new
+    old, new, area, leak = pockets.old, pockets.new, pockets.area, pockets.leak
+    mass = energy = work = 0.0
     for i in range(low, high):
-        growth = pockets.area[i, END] - pockets.area[i, START]
+        growth = area[i, END] - area[i, START]
         mean = 0.5 * (old[i, PRESSURE] + new[i, PRESSURE])
-        energy = (pockets.leak[i, HEAT] * dt + mean * growth) * duct.width
-        book(record, WALLS, pockets.leak[i, MASS] * dt * duct.width, energy)
-        record.energy[WORK] -= (mean - gas.pressure) * growth * duct.width
-        before = _temperature(gas, pockets, i, START)
+        mass += leak[i, MASS] * dt
+        energy += leak[i, HEAT] * dt + mean * growth
+        work -= (mean - gas.pressure) * growth
+        before = _temperature(gas, old[i, PRESSURE], area[i, START], old[i, CONTENT])
+        after = _temperature(gas, new[i, PRESSURE], area[i, END], new[i, CONTENT])
+        temperature = 0.5 * (before + after)
         old[i, PRESSURE], old[i, CONTENT] = new[i, PRESSURE], new[i, CONTENT]
-        temperature = 0.5 * (before + _temperature(gas, pockets, i, END))
         book_means(record, i, temperature, temperature, dt, 1.0)
         book_pressure(record, i, new[i, PRESSURE])
+    book(record, WALLS, mass * duct.width, energy * duct.width)
+    record.energy[WORK] += work * duct.width

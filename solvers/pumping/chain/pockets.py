@@ -18,7 +18,8 @@ class Pockets(NamedTuple):
     [m^2] and `gap` [m] at its end; `opening` (faces) [m^2]; `flow` (faces, 2) mass and heat towards the high end
     [kg/s, W], `leak` (pockets, 2) outwards [kg/(s m), W/m]; `residual` (pockets, 2), `lower`, `diagonal`, `upper`
     (pockets, 2, 2) and `correction` (pockets, 2) of Newton's method, `trial` (pockets, 2) its candidate, `error` (1,)
-    its largest residual relative to the ambient content.
+    its largest residual relative to the ambient content. Kernels unpack what their loops use: an array fetched from
+    here within a loop is counted up and down each time, which cost half of the march.
     """
 
     old: FloatArray

@@ -8,6 +8,8 @@ Backward Euler, the wall work with the mean pressure of the step; Newton's metho
 its blocks of two by two eliminated along the chain. All amounts are per metre of face.
 """
 
+from typing import NamedTuple
+
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.pumping.chain.pockets import CONTENT, END, HEAT, MASS, PRESSURE, START, Pockets
@@ -18,6 +20,24 @@ _NEWTON_LIMIT = 200
 _TOLERANCE = 1e-10
 _ROUNDING = 1e-7  # residual accepted once Newton's method no longer lowers it: pressures differ by round-off only
 _HALVINGS = 12
+
+
+class Side(NamedTuple):
+    """A side of an opening: pressure [Pa], mass [kg/m] and section [m^2] of a pocket, or of one of ambient gas."""
+
+    pressure: float
+    mass: float
+    area: float
+
+
+class Passage(NamedTuple):
+    """What passes an opening from left to right, and its derivatives by the pressure and mass on both sides."""
+
+    flow: float
+    by_left_pressure: float
+    by_left_mass: float
+    by_right_pressure: float
+    by_right_mass: float
 
 
 @kernel
@@ -70,10 +90,31 @@ def _settle(gas: Gas, duct: Duct, pockets: Pockets, low: int, high: int, dt: flo
 
 
 @kernel
-def _discharge(gas: Gas, p: float, m: float, area: float, downstream: float) -> tuple[float, float, float, float]:
-    """Mass flux out of a pocket and its derivatives by the pocket's pressure and mass and the downstream pressure."""
-    flux, by_p, by_down = mass_flux(gas, p, p * area / (m * gas.constant), downstream)
-    return flux, by_p - 0.5 * flux / p, 0.5 * flux / m, by_down
+def _ambient(gas: Gas) -> Side:
+    return Side(gas.pressure, gas.density, 1.0)
+
+
+@kernel
+def _passages(gas: Gas, left: Side, right: Side) -> tuple[Passage, Passage]:
+    """Mass and heat per open area from the side of the higher pressure to the other, at the temperature of the first.
+
+    Per unit of mass the heat is that of its source, c_p T = c_p p A/(m R).
+    """
+    forward = left.pressure >= right.pressure
+    source, sink = (left, right) if forward else (right, left)
+    temperature = source.pressure * source.area / (source.mass * gas.constant)
+    flux, by_upstream, by_p_sink = mass_flux(gas, source.pressure, temperature, sink.pressure)
+    by_p, by_m = by_upstream - 0.5 * flux / source.pressure, 0.5 * flux / source.mass
+    heat = gas.heat_capacity * temperature
+    energy, energy_by_p_sink = flux * heat, by_p_sink * heat
+    energy_by_p, energy_by_m = by_p * heat + energy / source.pressure, by_m * heat - energy / source.mass
+    if forward:
+        return Passage(flux, by_p, by_m, by_p_sink, 0.0), Passage(
+            energy, energy_by_p, energy_by_m, energy_by_p_sink, 0.0
+        )
+    return Passage(-flux, -by_p_sink, 0.0, -by_p, -by_m), Passage(
+        -energy, -energy_by_p_sink, 0.0, -energy_by_p, -energy_by_m
+    )
 
 
 @kernel
@@ -81,15 +122,15 @@ def _assemble(
     gas: Gas, duct: Duct, pockets: Pockets, x: FloatArray, low: int, high: int, dt: float, isentropic: bool
 ) -> float:
     """Flows, residuals and Jacobian at pressures and masses x; the largest residual relative to the ambient content."""
-    g = gas.exponent
+    g, areas, residual = gas.exponent, pockets.area, pockets.residual
     error = 0.0
     _store(gas, pockets, x, low, high, isentropic)
     _leak(gas, duct, pockets, x, low, high, dt, isentropic)
     _exchange(gas, duct, pockets, x, low, high, dt, isentropic)
     for i in range(low, high):
-        mass = gas.density * pockets.area[i, END]
-        energy = mass if isentropic else gas.pressure * pockets.area[i, END] / (g - 1.0)
-        error = max(error, abs(pockets.residual[i, MASS]) / mass, abs(pockets.residual[i, HEAT]) / energy)
+        mass = gas.density * areas[i, END]
+        energy = mass if isentropic else gas.pressure * areas[i, END] / (g - 1.0)
+        error = max(error, abs(residual[i, MASS]) / mass, abs(residual[i, HEAT]) / energy)
     return error
 
 
@@ -97,13 +138,14 @@ def _assemble(
 def _store(gas: Gas, pockets: Pockets, x: FloatArray, low: int, high: int, isentropic: bool) -> None:
     """What closed pockets keep: mass, and energy less wall work or entropy."""
     g = gas.exponent
-    residual, block = pockets.residual, pockets.diagonal
+    old, areas, residual = pockets.old, pockets.area, pockets.residual
+    lower, block, upper = pockets.lower, pockets.diagonal, pockets.upper
     for i in range(low, high):
-        p, old_area, area = x[i, PRESSURE], pockets.area[i, START], pockets.area[i, END]
+        p, old_area, area = x[i, PRESSURE], areas[i, START], areas[i, END]
         for row in range(2):
             for column in range(2):
-                pockets.lower[i, row, column], pockets.upper[i, row, column] = 0.0, 0.0
-        residual[i, MASS] = x[i, CONTENT] - pockets.old[i, CONTENT]
+                lower[i, row, column], upper[i, row, column] = 0.0, 0.0
+        residual[i, MASS] = x[i, CONTENT] - old[i, CONTENT]
         block[i, MASS, PRESSURE], block[i, MASS, CONTENT] = 0.0, 1.0
         if isentropic:
             mass = gas.density * area * (p / gas.pressure) ** (1.0 / g)
@@ -111,7 +153,7 @@ def _store(gas: Gas, pockets: Pockets, x: FloatArray, low: int, high: int, isent
             block[i, HEAT, PRESSURE], block[i, HEAT, CONTENT] = -mass / (g * p), 1.0
         else:
             work = 0.5 * (area - old_area)
-            residual[i, HEAT] = p * (area / (g - 1.0) + work) - pockets.old[i, PRESSURE] * (old_area / (g - 1.0) - work)
+            residual[i, HEAT] = p * (area / (g - 1.0) + work) - old[i, PRESSURE] * (old_area / (g - 1.0) - work)
             block[i, HEAT, PRESSURE], block[i, HEAT, CONTENT] = area / (g - 1.0) + work, 0.0
 
 
@@ -120,26 +162,19 @@ def _leak(
     gas: Gas, duct: Duct, pockets: Pockets, x: FloatArray, low: int, high: int, dt: float, isentropic: bool
 ) -> None:
     """Flow through the radial gaps."""
-    residual, block = pockets.residual, pockets.diagonal
+    area, gap, leak = pockets.area, pockets.gap, pockets.leak
+    residual, diagonal = pockets.residual, pockets.diagonal
+    rows = 1 if isentropic else 2
     for i in range(low, high):
-        p, m, area = x[i, PRESSURE], x[i, CONTENT], pockets.area[i, END]
-        gap = duct.discharge * pockets.gap[i]
-        if p >= gas.pressure:
-            flux, by_p, by_m, _ = _discharge(gas, p, m, area, gas.pressure)
-            heat = gas.heat_capacity * p * area / (m * gas.constant)
-            heat_by_p, heat_by_m = heat / p, -heat / m
-        else:
-            inflow, _, by_down = mass_flux(gas, gas.pressure, gas.temperature, p)
-            flux, by_p, by_m = -inflow, -by_down, 0.0
-            heat, heat_by_p, heat_by_m = gas.heat_capacity * gas.temperature, 0.0, 0.0
-        pockets.leak[i, MASS], pockets.leak[i, HEAT] = gap * flux, gap * flux * heat
-        residual[i, MASS] += dt * gap * flux
-        block[i, MASS, PRESSURE] += dt * gap * by_p
-        block[i, MASS, CONTENT] += dt * gap * by_m
-        if not isentropic:
-            residual[i, HEAT] += dt * gap * flux * heat
-            block[i, HEAT, PRESSURE] += dt * gap * (by_p * heat + flux * heat_by_p)
-            block[i, HEAT, CONTENT] += dt * gap * (by_m * heat + flux * heat_by_m)
+        opening = duct.discharge * gap[i]
+        passages = _passages(gas, Side(x[i, PRESSURE], x[i, CONTENT], area[i, END]), _ambient(gas))
+        for row in range(2):
+            leak[i, row] = opening * passages[row].flow
+        for row in range(rows):
+            passage = passages[row]
+            residual[i, row] += dt * opening * passage.flow
+            diagonal[i, row, PRESSURE] += dt * opening * passage.by_left_pressure
+            diagonal[i, row, CONTENT] += dt * opening * passage.by_left_mass
 
 
 @kernel
@@ -147,39 +182,32 @@ def _exchange(
     gas: Gas, duct: Duct, pockets: Pockets, x: FloatArray, low: int, high: int, dt: float, isentropic: bool
 ) -> None:
     """Flow through the faces between two pockets, and between a pocket and the ambient."""
+    area, openings, flow, residual = pockets.area, pockets.opening, pockets.flow, pockets.residual
+    lower, diagonal, upper = pockets.lower, pockets.diagonal, pockets.upper
+    rows = 1 if isentropic else 2
+    right = _ambient(gas)
     for face in range(low, high + 1):
-        left = x[face - 1, PRESSURE] if face > low else gas.pressure
-        right = x[face, PRESSURE] if face < high else gas.pressure
-        source, sink, direction = (face - 1, face, 1.0) if left >= right else (face, face - 1, -1.0)
-        opening = duct.discharge * pockets.opening[face]
-        upstream, downstream = max(left, right), min(left, right)
-        if low <= source < high:
-            area, m = pockets.area[source, END], x[source, CONTENT]
-            flux, by_p, by_m, by_down = _discharge(gas, upstream, m, area, downstream)
-            heat = gas.heat_capacity * upstream * area / (m * gas.constant)
-            heat_by_p, heat_by_m = heat / upstream, -heat / m
-        else:
-            flux, by_p, by_down = mass_flux(gas, upstream, gas.temperature, downstream)
-            heat, by_m, heat_by_p, heat_by_m = gas.heat_capacity * gas.temperature, 0.0, 0.0, 0.0
-        pockets.flow[face, MASS] = direction * opening * flux
-        pockets.flow[face, HEAT] = direction * opening * flux * heat
+        before, left = face - 1, right
+        right = Side(x[face, PRESSURE], x[face, CONTENT], area[face, END]) if face < high else _ambient(gas)
+        passages = _passages(gas, left, right)
+        opening = duct.discharge * openings[face]
         share = dt * opening / duct.width
-        for end in range(2):
-            i, sign = (source, share) if end == 0 else (sink, -share)
-            if i < low or i >= high:
-                continue
-            own = pockets.diagonal
-            other = pockets.upper if i == face - 1 else pockets.lower
-            by_source, by_sink = (own, other) if end == 0 else (other, own)
-            pockets.residual[i, MASS] += sign * flux
-            by_source[i, MASS, PRESSURE] += sign * by_p
-            by_source[i, MASS, CONTENT] += sign * by_m
-            by_sink[i, MASS, PRESSURE] += sign * by_down
-            if not isentropic:
-                pockets.residual[i, HEAT] += sign * flux * heat
-                by_source[i, HEAT, PRESSURE] += sign * (by_p * heat + flux * heat_by_p)
-                by_source[i, HEAT, CONTENT] += sign * (by_m * heat + flux * heat_by_m)
-                by_sink[i, HEAT, PRESSURE] += sign * by_down * heat
+        for row in range(2):
+            flow[face, row] = opening * passages[row].flow
+        for row in range(rows):
+            passage = passages[row]
+            if face > low:
+                residual[before, row] += share * passage.flow
+                diagonal[before, row, PRESSURE] += share * passage.by_left_pressure
+                diagonal[before, row, CONTENT] += share * passage.by_left_mass
+                upper[before, row, PRESSURE] += share * passage.by_right_pressure
+                upper[before, row, CONTENT] += share * passage.by_right_mass
+            if face < high:
+                residual[face, row] -= share * passage.flow
+                diagonal[face, row, PRESSURE] -= share * passage.by_right_pressure
+                diagonal[face, row, CONTENT] -= share * passage.by_right_mass
+                lower[face, row, PRESSURE] -= share * passage.by_left_pressure
+                lower[face, row, CONTENT] -= share * passage.by_left_mass
 
 
 @kernel

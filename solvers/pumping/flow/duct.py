@@ -39,15 +39,15 @@ class Wall(NamedTuple):
 def wall_at(duct: Duct, z: float, angle: float) -> Wall:
     """The walls at z [m] when the owner stands at `angle` [rad]; end values outside the stroke."""
     position = (angle - duct.lag * z - duct.first_angle) / duct.angle_step
-    last = duct.table.shape[0] - 1
+    table = duct.table
+    last = table.shape[0] - 1
     position = min(max(position, 0.0), float(last))
     k = min(int(position), last - 1)
     f = position - k
-    low, high = duct.table[k], duct.table[k + 1]
     return Wall(
-        (1.0 - f) * low[AREA] + f * high[AREA],
-        (1.0 - f) * low[CLEARANCE] + f * high[CLEARANCE],
-        (1.0 - f) * low[CARRIED] + f * high[CARRIED],
+        (1.0 - f) * table[k, AREA] + f * table[k + 1, AREA],
+        (1.0 - f) * table[k, CLEARANCE] + f * table[k + 1, CLEARANCE],
+        (1.0 - f) * table[k, CARRIED] + f * table[k + 1, CARRIED],
     )
 
 

@@ -18,15 +18,9 @@ from solvers.arrays import FloatArray, IntArray
 from solvers.compiled import kernel
 from solvers.errors import NoSolution
 from solvers.gears.path_of_contact import ContactPlane
-from solvers.scuffing.balance.contact_slices import (
-    Cover,
-    Mesh,
-    gather,
-    load_at,
-    slice_table,
-)
+from solvers.scuffing.balance.contact_slices import OMEGA, Cover, Mesh, gather, load_at, slice_table
 from solvers.scuffing.balance.line_survey import Survey, empty_survey, survey_ends, survey_slices
-from solvers.scuffing.balance.position_balance import TOLERANCE, solve_near, solve_position
+from solvers.scuffing.balance.position_balance import TOLERANCE, solve_near
 from solvers.scuffing.flank.contact_lines import RollPositions
 
 MAX_COVERS = 20  # of the lines of one roll position by slices
@@ -137,14 +131,15 @@ def _settle(
 ) -> tuple[Cover, float, float, float]:
     """Slices, TE [m], relative residual and steps at a roll position (phase, side) whose lines are loaded in part.
 
-    Forces vanish at the ends of what is loaded, so that an error of TE moves the next one in second order only.
+    Starts from the TE of whole lines. Forces vanish at the ends of what is loaded, so that an error of TE moves the
+    next one in second order only.
     """
     covers, steps, settled = 0, 0.0, False
     phase, side = at
     while not settled:
         cover = gather(mesh, phase, side, slices, error, table)
         before = error
-        error, residual, more = solve_position(table, cover.slices, mesh.compliance.logarithmic, force)
+        error, residual, more = solve_near(table, cover.slices, mesh.compliance.logarithmic, force, error, table[OMEGA])
         covers, steps = covers + 1, steps + more
         settled = abs(error - before) <= SETTLED * (error - least) or covers == MAX_COVERS
     return cover, error, residual, steps

@@ -20,12 +20,12 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
     """K_H_beta = largest over mean of q(y) = int w dx / p_bt (the idea of ISO 6336-1, annex E) of a loaded mesh.
 
     Looked for at equidistant points, at kinks of the gap and at y [m], where a peak is, and closer around the largest.
-    The mean is the force in balance over the face.
+    The mean is the force in balance over the face. Where to look closer is seen without steps between roll positions.
     """
     plane = balance.mesh.plane
     places = _apart([*np.linspace(0.0, plane.face_width, FACE_POINTS), *kinks_along_face(balance.mesh.gap), y])
-    for _ in range(ZOOMS):
-        shares = face_loads(balance, places)
+    for zoom in range(ZOOMS):
+        shares = face_loads(balance, places, 1 if zoom == 0 else SUBSTEPS)
         top = int(np.argmax(shares))
         low, high = places[max(top - 1, 0)], places[min(top + 1, places.size - 1)]
         places = _apart([*np.linspace(low, high, ZOOM_POINTS), places[top]])
@@ -38,14 +38,17 @@ def _apart(places: list[float]) -> FloatArray:
     return np.asarray(found[np.append(np.diff(found) > SAME * (found[-1] - found[0]), True)])
 
 
-def face_loads(balance: LoadBalance, y: FloatArray) -> FloatArray:
-    """Force per face width q = int w dx / p_bt [N/m] at distances y [m] from the end that meshes first."""
+def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) -> FloatArray:
+    """Force per face width q = int w dx / p_bt [N/m] at distances y [m] from the end that meshes first.
+
+    Where lines are loaded in part, load ends between roll positions, whose steps are then cut into `substeps`.
+    """
     plane = balance.mesh.plane
     starts = line_loads(balance, np.zeros(y.size), y)
     ends = line_loads(balance, np.full(y.size, plane.path_length), y)
     in_part = np.any(balance.survey.loaded_length < (1 - SAME) * balance.survey.length)
-    substeps = SUBSTEPS if in_part else 1
-    return _face_loads(balance.mesh, balance.rolls.phase, balance.transmission_error, substeps, y, starts, ends)
+    steps = substeps if in_part else 1
+    return _face_loads(balance.mesh, balance.rolls.phase, balance.transmission_error, steps, y, starts, ends)
 
 
 @kernel

@@ -14,10 +14,9 @@ from solvers.scuffing.results import ContactPoints, FeatureLine
 
 
 def contact_points(
-    path: PathOfContact, balance: LoadBalance, x: FloatArray, y: FloatArray, pinion_speed: float, modulus: float
+    path: PathOfContact, balance: LoadBalance, x: FloatArray, load: FloatArray, pinion_speed: float, modulus: float
 ) -> ContactPoints:
-    """Load, radius and speeds at points (x, y) [m] of the plane, arrays of one shape; E' [Pa]."""
-    load = line_loads(balance, x, y)
+    """Load, radius and speeds at points x [m] of the path under w [N/m], arrays of one shape; E' [Pa]."""
     radius = reduced_radius(path.plane, x)
     pinion, wheel = path.surface_speeds(x, pinion_speed)
     return ContactPoints(
@@ -41,7 +40,8 @@ def feature_line(
 ) -> FeatureLine:
     """The points at psi in 0..1 (n,), x = psi g_alpha, y = psi b; F_bt [N], E' [Pa]."""
     x = psi * path.length
-    line = contact_points(path, balance, x, psi * path.plane.face_width, pinion_speed, modulus)
+    load = line_loads(balance, x, psi * path.plane.face_width)
+    line = contact_points(path, balance, x, load, pinion_speed, modulus)
     sharing = iso_load_sharing(path, x)
     return FeatureLine(
         **{item.name: getattr(line, item.name) for item in fields(line)},

@@ -26,8 +26,8 @@ from solvers.scuffing.teeth.compliance import bending_compliance, load_points, s
 TABLE_POINTS = 801
 LEAST_RADIUS = 1e-6  # normal modules; on a base circle it vanishes, and the half width with it
 SHALLOWEST = 2.0  # half-space depth over contact half width
-NEWTON_STEPS = 12
-NEWTON_SQUARE = 1e-14  # of omega^2; the step squared bounds what is left, so the next step would be rounding
+OMEGA_STEPS = 12
+LAST_STEP = 5e-4  # of omega; its fourth power bounds what is left, so the next step would be rounding
 
 
 class PairCompliance(NamedTuple):
@@ -126,19 +126,23 @@ def line_load(
 ) -> tuple[float, float, float]:
     """Line load w [N/m], its derivative [Pa] by the approach [m], and omega; `omega` > 1 is a first guess, 0 is none.
 
-    Newton on omega - ln omega = A/a + ln(a / delta); dw/d(delta) = 1 / (a (omega - 1)).
+    omega - ln omega = A/a + ln(a / delta) by the iteration of Fritsch, Shafer and Crowley (1973) for Lambert's
+    function, which takes one logarithm a step and settles from any guess; dw/d(delta) = 1 / (a (omega - 1)).
     """
     if approach <= 0.0:
         return 0.0, 0.0, omega
     if logarithmic == 0.0:
         return approach / constant, 1.0 / constant, omega
-    target = constant / logarithmic + np.log(logarithmic / min(approach, limit))
+    offset, ratio = constant / logarithmic, logarithmic / min(approach, limit)
     if omega <= 1.0:
+        target = offset + np.log(ratio)
         omega = target + np.log(target)
-    for _ in range(NEWTON_STEPS):
-        step = (omega - np.log(omega) - target) * omega / (omega - 1.0)
-        omega = max(omega - step, target)
-        if step * step <= NEWTON_SQUARE * omega * omega:
+    for _ in range(OMEGA_STEPS):
+        excess, slope = omega - offset - np.log(omega * ratio), omega - 1.0
+        scale = 2.0 * slope * (slope - excess * (2.0 / 3.0))
+        step = -excess * (scale - excess) / (slope * (scale - 2.0 * excess))
+        omega *= 1.0 + step
+        if abs(step) <= LAST_STEP:
             break
     if approach > limit:
         return approach / (logarithmic * omega), 1.0 / (logarithmic * omega), omega

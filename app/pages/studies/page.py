@@ -1,0 +1,131 @@
+"""The page of a study of a case: what stands before and after its figures, the figures, files; runs in workers."""
+
+import json
+from dataclasses import dataclass, replace
+
+from app.calculations import Calculation
+from app.contract.fields import Leaf
+from app.figures.rendering import Format, written
+from app.figures.tables import table
+from app.pages.cases import Fault, faults_of
+from app.pages.charts import chart_of
+from app.pages.links import IMAGE_FORMATS, LONGEST_QUERY, examples_of
+from app.pages.query import STUDY_NAMES, link, pairs_of
+from app.pages.studies.corners import CORNERS
+from app.pages.studies.declaration import Asking, Result, StudyPage
+from app.pages.studies.design import DESIGN
+from app.pages.studies.influence import INFLUENCE
+from app.pages.templating import page_path, rendered
+from app.pages.vary.controls import output_menu
+from app.pages.vary.views import FRAMES
+from app.pages.vary.wish import field_at_fault, shown_output
+from app.pages.views import REFUSED, Asked
+from app.reading import Unreadable
+from app.studies.lines import StudyBroke
+from app.studies.stream import Line
+
+PAGES = {each.offer: each for each in (INFLUENCE, CORNERS, DESIGN)}
+
+
+@dataclass(frozen=True, slots=True)
+class StudyLinks:
+    """The addresses of the views of a study."""
+
+    page: StudyPage
+    asked: Asked
+
+    def view(self, below: str) -> str:
+        """One of them."""
+        said = {name: text for name, text in self.asked.views.items() if name in STUDY_NAMES or name == "theme"}
+        return link(f"{self.asked.path}/{self.page.offer.name}{below}", self.asked.pairs, **said)
+
+    @property
+    def too_long(self) -> bool:
+        """Whether a link cannot hold the study."""
+        return len(self.view("").partition("?")[2]) > LONGEST_QUERY
+
+    def image(self, figure: str, image_format: str) -> str:
+        """One figure as a file."""
+        return self.view(f"/figures/{figure}.{image_format}")
+
+
+@dataclass(frozen=True, slots=True)
+class Opened:
+    """A page around its figures; without a study it is whole."""
+
+    head: bytes
+    tail: bytes = b""
+    status: int = 200
+    study: Asking | None = None
+
+
+def opened(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Opened:
+    """The page of a study of a case, and the study if there is a case."""
+    try:
+        study = planned(page, asked, most, deadline_s) if asked.pairs else None
+    except REFUSED as error:
+        faults = [Fault(field_at_fault(each.path), each.message) for each in faults_of(error)]
+        status = 400 if isinstance(error, Unreadable) else 422
+        return Opened(_page(page, asked, None, faults).encode(), status=status)
+    head, _, tail = _page(page, asked, study, []).partition(FRAMES)
+    return Opened(head.encode(), tail.encode(), study=study)
+
+
+def planned(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Asking:
+    """The study that is asked for; raises what refuses it, with paths into the study."""
+    output = _output(page, asked.calculation, asked.views)
+    body = json.dumps(page.body(asked, output)).encode()
+    return Asking(page, asked, output, page.plan(body, most, deadline_s))
+
+
+def _output(page: StudyPage, calculation: Calculation, said: dict[str, str]) -> Leaf:
+    return shown_output(calculation, said if page.output is None else {"show": page.output, **said})
+
+
+def _page(page: StudyPage, asked: Asked, study: Asking | None, faults: list[Fault]) -> str:
+    calculation, offer = asked.calculation, page.offer
+    known = {fault.path: fault.message for fault in faults}
+    menu, fields = output_menu(calculation, asked.views, known), page.fields(asked.views, known)
+    return rendered(
+        "study.html",
+        calculation=calculation,
+        page=page,
+        path=asked.path,
+        case_links=asked.links,
+        links=StudyLinks(page, asked),
+        show=replace(menu, empty=_output(page, calculation, {}).title),
+        fields=fields,
+        anchors={menu.name: menu.id} | {each.name: each.id for each in fields},
+        hidden=[pair for pair in (*asked.pairs, ("theme", asked.views.get("theme", ""))) if pair[1]],
+        faults=faults,
+        theme=asked.views.get("theme", ""),
+        study=study,
+        starters=[
+            (example, link(f"{page_path(calculation)}/{offer.name}", pairs_of(example.request)))
+            for example in examples_of(calculation)
+        ],
+        frames=FRAMES,
+    )
+
+
+def whole(study: Asking, lines: list[Line]) -> bytes:
+    """Figures, tables and links; a study that broke off says why."""
+    links = StudyLinks(study.page, study.asked)
+    if lines[-1]["type"] == "error":
+        return rendered("study_result.html", broke=lines[-1]["message"]).encode()
+    found = study.page.result(study, lines)
+    charts = [chart_of(name, figure, study.asked.theme) for name, figure in found.figures.items()]
+    return rendered(
+        "study_result.html", broke=None, found=found, charts=charts, links=links, formats=IMAGE_FORMATS
+    ).encode()
+
+
+def file(study: Asking, lines: list[Line], name: str, image_format: Format) -> bytes:
+    """One figure as a file; raises StudyBroke where the study has none in the end."""
+    if lines[-1]["type"] == "error":
+        raise StudyBroke(lines[-1]["message"])
+    found: Result = study.page.result(study, lines)
+    if name not in found.figures:
+        raise StudyBroke("; ".join(found.remarks))
+    figure = found.figures[name]
+    return table(figure) if image_format == "csv" else written(figure, image_format, study.asked.theme)

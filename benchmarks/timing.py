@@ -1,0 +1,122 @@
+"""Times of a benchmark's figures, beside those of a previous version built from git in the same run.
+
+`--against REVISION` of a benchmark puts the revision's sources, with the benchmarks of today, into a folder of their
+own. One process from each answers in turn: what else the machine does meets both, and their ratio holds.
+"""
+
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+import tarfile
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path
+from statistics import median
+from time import process_time
+
+from solvers.kernel_cache import roots
+
+ROOT = Path(__file__).resolve().parent.parent
+ROUND_S = 0.15
+LEAST_RUNS = 3  # of a round
+ROUNDS = 9  # in turn
+ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+ANSWERS_FOR = "--answers-for-another-process"
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A name, what is timed, and the time aimed at [ms]."""
+
+    name: str
+    run: Callable[[], object]
+    target: float
+
+
+def best(run: Callable[[], object]) -> float:
+    """Shortest CPU time of a run [s], after one that warms up: whatever else happens only adds."""
+    run()
+    times: list[float] = []
+    while len(times) < LEAST_RUNS or sum(times) < ROUND_S:
+        began = process_time()
+        run()
+        times.append(process_time() - began)
+    return min(times)
+
+
+def print_times(benchmark: str, figures: Sequence[Figure]) -> None:
+    """Print the table of a benchmark, a module's name, as its command line asks for it."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--against", metavar="REVISION", help="print the times of a previous version too")
+    parser.add_argument("--only", metavar="TEXT", default="", help="print the figures whose names hold a text")
+    parser.add_argument(ANSWERS_FOR, action="store_true", dest="answers", help=argparse.SUPPRESS)
+    arguments = parser.parse_args()
+    if arguments.answers:
+        _answer(figures)
+        return
+    wanted = [index for index, figure in enumerate(figures) if arguments.only in figure.name]
+    if arguments.against:
+        _print_ratios(benchmark, figures, wanted, arguments.against)
+        return
+    print("| figure | measured | aim |\n|---|---|---|")
+    for figure in (figures[index] for index in wanted):
+        print(f"| {figure.name} | {1e3 * best(figure.run):.2f} ms | {figure.target:g} ms |", flush=True)
+
+
+def _print_ratios(benchmark: str, figures: Sequence[Figure], wanted: Sequence[int], revision: str) -> None:
+    """Best times of both versions, and the median of the ratios of what was measured side by side."""
+    print(f"| figure | measured | {revision} | ratio | aim |\n|---|---|---|---|---|")
+    with _sources_of(revision) as previous, _process(benchmark, ROOT) as now, _process(benchmark, previous) as before:
+        for index in wanted:
+            figure = figures[index]
+            pairs = [(_asked(now, index), _asked(before, index)) for _ in range(ROUNDS)]
+            ours, theirs = (1e3 * min(times) for times in zip(*pairs, strict=True))
+            ratio = median(old / new for new, old in pairs)
+            print(
+                f"| {figure.name} | {ours:.2f} ms | {theirs:.2f} ms | {ratio:.2f} | {figure.target:g} ms |", flush=True
+            )
+
+
+@contextmanager
+def _sources_of(revision: str) -> Iterator[Path]:
+    """A folder with a revision's sources and the benchmarks of today."""
+    archive = subprocess.run(["git", "archive", revision], cwd=ROOT, capture_output=True, check=True).stdout
+    with tempfile.TemporaryDirectory() as folder:
+        with tarfile.open(fileobj=BytesIO(archive)) as sources:
+            sources.extractall(folder, filter="data")
+        shutil.rmtree(Path(folder, "benchmarks"), ignore_errors=True)
+        shutil.copytree(ROOT / "benchmarks", Path(folder, "benchmarks"))
+        yield Path(folder)
+
+
+@contextmanager
+def _process(benchmark: str, folder: Path) -> Iterator[subprocess.Popen[str]]:
+    """A process that answers for the sources in a folder; its kernels are kept where ours are, by what they are of."""
+    command = [sys.executable, "-m", benchmark, ANSWERS_FOR]
+    environment = {**os.environ, **ONE_THREAD, "NUMBA_CACHE_DIR": str(roots()[0])}
+    with subprocess.Popen(
+        command, cwd=folder, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as process:
+        try:
+            yield process
+        finally:
+            process.terminate()
+
+
+def _asked(process: subprocess.Popen[str], index: int) -> float:
+    """The best time of a figure [s] by a process that answers."""
+    assert process.stdin is not None
+    assert process.stdout is not None
+    print(index, file=process.stdin, flush=True)
+    return float(process.stdout.readline())
+
+
+def _answer(figures: Sequence[Figure]) -> None:
+    """Time the figures asked for by number on standard input."""
+    for line in sys.stdin:
+        print(best(figures[int(line)].run), flush=True)

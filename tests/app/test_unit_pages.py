@@ -1,0 +1,186 @@
+"""Pages of a gear unit's studies: what they show is what the studies say, and every link leads to the case it names."""
+
+import asyncio
+import json
+import re
+from functools import cache
+from html import unescape
+from typing import Any
+
+import httpx
+import pytest
+
+from app.calculations import BY_PATH
+from app.library import examples
+from app.pages.offers import offers_of
+from app.pages.points import case_at
+from app.pages.query import pairs_of, pairs_of_query, split_views
+from app.pages.studies import page as pages
+from app.pages.studies.corners import CORNERS
+from app.pages.studies.declaration import Asking, StudyPage
+from app.pages.studies.design import DESIGN
+from app.pages.studies.influence import INFLUENCE
+from app.pages.templating import page_path
+from app.pages.typesetting import shown
+from app.pages.views import Asked
+from app.studies.stream import Clock
+from tests.pools import InlinePool
+
+MOST, DEADLINE_S = 2500, 30.0
+UNIT = "starter-generator-gear-drive-train"
+SAFETY = "safety.blok_flank"
+
+
+def asked(name: str = UNIT, **said: str) -> Asked:
+    example = examples()[name]
+    return Asked(page_path(BY_PATH[example.endpoint]), pairs_of(example.request), said)
+
+
+def answered(study: Asking) -> list[dict[str, Any]]:
+    async def run() -> list[dict[str, Any]]:
+        clock = Clock(study.study.total)
+        return [line async for group in study.study.lines(InlinePool(), clock) for line in group]
+
+    found: list[dict[str, Any]] = json.loads(json.dumps(asyncio.run(run())))
+    return found
+
+
+@cache
+def studied(page: StudyPage) -> tuple[Asking, list[dict[str, Any]], str]:
+    study = pages.planned(page, asked(trials="5"), MOST, DEADLINE_S)
+    lines = answered(study)
+    return study, lines, unescape(pages.whole(study, lines).decode())
+
+
+def rows_of(page: str, title: str) -> list[list[str]]:
+    table = page.partition(f"<h2>{title}</h2>")[2].partition("</table>")[0].partition("<tbody>")[2]
+    return [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in table.split("</tr>") if "<td" in row]
+
+
+def value_of(address: str, output: str) -> float:
+    path, _, query = address.partition("?")
+    pairs, _ = split_views(pairs_of_query(query))
+    group, name = output.split(".")
+    value: float = getattr(getattr(case_at(Asked(path, pairs), {}, [output]).response, group), name)
+    return value
+
+
+def test_corners_name_both_ends_of_every_output_and_lead_there() -> None:
+    _, lines, page = studied(CORNERS)
+    extremes = {line["output"]: line for line in lines if line["type"] == "extremes"}
+    outputs = {each["title"]: each["path"] for each in lines[0]["outputs"]}
+    rows = rows_of(page, "Over all corners")
+    assert {outputs[row[0]] for row in rows} == set(extremes) >= {SAFETY, "load.face_load_factor"}
+    for title, _, *ends, _ in rows:
+        for end, cell in zip(("min", "max"), ends, strict=True):
+            address, text = re.findall(r'<a href="([^"]+)">([^<]+)</a>', cell)[0]
+            value = extremes[outputs[title]][end]["value"]
+            assert text == shown(value)
+            if outputs[title] == SAFETY:
+                assert value_of(address, SAFETY) == value
+
+
+def test_the_worst_corner_is_that_of_least_safety_and_its_load_is_drawn() -> None:
+    study, lines, page = studied(CORNERS)
+    points = [line for line in lines if line["type"] == "point"]
+    worst = min(points, key=lambda line: line["out"][0])
+    changed = next(line for line in lines if line["type"] == "extremes" and line["output"] == SAFETY)["min"]["at"]
+    result = CORNERS.result(study, lines)
+    assert set(result.figures) <= set(CORNERS.figures)
+    assert [row[2] for row in rows_of(page, "The worst corner")] == [shown(value) for value in changed.values()]
+    bars = result.figures["corners"].panels[0].rows
+    assert len(bars) == sum(len(axis["values"]) for axis in lines[0]["axes"])
+    assert min(bar.value for bar in bars) == worst["out"][0]
+    assert sum(bar.hue == "vermillion" for bar in bars) == len(lines[0]["axes"])
+    curves = result.figures["face-load"].panels[0].lines
+    assert [(line.title, line.role) for line in curves] == [("worst corner", "result"), ("as described", "variant")]
+    for line, changes in zip(curves, (changed, {}), strict=True):
+        force = case_at(study.asked, changes, [SAFETY]).response.misalignment.curves.line_force_n_per_mm
+        assert line.y.tolist() == force
+    assert [lead.label for lead in result.leads] == ["Open the worst corner", "Its report", "What to grind"]
+    assert value_of(result.leads[0].address, SAFETY) == worst["out"][0]
+    assert result.leads[1].address.startswith("/drive-train/report?")
+
+
+def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> None:
+    study, lines, page = studied(DESIGN)
+    end = lines[-1]
+    assert end["evaluations"] == 5
+    assert end["objective_best"] > end["objective_start"]
+    *grinding, judged = rows_of(page, "What to grind")
+    assert [row[2] for row in grinding] == [shown(value, 3) for value in end["best"].values()]
+    assert judged[1:3] == [shown(end["objective_start"]), shown(end["objective_best"])]
+    result = DESIGN.result(study, lines)
+    assert set(result.figures) == set(DESIGN.figures)
+    reached = result.figures["search"].panels[0].lines[0].y.tolist()
+    assert reached == [line["objective"] for line in lines if line["type"] == "trial"]
+    pairs = dict(pairs_of_query(result.leads[0].address.partition("?")[2]))
+    assert {path: float(pairs[path]) for path in end["best"]} == end["best"]
+    assert result.leads[2].address.startswith("/drive-train/corners?")
+    at_worst = case_at(study.asked, {**end["best"], **end["worst_corner"]}, [SAFETY]).response
+    assert at_worst.safety.blok_flank == end["objective_best"]
+
+
+def test_ranges_and_trials_come_from_the_form() -> None:
+    said = {"low.0": "-10", "high.0": "20,5", "trials": "7", "show": "load.face_load_factor"}
+    body = DESIGN.body(asked(**said), pages.planned(DESIGN, asked(**said), MOST, DEADLINE_S).output)
+    assert body["variables"][0] == {"path": ["modifications.helix_slope_um"], "min": -10, "max": 20.5}
+    assert body["variables"][1]["max"] == 20.0
+    assert (body["evaluations"], body["objective"], body["direction"]) == (7, "load.face_load_factor", "minimise")
+
+
+@pytest.mark.parametrize(
+    ("said", "control"),
+    [
+        ({"trials": "many"}, "trials"),
+        ({"low.0": "5", "high.0": "1"}, "low.0"),
+        ({"high.1": "9999999"}, "low.1"),
+        ({"show": "no.such"}, "show"),
+    ],
+)
+def test_what_is_wrong_stands_at_its_control(said: dict[str, str], control: str) -> None:
+    opened = pages.opened(DESIGN, asked(**said), MOST, DEADLINE_S)
+    assert opened.status == 422
+    assert f'<a href="#f.{control}">{control}</a>' in opened.head.decode()
+
+
+@pytest.mark.parametrize("page", [CORNERS, DESIGN], ids=lambda page: page.offer.name)
+def test_a_unit_without_the_output_says_which_to_choose(page: StudyPage) -> None:
+    bare = asked()
+    without = Asked(bare.path, [pair for pair in bare.pairs if not pair[0].startswith("temperatures.scuffing")])
+    study = pages.planned(page, without, MOST, DEADLINE_S)
+    text = pages.whole(study, answered(study)).decode()
+    assert "choose another output" in text or "has no answer at its worst corner" in text
+
+
+@pytest.mark.parametrize("page", [INFLUENCE, CORNERS, DESIGN], ids=lambda page: page.offer.name)
+def test_a_study_that_breaks_off_says_why(page: StudyPage) -> None:
+    study = pages.planned(page, asked(), MOST, DEADLINE_S)
+    text = pages.whole(study, [{"type": "error", "code": "study_deadline", "message": "<b>too long</b>", "done": 3}])
+    assert "&lt;b&gt;too long&lt;/b&gt;" in text.decode()
+
+
+def test_links_alone_lead_from_a_unit_to_its_worst_corner_and_to_what_to_grind(client: httpx.Client) -> None:
+    page = unescape(client.get(asked().links.page).text)
+    for offer in offers_of(BY_PATH["/v1/drive-train"]):
+        assert f'href="{asked().links.study(offer.name)}"' in page
+    start = unescape(client.get("/drive-train/corners").text)
+    assert f'href="{asked().links.study("corners")}"' in start
+    coupling = unescape(client.get("/coupling/corners", follow_redirects=False).text)
+    assert "not found" in coupling.lower()
+    found = client.get(asked().links.study("corners"))
+    assert found.status_code == 200
+    assert found.text.rstrip().endswith("</html>")
+    assert "Open the worst corner" in found.text
+    assert "<script>" not in found.text
+
+
+def test_lines_and_figures_by_their_addresses(client: httpx.Client) -> None:
+    links = asked().links
+    lines = [json.loads(line) for line in client.get(links.view("corners.ndjson")).text.splitlines()]
+    assert [lines[0]["type"], lines[-1]["type"]] == ["corners", "end"]
+    svg = client.get(links.view("corners/figures/corners.svg"))
+    assert (svg.status_code, svg.headers["content-type"]) == (200, "image/svg+xml")
+    assert svg.text.rstrip().endswith("</svg>")
+    assert client.get(links.view("corners/figures/other.svg")).status_code == 404
+    assert client.get(links.view("corners/figures/corners.gif")).status_code == 404
