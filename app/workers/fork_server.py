@@ -146,10 +146,11 @@ class ForkServer:
         await self._command(f"warm {stage}", None, None)
 
     def close(self) -> None:
-        """End the process."""
+        """End the process; commands it has not answered raise TemplateLost."""
         self._process.kill()
         self._process.wait()
-        self._control.close()
+        with contextlib.suppress(OSError):
+            self._control.shutdown(socket.SHUT_RDWR)  # closed, it would leave those who wait for an answer waiting
 
     async def _copy(self, command: str) -> tuple[int, socket.socket]:
         """A copy of the process that obeys the command, and the socket it serves."""

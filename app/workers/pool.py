@@ -206,15 +206,19 @@ class Pool:
             worker.kill()
         if self._template.lost:
             logger.warning("the template process was lost; it is started again")
-            await self._restart_template()
+            self._restart_template()
         self._fill()
 
-    async def _restart_template(self) -> None:
+    def _restart_template(self) -> None:
         self._template.close()
         self._template = ForkServer.start()
+        self.spawn_task(self._warm_again(self._template))
+
+    async def _warm_again(self, template: ForkServer) -> None:
+        """Have a new template load what the lost one had; beside the supervision, which watches this one too."""
         with contextlib.suppress(TemplateLost):
             for stage in list(self._warm):
-                await self._template.warm(stage)
+                await template.warm(stage)
 
     async def _ping(self) -> None:
         """Ask idle workers for a sign of life."""
