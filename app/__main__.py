@@ -1,6 +1,7 @@
 """python -m app: start the service; --help lists every setting."""
 
 import argparse
+import gc
 import os
 import socket
 import sys
@@ -9,6 +10,7 @@ from io import TextIOWrapper
 from pydantic.fields import FieldInfo
 
 from app.settings import Settings, settings
+from app.workers.fork_server import ForkServer
 
 INTERRUPTED = 130
 
@@ -25,7 +27,10 @@ def main() -> None:
 
 
 def serve(factory: str) -> None:
-    """Run the application that `factory` ("module:function") creates; the port is open before anything is loaded."""
+    """Run the application that `factory` ("module:function") makes around the template process of its workers.
+
+    The port is open before anything is loaded, and the template loads what it needs beside the service.
+    """
     assert isinstance(sys.stdout, TextIOWrapper)
     sys.stdout.reconfigure(line_buffering=True)
     limits = settings()
@@ -34,12 +39,16 @@ def serve(factory: str) -> None:
     except OSError as error:
         reason = error.strerror if isinstance(error, socket.gaierror) else os.strerror(error.errno or 0)
         sys.exit(f"tribodrive: cannot listen on port {limits.port} of {limits.host}: {reason}")
+    gc.disable()  # `run` enables it: imports leave no garbage, and looking for it takes a third of their time
+    template = ForkServer.start()
     try:
-        from app.server import run  # noqa: PLC0415  a second of imports, for which the port need not wait
+        from app.server import run  # noqa: PLC0415  seconds of imports, for which port and template need not wait
 
-        run(factory, listener)
+        run(factory, listener, template)
     except KeyboardInterrupt:
         sys.exit(INTERRUPTED)
+    finally:
+        template.close()
 
 
 def _listener(limits: Settings) -> socket.socket:

@@ -12,33 +12,30 @@ from app.compression import Compression
 from app.protection import Protection
 from app.responses.common import MODEL_VERSION
 from app.routes import calculations, figures, pages, service, studies, study_pages, vary
-from app.settings import MEBIBYTE, Settings
-from app.settings import settings as settings_from_environment
+from app.settings import MEBIBYTE, settings
 from app.start_up import StartUp
 from app.studies.office import Office
 from app.workers.admission import Runner
+from app.workers.fork_server import ForkServer
 from app.workers.pool import Pool
 
 DESCRIPTION = """Tribology of high-speed drive trains: gear couplings (Pahl), air-oil pumping between gear teeth
 (Milian, Distretti, Leoni, Velex), load distribution and scuffing of helical gears (Xue, Zhang, Wang).
 Units are in the field names; every example below runs as it stands."""
 
-# Slow to load or asked for by studies: random samples need scipy.stats, a drawing half a second and 70 MB.
-WORKERS_SHARE = ("scipy.stats", "app.figures.drawing.image", "app.studies.sweep")
 
-
-def create_app(settings: Settings | None = None) -> FastAPI:
-    """The service; settings come from the environment unless given."""
-    settings = settings or settings_from_environment()
+def create_app(template: ForkServer) -> FastAPI:
+    """The service around the process that its workers are copied from; settings come from the environment."""
+    limits = settings()
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        app.state.pool = Pool(settings.workers, settings.worker_memory_mb, WORKERS_SHARE)
+        app.state.pool = Pool(limits.workers, limits.worker_memory_mb, template)
         app.state.start_up = StartUp(app.state.pool)
-        app.state.settings = settings
-        app.state.runner = Runner(settings, app.state.pool)
-        app.state.office = Office(settings, app.state.pool)
-        app.state.answers = Answers(settings.answers_mb * MEBIBYTE)
+        app.state.settings = limits
+        app.state.runner = Runner(limits, app.state.pool)
+        app.state.office = Office(limits, app.state.pool)
+        app.state.answers = Answers(limits.answers_mb * MEBIBYTE)
         app.state.published = {}
         async with app.state.pool.running(), app.state.start_up.running(), app.state.office.open():
             yield
@@ -54,5 +51,5 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         app.include_router(routes.router)
     problems.install(app)
     app.add_middleware(Compression)
-    app.add_middleware(Protection, settings=settings)
+    app.add_middleware(Protection, settings=limits)
     return app

@@ -1,6 +1,7 @@
 """What the operating system is asked about processes; Linux knows all of it, other systems some."""
 
 import ctypes
+import gc
 import os
 import resource
 import runpy
@@ -12,7 +13,7 @@ PR_SET_PDEATHSIG = 1
 
 
 def child_command(module: str, *arguments: str) -> list[str]:
-    """The command that runs a module in a process that never outlives this one."""
+    """The command that runs a module in a process that never outlives this one, garbage collection still off."""
     return [sys.executable, "-m", __spec__.name, str(os.getpid()), module, *arguments]
 
 
@@ -21,6 +22,7 @@ def _run_as_child(parent: str, module: str) -> None:
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     if str(os.getppid()) == parent:
+        gc.disable()  # until the module is there: imports leave no garbage, and looking for it takes a third of them
         sys.argv = [module, *sys.argv[3:]]
         runpy.run_module(module, run_name="__main__", alter_sys=True)
 

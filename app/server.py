@@ -1,15 +1,18 @@
 """uvicorn as this service runs it: own protocol, own log, an end that does not keep anybody waiting."""
 
+import gc
 import signal
 import socket
 import sys
 from types import FrameType
 
 import uvicorn
+from uvicorn.importer import import_from_string
 
 from app import log
 from app.connection import LimitedProtocol
 from app.settings import settings
+from app.workers.fork_server import ForkServer
 
 INTERRUPT_S = 0.5
 
@@ -30,13 +33,15 @@ class Server(uvicorn.Server):
         super().handle_exit(sig, frame)
 
 
-def run(factory: str, listener: socket.socket) -> None:
+def run(factory: str, listener: socket.socket, template: ForkServer) -> None:
     """Serve on the open port until told to stop."""
     limits = settings()
+    application = import_from_string(factory)(template)
+    gc.freeze()  # what was imported stays: looking through it for garbage would hold up requests for 0.1 s each time
+    gc.enable()
     log.install(limits.log_level)
     config = uvicorn.Config(
-        factory,
-        factory=True,
+        application,
         host=limits.host,
         port=limits.port,
         loop="uvloop",

@@ -10,7 +10,6 @@ from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager
 
 from app.problems import WarmingUp
-from app.processes import child_command
 from app.progress import Progress
 from app.warm_up import STAGES, TRACKS, Stage, content, needed_for
 from app.workers.pool import Pool
@@ -25,6 +24,7 @@ class StartUp:
     def __init__(self, pool: Pool) -> None:
         self._pool = pool
         self._compiled: Counter[str] = Counter()
+        self._kept: set[Stage] = set()
         self._warm: list[Stage] = []
         self._loading = asyncio.Lock()
         self._progress = Progress([stage.name for stage in STAGES])
@@ -77,7 +77,6 @@ class StartUp:
                 await self._load_all()
             else:
                 await self._compile()
-                mark_complete(content())
             self._progress.finish(f"tribodrive: everything is warm after {time.monotonic() - self._began:.1f} s")
         except Exception:
             logger.exception("the warm-up failed")
@@ -95,42 +94,36 @@ class StartUp:
                 group.create_task(self._compile_track(track))
 
     async def _compile_track(self, track: Sequence[Stage]) -> None:
-        names = [stage.name for stage in track]
-        process = await asyncio.create_subprocess_exec(
-            *child_command("app.warm_up", *names), stdout=asyncio.subprocess.PIPE
-        )
-        assert process.stdout is not None
-        current = iter(track)
-        stage = next(current)
-        try:
-            async for line in process.stdout:
-                match line.decode().split(maxsplit=1):
-                    case ["kernel"]:
-                        self._compiled[stage.name] += 1
-                        self._show()
-                    case ["stage", _]:
-                        await self._load(stage)
-                        stage = next(current, stage)
-            if await process.wait() != 0:
-                logger.warning("compilation of %s ended early; the rest is compiled where it is needed", stage.name)
-            for missing in track:
-                if missing not in self._warm:
-                    await self._load(missing)
-        finally:
-            if process.returncode is None:
-                process.kill()
-                await process.wait()
+        waiting = list(track)
+        async with self._pool.compiler([stage.name for stage in track]) as lines:
+            async for line in lines:
+                if line.startswith(b"stage"):
+                    self._keep(waiting[0])
+                    await self._load(waiting.pop(0))
+                else:
+                    self._compiled[waiting[0].name] += 1
+                    self._show()
+        if waiting:
+            logger.warning("compilation of %s ended early; the rest is compiled where it is needed", waiting[0].name)
+        for stage in waiting:
+            await self._load(stage)
+            self._keep(stage)
+
+    def _keep(self, stage: Stage) -> None:
+        """Note that the stage is compiled and on disk, and when all are: a start that ends early loses nothing."""
+        self._kept.add(stage)
+        if len(self._kept) == len(STAGES):
+            mark_complete(content())
 
     async def _load(self, stage: Stage) -> None:
         async with self._loading:
-            for name in stage.examples:
-                await self._pool.warm(name)
+            await self._pool.warm(stage.name)
             self._warm.append(stage)
             self._pool.renew()
             self._show()
 
     def _share(self, stage: Stage) -> float:
-        return 1.0 if stage in self._warm else min(0.99, self._compiled[stage.name] / stage.kernels)
+        return 1.0 if stage in self._warm else min(0.99, self._compiled[stage.name] / max(1, stage.kernels))
 
     def _show(self) -> None:
         self._progress.show({stage.name: self._share(stage) for stage in STAGES})

@@ -1,11 +1,11 @@
 """The stages in which kernels are compiled and loaded: examples that between them touch every one.
 
-`python -m app.warm_up` compiles all of them and keeps the machine code on disk; with names of stages, only those.
+`python -m app.warm_up` compiles all of them and keeps the machine code on disk.
 """
 
-import sys
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import cache
+from importlib import import_module
 
 from numba.core import event
 
@@ -19,37 +19,45 @@ from solvers.kernel_cache import mark_complete
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """A part of a model that becomes ready as a whole; `kernels` is about how many compilations it takes."""
+    """A part of a model that becomes ready as a whole, and the endpoints that then answer.
+
+    `kernels` is about how many compilations it takes.
+    """
 
     name: str
     kernels: int
+    endpoints: tuple[str, ...]
     examples: tuple[str, ...]
 
 
-COUPLING = Stage("coupling", 8, ("pahl-axial-displacement",))
-SLEEVE = Stage("coupling sleeve", 70, ("pahl-sleeve-orbit", "pahl-z-arrangement"))
-LOADS = Stage("load distribution", 32, ("fzg-type-a", "xue-pair-1-modified"))
-PUMPING = Stage(
-    "pumping",
-    104,
-    (
-        "milian-case-1",
-        "milian-case-1-choking",
-        "milian-case-1-groove",
-        "milian-case-1-pocket-chain",
-        "milian-table-1-incompressible",
-    ),
+COUPLING = Stage("coupling", 47, ("/v1/coupling",), ("pahl-axial-displacement",))
+SLEEVE = Stage(
+    "coupling sleeve",
+    27,
+    ("/v1/coupling/sleeve-orbit", "/v1/coupling/recommendation"),
+    ("pahl-sleeve-orbit", "pahl-z-arrangement"),
 )
-LINE_CONTACT = Stage("line contact", 153, ("xue-line-contact", "xue-line-contact-isothermal", "xue-pair-1-thermal"))
+LOADS = Stage("load distribution", 59, ("/v1/scuffing/load-distribution",), ("fzg-type-a",))
+PUMPING = Stage(
+    "pumping", 106, ("/v1/pumping", "/v1/pumping/choking-speed"), ("milian-case-1", "milian-case-1-pocket-chain")
+)
+LINE_CONTACT = Stage(
+    "line contact",
+    130,
+    ("/v1/scuffing/line-contact", "/v1/scuffing"),
+    ("xue-line-contact", "xue-line-contact-isothermal", "xue-pair-1-thermal"),
+)
+DRIVE_TRAIN = Stage("drive train", 12, ("/v1/drive-train",), ("starter-turbo-gear-drive-train",))
 
-DRIVE_TRAIN = Stage("drive train", 8, ("starter-turbo-gear-drive-train", "starter-generator-gear-drive-train"))
+# Slow to load or asked for by studies: random samples need scipy.stats, a drawing half a second and 70 MB.
+FIGURES = Stage("figures and studies", 0, (), ())
+MODULES = ("scipy.stats", "app.figures.drawing.image", "app.studies.sweep")
+DRAWN = COUPLING.examples[0]
 
-# What two cores compile side by side, each in this order; no stage needs kernels of one in the other track but the
-# drive train, which needs all: it comes last in the longer track and compiles what the other has not yet.
-TRACKS = ((COUPLING, SLEEVE, LOADS, PUMPING), (LINE_CONTACT, DRIVE_TRAIN))
+# What two cores compile side by side, each in this order. The line contact takes as long as all others together, and
+# needs of them only the load distribution, late.
+TRACKS = ((COUPLING, SLEEVE, LOADS, PUMPING, DRIVE_TRAIN, FIGURES), (LINE_CONTACT,))
 STAGES = tuple(stage for track in TRACKS for stage in track)
-
-DRAWN = COUPLING.examples[0]  # loads what draws figures
 
 
 def content() -> str:
@@ -58,47 +66,68 @@ def content() -> str:
 
 
 def needed_for(endpoint: str) -> Stage:
-    """The stage after which an endpoint answers: the first with an example of it, else the last of all."""
-    return _first_stages().get(endpoint, STAGES[-1])
+    """The stage after which an endpoint answers."""
+    return next((stage for stage in STAGES if endpoint in stage.endpoints), STAGES[-1])
 
 
-@cache
-def _first_stages() -> dict[str, Stage]:
-    return {examples()[name].endpoint: stage for stage in reversed(STAGES) for name in reversed(stage.examples)}
+def stage_of(name: str) -> Stage:
+    """The stage of this name."""
+    return next(stage for stage in STAGES if stage.name == name)
 
 
 def calculate(name: str) -> None:
     """Answer one example."""
     example = examples()[name]
     calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
+    answer(calculation, calculation.request.model_validate(example.request))
+
+
+def warm(stage: Stage) -> None:
+    """Load what the stage needs; kernels that are not kept are compiled."""
+    for name in stage.examples:
+        calculate(name)
+    if stage is FIGURES:
+        for module in MODULES:
+            import_module(module)
+        _draw()
+
+
+def _draw() -> None:
+    """Load what draws figures."""
+    example = examples()[DRAWN]
+    calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
     request = calculation.request.model_validate(example.request)
-    answer(calculation, request)
-    if name == DRAWN:
-        render(calculation, figures_of(calculation.path)[0], request, "svg", "light")
+    render(calculation, figures_of(calculation.path)[0], request, "svg", "light")
 
 
 class _Ticks(event.Listener):
-    """Prints a line for every kernel compiled, for the service to count."""
+    """Tells of every kernel compiled, for the service to count."""
+
+    def __init__(self, tell: Callable[[str], None]) -> None:
+        self._tell = tell
 
     def on_start(self, event: object) -> None:
         """A compilation begins: nothing to tell."""
 
     def on_end(self, _event: object) -> None:
         """A kernel is compiled."""
-        print("kernel", flush=True)  # noqa: T201
+        self._tell("kernel")
 
 
-def main(names: list[str]) -> None:
-    """Compile these stages, or all."""
-    event.register("numba:compile", _Ticks())
-    for stage in STAGES:
-        if not names or stage.name in names:
-            for name in stage.examples:
-                calculate(name)
-            print("stage", stage.name, flush=True)  # noqa: T201
-    if not names:
-        mark_complete(content())
+def compile_stages(stages: Iterable[Stage], tell: Callable[[str], None]) -> None:
+    """Have the kernels of these stages on disk; `tell` hears "kernel" and "stage ..." when one is."""
+    event.register("numba:compile", _Ticks(tell))
+    for stage in stages:
+        for name in stage.examples:
+            calculate(name)
+        tell(f"stage {stage.name}")
+
+
+def main() -> None:
+    """Compile all stages."""
+    compile_stages(STAGES, print)
+    mark_complete(content())
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

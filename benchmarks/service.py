@@ -23,6 +23,7 @@ from app.library import Example, examples
 from app.main import create_app
 from app.requests.coupling import CouplingRequest
 from app.routes.service import Health
+from app.workers.fork_server import ForkServer
 from tests.server import memory_mb, workers
 
 PORT = 8765
@@ -42,8 +43,9 @@ def with_empty_endpoint(app: FastAPI) -> FastAPI:
     return app
 
 
-def bare() -> FastAPI:
+def bare(template: ForkServer) -> FastAPI:
     """FastAPI and nothing of ours around it."""
+    template.close()
     app = with_empty_endpoint(FastAPI())
 
     @app.get("/readyz")
@@ -53,9 +55,9 @@ def bare() -> FastAPI:
     return app
 
 
-def ours() -> FastAPI:
+def ours(template: ForkServer) -> FastAPI:
     """The service and the same empty endpoint."""
-    return with_empty_endpoint(create_app())
+    return with_empty_endpoint(create_app(template))
 
 
 @contextmanager

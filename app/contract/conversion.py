@@ -60,15 +60,18 @@ def group_of(annotation: Any) -> type[Documented] | None:
 
 def to_si(section: Documented) -> dict[str, Any]:
     """The section's plain fields by their solver names, in SI; nested sections are left to the caller."""
-    return {
-        field.si_name: _scaled(getattr(section, field.name), field.unit)
-        for field in _fields(type(section))
-        if field.group is None
-    }
+    return {field.si_name: _scaled(getattr(section, field.name), field.unit) for field in _plain_fields(type(section))}
+
+
+@cache
+def _plain_fields(section: type[Documented]) -> tuple[_Field, ...]:
+    return tuple(field for field in _fields(section) if field.group is None)
 
 
 def _scaled(value: Any, unit: Unit | None) -> Any:
     match value:
+        case float():
+            return value if unit is None else value * unit.scale + unit.offset
         case None | bool() | str():
             return value
         case list() | tuple():

@@ -117,9 +117,9 @@ class _CouplingRequest(Request):
             unused.add("model.simple_thrust_factor")
         return frozenset(unused)
 
-    def _design(self, operation: dict[str, Any]) -> si.CouplingInputs:
+    def _design(self, coupling: dict[str, Any], operation: dict[str, Any]) -> si.CouplingInputs:
         return si.CouplingInputs(
-            coupling=si.proportioned(**to_si(self.coupling)),
+            coupling=si.proportioned(**coupling),
             operation=si.Operation(**operation),
             lubricant=self.lubricant.lubricant(),
             friction=self.friction.friction(),
@@ -135,7 +135,8 @@ class CouplingRequest(_CouplingRequest):
 
     def inputs(self) -> si.CouplingInputs:
         """The solver's inputs."""
-        return self._design(self.operation.operation(to_si(self.coupling)["hub_distance"]))
+        coupling = to_si(self.coupling)
+        return self._design(coupling, self.operation.operation(coupling["hub_distance"]))
 
 
 class SleeveOrbitRequest(CouplingRequest):
@@ -168,5 +169,5 @@ class RecommendationRequest(_CouplingRequest):
         """The solver's inputs."""
         operation = to_si(self.operation)
         smallest, largest = operation.pop("misalignment_range")
-        design = self._design({**operation, "misalignment": smallest})
+        design = self._design(to_si(self.coupling), {**operation, "misalignment": smallest})
         return si.RecommendationInputs(design, min_misalignment=smallest, max_misalignment=largest)

@@ -13,7 +13,7 @@ from distributed import Client, KilledWorker
 
 from app.problems import SchedulerUnavailable, WorkerLost
 from app.studies.engine import PoolLost
-from app.warm_up import calculate, content
+from app.warm_up import STAGES, warm
 
 CONNECT_S = 10.0
 WATCH_S = 0.5
@@ -87,8 +87,8 @@ class DaskCluster:
 
 def prepare() -> dict[str, str]:
     """Load every kernel; runs in a worker and answers its versions."""
-    for example in content().split():
-        calculate(example)
+    for stage in STAGES:
+        warm(stage)
     return versions()
 
 

@@ -2,6 +2,7 @@
 
 template     one warmed, single-threaded process; copies of it are the workers
 worker       what a copy does: one call after the other
+compiler     what other copies do on the first start
 fork_server  the service's end of the template
 pool         who calculates what; a worker that is late, unwanted, dead or stopped is replaced
 admission    how many may wait, how long, and for whom

@@ -8,6 +8,7 @@ import signal
 import socket
 import subprocess
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any, cast
 
 from app.processes import child_command, is_stopped
@@ -28,7 +29,8 @@ class TemplateLost(Exception):
 class Worker(asyncio.Protocol):
     """One worker process: makes one call at a time."""
 
-    def __init__(self, pid: int, ended: Callable[["Worker"], None]) -> None:
+    def __init__(self, server: "ForkServer", pid: int, ended: Callable[["Worker"], None]) -> None:
+        self.server = server
         self.pid = pid
         self.alive = True
         self._ended = ended
@@ -83,6 +85,22 @@ class Worker(asyncio.Protocol):
         self._ended(self)
 
 
+@dataclass(frozen=True, slots=True)
+class Compiler:
+    """One process that compiles: it says so line by line, and ends."""
+
+    server: "ForkServer"
+    pid: int
+    lines: asyncio.StreamReader
+    connection: asyncio.StreamWriter
+
+    def end(self) -> None:
+        """End the process, wherever it is."""
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(self.pid, signal.SIGKILL)  # not reaped yet: still this process and no other
+        self.connection.close()
+
+
 class ForkServer:
     """A running template process."""
 
@@ -92,13 +110,13 @@ class ForkServer:
         self._lock = asyncio.Lock()
 
     @classmethod
-    def start(cls, modules: Sequence[str]) -> "ForkServer":
-        """Start the process; it answers once it has imported what it needs, and the modules its workers will use."""
+    def start(cls) -> "ForkServer":
+        """Start the process; it answers once it has imported what it needs."""
         ours, theirs = socket.socketpair()
         ours.setblocking(False)
         environment = {**os.environ, **dict.fromkeys(ONE_THREAD, "1")}
         with theirs:
-            command = child_command("app.workers.template", *modules)
+            command = child_command("app.workers.template")
             process = subprocess.Popen(command, stdin=theirs.fileno(), env=environment)  # noqa: S603
         return cls(process, ours)
 
@@ -109,29 +127,40 @@ class ForkServer:
 
     async def fork(self, memory_mb: int, ended: Callable[[Worker], None]) -> Worker:
         """A new worker process."""
-        ours, theirs = socket.socketpair()
-        with theirs:
-            try:
-                pid = int(await self._command(f"fork {memory_mb}", theirs, FORK_TIMEOUT_S))
-            except BaseException:
-                ours.close()
-                raise
-        _, worker = await asyncio.get_running_loop().create_unix_connection(lambda: Worker(pid, ended), sock=ours)
+        pid, ours = await self._copy(f"fork {memory_mb}")
+        loop = asyncio.get_running_loop()
+        _, worker = await loop.create_unix_connection(lambda: Worker(self, pid, ended), sock=ours)
         return worker
+
+    async def compile(self, stages: Sequence[str]) -> Compiler:
+        """A new process that compiles the kernels of these stages."""
+        pid, ours = await self._copy(f"compile {','.join(stages)}")
+        return Compiler(self, pid, *await asyncio.open_unix_connection(sock=ours))
 
     async def reap(self, pid: int) -> None:
         """Forget a process that was ended."""
         await self._command(f"reap {pid}", None, FORK_TIMEOUT_S)
 
-    async def warm(self, example: str) -> None:
-        """Load the kernels that this example needs."""
-        await self._command(f"warm {example}", None, None)
+    async def warm(self, stage: str) -> None:
+        """Load what this stage needs."""
+        await self._command(f"warm {stage}", None, None)
 
     def close(self) -> None:
-        """End the process."""
+        """End the process; commands it has not answered raise TemplateLost."""
         self._process.kill()
         self._process.wait()
-        self._control.close()
+        with contextlib.suppress(OSError):
+            self._control.shutdown(socket.SHUT_RDWR)  # closed, it would leave those who wait for an answer waiting
+
+    async def _copy(self, command: str) -> tuple[int, socket.socket]:
+        """A copy of the process that obeys the command, and the socket it serves."""
+        ours, theirs = socket.socketpair()
+        with theirs:
+            try:
+                return int(await self._command(command, theirs, FORK_TIMEOUT_S)), ours
+            except BaseException:
+                ours.close()
+                raise
 
     async def _command(self, command: str, descriptor: socket.socket | None, timeout_s: float | None) -> str:
         """The template's answer; a command once sent is waited for even if the caller has left."""

@@ -7,28 +7,28 @@ import os
 from collections import deque
 from collections.abc import AsyncIterator, Callable, Coroutine, Sequence
 from contextlib import asynccontextmanager
-from typing import Any
+from typing import Any, TypeVar
 
 from app.metrics import WORKERS_LOST
 from app.problems import WorkerLost
 from app.processes import is_stopped
-from app.workers.fork_server import ForkServer, TemplateLost, Worker, WorkerDied
+from app.workers.fork_server import Compiler, ForkServer, TemplateLost, Worker, WorkerDied
 
 SUPERVISION_S = 0.25
 PING_EVERY_S = 2.0
 PING_TIMEOUT_S = 5.0
 
 logger = logging.getLogger("tribodrive")
+T = TypeVar("T")
 
 
 class Pool:
-    """Workers forked from one template that has loaded `modules`, and who waits for them."""
+    """Workers copied from one template process, and who waits for them."""
 
-    def __init__(self, size: int, memory_mb: int, modules: Sequence[str] = ()) -> None:
+    def __init__(self, size: int, memory_mb: int, template: ForkServer) -> None:
         self._size = size
         self._memory_mb = memory_mb
-        self._modules = modules
-        self._template: ForkServer | None = None
+        self._template = template
         self._warm: list[str] = []
         self._workers: set[Worker] = set()
         self._stale: set[Worker] = set()
@@ -41,8 +41,7 @@ class Pool:
 
     @asynccontextmanager
     async def running(self) -> AsyncIterator[None]:
-        """The template runs and is supervised while the context is open; afterwards no process is left."""
-        self._template = ForkServer.start(self._modules)
+        """The template is supervised while the context is open; afterwards no process is left."""
         self.spawn_task(self._repeat(SUPERVISION_S, self._supervise))
         self.spawn_task(self._repeat(PING_EVERY_S, self._ping))
         try:
@@ -60,15 +59,10 @@ class Pool:
         """How many workers can calculate."""
         return len(self._workers)
 
-    async def warm(self, example: str) -> None:
-        """Have the template load what the example needs, and replace the workers that lack it."""
-        while True:
-            template = self._running_template()
-            with contextlib.suppress(TemplateLost):
-                await template.warm(example)
-                break
-            await asyncio.sleep(SUPERVISION_S)
-        self._warm.append(example)
+    async def warm(self, stage: str) -> None:
+        """Have the template load what the stage needs."""
+        await self._patiently(lambda: self._template.warm(stage))
+        self._warm.append(stage)
 
     def renew(self) -> None:
         """Replace every worker, the busy ones after their call, by copies of the template as it is now."""
@@ -77,6 +71,24 @@ class Pool:
         self._stale = self._workers - set(self._idle)
         self._idle.clear()
         self._fill()
+
+    @asynccontextmanager
+    async def compiler(self, stages: Sequence[str]) -> AsyncIterator[asyncio.StreamReader]:
+        """What a process that compiles these stages says; it ends with the context at the latest."""
+        compiler = await self._patiently(lambda: self._template.compile(stages))
+        try:
+            yield compiler.lines
+        finally:
+            compiler.end()
+            if not self._closed:
+                self.spawn_task(self._reap(compiler))
+
+    async def _patiently(self, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
+        """The template's outcome; a template that is lost meanwhile is replaced, and asked again."""
+        while True:
+            with contextlib.suppress(TemplateLost):
+                return await command()
+            await asyncio.sleep(SUPERVISION_S)
 
     async def run(self, function: Callable[..., Any], *arguments: Any) -> Any:
         """The function's result; a caller that is cancelled takes its worker's process along.
@@ -149,12 +161,13 @@ class Pool:
         if worker in self._idle:
             self._idle.remove(worker)
         if not self._closed:
-            self.spawn_task(self._reap(worker.pid))
+            self.spawn_task(self._reap(worker))
             self._fill()
 
-    async def _reap(self, pid: int) -> None:
+    async def _reap(self, ended: Worker | Compiler) -> None:
+        """Have the template that the process was copied from forget it, if there still is that template."""
         with contextlib.suppress(TemplateLost):
-            await self._running_template().reap(pid)
+            await ended.server.reap(ended.pid)
 
     def _fill(self) -> None:
         """Start as many workers as are missing."""
@@ -166,7 +179,7 @@ class Pool:
 
     async def _start_worker(self) -> None:
         try:
-            worker = await self._running_template().fork(self._memory_mb, self._ended)
+            worker = await self._template.fork(self._memory_mb, self._ended)
         except TemplateLost:
             return
         finally:
@@ -191,17 +204,21 @@ class Pool:
         for worker in [worker for worker in self._workers if is_stopped(worker.pid)]:
             logger.warning("worker %d was stopped; it is replaced", worker.pid)
             worker.kill()
-        if self._running_template().lost:
+        if self._template.lost:
             logger.warning("the template process was lost; it is started again")
-            await self._restart_template()
+            self._restart_template()
         self._fill()
 
-    async def _restart_template(self) -> None:
-        self._running_template().close()
-        self._template = ForkServer.start(self._modules)
+    def _restart_template(self) -> None:
+        self._template.close()
+        self._template = ForkServer.start()
+        self.spawn_task(self._warm_again(self._template))
+
+    async def _warm_again(self, template: ForkServer) -> None:
+        """Have a new template load what the lost one had; beside the supervision, which watches this one too."""
         with contextlib.suppress(TemplateLost):
-            for example in list(self._warm):
-                await self._template.warm(example)
+            for stage in list(self._warm):
+                await template.warm(stage)
 
     async def _ping(self) -> None:
         """Ask idle workers for a sign of life."""
@@ -221,10 +238,6 @@ class Pool:
             pass
         finally:
             self.release(worker)
-
-    def _running_template(self) -> ForkServer:
-        assert self._template is not None
-        return self._template
 
     def spawn_task(self, coroutine: Coroutine[Any, Any, None]) -> None:
         """Run something beside, until the pool closes."""

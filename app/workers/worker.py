@@ -20,7 +20,7 @@ def serve(connection: socket.socket, memory_mb: int) -> NoReturn:
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     limit = memory_mb * MEBIBYTE
     resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
-    threading.Thread(target=_leave_with_the_service, args=(connection,), daemon=True).start()
+    threading.Thread(target=leave_with_the_service, args=(connection,), daemon=True).start()
     try:
         while (call := _read(connection)) is not None:
             connection.sendall(framed(_outcome(call)))
@@ -70,7 +70,7 @@ def _read_exactly(connection: socket.socket, size: int) -> bytes | None:
     return bytes(content)
 
 
-def _leave_with_the_service(connection: socket.socket) -> None:
+def leave_with_the_service(connection: socket.socket) -> None:
     """End this process, whatever it calculates, once the other end of its socket is gone."""
     poll = select.poll()
     poll.register(connection, 0)  # only the hang-up, which is always reported

@@ -9,6 +9,7 @@ from fastapi import FastAPI, Request
 
 from app.__main__ import serve
 from app.main import create_app
+from app.workers.fork_server import ForkServer
 
 
 def sleep(seconds: float) -> float:
@@ -29,8 +30,8 @@ def allocate(mebibytes: int) -> int:
     return int(np.ones(mebibytes * 2**17).size)
 
 
-def create_faulty_app() -> FastAPI:
-    app = create_app()
+def create_faulty_app(template: ForkServer) -> FastAPI:
+    app = create_app(template)
 
     @app.post("/sleep/{seconds}")
     async def _(http: Request, seconds: float) -> float:

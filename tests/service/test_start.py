@@ -14,7 +14,16 @@ import httpx
 import pytest
 
 from app.library import examples
-from tests.server import ROOT, descendants, is_alive, started_server, wait_until_warm
+from tests.server import (
+    ROOT,
+    children,
+    descendants,
+    is_alive,
+    started_server,
+    template,
+    wait_until_warm,
+    workers,
+)
 from tests.service.caches import complete_cache
 
 pytestmark = pytest.mark.service
@@ -119,7 +128,8 @@ def test_read_only_cache_is_used(tmp_path: Path) -> None:
     files_before = sorted(path.relative_to(cache) for path in cache.rglob("*"))
     for folder in [cache, *(path for path in cache.iterdir() if path.is_dir())]:
         folder.chmod(0o555)
-    with started_server(environment={"NUMBA_CACHE_DIR": str(cache)}) as (process, address):
+    with started_server(environment={"NUMBA_CACHE_DIR": str(cache)}, workers=2) as (process, address):
         wait_until_warm(process, address, 60)
-        assert not any("app.warm_up" in Path(f"/proc/{pid}/cmdline").read_text() for pid in descendants(process.pid))
+        assert children(process.pid) == [template(process)]  # nothing else compiles
+        assert len(workers(process)) == 2
     assert sorted(path.relative_to(cache) for path in cache.rglob("*")) == files_before

@@ -10,6 +10,7 @@ import pytest
 
 import solvers
 from solvers.compiled import kernel
+from solvers.kernel_cache import folder_name
 
 SOURCES = Path(solvers.__file__).parent
 PROGRAM = "from solvers.outer import outer; print(outer(1.0), len(outer.stats.cache_hits))"
@@ -81,6 +82,31 @@ def test_broken_files_are_compiled_again_with_a_word(package: Path, kind: str, s
     assert log.count("broken kernel cache") == 1
     assert "outer-" in log
     assert outcome(package) == (3.0, True, "")
+
+
+def test_bare_code_from_the_cache_is_linked_and_raises(package: Path) -> None:
+    inner = "def inner(x):\n    if x < 0.0:\n        raise ValueError('below zero')\n    return 2.0 * x\n"
+    (package / "inner.py").write_text(f"from solvers.compiled import kernel\n@kernel\n{inner}")
+    outcome(package)
+    kept = package / "__pycache__" / "kernels"
+    (bare,) = kept.glob("inner-*/inner-*-bare.nbi")
+    before = bare.stat().st_mtime_ns
+    outer = package / "outer.py"
+    outer.write_text(outer.read_text().replace("+ 1.0", "+ 2.0"))
+    assert outcome(package)[:2] == (4.0, False)
+    assert bare.stat().st_mtime_ns == before  # linked from the cache, not compiled again
+    outer.write_text(outer.read_text().replace("inner(x)", "inner(-x)"))
+    with pytest.raises(subprocess.CalledProcessError) as failed:
+        outcome(package)
+    assert "ValueError: below zero" in failed.value.stderr
+
+
+def test_a_module_that_moves_gets_another_folder(tmp_path: Path) -> None:
+    places = [tmp_path / "here" / "same.py", tmp_path / "there" / "same.py"]
+    for place in places:
+        place.parent.mkdir()
+        place.write_text("value = 1.0\n")
+    assert len({folder_name(place) for place in places}) == 2
 
 
 def test_without_any_place_kernels_live_in_memory(package: Path) -> None:

@@ -7,7 +7,7 @@ from typing import Any, cast
 import pytest
 
 from app.problems import DeadlineExceeded, WorkerLost
-from app.workers.fork_server import Worker, WorkerDied
+from app.workers.fork_server import ForkServer, Worker, WorkerDied
 from app.workers.patient import PatientPool
 from app.workers.pool import Pool
 
@@ -32,7 +32,7 @@ def worked(workers: int, scenario: Callable[[PatientPool, Pool, list[FakeWorker]
     """Run a scenario on a pool of fake workers, all of them idle."""
 
     async def run() -> None:
-        pool = Pool(workers, 512)
+        pool = Pool(workers, 512, cast("ForkServer", None))
         fakes = [FakeWorker() for _ in range(workers)]
         pool._workers = {cast("Worker", fake) for fake in fakes}
         pool._idle = list(pool._workers)
