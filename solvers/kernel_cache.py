@@ -135,7 +135,7 @@ def folder_name(path: Path) -> str:
     """The module's name and a hash of everything its machine code depends on."""
     digest = hashlib.sha256(f"{sys.version} {platform.machine()} {numba.__version__}".encode())
     for source in sorted(sources(path) - {Path(__file__).resolve()}):  # the place of the code does not change it
-        digest.update(source.name.encode())
+        digest.update(os.path.relpath(source, PACKAGE).encode())  # kept code names its module
         digest.update(_text(source).encode())
     return f"{path.stem}-{digest.hexdigest()[:24]}"
 

@@ -12,7 +12,7 @@ import solvers
 from solvers.compiled import kernel
 
 SOURCES = Path(solvers.__file__).parent
-PROGRAM = "from solvers.outer import outer; print(outer(1.0), len(outer.stats.cache_hits))"
+PROGRAM = "from {module} import outer; print(outer(1.0), len(outer.stats.cache_hits))"
 
 
 @kernel
@@ -45,11 +45,11 @@ def package(tmp_path: Path) -> Path:
     return folder
 
 
-def outcome(package: Path, cache: str | None = None) -> tuple[float, bool, str]:
+def outcome(package: Path, cache: str | None = None, module: str = "solvers.outer") -> tuple[float, bool, str]:
     """What the outer kernel answers, whether it came from the cache, and what was logged."""
     environment = {name: value for name, value in os.environ.items() if name not in {"NUMBA_CACHE_DIR", "PYTHONPATH"}}
     result = subprocess.run(
-        [sys.executable, "-c", PROGRAM],
+        [sys.executable, "-c", PROGRAM.format(module=module)],
         cwd=package.parent,
         env=environment | ({"NUMBA_CACHE_DIR": cache} if cache else {}),
         check=True,
@@ -66,6 +66,15 @@ def test_an_edit_of_a_called_kernel_is_seen(package: Path) -> None:
     source = package / "inner.py"
     source.write_text(source.read_text().replace("2.0", "5.0"))
     assert outcome(package)[:2] == (6.0, False)
+
+
+def test_a_moved_module_is_compiled_again_without_complaint(package: Path) -> None:
+    assert outcome(package) == (3.0, False, "")
+    (package / "part").mkdir()
+    (package / "part" / "__init__.py").touch()
+    (package / "outer.py").rename(package / "part" / "outer.py")
+    assert outcome(package, module="solvers.part.outer") == (3.0, False, "")
+    assert outcome(package, module="solvers.part.outer") == (3.0, True, "")
 
 
 @pytest.mark.parametrize("size", [0, 20])
