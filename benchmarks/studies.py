@@ -9,6 +9,7 @@ import json
 import time
 from collections import deque
 from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
@@ -40,6 +41,7 @@ class Kind(NamedTuple):
 KINDS = (
     Kind("coupling", "pahl-axial-displacement", "operation.misalignment_deg", 0.01, 0.08),
     Kind("load distribution", "xue-pair-1-modified", "modifications.helix_slope_um", -20, 20),
+    Kind("gas dynamics", "milian-case-1", "operation.pinion_speed_rpm", 9000, 9500),
     Kind("thermal path", "xue-pair-1-thermal", "temperatures.bulk_c", 60, 100),
 )
 MAP = {
@@ -62,6 +64,12 @@ def in_process(body: dict[str, Any]) -> float:
     for index in range(study.total):
         solve_point(question, study.plan.overrides(index))
     return time.perf_counter() - started
+
+
+def in_two_processes(body: dict[str, Any]) -> float:
+    """Seconds of all points by two processes that do nothing else: what two cores of this machine are worth."""
+    with ProcessPoolExecutor(2) as pool:
+        return sum(pool.map(in_process, [body, body])) / 4
 
 
 def single_requests(client: httpx.Client, body: dict[str, Any]) -> float:
@@ -113,11 +121,18 @@ def served(**settings: object) -> Iterator[httpx.Client]:
         yield client
 
 
-def table(kinds: list[tuple[Kind, int]], columns: dict[str, Callable[[dict[str, Any]], float]]) -> None:
-    """Print milliseconds per point."""
-    for name, measure in columns.items():
-        cells = [1e3 * measure(kind.body(count)) / count for kind, count in kinds]
-        print(f"{name:<34}" + "".join(f"{cell:>20.2f}" for cell in cells), flush=True)
+def table(kinds: list[tuple[Kind, int]], name: str, measure: Callable[[dict[str, Any]], float]) -> list[float]:
+    """Print and return milliseconds per point."""
+    cells = [1e3 * measure(kind.body(count)) / count for kind, count in kinds]
+    print(f"{name:<34}" + "".join(f"{cell:>20.2f}" for cell in cells), flush=True)
+    return cells
+
+
+def share(name: str, bound: list[float], reached: list[float]) -> None:
+    """Print what part of the possible is reached."""
+    print(
+        f"{name:<34}" + "".join(f"{best / cell:>20.0%}" for best, cell in zip(bound, reached, strict=True)), flush=True
+    )
 
 
 def main(seconds: float, dask: bool) -> None:
@@ -127,22 +142,22 @@ def main(seconds: float, dask: bool) -> None:
         per_point = in_process(kind.body(3)) / 3
         kinds.append((kind, max(10, min(20_000, round(seconds / per_point)))))
     print(f"{'ms per point':<34}" + "".join(f"{f'{kind.name} ({count})':>20}" for kind, count in kinds))
-    table(kinds, {"one process, no service": in_process})
+    alone = table(kinds, "one process, no service", in_process)
+    both = table(kinds, "two processes, no service", in_two_processes)
     with served(workers=1) as client:
-        table(kinds, {"study, one worker": lambda body: study(client, body)[1]})
+        one = table(kinds, "study, one worker", lambda body: study(client, body)[1])
     with served(workers=2) as client:
-        table(
-            kinds,
-            {
-                "study, two workers": lambda body: study(client, body)[1],
-                "single requests, two workers": lambda body: single_requests(client, body),
-            },
-        )
+        two = table(kinds, "study, two workers", lambda body: study(client, body)[1])
+        table(kinds, "single requests, two workers", lambda body: single_requests(client, body))
         first, whole = study(client, MAP)
-        print(f"map of 17 x 11 load distributions: first line {first:.3f} s (0.3 s), all {whole:.2f} s (2 s)")
+    share("one worker, of one process", alone, one)
+    share("two workers, of two processes", both, two)
+    share("two workers, of twice one worker", [cell / 2 for cell in one], two)
     if dask:
         with running_cluster(2) as cluster, served(workers=1, scheduler=cluster.address) as client:
-            table(kinds, {"study, two Dask workers": lambda body: study(client, body)[1]})
+            remote = table(kinds, "study, two Dask workers", lambda body: study(client, body)[1])
+            share("two Dask workers, of two workers", two, remote)
+    print(f"map of 17 x 11 load distributions: first line {first:.3f} s (0.3 s), all {whole:.2f} s (2 s)")
 
 
 if __name__ == "__main__":

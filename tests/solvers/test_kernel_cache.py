@@ -10,10 +10,9 @@ import pytest
 
 import solvers
 from solvers.compiled import kernel
-from solvers.kernel_cache import folder_name
 
 SOURCES = Path(solvers.__file__).parent
-PROGRAM = "from solvers.outer import outer; print(outer(1.0), len(outer.stats.cache_hits))"
+PROGRAM = "from {module} import outer; print(outer(1.0), len(outer.stats.cache_hits))"
 
 
 @kernel
@@ -46,11 +45,11 @@ def package(tmp_path: Path) -> Path:
     return folder
 
 
-def outcome(package: Path, cache: str | None = None) -> tuple[float, bool, str]:
+def outcome(package: Path, cache: str | None = None, module: str = "solvers.outer") -> tuple[float, bool, str]:
     """What the outer kernel answers, whether it came from the cache, and what was logged."""
     environment = {name: value for name, value in os.environ.items() if name not in {"NUMBA_CACHE_DIR", "PYTHONPATH"}}
     result = subprocess.run(
-        [sys.executable, "-c", PROGRAM],
+        [sys.executable, "-c", PROGRAM.format(module=module)],
         cwd=package.parent,
         env=environment | ({"NUMBA_CACHE_DIR": cache} if cache else {}),
         check=True,
@@ -67,6 +66,15 @@ def test_an_edit_of_a_called_kernel_is_seen(package: Path) -> None:
     source = package / "inner.py"
     source.write_text(source.read_text().replace("2.0", "5.0"))
     assert outcome(package)[:2] == (6.0, False)
+
+
+def test_a_moved_module_is_compiled_again_without_complaint(package: Path) -> None:
+    assert outcome(package) == (3.0, False, "")
+    (package / "part").mkdir()
+    (package / "part" / "__init__.py").touch()
+    (package / "outer.py").rename(package / "part" / "outer.py")
+    assert outcome(package, module="solvers.part.outer") == (3.0, False, "")
+    assert outcome(package, module="solvers.part.outer") == (3.0, True, "")
 
 
 @pytest.mark.parametrize("size", [0, 20])
@@ -99,14 +107,6 @@ def test_bare_code_from_the_cache_is_linked_and_raises(package: Path) -> None:
     with pytest.raises(subprocess.CalledProcessError) as failed:
         outcome(package)
     assert "ValueError: below zero" in failed.value.stderr
-
-
-def test_a_module_that_moves_gets_another_folder(tmp_path: Path) -> None:
-    places = [tmp_path / "here" / "same.py", tmp_path / "there" / "same.py"]
-    for place in places:
-        place.parent.mkdir()
-        place.write_text("value = 1.0\n")
-    assert len({folder_name(place) for place in places}) == 2
 
 
 def test_without_any_place_kernels_live_in_memory(package: Path) -> None:
