@@ -22,7 +22,7 @@ from solvers.scuffing.balance.contact_slices import OMEGA, Cover, Mesh, gather, 
 from solvers.scuffing.balance.line_survey import Survey, empty_survey, survey_ends, survey_slices
 from solvers.scuffing.balance.position_balance import TOLERANCE, solve_near
 from solvers.scuffing.flank.contact_lines import RollPositions
-from solvers.scuffing.flank.modification import gaps_at
+from solvers.scuffing.flank.modification import gap_at
 
 MAX_COVERS = 20  # of the lines of one roll position by slices
 SETTLED = 1e-6  # change of the approach between two covers
@@ -160,8 +160,9 @@ def _balance(
         survey.length[i], unloaded[i] = cover.length, cover.least
         error[i] = cover.least
         if force > 0.0:
+            near, state = (known[i], omega[i]) if known[i] == known[i] or i == 0 else (error[i - 1], table[OMEGA])
             error[i], residual[i], steps[i] = solve_near(
-                table, cover.slices, mesh.compliance.logarithmic, force, known[i], omega[i]
+                table, cover.slices, mesh.compliance.logarithmic, force, near, state
             )
             if error[i] < cover.most:
                 at = (phase[i], side[i])
@@ -173,44 +174,36 @@ def _balance(
 
 
 @kernel
-def _error_at(plane: ContactPlane, phase: FloatArray, error: FloatArray, x: float, y: float) -> float:
-    """TE at the roll position whose line passes through (x, y).
+def error_at(
+    plane: ContactPlane, phase: FloatArray, error: FloatArray, x: float, y: float, index: int
+) -> tuple[float, int]:
+    """TE at the roll position whose line passes through (x, y), and its step, looked for from step `index` on.
 
     The end of the path belongs to the roll position that leaves it, not to the next.
     """
-    inside = min(x, plane.path_length * (1.0 - 1e-9))
-    position = (inside + y * plane.tan_base_helix) % plane.base_pitch
-    index = min(max(int(np.searchsorted(phase, position, side="right")) - 1, 0), phase.size - 2)
+    line = min(x, plane.path_length * (1.0 - 1e-9)) + y * plane.tan_base_helix
+    position = line - int(line / plane.base_pitch) * plane.base_pitch
+    while index > 0 and phase[index] > position:
+        index -= 1
+    while index < phase.size - 2 and phase[index + 1] <= position:
+        index += 1
     fraction = (position - phase[index]) / (phase[index + 1] - phase[index])
-    return float(error[index] + fraction * (error[index + 1] - error[index]))
+    return error[index] + fraction * (error[index + 1] - error[index]), index
 
 
 @kernel
-def _line_loads(
-    mesh: Mesh, phase: FloatArray, error: FloatArray, x: FloatArray, y: FloatArray, gap: FloatArray
-) -> FloatArray:
-    plane, compliance = mesh.plane, mesh.compliance
-    loads, omega = np.empty(x.size), 0.0
+def loads_at(mesh: Mesh, phase: FloatArray, error: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
+    """Line load w [N/m] at points (x, y) of a plane that is in balance."""
+    loads, omega, index = np.empty(x.size), 0.0, 0
     for i in range(x.size):
-        approach = _error_at(plane, phase, error, x[i], y[i]) - gap[i]
-        loads[i], omega = load_under(compliance, approach, x[i], omega)
+        approach, index = error_at(mesh.plane, phase, error, x[i], y[i], index)
+        loads[i], omega = load_under(mesh.compliance, approach - gap_at(mesh.gap, x[i], y[i]), x[i], omega)
     return loads
 
 
-def line_loads(balance: LoadBalance, x: FloatArray, y: FloatArray, gap: FloatArray | None = None) -> FloatArray:
-    """Line load w [N/m] at points (x, y) of the plane, arrays of one shape; 0 where the flanks stand apart.
-
-    `gap` is Delta [m] there, where it is known already.
-    """
+def line_loads(balance: LoadBalance, x: FloatArray, y: FloatArray) -> FloatArray:
+    """Line load w [N/m] at points (x, y) of the plane, arrays of one shape; 0 where the flanks stand apart."""
     if balance.force == 0.0:
         return np.zeros(np.shape(x))
-    found = gaps_at(balance.mesh.gap, x, y) if gap is None else gap
-    loads = _line_loads(
-        balance.mesh,
-        balance.rolls.phase,
-        balance.transmission_error,
-        np.ravel(x).astype(float),
-        np.ravel(y).astype(float),
-        np.ravel(found),
-    )
-    return loads.reshape(np.shape(x))
+    points = np.ravel(x).astype(float), np.ravel(y).astype(float)
+    return loads_at(balance.mesh, balance.rolls.phase, balance.transmission_error, *points).reshape(np.shape(x))

@@ -5,7 +5,7 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.scuffing.balance.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, LOAD, OMEGA
-from solvers.scuffing.teeth.stiffness import line_load
+from solvers.scuffing.teeth.stiffness import line_load_near
 
 MAX_STEPS = 60
 LEAST_OMEGA = 2.0  # of the start, whose compliance must stay positive
@@ -45,27 +45,34 @@ def _secant_start(table: FloatArray, count: int, logarithmic: float, force: floa
 
 
 @kernel
-def _press(table: FloatArray, count: int, logarithmic: float, error: float) -> tuple[float, float]:
-    """Force [N] at an approach [m] and its derivative [N/m]; notes each slice's load and omega."""
-    force, slope = 0.0, 0.0
+def _press(table: FloatArray, count: int, logarithmic: float, error: float) -> tuple[float, float, float]:
+    """Force [N] at an approach [m], its derivative [N/m] and what it may change by as omegas settle [N].
+
+    Each slice's omega goes one step; loads and omegas are noted.
+    """
+    force, slope, unsettled = 0.0, 0.0, 0.0
     for i in range(count):
-        load, stiffness, table[OMEGA, i] = line_load(
+        load, stiffness, table[OMEGA, i], step = line_load_near(
             error - table[GAP, i], table[CONSTANT, i], logarithmic, table[LIMIT, i], table[OMEGA, i]
         )
         table[LOAD, i] = load
         force += load * table[LENGTH, i]
         slope += stiffness * table[LENGTH, i]
-    return force, slope
+        unsettled += load * table[LENGTH, i] * (step * step) ** 2
+    return force, slope, unsettled
 
 
 @kernel
 def newton(table: FloatArray, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
-    """TE [m] from a start, relative residual and steps at one roll position; loads and omegas stay in the table."""
+    """TE [m] from a start, relative residual and steps at one roll position; loads and omegas stay in the table.
+
+    One iteration over both levels: with every step of TE each slice's omega goes one of its own.
+    """
     residual, steps = np.inf, 0.0
     while steps < MAX_STEPS:
-        carried, slope = _press(table, count, logarithmic, error)
+        carried, slope, unsettled = _press(table, count, logarithmic, error)
         steps += 1.0
-        before, residual = residual, abs(carried - force) / force
+        before, residual = residual, (abs(carried - force) + unsettled) / force
         if residual <= ROUNDING or (residual <= NEAR_ROUNDING and residual >= before):
             break
         error -= (carried - force) / slope

@@ -5,9 +5,9 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.scuffing.balance.contact_slices import Mesh, load_under
-from solvers.scuffing.balance.load_balance import LoadBalance, line_loads
+from solvers.scuffing.balance.load_balance import LoadBalance, loads_at
 from solvers.scuffing.flank.contact_lines import line_count
-from solvers.scuffing.flank.modification import kinks_along_face, lead_gap, profile_gap
+from solvers.scuffing.flank.modification import kinks_along_face, lead_gaps, profile_gap
 
 SUBSTEPS = 4  # of a step between roll positions, where lines are loaded in part
 FACE_POINTS = 101
@@ -43,46 +43,37 @@ def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) ->
 
     Where lines are loaded in part, load ends between roll positions, whose steps are then cut into `substeps`.
     """
-    plane = balance.mesh.plane
-    starts = line_loads(balance, np.zeros(y.size), y)
-    ends = line_loads(balance, np.full(y.size, plane.path_length), y)
     in_part = np.any(balance.survey.loaded_length < (1 - SAME) * balance.survey.length)
-    steps = substeps if in_part else 1
-    return _face_loads(balance.mesh, balance.rolls.phase, balance.transmission_error, steps, y, starts, ends)
+    return _face_loads(
+        balance.mesh, balance.rolls.phase, balance.transmission_error, substeps if in_part else 1, y
+    )
 
 
 @kernel
-def _face_loads(
-    mesh: Mesh,
-    phase: FloatArray,
-    error: FloatArray,
-    substeps: int,
-    y: FloatArray,
-    starts: FloatArray,
-    ends: FloatArray,
-) -> FloatArray:
-    """Trapezia along the path from A to E, whose loads are known, over the roll positions whose lines pass between.
+def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int, y: FloatArray) -> FloatArray:
+    """Trapezia along the path from A to E, for all places at once, over the roll positions whose lines pass between.
 
     Each step between roll positions ends where the next begins, but for those at which TE jumps.
     """
     plane, compliance, form = mesh.plane, mesh.compliance, mesh.gap
-    loads, omega = np.zeros(y.size), 0.0
-    for k in range(y.size):
-        x, load, across = 0.0, starts[k], lead_gap(form, y[k])
-        for j in range(line_count(plane)):
-            for i in range(phase.size - 1):
-                first = phase[i] + j * plane.base_pitch - y[k] * plane.tan_base_helix
-                step = (phase[i + 1] - phase[i]) / substeps
-                jumped = i == 0 or phase[i] == phase[i - 1]
-                for n in range(0 if jumped else 1, substeps + 1 if step > 0.0 else 0):
-                    following = first + n * step
-                    if not 0.0 < following < plane.path_length:
-                        continue
-                    approach = error[i] + (error[i + 1] - error[i]) * n / substeps
-                    approach -= profile_gap(form, following) + across
-                    before = load
-                    load, omega = load_under(compliance, approach, following, omega)
-                    loads[k] += 0.5 * (before + load) * (following - x)
-                    x = following
-        loads[k] += 0.5 * (load + ends[k]) * (plane.path_length - x)
-    return loads / plane.base_pitch
+    across = lead_gaps(form, y)
+    x, load = np.zeros(y.size), loads_at(mesh, phase, error, np.zeros(y.size), y)
+    doubled, omega = np.zeros(y.size), np.zeros(y.size)
+    for j in range(line_count(plane)):
+        for i in range(phase.size - 1):
+            step = (phase[i + 1] - phase[i]) / substeps
+            jumped = i == 0 or phase[i] == phase[i - 1]
+            for n in range(0 if jumped else 1, substeps + 1 if step > 0.0 else 0):
+                line = phase[i] + n * step + j * plane.base_pitch
+                reached = error[i] + (error[i + 1] - error[i]) * n / substeps
+                for k in range(y.size):
+                    following = line - y[k] * plane.tan_base_helix
+                    if 0.0 < following < plane.path_length:
+                        approach = reached - (profile_gap(form, following) + across[k])
+                        before = load[k]
+                        load[k], omega[k] = load_under(compliance, approach, following, omega[k])
+                        doubled[k] += (before + load[k]) * (following - x[k])
+                        x[k] = following
+    ends = loads_at(mesh, phase, error, np.full(y.size, plane.path_length), y)
+    doubled += (load + ends) * (plane.path_length - x)
+    return 0.5 * doubled / plane.base_pitch

@@ -133,6 +133,15 @@ def lead_gap(form: Gap, y: float) -> float:
 
 
 @kernel
+def lead_gaps(form: Gap, y: FloatArray) -> FloatArray:
+    """The part of Delta [m] that changes over the face, at distances y [m] from the end that meshes first."""
+    gaps = np.empty(y.size)
+    for i in range(y.size):
+        gaps[i] = lead_gap(form, y[i])
+    return gaps
+
+
+@kernel
 def gap_at(form: Gap, x: float, y: float) -> float:
     """Delta [m] at distance x [m] from A and y [m] from the end that meshes first; positive: material missing."""
     return profile_gap(form, x) + lead_gap(form, y)

@@ -124,29 +124,38 @@ def _parabola(fraction: FloatArray, end_ratio: float) -> FloatArray:
 def line_load(
     approach: float, constant: float, logarithmic: float, limit: float, omega: float
 ) -> tuple[float, float, float]:
-    """Line load w [N/m], its derivative [Pa] by the approach [m], and omega; `omega` > 1 is a first guess, 0 is none.
+    """Line load w [N/m], its derivative [Pa] by the approach [m], and omega; `omega` > 1 is a first guess, 0 is none."""
+    load = stiffness = 0.0
+    for _ in range(OMEGA_STEPS):
+        load, stiffness, omega, step = line_load_near(approach, constant, logarithmic, limit, omega)
+        if abs(step) <= LAST_STEP:
+            break
+    return load, stiffness, omega
+
+
+@kernel
+def line_load_near(
+    approach: float, constant: float, logarithmic: float, limit: float, omega: float
+) -> tuple[float, float, float, float]:
+    """The same after one step of omega, and that step, relative; what it leaves is within its fourth power.
 
     omega - ln omega = A/a + ln(a / delta) by the iteration of Fritsch, Shafer and Crowley (1973) for Lambert's
     function, which takes one logarithm a step and settles from any guess; dw/d(delta) = 1 / (a (omega - 1)).
     """
     if approach <= 0.0:
-        return 0.0, 0.0, omega
+        return 0.0, 0.0, omega, 0.0
     if logarithmic == 0.0:
-        return approach / constant, 1.0 / constant, omega
+        return approach / constant, 1.0 / constant, omega, 0.0
     offset, ratio = constant / logarithmic, logarithmic / min(approach, limit)
     if omega <= 1.0:
         target = offset + np.log(ratio)
         omega = target + np.log(target)
-    for _ in range(OMEGA_STEPS):
-        excess, slope = omega - offset - np.log(omega * ratio), omega - 1.0
-        scale = 2.0 * slope * (slope - excess * (2.0 / 3.0))
-        step = -excess * (scale - excess) / (slope * (scale - 2.0 * excess))
-        omega *= 1.0 + step
-        if abs(step) <= LAST_STEP:
-            break
-    if approach > limit:
-        return approach / (logarithmic * omega), 1.0 / (logarithmic * omega), omega
-    return approach / (logarithmic * omega), 1.0 / (logarithmic * (omega - 1.0)), omega
+    excess, slope = omega - offset - np.log(omega * ratio), omega - 1.0
+    scale = 2.0 * slope * (slope - excess * (2.0 / 3.0))
+    step = -excess * (scale - excess) / (slope * (scale - 2.0 * excess))
+    omega *= 1.0 + step
+    yields = logarithmic * (omega if approach > limit else omega - 1.0)
+    return approach / (logarithmic * omega), 1.0 / yields, omega, step
 
 
 @kernel
