@@ -110,10 +110,10 @@ def test_line_load_inverts_the_half_space(load: float, section: str) -> None:
     table = pair_compliance(path, STEEL, STEEL, model)
     node = 300
     approach = half_space_approach(load, node / table.points_per_metre, section)
-    found, slope, omega = line_load(approach, table.constant[node], table.logarithmic, table.limit[node], 0.0)
+    found, slope, log_load = line_load(approach, table.constant[node], table.logarithmic, table.limit[node], 0.0)
     assert found == pytest.approx(load, rel=1e-11)
     step = 1e-6 * approach
-    ahead, _, _ = line_load(approach + step, table.constant[node], table.logarithmic, table.limit[node], 1.1 * omega)
+    ahead, _, _ = line_load(approach + step, table.constant[node], table.logarithmic, table.limit[node], 1.1 * log_load)
     assert (ahead - found) / step == pytest.approx(slope, rel=1e-5)
     assert single_stiffness(table, load)[node] == pytest.approx(load / approach, rel=1e-11)
 

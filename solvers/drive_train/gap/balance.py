@@ -75,7 +75,7 @@ class LoadedMesh:
 
     def balance(self, gap: FloatArray, near: FaceResponse | None = None) -> LoadBalance:
         """The balance of the load with the shafts' gap [m], from the response to a similar gap."""
-        start = None if near is None else (near.error, near.omega)
+        start = None if near is None else (near.error, near.log_load)
         return balance_load(self.under(gap), self.prepared.rolls, self.force, self.slices, start)
 
 

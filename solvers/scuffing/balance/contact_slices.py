@@ -15,8 +15,8 @@ from solvers.scuffing.flank.tables import tabulated
 from solvers.scuffing.teeth.stiffness import PairCompliance, line_load
 
 # Rows of the slice table
-X, Y, LENGTH, GAP, CONSTANT, LIMIT, OMEGA, LOAD, LINE = range(9)
-ROWS = 9
+X, Y, LENGTH, GAP, CONSTANT, LIMIT, LOG_LOAD, LOAD, STIFFNESS, LINE = range(10)
+ROWS = 10
 
 
 class Mesh(NamedTuple):
@@ -125,13 +125,13 @@ def _range(mesh: Mesh, line: float, zone: FloatArray, table: FloatArray, first: 
 
 
 @kernel
-def load_under(compliance: PairCompliance, approach: float, x: float, omega: float) -> tuple[float, float]:
-    """Line load w [N/m] of a pair pressed together by `approach` [m] at x [m], and omega, guessed by `omega`."""
-    load, _, omega = line_load(
+def load_under(compliance: PairCompliance, approach: float, x: float, log_load: float) -> tuple[float, float]:
+    """Line load w [N/m] of a pair pressed together by `approach` [m] at x [m], and ln w, guessed by `log_load`."""
+    load, _, log_load = line_load(
         approach,
         tabulated(compliance.constant, compliance.points_per_metre, x),
         compliance.logarithmic,
         tabulated(compliance.limit, compliance.points_per_metre, x),
-        omega,
+        log_load,
     )
-    return load, omega
+    return load, log_load

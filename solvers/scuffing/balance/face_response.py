@@ -12,12 +12,10 @@ from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.errors import NoSolution
 from solvers.scuffing.balance.contact_slices import (
-    CONSTANT,
-    GAP,
     LENGTH,
-    LIMIT,
     LOAD,
-    OMEGA,
+    LOG_LOAD,
+    STIFFNESS,
     Mesh,
     Y,
     gather,
@@ -32,14 +30,14 @@ class FaceResponse:
     """Transverse `force` [N] at the stations, mean over a base pitch, and its derivative [N/m] by the gap there.
 
     At every roll position the force over the whole face stays what it is, so rows and columns of the derivative add up
-    to 0. `error` and `omega`, approach of the flanks and state of the slices by roll position, start the next response
-    of the same mesh under a gap that is little different.
+    to 0. `error` and `log_load`, approach of the flanks and ln w of the slices by roll position, start the next
+    response of the same mesh under a gap that is little different.
     """
 
     force: FloatArray
     derivative: FloatArray
     error: FloatArray
-    omega: FloatArray
+    log_load: FloatArray
 
 
 def face_response(
@@ -55,15 +53,15 @@ def face_response(
     share *= mesh.plane.cos_base_helix / rolls.phase[-1]
     if start is None:
         error = np.full(share.size, np.nan)
-        omega = np.zeros((share.size, slice_table(mesh, slices).shape[1]))
+        log_load = np.zeros((share.size, slice_table(mesh, slices).shape[1]))
     else:
-        error, omega = start.error.copy(), start.omega.copy()
+        error, log_load = start.error.copy(), start.log_load.copy()
     spread, derivative = np.zeros(stations), np.zeros((stations, stations))
     if force > 0.0:
-        worst = _respond(mesh, rolls.phase, rolls.side, share, force, slices, error, omega, spread, derivative)
+        worst = _respond(mesh, rolls.phase, rolls.side, share, force, slices, error, log_load, spread, derivative)
         if not worst <= TOLERANCE:
             raise NoSolution("load_balance", "the load balance did not converge", {"relative_force": worst})
-    return FaceResponse(spread, derivative, error, omega)
+    return FaceResponse(spread, derivative, error, log_load)
 
 
 @kernel
@@ -75,7 +73,7 @@ def _respond(
     force: float,
     slices: int,
     error: FloatArray,
-    omega: FloatArray,
+    log_load: FloatArray,
     spread: FloatArray,
     derivative: FloatArray,
 ) -> float:
@@ -88,11 +86,12 @@ def _respond(
     for i in range(phase.size):
         count = gather(mesh, phase[i], side[i], slices, np.inf, table).slices
         near = i if error[i] == error[i] else max(i - 1, 0)
-        error[i], residual, _ = solve_near(table, count, mesh.compliance.logarithmic, force, error[near], omega[near])
-        omega[i, :count] = table[OMEGA, :count]
+        table[LOG_LOAD, :count] = log_load[near, :count]
+        error[i], residual, _ = solve_near(table, count, mesh.compliance.logarithmic, force, error[near])
+        log_load[i, :count] = table[LOG_LOAD, :count]
         worst = max(worst, residual)
         springs[:] = 0.0
-        _spread(mesh, table, count, error[i], share[i], spread, derivative, springs)
+        _spread(mesh, table, count, share[i], spread, derivative, springs)
         total = springs.sum()
         for a in range(springs.size):
             if springs[a] > 0.0:
@@ -106,29 +105,20 @@ def _spread(
     mesh: Mesh,
     table: FloatArray,
     count: int,
-    error: float,
     share: float,
     spread: FloatArray,
     derivative: FloatArray,
     springs: FloatArray,
 ) -> None:
-    """Add a roll position's loads and stiffness, as its balance left them, to the stations.
-
-    dw/ddelta = 1/C of linear contact, 1/(a (omega - 1)) of half-spaces, 1/(a omega) where their compliance is held.
-    """
+    """Add a roll position's loads and stiffness, as its balance left them, to the stations."""
     steps_per_metre = (spread.size - 1) / mesh.plane.face_width
-    logarithmic = mesh.compliance.logarithmic
     for n in range(count):
         if table[LOAD, n] <= 0.0:
             continue
-        compliance = table[CONSTANT, n]
-        if logarithmic > 0.0:
-            held = error - table[GAP, n] > table[LIMIT, n]
-            compliance = logarithmic * (table[OMEGA, n] - (0.0 if held else 1.0))
         position = table[Y, n] * steps_per_metre
         low = min(int(position), spread.size - 2)
         high = position - low
-        load, spring = table[LOAD, n] * table[LENGTH, n] * share, table[LENGTH, n] * share / compliance
+        load, spring = table[LOAD, n] * table[LENGTH, n] * share, table[STIFFNESS, n] * table[LENGTH, n] * share
         spread[low] += load * (1.0 - high)
         spread[low + 1] += load * high
         springs[low] += spring * (1.0 - high)

@@ -90,7 +90,7 @@ def survey_slices(mesh: Mesh, table: FloatArray, count: int, error: float, surve
 @kernel
 def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Survey, i: int) -> None:
     """Look for peaks at the ends of the lines, where edges are, and at their kinks; a corner is a line of no length."""
-    plane, edges = mesh.plane, np.empty(MOST_EDGES)
+    plane, edges, log_load = mesh.plane, np.empty(MOST_EDGES), 0.0
     overlap = plane.face_width * plane.tan_base_helix
     for j in range(line_count(plane)):
         line = phase + j * plane.base_pitch
@@ -100,7 +100,7 @@ def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Sur
             for edge in edges[: smooth_parts(mesh.gap, line, plane.tan_base_helix, (low, high), edges)]:
                 y = min(edge, plane.face_width)
                 x = min(max(line - y * plane.tan_base_helix, 0.0), plane.path_length)
-                load, _ = load_under(mesh.compliance, error - gap_at(mesh.gap, x, y), x, 0.0)
+                load, log_load = load_under(mesh.compliance, error - gap_at(mesh.gap, x, y), x, log_load)
                 _note_peaks(mesh, survey, i, load, (x, y))
 
 

@@ -18,7 +18,7 @@ from solvers.arrays import FloatArray, IntArray
 from solvers.compiled import kernel
 from solvers.errors import NoSolution
 from solvers.gears.path_of_contact import ContactPlane
-from solvers.scuffing.balance.contact_slices import OMEGA, Cover, Mesh, gather, load_under, slice_table
+from solvers.scuffing.balance.contact_slices import LOG_LOAD, Cover, Mesh, gather, load_under, slice_table
 from solvers.scuffing.balance.line_survey import Survey, empty_survey, survey_ends, survey_slices
 from solvers.scuffing.balance.position_balance import TOLERANCE, solve_near
 from solvers.scuffing.flank.contact_lines import RollPositions
@@ -34,7 +34,7 @@ LEAST_SPREAD = 1e-12  # m, of a kinematic error
 
 
 Start = tuple[FloatArray, FloatArray]
-"""TE [m] by roll position, and omega by roll position and slice."""
+"""TE [m] by roll position, and ln w [N/m] by roll position and slice."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +62,7 @@ def balance_load(
 ) -> LoadBalance:
     """TE over the roll positions, and over those added between, under the force [N]; the kinematic error without one.
 
-    `start` holds TE and the slices' omegas of the same mesh under a similar gap. A force that presses the lines by less
+    `start` holds TE and the slices' ln w of the same mesh under a similar gap. A force that presses the lines by less
     than `LEAST_LINE_LOAD` counts as none. Raises NoSolution load_balance if the iteration ends short of the force.
     """
     if force < LEAST_LINE_LOAD * mesh.plane.face_width:
@@ -140,7 +140,7 @@ def _settle(
     while not settled:
         cover = gather(mesh, phase, side, slices, error, table)
         before = error
-        error, residual, more = solve_near(table, cover.slices, mesh.compliance.logarithmic, force, error, table[OMEGA])
+        error, residual, more = solve_near(table, cover.slices, mesh.compliance.logarithmic, force, error)
         covers, steps = covers + 1, steps + more
         settled = abs(error - before) <= SETTLED * (error - least) or covers == MAX_COVERS
     return cover, error, residual, steps
@@ -148,7 +148,7 @@ def _settle(
 
 @kernel
 def _balance(
-    mesh: Mesh, phase: FloatArray, side: FloatArray, force: float, slices: int, known: FloatArray, omega: FloatArray
+    mesh: Mesh, phase: FloatArray, side: FloatArray, force: float, slices: int, known: FloatArray, log_load: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, Survey]:
     """TE, least gap, residual and steps at each roll position, and the survey of the loaded lines."""
     error, unloaded = np.empty(phase.size), np.empty(phase.size)
@@ -160,10 +160,12 @@ def _balance(
         survey.length[i], unloaded[i] = cover.length, cover.least
         error[i] = cover.least
         if force > 0.0:
-            near, state = (known[i], omega[i]) if known[i] == known[i] or i == 0 else (error[i - 1], table[OMEGA])
-            error[i], residual[i], steps[i] = solve_near(
-                table, cover.slices, mesh.compliance.logarithmic, force, near, state
-            )
+            near = known[i]
+            if not np.isnan(near):
+                table[LOG_LOAD, : cover.slices] = log_load[i, : cover.slices]
+            elif i > 1:
+                near = 2.0 * error[i - 1] - error[i - 2]
+            error[i], residual[i], steps[i] = solve_near(table, cover.slices, mesh.compliance.logarithmic, force, near)
             if error[i] < cover.most:
                 at = (phase[i], side[i])
                 cover, error[i], residual[i], steps[i] = _settle(mesh, at, slices, force, cover.least, error[i], table)
@@ -194,10 +196,10 @@ def error_at(
 @kernel
 def loads_at(mesh: Mesh, phase: FloatArray, error: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
     """Line load w [N/m] at points (x, y) of a plane that is in balance."""
-    loads, omega, index = np.empty(x.size), 0.0, 0
+    loads, log_load, index = np.empty(x.size), 0.0, 0
     for i in range(x.size):
         approach, index = error_at(mesh.plane, phase, error, x[i], y[i], index)
-        loads[i], omega = load_under(mesh.compliance, approach - gap_at(mesh.gap, x[i], y[i]), x[i], omega)
+        loads[i], log_load = load_under(mesh.compliance, approach - gap_at(mesh.gap, x[i], y[i]), x[i], log_load)
     return loads
 
 

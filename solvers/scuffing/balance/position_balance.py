@@ -4,11 +4,10 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.scuffing.balance.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, LOAD, OMEGA
-from solvers.scuffing.teeth.stiffness import line_load_near
+from solvers.scuffing.balance.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, LOAD, LOG_LOAD, STIFFNESS
+from solvers.scuffing.teeth.stiffness import LEAST_OMEGA, line_load_near
 
 MAX_STEPS = 60
-LEAST_OMEGA = 2.0  # of the start, whose compliance must stay positive
 ROUNDING = 1e-14  # relative force at which Newton has nothing left to gain
 NEAR_ROUNDING = 1e-12
 TOLERANCE = 1e-10  # relative force above which there is no solution
@@ -16,7 +15,7 @@ TOLERANCE = 1e-10  # relative force above which there is no solution
 
 @kernel
 def _secant_start(table: FloatArray, count: int, logarithmic: float, force: float) -> float:
-    """Exact TE of the linear problem; half-spaces take their secant compliance at the mean load, and keep its omega.
+    """Exact TE of the linear problem; half-spaces take their secant compliance at the mean load, and start from it.
 
     All slices pressed to a common TE, pulling included, reach the force to the right of the root of the convex F(TE);
     Newton's steps descend from there through ever smaller contact sets.
@@ -28,13 +27,13 @@ def _secant_start(table: FloatArray, count: int, logarithmic: float, force: floa
             total += table[LENGTH, i]
         log_mean = np.log(force / total)
         for i in range(count):
-            table[OMEGA, i] = max(table[CONSTANT, i] / logarithmic - log_mean, LEAST_OMEGA)
+            table[LOG_LOAD, i] = log_mean
     error = np.inf
     for _ in range(MAX_STEPS):
         stiffness, moment = 0.0, 0.0
         for i in range(count):
             if table[GAP, i] < error:
-                compliance = logarithmic * table[OMEGA, i] if logarithmic > 0.0 else table[CONSTANT, i]
+                compliance = max(table[CONSTANT, i] - logarithmic * log_mean, logarithmic * LEAST_OMEGA)
                 stiffness += table[LENGTH, i] / compliance
                 moment += table[LENGTH, i] / compliance * table[GAP, i]
         following = (force + moment) / stiffness
@@ -45,37 +44,55 @@ def _secant_start(table: FloatArray, count: int, logarithmic: float, force: floa
 
 
 @kernel
-def _press(table: FloatArray, count: int, logarithmic: float, error: float) -> tuple[float, float, float]:
-    """Force [N] at an approach [m], its derivative [N/m] and what it may change by as omegas settle [N].
+def _press(table: FloatArray, count: int, logarithmic: float, error: float) -> tuple[float, float, float, float]:
+    """Force [N] at an approach [m], its derivative [N/m], what it may change by as slices settle [N], least |TE - gap|.
 
-    Each slice's omega goes one step; loads and omegas are noted.
+    Each slice goes one step towards its law and is noted with it.
     """
-    force, slope, unsettled = 0.0, 0.0, 0.0
+    force, slope, unsettled, nearest = 0.0, 0.0, 0.0, np.inf
     for i in range(count):
-        load, stiffness, table[OMEGA, i], step = line_load_near(
-            error - table[GAP, i], table[CONSTANT, i], logarithmic, table[LIMIT, i], table[OMEGA, i]
+        approach, length = error - table[GAP, i], table[LENGTH, i]
+        load, stiffness, log_load, step = line_load_near(
+            approach, table[CONSTANT, i], logarithmic, table[LIMIT, i], table[LOG_LOAD, i]
         )
-        table[LOAD, i] = load
-        force += load * table[LENGTH, i]
-        slope += stiffness * table[LENGTH, i]
-        unsettled += load * table[LENGTH, i] * (step * step) ** 2
-    return force, slope, unsettled
+        table[LOAD, i], table[STIFFNESS, i], table[LOG_LOAD, i] = load, stiffness, log_load
+        force += load * length
+        slope += stiffness * length
+        unsettled += load * length * (step * step) ** 2
+        nearest = min(nearest, abs(approach))
+    return force, slope, unsettled, nearest
+
+
+@kernel
+def _follow(table: FloatArray, count: int, change: float) -> float:
+    """Force [N] once the loads have followed a change of TE [m] along their derivatives."""
+    force = 0.0
+    for i in range(count):
+        table[LOAD, i] += table[STIFFNESS, i] * change
+        force += table[LOAD, i] * table[LENGTH, i]
+    return force
 
 
 @kernel
 def newton(table: FloatArray, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
-    """TE [m] from a start, relative residual and steps at one roll position; loads and omegas stay in the table.
+    """TE [m] from a start, relative residual and steps at one roll position; the slices stay in the table.
 
-    One iteration over both levels: with every step of TE each slice's omega goes one of its own.
+    One iteration over both levels: with every step of TE each slice goes one of its own. Of the last step,
+    which no slice enters or leaves and whose square is rounding, the loads follow the derivative; linear contact has
+    none but such steps.
     """
     residual, steps = np.inf, 0.0
     while steps < MAX_STEPS:
-        carried, slope, unsettled = _press(table, count, logarithmic, error)
+        carried, slope, unsettled, nearest = _press(table, count, logarithmic, error)
         steps += 1.0
         before, residual = residual, (abs(carried - force) + unsettled) / force
         if residual <= ROUNDING or (residual <= NEAR_ROUNDING and residual >= before):
             break
-        error -= (carried - force) / slope
+        change = (force - carried) / slope
+        error += change
+        bend = residual**2 if logarithmic > 0.0 else 0.0
+        if abs(change) < nearest and bend + unsettled / force <= ROUNDING:
+            return error, abs(_follow(table, count, change) - force) / force + bend + unsettled / force, steps
     return error, residual, steps
 
 
@@ -87,11 +104,10 @@ def solve_position(table: FloatArray, count: int, logarithmic: float, force: flo
 
 @kernel
 def solve_near(
-    table: FloatArray, count: int, logarithmic: float, force: float, error: float, omega: FloatArray
+    table: FloatArray, count: int, logarithmic: float, force: float, error: float
 ) -> tuple[float, float, float]:
-    """The same from the TE [m] and the omegas of a similar position; from nothing where TE is NaN or that fails."""
+    """The same from the TE [m] of a similar position and the table's ln w; from nothing if TE is NaN or that fails."""
     if not np.isnan(error):
-        table[OMEGA, :count] = omega[:count]
         error, residual, steps = newton(table, count, logarithmic, force, error)
         if residual <= TOLERANCE:
             return error, residual, steps

@@ -44,9 +44,7 @@ def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) ->
     Where lines are loaded in part, load ends between roll positions, whose steps are then cut into `substeps`.
     """
     in_part = np.any(balance.survey.loaded_length < (1 - SAME) * balance.survey.length)
-    return _face_loads(
-        balance.mesh, balance.rolls.phase, balance.transmission_error, substeps if in_part else 1, y
-    )
+    return _face_loads(balance.mesh, balance.rolls.phase, balance.transmission_error, substeps if in_part else 1, y)
 
 
 @kernel
@@ -58,7 +56,7 @@ def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int,
     plane, compliance, form = mesh.plane, mesh.compliance, mesh.gap
     across = lead_gaps(form, y)
     x, load = np.zeros(y.size), loads_at(mesh, phase, error, np.zeros(y.size), y)
-    doubled, omega = np.zeros(y.size), np.zeros(y.size)
+    doubled, log_load = np.zeros(y.size), np.zeros(y.size)
     for j in range(line_count(plane)):
         for i in range(phase.size - 1):
             step = (phase[i + 1] - phase[i]) / substeps
@@ -71,7 +69,7 @@ def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int,
                     if 0.0 < following < plane.path_length:
                         approach = reached - (profile_gap(form, following) + across[k])
                         before = load[k]
-                        load[k], omega[k] = load_under(compliance, approach, following, omega[k])
+                        load[k], log_load[k] = load_under(compliance, approach, following, log_load[k])
                         doubled[k] += (before + load[k]) * (following - x[k])
                         x[k] = following
     ends = loads_at(mesh, phase, error, np.full(y.size, plane.path_length), y)

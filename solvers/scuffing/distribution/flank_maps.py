@@ -35,12 +35,12 @@ def _maps(
 ) -> tuple[FloatArray, FloatArray]:
     """Gap Delta [m] and line load w [N/m] over a grid.
 
-    A point's omega starts from that of the row before, which waits for no neighbour.
+    A point's load starts from that in the row before, which waits for no neighbour.
     """
     plane, compliance, form = mesh.plane, mesh.compliance, mesh.gap
     gaps, loads = np.empty((x.size, y.size)), np.zeros((x.size, y.size))
     across = lead_gaps(form, y)
-    omega, index = np.zeros(y.size), 0
+    log_load, index = np.zeros(y.size), 0
     for i in range(x.size):
         along = profile_gap(form, x[i])
         constant = tabulated(compliance.constant, compliance.points_per_metre, x[i])
@@ -49,8 +49,8 @@ def _maps(
             gaps[i, k] = along + across[k]
             if loaded:
                 reached, index = error_at(plane, phase, error, x[i], y[k], index)
-                loads[i, k], _, omega[k] = line_load(
-                    reached - gaps[i, k], constant, compliance.logarithmic, limit, omega[k]
+                loads[i, k], _, log_load[k] = line_load(
+                    reached - gaps[i, k], constant, compliance.logarithmic, limit, log_load[k]
                 )
     return gaps, loads
 

@@ -27,7 +27,8 @@ TABLE_POINTS = 801
 LEAST_RADIUS = 1e-6  # normal modules; on a base circle it vanishes, and the half width with it
 SHALLOWEST = 2.0  # half-space depth over contact half width
 OMEGA_STEPS = 12
-LAST_STEP = 5e-4  # of omega; its fourth power bounds what is left, so the next step would be rounding
+LEAST_OMEGA = 2.0  # of a guess; where the law is held omega is larger, and at 1 it ends
+LAST_STEP = 1e-3  # of omega; it leaves less than a tenth of its fourth power, so the next step would be rounding
 
 
 class PairCompliance(NamedTuple):
@@ -122,40 +123,41 @@ def _parabola(fraction: FloatArray, end_ratio: float) -> FloatArray:
 
 @kernel
 def line_load(
-    approach: float, constant: float, logarithmic: float, limit: float, omega: float
+    approach: float, constant: float, logarithmic: float, limit: float, log_load: float
 ) -> tuple[float, float, float]:
-    """Line load w [N/m], its derivative [Pa] by the approach [m], and omega; `omega` > 1 is a first guess, 0 is none."""
+    """Line load w [N/m], its derivative [Pa] by the approach [m], and ln w; `log_load` is a first guess of ln w."""
     load = stiffness = 0.0
     for _ in range(OMEGA_STEPS):
-        load, stiffness, omega, step = line_load_near(approach, constant, logarithmic, limit, omega)
+        load, stiffness, log_load, step = line_load_near(approach, constant, logarithmic, limit, log_load)
         if abs(step) <= LAST_STEP:
             break
-    return load, stiffness, omega
+    return load, stiffness, log_load
 
 
 @kernel
 def line_load_near(
-    approach: float, constant: float, logarithmic: float, limit: float, omega: float
+    approach: float, constant: float, logarithmic: float, limit: float, log_load: float
 ) -> tuple[float, float, float, float]:
-    """The same after one step of omega, and that step, relative; what it leaves is within its fourth power.
+    """The same after one step of omega from a guess, and that step, relative; it leaves its fourth power.
 
     omega - ln omega = A/a + ln(a / delta) by the iteration of Fritsch, Shafer and Crowley (1973) for Lambert's
-    function, which takes one logarithm a step and settles from any guess; dw/d(delta) = 1 / (a (omega - 1)).
+    function, which takes one logarithm a step and settles from any guess; dw/d(delta) = 1 / (a (omega - 1)). The guess
+    is carried as ln w, which changes less from place to place than omega does, and is not needed where nothing touches.
     """
     if approach <= 0.0:
-        return 0.0, 0.0, omega, 0.0
+        return 0.0, 0.0, log_load, 0.0
     if logarithmic == 0.0:
-        return approach / constant, 1.0 / constant, omega, 0.0
-    offset, ratio = constant / logarithmic, logarithmic / min(approach, limit)
-    if omega <= 1.0:
-        target = offset + np.log(ratio)
-        omega = target + np.log(target)
-    excess, slope = omega - offset - np.log(omega * ratio), omega - 1.0
+        return approach / constant, 1.0 / constant, log_load, 0.0
+    per_slope = 1.0 / logarithmic
+    offset = constant * per_slope
+    omega = max(offset - log_load, LEAST_OMEGA)
+    excess, slope = omega - offset + np.log(min(approach, limit) * per_slope / omega), omega - 1.0
     scale = 2.0 * slope * (slope - excess * (2.0 / 3.0))
     step = -excess * (scale - excess) / (slope * (scale - 2.0 * excess))
     omega *= 1.0 + step
-    yields = logarithmic * (omega if approach > limit else omega - 1.0)
-    return approach / (logarithmic * omega), 1.0 / yields, omega, step
+    both = per_slope / (omega * (omega - 1.0))  # one division for two
+    rising = omega - 1.0 if approach > limit else omega
+    return approach * (omega - 1.0) * both, rising * both, offset - omega, step
 
 
 @kernel
@@ -163,8 +165,8 @@ def _secants(constant: FloatArray, limit: FloatArray, logarithmic: float, load: 
     """1 / (a omega) at a line load [N/m], omega that of the load or of the limit."""
     stiffness = np.empty(constant.size)
     for i in range(constant.size):
-        _, _, least_omega = line_load(limit[i], constant[i], logarithmic, limit[i], 0.0)
-        stiffness[i] = 1.0 / (logarithmic * max(constant[i] / logarithmic - np.log(load), least_omega))
+        _, _, log_limit = line_load(limit[i], constant[i], logarithmic, limit[i], np.log(load))
+        stiffness[i] = 1.0 / (constant[i] - logarithmic * min(np.log(load), log_limit))
     return stiffness
 
 
