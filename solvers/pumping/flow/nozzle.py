@@ -9,6 +9,8 @@ from solvers.compiled import kernel
 from solvers.pumping.inputs import MOLAR_GAS_CONSTANT, Ambient
 
 _LINEAR = 1e-7  # relative pressure drop below which the flux is continued linearly, for a finite Jacobian
+_SMALL = 1e-2  # relative pressure drop below which the expansion is a series: seven terms leave 1e-16 of it
+_TERMS = 7
 
 
 class Gas(NamedTuple):
@@ -59,11 +61,29 @@ def flux_squared(gas: Gas, upstream: float, density: float, downstream: float) -
         x, y = gas.critical_ratio, gas.critical_density_ratio
         slope = scale * y * (y - x)
         return slope * upstream, slope, 0.0
-    grown = np.expm1(np.log1p(-drop) / g)
-    y, x = 1.0 + grown, 1.0 - drop
+    x = 1.0 - drop
+    y, more = _expansion(1.0 / g, drop)
     by_upstream = scale * y * (y + (x - 2.0 * y) / g)
     by_downstream = scale * y / x * (2.0 * y / g - (1.0 + 1.0 / g) * x)
-    return scale * upstream * y * (grown + drop), by_upstream, by_downstream
+    return scale * upstream * y * more, by_upstream, by_downstream
+
+
+@kernel
+def _expansion(power: float, drop: float) -> tuple[float, float]:
+    """Ratio of densities y = x^power over an isentropic pressure ratio x = 1 - drop, and y - x.
+
+    For small drops, where y - x is the difference of near equals, by the series
+    1 - y = power drop (1 + (1 - power)/2 drop (1 + (2 - power)/3 drop (1 + ...))).
+    """
+    if drop > _SMALL:
+        x = 1.0 - drop
+        y = x**power
+        return y, y - x
+    series = 1.0
+    for n in range(_TERMS, 0, -1):
+        series = 1.0 + (n - power) * (1.0 / (n + 1)) * drop * series
+    fallen = power * drop * series
+    return 1.0 - fallen, drop - fallen
 
 
 @kernel

@@ -13,6 +13,7 @@ MASS, MOMENTUM, ENERGY = range(3)
 DENSITY, VELOCITY, PRESSURE = range(3)
 LEAKED, GIVEN, WORKED = range(3)
 DEMAND, MACH, OUTWARD = range(3)
+LATEST, HALFWAY, GROWTH = range(3)
 
 
 class Cells(NamedTuple):
@@ -22,8 +23,9 @@ class Cells(NamedTuple):
     step and `next_walls` at its end (area, clearance, carried gas); `slope` and `half` of the state; `loss` over the
     step (leaked mass, energy given to the walls, gauge work done by them; per metre); `face_area` and `flux` at the
     half step; `ends` (2, 3) of the low and the high end: Mach number asked for, Mach number, velocity outwards [m/s];
-    `leak` (cells,) the latest leakage, a first guess for the next [kg/(s m)]; `share` (cells,) of the step in which a
-    cell's centre is in its stroke: outside it the walls stand still and nothing leaks.
+    `leak` the latest flux out through the gaps, that halfway through the step [kg/(s m)] and its growth over the last
+    one [kg/(s^2 m)], first guesses for the next; `share` (cells,) of the step in which a cell's centre is in its
+    stroke: outside it the walls stand still and nothing leaks.
     """
 
     content: FloatArray
@@ -58,7 +60,7 @@ def empty_cells(cells: int) -> Cells:
         face_area=np.zeros(faces),
         flux=np.zeros((faces, 3)),
         ends=np.zeros((2, 3)),
-        leak=np.zeros(cells),
+        leak=np.zeros(wide),
         share=np.zeros(cells),
     )
 

@@ -14,7 +14,7 @@ from solvers.compiled import kernel
 from solvers.pumping.flow.nozzle import Gas, flux_squared
 
 _NEWTON_LIMIT = 30
-_TOLERANCE = 1e-5  # of the last correction: Newton's next one would be its square
+_TOLERANCE = 1e-10  # relative, of the flux through the gaps
 
 
 class Walls(NamedTuple):
@@ -33,8 +33,8 @@ class Walls(NamedTuple):
 class Stage(NamedTuple):
     """Content after a stage, its pressure, and the rates of loss that led there.
 
-    mass [kg/m], momentum [kg/s], energy [J/m], pressure [Pa]; rates of leakage out and in [kg/(s m)], momentum and
-    energy lost [N/m, W/m]; `fits`: whether the state is physical.
+    mass [kg/m], momentum [kg/s], energy [J/m], pressure [Pa]; rates of mass, momentum and energy lost [kg/(s m), N/m,
+    W/m], of the mass `through_gaps` alone; `fits`: whether the state is physical.
     """
 
     mass: float
@@ -44,6 +44,7 @@ class Stage(NamedTuple):
     leak: float
     momentum_rate: float
     energy_rate: float
+    through_gaps: float
     fits: bool
 
 
@@ -51,7 +52,7 @@ class Stage(NamedTuple):
 def implicit_stage(
     gas: Gas, walls: Walls, mass: float, momentum: float, energy: float, h: float, guess: float
 ) -> Stage:
-    """Backward Euler stage of length h [s] from an explicit content, the leakage from a guess [kg/(s m)]."""
+    """Backward Euler stage of length h [s] from an explicit content, the flux through gaps from a guess [kg/(s m)]."""
     into = max(-walls.transport, 0.0) * gas.density
     heat = gas.heat_capacity * gas.temperature
     if mass <= 0.0:
@@ -62,9 +63,11 @@ def implicit_stage(
     if inner <= 0.0 or stiffness <= 0.0:
         return _unphysical()
     if inner > stiffness * gas.pressure:
-        out, inflow = _outflow(gas, walls, filled, inner, h, max(guess, 0.0)), into
+        through_gaps = _outflow(gas, walls, stiffness, filled, inner, h, max(guess, 0.0))
     else:
-        out, inflow = 0.0, into + _inflow(gas, walls, energy + h * into * heat, momentum, filled, h, max(-guess, 0.0))
+        given = energy + h * into * heat
+        through_gaps = -_inflow(gas, walls, stiffness, given, momentum, filled, h, max(-guess, 0.0))
+    out, inflow = max(through_gaps, 0.0), into + max(-through_gaps, 0.0)
     filled = mass + h * inflow
     velocity = momentum / filled
     carried = max(walls.transport, 0.0) / walls.area
@@ -82,13 +85,14 @@ def implicit_stage(
         out - inflow,
         out * velocity,
         energy_rate,
+        through_gaps,
         new_mass > 0.0 and pressure > 0.0,
     )
 
 
 @kernel
 def _unphysical() -> Stage:
-    return Stage(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, False)
+    return Stage(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, False)
 
 
 @kernel
@@ -110,11 +114,20 @@ def _improved(flux: float, squared: float, slope: float) -> float:
 
 
 @kernel
-def _outflow(gas: Gas, walls: Walls, mass: float, inner: float, h: float, guess: float) -> float:
+def _settled(change: float, content: float, upstream: float, downstream: float) -> bool:
+    """Whether Newton's last change of a content [kg/m] leaves less than the tolerance of the flux.
+
+    What the linearised law leaves out is its second derivative: of the flux that is about (change / content)^2 by the
+    relative pressure drop, with a factor of 1 to 2 from the powers in which a cell's pressure and density fall.
+    """
+    return 2.0 * change**2 * upstream <= _TOLERANCE * content**2 * max(upstream - downstream, 0.0)
+
+
+@kernel
+def _outflow(gas: Gas, walls: Walls, stiffness: float, mass: float, inner: float, h: float, guess: float) -> float:
     """Leakage out of a cell above ambient pressure [kg/(s m)]."""
-    g, area = gas.exponent, walls.area
+    g, area, gap = gas.exponent, walls.area, walls.gap
     thinned = 1.0 + h * max(walls.transport, 0.0) / area
-    stiffness, gap = _stiffness(gas, walls, h), walls.gap
     out = min(guess, 0.5 * mass / h)
     for _ in range(_NEWTON_LIMIT):
         content = (mass - h * out) / thinned
@@ -125,26 +138,27 @@ def _outflow(gas: Gas, walls: Walls, mass: float, inner: float, h: float, guess:
         shrink = h / (content * thinned)
         pressure_slope = -pressure * pressure / inner * h * enthalpy * (1.0 + out * shrink)
         slope = by_pressure * pressure_slope - squared * shrink
-        new = _improved(out, gap**2 * squared, gap**2 * slope)
-        new = min(max(new, 0.0), 0.5 * (out + mass / h))
-        if abs(new - out) <= _TOLERANCE * new:
-            return new
-        out = new
+        before = out
+        out = min(max(_improved(out, gap**2 * squared, gap**2 * slope), 0.0), 0.5 * (out + mass / h))
+        if _settled(h * (out - before), content, pressure, gas.pressure):
+            break
     return out
 
 
 @kernel
-def _inflow(gas: Gas, walls: Walls, energy: float, momentum: float, mass: float, h: float, guess: float) -> float:
+def _inflow(
+    gas: Gas, walls: Walls, stiffness: float, energy: float, momentum: float, mass: float, h: float, guess: float
+) -> float:
     """Leakage into a cell below ambient pressure [kg/(s m)]."""
-    stiffness, gap, heat = _stiffness(gas, walls, h), walls.gap, gas.heat_capacity * gas.temperature
+    gap, heat = walls.gap, gas.heat_capacity * gas.temperature
     inflow = guess
     for _ in range(_NEWTON_LIMIT):
         content = mass + h * inflow
         pressure = (energy + h * inflow * heat - 0.5 * momentum**2 / content) / stiffness
         squared, _, by_pressure = flux_squared(gas, gas.pressure, gas.density, pressure)
         slope = by_pressure * h * (heat + 0.5 * (momentum / content) ** 2) / stiffness
-        new = _improved(inflow, gap**2 * squared, gap**2 * slope)
-        if abs(new - inflow) <= _TOLERANCE * new:
-            return new
-        inflow = new
+        before = inflow
+        inflow = _improved(inflow, gap**2 * squared, gap**2 * slope)
+        if _settled(h * (inflow - before), content, gas.pressure, pressure):
+            break
     return inflow

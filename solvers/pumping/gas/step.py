@@ -19,6 +19,9 @@ from solvers.pumping.gas.cells import (
     DENSITY,
     ENERGY,
     GIVEN,
+    GROWTH,
+    HALFWAY,
+    LATEST,
     LEAKED,
     MACH,
     MASS,
@@ -89,7 +92,8 @@ def _walls(duct: Duct, now: FloatArray, after: FloatArray, i: int, fraction: flo
 def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
     """State in the middle of the step, from each cell's own fluxes (Hancock)."""
     g, share = gas.exponent, 0.5 * dt / duct.width
-    w, s, c, area, half = cells.state, cells.slope, cells.content, cells.face_area, cells.half
+    w, s, c, area = cells.state, cells.slope, cells.content, cells.face_area
+    half, leak = cells.half, cells.leak
     for i in range(low, high):
         left, right = area[i], area[i + 1]
         rho, u, p = w[i]
@@ -103,9 +107,11 @@ def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
         enthalpy_r = g / (g - 1.0) * p_r + 0.5 * r_r * u_r**2
         energy = c[i, ENERGY] - share * (right * u_r * enthalpy_r - left * u_l * enthalpy_l)
         walls = _walls(duct, cells.walls, cells.next_walls, i, 0.5, dt)
-        stage = implicit_stage(gas, walls, mass, momentum, energy, 0.5 * dt, cells.leak[i])
+        guess = leak[i, LATEST] + 0.5 * dt * leak[i, GROWTH]
+        stage = implicit_stage(gas, walls, mass, momentum, energy, 0.5 * dt, guess)
         if not stage.fits:
             return False
+        leak[i, HALFWAY] = stage.through_gaps
         half[i, DENSITY], half[i, VELOCITY] = stage.mass / walls.area, stage.momentum / stage.mass
         half[i, PRESSURE] = stage.pressure
     return True
@@ -162,17 +168,25 @@ def _set_front(gas: Gas, duct: Duct, cells: Cells, high: int) -> None:
 @kernel
 def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
     """Content at the end of the step from the fluxes of its middle, leakage and wall work in two implicit stages."""
-    flux, area, c, loss, h = cells.flux, cells.face_area, cells.content, cells.loss, _DIAGONAL * dt
+    flux, area, c, h = cells.flux, cells.face_area, cells.content, _DIAGONAL * dt
+    loss, leak = cells.loss, cells.leak
     for i in range(low, high):
         mass = (flux[i, MASS] - flux[i + 1, MASS]) / duct.width
         force = cells.half[i, PRESSURE] * (area[i + 1] - area[i])
         momentum = (flux[i, MOMENTUM] - flux[i + 1, MOMENTUM] + force) / duct.width
         energy = (flux[i, ENERGY] - flux[i + 1, ENERGY]) / duct.width
-        early, late = dt - h, h
+        early, late, latest = dt - h, h, leak[i, LATEST]
+        ahead = 2.0 * (leak[i, HALFWAY] - latest)  # growth over the step
         walls = _walls(duct, cells.walls, cells.next_walls, i, _DIAGONAL, dt)
         old_mass, old_momentum, old_energy = c[i]
         first = implicit_stage(
-            gas, walls, old_mass + h * mass, old_momentum + h * momentum, old_energy + h * energy, h, cells.leak[i]
+            gas,
+            walls,
+            old_mass + h * mass,
+            old_momentum + h * momentum,
+            old_energy + h * energy,
+            h,
+            latest + _DIAGONAL * ahead,
         )
         walls = _walls(duct, cells.walls, cells.next_walls, i, 1.0, dt)
         full_mass, full_momentum = old_mass + dt * mass, old_momentum + dt * momentum
@@ -184,18 +198,18 @@ def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
             full_momentum - early * first.momentum_rate,
             full_energy - early * first.energy_rate,
             late,
-            first.leak,
+            latest + ahead,
         )
         if not (first.fits and last.fits):  # one stage: first order, hardier
             early, late = 0.0, dt
-            last = implicit_stage(gas, walls, full_mass, full_momentum, full_energy, dt, cells.leak[i])
+            last = implicit_stage(gas, walls, full_mass, full_momentum, full_energy, dt, latest + ahead)
         if not last.fits:
             return False
         loss[i, LEAKED] = early * first.leak + late * last.leak
         loss[i, GIVEN] = early * first.energy_rate + late * last.energy_rate
         gauge = early * (gas.pressure - first.pressure) + late * (gas.pressure - last.pressure)
         loss[i, WORKED] = gauge * walls.growth
-        cells.leak[i] = last.leak
+        leak[i, LATEST], leak[i, GROWTH] = last.through_gaps, (last.through_gaps - latest) / dt
         _store(gas, cells.next_content, cells.next_state, i, last, walls.area)
     return True
 
