@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solvers.compiled import kernel
+from solvers.compiled import inlined_kernel, kernel
 from solvers.pumping.inputs import MOLAR_GAS_CONSTANT, Ambient
 
 _LINEAR = 1e-7  # relative pressure drop below which the flux is continued linearly, for a finite Jacobian
@@ -43,19 +43,18 @@ def gas(ambient: Ambient) -> Gas:
     )
 
 
-@kernel
-def flux_squared(gas: Gas, upstream: float, density: float, downstream: float) -> tuple[float, float, float]:
-    """Square of the mass flux [kg/(s m^2)]^2 from rest at (upstream, density) to a pressure not above it.
+@inlined_kernel
+def flux_squared(gas: Gas, upstream: float, density: float, drop: float) -> tuple[float, float, float]:
+    """Square of the mass flux [kg/(s m^2)]^2 from rest at (upstream, density) over a relative pressure drop.
 
     G^2 = 2 g/(g - 1) p rho y (y - x) with x the ratio of the pressures, y = x^(1/g) that of the densities. With it the
     derivatives by the upstream and the downstream pressure at a fixed density upstream. Exact down to any pressure
     drop; below a drop of nought it goes on linearly, negative.
     """
     g = gas.exponent
-    drop = (upstream - downstream) / upstream
     if drop <= 0.0:
         slope = 2.0 * density
-        return slope * (upstream - downstream), slope, -slope
+        return slope * upstream * drop, slope, -slope
     scale = 2.0 * g / (g - 1.0) * density
     if drop >= 1.0 - gas.critical_ratio:
         x, y = gas.critical_ratio, gas.critical_density_ratio
@@ -91,10 +90,10 @@ def mass_flux(gas: Gas, upstream: float, density: float, downstream: float) -> t
     """Mass flux G [kg/(s m^2)] and its derivatives by upstream and downstream pressure at fixed density upstream."""
     drop = (upstream - downstream) / upstream
     if drop < _LINEAR:
-        edge = flux_squared(gas, upstream, density, upstream * (1.0 - _LINEAR))[0]
+        edge = flux_squared(gas, upstream, density, _LINEAR)[0]
         slope = np.sqrt(edge) / (_LINEAR * upstream)
         return slope * (upstream - downstream), slope, -slope
-    squared, by_upstream, by_downstream = flux_squared(gas, upstream, density, downstream)
+    squared, by_upstream, by_downstream = flux_squared(gas, upstream, density, drop)
     flux = np.sqrt(squared)
     return flux, 0.5 * by_upstream / flux, 0.5 * by_downstream / flux
 
