@@ -35,11 +35,11 @@ def _march(gas: Gas, stretch: Stretch, duct: Duct, angle: FloatArray, closure: C
         count = refinement * substeps
         record = empty_record(gas, angle.size, duct.cells, count * (angle.size - 1))
         pockets = empty_pockets(duct.cells)
-        taken = march_chain(gas, duct, pockets, angle, count, record, closure is Closure.ISENTROPIC)
+        taken, error = march_chain(gas, duct, pockets, angle, count, record, closure is Closure.ISENTROPIC)
         if taken > 0:
             return March(stretch, record, taken)
     raise NoSolution(
         "newton_not_converged",
         "a time step of the pocket chain did not converge; try a higher speed, fewer slices or gas dynamics",
-        {"content_error": float(pockets.error[0])},
+        {"content_error": error},
     )

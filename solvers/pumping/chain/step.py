@@ -10,13 +10,34 @@ its blocks of two by two eliminated along the chain. All amounts are per metre o
 
 from typing import NamedTuple
 
+import numpy as np
+
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.pumping.chain.pockets import CONTENT, END, HEAT, MASS, PRESSURE, START, Pockets
-from solvers.pumping.flow.duct import Duct
+from solvers.pumping.chain.pockets import (
+    AREA,
+    CONTENT,
+    CORRECTION,
+    DIAGONAL,
+    END,
+    FLOW,
+    GAP,
+    HEAT,
+    LEAK,
+    LOWER,
+    MASS,
+    NEW,
+    OLD,
+    OPENING,
+    PRESSURE,
+    RESIDUAL,
+    START,
+    TRIAL,
+    UPPER,
+)
 from solvers.pumping.flow.nozzle import Gas, mass_flux
 
-_NEWTON_LIMIT = 200
+_ASSEMBLIES = 2000  # most of a step
 _TOLERANCE = 1e-10
 _ROUNDING = 1e-7  # residual accepted once Newton's method no longer lowers it: pressures differ by round-off only
 _HALVINGS = 12
@@ -41,52 +62,54 @@ class Passage(NamedTuple):
 
 
 @kernel
-def advance(gas: Gas, duct: Duct, pockets: Pockets, low: int, high: int, dt: float, isentropic: bool) -> bool:
-    """Pressure and mass of the pockets low..high after dt [s]; whether Newton's method converged."""
+def advance(
+    gas: Gas, width: float, discharge: float, pockets: FloatArray, low: int, high: int, dt: float, isentropic: bool
+) -> tuple[bool, float]:
+    """Pressure and mass of the pockets low..high after dt [s]; whether Newton's method converged, and its residual.
+
+    `width` of a pocket [m], `discharge` coefficient of all openings.
+    """
+    error, share, halvings = np.inf, 0.0, 0
     for i in range(low, high):
-        pockets.new[i, PRESSURE], pockets.new[i, CONTENT] = pockets.old[i, PRESSURE], pockets.old[i, CONTENT]
-    error = _assemble(gas, duct, pockets, pockets.new, low, high, dt, isentropic)
-    for _ in range(_NEWTON_LIMIT):
-        pockets.error[0] = error
-        if error < _TOLERANCE:
-            _settle(gas, duct, pockets, low, high, dt, isentropic)
-            return True
-        _eliminate(pockets, low, high)
-        share = 1.0
-        for _ in range(_HALVINGS):
+        for k in range(2):
+            pockets[i, NEW + k], pockets[i, CORRECTION + k] = pockets[i, OLD + k], 0.0
+    for _ in range(_ASSEMBLIES):
+        for i in range(low, high):
+            for k in range(2):
+                change = max(share * pockets[i, CORRECTION + k], -0.8 * pockets[i, NEW + k])
+                pockets[i, TRIAL + k] = pockets[i, NEW + k] + change
+        found = _assemble(gas, width, discharge, pockets, low, high, dt, isentropic)
+        stalled = found >= error and halvings == _HALVINGS - 1
+        if found < _TOLERANCE or (stalled and error < _ROUNDING):
+            _settle(gas, width, pockets, low, high, dt, isentropic)
+            return True, found
+        if found < error or stalled:
             for i in range(low, high):
                 for k in range(2):
-                    change = max(share * pockets.correction[i, k], -0.8 * pockets.new[i, k])
-                    pockets.trial[i, k] = pockets.new[i, k] + change
-            trial_error = _assemble(gas, duct, pockets, pockets.trial, low, high, dt, isentropic)
-            if trial_error < error:
-                break
-            share *= 0.5
-        if trial_error >= error and error < _ROUNDING:
-            _assemble(gas, duct, pockets, pockets.new, low, high, dt, isentropic)
-            _settle(gas, duct, pockets, low, high, dt, isentropic)
-            return True
-        for i in range(low, high):
-            pockets.new[i, PRESSURE], pockets.new[i, CONTENT] = pockets.trial[i, PRESSURE], pockets.trial[i, CONTENT]
-        error = trial_error
-    return False
+                    pockets[i, NEW + k] = pockets[i, TRIAL + k]
+            _eliminate(pockets, low, high)
+            error, share, halvings = found, 1.0, 0
+        else:
+            share, halvings = 0.5 * share, halvings + 1
+    return False, error
 
 
 @kernel
-def _settle(gas: Gas, duct: Duct, pockets: Pockets, low: int, high: int, dt: float, isentropic: bool) -> None:
+def _settle(gas: Gas, width: float, pockets: FloatArray, low: int, high: int, dt: float, isentropic: bool) -> None:
     """Mass and pressure that follow from the converged flows exactly, so that the books close."""
     g = gas.exponent
     for i in range(low, high):
-        old_area, area = pockets.area[i]
-        mass = (pockets.flow[i, MASS] - pockets.flow[i + 1, MASS]) / duct.width - pockets.leak[i, MASS]
-        heat = (pockets.flow[i, HEAT] - pockets.flow[i + 1, HEAT]) / duct.width - pockets.leak[i, HEAT]
-        pockets.new[i, CONTENT] = pockets.old[i, CONTENT] + dt * mass
+        old_area, area = pockets[i, AREA + START], pockets[i, AREA + END]
+        mass = (pockets[i, FLOW + MASS] - pockets[i + 1, FLOW + MASS]) / width - pockets[i, LEAK + MASS]
+        heat = (pockets[i, FLOW + HEAT] - pockets[i + 1, FLOW + HEAT]) / width - pockets[i, LEAK + HEAT]
+        content = pockets[i, OLD + CONTENT] + dt * mass
+        pockets[i, NEW + CONTENT] = content
         if isentropic:
-            pockets.new[i, PRESSURE] = gas.pressure * (pockets.new[i, CONTENT] / (gas.density * area)) ** g
+            pockets[i, NEW + PRESSURE] = gas.pressure * (content / (gas.density * area)) ** g
         else:
             work = 0.5 * (area - old_area)
-            energy = pockets.old[i, PRESSURE] * (old_area / (g - 1.0) - work) + dt * heat
-            pockets.new[i, PRESSURE] = energy / (area / (g - 1.0) + work)
+            energy = pockets[i, OLD + PRESSURE] * (old_area / (g - 1.0) - work) + dt * heat
+            pockets[i, NEW + PRESSURE] = energy / (area / (g - 1.0) + work)
 
 
 @kernel
@@ -118,116 +141,118 @@ def _passages(gas: Gas, left: Side, right: Side) -> tuple[Passage, Passage]:
 
 @kernel
 def _assemble(
-    gas: Gas, duct: Duct, pockets: Pockets, x: FloatArray, low: int, high: int, dt: float, isentropic: bool
+    gas: Gas, width: float, discharge: float, pockets: FloatArray, low: int, high: int, dt: float, isentropic: bool
 ) -> float:
-    """Flows, residuals and Jacobian at pressures and masses x; the largest residual relative to the ambient content."""
-    g, areas, residual = gas.exponent, pockets.area, pockets.residual
+    """Flows, residuals and Jacobian of the trial; the largest residual relative to the ambient content."""
     error = 0.0
-    _store(gas, pockets, x, low, high, isentropic)
-    _leak(gas, duct, pockets, x, low, high, dt, isentropic)
-    _exchange(gas, duct, pockets, x, low, high, dt, isentropic)
+    _store(gas, pockets, low, high, isentropic)
+    _leak(gas, discharge, pockets, low, high, dt, isentropic)
+    _exchange(gas, width, discharge, pockets, low, high, dt, isentropic)
     for i in range(low, high):
-        mass = gas.density * areas[i, END]
-        energy = mass if isentropic else gas.pressure * areas[i, END] / (g - 1.0)
-        error = max(error, abs(residual[i, MASS]) / mass, abs(residual[i, HEAT]) / energy)
+        mass = gas.density * pockets[i, AREA + END]
+        energy = mass if isentropic else gas.pressure * pockets[i, AREA + END] / (gas.exponent - 1.0)
+        error = max(error, abs(pockets[i, RESIDUAL + MASS]) / mass, abs(pockets[i, RESIDUAL + HEAT]) / energy)
     return error
 
 
 @kernel
-def _store(gas: Gas, pockets: Pockets, x: FloatArray, low: int, high: int, isentropic: bool) -> None:
+def _store(gas: Gas, pockets: FloatArray, low: int, high: int, isentropic: bool) -> None:
     """What closed pockets keep: mass, and energy less wall work or entropy."""
     g = gas.exponent
-    old, areas, residual = pockets.old, pockets.area, pockets.residual
-    lower, block, upper = pockets.lower, pockets.diagonal, pockets.upper
     for i in range(low, high):
-        p, old_area, area = x[i, PRESSURE], areas[i, START], areas[i, END]
-        for row in range(2):
-            for column in range(2):
-                lower[i, row, column], upper[i, row, column] = 0.0, 0.0
-        residual[i, MASS] = x[i, CONTENT] - old[i, CONTENT]
-        block[i, MASS, PRESSURE], block[i, MASS, CONTENT] = 0.0, 1.0
+        p, content = pockets[i, TRIAL + PRESSURE], pockets[i, TRIAL + CONTENT]
+        old_area, area = pockets[i, AREA + START], pockets[i, AREA + END]
+        pockets[i, LOWER : UPPER + 4] = 0.0
+        pockets[i, RESIDUAL + MASS] = content - pockets[i, OLD + CONTENT]
+        pockets[i, DIAGONAL + 2 * MASS + CONTENT] = 1.0
         if isentropic:
             mass = gas.density * area * (p / gas.pressure) ** (1.0 / g)
-            residual[i, HEAT] = x[i, CONTENT] - mass
-            block[i, HEAT, PRESSURE], block[i, HEAT, CONTENT] = -mass / (g * p), 1.0
+            pockets[i, RESIDUAL + HEAT] = content - mass
+            pockets[i, DIAGONAL + 2 * HEAT + PRESSURE] = -mass / (g * p)
+            pockets[i, DIAGONAL + 2 * HEAT + CONTENT] = 1.0
         else:
             work = 0.5 * (area - old_area)
-            residual[i, HEAT] = p * (area / (g - 1.0) + work) - old[i, PRESSURE] * (old_area / (g - 1.0) - work)
-            block[i, HEAT, PRESSURE], block[i, HEAT, CONTENT] = area / (g - 1.0) + work, 0.0
+            kept = pockets[i, OLD + PRESSURE] * (old_area / (g - 1.0) - work)
+            pockets[i, RESIDUAL + HEAT] = p * (area / (g - 1.0) + work) - kept
+            pockets[i, DIAGONAL + 2 * HEAT + PRESSURE] = area / (g - 1.0) + work
 
 
 @kernel
-def _leak(
-    gas: Gas, duct: Duct, pockets: Pockets, x: FloatArray, low: int, high: int, dt: float, isentropic: bool
-) -> None:
+def _side(pockets: FloatArray, i: int) -> Side:
+    return Side(pockets[i, TRIAL + PRESSURE], pockets[i, TRIAL + CONTENT], pockets[i, AREA + END])
+
+
+@kernel
+def _add(pockets: FloatArray, i: int, block: int, row: int, share: float, by_pressure: float, by_mass: float) -> None:
+    """Add to a row of one of a pocket's blocks."""
+    pockets[i, block + 2 * row + PRESSURE] += share * by_pressure
+    pockets[i, block + 2 * row + CONTENT] += share * by_mass
+
+
+@kernel
+def _leak(gas: Gas, discharge: float, pockets: FloatArray, low: int, high: int, dt: float, isentropic: bool) -> None:
     """Flow through the radial gaps."""
-    area, gap, leak = pockets.area, pockets.gap, pockets.leak
-    residual, diagonal = pockets.residual, pockets.diagonal
-    rows = 1 if isentropic else 2
     for i in range(low, high):
-        opening = duct.discharge * gap[i]
-        passages = _passages(gas, Side(x[i, PRESSURE], x[i, CONTENT], area[i, END]), _ambient(gas))
+        opening = discharge * pockets[i, GAP]
+        passages = _passages(gas, _side(pockets, i), _ambient(gas))
         for row in range(2):
-            leak[i, row] = opening * passages[row].flow
-        for row in range(rows):
             passage = passages[row]
-            residual[i, row] += dt * opening * passage.flow
-            diagonal[i, row, PRESSURE] += dt * opening * passage.by_left_pressure
-            diagonal[i, row, CONTENT] += dt * opening * passage.by_left_mass
+            pockets[i, LEAK + row] = opening * passage.flow
+            if row == MASS or not isentropic:
+                share = dt * opening
+                pockets[i, RESIDUAL + row] += share * passage.flow
+                _add(pockets, i, DIAGONAL, row, share, passage.by_left_pressure, passage.by_left_mass)
 
 
 @kernel
 def _exchange(
-    gas: Gas, duct: Duct, pockets: Pockets, x: FloatArray, low: int, high: int, dt: float, isentropic: bool
+    gas: Gas, width: float, discharge: float, pockets: FloatArray, low: int, high: int, dt: float, isentropic: bool
 ) -> None:
     """Flow through the faces between two pockets, and between a pocket and the ambient."""
-    area, openings, flow, residual = pockets.area, pockets.opening, pockets.flow, pockets.residual
-    lower, diagonal, upper = pockets.lower, pockets.diagonal, pockets.upper
-    rows = 1 if isentropic else 2
     right = _ambient(gas)
     for face in range(low, high + 1):
         before, left = face - 1, right
-        right = Side(x[face, PRESSURE], x[face, CONTENT], area[face, END]) if face < high else _ambient(gas)
+        right = _side(pockets, face) if face < high else _ambient(gas)
         passages = _passages(gas, left, right)
-        opening = duct.discharge * openings[face]
-        share = dt * opening / duct.width
+        opening = discharge * pockets[face, OPENING]
+        share = dt * opening / width
         for row in range(2):
-            flow[face, row] = opening * passages[row].flow
-        for row in range(rows):
             passage = passages[row]
+            pockets[face, FLOW + row] = opening * passage.flow
+            if row == HEAT and isentropic:
+                continue
             if face > low:
-                residual[before, row] += share * passage.flow
-                diagonal[before, row, PRESSURE] += share * passage.by_left_pressure
-                diagonal[before, row, CONTENT] += share * passage.by_left_mass
-                upper[before, row, PRESSURE] += share * passage.by_right_pressure
-                upper[before, row, CONTENT] += share * passage.by_right_mass
+                pockets[before, RESIDUAL + row] += share * passage.flow
+                _add(pockets, before, DIAGONAL, row, share, passage.by_left_pressure, passage.by_left_mass)
+                _add(pockets, before, UPPER, row, share, passage.by_right_pressure, passage.by_right_mass)
             if face < high:
-                residual[face, row] -= share * passage.flow
-                diagonal[face, row, PRESSURE] -= share * passage.by_right_pressure
-                diagonal[face, row, CONTENT] -= share * passage.by_right_mass
-                lower[face, row, PRESSURE] -= share * passage.by_left_pressure
-                lower[face, row, CONTENT] -= share * passage.by_left_mass
+                pockets[face, RESIDUAL + row] -= share * passage.flow
+                _add(pockets, face, DIAGONAL, row, -share, passage.by_right_pressure, passage.by_right_mass)
+                _add(pockets, face, LOWER, row, -share, passage.by_left_pressure, passage.by_left_mass)
 
 
 @kernel
-def _eliminate(pockets: Pockets, low: int, high: int) -> None:
+def _eliminate(pockets: FloatArray, low: int, high: int) -> None:
     """Newton's correction by elimination of the blocks along the chain."""
-    d, u, l, r, x = pockets.diagonal, pockets.upper, pockets.lower, pockets.residual, pockets.correction
+    t, d, u, r = pockets, DIAGONAL, UPPER, RESIDUAL
     for i in range(low, high):
         if i > low:  # upper block and residual of the pocket before are already solved for
             for row in range(2):
+                by_pressure, by_mass = t[i, LOWER + 2 * row], t[i, LOWER + 2 * row + 1]
                 for column in range(2):
-                    d[i, row, column] -= l[i, row, 0] * u[i - 1, 0, column] + l[i, row, 1] * u[i - 1, 1, column]
-                r[i, row] -= l[i, row, 0] * r[i - 1, 0] + l[i, row, 1] * r[i - 1, 1]
-        a, b, c, e = d[i, 0, 0], d[i, 0, 1], d[i, 1, 0], d[i, 1, 1]
+                    t[i, d + 2 * row + column] -= (
+                        by_pressure * t[i - 1, u + column] + by_mass * t[i - 1, u + 2 + column]
+                    )
+                t[i, r + row] -= by_pressure * t[i - 1, r] + by_mass * t[i - 1, r + 1]
+        a, b, c, e = t[i, d], t[i, d + 1], t[i, d + 2], t[i, d + 3]
         scale = 1.0 / (a * e - b * c)
-        for column in range(2):
-            first, second = u[i, 0, column], u[i, 1, column]
-            u[i, 0, column], u[i, 1, column] = scale * (e * first - b * second), scale * (a * second - c * first)
-        first, second = r[i, 0], r[i, 1]
-        r[i, 0], r[i, 1] = scale * (e * first - b * second), scale * (a * second - c * first)
+        for first, second in ((u, u + 2), (u + 1, u + 3), (r, r + 1)):
+            one, other = t[i, first], t[i, second]
+            t[i, first], t[i, second] = scale * (e * one - b * other), scale * (a * other - c * one)
     for i in range(high - 1, low - 1, -1):
         for row in range(2):
-            x[i, row] = -r[i, row]
+            t[i, CORRECTION + row] = -t[i, r + row]
             if i < high - 1:
-                x[i, row] -= u[i, row, 0] * x[i + 1, 0] + u[i, row, 1] * x[i + 1, 1]
+                t[i, CORRECTION + row] -= (
+                    t[i, u + 2 * row] * t[i + 1, CORRECTION] + t[i, u + 2 * row + 1] * t[i + 1, CORRECTION + 1]
+                )
