@@ -22,19 +22,21 @@ class Pulsation:
 def pulsation(meshing_frequency: float, flows: list[tuple[SpaceFlow, float, float]]) -> Pulsation:
     """Superpose the flows of successive spaces: amplitude k is 2 f_m |integral m_dot exp(-2 pi i k f_m t) dt|.
 
+    The wave of order k is that of order 1 to the power k.
     `flows`: of each gear's spaces, with the owner's speed [rad/s] and the share of a mesh period by which they come
     to the line of centres later than the pinion's.
     """
-    orders = np.arange(1, HARMONICS + 1)
     front = np.zeros(HARMONICS, dtype=complex)
     rear = np.zeros(HARMONICS, dtype=complex)
     for flow, speed, delay in flows:
         time = flow.ends.time + flow.angle[0] / speed + delay / meshing_frequency
-        turning = np.exp(-2j * np.pi * meshing_frequency * orders[:, None] * time)
-        front += turning @ flow.ends.front
-        rear += turning @ flow.ends.rear
+        first = wave = np.exp(-2j * np.pi * meshing_frequency * time)
+        for k in range(HARMONICS):
+            front[k] += wave @ flow.ends.front
+            rear[k] += wave @ flow.ends.rear
+            wave = wave * first
     return Pulsation(
-        frequency=frozen(meshing_frequency * orders),
+        frequency=frozen(meshing_frequency * np.arange(1, HARMONICS + 1)),
         front_mass_flow=frozen(2 * meshing_frequency * np.abs(front)),
         rear_mass_flow=frozen(2 * meshing_frequency * np.abs(rear)),
     )

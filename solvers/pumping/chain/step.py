@@ -126,10 +126,12 @@ def _passages(gas: Gas, left: Side, right: Side) -> tuple[Passage, Passage]:
     forward = left.pressure >= right.pressure
     source, sink = (left, right) if forward else (right, left)
     flux, by_p, by_p_sink = mass_flux(gas, source.pressure, source.mass / source.area, sink.pressure)
-    by_m = 0.5 * flux / source.mass
-    heat = gas.heat_capacity * source.pressure * source.area / (source.mass * gas.constant)
+    per_mass = 1.0 / source.mass
+    by_m = 0.5 * flux * per_mass
+    per_pressure = gas.heat_capacity / gas.constant * source.area * per_mass
+    heat = source.pressure * per_pressure
     energy, energy_by_p_sink = flux * heat, by_p_sink * heat
-    energy_by_p, energy_by_m = by_p * heat + energy / source.pressure, by_m * heat - energy / source.mass
+    energy_by_p, energy_by_m = by_p * heat + flux * per_pressure, by_m * heat - energy * per_mass
     if forward:
         return Passage(flux, by_p, by_m, by_p_sink, 0.0), Passage(
             energy, energy_by_p, energy_by_m, energy_by_p_sink, 0.0

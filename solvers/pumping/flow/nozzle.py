@@ -51,19 +51,19 @@ def flux_squared(gas: Gas, upstream: float, density: float, drop: float) -> tupl
     derivatives by the upstream and the downstream pressure at a fixed density upstream. Exact down to any pressure
     drop; below a drop of nought it goes on linearly, negative.
     """
-    g = gas.exponent
+    power = 1.0 / gas.exponent
     if drop <= 0.0:
         slope = 2.0 * density
         return slope * upstream * drop, slope, -slope
-    scale = 2.0 * g / (g - 1.0) * density
+    scale = 2.0 / (1.0 - power) * density
     if drop >= 1.0 - gas.critical_ratio:
         x, y = gas.critical_ratio, gas.critical_density_ratio
         slope = scale * y * (y - x)
         return slope * upstream, slope, 0.0
     x = 1.0 - drop
-    y, more = _expansion(1.0 / g, drop)
-    by_upstream = scale * y * (y + (x - 2.0 * y) / g)
-    by_downstream = scale * y / x * (2.0 * y / g - (1.0 + 1.0 / g) * x)
+    y, more = _expansion(power, drop)
+    by_upstream = scale * y * (y + power * (x - 2.0 * y))
+    by_downstream = scale * y * (2.0 * power * y / x - (1.0 + power))
     return scale * upstream * y * more, by_upstream, by_downstream
 
 
@@ -95,7 +95,8 @@ def mass_flux(gas: Gas, upstream: float, density: float, downstream: float) -> t
         return slope * (upstream - downstream), slope, -slope
     squared, by_upstream, by_downstream = flux_squared(gas, upstream, density, drop)
     flux = np.sqrt(squared)
-    return flux, 0.5 * by_upstream / flux, 0.5 * by_downstream / flux
+    half = 0.5 / flux
+    return flux, half * by_upstream, half * by_downstream
 
 
 @kernel
