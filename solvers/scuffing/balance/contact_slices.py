@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.compiled import kernel
+from solvers.compiled import inlined_kernel, kernel
 from solvers.gears.path_of_contact import ContactPlane
 from solvers.scuffing.flank.contact_lines import line_count, line_ends
 from solvers.scuffing.flank.loaded_zones import HIGH, LEAST_SAMPLES, LOW, MOST_ZONES, gap_on_line, loaded_zones, valley
@@ -42,7 +42,7 @@ def slice_table(mesh: Mesh, slices: int) -> FloatArray:
     return np.zeros((ROWS, line_count(mesh.plane) * (slices + MOST_EDGES * MOST_ZONES)))
 
 
-@kernel
+@inlined_kernel
 def _cut(mesh: Mesh, line: float, j: int, zone: FloatArray, slices: int, table: FloatArray, count: int) -> int:
     """Add equal slices of a stretch of line j, given by its first and last y [m], to the table's columns."""
     low, high = zone
@@ -59,7 +59,7 @@ def _cut(mesh: Mesh, line: float, j: int, zone: FloatArray, slices: int, table: 
     return count
 
 
-@kernel
+@inlined_kernel
 def _parts(
     mesh: Mesh, line: float, ends: tuple[float, float], slices: int, reach: float, zones: FloatArray
 ) -> tuple[int, float]:
@@ -106,7 +106,7 @@ def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, tab
     return Cover(count, length, least, most)
 
 
-@kernel
+@inlined_kernel
 def _range(mesh: Mesh, line: float, zone: FloatArray, table: FloatArray, first: int, last: int) -> tuple[float, float]:
     """Least and largest gap [m] on a stretch that the columns from `first` to `last` cover."""
     low, high = zone

@@ -1,6 +1,7 @@
 """Transmission error over one base pitch: its variation and its mesh harmonics."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from solvers.arrays import FloatArray, frozen
 from solvers.scuffing.balance.load_balance import LoadBalance
@@ -20,7 +21,7 @@ def transmission_error(balance: LoadBalance) -> TransmissionError:
         mean=period_mean(error, phase),
         min=float(error.min()),
         max=float(error.max()),
-        harmonics=frozen([2 * abs(_fourier(error, phase, order)) for order in range(1, HARMONICS + 1)]),
+        harmonics=frozen(2 * np.abs(_fourier(error, phase))),
         curves=ErrorCurves(frozen(phase / phase[-1]), frozen(error)),
     )
 
@@ -30,7 +31,7 @@ def period_mean(values: FloatArray, phase: FloatArray) -> float:
     return float(np.trapezoid(values, phase) / phase[-1])
 
 
-def _fourier(values: FloatArray, phase: FloatArray, order: int) -> complex:
-    """Complex Fourier coefficient c_k of a function of the roll position."""
-    wave = np.exp(-2j * np.pi * order * phase / phase[-1])
-    return complex(np.trapezoid((values - values.mean()) * wave, phase) / phase[-1])
+def _fourier(values: FloatArray, phase: FloatArray) -> NDArray[np.complex128]:
+    """Complex Fourier coefficients c_1, c_2, ... of a function of the roll position; wave k is the first to the k."""
+    waves = np.cumprod(np.tile(np.exp(-2j * np.pi * phase / phase[-1]), (HARMONICS, 1)), axis=0)
+    return np.asarray(np.trapezoid((values - values.mean()) * waves, phase) / phase[-1])

@@ -148,31 +148,36 @@ def gap_at(form: Gap, x: float, y: float) -> float:
 
 
 @kernel
+def _insert(edges: FloatArray, count: int, y: float) -> int:
+    """Put y among so many edges that rise, if it lies within them; their number then."""
+    if not edges[0] < y < edges[count - 1]:
+        return count
+    place = count
+    while edges[place - 1] > y:
+        edges[place] = edges[place - 1]
+        place -= 1
+    edges[place] = y
+    return count + 1
+
+
+@kernel
 def smooth_parts(form: Gap, line: float, tan_base_helix: float, ends: tuple[float, float], edges: FloatArray) -> int:
     """Write the ends of the contact line x = line - y tan_base_helix and its kinks between into `edges`, by rising y.
 
     Returns their number, at most `MOST_EDGES`. What a lead curve does between its stations counts as smooth.
     """
-    low, high = ends
     length = min(form.end_relief_length, 0.5 * form.face_width)
-    edges[0], count = low, 1
+    edges[0], edges[1] = ends
+    count = 2
     if form.end_relief != 0.0:
-        for y in (length, form.face_width - length):
-            if low < y < high:
-                edges[count] = y
-                count += 1
+        count = _insert(edges, count, length)
+        count = _insert(edges, count, form.face_width - length)
     if tan_base_helix > 0.0:
-        if form.root_relief != 0.0 and low < (line - form.root_relief_length) / tan_base_helix < high:
-            edges[count] = (line - form.root_relief_length) / tan_base_helix
-            count += 1
+        if form.root_relief != 0.0:
+            count = _insert(edges, count, (line - form.root_relief_length) / tan_base_helix)
         if form.tip_relief != 0.0:
-            y = (line - form.path_length + form.tip_relief_length) / tan_base_helix
-            if low < y < high:
-                edges[count] = y
-                count += 1
-    edges[count] = high
-    edges[: count + 1].sort()
-    return count + 1
+            count = _insert(edges, count, (line - form.path_length + form.tip_relief_length) / tan_base_helix)
+    return count
 
 
 @kernel

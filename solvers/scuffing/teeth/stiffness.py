@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.compiled import kernel
+from solvers.compiled import inlined_kernel, kernel
 from solvers.contact.hertz import reduced_modulus
 from solvers.errors import InvalidInput
 from solvers.gears.gear import Gear
@@ -121,7 +121,7 @@ def _parabola(fraction: FloatArray, end_ratio: float) -> FloatArray:
     return np.asarray(1 - (1 - end_ratio) * (2 * fraction - 1) ** 2)
 
 
-@kernel
+@inlined_kernel
 def line_load(
     approach: float, constant: float, logarithmic: float, limit: float, log_load: float
 ) -> tuple[float, float, float]:
@@ -134,7 +134,7 @@ def line_load(
     return load, stiffness, log_load
 
 
-@kernel
+@inlined_kernel
 def line_load_near(
     approach: float, constant: float, logarithmic: float, limit: float, log_load: float
 ) -> tuple[float, float, float, float]:
