@@ -37,7 +37,7 @@ from solvers.pumping.chain.pockets import (
 )
 from solvers.pumping.flow.nozzle import Gas, mass_flux
 
-_ASSEMBLIES = 2000  # most of a step
+_NEWTON_LIMIT = 200
 _TOLERANCE = 1e-10
 _ROUNDING = 1e-7  # residual accepted once Newton's method no longer lowers it: pressures differ by round-off only
 _HALVINGS = 12
@@ -69,17 +69,17 @@ def advance(
 
     `width` of a pocket [m], `discharge` coefficient of all openings.
     """
-    error, share, halvings = np.inf, 0.0, 0
+    error, share, halvings, newton = np.inf, 0.0, 0, 0
     for i in range(low, high):
         for k in range(2):
             pockets[i, NEW + k], pockets[i, CORRECTION + k] = pockets[i, OLD + k], 0.0
-    for _ in range(_ASSEMBLIES):
+    while newton < _NEWTON_LIMIT:
         for i in range(low, high):
             for k in range(2):
                 change = max(share * pockets[i, CORRECTION + k], -0.8 * pockets[i, NEW + k])
                 pockets[i, TRIAL + k] = pockets[i, NEW + k] + change
         found = _assemble(gas, width, discharge, pockets, low, high, dt, isentropic)
-        stalled = found >= error and halvings == _HALVINGS - 1
+        stalled = not found < error and halvings == _HALVINGS - 1
         if found < _TOLERANCE or (stalled and error < _ROUNDING):
             _settle(gas, width, pockets, low, high, dt, isentropic)
             return True, found
@@ -88,7 +88,7 @@ def advance(
                 for k in range(2):
                     pockets[i, NEW + k] = pockets[i, TRIAL + k]
             _eliminate(pockets, low, high)
-            error, share, halvings = found, 1.0, 0
+            error, share, halvings, newton = found, 1.0, 0, newton + 1
         else:
             share, halvings = 0.5 * share, halvings + 1
     return False, error
