@@ -17,6 +17,7 @@ from solvers.gears.pair import gear_pair
 from solvers.gears.path_of_contact import path_of_contact, reduced_radius
 from solvers.materials import Solid
 from solvers.scuffing import solve_load_distribution
+from solvers.scuffing.balance.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, gather, slice_table
 from solvers.scuffing.flank.modification import gap, gaps_at, lead_table, misalignment_slope
 from solvers.scuffing.inputs import LeadCurve, Model, Modifications, Resolution
 from solvers.scuffing.teeth.compliance import bending_compliance, load_points, root_rotation, section_gear, tooth_shape
@@ -165,10 +166,35 @@ def test_the_linear_balance_is_the_exact_root_by_sorting(pair: int) -> None:
         assert result.transmission_error.curves.error[i] == pytest.approx(roots[first], rel=5e-5)  # 100 slices
 
 
+@pytest.mark.parametrize("times", [1.0, 60.0])
+@pytest.mark.parametrize("shape", [Modifications(), Modifications(profile_crowning=5e-6, lead_crowning=5e-6)])
 @pytest.mark.parametrize("model", [Model(contact="linear"), Model()])
-def test_newton_needs_few_steps(model: Model) -> None:
+def test_every_position_carries_the_force_by_the_settled_law_of_its_slices(
+    model: Model, shape: Modifications, times: float
+) -> None:
+    # 60 times the load presses half-spaces beyond their depth, where their compliance is held
+    inputs = paper_pair(1, shape, model)
+    heavy = replace(inputs, load=replace(inputs.load, pinion_torque=times * inputs.load.pinion_torque))
+    balance = solve_load_distribution(heavy).balance
+    mesh, law = balance.mesh, balance.mesh.compliance
+    assert (balance.survey.held.sum() > 0.0) == (times > 1.0 and model.contact == "hertzian")
+    for i in range(0, balance.rolls.phase.size, 13):
+        table, error = slice_table(mesh, 100), balance.transmission_error[i]
+        cover = gather(mesh, balance.rolls.phase[i], balance.rolls.side[i], 100, np.inf, table)
+        assert error > cover.most
+        carried = sum(
+            line_load(error - slice_[GAP], slice_[CONSTANT], law.logarithmic, slice_[LIMIT], 0.0)[0] * slice_[LENGTH]
+            for slice_ in table[:, : cover.slices].T
+        )
+        assert carried == pytest.approx(balance.force, rel=2e-13)
+        assert balance.survey.line_forces[i].sum() == pytest.approx(balance.force, rel=2e-13)
+
+
+@pytest.mark.parametrize(("model", "steps"), [(Model(contact="linear"), 1.1), (Model(), 2.1)])
+def test_newton_needs_few_steps(model: Model, steps: float) -> None:
     whole = solve_load_distribution(paper_pair(4, model=model)).balance.steps
     assert whole.max() <= 4
+    assert whole.mean() < steps
     # A line loaded in part is cut into slices twice or three times.
     in_part = solve_load_distribution(paper_pair(4, replace(PAPER_MODIFICATIONS, helix_slope=40e-6), model))
     assert in_part.balance.steps.max() <= 15

@@ -163,7 +163,7 @@ def _balance(
             near = known[i]
             if not np.isnan(near):
                 table[LOG_LOAD, : cover.slices] = log_load[i, : cover.slices]
-            elif i > 1:
+            elif i > 1:  # the table still holds the slices of the position before
                 near = 2.0 * error[i - 1] - error[i - 2]
             error[i], residual[i], steps[i] = solve_near(table, cover.slices, mesh.compliance.logarithmic, force, near)
             if error[i] < cover.most:

@@ -45,9 +45,10 @@ def _secant_start(table: FloatArray, count: int, logarithmic: float, force: floa
 
 @kernel
 def _press(table: FloatArray, count: int, logarithmic: float, error: float) -> tuple[float, float, float, float]:
-    """Force [N] at an approach [m], its derivative [N/m], what it may change by as slices settle [N], least |TE - gap|.
+    """Force [N] at an approach [m], its derivative [N/m], its error while slices settle [N], distance of a kink [m].
 
-    Each slice goes one step towards its law and is noted with it.
+    Each slice goes one step towards its law and is noted with it. A law has a kink where the slice touches, and where
+    its compliance is held.
     """
     force, slope, unsettled, nearest = 0.0, 0.0, 0.0, np.inf
     for i in range(count):
@@ -60,6 +61,8 @@ def _press(table: FloatArray, count: int, logarithmic: float, error: float) -> t
         slope += stiffness * length
         unsettled += load * length * (step * step) ** 2
         nearest = min(nearest, abs(approach))
+        if logarithmic > 0.0:
+            nearest = min(nearest, abs(table[LIMIT, i] - approach))
     return force, slope, unsettled, nearest
 
 
@@ -77,16 +80,16 @@ def _follow(table: FloatArray, count: int, change: float) -> float:
 def newton(table: FloatArray, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
     """TE [m] from a start, relative residual and steps at one roll position; the slices stay in the table.
 
-    One iteration over both levels: with every step of TE each slice goes one of its own. Of the last step,
-    which no slice enters or leaves and whose square is rounding, the loads follow the derivative; linear contact has
-    none but such steps.
+    One iteration over both levels: with every step of TE each slice goes one of its own. A step that crosses no kink
+    and whose square is rounding is the last, and the loads follow their derivatives; of linear contact any step is that
+    crosses none.
     """
     residual, steps = np.inf, 0.0
     while steps < MAX_STEPS:
         carried, slope, unsettled, nearest = _press(table, count, logarithmic, error)
         steps += 1.0
         before, residual = residual, (abs(carried - force) + unsettled) / force
-        if residual <= ROUNDING or (residual <= NEAR_ROUNDING and residual >= before):
+        if slope == 0.0 or residual <= ROUNDING or (residual <= NEAR_ROUNDING and residual >= before):
             break
         change = (force - carried) / slope
         error += change

@@ -27,7 +27,7 @@ TABLE_POINTS = 801
 LEAST_RADIUS = 1e-6  # normal modules; on a base circle it vanishes, and the half width with it
 SHALLOWEST = 2.0  # half-space depth over contact half width
 OMEGA_STEPS = 12
-LEAST_OMEGA = 2.0  # of a guess; where the law is held omega is larger, and at 1 it ends
+LEAST_OMEGA = 2.0  # of a guess; omega is larger wherever the law is not held, and has no meaning below 1
 LAST_STEP = 1e-3  # of omega; it leaves less than a tenth of its fourth power, so the next step would be rounding
 
 
@@ -125,7 +125,7 @@ def _parabola(fraction: FloatArray, end_ratio: float) -> FloatArray:
 def line_load(
     approach: float, constant: float, logarithmic: float, limit: float, log_load: float
 ) -> tuple[float, float, float]:
-    """Line load w [N/m], its derivative [Pa] by the approach [m], and ln w; `log_load` is a first guess of ln w."""
+    """Line load w [N/m], its derivative [Pa] by the approach [m], and ln w, a next guess as `log_load` is."""
     load = stiffness = 0.0
     for _ in range(OMEGA_STEPS):
         load, stiffness, log_load, step = line_load_near(approach, constant, logarithmic, limit, log_load)
@@ -138,11 +138,11 @@ def line_load(
 def line_load_near(
     approach: float, constant: float, logarithmic: float, limit: float, log_load: float
 ) -> tuple[float, float, float, float]:
-    """The same after one step of omega from a guess, and that step, relative; it leaves its fourth power.
+    """The same after one step of omega from the guess, and that step, relative; it leaves its fourth power.
 
     omega - ln omega = A/a + ln(a / delta) by the iteration of Fritsch, Shafer and Crowley (1973) for Lambert's
     function, which takes one logarithm a step and settles from any guess; dw/d(delta) = 1 / (a (omega - 1)). The guess
-    is carried as ln w, which changes less from place to place than omega does, and is not needed where nothing touches.
+    is carried as ln w, at most that of the limit, which changes less from place to place than omega does.
     """
     if approach <= 0.0:
         return 0.0, 0.0, log_load, 0.0
@@ -155,9 +155,9 @@ def line_load_near(
     scale = 2.0 * slope * (slope - excess * (2.0 / 3.0))
     step = -excess * (scale - excess) / (slope * (scale - 2.0 * excess))
     omega *= 1.0 + step
-    both = per_slope / (omega * (omega - 1.0))  # one division for two
+    common = per_slope / (omega * (omega - 1.0))  # of the load and its derivative
     rising = omega - 1.0 if approach > limit else omega
-    return approach * (omega - 1.0) * both, rising * both, offset - omega, step
+    return approach * (omega - 1.0) * common, rising * common, offset - omega, step
 
 
 @kernel
