@@ -11,8 +11,7 @@ from solvers.gears.path_of_contact import ContactPlane
 from solvers.scuffing.flank.contact_lines import line_count, line_ends
 from solvers.scuffing.flank.loaded_zones import HIGH, LEAST_SAMPLES, LOW, MOST_ZONES, gap_on_line, loaded_zones, valley
 from solvers.scuffing.flank.modification import MOST_EDGES, Gap, gap_at, smooth_parts
-from solvers.scuffing.flank.tables import tabulated
-from solvers.scuffing.teeth.stiffness import PairCompliance, line_load
+from solvers.scuffing.teeth.stiffness import PairCompliance, compliance_at, line_load
 
 # Rows of the slice table
 X, Y, LENGTH, GAP, CONSTANT, LIMIT, LOG_LOAD, LOAD, STIFFNESS, LINE = range(10)
@@ -53,8 +52,7 @@ def _cut(mesh: Mesh, line: float, j: int, zone: FloatArray, slices: int, table: 
         table[X, count], table[Y, count], table[LINE, count] = x, y, j
         table[LENGTH, count] = step / mesh.plane.cos_base_helix
         table[GAP, count] = gap_at(mesh.gap, x, y)
-        table[CONSTANT, count] = tabulated(mesh.compliance.constant, mesh.compliance.points_per_metre, x)
-        table[LIMIT, count] = tabulated(mesh.compliance.limit, mesh.compliance.points_per_metre, x)
+        table[CONSTANT, count], table[LIMIT, count] = compliance_at(mesh.compliance, x)
         count += 1
     return count
 
@@ -124,14 +122,9 @@ def _range(mesh: Mesh, line: float, zone: FloatArray, table: FloatArray, first: 
     return least, most
 
 
-@kernel
+@inlined_kernel
 def load_under(compliance: PairCompliance, approach: float, x: float, log_load: float) -> tuple[float, float]:
     """Line load w [N/m] of a pair pressed together by `approach` [m] at x [m], and ln w, guessed by `log_load`."""
-    load, _, log_load = line_load(
-        approach,
-        tabulated(compliance.constant, compliance.points_per_metre, x),
-        compliance.logarithmic,
-        tabulated(compliance.limit, compliance.points_per_metre, x),
-        log_load,
-    )
+    constant, limit = compliance_at(compliance, x)
+    load, _, log_load = line_load(approach, constant, compliance.logarithmic, limit, log_load)
     return load, log_load

@@ -9,9 +9,8 @@ from solvers.gears.path_of_contact import reduced_radius
 from solvers.scuffing.balance.contact_slices import Mesh
 from solvers.scuffing.balance.load_balance import LoadBalance, error_at
 from solvers.scuffing.flank.modification import lead_gaps, profile_gap
-from solvers.scuffing.flank.tables import tabulated
 from solvers.scuffing.results import Flank
-from solvers.scuffing.teeth.stiffness import line_load
+from solvers.scuffing.teeth.stiffness import compliance_at, line_load
 
 
 def flank(balance: LoadBalance, modulus: float, profile_points: int, face_points: int) -> Flank:
@@ -43,8 +42,7 @@ def _maps(
     log_load, index = np.zeros(y.size), 0
     for i in range(x.size):
         along = profile_gap(form, x[i])
-        constant = tabulated(compliance.constant, compliance.points_per_metre, x[i])
-        limit = tabulated(compliance.limit, compliance.points_per_metre, x[i])
+        constant, limit = compliance_at(compliance, x[i])
         for k in range(y.size):
             gaps[i, k] = along + across[k]
             if loaded:

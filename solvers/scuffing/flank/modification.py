@@ -9,7 +9,7 @@ from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.errors import InvalidInput
 from solvers.gears.path_of_contact import PathOfContact
-from solvers.scuffing.flank.tables import tabulated
+from solvers.scuffing.flank.tables import interpolated, place_of
 from solvers.scuffing.inputs import LeadCurve, Modifications
 
 LEAD_POINTS = 401
@@ -128,7 +128,7 @@ def lead_gap(form: Gap, y: float) -> float:
     """The part of Delta [m] that changes over the face, at y [m] from the end that meshes first."""
     eta = y / form.face_width - 0.5
     value = 4.0 * form.lead_crowning * eta * eta + form.helix_slope * eta
-    value += tabulated(form.lead, (form.lead.size - 1) / form.face_width, y)
+    value += interpolated(form.lead, place_of(y, (form.lead.size - 1) / form.face_width, form.lead.size))
     return value + _relief(form.end_relief, form.end_relief_length, min(y, form.face_width - y), form.exponent)
 
 

@@ -5,9 +5,16 @@ from solvers.compiled import kernel
 
 
 @kernel
-def tabulated(table: FloatArray, points_per_metre: float, x: float) -> float:
-    """Linear interpolation in an equidistant table that begins at x = 0."""
+def place_of(x: float, points_per_metre: float, points: int) -> tuple[int, float]:
+    """Where x lies among equidistant points from 0 on: the last one before it, and the share of the step beyond."""
     position = x * points_per_metre
-    index = min(max(int(position), 0), table.size - 2)
+    index = min(max(int(position), 0), points - 2)
+    return index, position - index
+
+
+@kernel
+def interpolated(table: FloatArray, place: tuple[int, float]) -> float:
+    """Linear interpolation at a place of the table's points."""
+    index, share = place
     low, high = float(table[index]), float(table[index + 1])
-    return low + (position - index) * (high - low)
+    return low + share * (high - low)

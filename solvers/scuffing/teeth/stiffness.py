@@ -20,6 +20,7 @@ from solvers.errors import InvalidInput
 from solvers.gears.gear import Gear
 from solvers.gears.path_of_contact import PathOfContact, reduced_radius
 from solvers.materials import Solid
+from solvers.scuffing.flank.tables import interpolated, place_of
 from solvers.scuffing.inputs import Model
 from solvers.scuffing.teeth.compliance import bending_compliance, load_points, section_gear, tooth_shape
 
@@ -46,11 +47,12 @@ class PairCompliance(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """One gear's part in the pair, over the table points: bending [1/Pa], depth of the half-space [m]."""
+    """One gear's part in the pair, over the table points: radii at which it is loaded [m], bending [1/Pa]."""
 
-    bending: FloatArray
-    depth: FloatArray
+    gear: Gear
     material: Solid
+    radius: FloatArray
+    bending: FloatArray
 
 
 def pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Model) -> PairCompliance:
@@ -92,10 +94,10 @@ def linear_contact_compliance(pinion: Solid, wheel: Solid) -> float:
 
 
 def _member(gear: Gear, section: Gear, roll_length: FloatArray, material: Solid) -> Member:
-    """A member's bending in its section, at the same height above the reference circle, and its transverse depth."""
+    """A member's bending in its section, at the same height above the reference circle."""
     radius = np.hypot(gear.base_radius, roll_length)
     points = load_points(section, section.reference_radius + radius - gear.reference_radius)
-    return Member(bending_compliance(tooth_shape(section), points, material), load_points(gear, radius).depth, material)
+    return Member(gear, material, radius, bending_compliance(tooth_shape(section), points, material))
 
 
 def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tuple[FloatArray, float, float]:
@@ -111,7 +113,8 @@ def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tu
     for member in members:
         own = member.material.plane_strain_compliance / pi
         poisson = member.material.poisson_ratio / (1 - member.material.poisson_ratio)
-        offset += own * (2 * np.log(2 * member.depth) - log_square - poisson)
+        depth = load_points(member.gear, member.radius).depth  # in the transverse section
+        offset += own * (2 * np.log(2 * depth) - log_square - poisson)
         least += own * (2 * log(2 * SHALLOWEST) - poisson)
     return offset, slope, least / slope
 
@@ -119,6 +122,14 @@ def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tu
 def _parabola(fraction: FloatArray, end_ratio: float) -> FloatArray:
     """1 - (1 - r)(2 xi - 1)^2, calibrated to the paper's load maxima with r = 0.757."""
     return np.asarray(1 - (1 - end_ratio) * (2 * fraction - 1) ** 2)
+
+
+@inlined_kernel
+def compliance_at(compliance: PairCompliance, x: float) -> tuple[float, float]:
+    """`constant` [1/Pa] and `limit` [m] at x [m] from A; linear contact has no limit."""
+    place = place_of(x, compliance.points_per_metre, compliance.constant.size)
+    constant = interpolated(compliance.constant, place)
+    return constant, np.inf if compliance.logarithmic == 0.0 else interpolated(compliance.limit, place)
 
 
 @inlined_kernel
