@@ -48,7 +48,7 @@ class Stage(NamedTuple):
     fits: bool
 
 
-@kernel
+@inlined_kernel
 def implicit_stage(
     gas: Gas, walls: Walls, mass: float, momentum: float, energy: float, h: float, guess: float
 ) -> Stage:
