@@ -121,6 +121,15 @@ def test_nozzle_law_down_to_any_pressure_drop() -> None:
         assert squared == pytest.approx(2 * density * 1e5 * drop, rel=2 * drop + 1e-12)
 
 
+@pytest.mark.parametrize("exponent", [1.05, 1.4, 1.66])
+@pytest.mark.parametrize("drop", [1e-9, 1e-5, 5e-3, 0.00999999, 0.01000001, 0.02, 0.1, 0.4])
+def test_nozzle_law_is_exact_on_both_sides_of_its_series(exponent: float, drop: float) -> None:
+    some = gas(Ambient(isentropic_exponent=exponent))
+    fallen = np.expm1(np.log1p(-np.longdouble(drop)) / np.longdouble(exponent))
+    exact = 2 * exponent / (exponent - 1) * 1e5 * 1.2 * (1 + fallen) * (fallen + np.longdouble(drop))
+    assert flux_squared(some, 1e5, 1.2, drop)[0] == pytest.approx(float(exact), rel=3e-13)
+
+
 @RANDOM
 @given(st.floats(1.0, 8.0), st.floats(0.1, 5.0))
 def test_nozzle_derivatives(ratio: float, density: float) -> None:

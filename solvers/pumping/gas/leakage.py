@@ -52,7 +52,10 @@ class Stage(NamedTuple):
 def implicit_stage(
     gas: Gas, walls: Walls, mass: float, momentum: float, energy: float, h: float, guess: float
 ) -> Stage:
-    """Backward Euler stage of length h [s] from an explicit content, the flux through gaps from a guess [kg/(s m)]."""
+    """Backward Euler stage of length h [s] from an explicit content, the flux through gaps from a guess [kg/(s m)].
+
+    `stiffness` is inner energy per pressure [m^2] of a cell that does wall work and loses flank gas, but does not leak.
+    """
     g, area = gas.exponent, walls.area
     into, carried = max(-walls.transport, 0.0) * gas.density, max(walls.transport, 0.0) / area
     heat, per_pressure = gas.heat_capacity * gas.temperature, area / (g - 1.0)
@@ -119,7 +122,7 @@ def _settled(change: float, content: float, drop: float) -> bool:
 def _outflow(gas: Gas, walls: Walls, stiffness: float, mass: float, inner: float, h: float, guess: float) -> float:
     """Leakage out of a cell above ambient pressure [kg/(s m)].
 
-    The cell's pressure is inner / resistance, its resistance `stiffness` [m^2] and what the enthalpy of the leak adds.
+    The cell's pressure is inner / resistance: its stiffness [m^2], and what the enthalpy of the leak adds to it.
     """
     g, area, gap = gas.exponent, walls.area, walls.gap
     thinning = 1.0 / (1.0 + h * max(walls.transport, 0.0) / area)
