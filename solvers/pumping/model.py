@@ -49,7 +49,8 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
     ]
     of_gear = {space.of_pinion: result for space, result in zip(mesh.spaces, results, strict=True)}
     correction = _pinion_correction(mesh, of_gear.get(True))
-    resolved = resolution(mesh.gas, flows, halved)
+    jump, _ = max(space.table.jump for space in mesh.spaces)
+    resolved = resolution(mesh.gas, flows, halved, jump)
     total = _totals(mesh, speed, frequency, sum(result.pumping_power for result in results))
     return PumpingResult(
         geometry=_geometry(mesh),
@@ -65,7 +66,7 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
             *mesh.notices,
             *speed_notices(mesh.pair, mesh.gas, speed),
             *_flow_notices(inputs, results),
-            *resolution_notices(inputs.setup.model.flow, resolved),
+            *(resolution_notices(inputs.setup.model.flow, resolved) if jump == 0.0 else ()),
             *net_flow_notices(inputs.setup.model.flow, [result.mass_flow for result in results]),
             *_missing(results[0], total, correction),
         ),

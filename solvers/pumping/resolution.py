@@ -5,6 +5,8 @@ two grids and first order Roache's grid convergence index states three times the
 the finer one (J. Fluids Eng. 116, 1994, 405).
 """
 
+from math import expm1
+
 import numpy as np
 
 from solvers.arrays import FloatArray
@@ -16,8 +18,11 @@ SAFETY = 3.0
 LOST = 1.0  # where a pressure is not known to its own size, no number is: the finer flow may be another one
 
 
-def resolution(gas: Gas, flows: list[SpaceFlow], halved: list[SpaceFlow]) -> Resolution:
-    """Relative uncertainties of the summary, the largest of all spaces asked for; pressures as gauge pressures."""
+def resolution(gas: Gas, flows: list[SpaceFlow], halved: list[SpaceFlow], jump: float) -> Resolution:
+    """Relative uncertainties of the summary, the largest of all spaces asked for; pressures as gauge pressures.
+
+    A `jump` of the area's logarithm compresses the gas whatever the resolution: no number is known better than that.
+    """
     fine, coarse = [_summary(gas, flow) for flow in flows], [_summary(gas, flow) for flow in halved]
     uncertain = {
         name: max(_relative(one[name], other[name]) for one, other in zip(fine, coarse, strict=True))
@@ -25,6 +30,8 @@ def resolution(gas: Gas, flows: list[SpaceFlow], halved: list[SpaceFlow]) -> Res
     }
     if max(uncertain["peak_pressure"], uncertain["min_pressure"]) >= LOST:
         uncertain = {name: max(share, LOST) for name, share in uncertain.items()}
+    by_jump = expm1(gas.exponent * jump)
+    uncertain = {name: max(share, by_jump) for name, share in uncertain.items()}
     return Resolution(
         peak_pressure=uncertain["peak_pressure"],
         min_pressure=uncertain["min_pressure"],

@@ -18,7 +18,7 @@ from solvers.pumping.flow.space_flow import SpaceFlow
 from solvers.pumping.gas.gas_dynamics import LEAST_SLICES, cell_steps, gas_dynamics
 from solvers.pumping.incompressible import incompressible
 from solvers.pumping.inputs import Flow, PumpingSetup, Spaces
-from solvers.pumping.notices import setup_notices
+from solvers.pumping.notices import jump_notices, setup_notices
 from solvers.pumping.results import Derived
 from solvers.pumping.space.face import Stretch, stretches
 from solvers.pumping.space.stroke import StrokeTable, stroke_table
@@ -68,7 +68,8 @@ def prepare(setup: PumpingSetup) -> Mesh:
     if wanted is not Spaces.PINION:
         spaces.append(_space(setup, path.pair, of_pinion=False))
     active = min(_active_share(space, setup.gears.face_width) for space in spaces) * setup.model.slice_count
-    return Mesh(setup, path, gas(setup.ambient), tuple(spaces), tuple(setup_notices(setup, path, active)))
+    notices = (*setup_notices(setup, path, active), *jump_notices([space.table for space in spaces]))
+    return Mesh(setup, path, gas(setup.ambient), tuple(spaces), notices)
 
 
 def derived(mesh: Mesh) -> Derived:

@@ -12,6 +12,8 @@ from solvers.pumping.space.section import section
 from solvers.pumping.space.tooth_space import StrokeLimits, ToothSpace, stroke_limits
 
 POSITIONS = 361
+SMOOTH = 3.0  # times the change of the area's logarithm over the positions beside
+JUMP = 0.01
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +36,18 @@ class StrokeTable:
         """Area, total clearance and carried gas (nought unless asked for) for the flow kernels, (positions, 3)."""
         carried = self.carried if wall_transport else np.zeros_like(self.carried)
         return np.column_stack([self.area, self.clearance_left + self.clearance_right, carried])
+
+    @property
+    def jump(self) -> tuple[float, float]:
+        """By how much the logarithm of the area jumps between two positions, 0 if nowhere, and the angle [rad] there.
+
+        With tip gaps the nearest point to a tip corner can leave the flank for the root; the contact gap knows no jump.
+        """
+        change = np.abs(np.diff(np.log(self.area)))
+        beside = np.maximum(np.append(change[1:], change[-2]), np.append(change[1], change[:-1]))
+        at = int(np.argmax(change - SMOOTH * beside))
+        jumps = change[at] > SMOOTH * beside[at] + JUMP
+        return (float(change[at]) if jumps else 0.0), float(self.angle[at])
 
     def halved(self) -> "StrokeTable":
         """Every other position of the same stroke."""
