@@ -13,7 +13,7 @@ from solvers.pumping.inputs import PumpingInputs
 from solvers.pumping.lead_correction import LeadCorrection, lead_correction
 from solvers.pumping.notices import flow_notices, net_flow_notices, resolution_notices, speed_notices
 from solvers.pumping.pulsation import Pulsation, pulsation
-from solvers.pumping.resolution import net_uncertainty, radial_uncertainty, resolution
+from solvers.pumping.resolution import behind_jump, net_uncertainty, radial_uncertainty, resolution
 from solvers.pumping.results import (
     Balance,
     FaceProfile,
@@ -50,7 +50,7 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
     of_gear = {space.of_pinion: result for space, result in zip(mesh.spaces, results, strict=True)}
     correction = _pinion_correction(mesh, of_gear.get(True))
     jump, _ = max(space.table.jump for space in mesh.spaces)
-    resolved = resolution(mesh.gas, flows, halved, jump)
+    resolved = resolution(mesh.gas, flows, halved)
     total = _totals(mesh, speed, frequency, sum(result.pumping_power for result in results))
     return PumpingResult(
         geometry=_geometry(mesh),
@@ -59,14 +59,14 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
         total=total,
         lead_correction=correction,
         pulsation=_pulsation(mesh, flows, speed, frequency),
-        resolution=resolved,
+        resolution=behind_jump(resolved, mesh.gas, jump),
         slices=sum(part.cells for part in face_stretches(inputs.setup, slices)),
         derived=derived(mesh),
         warnings=(
             *mesh.notices,
             *speed_notices(mesh.pair, mesh.gas, speed),
             *_flow_notices(inputs, results),
-            *(resolution_notices(inputs.setup.model.flow, resolved) if jump == 0.0 else ()),
+            *resolution_notices(inputs.setup.model.flow, resolved),
             *net_flow_notices(inputs.setup.model.flow, [result.mass_flow for result in results]),
             *_missing(results[0], total, correction),
         ),

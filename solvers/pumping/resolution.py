@@ -18,11 +18,8 @@ SAFETY = 3.0
 LOST = 1.0  # where a pressure is not known to its own size, no number is: the finer flow may be another one
 
 
-def resolution(gas: Gas, flows: list[SpaceFlow], halved: list[SpaceFlow], jump: float) -> Resolution:
-    """Relative uncertainties of the summary, the largest of all spaces asked for; pressures as gauge pressures.
-
-    A `jump` of the area's logarithm compresses the gas whatever the resolution: no number is known better than that.
-    """
+def resolution(gas: Gas, flows: list[SpaceFlow], halved: list[SpaceFlow]) -> Resolution:
+    """Relative uncertainties of the summary, the largest of all spaces asked for; pressures as gauge pressures."""
     fine, coarse = [_summary(gas, flow) for flow in flows], [_summary(gas, flow) for flow in halved]
     uncertain = {
         name: max(_relative(one[name], other[name]) for one, other in zip(fine, coarse, strict=True))
@@ -30,8 +27,6 @@ def resolution(gas: Gas, flows: list[SpaceFlow], halved: list[SpaceFlow], jump: 
     }
     if max(uncertain["peak_pressure"], uncertain["min_pressure"]) >= LOST:
         uncertain = {name: max(share, LOST) for name, share in uncertain.items()}
-    by_jump = expm1(gas.exponent * jump)
-    uncertain = {name: max(share, by_jump) for name, share in uncertain.items()}
     return Resolution(
         peak_pressure=uncertain["peak_pressure"],
         min_pressure=uncertain["min_pressure"],
@@ -39,6 +34,20 @@ def resolution(gas: Gas, flows: list[SpaceFlow], halved: list[SpaceFlow], jump: 
         pumping_power=uncertain["pumping_power"],
         temperature_rise=uncertain.get("temperature_rise"),
         gross_flow=max(uncertain[name] for name in ("front_out", "front_in", "rear_out", "rear_in")),
+    )
+
+
+def behind_jump(resolved: Resolution, gas: Gas, jump: float) -> Resolution:
+    """No number is known better than what a jump of the area's logarithm compresses, whatever the resolution."""
+    least = expm1(gas.exponent * jump)
+    heated = resolved.temperature_rise
+    return Resolution(
+        peak_pressure=max(resolved.peak_pressure, least),
+        min_pressure=max(resolved.min_pressure, least),
+        axial_mach=max(resolved.axial_mach, least),
+        pumping_power=max(resolved.pumping_power, least),
+        temperature_rise=None if heated is None else max(heated, least),
+        gross_flow=max(resolved.gross_flow, least),
     )
 
 
