@@ -118,18 +118,18 @@ def flow_at(
     return _gas(mesh, space, pinion_speed, parts)
 
 
-def halved_flow_at(mesh: Mesh, space: Space, pinion_speed: float, slices: int) -> SpaceFlow:
-    """The same at half the resolution: slices of gas dynamics, steps of the chain, positions of the single pocket.
+def coarser_flow_at(mesh: Mesh, space: Space, pinion_speed: float, slices: int, times: int) -> SpaceFlow:
+    """The same with fewer slices of gas dynamics, steps of the chain, positions of the single pocket.
 
     The slices of the chain are no resolution: they are a constant of that model. Raises as `flow_at` does but
     for the cost.
     """
     if mesh.setup.model.flow is Flow.INCOMPRESSIBLE:
-        return _single_pocket(mesh, space, pinion_speed, space.table.halved())
+        return _single_pocket(mesh, space, pinion_speed, space.table.coarser(times))
     parts = face_stretches(mesh.setup, slices)
     if mesh.setup.model.flow is Flow.POCKET_CHAIN:
-        return _chain(mesh, space, pinion_speed, parts, STEPS // 2)
-    return _gas(mesh, space, pinion_speed, [part.halved() for part in parts])
+        return _chain(mesh, space, pinion_speed, parts, STEPS // times)
+    return _gas(mesh, space, pinion_speed, [part.coarser(times) for part in parts])
 
 
 def _single_pocket(mesh: Mesh, space: Space, pinion_speed: float, table: StrokeTable) -> SpaceFlow:

@@ -285,3 +285,10 @@ def test_a_jump_of_the_area_is_named_and_nothing_claimed_beyond_it() -> None:
     check_resolution(np.random.default_rng([3772975107, 2571, 69]))
     by_contact = solve(replace(inputs, setup=replace(setup, model=replace(setup.model, gap=Gap.CONTACT))))
     assert "area_jump" not in {notice.code for notice in by_contact.warnings}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("seed", "case"), [((3772975107, 2571), 120), *(((77,), case) for case in (54, 62, 84, 139))])
+def test_grids_that_agree_by_luck_have_a_third_beside_them(seed: tuple[int, ...], case: int) -> None:
+    """Found by searches: half the slices alone said 1.09 % for 1.17 %, 2.7 % for 17 %."""
+    check_resolution(np.random.default_rng([*seed, case]))

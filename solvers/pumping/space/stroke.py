@@ -49,10 +49,10 @@ class StrokeTable:
         jumps = change[at] > SMOOTH * beside[at] + JUMP
         return (float(change[at]) if jumps else 0.0), float(self.angle[at])
 
-    def halved(self) -> "StrokeTable":
-        """Every other position of the same stroke."""
+    def coarser(self, times: int) -> "StrokeTable":
+        """The same stroke at so many times fewer positions."""
         columns = (self.angle, self.area, self.clearance_left, self.clearance_right, self.carried)
-        return StrokeTable(self.limits, *(frozen(column[::2].copy()) for column in columns))
+        return StrokeTable(self.limits, *(frozen(column[::times].copy()) for column in columns))
 
 
 def stroke_table(space: ToothSpace, *, minimum_gap: float = 0.0, positions: int = POSITIONS) -> StrokeTable:
