@@ -99,30 +99,5 @@ def _relative(value: float, half: float, quarter: float) -> float:
     return max(SAFETY * abs(half / value - 1.0), abs(quarter / value - 1.0)) if value != 0.0 else 0.0
 
 
-def _summary(gas: Gas, flow: SpaceFlow) -> dict[str, float]:
-    numbers = {
-        "peak_pressure": flow.largest_pressure - gas.pressure,
-        "min_pressure": gas.pressure - flow.smallest_pressure,
-        "axial_mach": flow.largest_mach,
-        "pumping_power": flow.work,
-        "front_out": _sum(flow.ends.front),
-        "front_in": _sum(-flow.ends.front),
-        "rear_out": _sum(flow.ends.rear),
-        "rear_in": _sum(-flow.ends.rear),
-    }
-    if flow.mean_stagnation_temperature is not None:
-        numbers["temperature_rise"] = float(flow.mean_stagnation_temperature.max()) - gas.temperature
-    return numbers
-
-
-def _relative(value: float, half: float, quarter: float) -> float:
-    return _uncertain(1.0, half / value, quarter / value) if value != 0.0 else 0.0
-
-
-def _uncertain(value: float, half: float, quarter: float) -> float:
-    """Three times the error, if of first order: a quarter of the resolution differs by that, half by a third of it."""
-    return max(SAFETY * abs(half - value), abs(quarter - value))
-
-
 def _sum(masses: FloatArray) -> float:
     return float(np.maximum(masses, 0.0).sum())
