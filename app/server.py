@@ -27,8 +27,10 @@ class Server(uvicorn.Server):
         log.WRITER.write(sys.stdout.fileno(), f"tribodrive: docs at http://{host}:{self.config.port}/docs\n")
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
-        """SIGTERM lets requests in flight finish; Ctrl-C gives them half a second."""
+        """SIGTERM lets requests in flight finish; Ctrl-C gives them half a second, a second Ctrl-C no less."""
         if sig == signal.SIGINT:
+            if self.config.timeout_graceful_shutdown == INTERRUPT_S:
+                return
             self.config.timeout_graceful_shutdown = INTERRUPT_S  # type: ignore[assignment]  # any number will do
         super().handle_exit(sig, frame)
 

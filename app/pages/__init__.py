@@ -6,4 +6,5 @@ results    verdicts, warnings, tables
 charts     figures as images and as numbers
 about      what a model answers, and where the paper is wrong
 views      one view of one case, made in a worker
+growing    pages of studies, whose figures grow: vary and studies
 """

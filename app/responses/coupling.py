@@ -91,7 +91,7 @@ class SleeveOrbitResponse(Response):
         Output(
             "uncertainty of the displacement",
             "Δe_max",
-            text="change of the largest displacement with twice the orders and rotor angles",
+            text="change of the largest displacement with more rotor angles and orders",
         ),
     ] = None
     harmonics_uncertainty_n: Annotated[
@@ -99,7 +99,7 @@ class SleeveOrbitResponse(Response):
         Output(
             "uncertainty of the harmonics",
             "ΔF_k",
-            text="largest change of a harmonic with twice the orders and rotor angles",
+            text="largest change of a harmonic with more rotor angles and orders",
         ),
     ] = None
     sweeps: Annotated[int | None, Output("sweeps", text="sweeps over the revolution until it repeated")] = None

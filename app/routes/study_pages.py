@@ -9,6 +9,7 @@ from fastapi import APIRouter, HTTPException, Request, Response
 
 from app.calculations import CALCULATIONS, Calculation
 from app.figures.rendering import MEDIA_TYPES as IMAGE_TYPES
+from app.pages.growing import Opened
 from app.pages.offers import offers_of
 from app.pages.studies import page as pages
 from app.pages.studies.declaration import Asking, StudyPage
@@ -75,7 +76,7 @@ async def _gathered(lines: Lines) -> list[Line]:
         return [line async for group in lines for line in group if line["type"] != "progress"]
 
 
-def _told(opened: pages.Opened) -> tuple[Study, Pieces]:
+def _told(opened: Opened[Asking]) -> tuple[Study, Pieces]:
     """A study, and its page: head, how far it has come, its result, tail."""
     assert opened.study is not None
     asking = opened.study

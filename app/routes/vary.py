@@ -8,6 +8,7 @@ from fastapi import APIRouter, HTTPException, Request, Response
 
 from app.calculations import CALCULATIONS, Calculation
 from app.figures.rendering import MEDIA_TYPES as IMAGE_TYPES
+from app.pages.growing import Opened
 from app.pages.templating import page_path
 from app.pages.vary import views
 from app.pages.vary.gathered import Gathered
@@ -73,7 +74,7 @@ async def _study(http: Request, calculation: Calculation) -> views.Study:
     return study
 
 
-def _grown(opened: views.Opened) -> tuple[Sweep, Pieces]:
+def _grown(opened: Opened[views.Study]) -> tuple[Sweep, Pieces]:
     """A sweep, and its page: head, figures that replace each other, tail."""
     assert opened.study is not None
     study = opened.study

@@ -108,6 +108,7 @@ class ForkServer:
         self._process = process
         self._control = control
         self._lock = asyncio.Lock()
+        self._ready = False
 
     @classmethod
     def start(cls) -> "ForkServer":
@@ -151,6 +152,8 @@ class ForkServer:
         self._process.wait()
         with contextlib.suppress(OSError):
             self._control.shutdown(socket.SHUT_RDWR)  # closed, it would leave those who wait for an answer waiting
+        if not self._lock.locked():
+            self._control.close()
 
     async def _copy(self, command: str) -> tuple[int, socket.socket]:
         """A copy of the process that obeys the command, and the socket it serves."""
@@ -167,18 +170,26 @@ class ForkServer:
         return await asyncio.shield(asyncio.ensure_future(self._exchange(command, descriptor, timeout_s)))
 
     async def _exchange(self, command: str, descriptor: socket.socket | None, timeout_s: float | None) -> str:
-        loop = asyncio.get_running_loop()
         passed = os.dup(descriptor.fileno()) if descriptor else None
         try:
-            async with self._lock, asyncio.timeout(timeout_s):
-                socket.send_fds(self._control, [command.encode()], [passed] if passed is not None else [])
-                answer = await loop.sock_recv(self._control, 64)
+            async with self._lock:
+                if not self._ready:  # however long its imports take on a busy machine
+                    self._ready = bool(await self._answer())
+                async with asyncio.timeout(timeout_s):
+                    socket.send_fds(self._control, [command.encode()], [passed] if passed is not None else [])
+                    answer = await self._answer()
         except (OSError, TimeoutError, ValueError) as error:
             self._process.kill()
             raise TemplateLost from error
         finally:
             if passed is not None:
                 os.close(passed)
+            if self._process.returncode is not None:
+                self._control.close()
         if not answer:
             raise TemplateLost
         return answer.decode().strip()
+
+    async def _answer(self) -> bytes:
+        """The next line; nothing once the process is gone."""
+        return await asyncio.get_running_loop().sock_recv(self._control, 64)

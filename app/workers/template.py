@@ -1,8 +1,8 @@
 """The fork server: one process that loads the kernels and is copied.
 
 It has one thread, so that a copy holds no lock that nobody will release, and puts everything it has loaded beyond the
-reach of the garbage collector, so that the copies share its memory. Its standard input is a socket on which the service
-sends one command at a time:
+reach of the garbage collector, so that the copies share its memory. Its standard input is a socket. On it the template
+says that it is ready, and the service then sends one command at a time:
 
     fork MEMORY_MB   with a socket: a new worker that serves it; answers its process id
     compile STAGES   with a socket: a process that compiles these stages (with commas between) and tells the socket
@@ -40,6 +40,7 @@ def main() -> None:
         os.dup2(null, sys.stdin.fileno())  # no copy of this process keeps the socket open
         os.close(null)
         gc.freeze()
+        control.sendall(b"ready\n")
         while True:
             command, descriptors, _, _ = socket.recv_fds(control, LONGEST_COMMAND, 1)
             if not command:

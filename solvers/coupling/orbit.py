@@ -1,5 +1,6 @@
 """Orbit of the floating sleeve under its own inertia over one revolution (Fig. 5)."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import cos, pi
 
@@ -21,6 +22,7 @@ from solvers.errors import InvalidInput, NoSolution
 MAX_SWEEPS = 50
 REPEAT_TOLERANCE = 1e-12
 HIGHEST_ORDER = 12
+REFINEMENTS = (2, 3)  # of the rotor angles, to see how certain an orbit is
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,8 +50,9 @@ def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
 
     m_s omega^2 d2e/dtheta2 = sum F_n n: each sweep balances the sleeve at every rotor angle under the inertia force of
     the sweep before, derived in Fourier space with orders up to 12, until the path repeats to 1e-12 m. Contracts while
-    m_s (k omega)^2 stays well below the lateral stiffness. A second path with twice the orders and rotor angles,
-    started from the first, says how certain it is.
+    m_s (k omega)^2 stays well below the lateral stiffness. Paths with twice the orders at two and three times the
+    rotor angles, started from it, say how certain it is: where teeth load and unload, what is left at two of these
+    may happen to agree.
 
     Raises InvalidInput as `solve` and torque_too_low (the tooth forces cannot hold the sleeve), NoSolution
     `sleeve_orbit` if the path does not repeat within 50 sweeps, or some position is left without balance.
@@ -60,18 +63,20 @@ def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
     angles = revolution(inputs.coupling.teeth)
     settled = _settled_path(inputs, angles, np.zeros((angles.size, 2)), HIGHEST_ORDER, MAX_SWEEPS)
     _check_holding(settled.force, _safe_force(inputs))
-    return _result(angles, settled, _finer_path(inputs, settled), tooth_geometry(inputs.coupling))
+    return _result(angles, settled, _finer_paths(inputs, settled), tooth_geometry(inputs.coupling))
 
 
-def _finer_path(inputs: CouplingInputs, settled: _SettledPath) -> _SettledPath | None:
-    """The path with twice the rotor angles and orders; None where that one does not settle."""
-    angles = revolution(inputs.coupling.teeth, refinement=2)
-    spectrum = np.fft.rfft(settled.force, axis=0)
-    force = 2.0 * np.fft.irfft(spectrum, n=angles.size, axis=0)
-    try:
-        return _settled_path(inputs, angles, force, 2 * HIGHEST_ORDER, MAX_SWEEPS // 2)
-    except NoSolution:
-        return None
+def _finer_paths(inputs: CouplingInputs, settled: _SettledPath) -> list[_SettledPath]:
+    """Paths at more rotor angles with twice the orders; none where one of them does not settle."""
+    finer = []
+    for refinement in REFINEMENTS:
+        angles = revolution(inputs.coupling.teeth, refinement)
+        force = refinement * np.fft.irfft(np.fft.rfft(settled.force, axis=0), n=angles.size, axis=0)
+        try:
+            finer.append(_settled_path(inputs, angles, force, 2 * HIGHEST_ORDER, MAX_SWEEPS // 2))
+        except NoSolution:
+            return []
+    return finer
 
 
 def _safe_force(inputs: CouplingInputs) -> float:
@@ -170,13 +175,13 @@ def _harmonics(force: FloatArray) -> FloatArray:
     return amplitude[: HIGHEST_ORDER + 1]
 
 
-def _result(angles: FloatArray, settled: _SettledPath, finer: _SettledPath | None, geometry: Geometry) -> OrbitResult:
-    """The converged orbit, and how far the finer one lies from it."""
+def _result(
+    angles: FloatArray, settled: _SettledPath, finer: Sequence[_SettledPath], geometry: Geometry
+) -> OrbitResult:
+    """The converged orbit, and how far the finer ones lie from it."""
     harmonics = settled.harmonics
-    displacement_uncertainty = harmonics_uncertainty = None
-    if finer is not None:
-        displacement_uncertainty = abs(finer.farthest - settled.farthest)
-        harmonics_uncertainty = float(np.abs(finer.harmonics - harmonics).max())
+    displacement_uncertainty = max((abs(each.farthest - settled.farthest) for each in finer), default=None)
+    harmonics_uncertainty = max((float(np.abs(each.harmonics - harmonics).max()) for each in finer), default=None)
     return OrbitResult(
         orbit=Orbit(rotor_angle=frozen(angles), x=frozen(settled.path[:, 0]), y=frozen(settled.path[:, 1])),
         inertia_force=InertiaForce(

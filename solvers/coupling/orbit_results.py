@@ -34,8 +34,8 @@ class OrbitResult:
     """One revolution of a floating sleeve under its own inertia.
 
     `sweeps` over the revolution until it repeated to `change` [m]. The uncertainties are how far the largest
-    displacement [m] and any harmonic of the force [N] move with twice the rotor angles and orders; None where that
-    path does not settle. `derived` is the tooth that moves.
+    displacement [m] and any harmonic of the force [N] move with two or three times the rotor angles and twice the
+    orders; None where such a path does not settle. `derived` is the tooth that moves.
     """
 
     orbit: Orbit

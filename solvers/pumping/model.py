@@ -13,7 +13,7 @@ from solvers.pumping.inputs import PumpingInputs
 from solvers.pumping.lead_correction import LeadCorrection, lead_correction
 from solvers.pumping.notices import flow_notices, net_flow_notices, resolution_notices, speed_notices
 from solvers.pumping.pulsation import Pulsation, pulsation
-from solvers.pumping.resolution import net_uncertainty, radial_uncertainty, resolution
+from solvers.pumping.resolution import Grids, behind_jump, net_uncertainty, radial_uncertainty, resolution
 from solvers.pumping.results import (
     Balance,
     FaceProfile,
@@ -27,7 +27,7 @@ from solvers.pumping.results import (
 )
 from solvers.pumping.space.stroke import StrokeTable
 from solvers.pumping.space.tooth_space import normal_backlash
-from solvers.pumping.spaces import Mesh, Space, derived, face_stretches, flow_at, halved_flow_at, prepare
+from solvers.pumping.spaces import Mesh, Space, coarser_flow_at, derived, face_stretches, flow_at, prepare
 
 
 def solve(inputs: PumpingInputs) -> PumpingResult:
@@ -41,15 +41,15 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
     check_speed(speed)
     frequency = mesh.pair.pinion.teeth * speed / (2 * pi)
 
-    flows = [flow_at(mesh, space, speed, slices) for space in mesh.spaces]
-    halved = [halved_flow_at(mesh, space, speed, slices) for space in mesh.spaces]
+    spaces = [_on_grids(mesh, space, speed, slices) for space in mesh.spaces]
+    flows = [grids.flow for grids in spaces]
     results = [
-        _spaces_result(mesh.gas, space, flow, coarse, frequency)
-        for space, flow, coarse in zip(mesh.spaces, flows, halved, strict=True)
+        _spaces_result(mesh.gas, space, grids, frequency) for space, grids in zip(mesh.spaces, spaces, strict=True)
     ]
     of_gear = {space.of_pinion: result for space, result in zip(mesh.spaces, results, strict=True)}
     correction = _pinion_correction(mesh, of_gear.get(True))
-    resolved = resolution(mesh.gas, flows, halved)
+    jump, _ = max(space.table.jump for space in mesh.spaces)
+    resolved = resolution(mesh.gas, spaces)
     total = _totals(mesh, speed, frequency, sum(result.pumping_power for result in results))
     return PumpingResult(
         geometry=_geometry(mesh),
@@ -58,7 +58,7 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
         total=total,
         lead_correction=correction,
         pulsation=_pulsation(mesh, flows, speed, frequency),
-        resolution=resolved,
+        resolution=behind_jump(resolved, mesh.gas, jump),
         slices=sum(part.cells for part in face_stretches(inputs.setup, slices)),
         derived=derived(mesh),
         warnings=(
@@ -91,8 +91,15 @@ def _geometry(mesh: Mesh) -> MeshGeometry:
     )
 
 
-def _spaces_result(gas: Gas, space: Space, flow: SpaceFlow, halved: SpaceFlow, frequency: float) -> SpacesResult:
+def _on_grids(mesh: Mesh, space: Space, speed: float, slices: int) -> Grids:
+    """One stroke at the resolution asked for, and at coarser ones to see what it is worth."""
+    half, quarter = (coarser_flow_at(mesh, space, speed, slices, times) for times in (2, 4))
+    return Grids(flow_at(mesh, space, speed, slices), half, quarter)
+
+
+def _spaces_result(gas: Gas, space: Space, grids: Grids, frequency: float) -> SpacesResult:
     """Ratios to the ambient state, and rates of one stroke per mesh period."""
+    flow = grids.flow
     profile = FaceProfile(
         position=flow.position,
         temperature_rise=_rise(gas, flow.mean_stagnation_temperature),
@@ -112,7 +119,7 @@ def _spaces_result(gas: Gas, space: Space, flow: SpaceFlow, halved: SpaceFlow, f
         hottest_position=hottest,
         pumping_power=frequency * flow.work,
         work_per_space=flow.work,
-        mass_flow=_mass_flow(flow, halved, frequency),
+        mass_flow=_mass_flow(grids, frequency),
         balance=Balance(flow.mass_error, flow.energy_error),
         profile=profile,
         field=GasField(
@@ -145,9 +152,9 @@ def _hottest(position: FloatArray, rise: FloatArray | None) -> tuple[float | Non
     return float(position[top]) - apart * ahead / bend, here - 0.5 * ahead**2 / bend
 
 
-def _mass_flow(flow: SpaceFlow, halved: SpaceFlow, frequency: float) -> MassFlow:
-    """Of strokes that follow one another at the meshing frequency, its uncertainty from half the resolution."""
-    masses, ends = flow.masses, flow.ends
+def _mass_flow(grids: Grids, frequency: float) -> MassFlow:
+    """Of strokes that follow one another at the meshing frequency, its uncertainty from coarser grids."""
+    masses, ends = grids.flow.masses, grids.flow.ends
     return MassFlow(
         front=frequency * masses.front,
         rear=frequency * masses.rear,
@@ -158,8 +165,8 @@ def _mass_flow(flow: SpaceFlow, halved: SpaceFlow, frequency: float) -> MassFlow
         front_in=frequency * float(np.maximum(-ends.front, 0.0).sum()),
         rear_out=frequency * float(np.maximum(ends.rear, 0.0).sum()),
         rear_in=frequency * float(np.maximum(-ends.rear, 0.0).sum()),
-        net_uncertainty=frequency * net_uncertainty(flow, halved),
-        radial_uncertainty=frequency * radial_uncertainty(flow, halved),
+        net_uncertainty=frequency * net_uncertainty(grids),
+        radial_uncertainty=frequency * radial_uncertainty(grids),
     )
 
 

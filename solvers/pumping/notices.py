@@ -1,6 +1,7 @@
 """What a result has to say about its own validity: too coarse, unresolved, or beyond what was ever checked."""
 
-from math import inf, pi
+from collections.abc import Sequence
+from math import degrees, expm1, inf, pi
 
 from solvers.gears.notices import pair_notices
 from solvers.gears.pair import GearPair
@@ -9,6 +10,7 @@ from solvers.notices import Notice
 from solvers.pumping.flow.nozzle import Gas
 from solvers.pumping.inputs import Flow, PumpingSetup
 from solvers.pumping.results import MassFlow, Resolution
+from solvers.pumping.space.stroke import StrokeTable
 
 FEW_TEETH = 12
 TIP_SPEED_SHARE = 0.8  # of the ambient speed of sound
@@ -45,6 +47,19 @@ def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float
         )
         notices.append(Notice("few_slices", message, "slices"))
     return notices
+
+
+def jump_notices(tables: Sequence[StrokeTable]) -> list[Notice]:
+    """Strokes in which the area of a space jumps: what compresses or relieves the gas there is no motion of teeth."""
+    share, angle = max(table.jump for table in tables)
+    if share == 0.0:
+        return []
+    message = (
+        f"the area of a tooth space jumps by {100 * expm1(share):.0f} % at {degrees(angle):.2f} deg, where the nearest "
+        "point to a tip corner leaves the flank for the root: pressures are wrong from there on; the contact gap knows "
+        "no such jump"
+    )
+    return [Notice("area_jump", message, "gap")]
 
 
 def flow_notices(flow: Flow, largest_mach: float, largest_gauge_pressure: float) -> list[Notice]:

@@ -1,9 +1,13 @@
-"""How well a result is resolved: what half the resolution makes of the same flow.
+"""How well a result is resolved: what half and a quarter of the resolution make of the same flow.
 
-The kinks of a stroke leave numbers of first order in the width of the slices, and peaks may wander between them. For
-two grids and first order Roache's grid convergence index states three times their difference as the uncertainty of
-the finer one (J. Fluids Eng. 116, 1994, 405).
+The kinks of a stroke leave numbers of first order in the width of the slices. For two grids and first order Roache's
+grid convergence index states three times their difference as the uncertainty of the finer one (J. Fluids Eng. 116,
+1994, 405). Peaks wander between the slices, and two grids may agree on one by luck: a third with a quarter of the
+resolution has a say.
 """
+
+from math import expm1
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,12 +20,19 @@ SAFETY = 3.0
 LOST = 1.0  # where a pressure is not known to its own size, no number is: the finer flow may be another one
 
 
-def resolution(gas: Gas, flows: list[SpaceFlow], halved: list[SpaceFlow]) -> Resolution:
+class Grids(NamedTuple):
+    """One stroke at the resolution asked for, at half and at a quarter of it."""
+
+    flow: SpaceFlow
+    halved: SpaceFlow
+    quartered: SpaceFlow
+
+
+def resolution(gas: Gas, spaces: list[Grids]) -> Resolution:
     """Relative uncertainties of the summary, the largest of all spaces asked for; pressures as gauge pressures."""
-    fine, coarse = [_summary(gas, flow) for flow in flows], [_summary(gas, flow) for flow in halved]
+    summaries = [[_summary(gas, flow) for flow in grids] for grids in spaces]
     uncertain = {
-        name: max(_relative(one[name], other[name]) for one, other in zip(fine, coarse, strict=True))
-        for name in fine[0]
+        name: max(_relative(*(each[name] for each in of_grids)) for of_grids in summaries) for name in summaries[0][0]
     }
     if max(uncertain["peak_pressure"], uncertain["min_pressure"]) >= LOST:
         uncertain = {name: max(share, LOST) for name, share in uncertain.items()}
@@ -35,20 +46,36 @@ def resolution(gas: Gas, flows: list[SpaceFlow], halved: list[SpaceFlow]) -> Res
     )
 
 
-def net_uncertainty(flow: SpaceFlow, halved: SpaceFlow) -> float:
-    """Mass [kg] by which the net flow of an end may be off in a stroke.
+def behind_jump(resolved: Resolution, gas: Gas, jump: float) -> Resolution:
+    """No number is known better than what a jump of the area's logarithm compresses, whatever the resolution."""
+    least = expm1(gas.exponent * jump)
+    heated = resolved.temperature_rise
+    return Resolution(
+        peak_pressure=max(resolved.peak_pressure, least),
+        min_pressure=max(resolved.min_pressure, least),
+        axial_mach=max(resolved.axial_mach, least),
+        pumping_power=max(resolved.pumping_power, least),
+        temperature_rise=None if heated is None else max(heated, least),
+        gross_flow=max(resolved.gross_flow, least),
+    )
+
+
+def net_uncertainty(grids: Grids) -> float:
+    """Mass [kg] by which the net flow of an end may be off in a stroke, from half the resolution.
 
     At least what leaves and what enters change together: their difference may change less by luck.
     """
-    ends = ((flow.ends.front, halved.ends.front), (flow.ends.rear, halved.ends.rear))
+    here, there = grids.flow.ends, grids.halved.ends
+    ends = ((here.front, there.front), (here.rear, there.rear))
     net = max(abs(float(fine.sum() - coarse.sum())) for fine, coarse in ends)
     gross = max(abs(_sum(fine) - _sum(coarse)) + abs(_sum(-fine) - _sum(-coarse)) for fine, coarse in ends)
     return max(SAFETY * net, gross)
 
 
-def radial_uncertainty(flow: SpaceFlow, halved: SpaceFlow) -> float:
+def radial_uncertainty(grids: Grids) -> float:
     """Mass [kg] by which the net radial flow, the rest of the books, may be off in a stroke."""
-    return max(SAFETY * abs(flow.masses.radial - halved.masses.radial), net_uncertainty(flow, halved))
+    radial = SAFETY * abs(grids.flow.masses.radial - grids.halved.masses.radial)
+    return max(radial, net_uncertainty(grids))
 
 
 def _summary(gas: Gas, flow: SpaceFlow) -> dict[str, float]:
@@ -67,8 +94,9 @@ def _summary(gas: Gas, flow: SpaceFlow) -> dict[str, float]:
     return numbers
 
 
-def _relative(value: float, other: float) -> float:
-    return SAFETY * abs(other / value - 1.0) if value != 0.0 else 0.0
+def _relative(value: float, half: float, quarter: float) -> float:
+    """Three times the error, if of first order: a quarter of the resolution differs by that, half by a third of it."""
+    return max(SAFETY * abs(half / value - 1.0), abs(quarter / value - 1.0)) if value != 0.0 else 0.0
 
 
 def _sum(masses: FloatArray) -> float:

@@ -67,8 +67,8 @@ class Balance:
 class Resolution:
     """Relative uncertainties of the summary by its resolution, pressures as gauge pressures; see `resolution`.
 
-    Slices of gas dynamics, steps of the chain, positions of the single pocket. `temperature_rise` is None where the
-    flow model gives none; net flows state theirs.
+    Slices of gas dynamics, steps of the chain, positions of the single pocket; at least what a jump of the area alone
+    would compress. `temperature_rise` is None where the flow model gives none; net flows state theirs.
     """
 
     peak_pressure: float

@@ -18,7 +18,7 @@ from solvers.pumping.flow.space_flow import SpaceFlow
 from solvers.pumping.gas.gas_dynamics import LEAST_SLICES, cell_steps, gas_dynamics
 from solvers.pumping.incompressible import incompressible
 from solvers.pumping.inputs import Flow, PumpingSetup, Spaces
-from solvers.pumping.notices import setup_notices
+from solvers.pumping.notices import jump_notices, setup_notices
 from solvers.pumping.results import Derived
 from solvers.pumping.space.face import Stretch, stretches
 from solvers.pumping.space.stroke import StrokeTable, stroke_table
@@ -68,7 +68,8 @@ def prepare(setup: PumpingSetup) -> Mesh:
     if wanted is not Spaces.PINION:
         spaces.append(_space(setup, path.pair, of_pinion=False))
     active = min(_active_share(space, setup.gears.face_width) for space in spaces) * setup.model.slice_count
-    return Mesh(setup, path, gas(setup.ambient), tuple(spaces), tuple(setup_notices(setup, path, active)))
+    notices = (*setup_notices(setup, path, active), *jump_notices([space.table for space in spaces]))
+    return Mesh(setup, path, gas(setup.ambient), tuple(spaces), notices)
 
 
 def derived(mesh: Mesh) -> Derived:
@@ -117,18 +118,18 @@ def flow_at(
     return _gas(mesh, space, pinion_speed, parts)
 
 
-def halved_flow_at(mesh: Mesh, space: Space, pinion_speed: float, slices: int) -> SpaceFlow:
-    """The same at half the resolution: slices of gas dynamics, steps of the chain, positions of the single pocket.
+def coarser_flow_at(mesh: Mesh, space: Space, pinion_speed: float, slices: int, times: int) -> SpaceFlow:
+    """The same with fewer slices of gas dynamics, steps of the chain, positions of the single pocket.
 
     The slices of the chain are no resolution: they are a constant of that model. Raises as `flow_at` does but
     for the cost.
     """
     if mesh.setup.model.flow is Flow.INCOMPRESSIBLE:
-        return _single_pocket(mesh, space, pinion_speed, space.table.halved())
+        return _single_pocket(mesh, space, pinion_speed, space.table.coarser(times))
     parts = face_stretches(mesh.setup, slices)
     if mesh.setup.model.flow is Flow.POCKET_CHAIN:
-        return _chain(mesh, space, pinion_speed, parts, STEPS // 2)
-    return _gas(mesh, space, pinion_speed, [part.halved() for part in parts])
+        return _chain(mesh, space, pinion_speed, parts, STEPS // times)
+    return _gas(mesh, space, pinion_speed, [part.coarser(times) for part in parts])
 
 
 def _single_pocket(mesh: Mesh, space: Space, pinion_speed: float, table: StrokeTable) -> SpaceFlow:

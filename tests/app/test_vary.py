@@ -356,7 +356,7 @@ def test_empty_fields_are_dropped_by_a_redirect(client: httpx.Client) -> None:
 
 def test_figures_are_files(client: httpx.Client) -> None:
     said = {"x": "operation.misalignment_deg", "y": "operation.axial_velocity_mm_per_s", "y.count": "7"}
-    links = views.StudyLinks(asked(COUPLING, **said))
+    links = views.StudyLinks(views.NAME, asked(COUPLING, **said))
     for image_format, kind in MEDIA_TYPES.items():
         answer = client.get(links.image("map", image_format))
         assert answer.headers["content-type"] == kind
@@ -367,7 +367,7 @@ def test_figures_are_files(client: httpx.Client) -> None:
 
 
 def test_a_posted_study_is_the_same(client: httpx.Client) -> None:
-    links = views.StudyLinks(asked(COUPLING, x="operation.torque_n_m", **{"x.count": "3"}))
+    links = views.StudyLinks(views.NAME, asked(COUPLING, x="operation.torque_n_m", **{"x.count": "3"}))
     path, _, query = links.view(".csv").partition("?")
     form = {"Content-Type": "application/x-www-form-urlencoded"}
     assert client.post(path, content=query, headers=form).content == client.get(links.view(".csv")).content

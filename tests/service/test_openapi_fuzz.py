@@ -14,7 +14,7 @@ pytestmark = pytest.mark.service
 
 
 def test_every_operation() -> None:
-    """With more examples: `schemathesis run --checks all --max-examples 1000 ADDRESS/openapi.json`.
+    """With all phases and more examples: `schemathesis run --checks all --max-examples 1000 ADDRESS/openapi.json`.
 
     Studies end after a second here: a thousand of a minute each would say nothing more.
     """
@@ -23,8 +23,10 @@ def test_every_operation() -> None:
         "run",
         "--checks",
         "all",
+        "--phases",
+        "examples,fuzzing",
         "--max-examples",
-        "25",
+        "5",
         "--generation-deterministic",
     ]
     with running_server(study_points=16, study_deadline_s=1) as (_, address):

@@ -19,6 +19,7 @@ from tests.server import (
     children,
     descendants,
     is_alive,
+    running_server,
     started_server,
     template,
     wait_until_warm,
@@ -78,6 +79,16 @@ def test_ends_at_any_moment_of_a_cold_start(tmp_path: Path, number: signal.Signa
         while any(map(is_alive, family)):
             assert time.monotonic() < end
             time.sleep(0.02)
+
+
+def test_an_impatient_second_interrupt_is_no_traceback(tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    with running_server(log=log) as (process, _):
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(2.5) == 130
+    assert "Traceback" not in log.read_text()
 
 
 def test_port_in_use_is_said_at_once() -> None:

@@ -1,7 +1,7 @@
 """The page of a study of a case: what stands before and after its figures, the figures, files; runs in workers."""
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from app.calculations import Calculation
 from app.contract.fields import Leaf
@@ -9,15 +9,15 @@ from app.figures.rendering import Format, written
 from app.figures.tables import table
 from app.pages.cases import Fault, faults_of
 from app.pages.charts import chart_of
-from app.pages.links import IMAGE_FORMATS, LONGEST_QUERY, examples_of
-from app.pages.query import STUDY_NAMES, link, pairs_of
+from app.pages.growing import FRAMES, Opened, StudyLinks, around
+from app.pages.links import IMAGE_FORMATS, examples_of
+from app.pages.query import link, pairs_of
 from app.pages.studies.corners import CORNERS
 from app.pages.studies.declaration import Asking, Result, StudyPage
 from app.pages.studies.design import DESIGN
 from app.pages.studies.influence import INFLUENCE
 from app.pages.templating import page_path, rendered
 from app.pages.vary.controls import output_menu
-from app.pages.vary.views import FRAMES
 from app.pages.vary.wish import field_at_fault, shown_output
 from app.pages.views import REFUSED, Asked
 from app.reading import Unreadable
@@ -27,39 +27,7 @@ from app.studies.stream import Line
 PAGES = {each.offer: each for each in (INFLUENCE, CORNERS, DESIGN)}
 
 
-@dataclass(frozen=True, slots=True)
-class StudyLinks:
-    """The addresses of the views of a study."""
-
-    page: StudyPage
-    asked: Asked
-
-    def view(self, below: str) -> str:
-        """One of them."""
-        said = {name: text for name, text in self.asked.views.items() if name in STUDY_NAMES or name == "theme"}
-        return link(f"{self.asked.path}/{self.page.offer.name}{below}", self.asked.pairs, **said)
-
-    @property
-    def too_long(self) -> bool:
-        """Whether a link cannot hold the study."""
-        return len(self.view("").partition("?")[2]) > LONGEST_QUERY
-
-    def image(self, figure: str, image_format: str) -> str:
-        """One figure as a file."""
-        return self.view(f"/figures/{figure}.{image_format}")
-
-
-@dataclass(frozen=True, slots=True)
-class Opened:
-    """A page around its figures; without a study it is whole."""
-
-    head: bytes
-    tail: bytes = b""
-    status: int = 200
-    study: Asking | None = None
-
-
-def opened(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Opened:
+def opened(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Opened[Asking]:
     """The page of a study of a case, and the study if there is a case."""
     try:
         study = planned(page, asked, most, deadline_s) if asked.pairs else None
@@ -67,8 +35,7 @@ def opened(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Opene
         faults = [Fault(field_at_fault(each.path), each.message) for each in faults_of(error)]
         status = 400 if isinstance(error, Unreadable) else 422
         return Opened(_page(page, asked, None, faults).encode(), status=status)
-    head, _, tail = _page(page, asked, study, []).partition(FRAMES)
-    return Opened(head.encode(), tail.encode(), study=study)
+    return around(_page(page, asked, study, []), study)
 
 
 def planned(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Asking:
@@ -92,7 +59,7 @@ def _page(page: StudyPage, asked: Asked, study: Asking | None, faults: list[Faul
         page=page,
         path=asked.path,
         case_links=asked.links,
-        links=StudyLinks(page, asked),
+        links=StudyLinks(offer.name, asked),
         show=replace(menu, empty=_output(page, calculation, {}).title),
         fields=fields,
         anchors={menu.name: menu.id} | {each.name: each.id for each in fields},
@@ -110,7 +77,7 @@ def _page(page: StudyPage, asked: Asked, study: Asking | None, faults: list[Faul
 
 def whole(study: Asking, lines: list[Line]) -> bytes:
     """Figures, tables and links; a study that broke off says why."""
-    links = StudyLinks(study.page, study.asked)
+    links = StudyLinks(study.page.offer.name, study.asked)
     if lines[-1]["type"] == "error":
         return rendered("study_result.html", broke=lines[-1]["message"]).encode()
     found = study.page.result(study, lines)

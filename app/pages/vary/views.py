@@ -11,9 +11,10 @@ from app.figures.sweep import figures_of
 from app.figures.tables import table
 from app.pages.cases import Fault, faults_of
 from app.pages.charts import chart_of, embedded
-from app.pages.links import IMAGE_FORMATS, LONGEST_QUERY
+from app.pages.growing import FRAMES, Opened, StudyLinks, around
+from app.pages.links import IMAGE_FORMATS
 from app.pages.points import address_at
-from app.pages.query import STUDY_NAMES, link
+from app.pages.query import STUDY_NAMES
 from app.pages.templating import rendered
 from app.pages.typesetting import shown
 from app.pages.vary.controls import controls
@@ -25,7 +26,7 @@ from app.reading import Unreadable
 from app.studies.fields import value_at
 from app.studies.sweep import Sweep, plan_sweep
 
-FRAMES = "<!-- the figures -->"
+NAME = "vary"
 MOST_ROWS = 200
 
 
@@ -44,55 +45,23 @@ class Study:
         return tuple(_figures(self, Gathered(self.sweep.total)))
 
     @property
-    def links(self) -> "StudyLinks":
+    def links(self) -> StudyLinks:
         """Where the views of the study are."""
-        return StudyLinks(self.asked)
+        return StudyLinks(NAME, self.asked)
 
     def opened(self, index: int) -> str:
         """The page of the case at a point."""
         return address_at(self.asked, self.sweep.plan.overrides(index))
 
 
-@dataclass(frozen=True, slots=True)
-class StudyLinks:
-    """The addresses of the views of a study."""
-
-    asked: Asked
-
-    def view(self, below: str) -> str:
-        """One of them."""
-        said = {name: text for name, text in self.asked.views.items() if name in STUDY_NAMES or name == "theme"}
-        return link(f"{self.asked.path}/vary{below}", self.asked.pairs, **said)
-
-    @property
-    def too_long(self) -> bool:
-        """Whether a link cannot hold the study."""
-        return len(self.view("").partition("?")[2]) > LONGEST_QUERY
-
-    def image(self, figure: str, image_format: str) -> str:
-        """One figure as a file."""
-        return self.view(f"/figures/{figure}.{image_format}")
-
-
-@dataclass(frozen=True, slots=True)
-class Opened:
-    """A page around its figures; without a study it is whole."""
-
-    head: bytes
-    tail: bytes = b""
-    status: int = 200
-    study: Study | None = None
-
-
-def opened(asked: Asked, most: int, deadline_s: float) -> Opened:
+def opened(asked: Asked, most: int, deadline_s: float) -> Opened[Study]:
     """The page of a study, and the study if what is asked for makes one."""
     try:
         study = planned(asked, most, deadline_s) if asked.pairs and asked.views.get("x") else None
     except REFUSED as error:
         faults = [Fault(field_at_fault(each.path), each.message) for each in faults_of(error)]
         return Opened(_page(asked, None, faults).encode(), status=400 if isinstance(error, Unreadable) else 422)
-    head, _, tail = _page(asked, study, []).partition(FRAMES)
-    return Opened(head.encode(), tail.encode(), study=study)
+    return around(_page(asked, study, []), study)
 
 
 def planned(asked: Asked, most: int, deadline_s: float) -> Study:
@@ -124,7 +93,7 @@ def _page(asked: Asked, study: Study | None, faults: list[Fault]) -> str:
         calculation=calculation,
         path=asked.path,
         case_links=asked.links,
-        links=StudyLinks(asked),
+        links=StudyLinks(NAME, asked),
         controls=controls(calculation, case, asked.views, known, study.wish if study else None),
         hidden=[pair for pair in (*asked.pairs, ("theme", asked.views.get("theme", ""))) if pair[1]],
         faults=[fault for fault in faults if fault.path not in STUDY_NAMES],

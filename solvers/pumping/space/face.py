@@ -26,9 +26,9 @@ class Stretch:
         """Positions of the slices' centres [m]."""
         return np.linspace(self.start + 0.5 * self.width, self.start + (self.cells - 0.5) * self.width, self.cells)
 
-    def halved(self) -> "Stretch":
-        """The same stretch in half as many slices."""
-        cells = max(self.cells // 2, 1)
+    def coarser(self, times: int) -> "Stretch":
+        """The same stretch in so many times fewer slices."""
+        cells = max(self.cells // times, 1)
         return replace(self, cells=cells, width=self.width * self.cells / cells)
 
 

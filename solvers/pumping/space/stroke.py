@@ -12,6 +12,8 @@ from solvers.pumping.space.section import section
 from solvers.pumping.space.tooth_space import StrokeLimits, ToothSpace, stroke_limits
 
 POSITIONS = 361
+SMOOTH = 3.0  # times the change of the area's logarithm over the positions beside
+JUMP = 0.01
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,10 +37,22 @@ class StrokeTable:
         carried = self.carried if wall_transport else np.zeros_like(self.carried)
         return np.column_stack([self.area, self.clearance_left + self.clearance_right, carried])
 
-    def halved(self) -> "StrokeTable":
-        """Every other position of the same stroke."""
+    @property
+    def jump(self) -> tuple[float, float]:
+        """By how much the logarithm of the area jumps between two positions, 0 if nowhere, and the angle [rad] there.
+
+        With tip gaps the nearest point to a tip corner can leave the flank for the root; the contact gap knows no jump.
+        """
+        change = np.abs(np.diff(np.log(self.area)))
+        beside = np.maximum(np.append(change[1:], change[-2]), np.append(change[1], change[:-1]))
+        at = int(np.argmax(change - SMOOTH * beside))
+        jumps = change[at] > SMOOTH * beside[at] + JUMP
+        return (float(change[at]) if jumps else 0.0), float(self.angle[at])
+
+    def coarser(self, times: int) -> "StrokeTable":
+        """The same stroke at so many times fewer positions."""
         columns = (self.angle, self.area, self.clearance_left, self.clearance_right, self.carried)
-        return StrokeTable(self.limits, *(frozen(column[::2].copy()) for column in columns))
+        return StrokeTable(self.limits, *(frozen(column[::times].copy()) for column in columns))
 
 
 def stroke_table(space: ToothSpace, *, minimum_gap: float = 0.0, positions: int = POSITIONS) -> StrokeTable:
