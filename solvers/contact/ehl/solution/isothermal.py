@@ -9,7 +9,8 @@ from solvers.contact.ehl.film.reynolds import (
     PATIENCE,
     RUPTURE_TOLERANCE,
     apply_pressure_step,
-    assemble_system,
+    assemble_jacobian,
+    balance_of_mass,
     release_cavitated,
 )
 from solvers.contact.ehl.film.shear import STRESS_LIMIT
@@ -93,7 +94,8 @@ def solve_isothermal(
         evaluate_isothermal(problem, grid, state, work)
         rupture_tolerance = 0.0 if iteration < PATIENCE else RUPTURE_TOLERANCE
         changed = release_cavitated(work.faces, state.cavitated, rupture_tolerance)
-        assemble_system(grid, state.pressure, state.cavitated, work.faces, jacobian, residual)
+        balance_of_mass(grid, state.pressure, state.cavitated, work.faces, residual)
+        assemble_jacobian(grid, state.cavitated, work.faces, jacobian)
         if not solved(jacobian, residual, step):
             return False
         largest = np.abs(step[:n]).max()
