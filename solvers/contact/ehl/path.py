@@ -111,7 +111,10 @@ def _extrapolated(rows: FloatArray) -> FloatArray:
 
     The difference of an order is what all below it would have missed the last one by.
     """
-    differences = [np.diff(rows, order, axis=0)[-1] for order in range(len(rows))]
+    differences = [rows[-1]]
+    while len(rows) > 1:
+        rows = rows[1:] - rows[:-1]
+        differences.append(rows[-1])
     sizes = [np.abs(difference).max(axis=-1, keepdims=True) for difference in differences[1:]]
     following, shrinking = differences[0], np.full((1,), True)
     for order, difference in enumerate(differences[1:]):
