@@ -64,10 +64,10 @@ class Film(NamedTuple):
 
 def film_arrays(nodes: int, film_nodes: int) -> Film:
     """Room for `nodes` columns."""
-    shear = Shear(**{name: np.zeros((nodes, film_nodes - 1)) for name in Shear._fields})
-    flow = Flow(**{name: np.zeros((nodes, film_nodes)) for name in Flow._fields})
-    mid = {name: np.zeros(nodes) for name in MidFilm._fields} | {"by_temperature": np.zeros((nodes, film_nodes))}
-    return Film(shear, flow, MidFilm(**mid))
+    shear = Shear(*np.zeros((len(Shear._fields), nodes, film_nodes - 1)))
+    flow = Flow(*np.zeros((len(Flow._fields), nodes, film_nodes)))
+    stress, by_p, by_g, by_h = np.zeros((4, nodes))
+    return Film(shear, flow, MidFilm(stress, np.zeros((nodes, film_nodes)), by_p, by_g, by_h))
 
 
 @inlined_kernel

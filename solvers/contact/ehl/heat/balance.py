@@ -73,21 +73,15 @@ class Heat(NamedTuple):
 
 def heat_arrays(nodes: int, film_nodes: int) -> Heat:
     """Room for `nodes` columns."""
-    across = (nodes, film_nodes)
+    lower, pivot, upper, residual, from_left, from_right = np.zeros((6, nodes, film_nodes))
+    sherman, fluid_fraction, generated, compression = np.zeros((4, nodes))
     return Heat(
-        column=ColumnSystem(
-            lower=np.zeros(across),
-            pivot=np.zeros(across),
-            upper=np.zeros(across),
-            residual=np.zeros(across),
-            responses=np.zeros((*across, 4)),
-            sherman=np.zeros(nodes),
-        ),
-        convection=Convection(np.zeros(across), np.zeros(across), edges=np.zeros((nodes, film_nodes + 1))),
-        surfaces=Surfaces(**{name: np.zeros(nodes) for name in Surfaces._fields}),
-        fluid_fraction=np.zeros(nodes),
-        generated=np.zeros(nodes),
-        compression=np.zeros(nodes),
+        ColumnSystem(lower, pivot, upper, residual, np.zeros((nodes, film_nodes, 4)), sherman),
+        Convection(from_left, from_right, np.zeros((nodes, film_nodes + 1))),
+        Surfaces(*np.zeros((len(Surfaces._fields), nodes))),
+        fluid_fraction,
+        generated,
+        compression,
     )
 
 
