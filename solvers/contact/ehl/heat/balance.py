@@ -115,7 +115,7 @@ def transport(problem: Problem, i: int, width: float, temperature: FloatArray, h
     n, nodes = temperature.shape
     column, edges = heat.column, heat.convection.edges
     conductance = heat.fluid_fraction[i] * problem.conductivity * (nodes - 1) / h
-    capacity, right = problem.specific_heat / width, min(i + 1, n - 1)
+    capacity, per_h, right = problem.specific_heat / width, 1.0 / h, min(i + 1, n - 1)
     for k in range(nodes):
         t = temperature[i, k]
         from_left = capacity * max(edges[i - 1, k + 1] - edges[i - 1, k], 0.0)
@@ -134,7 +134,7 @@ def transport(problem: Problem, i: int, width: float, temperature: FloatArray, h
         column.lower[i, k], column.upper[i, k] = lower, upper
         column.pivot[i, k] = from_left + from_right + lower + upper
         column.residual[i, k] = residual
-        column.responses[i, k, BY_H] = conduction / h
+        column.responses[i, k, BY_H] = conduction * per_h
 
 
 @inlined_kernel
@@ -142,7 +142,7 @@ def dissipation(i: int, h: float, film: Film, heat: Heat) -> None:
     """Shear heating of column i, half of each interval's to each of its nodes, with its derivatives."""
     shear, column = film.shear, heat.column
     m = shear.stress.shape[1]
-    share = 0.5 * heat.fluid_fraction[i] * h / m
+    height, per_h, share = 1.0 / m, 1.0 / h, 0.5 * heat.fluid_fraction[i] * h / m
     by_p, by_g, by_h = film.mid.by_p[i], film.mid.by_g[i], film.mid.by_h[i]
     total, source, by_stress, warm, pressed, tilted = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for k in range(m + 1):
@@ -154,7 +154,7 @@ def dissipation(i: int, h: float, film: Film, heat: Heat) -> None:
             by_stress = share * (rate + stress * shear.stiffness[i, k])
             warm = 0.5 * source * shear.by_temperature[i, k]
             pressed = source * shear.by_pressure[i, k]
-            tilted = by_stress * ((k + 0.5) / m - 0.5)
+            tilted = by_stress * ((k + 0.5) * height - 0.5)
             sources, stressed, warmed = sources + source, stressed + by_stress, warmed + warm
             by_pressure, by_tilt = by_pressure + pressed, by_tilt + tilted
             column.upper[i, k] += warm
@@ -164,7 +164,7 @@ def dissipation(i: int, h: float, film: Film, heat: Heat) -> None:
         column.responses[i, k, HEATING] = -stressed
         column.responses[i, k, BY_P] = by_pressure + stressed * by_p
         column.responses[i, k, BY_G] = by_tilt + stressed * by_g
-        column.responses[i, k, BY_H] += sources / h + stressed * by_h
+        column.responses[i, k, BY_H] += sources * per_h + stressed * by_h
     heat.generated[i] = total
 
 
@@ -172,19 +172,19 @@ def dissipation(i: int, h: float, film: Film, heat: Heat) -> None:
 def compress(problem: Problem, i: int, temperature: FloatArray, g: float, h: float, film: Film, heat: Heat) -> None:
     """Heat of compression of column i, (0.00065 rho0/rho) t u p'."""
     column, stream, densities, m = heat.column, film.flow.stream, film.shear.density, film.shear.stress.shape[1]
-    expansion = problem.laws.density * problem.laws.thermal_expansion
+    per_h, expansion = 1.0 / h, problem.laws.density * problem.laws.thermal_expansion
     total, edge = 0.0, 0.0
     for k in range(m + 1):
         density = 0.5 * (densities[i, max(k - 1, 0)] + densities[i, min(k, m - 1)])
         above = 0.5 * (stream[i, k] + stream[i, k + 1]) if k < m else stream[i, m]
-        squeeze = expansion * (above - edge) / (density * density * h)
+        squeeze = expansion * (above - edge) * per_h / (density * density)
         edge = above
         source = squeeze * g * temperature[i, k]
         total += source
         column.residual[i, k] -= source
         column.pivot[i, k] -= squeeze * g
         column.responses[i, k, BY_G] += squeeze * temperature[i, k]
-        column.responses[i, k, BY_H] -= source / h
+        column.responses[i, k, BY_H] -= source * per_h
     heat.compression[i] = total
 
 

@@ -41,9 +41,10 @@ def factor_column(i: int, film: Film, heat: Heat) -> None:
         by_p += by_temperature[i, k] * p
         by_g += by_temperature[i, k] * g
         by_h += by_temperature[i, k] * h
-    column.sherman[i] = 1.0 / shared
+    sherman = 1.0 / shared
+    column.sherman[i] = sherman
     for k in range(m + 1):
-        heating = responses[i, k, HEATING] / shared
+        heating = responses[i, k, HEATING] * sherman
         responses[i, k, BY_P] -= heating * by_p
         responses[i, k, BY_G] -= heating * by_g
         responses[i, k, BY_H] -= heating * by_h

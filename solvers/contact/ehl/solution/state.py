@@ -70,7 +70,6 @@ def evaluate_flow(problem: Problem, grid: Grid, state: State, work: Work) -> boo
     """Film, stress and flow of every column; whether the guard on the pressure gradient acted."""
     film_shape(grid, state.pressure, state.separation[0], work.height)
     pressure_gradients(grid.x, state.pressure, state.cavitated, work.gradient)
-    above = np.empty(work.film.shear.stress.shape[1])
     slope = problem.maximum_pressure / problem.half_width
     limited = False
     for i in range(grid.x.size):
@@ -79,7 +78,7 @@ def evaluate_flow(problem: Problem, grid: Grid, state: State, work: Work) -> boo
         bounded = limited_gradient(problem, g)
         limited = limited or bounded != g
         p = state.pressure[i] * problem.maximum_pressure
-        evaluate_column(problem, i, state.temperature[i], p, bounded, h, work.film, work.coefficients, above)
+        evaluate_column(problem, i, state.temperature, p, bounded, h, work.film, work.coefficients)
     assemble_faces(
         problem, grid.x, state.pressure, work.height, work.gradient, state.cavitated, work.coefficients, work.faces
     )

@@ -27,7 +27,7 @@ def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -
     """
     film, heat, temperature = work.film, work.heat, state.temperature
     n, nodes = temperature.shape
-    above, step = np.empty(nodes - 1), np.zeros((n, nodes))
+    step = np.zeros((n, nodes))
     film_shape(grid, state.pressure, state.separation[0], work.height)
     u1, u2 = problem.speed_1, problem.speed_2
     flux = problem.laws.density * 0.5 * (u1 + u2) * work.height[np.abs(grid.x).argmin()] * problem.gap_scale
@@ -45,7 +45,7 @@ def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -
         temperature[i] = temperature[i - 1]
         surface_history(problem, i, grid.heat, heat.surfaces)
         for _ in range(COLUMN_ITERATIONS):
-            evaluate_column(problem, i, temperature[i], p, 0.0, h, film, work.coefficients, above)
+            evaluate_column(problem, i, temperature, p, 0.0, h, film, work.coefficients)
             width = grid.weights[i] * problem.half_width
             column_balance(problem, i, width, temperature, 0.0, h, 0.0, film, heat)
             factor_column(i, film, heat)
