@@ -120,4 +120,4 @@ def _extrapolated(rows: FloatArray) -> FloatArray:
     for order, difference in enumerate(differences[1:]):
         shrinking = shrinking & (order + 1 == len(sizes) or sizes[order + 1] < sizes[order])
         following = following + np.where(shrinking, difference, 0.0)
-    return following
+    return np.asarray(following)
