@@ -205,7 +205,7 @@ def solve_coupled(
     pressure_tolerance: float,
     temperature_tolerance: float,
 ) -> bool:
-    """Simultaneous Newton for (T, P, H0), in place; whether it converged.
+    """Simultaneous Newton for (T, P, H0), in place; whether it converged. What it found is evaluated into `work`.
 
     It has when both steps are within tolerance and taken whole, the broken film unchanged and no guard in action. A
     step that is too long to trust is not taken but repeated with temperatures damped (implicit pseudo-time); the
@@ -218,7 +218,6 @@ def solve_coupled(
     damping, before, before_t, relaxation, near = 0.0, np.inf, np.inf, 1.0, False
     for iteration in range(max_iterations):
         state.history[0] += 1.0
-        state.cavitated[n - 1] = state.cavitated[n - 2]
         limited = evaluate_state(problem, grid, state, work, damping)
         tolerance = 0.0 if iteration < PATIENCE else RUPTURE_TOLERANCE
         changed = release_cavitated(work.faces, state.cavitated, tolerance)
@@ -249,6 +248,7 @@ def solve_coupled(
         before, before_t = last_p, last_t
         taken, joined = take_step(grid, state, step, step_t, scale if within else scale * relaxation)
         if converged and not joined and taken == 1.0:
+            evaluate_state(problem, grid, state, work, 0.0)
             return True
         near = last_p < SHORT_STEP and shrinking and undamped and not joined and taken == 1.0
     return False
