@@ -37,19 +37,41 @@ class Figure:
     run: Callable[[], object]
     target: float
 
+    def seconds(self) -> float:
+        """What a run takes."""
+        return best(self.run)
+
+
+@dataclass(frozen=True, slots=True)
+class MedianFigure:
+    """A name, the many things of which the median is timed, and the time aimed at [ms]."""
+
+    name: str
+    runs: Sequence[Callable[[], object]]
+    target: float
+
+    def seconds(self) -> float:
+        """What half of the runs take at most, each timed once."""
+        return median(_duration(run) for run in self.runs)
+
 
 def best(run: Callable[[], object]) -> float:
     """Shortest CPU time of a run [s], after one that warms up: whatever else happens only adds."""
     run()
     times: list[float] = []
     while len(times) < LEAST_RUNS or sum(times) < ROUND_S:
-        began = process_time()
-        run()
-        times.append(process_time() - began)
+        times.append(_duration(run))
     return min(times)
 
 
-def print_times(benchmark: str, figures: Sequence[Figure]) -> None:
+def _duration(run: Callable[[], object]) -> float:
+    """CPU time of one run [s]."""
+    began = process_time()
+    run()
+    return process_time() - began
+
+
+def print_times(benchmark: str, figures: Sequence[Figure | MedianFigure]) -> None:
     """Print the table of a benchmark, a module's name, as its command line asks for it."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--against", metavar="REVISION", help="print the times of a previous version too")
@@ -65,10 +87,12 @@ def print_times(benchmark: str, figures: Sequence[Figure]) -> None:
         return
     print("| figure | measured | aim |\n|---|---|---|")
     for figure in (figures[index] for index in wanted):
-        print(f"| {figure.name} | {1e3 * best(figure.run):.2f} ms | {figure.target:g} ms |", flush=True)
+        print(f"| {figure.name} | {1e3 * figure.seconds():.2f} ms | {figure.target:g} ms |", flush=True)
 
 
-def _print_ratios(benchmark: str, figures: Sequence[Figure], wanted: Sequence[int], revision: str) -> None:
+def _print_ratios(
+    benchmark: str, figures: Sequence[Figure | MedianFigure], wanted: Sequence[int], revision: str
+) -> None:
     """Best times of both versions, and the median of the ratios of what was measured side by side."""
     print(f"| figure | measured | {revision} | ratio | aim |\n|---|---|---|---|---|")
     with _sources_of(revision) as previous, _process(benchmark, ROOT) as now, _process(benchmark, previous) as before:
@@ -116,7 +140,7 @@ def _asked(process: subprocess.Popen[str], index: int) -> float:
     return float(process.stdout.readline())
 
 
-def _answer(figures: Sequence[Figure]) -> None:
+def _answer(figures: Sequence[Figure | MedianFigure]) -> None:
     """Time the figures asked for by number on standard input."""
     for line in sys.stdin:
-        print(best(figures[int(line)].run), flush=True)
+        print(figures[int(line)].seconds(), flush=True)

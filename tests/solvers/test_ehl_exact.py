@@ -44,9 +44,9 @@ def couette_errors(sliding: float, nodes: int) -> tuple[float, float]:
     )
     film, heat, coefficients = film_arrays(2, nodes), heat_arrays(2, nodes), flow_coefficients(2)
     heat.fluid_fraction[:] = 1.0
-    t, step, above = np.full((2, nodes), wall), np.zeros((2, nodes)), np.empty(nodes - 1)
+    t, step = np.full((2, nodes), wall), np.zeros((2, nodes))
     for _ in range(60):
-        evaluate_column(fixed, 1, t[1], 0.0, 0.0, height, film, coefficients, above)
+        evaluate_column(fixed, 1, t, 0.0, 0.0, height, film, coefficients)
         column_balance(fixed, 1, 1e-5, t, 0.0, height, 0.0, film, heat)
         factor_column(1, film, heat)
         step[1] = -heat.column.residual[1]
@@ -115,8 +115,8 @@ def test_hertz_pressure_flattens_the_parabola() -> None:
 def test_column_at_one_temperature_is_the_closed_form(rheology: str, p: float, g: float, h: float) -> None:
     """Flow and mid-film stress of 200 intervals against sinh's integrals; A and B differ, their flux does not."""
     given_ = constants(Lubricant(), rheology)
-    film, coefficients, above = film_arrays(1, 201), flow_coefficients(1), np.empty(200)
-    evaluate_column(given_, 0, np.full(201, 360.0), p, g, h, film, coefficients, above)
+    film, coefficients = film_arrays(1, 201), flow_coefficients(1)
+    evaluate_column(given_, 0, np.full((1, 201), 360.0), p, g, h, film, coefficients)
     log_a, b = np.zeros(4), np.zeros(4)
     stress = uniform_film(given_, p, g, h, log_a, b)
     numeric = coefficients.b[0, VALUE] - exp(coefficients.log_a[0, VALUE]) * h * g
@@ -128,13 +128,13 @@ def test_column_at_one_temperature_is_the_closed_form(rheology: str, p: float, g
 def test_derivatives_of_a_column(rheology: str) -> None:
     """Of ln A, B and the mid-film stress by p, G, h and one temperature, against central differences."""
     given_ = constants(Lubricant(), rheology)
-    film, coefficients, above = film_arrays(1, 21), flow_coefficients(1), np.empty(20)
+    film, coefficients = film_arrays(1, 21), flow_coefficients(1)
     t = 380.0 + 40.0 * np.random.default_rng(0).random(21)
 
     def value(p: float, g: float, h: float, warmer: float) -> np.ndarray:
         shifted = t.copy()
         shifted[7] += warmer
-        evaluate_column(given_, 0, shifted, p, g, h, film, coefficients, above)
+        evaluate_column(given_, 0, shifted[None, :], p, g, h, film, coefficients)
         return np.array([coefficients.log_a[0, VALUE], coefficients.b[0, VALUE], film.mid.stress[0]])
 
     at = np.array([0.9e9, 3e7, 0.5e-6, 0.0])

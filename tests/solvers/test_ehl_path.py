@@ -1,13 +1,17 @@
 """A path of contacts: the same as each alone, and a failed point costs only itself."""
 
 from dataclasses import replace
+from typing import Any
 
+import numpy as np
 import pytest
 
 from solvers.contact.ehl import Contact, LineContactInputs, Model, Temperatures, path, solve, solve_path
+from solvers.contact.ehl.grid.mesh import Grid
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.solution.budget import STEPS_IN_ALL, Budget, Resolution
-from solvers.contact.ehl.solution.continuation import Attempt
+from solvers.contact.ehl.solution.continuation import TIGHT, Attempt
+from solvers.contact.ehl.solution.state import State
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant
 
@@ -51,6 +55,44 @@ def test_direction_of_the_path_does_not_matter() -> None:
 def test_neighbours_start_from_each_other() -> None:
     first, *others = [result.convergence.iterations for result in solve_path(contacts(50, 0.02))]
     assert sum(others) / len(others) < 4 < first / 4
+
+
+def test_guesses_are_exact_for_polynomials() -> None:
+    """Of fourth degree from five states, but for rows that just jumped: those follow their last value alone."""
+    places = np.arange(6.0)[:, None, None]
+    smooth = 300.0 + places - 0.3 * places**2 + 0.05 * places**3 - 0.02 * places**4
+    rows = np.concatenate([smooth, 2.0 * smooth], axis=1) * np.array([1.0, 0.5])
+    assert path._extrapolated(rows[:5]) == pytest.approx(rows[5], rel=1e-12)
+    jumped = rows.copy()
+    jumped[4, 1] += 50.0
+    found = path._extrapolated(jumped[:5])
+    assert found[0] == pytest.approx(rows[5, 0], rel=1e-12)
+    assert found[1] == pytest.approx(jumped[4, 1], rel=1e-12)
+
+
+def test_guesses_take_only_as_many_states_as_told_the_last() -> None:
+    """A kink: two states told the last one exactly, three and four did not."""
+    assert path._extrapolated(np.array([[0.0], [0.0], [1.0], [2.0], [3.0]])) == pytest.approx(np.array([4.0]))
+    assert path._extrapolated(np.array([[7.0]])) == pytest.approx(np.array([7.0]))
+    assert path._extrapolated(np.array([[7.0], [9.0]])) == pytest.approx(np.array([11.0]))
+
+
+def test_what_a_path_leaves_is_converged(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whether or not the Jacobian was kept: one more Newton step moves a tenth of the tolerance at most."""
+    warm, moved = path.polish, []
+
+    def again(problem: Problem, resolution: Resolution, grid: Grid, guess: State, *rest: Any) -> Attempt:
+        attempt: Attempt = warm(problem, resolution, grid, guess, *rest)
+        copy = State(*(array.copy() for array in attempt.state))
+        warm(problem, resolution, grid, copy, (1e-2, 10.0), Budget(100.0))
+        assert copy.history[0] == 1
+        moved.append(copy.history[1:].copy())
+        return attempt
+
+    monkeypatch.setattr(path, "polish", again)
+    solve_path(contacts(20, 0.03))
+    assert len(moved) == 19
+    assert np.all(np.array(moved) < 0.1 * np.array(TIGHT))
 
 
 def test_failed_point_neither_stops_nor_fills(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,7 +3,6 @@
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
-from solvers.contact.ehl.film.fluxes import VALUE
 from solvers.contact.ehl.inputs import LineContactInputs
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.results import (
@@ -15,23 +14,8 @@ from solvers.contact.ehl.results import (
     ContactTemperature,
 )
 from solvers.contact.ehl.solution.continuation import Attempt
-from solvers.contact.ehl.solution.isothermal import evaluate_isothermal
-from solvers.contact.ehl.solution.state import evaluate_state
 
 PEAK_ZONE = 0.1  # half widths behind the centre: what lies before is the Hertz maximum
-
-
-def settle(problem: Problem, attempt: Attempt, thermal: bool) -> None:
-    """Evaluate the last state once more, so that everything read below belongs to it."""
-    attempt.state.cavitated[-1] = attempt.state.cavitated[-2]
-    if thermal:
-        evaluate_state(problem, attempt.grid, attempt.state, attempt.work, 0.0)
-        return
-    work = attempt.work
-    evaluate_isothermal(problem, attempt.grid, attempt.state, work)
-    flux = work.faces.flux[attempt.state.pressure.argmax()] * problem.flux_scale
-    drag = work.coefficients.b[:, VALUE] * work.height * problem.gap_scale
-    work.heat.fluid_fraction[:] = np.where(attempt.state.cavitated, np.minimum(flux / drag, 1.0), 1.0)
 
 
 def load_error(attempt: Attempt) -> float:

@@ -95,7 +95,6 @@ def conclude(
     )
     if not attempt.converged:
         return replace(unsolved, warnings=(*notices, failure_notice(unsolved.convergence)))
-    measures.settle(constants, attempt, inputs.model.thermal)
     steps = Budget(STEPS_TO_REFINE)
     attempt, error = refined(inputs, constants, resolution, attempt, steps)
     convergence = _convergence(inputs, attempt, iterations + steps.spent)

@@ -6,6 +6,7 @@ from math import inf
 
 import numpy as np
 
+from solvers.arrays import FloatArray
 from solvers.contact.ehl.checks import check
 from solvers.contact.ehl.dimensionless import groups
 from solvers.contact.ehl.grid.mesh import Grid, grid_for
@@ -22,14 +23,14 @@ from solvers.errors import InvalidInput
 # for each pair of nodes that the fall may stand between. A guess that takes longer has lost its own, and where it ends
 # would depend on where it began: such a contact is solved from nothing, as it is alone.
 STEPS_FROM_NEIGHBOURS = 5.0
-EXTRAPOLATION = ((1.0,), (-1.0, 2.0), (1.0, -3.0, 3.0))  # weights of so many states in the next
+MOST_KNOWN = 5  # states that are extrapolated: more only add the errors that they were left with
 HOPELESS = 12  # contacts that fail one after the other, even from nothing; those behind them hardly do better
 SHARE_WITHOUT_HOPE = 0.1  # of the steps of a contact alone, for each of those: enough for an easy one
 
 
 @dataclass(slots=True)
 class _Walk:
-    """Where the path has got to: the states solved last (at most three), their mesh, contacts failed in a row."""
+    """Where the path has got to: the states solved last, their mesh, contacts failed in a row."""
 
     known: list[State] = field(default_factory=list)
     grid: Grid | None = None
@@ -43,7 +44,7 @@ class _Walk:
 
     def arrive(self, solved: State | None) -> None:
         """Go on from a contact, solved or not."""
-        self.known = [] if solved is None else [*self.known[-2:], solved]
+        self.known = [] if solved is None else [*self.known[1 - MOST_KNOWN :], solved]
         self.failures = self.failures + 1 if solved is None else 0
 
 
@@ -83,23 +84,40 @@ def _attempts(constants: Problem, resolution: Resolution, walk: _Walk, spent: Bu
     grid = grid_for(resolution.gap, resolution.nodes)
     walk.move_to(grid)
     if walk.known:
-        guess = _combined(walk.known, EXTRAPOLATION[len(walk.known) - 1])
+        guess = _guess(walk.known)
         most = STEPS_FROM_NEIGHBOURS * price(resolution, resolution.nodes)
         yield polish(constants, resolution, grid, guess, TIGHT, spent.part(most))
     share = 1.0 if walk.failures < HOPELESS else SHARE_WITHOUT_HOPE
     yield solve_cold(constants, resolution, spent.part(share * budget_for(resolution).remaining))
 
 
-def _combined(known: Sequence[State], weights: Sequence[float]) -> State:
-    """A weighted sum of states, made physical; what is broken in the last one stays so."""
+def _guess(known: Sequence[State]) -> State:
+    """The next state, extrapolated and made physical; what is broken in the last one stays so."""
     last = known[-1]
-    pressure = np.maximum(sum(w * state.pressure for w, state in zip(weights, known, strict=True)), 0.0)
-    pressure[last.cavitated] = 0.0
-    temperature = np.asarray(sum(w * state.temperature for w, state in zip(weights, known, strict=True)))
+    film = _extrapolated(np.array([np.append(state.pressure, state.separation) for state in known]))
+    pressure = np.where(last.cavitated, 0.0, np.maximum(film[:-1], 0.0))
+    temperature = _extrapolated(np.array([state.temperature for state in known]))
     return State(
         pressure=pressure,
-        separation=np.asarray(sum(w * state.separation for w, state in zip(weights, known, strict=True))),
+        separation=film[-1:].copy(),
         temperature=np.maximum(temperature, 0.9 * last.temperature.min()),
         cavitated=last.cavitated.copy(),
         history=no_steps(),
     )
+
+
+def _extrapolated(rows: FloatArray) -> FloatArray:
+    """The next of `rows` (m, ...) by Newton's backward differences: as many orders as shrink, row by row of the last.
+
+    The difference of an order is what all below it would have missed the last one by.
+    """
+    differences = [rows[-1]]
+    while len(rows) > 1:
+        rows = rows[1:] - rows[:-1]
+        differences.append(rows[-1])
+    sizes = [np.abs(difference).max(axis=-1, keepdims=True) for difference in differences[1:]]
+    following, shrinking = differences[0], np.full((1,), True)
+    for order, difference in enumerate(differences[1:]):
+        shrinking = shrinking & (order + 1 == len(sizes) or sizes[order + 1] < sizes[order])
+        following = following + np.where(shrinking, difference, 0.0)
+    return np.asarray(following)

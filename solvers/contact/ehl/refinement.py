@@ -82,7 +82,6 @@ def refined(
         if not finer.converged:
             break
         attempt = finer
-        measures.settle(constants, attempt, inputs.model.thermal)
         found = compared(inputs, constants, resolution, attempt)
     return attempt, None if found is None else found.error()
 
@@ -113,7 +112,6 @@ def compared(
     coarse = polish(constants, resolution, grid, state, NEAR, steps)
     if not coarse.converged:
         return None
-    measures.settle(constants, coarse, resolution.thermal)
     fine, other = (_parts(inputs, constants, found) for found in (attempt, coarse))
     if not all(isfinite(sum(parts)) for found in (fine, other) for parts in found.values()):
         return None

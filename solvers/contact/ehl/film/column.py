@@ -10,91 +10,75 @@ from solvers.contact.ehl.problem import Problem
 
 
 @inlined_kernel
-def flow_moments(i: int, shear: Shear, above: FloatArray) -> tuple[float, float, float, float, float]:
-    """Density across the film, above each interval too (m,), and F0, F1, N0, N1 of `flow`."""
+def flow_moments(i: int, total: float, shear: Shear) -> tuple[float, float, float, float]:
+    """F0, F1, N0, N1 of `flow`; `total` is the density across the film."""
     m = shear.stress.shape[1]
-    total = 0.0
-    for j in range(m - 1, -1, -1):
-        above[j] = total + 0.5 * shear.density[i, j] / m
-        total += shear.density[i, j] / m
-    f0, f1, n0, n1 = 0.0, 0.0, 0.0, 0.0
+    height = 1.0 / m
+    below, f0, f1, n0, n1 = 0.0, 0.0, 0.0, 0.0, 0.0
     for j in range(m):
-        zeta = (j + 0.5) / m - 0.5
-        phi = shear.effective[i, j] / m
+        zeta, phi, layer = (j + 0.5) * height - 0.5, shear.effective[i, j] * height, shear.density[i, j] * height
+        above = total - below - 0.5 * layer
+        below += layer
         f0 += phi
         f1 += phi * zeta
-        n0 += phi * above[j]
-        n1 += phi * zeta * above[j]
-    return total, f0, f1, n0, n1
+        n0 += phi * above
+        n1 += phi * zeta * above
+    return f0, f1, n0, n1
 
 
 @inlined_kernel
 def flow(
-    problem: Problem,
-    i: int,
-    h: float,
-    density_slope: float,
-    film: Film,
-    coefficients: FlowCoefficients,
-    above: FloatArray,
+    problem: Problem, i: int, h: float, total: float, density_slope: float, film: Film, coefficients: FlowCoefficients
 ) -> None:
     """Flow coefficients A and B of a column, their derivatives at fixed temperature, and its stream functions.
 
     With phi = rate/stress, F0 = int phi, F1 = int phi (zeta - 1/2), R(zeta) the density above zeta, N0 = int phi R,
     N1 = int phi (zeta - 1/2) R: A = F1 N0/F0 - N1 and B = u1 R(0) + du N0/F0 (Eq. 17, density varying across the
-    film as well). `above` (m,) is room for R.
+    film as well). `total` is R(0).
     """
     shear, flows, mid, m = film.shear, film.flow, film.mid, film.shear.stress.shape[1]
-    du = problem.speed_2 - problem.speed_1
-    total, f0, f1, n0, n1 = flow_moments(i, shear, above)
-    lean, mass, drag = f1 / f0, n0 / f0, du / f0
+    f0, f1, n0, n1 = flow_moments(i, total, shear)
+    lean, mass, drag = f1 / f0, n0 / f0, (problem.speed_2 - problem.speed_1) / f0
     a = f1 * mass - n1
-    per_a = 1.0 / (m * a)
-    log_a, b = coefficients.log_a[i], coefficients.b[i]
-    log_a[:] = 0.0
-    b[:] = 0.0
-    log_a[VALUE], b[VALUE] = np.log(a), problem.speed_1 * total + du * mass
-    flows.log_a_by_temperature[i, :] = 0.0
-    flows.b_by_temperature[i, :] = 0.0
-    heating = -problem.laws.density * problem.laws.thermal_expansion
-    through_a, through_b, j0, j1 = 0.0, 0.0, 0.0, 0.0
-    flows.couette[i, 0], flows.poiseuille[i, 0] = 0.0, 0.0
+    height, per_a, expansion = 1.0 / m, 1.0 / (m * a), problem.laws.density * problem.laws.thermal_expansion
+    a_by_p, a_by_g, a_by_stress, b_by_p, b_by_g, b_by_stress = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    couette, poiseuille, half_a, half_b, below, j0, j1 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for j in range(m):
-        zeta = (j + 0.5) / m - 0.5
-        effective, slope, rho = shear.effective[i, j], shear.effective_slope[i, j], shear.density[i, j]
-        phi = effective / m
-        mid0, mid1 = j0 + 0.5 * phi, j1 + 0.5 * phi * zeta
-        by_density_a = (lean * mid0 - mid1) * per_a
-        by_density_b = (problem.speed_1 + drag * mid0) / m
-        flows.couette[i, j + 1] = flows.couette[i, j] + h * rho * by_density_b
-        flows.poiseuille[i, j + 1] = flows.poiseuille[i, j] + rho * by_density_a
+        zeta, rho, slope = (j + 0.5) * height - 0.5, shear.density[i, j], shear.effective_slope[i, j]
+        effective = shear.effective[i, j]
+        phi, above = effective * height, total - below - 0.5 * rho * height
+        below += rho * height
+        by_density_a = (lean * (j0 + 0.5 * phi) - (j1 + 0.5 * phi * zeta)) * per_a
+        by_density_b = (problem.speed_1 + drag * (j0 + 0.5 * phi)) * height
         j0 += phi
         j1 += phi * zeta
-        by_phi_a = (zeta * (mass - above[j]) + lean * (above[j] - mass)) * per_a
-        by_phi_b = drag * (above[j] - mass) / m
-        through_a += by_phi_a * slope
-        through_b += by_phi_b * slope
+        by_phi_a = (zeta * (mass - above) + lean * (above - mass)) * per_a
+        by_phi_b = drag * (above - mass) * height
+        a_by_stress += by_phi_a * slope
+        b_by_stress += by_phi_b * slope
         pressed = effective * shear.by_pressure[i, j]
-        log_a[BY_P] += by_phi_a * pressed + density_slope * by_density_a
-        b[BY_P] += by_phi_b * pressed + density_slope * by_density_b
-        log_a[BY_G] += by_phi_a * slope * zeta
-        b[BY_G] += by_phi_b * slope * zeta
-        warm = 0.5 * effective * shear.by_temperature[i, j]
-        half_a = by_phi_a * warm + 0.5 * heating * by_density_a
-        half_b = by_phi_b * warm + 0.5 * heating * by_density_b
-        flows.log_a_by_temperature[i, j] += half_a
-        flows.log_a_by_temperature[i, j + 1] += half_a
-        flows.b_by_temperature[i, j] += half_b
-        flows.b_by_temperature[i, j + 1] += half_b
+        a_by_p += by_phi_a * pressed + density_slope * by_density_a
+        b_by_p += by_phi_b * pressed + density_slope * by_density_b
+        a_by_g += by_phi_a * slope * zeta
+        b_by_g += by_phi_b * slope * zeta
+        flows.couette[i, j], flows.poiseuille[i, j] = couette, poiseuille
+        couette += h * rho * by_density_b
+        poiseuille += rho * by_density_a
+        warm, before_a, before_b = effective * shear.by_temperature[i, j], half_a, half_b
+        half_a = 0.5 * (by_phi_a * warm - expansion * by_density_a)
+        half_b = 0.5 * (by_phi_b * warm - expansion * by_density_b)
+        flows.log_a_by_temperature[i, j] = before_a + half_a
+        flows.b_by_temperature[i, j] = before_b + half_b
+    flows.couette[i, m], flows.poiseuille[i, m] = couette, poiseuille
+    flows.log_a_by_temperature[i, m], flows.b_by_temperature[i, m] = half_a, half_b
     for k in range(m + 1):
-        flows.log_a_by_temperature[i, k] += through_a * mid.by_temperature[i, k]
-        flows.b_by_temperature[i, k] += through_b * mid.by_temperature[i, k]
-    log_a[BY_P] += through_a * mid.by_p[i]
-    log_a[BY_G] += through_a * mid.by_g[i]
-    log_a[BY_H] = through_a * mid.by_h[i]
-    b[BY_P] += through_b * mid.by_p[i]
-    b[BY_G] += through_b * mid.by_g[i]
-    b[BY_H] = through_b * mid.by_h[i]
+        flows.log_a_by_temperature[i, k] += a_by_stress * mid.by_temperature[i, k]
+        flows.b_by_temperature[i, k] += b_by_stress * mid.by_temperature[i, k]
+    log_a, b = coefficients.log_a, coefficients.b
+    log_a[i, VALUE], b[i, VALUE] = np.log(a), problem.speed_1 * total + (problem.speed_2 - problem.speed_1) * mass
+    log_a[i, BY_P], b[i, BY_P] = a_by_p + a_by_stress * mid.by_p[i], b_by_p + b_by_stress * mid.by_p[i]
+    log_a[i, BY_G], b[i, BY_G] = a_by_g + a_by_stress * mid.by_g[i], b_by_g + b_by_stress * mid.by_g[i]
+    log_a[i, BY_H], b[i, BY_H] = a_by_stress * mid.by_h[i], b_by_stress * mid.by_h[i]
 
 
 @inlined_kernel
@@ -107,13 +91,12 @@ def evaluate_column(
     h: float,
     film: Film,
     coefficients: FlowCoefficients,
-    above: FloatArray,
 ) -> None:
-    """Everything above for column i: nodal temperatures (m + 1,) [K], p [Pa], G = h dp/dx [Pa], h [m]."""
-    density_slope = viscosities(problem, i, temperature, p, film.shear)
+    """Everything above for column i: nodal temperatures (n, m + 1) [K], p [Pa], G = h dp/dx [Pa], h [m]."""
+    total, density_slope = viscosities(problem, i, temperature, p, film.shear)
     if problem.newtonian == 1:
         shear_newtonian(problem, i, g, h, film)
     else:
         shear_eyring(problem, i, g, h, film)
     stress_response(problem, i, h, film)
-    flow(problem, i, h, density_slope, film, coefficients, above)
+    flow(problem, i, h, total, density_slope, film, coefficients)

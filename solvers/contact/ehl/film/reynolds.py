@@ -5,7 +5,6 @@ import numpy as np
 from solvers.arrays import BoolArray, FloatArray
 from solvers.compiled import kernel
 from solvers.contact.ehl.film.fluxes import FaceFluxes, film_shape
-from solvers.contact.ehl.grid.dense import add_scaled
 from solvers.contact.ehl.grid.mesh import Grid
 
 PATIENCE = 10  # iterations before the rupture tolerance counts
@@ -14,40 +13,47 @@ HALVINGS = 12
 
 
 @kernel
-def assemble_system(
-    grid: Grid,
-    pressure: FloatArray,
-    cavitated: BoolArray,
-    faces: FaceFluxes,
-    jacobian: FloatArray,
-    residual: FloatArray,
+def balance_of_mass(
+    grid: Grid, pressure: FloatArray, cavitated: BoolArray, faces: FaceFluxes, residual: FloatArray
 ) -> None:
-    """Rows of d(flux)/dx = 0, of P = 0 where the film is broken, and of the load; unknowns P_0..P_n-1, H0."""
+    """Residual (n + 1,) of d(flux)/dx = 0, of P = 0 where the film is broken, and of the load."""
     n = grid.x.size
-    deflection, weights = grid.deflection, grid.weights
-    jacobian[:, :] = 0.0
+    residual[n] = -0.5 * np.pi
     for i in range(n):
         if i == 0 or i == n - 1 or cavitated[i]:
-            jacobian[i, i] = 1.0
             residual[i] = pressure[i]
+        else:
+            residual[i] = faces.flux[i] - faces.flux[i - 1]
+        residual[n] += grid.weights[i] * pressure[i]
+
+
+@kernel
+def assemble_jacobian(grid: Grid, cavitated: BoolArray, faces: FaceFluxes, jacobian: FloatArray) -> None:
+    """Derivatives of the residual of `balance_of_mass` by P_0..P_n-1, H0."""
+    n = grid.x.size
+    deflection, by_film, by_pressure = grid.deflection, faces.by_film, faces.by_pressure
+    for i in range(n):
+        if i == 0 or i == n - 1 or cavitated[i]:
+            jacobian[i, :] = 0.0
+            jacobian[i, i] = 1.0
             continue
-        residual[i] = faces.flux[i] - faces.flux[i - 1]
-        for side in range(2):
-            face, sign = (i, 1.0) if side == 0 else (i - 1, -1.0)
-            for k in range(3):
-                node = face - 1 + k
-                value = sign * faces.by_film[face, k]
-                if value != 0.0:
-                    add_scaled(value, deflection[node], jacobian[i, :n])
-                    jacobian[i, n] += value
-            for k in range(5):
-                node = face - 2 + k
-                if 0 <= node < n:
-                    jacobian[i, node] += sign * faces.by_pressure[face, k]
-    residual[n] = -0.5 * np.pi
-    for j in range(n):
-        jacobian[n, j] = weights[j]
-        residual[n] += weights[j] * pressure[j]
+        # The faces right and left of a node know the film at four nodes between them.
+        far, left, here, right = max(i - 2, 0), i - 1, i, i + 1
+        by_far, by_left = -by_film[i - 1, 0], by_film[i, 0] - by_film[i - 1, 1]
+        by_here, by_right = by_film[i, 1] - by_film[i - 1, 2], by_film[i, 2]
+        for j in range(n):
+            jacobian[i, j] = (
+                by_far * deflection[far, j]
+                + by_left * deflection[left, j]
+                + by_here * deflection[here, j]
+                + by_right * deflection[right, j]
+            )
+        jacobian[i, n] = by_far + by_left + by_here + by_right
+        for k in range(max(i - 2, 0), min(i + 3, n)):
+            jacobian[i, k] += by_pressure[i, k - i + 2]
+        for k in range(max(i - 3, 0), min(i + 2, n)):
+            jacobian[i, k] -= by_pressure[i - 1, k - i + 3]
+    jacobian[n, :n] = grid.weights
     jacobian[n, n] = 0.0
 
 

@@ -64,10 +64,10 @@ class Film(NamedTuple):
 
 def film_arrays(nodes: int, film_nodes: int) -> Film:
     """Room for `nodes` columns."""
-    shear = Shear(**{name: np.zeros((nodes, film_nodes - 1)) for name in Shear._fields})
-    flow = Flow(**{name: np.zeros((nodes, film_nodes)) for name in Flow._fields})
-    mid = {name: np.zeros(nodes) for name in MidFilm._fields} | {"by_temperature": np.zeros((nodes, film_nodes))}
-    return Film(shear, flow, MidFilm(**mid))
+    shear = Shear(*np.zeros((len(Shear._fields), nodes, film_nodes - 1)))
+    flow = Flow(*np.zeros((len(Flow._fields), nodes, film_nodes)))
+    stress, by_p, by_g, by_h = np.zeros((4, nodes))
+    return Film(shear, flow, MidFilm(stress, np.zeros((nodes, film_nodes)), by_p, by_g, by_h))
 
 
 @inlined_kernel
@@ -80,33 +80,36 @@ def limited_gradient(problem: Problem, g: float) -> float:
 
 
 @inlined_kernel
-def viscosities(problem: Problem, i: int, temperature: FloatArray, p: float, shear: Shear) -> float:
-    """Fluidity and density of each interval at its mean temperature (m + 1,); returns d rho/dp."""
-    laws = problem.laws
+def viscosities(problem: Problem, i: int, temperature: FloatArray, p: float, shear: Shear) -> tuple[float, float]:
+    """Fluidity and density of each interval of column i at its mean temperature; returns mean density and d rho/dp."""
+    laws, m = problem.laws, temperature.shape[1] - 1
     term, term_slope = pressure_part(laws, p)
     base, base_slope, by_heating = density(laws, p, laws.reference_temperature)
-    for j in range(temperature.size - 1):
-        t = 0.5 * (temperature[j] + temperature[j + 1])
+    total = 0.0
+    for j in range(m):
+        t = 0.5 * (temperature[i, j] + temperature[i, j + 1])
         value, by_term, by_temperature = log_viscosity(laws, term, t)
         shear.fluidity[i, j] = np.exp(-value)
         shear.by_temperature[i, j] = -by_temperature
         shear.by_pressure[i, j] = -by_term * term_slope
-        shear.density[i, j] = base + by_heating * (t - laws.reference_temperature)
-    return base_slope
+        rho = base + by_heating * (t - laws.reference_temperature)
+        shear.density[i, j] = rho
+        total += rho
+    return total / m, base_slope
 
 
 @inlined_kernel
 def shear_newtonian(problem: Problem, i: int, g: float, h: float, film: Film) -> None:
     """Newton's fluid: tau = tau_mid + G (zeta - 1/2), rate = tau/eta, with the sliding speed as its integral."""
     shear, m = film.shear, film.shear.stress.shape[1]
-    zeroth, first = 0.0, 0.0
+    height, zeroth, first = 1.0 / m, 0.0, 0.0
     for j in range(m):
-        zeroth += shear.fluidity[i, j] / m
-        first += shear.fluidity[i, j] * ((j + 0.5) / m - 0.5) / m
+        zeroth += shear.fluidity[i, j] * height
+        first += shear.fluidity[i, j] * ((j + 0.5) * height - 0.5) * height
     mid = ((problem.speed_2 - problem.speed_1) / h - g * first) / zeroth
     film.mid.stress[i] = mid
     for j in range(m):
-        stress = mid + g * ((j + 0.5) / m - 0.5)
+        stress = mid + g * ((j + 0.5) * height - 0.5)
         fluidity = shear.fluidity[i, j]
         shear.stress[i, j], shear.rate[i, j], shear.stiffness[i, j] = stress, stress * fluidity, fluidity
         shear.effective[i, j], shear.effective_slope[i, j] = fluidity, 0.0
@@ -119,26 +122,27 @@ def shear_eyring(problem: Problem, i: int, g: float, h: float, film: Film) -> No
     Closed form for e^a, where tau_mid = tau0 a; the form for du < 0 is the conjugate, free of cancellation.
     """
     shear, m = film.shear, film.shear.stress.shape[1]
-    tau0 = problem.eyring_stress
-    ratio = np.exp(g / (m * tau0))
-    first = np.exp(g * (0.5 / m - 0.5) / tau0)
+    tau0, height = problem.eyring_stress, 1.0 / m
+    ratio = np.exp(g * height / tau0)
+    first = np.exp(g * (0.5 * height - 0.5) / tau0)
     forward, backward, growth = 0.0, 0.0, first
     for j in range(m):
-        forward += shear.fluidity[i, j] * growth / m
-        backward += shear.fluidity[i, j] / (growth * m)
+        forward += shear.fluidity[i, j] * growth * height
+        backward += shear.fluidity[i, j] / growth * height
         growth *= ratio
     slide = (problem.speed_2 - problem.speed_1) / (h * tau0)
     root = np.sqrt(slide * slide + forward * backward)
     exponential = (slide + root) / forward if slide >= 0.0 else backward / (root - slide)
-    film.mid.stress[i] = tau0 * np.log(exponential)
+    mid, per_tau0 = tau0 * np.log(exponential), 1.0 / tau0
+    film.mid.stress[i] = mid
     growth = exponential * first
     for j in range(m):
-        stress = film.mid.stress[i] + g * ((j + 0.5) / m - 0.5)
+        stress = mid + g * ((j + 0.5) * height - 0.5)
         fluidity = shear.fluidity[i, j]
         inverse = 1.0 / growth
         sinh, cosh = 0.5 * (growth - inverse), 0.5 * (growth + inverse)
         growth *= ratio
-        s = stress / tau0
+        s = stress * per_tau0
         if abs(s) < 1e-3:
             effective, slope = 1.0 + s * s / 6.0, s / 3.0
         else:
@@ -147,7 +151,7 @@ def shear_eyring(problem: Problem, i: int, g: float, h: float, film: Film) -> No
             slope = (cosh - effective) * over
         shear.stress[i, j], shear.stiffness[i, j] = stress, fluidity * cosh
         shear.effective[i, j] = fluidity * effective
-        shear.effective_slope[i, j] = fluidity * slope / tau0
+        shear.effective_slope[i, j] = fluidity * slope * per_tau0
         shear.rate[i, j] = stress * fluidity * effective
 
 
@@ -155,15 +159,15 @@ def shear_eyring(problem: Problem, i: int, g: float, h: float, film: Film) -> No
 def stress_response(problem: Problem, i: int, h: float, film: Film) -> None:
     """Derivatives of the mid-film stress that keep the sliding speed: by nodal temperature, p, G and h."""
     shear, mid, m = film.shear, film.mid, film.shear.stress.shape[1]
-    total, by_p, by_g = 0.0, 0.0, 0.0
-    mid.by_temperature[i, :] = 0.0
+    height, total, by_p, by_g = 1.0 / m, 0.0, 0.0, 0.0
     for j in range(m):
         total += shear.stiffness[i, j]
         by_p += shear.rate[i, j] * shear.by_pressure[i, j]
-        by_g += shear.stiffness[i, j] * ((j + 0.5) / m - 0.5)
+        by_g += shear.stiffness[i, j] * ((j + 0.5) * height - 0.5)
+    half, share = 0.0, -0.5 / total
     for j in range(m):
-        share = -0.5 * shear.rate[i, j] * shear.by_temperature[i, j] / total
-        mid.by_temperature[i, j] += share
-        mid.by_temperature[i, j + 1] += share
+        before, half = half, share * shear.rate[i, j] * shear.by_temperature[i, j]
+        mid.by_temperature[i, j] = before + half
+    mid.by_temperature[i, m] = half
     mid.by_p[i], mid.by_g[i] = -by_p / total, -by_g / total
     mid.by_h[i] = -(problem.speed_2 - problem.speed_1) / (h * h * total / m)

@@ -8,7 +8,7 @@ from solvers.arrays import FloatArray
 from solvers.compiled import inlined_kernel, kernel
 from solvers.contact.ehl.film.fluxes import BY_G, BY_H, BY_P
 from solvers.contact.ehl.film.shear import Film
-from solvers.contact.ehl.grid.dense import dot
+from solvers.contact.ehl.grid.dense import row_product
 from solvers.contact.ehl.problem import Problem
 
 HEATING = 0  # the response to the mid-film stress; the others are BY_P, BY_G, BY_H
@@ -17,8 +17,8 @@ HEATING = 0  # the response to the mid-film stress; the others are BY_P, BY_G, B
 class ColumnSystem(NamedTuple):
     """The linear system of every column: its factored tridiagonal part (pivot: inverse) and residual (n, k).
 
-    responses (n, k, 4) of temperature to the mid-film stress (the rank-one part), to p, G = h dp/dx and h; sherman
-    1/(1 + v x) (n,).
+    responses (n, k, 4): derivative of the residual by the mid-film stress (the rank-one part), and right-hand sides of
+    the response to p, G = h dp/dx and h; once solved for, those of the temperature. sherman 1/(1 + v x) (n,).
     """
 
     lower: FloatArray
@@ -32,7 +32,8 @@ class ColumnSystem(NamedTuple):
 class Convection(NamedTuple):
     """Inflow from the left and right columns (n, k); edges, the stream function between the cells (n, k + 1).
 
-    The edges of a column are those at the face right of it.
+    The edges of a column are those at the face right of it. Inflow is in the units of the column's rows: those of the
+    walls are temperatures.
     """
 
     from_left: FloatArray
@@ -72,21 +73,15 @@ class Heat(NamedTuple):
 
 def heat_arrays(nodes: int, film_nodes: int) -> Heat:
     """Room for `nodes` columns."""
-    across = (nodes, film_nodes)
+    lower, pivot, upper, residual, from_left, from_right = np.zeros((6, nodes, film_nodes))
+    sherman, fluid_fraction, generated, compression = np.zeros((4, nodes))
     return Heat(
-        column=ColumnSystem(
-            lower=np.zeros(across),
-            pivot=np.zeros(across),
-            upper=np.zeros(across),
-            residual=np.zeros(across),
-            responses=np.zeros((*across, 4)),
-            sherman=np.zeros(nodes),
-        ),
-        convection=Convection(np.zeros(across), np.zeros(across), edges=np.zeros((nodes, film_nodes + 1))),
-        surfaces=Surfaces(**{name: np.zeros(nodes) for name in Surfaces._fields}),
-        fluid_fraction=np.zeros(nodes),
-        generated=np.zeros(nodes),
-        compression=np.zeros(nodes),
+        ColumnSystem(lower, pivot, upper, residual, np.zeros((nodes, film_nodes, 4)), sherman),
+        Convection(from_left, from_right, np.zeros((nodes, film_nodes + 1))),
+        Surfaces(*np.zeros((len(Surfaces._fields), nodes))),
+        fluid_fraction,
+        generated,
+        compression,
     )
 
 
@@ -108,89 +103,88 @@ def face_edges(stream: FloatArray, edges: FloatArray) -> None:
 @inlined_kernel
 def surface_history(problem: Problem, i: int, surface_matrix: FloatArray, surfaces: Surfaces) -> None:
     """Flash temperatures that the columns upstream of i leave at i, and the gain of its own heat flux (Eq. 24)."""
-    row = surface_matrix[i]
-    surfaces.history_1[i] = problem.surface_heating_1 * dot(row[:i], surfaces.flux_1[:i])
-    surfaces.history_2[i] = problem.surface_heating_2 * dot(row[:i], surfaces.flux_2[:i])
-    surfaces.gain_1[i] = problem.surface_heating_1 * row[i]
-    surfaces.gain_2[i] = problem.surface_heating_2 * row[i]
+    surfaces.history_1[i] = problem.surface_heating_1 * row_product(surface_matrix, i, 0, i, surfaces.flux_1)
+    surfaces.history_2[i] = problem.surface_heating_2 * row_product(surface_matrix, i, 0, i, surfaces.flux_2)
+    surfaces.gain_1[i] = problem.surface_heating_1 * surface_matrix[i, i]
+    surfaces.gain_2[i] = problem.surface_heating_2 * surface_matrix[i, i]
 
 
 @inlined_kernel
 def transport(problem: Problem, i: int, width: float, temperature: FloatArray, h: float, heat: Heat) -> None:
     """Convection (upwind, both ways) and conduction of column i: starts its residual, matrix and responses."""
     n, nodes = temperature.shape
-    column, convection = heat.column, heat.convection
+    column, edges = heat.column, heat.convection.edges
     conductance = heat.fluid_fraction[i] * problem.conductivity * (nodes - 1) / h
-    capacity = problem.specific_heat / width
-    t, left, right = temperature[i], temperature[i - 1], temperature[min(i + 1, n - 1)]
-    entry, outlet = convection.edges[i - 1], convection.edges[i]
+    capacity, per_h, right = problem.specific_heat / width, 1.0 / h, min(i + 1, n - 1)
     for k in range(nodes):
-        from_left = capacity * max(entry[k + 1] - entry[k], 0.0)
-        from_right = capacity * max(outlet[k] - outlet[k + 1], 0.0)
-        residual = from_left * (t[k] - left[k]) + from_right * (t[k] - right[k])
+        t = temperature[i, k]
+        from_left = capacity * max(edges[i - 1, k + 1] - edges[i - 1, k], 0.0)
+        from_right = capacity * max(edges[i, k] - edges[i, k + 1], 0.0)
+        residual = from_left * (t - temperature[i - 1, k]) + from_right * (t - temperature[right, k])
         lower, upper, conduction = 0.0, 0.0, 0.0
         if k > 0:
-            lower = capacity * max(entry[k] - outlet[k], 0.0) + conductance
-            residual += lower * (t[k] - t[k - 1])
-            conduction += conductance * (t[k] - t[k - 1])
+            lower = capacity * max(edges[i - 1, k] - edges[i, k], 0.0) + conductance
+            residual += lower * (t - temperature[i, k - 1])
+            conduction += conductance * (t - temperature[i, k - 1])
         if k < nodes - 1:
-            upper = capacity * max(outlet[k + 1] - entry[k + 1], 0.0) + conductance
-            residual += upper * (t[k] - t[k + 1])
-            conduction += conductance * (t[k] - t[k + 1])
-        convection.from_left[i, k], convection.from_right[i, k] = from_left, from_right
+            upper = capacity * max(edges[i, k + 1] - edges[i - 1, k + 1], 0.0) + conductance
+            residual += upper * (t - temperature[i, k + 1])
+            conduction += conductance * (t - temperature[i, k + 1])
+        heat.convection.from_left[i, k], heat.convection.from_right[i, k] = from_left, from_right
         column.lower[i, k], column.upper[i, k] = lower, upper
         column.pivot[i, k] = from_left + from_right + lower + upper
         column.residual[i, k] = residual
-        column.responses[i, k, HEATING], column.responses[i, k, BY_P], column.responses[i, k, BY_G] = 0.0, 0.0, 0.0
-        column.responses[i, k, BY_H] = -conduction / h
+        column.responses[i, k, BY_H] = conduction * per_h
 
 
 @inlined_kernel
 def dissipation(i: int, h: float, film: Film, heat: Heat) -> None:
     """Shear heating of column i, half of each interval's to each of its nodes, with its derivatives."""
-    shear, mid, column = film.shear, film.mid, heat.column
+    shear, column = film.shear, heat.column
     m = shear.stress.shape[1]
-    share = 0.5 * heat.fluid_fraction[i] * h / m
-    by_p, by_g, by_h = mid.by_p[i], mid.by_g[i], mid.by_h[i]
-    total = 0.0
-    for j in range(m):
-        rate, stress = shear.rate[i, j], shear.stress[i, j]
-        source = share * stress * rate
-        by_stress = share * (rate + stress * shear.stiffness[i, j])
-        warm = 0.5 * source * shear.by_temperature[i, j]
-        slope_p = source * shear.by_pressure[i, j] + by_stress * by_p
-        slope_g = by_stress * ((j + 0.5) / m - 0.5 + by_g)
-        slope_h = source / h + by_stress * by_h
-        total += 2.0 * source
-        for k in range(j, j + 2):
-            column.residual[i, k] -= source
-            column.pivot[i, k] -= warm
-            column.responses[i, k, HEATING] -= by_stress
-            column.responses[i, k, BY_P] -= slope_p
-            column.responses[i, k, BY_G] -= slope_g
-            column.responses[i, k, BY_H] -= slope_h
-        column.upper[i, j] += warm
-        column.lower[i, j + 1] += warm
+    height, per_h, share = 1.0 / m, 1.0 / h, 0.5 * heat.fluid_fraction[i] * h / m
+    by_p, by_g, by_h = film.mid.by_p[i], film.mid.by_g[i], film.mid.by_h[i]
+    total, source, by_stress, warm, pressed, tilted = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for k in range(m + 1):
+        sources, stressed, warmed, by_pressure, by_tilt = source, by_stress, warm, pressed, tilted
+        column.lower[i, k] += warm
+        if k < m:
+            rate, stress = shear.rate[i, k], shear.stress[i, k]
+            source = share * stress * rate
+            by_stress = share * (rate + stress * shear.stiffness[i, k])
+            warm = 0.5 * source * shear.by_temperature[i, k]
+            pressed = source * shear.by_pressure[i, k]
+            tilted = by_stress * ((k + 0.5) * height - 0.5)
+            sources, stressed, warmed = sources + source, stressed + by_stress, warmed + warm
+            by_pressure, by_tilt = by_pressure + pressed, by_tilt + tilted
+            column.upper[i, k] += warm
+        total += sources
+        column.residual[i, k] -= sources
+        column.pivot[i, k] -= warmed
+        column.responses[i, k, HEATING] = -stressed
+        column.responses[i, k, BY_P] = by_pressure + stressed * by_p
+        column.responses[i, k, BY_G] = by_tilt + stressed * by_g
+        column.responses[i, k, BY_H] += sources * per_h + stressed * by_h
     heat.generated[i] = total
 
 
 @inlined_kernel
-def compress(problem: Problem, i: int, t: FloatArray, g: float, h: float, film: Film, heat: Heat) -> None:
+def compress(problem: Problem, i: int, temperature: FloatArray, g: float, h: float, film: Film, heat: Heat) -> None:
     """Heat of compression of column i, (0.00065 rho0/rho) t u p'."""
-    column, m = heat.column, film.shear.stress.shape[1]
-    expansion = problem.laws.density * problem.laws.thermal_expansion
-    stream, total, edge = film.flow.stream[i], 0.0, 0.0
+    column, stream, densities, m = heat.column, film.flow.stream, film.shear.density, film.shear.stress.shape[1]
+    per_h, expansion = 1.0 / h, problem.laws.density * problem.laws.thermal_expansion
+    total, edge = 0.0, 0.0
     for k in range(m + 1):
-        density = 0.5 * (film.shear.density[i, max(k - 1, 0)] + film.shear.density[i, min(k, m - 1)])
-        above = 0.5 * (stream[k] + stream[k + 1]) if k < m else stream[m]
-        squeeze = expansion * (above - edge) / (density * density * h)
+        density = 0.5 * (densities[i, max(k - 1, 0)] + densities[i, min(k, m - 1)])
+        above = 0.5 * (stream[i, k] + stream[i, k + 1]) if k < m else stream[i, m]
+        squeeze = expansion * (above - edge) * per_h / (density * density)
         edge = above
-        source = squeeze * g * t[k]
+        source = squeeze * g * temperature[i, k]
         total += source
         column.residual[i, k] -= source
         column.pivot[i, k] -= squeeze * g
-        column.responses[i, k, BY_G] -= squeeze * t[k]
-        column.responses[i, k, BY_H] += source / h
+        column.responses[i, k, BY_G] += squeeze * temperature[i, k]
+        column.responses[i, k, BY_H] -= source * per_h
     heat.compression[i] = total
 
 
@@ -213,21 +207,22 @@ def column_balance(
     fluxes q1 = lambda t_z and q2 = -lambda t_z (Eq. 24 prints no sign; heat must flow into both solids); their rows
     are the surfaces' temperatures. `width` of the cell [m]; `damping` adds heat capacity, in units of conduction.
     """
-    column, surfaces, m = heat.column, heat.surfaces, film.shear.stress.shape[1]
-    t = temperature[i]
+    column, convection, surfaces, m = heat.column, heat.convection, heat.surfaces, film.shear.stress.shape[1]
     transport(problem, i, width, temperature, h, heat)
     dissipation(i, h, film, heat)
-    compress(problem, i, t, g, h, film, heat)
+    compress(problem, i, temperature, g, h, film, heat)
     surfaces.flux_1[i], surfaces.flux_2[i] = -column.residual[i, 0], -column.residual[i, m]
     inertia = damping * np.pi**2 * problem.conductivity / (h * m)
     for k in range(1, m):
         column.pivot[i, k] += inertia
     for k, gain in ((0, surfaces.gain_1[i]), (m, surfaces.gain_2[i])):
+        convection.from_left[i, k] *= gain
+        convection.from_right[i, k] *= gain
         column.residual[i, k] *= gain
         column.lower[i, k] *= gain
         column.upper[i, k] *= gain
         column.pivot[i, k] = 1.0 + gain * (column.pivot[i, k] + 0.5 * inertia)
         for c in range(4):
             column.responses[i, k, c] *= gain
-    column.residual[i, 0] += t[0] - problem.bulk_1 - surfaces.history_1[i]
-    column.residual[i, m] += t[m] - problem.bulk_2 - surfaces.history_2[i]
+    column.residual[i, 0] += temperature[i, 0] - problem.bulk_1 - surfaces.history_1[i]
+    column.residual[i, m] += temperature[i, m] - problem.bulk_2 - surfaces.history_2[i]

@@ -11,53 +11,60 @@ from solvers.contact.ehl.heat.balance import HEATING, Heat
 def factor_column(i: int, film: Film, heat: Heat) -> None:
     """Thomas factorisation of column i with its four responses, and the Sherman-Morrison term of the rank-one part.
 
-    The rank-one part carries what keeps a sliding film from running away: warmer oil shears at less stress.
+    In place: `pivot` becomes the inverse pivots, `lower` and `upper` the factors by which a row takes part in the next
+    and in the one before. The rank-one part carries what keeps a sliding film from running away: warmer oil shears at
+    less stress.
     """
+    column, by_temperature = heat.column, film.mid.by_temperature
+    lower, pivot, upper, responses = column.lower, column.pivot, column.upper, column.responses
     m = film.shear.stress.shape[1]
-    column = heat.column
-    responses = column.responses[i]
-    for c in range(1, 4):
-        for k in range(m + 1):
-            responses[k, c] = -responses[k, c]
-    column.pivot[i, 0] = 1.0 / column.pivot[i, 0]
+    inverse = 1.0 / pivot[i, 0]
+    pivot[i, 0] = inverse
     for k in range(1, m + 1):
-        column.lower[i, k] *= -column.pivot[i, k - 1]
-        column.upper[i, k - 1] = -column.upper[i, k - 1]
-        column.pivot[i, k] = 1.0 / (column.pivot[i, k] - column.lower[i, k] * column.upper[i, k - 1])
+        passed_on = lower[i, k] * inverse
+        inverse = 1.0 / (pivot[i, k] - passed_on * upper[i, k - 1])
+        upper[i, k - 1] *= pivot[i, k - 1]
+        lower[i, k], pivot[i, k] = passed_on, inverse
         for c in range(4):
-            responses[k, c] -= column.lower[i, k] * responses[k - 1, c]
-    for c in range(4):
-        responses[m, c] *= column.pivot[i, m]
-    for k in range(m - 1, -1, -1):
-        for c in range(4):
-            responses[k, c] = (responses[k, c] - column.upper[i, k] * responses[k + 1, c]) * column.pivot[i, k]
-    by_temperature = film.mid.by_temperature[i]
-    heating, p, g, h = 1.0, 0.0, 0.0, 0.0
+            responses[i, k, c] += passed_on * responses[i, k - 1, c]
+    heating, p, g, h = 0.0, 0.0, 0.0, 0.0
+    shared, by_p, by_g, by_h = 1.0, 0.0, 0.0, 0.0
+    for k in range(m, -1, -1):
+        inverse, passed_back = pivot[i, k], upper[i, k]
+        heating = responses[i, k, HEATING] * inverse + passed_back * heating
+        p = responses[i, k, BY_P] * inverse + passed_back * p
+        g = responses[i, k, BY_G] * inverse + passed_back * g
+        h = responses[i, k, BY_H] * inverse + passed_back * h
+        responses[i, k, HEATING], responses[i, k, BY_P] = heating, p
+        responses[i, k, BY_G], responses[i, k, BY_H] = g, h
+        shared += by_temperature[i, k] * heating
+        by_p += by_temperature[i, k] * p
+        by_g += by_temperature[i, k] * g
+        by_h += by_temperature[i, k] * h
+    sherman = 1.0 / shared
+    column.sherman[i] = sherman
     for k in range(m + 1):
-        heating += by_temperature[k] * responses[k, HEATING]
-        p += by_temperature[k] * responses[k, BY_P]
-        g += by_temperature[k] * responses[k, BY_G]
-        h += by_temperature[k] * responses[k, BY_H]
-    column.sherman[i] = 1.0 / heating
-    for k in range(m + 1):
-        responses[k, BY_P] -= responses[k, HEATING] * p / heating
-        responses[k, BY_G] -= responses[k, HEATING] * g / heating
-        responses[k, BY_H] -= responses[k, HEATING] * h / heating
+        heating = responses[i, k, HEATING] * sherman
+        responses[i, k, BY_P] -= heating * by_p
+        responses[i, k, BY_G] -= heating * by_g
+        responses[i, k, BY_H] -= heating * by_h
 
 
 @inlined_kernel
 def solve_column(i: int, film: Film, heat: Heat, vector: FloatArray) -> None:
     """Solve the linearised column i for row i of `vector` (n, k), in place."""
     column, by_temperature = heat.column, film.mid.by_temperature
+    lower, pivot, upper, responses = column.lower, column.pivot, column.upper, column.responses
     m = vector.shape[1] - 1
-    row, lower, upper, pivot = vector[i], column.lower[i], column.upper[i], column.pivot[i]
+    value = vector[i, 0]
     for k in range(1, m + 1):
-        row[k] -= lower[k] * row[k - 1]
-    row[m] *= pivot[m]
-    total = by_temperature[i, m] * row[m]
-    for k in range(m - 1, -1, -1):
-        row[k] = (row[k] - upper[k] * row[k + 1]) * pivot[k]
-        total += by_temperature[i, k] * row[k]
-    total *= column.sherman[i]
+        value = vector[i, k] + lower[i, k] * value
+        vector[i, k] = value
+    value, shared = 0.0, 0.0
+    for k in range(m, -1, -1):
+        value = vector[i, k] * pivot[i, k] + upper[i, k] * value
+        vector[i, k] = value
+        shared += by_temperature[i, k] * value
+    shared *= column.sherman[i]
     for k in range(m + 1):
-        row[k] -= column.responses[i, k, HEATING] * total
+        vector[i, k] -= responses[i, k, HEATING] * shared

@@ -1,1 +1,1 @@
-"""How a contact is solved: state -> temperature, krylov -> coupled; isothermal; budget -> continuation."""
+"""How a contact is solved: state -> temperature, krylov -> step -> coupled; isothermal; budget -> continuation."""

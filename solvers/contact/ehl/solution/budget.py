@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import inf
 
 STEPS_A_SOLVE = 60
-STEPS_IN_ALL = 500.0  # in Newton steps at 121 x 21 nodes, about a second
+STEPS_IN_ALL = 500.0  # in Newton steps at 121 x 21 nodes, about a quarter of a second
 STEPS_ON_FINEST = 25  # that even a very fine mesh is given
 STEPS_TO_REFINE = 100.0  # in the same units, for each contact on finer meshes
 

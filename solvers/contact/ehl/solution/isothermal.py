@@ -9,14 +9,15 @@ from solvers.contact.ehl.film.reynolds import (
     PATIENCE,
     RUPTURE_TOLERANCE,
     apply_pressure_step,
-    assemble_system,
+    assemble_jacobian,
+    balance_of_mass,
     release_cavitated,
 )
 from solvers.contact.ehl.film.shear import STRESS_LIMIT
 from solvers.contact.ehl.grid.dense import solved
 from solvers.contact.ehl.grid.mesh import Grid
 from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.solution.state import State, Work
+from solvers.contact.ehl.solution.state import State, Work, fluid_fractions
 from solvers.lubricants import density, log_viscosity, pressure_part
 
 EARLY = 5  # iterations with a tighter clip
@@ -62,7 +63,8 @@ def uniform_film(problem: Problem, p: float, g: float, h: float, log_a: FloatArr
 
 @kernel
 def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) -> None:
-    """Film, stress and flow of every column at the inlet temperature."""
+    """Film, stress and flow of every column at the inlet temperature. Film that is broken reaches the end."""
+    state.cavitated[-1] = state.cavitated[-2]
     film_shape(grid, state.pressure, state.separation[0], work.height)
     pressure_gradients(grid.x, state.pressure, state.cavitated, work.gradient)
     slope = problem.maximum_pressure / problem.half_width
@@ -80,7 +82,7 @@ def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) 
 def solve_isothermal(
     problem: Problem, grid: Grid, state: State, work: Work, max_iterations: int, tolerance: float
 ) -> bool:
-    """Newton for (P, H0) from the pressures given, in place; whether it converged.
+    """Newton for (P, H0) from the pressures given, in place; whether it converged. It is evaluated into `work`.
 
     Pressure changes are first clipped node by node, later scaled as a whole; a node behind the centre whose pressure
     falls below zero joins the broken film, and leaves it when more oil flows in than out.
@@ -89,11 +91,11 @@ def solve_isothermal(
     jacobian, residual, step = np.empty((n + 1, n + 1)), np.empty(n + 1), np.empty(n + 1)
     for iteration in range(max_iterations):
         state.history[0] += 1.0
-        state.cavitated[n - 1] = state.cavitated[n - 2]
         evaluate_isothermal(problem, grid, state, work)
         rupture_tolerance = 0.0 if iteration < PATIENCE else RUPTURE_TOLERANCE
         changed = release_cavitated(work.faces, state.cavitated, rupture_tolerance)
-        assemble_system(grid, state.pressure, state.cavitated, work.faces, jacobian, residual)
+        balance_of_mass(grid, state.pressure, state.cavitated, work.faces, residual)
+        assemble_jacobian(grid, state.cavitated, work.faces, jacobian)
         if not solved(jacobian, residual, step):
             return False
         largest = np.abs(step[:n]).max()
@@ -107,5 +109,7 @@ def solve_isothermal(
             scale = min(1.0, 0.5 / max(largest, 0.5))
         taken, joined = apply_pressure_step(grid, state.pressure, state.separation, state.cavitated, step, scale)
         if largest < tolerance and taken == 1.0 and not (changed or joined):
+            evaluate_isothermal(problem, grid, state, work)
+            fluid_fractions(problem, state, work)
             return True
     return False

@@ -70,7 +70,6 @@ def evaluate_flow(problem: Problem, grid: Grid, state: State, work: Work) -> boo
     """Film, stress and flow of every column; whether the guard on the pressure gradient acted."""
     film_shape(grid, state.pressure, state.separation[0], work.height)
     pressure_gradients(grid.x, state.pressure, state.cavitated, work.gradient)
-    above = np.empty(work.film.shear.stress.shape[1])
     slope = problem.maximum_pressure / problem.half_width
     limited = False
     for i in range(grid.x.size):
@@ -79,7 +78,7 @@ def evaluate_flow(problem: Problem, grid: Grid, state: State, work: Work) -> boo
         bounded = limited_gradient(problem, g)
         limited = limited or bounded != g
         p = state.pressure[i] * problem.maximum_pressure
-        evaluate_column(problem, i, state.temperature[i], p, bounded, h, work.film, work.coefficients, above)
+        evaluate_column(problem, i, state.temperature, p, bounded, h, work.film, work.coefficients)
     assemble_faces(
         problem, grid.x, state.pressure, work.height, work.gradient, state.cavitated, work.coefficients, work.faces
     )
@@ -87,22 +86,31 @@ def evaluate_flow(problem: Problem, grid: Grid, state: State, work: Work) -> boo
 
 
 @kernel
-def match_stream(problem: Problem, state: State, work: Work) -> None:
-    """Make every column carry the same mass, and give the broken film its fluid fraction.
+def fluid_fractions(problem: Problem, state: State, work: Work) -> float:
+    """Fill the gap with the fraction of fluid that the flux needs where the film is broken; returns the flux.
 
-    The flux is taken where the pressure is largest, since there it does not depend on the pressure gradient. A full
-    column makes up for what the surfaces do not drag with the profile of pressure flow; a broken one keeps the
+    It is taken where the pressure is largest, since there it does not depend on the pressure gradient.
+    """
+    flux = work.faces.flux[state.pressure.argmax()] * problem.flux_scale
+    for i in range(state.pressure.size):
+        drag = work.coefficients.b[i, VALUE] * work.height[i] * problem.gap_scale
+        work.heat.fluid_fraction[i] = min(flux / drag, 1.0) if state.cavitated[i] else 1.0
+    return float(flux)
+
+
+@kernel
+def match_stream(problem: Problem, state: State, work: Work) -> None:
+    """Make every column carry the same mass.
+
+    A full column makes up for what the surfaces do not drag with the profile of pressure flow; a broken one keeps the
     profile of the last full one in a fraction of the gap. So convection conserves mass on the way to the solution,
     too.
     """
     flow, heat = work.film.flow, work.heat
-    flux = work.faces.flux[state.pressure.argmax()] * problem.flux_scale
+    flux = fluid_fractions(problem, state, work)
     last = flow.stream.shape[1] - 1
     for i in range(state.pressure.size):
-        heat.fluid_fraction[i] = 1.0
         if state.cavitated[i]:
-            drag = work.coefficients.b[i, VALUE] * work.height[i] * problem.gap_scale
-            heat.fluid_fraction[i] = min(flux / drag, 1.0)
             flow.stream[i] = flow.stream[i - 1]
         else:
             defect = flux - flow.couette[i, last]
@@ -127,7 +135,8 @@ def balance_columns(problem: Problem, grid: Grid, state: State, work: Work, damp
 
 @kernel
 def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work, damping: float) -> bool:
-    """All of the above; whether the guard on the pressure gradient acted."""
+    """All of the above; whether the guard on the pressure gradient acted. Film that is broken reaches the end."""
+    state.cavitated[-1] = state.cavitated[-2]
     limited = evaluate_flow(problem, grid, state, work)
     match_stream(problem, state, work)
     balance_columns(problem, grid, state, work, damping)

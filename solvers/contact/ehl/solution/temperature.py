@@ -7,7 +7,7 @@ from solvers.compiled import inlined_kernel, kernel
 from solvers.contact.ehl.film.column import evaluate_column
 from solvers.contact.ehl.film.fluxes import film_shape
 from solvers.contact.ehl.film.shear import Film
-from solvers.contact.ehl.grid.dense import dot
+from solvers.contact.ehl.grid.dense import row_product
 from solvers.contact.ehl.grid.mesh import Grid
 from solvers.contact.ehl.heat.balance import Convection, Heat, column_balance, face_edges, surface_history
 from solvers.contact.ehl.heat.elimination import factor_column, solve_column
@@ -27,7 +27,7 @@ def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -
     """
     film, heat, temperature = work.film, work.heat, state.temperature
     n, nodes = temperature.shape
-    above, step = np.empty(nodes - 1), np.zeros((n, nodes))
+    step = np.zeros((n, nodes))
     film_shape(grid, state.pressure, state.separation[0], work.height)
     u1, u2 = problem.speed_1, problem.speed_2
     flux = problem.laws.density * 0.5 * (u1 + u2) * work.height[np.abs(grid.x).argmin()] * problem.gap_scale
@@ -45,7 +45,7 @@ def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -
         temperature[i] = temperature[i - 1]
         surface_history(problem, i, grid.heat, heat.surfaces)
         for _ in range(COLUMN_ITERATIONS):
-            evaluate_column(problem, i, temperature[i], p, 0.0, h, film, work.coefficients, above)
+            evaluate_column(problem, i, temperature, p, 0.0, h, film, work.coefficients)
             width = grid.weights[i] * problem.half_width
             column_balance(problem, i, width, temperature, 0.0, h, 0.0, film, heat)
             factor_column(i, film, heat)
@@ -60,26 +60,26 @@ def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -
 @kernel
 def last_reverse(convection: Convection) -> int:
     """The last column into which oil flows from the right; 0: none."""
-    for i in range(convection.from_right.shape[0] - 2, 0, -1):
-        if convection.from_right[i].max() > 0.0:
-            return i
+    n, nodes = convection.from_right.shape
+    for i in range(n - 2, 0, -1):
+        for k in range(nodes):
+            if convection.from_right[i, k] > 0.0:
+                return i
     return 0
 
 
 @inlined_kernel
 def _relax_column(i: int, film: Film, heat: Heat, given: FloatArray, weight: float, step: FloatArray) -> None:
     """Temperature step of column i from those of its neighbours and of the surfaces upstream; `given` is added."""
-    convection, surfaces = heat.convection, heat.surfaces
+    from_left, from_right, residual = heat.convection.from_left, heat.convection.from_right, heat.column.residual
     n, m = step.shape[0], step.shape[1] - 1
     for k in range(m + 1):
-        inflow = convection.from_left[i, k] * step[i - 1, k]
+        inflow = from_left[i, k] * step[i - 1, k]
         if i + 1 < n:
-            inflow += convection.from_right[i, k] * step[i + 1, k]
-        if k == 0:
-            inflow = inflow * surfaces.gain_1[i] + surfaces.change_1[i]
-        elif k == m:
-            inflow = inflow * surfaces.gain_2[i] + surfaces.change_2[i]
-        step[i, k] = inflow - weight * heat.column.residual[i, k]
+            inflow += from_right[i, k] * step[i + 1, k]
+        step[i, k] = inflow - weight * residual[i, k]
+    step[i, 0] += heat.surfaces.change_1[i]
+    step[i, m] += heat.surfaces.change_2[i]
     solve_column(i, film, heat, step)
     for k in range(m + 1):
         step[i, k] += given[i, k]
@@ -102,8 +102,8 @@ def temperature_step(
     for sweep in range(REVERSE_SWEEPS if reverse > 0 else 1):
         final = sweep == REVERSE_SWEEPS - 1 or reverse == 0
         for i in range(1, n if final else reverse + 1):
-            surfaces.change_1[i] = problem.surface_heating_1 * dot(grid.heat[i, :i], flux_1[:i])
-            surfaces.change_2[i] = problem.surface_heating_2 * dot(grid.heat[i, :i], flux_2[:i])
+            surfaces.change_1[i] = problem.surface_heating_1 * row_product(grid.heat, i, 0, i, flux_1)
+            surfaces.change_2[i] = problem.surface_heating_2 * row_product(grid.heat, i, 0, i, flux_2)
             _relax_column(i, film, heat, given, weight, step)
             own_1 = step[i, 0] - surfaces.change_1[i] + weight * residual[i, 0]
             own_2 = step[i, last] - surfaces.change_2[i] + weight * residual[i, last]
