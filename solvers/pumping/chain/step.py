@@ -8,12 +8,11 @@ Backward Euler, the wall work with the mean pressure of the step; Newton's metho
 its blocks of two by two eliminated along the chain. All amounts are per metre of face.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
+from solvers.pumping.chain.passages import Side, ambient, passages
 from solvers.pumping.chain.pockets import (
     AREA,
     CONTENT,
@@ -35,30 +34,12 @@ from solvers.pumping.chain.pockets import (
     TRIAL,
     UPPER,
 )
-from solvers.pumping.flow.nozzle import Gas, mass_flux
+from solvers.pumping.flow.nozzle import Gas
 
 _NEWTON_LIMIT = 200
 _TOLERANCE = 1e-10
 _ROUNDING = 1e-7  # residual accepted once Newton's method no longer lowers it: pressures differ by round-off only
 _HALVINGS = 12
-
-
-class Side(NamedTuple):
-    """A side of an opening: pressure [Pa], mass [kg/m] and section [m^2] of a pocket, or of one of ambient gas."""
-
-    pressure: float
-    mass: float
-    area: float
-
-
-class Passage(NamedTuple):
-    """What passes an opening from left to right, and its derivatives by the pressure and mass on both sides."""
-
-    flow: float
-    by_left_pressure: float
-    by_left_mass: float
-    by_right_pressure: float
-    by_right_mass: float
 
 
 @kernel
@@ -110,35 +91,6 @@ def _settle(gas: Gas, width: float, pockets: FloatArray, low: int, high: int, dt
             work = 0.5 * (area - old_area)
             energy = pockets[i, OLD + PRESSURE] * (old_area / (g - 1.0) - work) + dt * heat
             pockets[i, NEW + PRESSURE] = energy / (area / (g - 1.0) + work)
-
-
-@kernel
-def _ambient(gas: Gas) -> Side:
-    return Side(gas.pressure, gas.density, 1.0)
-
-
-@kernel
-def _passages(gas: Gas, left: Side, right: Side) -> tuple[Passage, Passage]:
-    """Mass and heat per open area from the side of the higher pressure to the other, at the temperature of the first.
-
-    Per unit of mass the heat is that of its source, c_p T = c_p p A/(m R).
-    """
-    forward = left.pressure >= right.pressure
-    source, sink = (left, right) if forward else (right, left)
-    flux, by_p, by_p_sink = mass_flux(gas, source.pressure, source.mass / source.area, sink.pressure)
-    per_mass = 1.0 / source.mass
-    by_m = 0.5 * flux * per_mass
-    per_pressure = gas.heat_capacity / gas.constant * source.area * per_mass
-    heat = source.pressure * per_pressure
-    energy, energy_by_p_sink = flux * heat, by_p_sink * heat
-    energy_by_p, energy_by_m = by_p * heat + flux * per_pressure, by_m * heat - energy * per_mass
-    if forward:
-        return Passage(flux, by_p, by_m, by_p_sink, 0.0), Passage(
-            energy, energy_by_p, energy_by_m, energy_by_p_sink, 0.0
-        )
-    return Passage(-flux, -by_p_sink, 0.0, -by_p, -by_m), Passage(
-        -energy, -energy_by_p_sink, 0.0, -energy_by_p, -energy_by_m
-    )
 
 
 @kernel
@@ -196,9 +148,9 @@ def _leak(gas: Gas, discharge: float, pockets: FloatArray, low: int, high: int, 
     """Flow through the radial gaps."""
     for i in range(low, high):
         opening = discharge * pockets[i, GAP]
-        passages = _passages(gas, _side(pockets, i), _ambient(gas))
+        both = passages(gas, _side(pockets, i), ambient(gas))
         for row in range(2):
-            passage = passages[row]
+            passage = both[row]
             pockets[i, LEAK + row] = opening * passage.flow
             if row == MASS or not isentropic:
                 share = dt * opening
@@ -211,15 +163,15 @@ def _exchange(
     gas: Gas, width: float, discharge: float, pockets: FloatArray, low: int, high: int, dt: float, isentropic: bool
 ) -> None:
     """Flow through the faces between two pockets, and between a pocket and the ambient."""
-    right = _ambient(gas)
+    right = ambient(gas)
     for face in range(low, high + 1):
         before, left = face - 1, right
-        right = _side(pockets, face) if face < high else _ambient(gas)
-        passages = _passages(gas, left, right)
+        right = _side(pockets, face) if face < high else ambient(gas)
+        both = passages(gas, left, right)
         opening = discharge * pockets[face, OPENING]
         share = dt * opening / width
         for row in range(2):
-            passage = passages[row]
+            passage = both[row]
             pockets[face, FLOW + row] = opening * passage.flow
             if row == HEAT and isentropic:
                 continue
