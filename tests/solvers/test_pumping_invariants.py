@@ -289,9 +289,9 @@ def test_a_jump_of_the_area_is_named_and_nothing_claimed_beyond_it() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("seed", "case"),
-    [((3772975107, 2571), 120), ((3772975107, 2571), 173), *(((77,), case) for case in (54, 62, 84, 139))],
+    ("seed", "cases"), [((3772975107, 2571), (120, 173)), ((3975487181, 2571), (47, 61)), ((77,), (54, 62, 84, 139))]
 )
-def test_grids_that_agree_by_luck_have_a_third_beside_them(seed: tuple[int, ...], case: int) -> None:
-    """Found by searches: half the slices alone said 1.09 % for 1.17 %, 2.7 % for 17 %."""
-    check_resolution(np.random.default_rng([*seed, case]))
+def test_grids_that_agree_by_luck_are_not_taken_at_their_word(seed: tuple[int, ...], cases: tuple[int, ...]) -> None:
+    """Found by searches: half the slices alone said 1.09 % for 1.17 %, 2.7 % for 17 %; some have two peaks."""
+    for case in cases:
+        check_resolution(np.random.default_rng([*seed, case]))

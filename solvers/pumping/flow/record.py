@@ -12,7 +12,7 @@ from solvers.pumping.flow.nozzle import Gas
 BEGUN, ENDED, LOW_END, HIGH_END, WALLS, IDLE, WORK = range(7)
 LARGEST_PRESSURE, SMALLEST_PRESSURE, LARGEST_MACH, LARGEST_VELOCITY, LARGEST_DEMAND = range(5)
 PRESSURE, MACH, TEMPERATURE = range(3)
-STATIC, STAGNATION, ACTIVE, PEAK = range(4)
+STATIC, STAGNATION, ACTIVE, PEAK, FASTEST = range(5)
 TIME, LOW_OUTFLOW, HIGH_OUTFLOW = range(3)
 
 
@@ -20,7 +20,8 @@ class Record(NamedTuple):
     """What a march leaves behind.
 
     field: (angles, cells, 3) pressure [Pa], axial Mach number, stagnation temperature [K]
-    profile: (cells, 4) integral of temperature and of stagnation temperature [K s], active time [s], peak pressure [Pa]
+    profile: (cells, 5) integral of temperature and of stagnation temperature [K s], active time [s], peak pressure
+        [Pa], largest axial Mach number (of cells; the chain's jets are between its pockets)
     extremes: largest and smallest pressure [Pa], largest axial Mach number, largest axial velocity [m/s], largest Mach
         number that the ambient pressure asks for at an end (above one: choked)
     mass: content when slices begin, content when they end, outflow at the low end, at the high end, radially, to idle
@@ -41,7 +42,7 @@ def empty_record(gas: Gas, angles: int, cells: int, steps: int) -> Record:
     """A record of ambient gas at rest."""
     field = np.zeros((angles, cells, 3))
     field[:, :, PRESSURE], field[:, :, TEMPERATURE] = gas.pressure, gas.temperature
-    profile = np.zeros((cells, 4))
+    profile = np.zeros((cells, 5))
     profile[:, PEAK] = gas.pressure
     extremes = np.zeros(5)
     extremes[LARGEST_PRESSURE] = extremes[SMALLEST_PRESSURE] = gas.pressure
@@ -77,6 +78,13 @@ def book_speed(record: Record, mach: float, velocity: float) -> None:
     """Keep the largest axial Mach number and velocity [m/s]."""
     record.extremes[LARGEST_MACH] = max(record.extremes[LARGEST_MACH], mach)
     record.extremes[LARGEST_VELOCITY] = max(record.extremes[LARGEST_VELOCITY], velocity)
+
+
+@kernel
+def book_cell_speed(record: Record, i: int, mach: float, velocity: float) -> None:
+    """Keep the largest axial Mach number of slice i, and of all with the velocity [m/s]."""
+    record.profile[i, FASTEST] = max(record.profile[i, FASTEST], mach)
+    book_speed(record, mach, velocity)
 
 
 @kernel

@@ -9,6 +9,7 @@ from solvers.pumping.flow.record import (
     ACTIVE,
     BEGUN,
     ENDED,
+    FASTEST,
     HIGH_END,
     HIGH_OUTFLOW,
     IDLE,
@@ -63,8 +64,9 @@ class SpaceFlow:
 
     Fields of shape (angles, positions): `pressure` [Pa], `mach`, `stagnation_temperature` [K] at the owner's `angle`
     [rad] and `position` [m]. Over the face: stroke means of temperature and stagnation temperature [K], peak pressure
-    [Pa]. `exit_demand` is the Mach number that the ambient pressure asks for at the ends, above one where they are
-    choked; `work` [J] is done on the gas above ambient pressure. Errors are relative.
+    [Pa], largest Mach number within slices (nought in the chain). `exit_demand` is the Mach number that the ambient
+    pressure asks for at the ends, above one where they are choked; `work` [J] is done on the gas above ambient
+    pressure. Errors are relative.
     """
 
     angle: FloatArray
@@ -75,6 +77,7 @@ class SpaceFlow:
     mean_temperature: FloatArray | None
     mean_stagnation_temperature: FloatArray | None
     peak_pressure: FloatArray
+    peak_mach: FloatArray
     largest_pressure: float
     smallest_pressure: float
     largest_mach: float
@@ -116,6 +119,7 @@ def space_flow(angle: FloatArray, marches: list[March], *, conserves_energy: boo
         mean_temperature=frozen(profile[:, STATIC] / profile[:, ACTIVE]),
         mean_stagnation_temperature=frozen(profile[:, STAGNATION] / profile[:, ACTIVE]),
         peak_pressure=frozen(profile[:, PEAK]),
+        peak_mach=frozen(profile[:, FASTEST]),
         largest_pressure=float(extremes[:, LARGEST_PRESSURE].max()),
         smallest_pressure=float(extremes[:, SMALLEST_PRESSURE].min()),
         largest_mach=float(extremes[:, LARGEST_MACH].max()),

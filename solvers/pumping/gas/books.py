@@ -16,6 +16,7 @@ from solvers.pumping.flow.record import (
     WORK,
     Record,
     book,
+    book_cell_speed,
     book_demand,
     book_means,
     book_pressure,
@@ -89,7 +90,7 @@ def book_cells(
         if angle + turn - duct.lag * (duct.start + (i + 0.5) * duct.width) <= stroke_end(duct):
             rho, u, p = new[i]
             book_pressure(record, i, p)
-            book_speed(record, abs(u) / np.sqrt(gas.exponent * p / rho), abs(u))
+            book_cell_speed(record, i, abs(u) / np.sqrt(gas.exponent * p / rho), abs(u))
 
 
 @kernel
