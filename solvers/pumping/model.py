@@ -93,8 +93,9 @@ def _geometry(mesh: Mesh) -> MeshGeometry:
 
 def _on_grids(mesh: Mesh, space: Space, speed: float, slices: int) -> Grids:
     """One stroke at the resolution asked for, and at coarser ones to see what it is worth."""
+    flow = flow_at(mesh, space, speed, slices)  # first, for it refuses what takes too long
     half, quarter = (coarser_flow_at(mesh, space, speed, slices, times) for times in (2, 4))
-    return Grids(flow_at(mesh, space, speed, slices), half, quarter)
+    return Grids(flow, half, quarter)
 
 
 def _spaces_result(gas: Gas, space: Space, grids: Grids, frequency: float) -> SpacesResult:
