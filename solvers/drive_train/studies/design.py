@@ -120,17 +120,17 @@ def search(judge: Callable[[FloatArray], FloatArray | None], start: FloatArray, 
     if first is None:
         raise NoSolution("design", "the unit the search starts from has no solution at some corner")
     scale = STEEP * abs(float(first.max())) or 1.0
-    known[np.clip(start, 0.0, 1.0).tobytes()] = first / scale
+    known[_name(start)] = first / scale
 
     def figures(place: FloatArray) -> FloatArray:
-        unit = np.clip(place[:-1], 0.0, 1.0)
-        if unit.tobytes() not in known:
+        name = _name(place[:-1])
+        if name not in known:
             if len(known) == evaluations:
                 raise _Spent
-            found = judge(unit)
+            found = judge(np.clip(place[:-1], 0.0, 1.0))
             worst = max(float(each.max()) for each in known.values())
-            known[unit.tobytes()] = np.full(first.size, worst + HOPELESS) if found is None else found / scale
-        return known[unit.tobytes()]
+            known[name] = np.full(first.size, worst + HOPELESS) if found is None else found / scale
+        return known[name]
 
     before = np.inf
     while (best := min(known, key=lambda unit: float(known[unit].max()))) and (
@@ -141,6 +141,11 @@ def search(judge: Callable[[FloatArray], FloatArray | None], start: FloatArray, 
             _descend(figures, np.append(np.frombuffer(best), level), evaluations)
         except _Spent:
             return
+
+
+def _name(place: FloatArray) -> bytes:
+    """A place in the unit cube, the same for those that only rounding tells apart."""
+    return np.clip(place, 0.0, 1.0).round(12).tobytes()
 
 
 class _Spent(Exception):
