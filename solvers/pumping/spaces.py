@@ -115,21 +115,21 @@ def flow_at(
     if mesh.setup.model.flow is Flow.POCKET_CHAIN:
         return _chain(mesh, space, pinion_speed, parts, STEPS)
     _check_cost(mesh, pinion_speed, parts, cell_step_limit)
-    return _gas(mesh, space, pinion_speed, parts)
+    return _gas(mesh, space, pinion_speed, parts, _angles(mesh, space))
 
 
 def coarser_flow_at(mesh: Mesh, space: Space, pinion_speed: float, slices: int, times: int) -> SpaceFlow:
-    """The same with fewer slices of gas dynamics, steps of the chain, positions of the single pocket.
+    """The same with fewer slices and steps of gas dynamics, steps of the chain, positions of the single pocket.
 
-    The slices of the chain are no resolution: they are a constant of that model. Raises as `flow_at` does but
-    for the cost.
+    Steps end at the recorded angles, which bound them where slices are few. The slices of the chain are no resolution:
+    they are a constant of that model. Raises as `flow_at` does but for the cost.
     """
     if mesh.setup.model.flow is Flow.INCOMPRESSIBLE:
         return _single_pocket(mesh, space, pinion_speed, space.table.coarser(times))
     parts = face_stretches(mesh.setup, slices)
     if mesh.setup.model.flow is Flow.POCKET_CHAIN:
         return _chain(mesh, space, pinion_speed, parts, STEPS // times)
-    return _gas(mesh, space, pinion_speed, [part.coarser(times) for part in parts])
+    return _gas(mesh, space, pinion_speed, [part.coarser(times) for part in parts], _angles(mesh, space)[::times])
 
 
 def _single_pocket(mesh: Mesh, space: Space, pinion_speed: float, table: StrokeTable) -> SpaceFlow:
@@ -142,8 +142,8 @@ def _chain(mesh: Mesh, space: Space, pinion_speed: float, parts: list[Stretch], 
     return pocket_chain(mesh.gas, ducts, _angles(mesh, space), mesh.setup.model.closure, steps)
 
 
-def _gas(mesh: Mesh, space: Space, pinion_speed: float, parts: list[Stretch]) -> SpaceFlow:
-    return gas_dynamics(mesh.gas, _gas_ducts(mesh, space, pinion_speed, parts), _angles(mesh, space))
+def _gas(mesh: Mesh, space: Space, pinion_speed: float, parts: list[Stretch], angles: FloatArray) -> SpaceFlow:
+    return gas_dynamics(mesh.gas, _gas_ducts(mesh, space, pinion_speed, parts), angles)
 
 
 def _gas_ducts(mesh: Mesh, space: Space, pinion_speed: float, parts: list[Stretch]) -> list[tuple[Stretch, Duct]]:
