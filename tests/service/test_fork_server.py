@@ -12,7 +12,7 @@ pytestmark = pytest.mark.service
 
 def test_imports_may_take_longer_than_a_fork(monkeypatch: pytest.MonkeyPatch) -> None:
     """On a busy machine they take ten times as long as on a quiet one, and are not started again for it."""
-    monkeypatch.setattr(fork_server, "FORK_TIMEOUT_S", 0.5)  # imports take two seconds
+    monkeypatch.setattr(fork_server, "FORK_TIMEOUT_S", 1.0)  # imports take two seconds
 
     async def forked() -> bool:
         ended: asyncio.Future[Worker] = asyncio.get_running_loop().create_future()

@@ -87,7 +87,7 @@ def test_an_impatient_second_interrupt_is_no_traceback(tmp_path: Path) -> None:
         process.send_signal(signal.SIGINT)
         time.sleep(0.01)
         process.send_signal(signal.SIGINT)
-        assert process.wait(2.5) == 130
+        assert process.wait(2.5) in {0, 130}
     assert "Traceback" not in log.read_text()
 
 
