@@ -29,6 +29,8 @@ from solvers.pumping.space.stroke import StrokeTable
 from solvers.pumping.space.tooth_space import normal_backlash
 from solvers.pumping.spaces import Mesh, Space, coarser_flow_at, derived, face_stretches, flow_at, prepare
 
+LEAST_HELIX = 1e-100  # rad; the meshing point of a smaller one runs along the face faster than numbers go
+
 
 def solve(inputs: PumpingInputs) -> PumpingResult:
     """Flow through the tooth spaces of a pair at one speed, what it costs and what it heats.
@@ -186,7 +188,7 @@ def _stroke(table: StrokeTable) -> Stroke:
 
 def _totals(mesh: Mesh, speed: float, frequency: float, power: float) -> Totals:
     helix = abs(mesh.setup.gears.helix_angle)
-    if helix == 0.0:
+    if helix < LEAST_HELIX:
         return Totals(power, frequency, None, None)
     axial = speed * mesh.pair.pinion.reference_radius / tan(helix)
     return Totals(power, frequency, axial, axial / mesh.gas.sound_speed)

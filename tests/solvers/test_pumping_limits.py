@@ -262,3 +262,11 @@ def test_arrays_of_a_result_are_read_only() -> None:
     for array in (result.pinion_spaces.stroke.curves.area, result.pinion_spaces.field.pressure_ratio):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0
+
+
+def test_a_helix_too_small_for_numbers_is_a_spur_gear() -> None:
+    """Found by generated requests: the meshing point's speed along the face was endless."""
+    gears = replace(PLAIN.gears, helix_angle=2e-310, centre_distance=None)
+    result = solve(PumpingInputs(replace(PLAIN, gears=gears), 1000.0))
+    assert result.total.axial_meshing_speed is result.total.axial_meshing_mach is None
+    assert "spur_gear" in {notice.code for notice in result.warnings}
