@@ -3,13 +3,19 @@
 import os
 import signal
 import time
+from collections.abc import Sequence
 
 import numpy as np
 from fastapi import FastAPI, Request
 
 from app.__main__ import serve
 from app.main import create_app
+from app.studies import engine
+from app.studies.points import Chunk, Question, solve_chunk
+from app.studies.requests import Overrides
 from app.workers.fork_server import ForkServer
+
+HANGING = 1234.5  # a varied value whose point never ends
 
 
 def sleep(seconds: float) -> float:
@@ -30,8 +36,15 @@ def allocate(mebibytes: int) -> int:
     return int(np.ones(mebibytes * 2**17).size)
 
 
+def solve_chunk_that_may_hang(question: Question, overrides: Sequence[Overrides]) -> Chunk:
+    if any(HANGING in each.values() for each in overrides):
+        time.sleep(600)
+    return solve_chunk(question, overrides)
+
+
 def create_faulty_app(template: ForkServer) -> FastAPI:
     app = create_app(template)
+    engine.solve_chunk = solve_chunk_that_may_hang
 
     @app.post("/sleep/{seconds}")
     async def _(http: Request, seconds: float) -> float:

@@ -1,6 +1,7 @@
 """The template process as the service sees it."""
 
 import asyncio
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -27,4 +28,5 @@ def test_imports_may_take_longer_than_a_fork(monkeypatch: pytest.MonkeyPatch) ->
         finally:
             server.close()
 
-    assert asyncio.run(forked())
+    with ThreadPoolExecutor(1) as thread:  # the browser of other tests keeps its event loop in this one
+        assert thread.submit(lambda: asyncio.run(forked())).result()
