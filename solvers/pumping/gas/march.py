@@ -15,6 +15,7 @@ from solvers.pumping.gas.step import step
 COURANT = 0.7
 _ROUNDING = 1e-6  # of a step, by which it may be longer rather than leave so little
 _RETRIES = 12
+_AHEAD = 4.0  # widths by which cells come early where no wave outruns their stroke
 _STEEP = 0.5  # share of a cell's density or pressure below which nothing is extrapolated from it
 
 
@@ -69,11 +70,12 @@ def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, 
 
     A cell does while its centre is in its stroke, the first also while its outer end is, the last likewise: whatever
     leaves through an end leaves while that end is open. Walls and books count the share of the step in the stroke.
-    Where the stroke runs along the face faster than sound, cells come a width early: gas that the one behind them
-    pushes on would pile up at the border, and in truth does not reach it.
+    Where the stroke runs along the face faster than sound, cells come some widths early: waves do not reach the border
+    in truth, but on a grid they spread over a few cells. A border among those feeds what it lets pass into the cells
+    that come next, and the flow takes one of two courses by how the steps fall.
     """
     low, high, rear = 0, 0, duct.cells - 1
-    early = duct.lag * duct.width if duct.speed >= duct.lag * gas.sound_speed else 0.0
+    early = _AHEAD * duct.lag * duct.width if duct.speed >= duct.lag * gas.sound_speed else 0.0
     for i in range(duct.cells):
         centre = (i + 0.5) * duct.width
         first, last = 0.0 if i == 0 else centre, duct.cells * duct.width if i == rear else centre
