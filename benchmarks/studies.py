@@ -5,10 +5,11 @@ Run from the project's root: python -m benchmarks.studies [--seconds 5] [--dask]
 
 import argparse
 import asyncio
+import copy
 import json
 import time
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from typing import Any, NamedTuple
@@ -16,6 +17,7 @@ from typing import Any, NamedTuple
 import httpx
 
 from app.library import examples
+from app.studies.fields import set_value
 from app.studies.points import Question, solve_point
 from app.studies.sweep import plan_sweep
 from tests.dask_cluster import running_cluster
@@ -23,25 +25,29 @@ from tests.server import running_server
 
 
 class Kind(NamedTuple):
-    """A kind of point: what is asked, what is varied between which ends."""
+    """A kind of point: what is asked, with what fixed, what is varied between which ends."""
 
     name: str
     example: str
     path: str
     start: float
     stop: float
+    fixed: Mapping[str, float] = {}
 
     def body(self, count: int) -> dict[str, Any]:
         """The sweep over this many points."""
         example = examples()[self.example]
+        request = copy.deepcopy(example.request)
+        for path, value in self.fixed.items():
+            set_value(request, path, value)
         axis = {"path": self.path, "start": self.start, "stop": self.stop, "count": count}
-        return {"endpoint": example.endpoint, "request": example.request, "vary": [axis]}
+        return {"endpoint": example.endpoint, "request": request, "vary": [axis]}
 
 
 KINDS = (
     Kind("coupling", "pahl-axial-displacement", "operation.misalignment_deg", 0.01, 0.08),
     Kind("load distribution", "xue-pair-1-modified", "modifications.helix_slope_um", -20, 20),
-    Kind("gas dynamics", "milian-case-1", "operation.pinion_speed_rpm", 9000, 9500),
+    Kind("gas dynamics", "milian-case-1", "operation.pinion_speed_rpm", 9000, 9500, {"model.slices": 180}),
     Kind("thermal path", "xue-pair-1-thermal", "temperatures.bulk_c", 60, 100),
 )
 MAP = {

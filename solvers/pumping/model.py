@@ -13,7 +13,7 @@ from solvers.pumping.inputs import PumpingInputs
 from solvers.pumping.lead_correction import LeadCorrection, lead_correction
 from solvers.pumping.notices import flow_notices, net_flow_notices, resolution_notices, speed_notices
 from solvers.pumping.pulsation import Pulsation, pulsation
-from solvers.pumping.resolution import Grids, behind_jump, net_uncertainty, radial_uncertainty, resolution
+from solvers.pumping.resolution import Grids, behind_jumps, net_uncertainty, radial_uncertainty, resolution
 from solvers.pumping.results import (
     Balance,
     FaceProfile,
@@ -50,7 +50,6 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
     ]
     of_gear = {space.of_pinion: result for space, result in zip(mesh.spaces, results, strict=True)}
     correction = _pinion_correction(mesh, of_gear.get(True))
-    jump, _ = max(space.table.jump for space in mesh.spaces)
     resolved = resolution(mesh.gas, spaces)
     total = _totals(mesh, speed, frequency, sum(result.pumping_power for result in results))
     return PumpingResult(
@@ -60,7 +59,7 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
         total=total,
         lead_correction=correction,
         pulsation=_pulsation(mesh, flows, speed, frequency),
-        resolution=behind_jump(resolved, mesh.gas, jump),
+        resolution=behind_jumps(resolved, mesh.gas, flows, [space.table.jump[0] for space in mesh.spaces]),
         slices=sum(part.cells for part in face_stretches(inputs.setup, slices)),
         derived=derived(mesh),
         warnings=(

@@ -36,7 +36,7 @@ def resolution(gas: Gas, spaces: list[Grids]) -> Resolution:
     }
     for grids, (fine, _, _) in zip(spaces, summaries, strict=True):
         for name, moved in _moved_at_peaks(grids).items():
-            uncertain[name] = max(uncertain[name], moved / fine[name] if fine[name] > 0.0 else 0.0)
+            uncertain[name] = max(uncertain[name], _of(moved, fine[name]))
     if max(uncertain["peak_pressure"], uncertain["min_pressure"]) >= LOST:
         uncertain = {name: max(share, LOST) for name, share in uncertain.items()}
     return Resolution(
@@ -49,14 +49,24 @@ def resolution(gas: Gas, spaces: list[Grids]) -> Resolution:
     )
 
 
-def behind_jump(resolved: Resolution, gas: Gas, jump: float) -> Resolution:
-    """No number is known better than what a jump of the area's logarithm compresses, whatever the resolution."""
-    least = expm1(gas.exponent * jump)
+def behind_jumps(resolved: Resolution, gas: Gas, flows: list[SpaceFlow], jumps: list[float]) -> Resolution:
+    """No number is known better than what a jump of the area's logarithm compresses, whatever the resolution.
+
+    That is a share of the pressure itself, and of the Mach number as a wave of that pressure has it; where it is as
+    large as the gauge pressure, no number is known.
+    """
+    peak, low, mach = resolved.peak_pressure, resolved.min_pressure, resolved.axial_mach
+    shares = [expm1(gas.exponent * jump) for jump in jumps]
+    for flow, share in zip(flows, shares, strict=True):
+        peak = max(peak, share, _of(share * flow.largest_pressure, flow.largest_pressure - gas.pressure))
+        low = max(low, share, _of(share * flow.smallest_pressure, gas.pressure - flow.smallest_pressure))
+        mach = max(mach, share, _of(share / gas.exponent, flow.largest_mach))
+    least = LOST if max(peak, low) >= LOST else max(shares)
     heated = resolved.temperature_rise
     return Resolution(
-        peak_pressure=max(resolved.peak_pressure, least),
-        min_pressure=max(resolved.min_pressure, least),
-        axial_mach=max(resolved.axial_mach, least),
+        peak_pressure=max(peak, least),
+        min_pressure=max(low, least),
+        axial_mach=max(mach, least),
         pumping_power=max(resolved.pumping_power, least),
         temperature_rise=None if heated is None else max(heated, least),
         gross_flow=max(resolved.gross_flow, least),
@@ -115,6 +125,11 @@ def _moved_at_peaks(grids: Grids) -> dict[str, float]:
 def _relative(value: float, half: float, quarter: float) -> float:
     """Three times the error, if of first order: a quarter of the resolution differs by that, half by a third of it."""
     return max(SAFETY * abs(half / value - 1.0), abs(quarter / value - 1.0)) if value != 0.0 else 0.0
+
+
+def _of(error: float, value: float) -> float:
+    """An error as a share of its value."""
+    return error / value if value > 0.0 else 0.0
 
 
 def _sum(masses: FloatArray) -> float:

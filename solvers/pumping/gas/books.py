@@ -37,6 +37,8 @@ from solvers.pumping.gas.cells import (
     Cells,
 )
 
+_SETTLED = 2.5  # steps after which leakage has found its balance with the walls
+
 
 @kernel
 def book_changes(duct: Duct, cells: Cells, record: Record, low: int, high: int, new_low: int, new_high: int) -> None:
@@ -73,12 +75,15 @@ def book_ends(
 
 @kernel
 def book_cells(
-    gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, angle: float, turn: float
+    gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, angle: float, turn: float, whole: float
 ) -> None:
-    """Book what the walls did, means (trapezoidal) and extremes.
+    """Book what the walls did, means (trapezoidal) and extremes; `whole` [rad] the turn of a step not cut short.
 
-    A cell that a step leads beyond its stroke has no extremes: it is shut for the rest, and piles up what comes.
+    A cell that a step leads beyond its stroke has no extremes: it is shut for the rest, and piles up what comes. Nor
+    has one whose stroke has just begun: it came with the state of the border, and the gaps answer a wall that starts
+    at once within a fraction of a step, which an implicit scheme of second order overshoots.
     """
+    first, last = duct.first_angle + _SETTLED * whole, stroke_end(duct)
     old, new, loss, dt = cells.state, cells.next_state, cells.loss, turn / duct.speed
     for i in range(low, high):
         book(record, WALLS, loss[i, LEAKED] * duct.width, loss[i, GIVEN] * duct.width)
@@ -87,7 +92,7 @@ def book_cells(
         static = 0.5 * (before + after) / gas.constant
         dynamic = 0.25 * (old[i, VELOCITY] ** 2 + new[i, VELOCITY] ** 2) / gas.heat_capacity
         book_means(record, i, static, static + dynamic, dt, cells.share[i])
-        if angle + turn - duct.lag * (duct.start + (i + 0.5) * duct.width) <= stroke_end(duct):
+        if first <= angle + turn - duct.lag * (duct.start + (i + 0.5) * duct.width) <= last:
             rho, u, p = new[i]
             book_pressure(record, i, p)
             book_cell_speed(record, i, abs(u) / np.sqrt(gas.exponent * p / rho), abs(u))

@@ -54,7 +54,7 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
             if high > low:
                 record.ends[taken, TIME] = (angle + 0.5 * turn - angles[0]) / duct.speed
                 book_ends(duct, cells, record, low, high, angle, turn, taken)
-                book_cells(gas, duct, cells, record, low, high, angle, turn)
+                book_cells(gas, duct, cells, record, low, high, angle, turn, min(longest, angles[k] - angles[k - 1]))
                 take_over(cells, low, high)
                 taken += 1
             landed = turn == remaining
