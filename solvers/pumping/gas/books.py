@@ -37,7 +37,7 @@ from solvers.pumping.gas.cells import (
     Cells,
 )
 
-_SETTLED = 2.5  # steps after which leakage has found its balance with the walls
+_UNSETTLED = 5.0  # steps in which leakage finds its balance with the walls, and the waves of the beginning pass
 
 
 @kernel
@@ -75,15 +75,14 @@ def book_ends(
 
 @kernel
 def book_cells(
-    gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, angle: float, turn: float, whole: float
+    gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, angle: float, turn: float, longest: float
 ) -> None:
-    """Book what the walls did, means (trapezoidal) and extremes; `whole` [rad] the turn of a step not cut short.
+    """Book what the walls did, means (trapezoidal) and extremes; `longest` [rad] the turn of a whole step.
 
     A cell that a step leads beyond its stroke has no extremes: it is shut for the rest, and piles up what comes. Nor
-    has one whose stroke has just begun: it came with the state of the border, and the gaps answer a wall that starts
-    at once within a fraction of a step, which an implicit scheme of second order overshoots.
+    has one that has just begun: it came with the state of the border, and the gaps answer a wall that starts at once
+    within a fraction of a step, which an implicit scheme of second order overshoots.
     """
-    first, last = duct.first_angle + _SETTLED * whole, stroke_end(duct)
     old, new, loss, dt = cells.state, cells.next_state, cells.loss, turn / duct.speed
     for i in range(low, high):
         book(record, WALLS, loss[i, LEAKED] * duct.width, loss[i, GIVEN] * duct.width)
@@ -92,10 +91,16 @@ def book_cells(
         static = 0.5 * (before + after) / gas.constant
         dynamic = 0.25 * (old[i, VELOCITY] ** 2 + new[i, VELOCITY] ** 2) / gas.heat_capacity
         book_means(record, i, static, static + dynamic, dt, cells.share[i])
-        if first <= angle + turn - duct.lag * (duct.start + (i + 0.5) * duct.width) <= last:
+        if duct.first_angle + _UNSETTLED * longest <= _phase(duct, i, angle + turn) <= stroke_end(duct):
             rho, u, p = new[i]
             book_pressure(record, i, p)
             book_cell_speed(record, i, abs(u) / np.sqrt(gas.exponent * p / rho), abs(u))
+
+
+@kernel
+def _phase(duct: Duct, i: int, angle: float) -> float:
+    """The angle of the owner less the lag of cell i [rad]: what the walls of the cell depend on."""
+    return angle - duct.lag * (duct.start + (i + 0.5) * duct.width)
 
 
 @kernel
@@ -107,10 +112,11 @@ def take_over(cells: Cells, low: int, high: int) -> None:
 
 
 @kernel
-def sample(gas: Gas, cells: Cells, record: Record, low: int, high: int, k: int) -> None:
-    """Field of the active cells at a recorded angle."""
+def sample(gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, k: int, angle: float) -> None:
+    """Field at the recorded angle k of the active cells whose stroke is not over."""
     for i in range(low, high):
-        rho, u, p = cells.state[i]
-        record.field[k, i, columns.PRESSURE] = p
-        record.field[k, i, columns.MACH] = abs(u) / np.sqrt(gas.exponent * p / rho)
-        record.field[k, i, columns.TEMPERATURE] = p / (rho * gas.constant) + 0.5 * u * u / gas.heat_capacity
+        if _phase(duct, i, angle) <= stroke_end(duct):
+            rho, u, p = cells.state[i]
+            record.field[k, i, columns.PRESSURE] = p
+            record.field[k, i, columns.MACH] = abs(u) / np.sqrt(gas.exponent * p / rho)
+            record.field[k, i, columns.TEMPERATURE] = p / (rho * gas.constant) + 0.5 * u * u / gas.heat_capacity

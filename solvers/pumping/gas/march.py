@@ -31,7 +31,8 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
     for k in range(1, angles.size):
         landed = False
         while not landed:
-            remaining, longest = angles[k] - angle, _longest_turn(gas, duct, cells, low, high)
+            remaining = angles[k] - angle
+            longest = min(_longest_turn(gas, duct, cells, low, high), angles[k] - angles[k - 1])
             turn = remaining if remaining <= (1.0 + _ROUNDING) * longest else longest
             done = False
             for retry in range(_RETRIES):
@@ -54,12 +55,12 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
             if high > low:
                 record.ends[taken, TIME] = (angle + 0.5 * turn - angles[0]) / duct.speed
                 book_ends(duct, cells, record, low, high, angle, turn, taken)
-                book_cells(gas, duct, cells, record, low, high, angle, turn, min(longest, angles[k] - angles[k - 1]))
+                book_cells(gas, duct, cells, record, low, high, angle, turn, longest)
                 take_over(cells, low, high)
                 taken += 1
             landed = turn == remaining
             angle = angles[k] if landed else angle + turn
-        sample(gas, cells, record, low, high, k)
+        sample(gas, duct, cells, record, low, high, k, angle)
     book_changes(duct, cells, record, low, high, 0, 0)
     return taken
 
