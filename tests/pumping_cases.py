@@ -217,7 +217,7 @@ SCANS: dict[str, Change] = {
 POINTS = 41
 NOISE = 3e-3  # of a number: what a grid of 40 slices leaves in a scan
 JUMP = 10.0  # times the local change
-LITTLE = 0.05  # of a number
+LITTLE = 0.1  # of a number on 40 slices
 
 
 def scan(cases: list[PumpingInputs]) -> dict[str, list[float]]:

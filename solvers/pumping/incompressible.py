@@ -45,6 +45,7 @@ def incompressible(
         mean_temperature=None,
         mean_stagnation_temperature=None,
         peak_pressure=frozen([max(pressure.max(), gas.pressure)]),
+        lowest_pressure=frozen([min(pressure.min(), gas.pressure)]),
         peak_mach=frozen([np.abs(velocity).max() / gas.sound_speed]),
         largest_pressure=float(max(pressure.max(), gas.pressure)),
         smallest_pressure=float(min(pressure.min(), gas.pressure)),

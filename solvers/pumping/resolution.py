@@ -2,8 +2,9 @@
 
 The kinks of a stroke leave numbers of first order in the width of the slices. For two grids and first order Roache's
 grid convergence index states three times their difference as the uncertainty of the finer one (J. Fluids Eng. 116,
-1994, 405). Peaks wander between the slices, and two grids may agree on one by luck: a third with a quarter of the
-resolution has a say, and so has what the coarser grid makes of the place where the finer one has its peak.
+1994, 405). Extremes wander between the slices, and two grids may agree on one by luck: a third with a quarter of the
+resolution has a say, a fifth is added, and so are places that are not the highest yet but rise with the resolution. Of
+800 random pairs, one then moves by more than it states with twice the slices, by a hundredth more.
 """
 
 from math import expm1
@@ -17,6 +18,9 @@ from solvers.pumping.flow.space_flow import SpaceFlow
 from solvers.pumping.results import Resolution
 
 SAFETY = 3.0
+OF_EXTREMES = 1.2  # times that
+RISE = 2.0  # times what a place rose from half the resolution to all of it, it may still rise
+NEAR = 0.97  # of the largest Mach number: from there on that of the slices may overtake the one at the end of the face
 LOST = 1.0  # where a pressure is not known to its own size, no number is: the finer flow may be another one
 
 
@@ -30,13 +34,8 @@ class Grids(NamedTuple):
 
 def resolution(gas: Gas, spaces: list[Grids]) -> Resolution:
     """Relative uncertainties of the summary, the largest of all spaces asked for; pressures as gauge pressures."""
-    summaries = [[_summary(gas, flow) for flow in grids] for grids in spaces]
-    uncertain = {
-        name: max(_relative(*(each[name] for each in of_grids)) for of_grids in summaries) for name in summaries[0][0]
-    }
-    for grids, (fine, _, _) in zip(spaces, summaries, strict=True):
-        for name, moved in _moved_at_peaks(grids).items():
-            uncertain[name] = max(uncertain[name], _of(moved, fine[name]))
+    shares = [_shares(gas, grids) for grids in spaces]
+    uncertain = {name: max(each[name] for each in shares) for name in shares[0]}
     if max(uncertain["peak_pressure"], uncertain["min_pressure"]) >= LOST:
         uncertain = {name: max(share, LOST) for name, share in uncertain.items()}
     return Resolution(
@@ -91,6 +90,15 @@ def radial_uncertainty(grids: Grids) -> float:
     return max(radial, net_uncertainty(grids))
 
 
+def _shares(gas: Gas, grids: Grids) -> dict[str, float]:
+    """Relative uncertainties of the summary of one space."""
+    fine, half, quarter = (_summary(gas, flow) for flow in grids)
+    shares = {name: _relative(value, half[name], quarter[name]) for name, value in fine.items()}
+    for name, reach in _reaches(gas, grids).items():
+        shares[name] = max(OF_EXTREMES * shares[name], _of(reach - fine[name], fine[name]))
+    return shares
+
+
 def _summary(gas: Gas, flow: SpaceFlow) -> dict[str, float]:
     numbers = {
         "peak_pressure": flow.largest_pressure - gas.pressure,
@@ -107,21 +115,38 @@ def _summary(gas: Gas, flow: SpaceFlow) -> dict[str, float]:
     return numbers
 
 
-def _moved_at_peaks(grids: Grids) -> dict[str, float]:
-    """By how much half the resolution differs where numbers are largest over the face: its peaks may be elsewhere."""
+def _reaches(gas: Gas, grids: Grids) -> dict[str, float]:
+    """What extremes over the face may reach with more slices."""
     fine, half, _ = grids
-    profiles = {"peak_pressure": (fine.peak_pressure, half.peak_pressure)}
-    moved = {}
-    if fine.peak_mach.max() == fine.largest_mach:  # within a slice, not at an end of the face
-        profiles["axial_mach"] = fine.peak_mach, half.peak_mach
-    elif fine.exit_demand >= 1.0:  # a choked end holds its own at one
-        moved["axial_mach"] = abs(float(fine.peak_mach.max() - half.peak_mach.max()))
-    if fine.mean_stagnation_temperature is not None and half.mean_stagnation_temperature is not None:
-        profiles["temperature_rise"] = fine.mean_stagnation_temperature, half.mean_stagnation_temperature
-    for name, (here, there) in profiles.items():
-        place = int(np.argmax(here))
-        moved[name] = abs(float(here[place] - np.interp(fine.position[place], half.position, there)))
-    return moved
+    here, there = _profiles(gas, fine), _profiles(gas, half)
+    reaches = {name: _reach(fine.position, here[name], half.position, there[name]) for name in here}
+    slices, end = float(fine.peak_mach.max()), fine.largest_mach
+    if slices < end and fine.exit_demand >= 1.0:  # a choked end holds its own at one
+        reaches["axial_mach"] = end + OF_EXTREMES * abs(slices - float(half.peak_mach.max()))
+    elif slices < NEAR * end:
+        reaches["axial_mach"] = end
+    return reaches
+
+
+def _profiles(gas: Gas, flow: SpaceFlow) -> dict[str, FloatArray]:
+    """Over the face: the extremes of each slice, as they enter the summary."""
+    profiles = {
+        "peak_pressure": flow.peak_pressure - gas.pressure,
+        "min_pressure": gas.pressure - flow.lowest_pressure,
+        "axial_mach": flow.peak_mach,
+    }
+    if flow.mean_stagnation_temperature is not None:
+        profiles["temperature_rise"] = flow.mean_stagnation_temperature - gas.temperature
+    return profiles
+
+
+def _reach(position: FloatArray, here: FloatArray, coarse: FloatArray, there: FloatArray) -> float:
+    """Largest value that a local maximum over the face may reach, if it goes on as from half of the slices."""
+    edged = np.pad(here, 1, constant_values=-np.inf)
+    tops = (here >= edged[:-2]) & (here >= edged[2:])
+    around = np.pad(np.interp(position, coarse, there), 1, mode="edge")
+    before = np.lib.stride_tricks.sliding_window_view(around, 3).max(axis=1)
+    return float((here + RISE * np.maximum(here - before, 0.0))[tops].max())
 
 
 def _relative(value: float, half: float, quarter: float) -> float:

@@ -277,7 +277,9 @@ def test_no_jump_without_a_cause(seed: int, name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [(902102, 101), (902102, 234), (902101, 74), (902103, 172)])
+@pytest.mark.parametrize(
+    "seed", [(902102, 101), (902102, 234), (902101, 74), (902103, 172), (902105, 49), (902106, 109)]
+)
 def test_strokes_that_begin_leave_no_jump(seed: tuple[int, int]) -> None:
     """Found by the search: the peak was that of a slice just begun, by how steps fell on its beginning."""
     check_no_jump(np.random.default_rng(seed))

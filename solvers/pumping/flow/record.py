@@ -12,7 +12,7 @@ from solvers.pumping.flow.nozzle import Gas
 BEGUN, ENDED, LOW_END, HIGH_END, WALLS, IDLE, WORK = range(7)
 LARGEST_PRESSURE, SMALLEST_PRESSURE, LARGEST_MACH, LARGEST_VELOCITY, LARGEST_DEMAND = range(5)
 PRESSURE, MACH, TEMPERATURE = range(3)
-STATIC, STAGNATION, ACTIVE, PEAK, FASTEST = range(5)
+STATIC, STAGNATION, ACTIVE, PEAK, LOWEST, FASTEST = range(6)
 TIME, LOW_OUTFLOW, HIGH_OUTFLOW = range(3)
 
 
@@ -20,8 +20,8 @@ class Record(NamedTuple):
     """What a march leaves behind.
 
     field: (angles, cells, 3) pressure [Pa], axial Mach number, stagnation temperature [K]
-    profile: (cells, 5) integral of temperature and of stagnation temperature [K s], active time [s], peak pressure
-        [Pa], largest axial Mach number (of cells; the chain's jets are between its pockets)
+    profile: (cells, 6) integral of temperature and of stagnation temperature [K s], active time [s], peak and lowest
+        pressure [Pa], largest axial Mach number (of cells; the chain's jets are between its pockets)
     extremes: largest and smallest pressure [Pa], largest axial Mach number, largest axial velocity [m/s], largest Mach
         number that the ambient pressure asks for at an end (above one: choked)
     mass: content when slices begin, content when they end, outflow at the low end, at the high end, radially, to idle
@@ -42,8 +42,8 @@ def empty_record(gas: Gas, angles: int, cells: int, steps: int) -> Record:
     """A record of ambient gas at rest."""
     field = np.zeros((angles, cells, 3))
     field[:, :, PRESSURE], field[:, :, TEMPERATURE] = gas.pressure, gas.temperature
-    profile = np.zeros((cells, 5))
-    profile[:, PEAK] = gas.pressure
+    profile = np.zeros((cells, 6))
+    profile[:, PEAK] = profile[:, LOWEST] = gas.pressure
     extremes = np.zeros(5)
     extremes[LARGEST_PRESSURE] = extremes[SMALLEST_PRESSURE] = gas.pressure
     return Record(field, profile, extremes, np.zeros(WORK), np.zeros(WORK + 1), np.zeros((steps, 3)))
@@ -69,6 +69,7 @@ def book_pressure(record: Record, i: int, pressure: float) -> None:
     """Keep the extremes of the pressure [Pa] in slice i and in all."""
     extremes = record.extremes
     record.profile[i, PEAK] = max(record.profile[i, PEAK], pressure)
+    record.profile[i, LOWEST] = min(record.profile[i, LOWEST], pressure)
     extremes[LARGEST_PRESSURE] = max(extremes[LARGEST_PRESSURE], pressure)
     extremes[SMALLEST_PRESSURE] = min(extremes[SMALLEST_PRESSURE], pressure)
 

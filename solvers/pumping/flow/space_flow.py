@@ -19,6 +19,7 @@ from solvers.pumping.flow.record import (
     LARGEST_VELOCITY,
     LOW_END,
     LOW_OUTFLOW,
+    LOWEST,
     MACH,
     PEAK,
     PRESSURE,
@@ -63,10 +64,10 @@ class SpaceFlow:
     """One stroke of one tooth space; a temperature is None where the model has none.
 
     Fields of shape (angles, positions): `pressure` [Pa], `mach`, `stagnation_temperature` [K] at the owner's `angle`
-    [rad] and `position` [m]. Over the face: stroke means of temperature and stagnation temperature [K], peak pressure
-    [Pa], largest Mach number within slices (nought in the chain). `exit_demand` is the Mach number that the ambient
-    pressure asks for at the ends, above one where they are choked; `work` [J] is done on the gas above ambient
-    pressure. Errors are relative.
+    [rad] and `position` [m]. Over the face: stroke means of temperature and stagnation temperature [K], peak and
+    lowest pressure [Pa], largest Mach number within slices (nought in the chain). `exit_demand` is the Mach number that
+    the ambient pressure asks for at the ends, above one where they are choked; `work` [J] is done on the gas above
+    ambient pressure. Errors are relative.
     """
 
     angle: FloatArray
@@ -77,6 +78,7 @@ class SpaceFlow:
     mean_temperature: FloatArray | None
     mean_stagnation_temperature: FloatArray | None
     peak_pressure: FloatArray
+    lowest_pressure: FloatArray
     peak_mach: FloatArray
     largest_pressure: float
     smallest_pressure: float
@@ -119,6 +121,7 @@ def space_flow(angle: FloatArray, marches: list[March], *, conserves_energy: boo
         mean_temperature=frozen(profile[:, STATIC] / profile[:, ACTIVE]),
         mean_stagnation_temperature=frozen(profile[:, STAGNATION] / profile[:, ACTIVE]),
         peak_pressure=frozen(profile[:, PEAK]),
+        lowest_pressure=frozen(profile[:, LOWEST]),
         peak_mach=frozen(profile[:, FASTEST]),
         largest_pressure=float(extremes[:, LARGEST_PRESSURE].max()),
         smallest_pressure=float(extremes[:, SMALLEST_PRESSURE].min()),
