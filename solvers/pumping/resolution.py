@@ -120,12 +120,24 @@ def _reaches(gas: Gas, grids: Grids) -> dict[str, float]:
     fine, half, _ = grids
     here, there = _profiles(gas, fine), _profiles(gas, half)
     reaches = {name: _reach(fine.position, here[name], half.position, there[name]) for name in here}
-    slices, end = float(fine.peak_mach.max()), fine.largest_mach
-    if slices < end and fine.exit_demand >= 1.0:  # a choked end holds its own at one
-        reaches["axial_mach"] = end + OF_EXTREMES * abs(slices - float(half.peak_mach.max()))
-    elif slices < NEAR * end:
-        reaches["axial_mach"] = end
+    reaches["axial_mach"] = _mach_reach(fine, half)
     return reaches
+
+
+def _mach_reach(fine: SpaceFlow, half: SpaceFlow) -> float:
+    """The same for the Mach number, which may be largest at an end of the face or in a slice.
+
+    A choked end holds its own at one on every grid. The slices beside any end near its own as they get shorter: what
+    they would reach beyond it counts.
+    """
+    slices, end = float(fine.peak_mach.max()), fine.largest_mach
+    if slices == end:
+        return _reach(fine.position, fine.peak_mach, half.position, half.peak_mach)
+    if fine.exit_demand >= 1.0:
+        return end + OF_EXTREMES * abs(slices - float(half.peak_mach.max()))
+    if slices < NEAR * end:
+        return end
+    return end + RISE * max(_reach(fine.position, fine.peak_mach, half.position, half.peak_mach, 1.0) - end, 0.0)
 
 
 def _profiles(gas: Gas, flow: SpaceFlow) -> dict[str, FloatArray]:
@@ -133,20 +145,19 @@ def _profiles(gas: Gas, flow: SpaceFlow) -> dict[str, FloatArray]:
     profiles = {
         "peak_pressure": flow.peak_pressure - gas.pressure,
         "min_pressure": gas.pressure - flow.lowest_pressure,
-        "axial_mach": flow.peak_mach,
     }
     if flow.mean_stagnation_temperature is not None:
         profiles["temperature_rise"] = flow.mean_stagnation_temperature - gas.temperature
     return profiles
 
 
-def _reach(position: FloatArray, here: FloatArray, coarse: FloatArray, there: FloatArray) -> float:
-    """Largest value that a local maximum over the face may reach, if it goes on as from half of the slices."""
+def _reach(position: FloatArray, here: FloatArray, coarse: FloatArray, there: FloatArray, times: float = RISE) -> float:
+    """Largest value that a local maximum over the face may reach, if it rises on by so many times its last rise."""
     edged = np.pad(here, 1, constant_values=-np.inf)
     tops = (here >= edged[:-2]) & (here >= edged[2:])
     around = np.pad(np.interp(position, coarse, there), 1, mode="edge")
     before = np.lib.stride_tricks.sliding_window_view(around, 3).max(axis=1)
-    return float((here + RISE * np.maximum(here - before, 0.0))[tops].max())
+    return float((here + times * np.maximum(here - before, 0.0))[tops].max())
 
 
 def _relative(value: float, half: float, quarter: float) -> float:
