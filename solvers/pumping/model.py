@@ -13,7 +13,7 @@ from solvers.pumping.inputs import PumpingInputs
 from solvers.pumping.lead_correction import LeadCorrection, lead_correction
 from solvers.pumping.notices import flow_notices, net_flow_notices, resolution_notices, speed_notices
 from solvers.pumping.pulsation import Pulsation, pulsation
-from solvers.pumping.resolution import Grids, behind_jumps, net_uncertainty, radial_uncertainty, resolution
+from solvers.pumping.resolution import Grids, behind_jumps, compressed, net_uncertainty, radial_uncertainty, resolution
 from solvers.pumping.results import (
     Balance,
     FaceProfile,
@@ -121,7 +121,7 @@ def _spaces_result(gas: Gas, space: Space, grids: Grids, frequency: float) -> Sp
         hottest_position=hottest,
         pumping_power=frequency * flow.work,
         work_per_space=flow.work,
-        mass_flow=_mass_flow(grids, frequency),
+        mass_flow=_mass_flow(grids, frequency, compressed(gas, space.table.jump[0])),
         balance=Balance(flow.mass_error, flow.energy_error),
         profile=profile,
         field=GasField(
@@ -154,8 +154,8 @@ def _hottest(position: FloatArray, rise: FloatArray | None) -> tuple[float | Non
     return float(position[top]) - apart * ahead / bend, here - 0.5 * ahead**2 / bend
 
 
-def _mass_flow(grids: Grids, frequency: float) -> MassFlow:
-    """Of strokes that follow one another at the meshing frequency, its uncertainty from coarser grids."""
+def _mass_flow(grids: Grids, frequency: float, jumped: float) -> MassFlow:
+    """Of strokes that follow one another at the meshing frequency, its uncertainty from coarser grids and jumps."""
     masses, ends = grids.flow.masses, grids.flow.ends
     return MassFlow(
         front=frequency * masses.front,
@@ -167,8 +167,8 @@ def _mass_flow(grids: Grids, frequency: float) -> MassFlow:
         front_in=frequency * float(np.maximum(-ends.front, 0.0).sum()),
         rear_out=frequency * float(np.maximum(ends.rear, 0.0).sum()),
         rear_in=frequency * float(np.maximum(-ends.rear, 0.0).sum()),
-        net_uncertainty=frequency * net_uncertainty(grids),
-        radial_uncertainty=frequency * radial_uncertainty(grids),
+        net_uncertainty=frequency * net_uncertainty(grids, jumped),
+        radial_uncertainty=frequency * radial_uncertainty(grids, jumped),
     )
 
 

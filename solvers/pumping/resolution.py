@@ -55,7 +55,7 @@ def behind_jumps(resolved: Resolution, gas: Gas, flows: list[SpaceFlow], jumps: 
     large as the gauge pressure, no number is known.
     """
     peak, low, mach = resolved.peak_pressure, resolved.min_pressure, resolved.axial_mach
-    shares = [expm1(gas.exponent * jump) for jump in jumps]
+    shares = [compressed(gas, jump) for jump in jumps]
     for flow, share in zip(flows, shares, strict=True):
         peak = max(peak, share, _of(share * flow.largest_pressure, flow.largest_pressure - gas.pressure))
         low = max(low, share, _of(share * flow.smallest_pressure, gas.pressure - flow.smallest_pressure))
@@ -72,22 +72,29 @@ def behind_jumps(resolved: Resolution, gas: Gas, flows: list[SpaceFlow], jumps: 
     )
 
 
-def net_uncertainty(grids: Grids) -> float:
+def compressed(gas: Gas, jump: float) -> float:
+    """Share of the pressure by which a jump of the area's logarithm changes it at once."""
+    return expm1(gas.exponent * jump)
+
+
+def net_uncertainty(grids: Grids, jumped: float) -> float:
     """Mass [kg] by which the net flow of an end may be off in a stroke, from half the resolution.
 
-    At least what leaves and what enters change together: their difference may change less by luck.
+    At least what leaves and what enters change together: their difference may change less by luck. And at least what a
+    jump of the area, of which the pressure changes by the share `jumped`, moves of all that passes the ends.
     """
     here, there = grids.flow.ends, grids.halved.ends
     ends = ((here.front, there.front), (here.rear, there.rear))
     net = max(abs(float(fine.sum() - coarse.sum())) for fine, coarse in ends)
     gross = max(abs(_sum(fine) - _sum(coarse)) + abs(_sum(-fine) - _sum(-coarse)) for fine, coarse in ends)
-    return max(SAFETY * net, gross)
+    passing = sum(float(np.abs(fine).sum()) for fine, _ in ends)
+    return max(SAFETY * net, gross, min(jumped, LOST) * passing)
 
 
-def radial_uncertainty(grids: Grids) -> float:
+def radial_uncertainty(grids: Grids, jumped: float) -> float:
     """Mass [kg] by which the net radial flow, the rest of the books, may be off in a stroke."""
     radial = SAFETY * abs(grids.flow.masses.radial - grids.halved.masses.radial)
-    return max(radial, net_uncertainty(grids))
+    return max(radial, net_uncertainty(grids, jumped))
 
 
 def _shares(gas: Gas, grids: Grids) -> dict[str, float]:
