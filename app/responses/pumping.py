@@ -95,7 +95,7 @@ class PumpingPulsation(Group):
 
 
 class PumpingResolution(Group):
-    """Relative uncertainties by the resolution: three times what half the slices, steps or positions change."""
+    """Relative uncertainties by what half and a quarter of the slices, steps or positions change."""
 
     peak_pressure: Annotated[float, Output("uncertainty of the peak pressure", text="of the largest gauge pressure")]
     min_pressure: Annotated[float, Output("uncertainty of the least pressure", text="of the smallest gauge pressure")]
@@ -129,7 +129,7 @@ class PumpingResponse(Response):
     )
     resolution: Annotated[
         PumpingResolution | None,
-        Output("resolution", text="relative uncertainties; the grid convergence index of two grids and first order"),
+        Output("resolution", text="relative uncertainties, after the grid convergence index of first order"),
     ] = None
     slices: Annotated[
         int | None, Output("slices in force", "N", text="slices or pockets in force, grooves left out")
