@@ -31,6 +31,11 @@ def test_many_random_flanks(check: flanks.Check, case: int) -> None:
     check(np.random.default_rng([2, case]))
 
 
+def test_of_two_peaks_over_the_face_the_larger_one_counts() -> None:
+    """Found by the search: where lines are loaded in part a first look erred by more than two peaks differ."""
+    flanks.check_books(np.random.default_rng([3745621194, 1761, 116]))
+
+
 PEAKED = {
     "roof over the face": (238.0, Modifications(end_relief=1e-3, end_relief_length=10e-3)),
     "sharp lead crowning": (1.0, Modifications(lead_crowning=1e-3)),
