@@ -66,6 +66,11 @@ def running_server(
         yield process, address
 
 
+def unhurried(seconds: float) -> float:
+    """So many seconds of free cores, as many times as the cores are asked for now."""
+    return seconds * max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1))
+
+
 def wait_until_warm(process: subprocess.Popen[str], address: str, seconds: float = START_UP_S) -> None:
     end = time.monotonic() + seconds
     with httpx.Client(base_url=address, timeout=seconds) as client:  # a new one each time would take part of a core

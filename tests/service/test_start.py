@@ -22,6 +22,7 @@ from tests.server import (
     running_server,
     started_server,
     template,
+    unhurried,
     wait_until_warm,
     workers,
 )
@@ -62,7 +63,7 @@ def test_cold_start_answers_coupling_first(tmp_path: Path) -> None:
         assert httpx.get(f"{address}/readyz", timeout=5).status_code == 503  # the rest is not warm yet
         family = descendants(process.pid)
         process.send_signal(signal.SIGINT)
-        process.wait(2.5)
+        process.wait(unhurried(2.5))
         time.sleep(0.2)
         assert not any(map(is_alive, family))
 
@@ -74,7 +75,7 @@ def test_ends_at_any_moment_of_a_cold_start(tmp_path: Path, number: signal.Signa
         time.sleep(after_s)
         family = descendants(process.pid)
         process.send_signal(number)
-        process.wait(2.5)
+        process.wait(unhurried(2.5))
         end = time.monotonic() + 1
         while any(map(is_alive, family)):
             assert time.monotonic() < end
@@ -87,7 +88,7 @@ def test_an_impatient_second_interrupt_is_no_traceback(tmp_path: Path) -> None:
         process.send_signal(signal.SIGINT)
         time.sleep(0.01)
         process.send_signal(signal.SIGINT)
-        assert process.wait(2.5) in {0, 130}
+        assert process.wait(unhurried(2.5)) in {0, 130}
     assert "Traceback" not in log.read_text()
 
 
