@@ -5,6 +5,7 @@ from dataclasses import replace
 from functools import partial
 from math import pi
 
+import numpy as np
 import pytest
 
 from app.published.milian import CASE_1, TABLE_1
@@ -28,6 +29,7 @@ from solvers.pumping import (
 )
 from solvers.pumping import model as pumping_model
 from solvers.pumping.spaces import flow_at
+from solvers.pumping.speed_scan import speed_scan
 
 PLAIN = PumpingSetup(CASE_1, model=PumpingModel(slices=20, spaces=Spaces.PINION))
 
@@ -270,3 +272,13 @@ def test_a_helix_too_small_for_numbers_is_a_spur_gear() -> None:
     result = solve(PumpingInputs(replace(PLAIN, gears=gears), 1000.0))
     assert result.total.axial_meshing_speed is result.total.axial_meshing_mach is None
     assert "spur_gear" in {notice.code for notice in result.warnings}
+
+
+def test_a_speed_scan_takes_fewer_slices_where_it_would_not_end() -> None:
+    """Found by generated requests: a disk of a gear took more than half a minute for the figure of its choking."""
+    disk = GearPairInputs(GearTeeth(94), GearTeeth(408), 14e-3, 0.3e-3, rack_tip_radius=0.25)
+    curves = speed_scan(PumpingSetup(disk), np.linspace(5_000, 60_000, 12) * pi / 30)
+    solved = np.isfinite(curves.exit_mach)
+    assert 4 <= solved.sum() < 12
+    assert solved[-1]
+    assert not solved[0]

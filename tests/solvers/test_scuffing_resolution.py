@@ -36,6 +36,11 @@ def test_of_two_peaks_over_the_face_the_larger_one_counts() -> None:
     flanks.check_books(np.random.default_rng([3745621194, 1761, 116]))
 
 
+def test_the_largest_line_load_of_a_light_contact() -> None:
+    """Found by the search: between roll positions its line loads are interpolated to 2 %."""
+    flanks.check_books(np.random.default_rng([3745621194, 1761, 2303]))
+
+
 PEAKED = {
     "roof over the face": (238.0, Modifications(end_relief=1e-3, end_relief_length=10e-3)),
     "sharp lead crowning": (1.0, Modifications(lead_crowning=1e-3)),
