@@ -16,6 +16,7 @@ from solvers.scuffing.teeth.stiffness import PairCompliance, compliance_at, line
 # Rows of the slice table
 X, Y, LENGTH, GAP, CONSTANT, LIMIT, LOG_LOAD, LOAD, STIFFNESS, LINE = range(10)
 ROWS = 10
+NUDGE = 1e-3  # of a slice
 
 
 class Mesh(NamedTuple):
@@ -110,16 +111,32 @@ def _range(mesh: Mesh, line: float, zone: FloatArray, table: FloatArray, first: 
     low, high = zone
     at_low, at_high = gap_on_line(mesh.gap, mesh.plane, line, low), gap_on_line(mesh.gap, mesh.plane, line, high)
     least, most = min(at_low, at_high), max(at_low, at_high)
-    lowest = first
+    lowest, step = first, (high - low) / (last - first)
     for n in range(first, last):
         most = max(most, table[GAP, n])
         if table[GAP, n] < table[GAP, lowest]:
             lowest = n
     if table[GAP, lowest] < least:
-        step = (high - low) / (last - first)
         y = valley(mesh.gap, mesh.plane, line, table[Y, lowest] - step, table[Y, lowest] + step)
         least = min(table[GAP, lowest], gap_on_line(mesh.gap, mesh.plane, line, min(max(y, low), high)))
+        return least, most
+    least = min(least, _beside(mesh, line, table, (low, step), at_low, first, min(first + 1, last - 1)))
+    least = min(least, _beside(mesh, line, table, (high, -step), at_high, last - 1, max(last - 2, first)))
     return least, most
+
+
+@kernel
+def _beside(
+    mesh: Mesh, line: float, table: FloatArray, end: tuple[float, float], at_end: float, middle: int, following: int
+) -> float:
+    """Least gap [m] between the end of a stretch (y, step inwards) and the middle of its slice."""
+    y, step = end
+    if table[GAP, middle] > table[GAP, following]:
+        return at_end
+    if gap_on_line(mesh.gap, mesh.plane, line, y + NUDGE * step) >= at_end:
+        return at_end
+    bottom = valley(mesh.gap, mesh.plane, line, min(y, y + step), max(y, y + step))
+    return min(at_end, gap_on_line(mesh.gap, mesh.plane, line, bottom))
 
 
 @inlined_kernel

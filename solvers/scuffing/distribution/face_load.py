@@ -23,19 +23,25 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
 
     Looked for at equidistant points, at kinks of the gap and at y [m], where a peak is, and closer around the largest.
     The mean is the force in balance over the face. Where to look closer is seen without steps between roll positions,
-    which may err in part loaded lines: at every place that is nearly the largest then.
+    which errs for lines loaded in part: there at every place that is nearly the largest.
     """
     plane = balance.mesh.plane
     places = _apart([*np.linspace(0.0, plane.face_width, FACE_POINTS), *kinks_along_face(balance.mesh.gap), y])
-    largest = max(_largest_around(balance, places, top) for top in _tops(face_loads(balance, places, 1)))
+    tops = _tops(face_loads(balance, places, 1))[-TOPS if _in_part(balance) else -1 :]
+    largest = max(_largest_around(balance, places, top) for top in tops)
     return largest * plane.face_width / (balance.force * plane.cos_base_helix)
 
 
+def _in_part(balance: LoadBalance) -> bool:
+    """Whether any line is loaded in part."""
+    return bool(np.any(balance.survey.loaded_length < (1 - SAME) * balance.survey.length))
+
+
 def _tops(shares: FloatArray) -> list[int]:
-    """The largest of them, and the local maxima next to it in size."""
+    """Local maxima that are nearly as large as the largest, in ascending order."""
     edged = np.pad(shares, 1, constant_values=-np.inf)
     local = np.flatnonzero((shares > edged[:-2]) & (shares >= edged[2:]) & (shares >= NEARLY * shares.max()))
-    return sorted(local.tolist(), key=lambda k: float(shares[k]))[-TOPS:]
+    return sorted(local.tolist(), key=lambda k: float(shares[k]))
 
 
 def _largest_around(balance: LoadBalance, places: FloatArray, top: int) -> float:
@@ -59,8 +65,8 @@ def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) ->
 
     Where lines are loaded in part, load ends between roll positions, whose steps are then cut into `substeps`.
     """
-    in_part = np.any(balance.survey.loaded_length < (1 - SAME) * balance.survey.length)
-    return _face_loads(balance.mesh, balance.rolls.phase, balance.transmission_error, substeps if in_part else 1, y)
+    phase, error = balance.rolls.phase, balance.transmission_error
+    return _face_loads(balance.mesh, phase, error, substeps if _in_part(balance) else 1, y)
 
 
 @kernel
