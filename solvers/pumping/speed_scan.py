@@ -7,11 +7,11 @@ import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.errors import InvalidInput, NoSolution
-from solvers.pumping.inputs import PumpingSetup
+from solvers.pumping.inputs import Flow, PumpingSetup
 from solvers.pumping.results import ChokingCurves
 from solvers.pumping.spaces import CELL_STEP_LIMIT, Mesh, flow_at, prepare
 
-_COARSENINGS = (1, 2, 4)
+_COARSENINGS = {Flow.GAS_DYNAMICS: (1, 2, 4)}  # the pockets of the chain are a constant of that model
 
 
 def speed_scan(setup: PumpingSetup, speeds: FloatArray) -> ChokingCurves:
@@ -26,7 +26,7 @@ def speed_scan(setup: PumpingSetup, speeds: FloatArray) -> ChokingCurves:
 
 def _point(mesh: Mesh, speed: float, limit: int) -> tuple[float, float]:
     """Peak pressure ratio, and the Mach number that the ambient pressure asks for at the ends."""
-    for coarsening in _COARSENINGS:
+    for coarsening in _COARSENINGS.get(mesh.setup.model.flow, (1,)):
         slices = mesh.setup.model.slice_count // coarsening
         try:
             flows = [flow_at(mesh, space, speed, slices, cell_step_limit=limit) for space in mesh.spaces]
