@@ -52,11 +52,17 @@ def wall_at(duct: Duct, z: float, angle: float) -> Wall:
 
 
 @kernel
+def phase_of(duct: Duct, i: int, angle: float) -> float:
+    """The angle of the owner less the lag of cell i [rad]: what the walls of the cell depend on."""
+    return angle - duct.lag * (duct.start + (i + 0.5) * duct.width)
+
+
+@kernel
 def active_range(duct: Duct, angle: float) -> tuple[int, int]:
     """First active cell and the one after the last: those whose centre's phase lies in the stroke."""
     low, high = 0, 0
     for i in range(duct.cells):
-        phase = angle - duct.lag * (duct.start + (i + 0.5) * duct.width)
+        phase = phase_of(duct, i, angle)
         if phase > stroke_end(duct):
             low = i + 1
         if phase >= duct.first_angle:

@@ -4,7 +4,7 @@ import numpy as np
 
 from solvers.compiled import kernel
 from solvers.pumping.flow import record as columns
-from solvers.pumping.flow.duct import Duct, stroke_end, stroke_share
+from solvers.pumping.flow.duct import Duct, phase_of, stroke_end, stroke_share
 from solvers.pumping.flow.nozzle import Gas
 from solvers.pumping.flow.record import (
     BEGUN,
@@ -91,16 +91,10 @@ def book_cells(
         static = 0.5 * (before + after) / gas.constant
         dynamic = 0.25 * (old[i, VELOCITY] ** 2 + new[i, VELOCITY] ** 2) / gas.heat_capacity
         book_means(record, i, static, static + dynamic, dt, cells.share[i])
-        if duct.first_angle + _UNSETTLED * longest <= _phase(duct, i, angle + turn) <= stroke_end(duct):
+        if duct.first_angle + _UNSETTLED * longest <= phase_of(duct, i, angle + turn) <= stroke_end(duct):
             rho, u, p = new[i]
             book_pressure(record, i, p)
             book_cell_speed(record, i, abs(u) / np.sqrt(gas.exponent * p / rho), abs(u))
-
-
-@kernel
-def _phase(duct: Duct, i: int, angle: float) -> float:
-    """The angle of the owner less the lag of cell i [rad]: what the walls of the cell depend on."""
-    return angle - duct.lag * (duct.start + (i + 0.5) * duct.width)
 
 
 @kernel
@@ -115,7 +109,7 @@ def take_over(cells: Cells, low: int, high: int) -> None:
 def sample(gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, k: int, angle: float) -> None:
     """Field at the recorded angle k of the active cells whose stroke is not over."""
     for i in range(low, high):
-        if _phase(duct, i, angle) <= stroke_end(duct):
+        if phase_of(duct, i, angle) <= stroke_end(duct):
             rho, u, p = cells.state[i]
             record.field[k, i, columns.PRESSURE] = p
             record.field[k, i, columns.MACH] = abs(u) / np.sqrt(gas.exponent * p / rho)
