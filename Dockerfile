@@ -1,7 +1,7 @@
 # Two stages: the first installs and compiles the kernels, the second serves without tools, as nobody, on a read-only root.
 FROM python:3.11-slim AS build
 WORKDIR /src
-COPY pyproject.toml constraints.txt README.md ./
+COPY pyproject.toml constraints.txt README.md CHANGELOG.md ./
 COPY app app
 COPY solvers solvers
 RUN python -m venv /opt/tribodrive && /opt/tribodrive/bin/pip install --no-cache-dir -c constraints.txt .

@@ -13,6 +13,7 @@ from app.plausibility import unusual
 from app.problems import Unprocessable
 from app.requests.common import Request, Section
 from app.responses.common import MODEL_VERSION, Notice, Response
+from app.sources import SOURCES
 from solvers import notices
 from solvers.errors import InvalidInput, NoSolution
 
@@ -51,9 +52,10 @@ def evaluate(calculation: Calculation, request: Request) -> Response:
             *_model_assumptions(request),
         ],
         "model_version": MODEL_VERSION,
+        "sources": SOURCES,
         "model": request.options(),
         "inputs": inputs,
-        "case": case_of(calculation.path, inputs, MODEL_VERSION),
+        "case": case_of(calculation.path, inputs, SOURCES),
     }
     return calculation.response.model_validate(content)
 

@@ -12,7 +12,7 @@ from app.contract.tree import Branch, Field, tree
 from app.pages.typesetting import percent_change, shown, symbol
 
 NOT_RESULTS = frozenset(
-    {"status", "warnings", "residuals", "assumptions", "model_version", "model", "derived", "inputs", "case"}
+    {"status", "warnings", "residuals", "assumptions", "model_version", "sources", "model", "derived", "inputs", "case"}
 )
 
 

@@ -53,6 +53,10 @@ class Response(Group):
         list[Assumption], Output("assumptions", text="defaults used that are ours and not the paper's")
     ]
     model_version: Annotated[str, Output("model version", text="version of the model that computed this result")]
+    sources: Annotated[
+        str,
+        Output("sources of the solvers", text="SHA-256 of the solvers' syntax trees; equal for equal calculations"),
+    ]
     model: Annotated[dict[str, Any], Output("options in force")]
     derived: Annotated[Derived | None, Output("derived", text="what follows from the request before any physics")] = (
         None
@@ -63,12 +67,12 @@ class Response(Group):
     ]
     case: Annotated[
         str,
-        Output("case", text="SHA-256 of endpoint, inputs and model version; equal for equal numbers"),
+        Output("case", text="SHA-256 of endpoint, inputs and sources; equal cases have equal results"),
     ]
 
     @classmethod
     def __pydantic_init_subclass__(cls, **_: Any) -> None:
         """Results stand before what they rest on."""
-        for name in ("assumptions", "model_version", "model", "derived", "inputs", "case"):
+        for name in ("assumptions", "model_version", "sources", "model", "derived", "inputs", "case"):
             cls.model_fields[name] = cls.model_fields.pop(name)
         cls.model_rebuild(force=True)

@@ -12,6 +12,7 @@ from typing import Any
 from distributed import Client, KilledWorker
 
 from app.problems import SchedulerUnavailable, WorkerLost
+from app.sources import SOURCES
 from app.studies.engine import PoolLost
 from app.warm_up import STAGES, warm
 
@@ -94,4 +95,8 @@ def prepare() -> dict[str, str]:
 
 def versions() -> dict[str, str]:
     """What the numbers depend on."""
-    return {"python": platform.python_version(), **{package: version(package) for package in PACKAGES}}
+    return {
+        "python": platform.python_version(),
+        "sources": SOURCES,
+        **{package: version(package) for package in PACKAGES},
+    }

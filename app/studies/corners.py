@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from app.problems import Unprocessable
 from app.reading import read
 from app.responses.common import MODEL_VERSION
+from app.sources import SOURCES
 from app.studies.engine import Pool, Work, in_order
 from app.studies.lines import point_line
 from app.studies.outputs import Outputs, chosen
@@ -56,6 +57,7 @@ class Corners:
             "outputs": self.outputs.header(),
             "total": self.total,
             "model_version": MODEL_VERSION,
+            "sources": SOURCES,
             "case": self.case,
         }
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from app.contract.fields import Leaf
 from app.responses.common import MODEL_VERSION
+from app.sources import SOURCES
 from app.studies.engine import Pool, Work, in_order, twice_if_lost
 from app.studies.points import Question
 from app.studies.requests import Overrides
@@ -127,6 +128,7 @@ class Design:
             "corners": len(self.cases),
             "evaluations": self.evaluations,
             "model_version": MODEL_VERSION,
+            "sources": SOURCES,
             "case": self.case,
         }
 

@@ -7,7 +7,7 @@ from app.contract.cases import case_of
 from app.problems import Unprocessable
 from app.reading import InvalidBody, validated
 from app.requests.common import Request
-from app.responses.common import MODEL_VERSION
+from app.sources import SOURCES
 from app.studies.points import with_overrides
 from app.studies.requests import Overrides, StudyRequest
 from app.studies.unit_requests import UnitStudy
@@ -35,7 +35,7 @@ def checked_base(calculation: Calculation, base: dict[str, Any], first: Override
 def case_of_study(path: str, study: StudyRequest | UnitStudy) -> str:
     """The hash of a study; equal for equal numbers."""
     try:
-        return case_of(path, study.model_dump(), MODEL_VERSION)
+        return case_of(path, study.model_dump(), SOURCES)
     except ValueError:  # in a field that every point replaces
         message = "holds a number that is not finite, or text that is not Unicode"
         raise Unprocessable("not_json", message, "request") from None

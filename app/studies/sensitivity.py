@@ -10,6 +10,7 @@ from app.contract.fields import ITEM, Leaf, leaves
 from app.problems import Unprocessable
 from app.reading import read
 from app.responses.common import MODEL_VERSION
+from app.sources import SOURCES
 from app.studies.differences import Differences, Probe, probe
 from app.studies.engine import Pool, Work, in_order
 from app.studies.fields import scalar_at, value_at
@@ -94,6 +95,7 @@ class Sensitivity:
             "error": base.error,
             "assumptions": base.assumptions,
             "model_version": MODEL_VERSION,
+            "sources": SOURCES,
             "case": self.case,
             "elapsed_s": clock.elapsed_s,
         }

@@ -7,6 +7,7 @@ from app.contract.fields import Leaf
 from app.problems import Unprocessable
 from app.reading import read
 from app.responses.common import MODEL_VERSION
+from app.sources import SOURCES
 from app.studies.engine import Pool, Work, in_order, twice_if_lost
 from app.studies.fields import did_you_mean, scalar_at
 from app.studies.lines import Table, point_line
@@ -60,6 +61,7 @@ class Sweep:
             "outputs": self.outputs.header(),
             "total": self.total,
             "model_version": MODEL_VERSION,
+            "sources": SOURCES,
             "case": self.case,
         }
 

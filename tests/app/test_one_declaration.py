@@ -44,7 +44,7 @@ def test_an_output_is_one_line_in_each_layer() -> None:
     wider = replace(calculation, solve=solve, response=WiderResponse)
     answer = json.loads(written(evaluate(wider, request)))
     assert answer["longest_day_mm"] == 250.0
-    assert list(answer)[-6:] == ["assumptions", "model_version", "model", "derived", "inputs", "case"]
+    assert list(answer)[-7:] == ["assumptions", "model_version", "sources", "model", "derived", "inputs", "case"]
 
     leaf = leaf_at(WiderResponse, "longest_day_mm")
     assert leaf is not None

@@ -198,4 +198,4 @@ def test_an_answer_ends_with_what_it_rests_on(response: type[Documented]) -> Non
     order = ["status", "warnings", "assumptions", "model", "derived", "inputs", "case"]
     assert all(names.index(first) < names.index(second) for first, second in pairwise(order))
     assert names[:2] == ["status", "warnings"]
-    assert names[-6:] == ["assumptions", "model_version", "model", "derived", "inputs", "case"]
+    assert names[-7:] == ["assumptions", "model_version", "sources", "model", "derived", "inputs", "case"]

@@ -1,11 +1,16 @@
-"""The numbers of every example, as they were last accepted: a change of any is seen, whether meant or not.
+"""The numbers of every example as they were last accepted: a change of any is seen, whether meant or not.
 
-These are regressions, not truths; truths stand in tests/papers. After a change that is meant:
-`python -m tests.golden.test_examples` writes the file anew, and its difference belongs into the commit.
+These are regressions, not truths; truths are in tests/papers. After a change that is meant,
+`python -m tests.golden.test_examples "what was changed, which numbers moved, why"` writes the numbers and appends an
+entry to CHANGELOG.md; without a text it corrects the hash in the last entry. Both files belong to the commit.
 """
 
 import json
+import re
+import sys
+import textwrap
 from collections.abc import Iterator
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +21,8 @@ from app.evaluate import evaluate
 from app.library import examples
 
 NUMBERS = Path(__file__).with_name("numbers.json")
-NOT_RESULTS = {"inputs", "case", "model_version", "model", "assumptions"}
+CHANGELOG = Path(__file__).parents[2] / "CHANGELOG.md"
+NOT_RESULTS = {"inputs", "case", "model_version", "sources", "model", "assumptions"}
 ROUNDING = {"rel": 1e-6, "abs": 1e-9}
 """What another processor's rounding may change in iterated results, and in what is zero but for rounding."""
 
@@ -51,14 +57,49 @@ def test_every_example_has_its_numbers() -> None:
     assert sorted(accepted()) == sorted(examples())
 
 
+def agrees(found: Any, wanted: Any) -> bool:
+    return bool(found == (pytest.approx(wanted, **ROUNDING) if isinstance(wanted, float) else wanted))
+
+
 @pytest.mark.parametrize("name", sorted(examples()))
 def test_numbers_are_as_accepted(name: str) -> None:
     found, wanted = numbers_of(name), accepted()[name]
     assert list(found) == list(wanted)
     for path, value in wanted.items():
-        assert found[path] == (pytest.approx(value, **ROUNDING) if isinstance(value, float) else value), path
+        assert agrees(found[path], value), f"{path}: {found[path]}, accepted {value}"
+
+
+def newest_section() -> str:
+    return CHANGELOG.read_text("utf-8").split("\n## ")[1].rstrip()
+
+
+def hash_of_numbers() -> str:
+    return sha256(NUMBERS.read_bytes()).hexdigest()
+
+
+def test_the_last_entry_of_the_changelog_is_about_these_numbers() -> None:
+    assert newest_section().endswith(f"`{hash_of_numbers()}`"), "see the docstring of this module"
+
+
+def accept(entry: str) -> None:
+    """Write the numbers that differ by more than rounding, and the changelog's entry about them."""
+    known = accepted()
+    content = {}
+    for name in sorted(examples()):
+        old = known.get(name, {})
+        content[name] = {
+            path: old[path] if path in old and agrees(value, old[path]) else value
+            for path, value in numbers_of(name).items()
+        }
+    NUMBERS.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", "utf-8")
+    before = newest_section()
+    if entry:
+        text = textwrap.fill(entry, 120, initial_indent="* ", subsequent_indent="  ")
+        after = f"{before}\n{text}\n  `{hash_of_numbers()}`"
+    else:
+        after = re.sub(r"[0-9a-f]{64}`$", f"{hash_of_numbers()}`", before)
+    CHANGELOG.write_text(CHANGELOG.read_text("utf-8").replace(before, after, 1), "utf-8")
 
 
 if __name__ == "__main__":
-    content = {name: numbers_of(name) for name in sorted(examples())}
-    NUMBERS.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", "utf-8")
+    accept(" ".join(sys.argv[1:]))

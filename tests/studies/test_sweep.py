@@ -49,7 +49,7 @@ GRID = [
 
 def test_lines_of_a_grid() -> None:
     header, *points, end = swept(vary=GRID, outputs=[THRUST, FILM, "lubrication.regime.area"])
-    assert list(header) == ["type", "endpoint", "axes", "outputs", "total", "model_version", "case"]
+    assert list(header) == ["type", "endpoint", "axes", "outputs", "total", "model_version", "sources", "case"]
     assert header["axes"][0] == {**GRID[0], "unit": "°"}
     assert header["axes"][1]["values"] == pytest.approx([0.1, 0.15, 0.2])
     assert header["outputs"][0] == {"path": THRUST, "unit": "N", "title": "axial thrust"}

@@ -1,0 +1,60 @@
+"""The identity of the solvers' sources, and what the changelog says about their results."""
+
+import ast
+import re
+from collections.abc import Iterator
+from hashlib import sha256
+from importlib.resources import files
+from pathlib import Path
+
+import solvers
+
+NO_CALCULATION = "published"
+"""The package of what was printed and is compared with; nothing is calculated there."""
+
+
+def sources_of(package: Path) -> str:
+    """SHA-256 in hex of the syntax trees of the modules in `package`, without docstrings and comments.
+
+    Layout and prose leave it as it is; a constant, a formula or the name of a module changes it. The trees, and with
+    them the hash, may differ between versions of Python.
+    """
+    found = sha256()
+    for path in sorted(package.rglob("*.py")):
+        place = path.relative_to(package)
+        if NO_CALCULATION not in place.parts:
+            found.update(f"{place.as_posix()}\n".encode())
+            found.update(ast.dump(_without_docstrings(path)).encode())
+    return found.hexdigest()
+
+
+def _without_docstrings(path: Path) -> ast.Module:
+    """The tree of a module without text that stands alone, which does nothing."""
+    tree = ast.parse(path.read_bytes())
+    for block in _blocks(tree):
+        block[:] = [statement for statement in block if not _is_text(statement)]
+    return tree
+
+
+def _blocks(tree: ast.Module) -> Iterator[list[ast.stmt]]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+            yield node.body
+
+
+def _is_text(statement: ast.stmt) -> bool:
+    return (
+        isinstance(statement, ast.Expr)
+        and isinstance(statement.value, ast.Constant)
+        and isinstance(statement.value.value, str)
+    )
+
+
+def recent_changes() -> list[str]:
+    """The entries of the newest section of the changelog, newest first, without the hashes of accepted numbers."""
+    section = files("app").joinpath("CHANGELOG.md").read_text("utf-8").split("\n## ")[1]
+    entries = re.split(r"^\* ", section, flags=re.MULTILINE)[1:]
+    return [" ".join(re.sub(r"`[0-9a-f]{64}`", "", entry).replace("`", "").split()) for entry in reversed(entries)]
+
+
+SOURCES = sources_of(Path(solvers.__file__).parent)
