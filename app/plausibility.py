@@ -6,8 +6,8 @@ from typing import Any
 
 from app.requests.common import Request
 from app.responses.common import Notice
+from solvers.lubricants import thick_oil
 
-THICK_OIL = 1.0  # Pa s
 THIN_AIR = 20.0  # kPa
 LEAST_MODIFICATION = 0.5  # um
 WIDEST_FACE = 3.0  # pitch diameters
@@ -29,10 +29,9 @@ Found = Iterator[tuple[str, str]]
 
 
 def _of_oil(request: Request, content: dict[str, Any]) -> Found:
-    derived, lubricant = content.get("derived") or {}, getattr(request, "lubricant", None)
-    viscosity = derived.get("viscosity_pa_s", getattr(lubricant, "viscosity_pa_s", None))
-    if viscosity is not None and viscosity > THICK_OIL:
-        yield "lubricant.viscosity_pa_s", f"{viscosity:.4g} Pa s at operating temperature is very thick; mPa s?"
+    viscosity = (content.get("derived") or {}).get("viscosity_pa_s")
+    if viscosity is not None and (thick := thick_oil(viscosity)) is not None:
+        yield "lubricant.viscosity_pa_s", thick.message
     temperatures, bulk = getattr(request, "temperatures", None), content.get("contact_temperature") or {}
     oil = getattr(temperatures, "oil_c", None)
     if oil is not None and bulk and oil > bulk["bulk_c"]:

@@ -7,8 +7,13 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from solvers.compiled import kernel
+from solvers.errors import InvalidInput
+from solvers.notices import Notice
 
 PressureViscosityLaw = Literal["roelands", "barus"]
+
+HIGHEST_VISCOSITY = 1e4  # Pa s without pressure; no oil flows there
+THICK_OIL = 1.0  # Pa s at operating temperature, beyond which a slip is likely
 
 ROELANDS_PRESSURE = 5.1e-9  # 1/Pa
 ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the viscosity 6.31e-5 Pa s at the pole
@@ -58,8 +63,19 @@ class Lubricant:
         )
 
     def viscosity_at(self, pressure: float, temperature: float) -> float:
-        """Viscosity [Pa s] at pressure [Pa] and temperature [K]."""
+        """Viscosity [Pa s] at pressure [Pa] and temperature [K].
+
+        Raises InvalidInput viscosity_range where the law makes it thicker than any oil without pressure.
+        """
         laws = self.laws
+        logarithm = float(log_viscosity(laws, pressure_part(laws, 0.0)[0], temperature)[0])
+        if not logarithm < log(HIGHEST_VISCOSITY):
+            message = (
+                f"the oil's law gives it 10^{logarithm / log(10.0):.2g} Pa s at {temperature:g} K, beyond "
+                f"{HIGHEST_VISCOSITY:g}; temperatures must lie nearer to the reference temperature, or the "
+                "temperature-viscosity coefficient be smaller"
+            )
+            raise InvalidInput("viscosity_range", message, "lubricant.temperature_viscosity")
         return float(np.exp(log_viscosity(laws, pressure_part(laws, pressure)[0], temperature)[0]))
 
     def density_at(self, pressure: float, temperature: float) -> float:
@@ -78,6 +94,14 @@ class OilInUse:
     density: float
     specific_heat: float
     thermal_conductivity: float
+
+
+def thick_oil(viscosity: float) -> Notice | None:
+    """The notice of a viscosity [Pa s] at operating temperature that few machines run with."""
+    if viscosity <= THICK_OIL:
+        return None
+    message = f"{viscosity:.4g} Pa s at operating temperature is very thick; mPa s?"
+    return Notice("unusual_value", message, "lubricant.viscosity")
 
 
 def oil_in_use(lubricant: Lubricant) -> dict[str, float]:

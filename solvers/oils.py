@@ -6,6 +6,7 @@ from typing import Literal
 
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant, PressureViscosityLaw
+from solvers.viscosity_index import SQUARE_MILLIMETRE, viscosity_index
 
 OilKind = Literal["mineral", "pao", "ester", "polyglycol"]
 
@@ -13,7 +14,9 @@ CELSIUS = 273.15  # K
 WALTHER_SHIFT = 0.7  # mm^2/s
 DENSITY_TEMPERATURE = 15.0 + CELSIUS  # K
 THERMAL_EXPANSION = 0.00065  # 1/K
-SQUARE_MILLIMETRE = 1e-6  # m^2
+LEAST_VISCOSITY_100 = 1e-6  # m^2/s; ASTM D341 has further terms for oils as thin as that
+VISCOSITY_INDICES = (-100.0, 500.0)  # naphthenic and aromatic oils reach -100, silicone oils 400
+LARGEST_VISCOSITY = 0.1  # m^2/s; an oil that thick hardly flows, and the law does not know where it sets
 
 TYPICAL_VISCOSITY_100 = {
     32: 5.4e-6,
@@ -48,6 +51,9 @@ KINDS: dict[OilKind, KindOfOil] = {
 }
 
 
+_THICK, _THIN = "lubricant.kinematic_viscosity_40", "lubricant.kinematic_viscosity_100"
+
+
 @dataclass(frozen=True, slots=True)
 class OilSheet:
     """An oil by its data sheet; what is None follows from the kind of oil or from the viscosities.
@@ -67,17 +73,33 @@ class OilSheet:
     compressible: bool = True
 
     def __post_init__(self) -> None:
-        """Refuse an oil that does not thin as it warms, and one that the Walther law does not reach."""
-        if self.kinematic_viscosity_100 >= self.kinematic_viscosity_40:
-            raise InvalidInput(
-                "viscosity_order",
-                "the oil must be thinner at 100 °C than at 40 °C",
-                "lubricant.kinematic_viscosity_100",
+        """Raise InvalidInput for viscosities that no oil has: out_of_range, viscosity_order, viscosity_index."""
+        thick, thin, field = self.kinematic_viscosity_40, self.kinematic_viscosity_100, _THIN
+        if not thin >= LEAST_VISCOSITY_100:
+            raise InvalidInput("out_of_range", "the oil needs at least 1 mm²/s at 100 °C", field)
+        if not thin < thick:
+            raise InvalidInput("viscosity_order", "the oil must be thinner at 100 °C than at 40 °C", field)
+        index, (least, largest) = viscosity_index(thick, thin), VISCOSITY_INDICES
+        if not least <= index <= largest:
+            message = (
+                f"{thick / SQUARE_MILLIMETRE:.4g} and {thin / SQUARE_MILLIMETRE:.4g} mm²/s at 40 and 100 °C make a "
+                f"viscosity index of {index:.3g}; oils have {least:g} to {largest:g}: check both viscosities"
             )
+            raise InvalidInput("viscosity_index", message, field)
 
     def kinematic_viscosity(self, temperature: float) -> float:
-        """Kinematic viscosity [m^2/s] at a temperature [K] by the Walther law through both points (ASTM D341)."""
-        return float(10.0 ** self._double_exponent(temperature) - WALTHER_SHIFT) * SQUARE_MILLIMETRE
+        """Kinematic viscosity [m^2/s] at a temperature [K] by the Walther law through both points (ASTM D341).
+
+        Raises InvalidInput oil_too_thick beyond 10^5 mm^2/s.
+        """
+        logarithm = self._logarithm(temperature)
+        if logarithm > log10(LARGEST_VISCOSITY / SQUARE_MILLIMETRE):
+            message = (
+                f"by its viscosities at 40 and 100 °C the oil would have 10^{logarithm:.1f} mm²/s at "
+                f"{temperature - CELSIUS:.4g} °C; beyond 10^5 it hardly flows: give a warmer oil or a thinner one"
+            )
+            raise InvalidInput("oil_too_thick", message, _THICK)
+        return float(10.0**logarithm - WALTHER_SHIFT) * SQUARE_MILLIMETRE
 
     @property
     def reference_density(self) -> float:
@@ -96,10 +118,9 @@ class OilSheet:
         """Beta = -d ln eta/dt [1/K]: what the Walther law and the density say there, unless the sheet gives it."""
         if self.temperature_viscosity is not None:
             return self.temperature_viscosity
-        exponent = self._double_exponent(temperature)
-        shifted = 10.0**exponent
+        viscosity = self.kinematic_viscosity(temperature) / SQUARE_MILLIMETRE
         _, slope = self._walther()
-        thinning = log(10.0) * shifted * exponent * slope / ((shifted - WALTHER_SHIFT) * temperature)
+        thinning = log(10.0) * (1.0 + WALTHER_SHIFT / viscosity) * self._logarithm(temperature) * slope / temperature
         expansion = THERMAL_EXPANSION / (1.0 - THERMAL_EXPANSION * (temperature - DENSITY_TEMPERATURE))
         return float(thinning + expansion)
 
@@ -136,7 +157,7 @@ class OilSheet:
         slope = (thick - thin) / (log10(hot) - log10(cold))
         return thick + slope * log10(cold), slope
 
-    def _double_exponent(self, temperature: float) -> float:
+    def _logarithm(self, temperature: float) -> float:
         """log10 (nu + 0.7) at a temperature [K]."""
         intercept, slope = self._walther()
         return float(10.0 ** (intercept - slope * log10(temperature)))

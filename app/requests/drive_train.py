@@ -1,5 +1,6 @@
 """A gear unit whole: request of /v1/drive-train."""
 
+from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
@@ -16,6 +17,7 @@ from app.requests.materials import XUE
 from app.requests.oil import Oil
 from app.requests.pumping import GearGroove, Mist
 from solvers.drive_train import inputs as si
+from solvers.errors import InvalidInput
 from solvers.pumping import inputs as pumping
 from solvers.scuffing import inputs as mesh
 
@@ -106,7 +108,7 @@ class DriveTrainRequest(Request):
             pinion_shaft=shafts[0],
             wheel_shaft=shafts[1],
             arrangement=self.operation.arrangement(self.gears),
-            couplings=tuple(coupling.unit_coupling() for coupling in self.couplings),
+            couplings=tuple(self._couplings()),
             collar_radius=to_si(self.thrust_collar)["radius"],
             heat=si.Heat(**to_si(self.thermal)),
             effects=si.Effects(**to_si(self.effects)),
@@ -115,6 +117,14 @@ class DriveTrainRequest(Request):
             local_bulk=self.temperatures.local_bulk,
             states=fields["states"],
         )
+
+    def _couplings(self) -> Iterator[si.UnitCoupling]:
+        """The solver's couplings; an oil that none can be is that of its own coupling."""
+        for k, coupling in enumerate(self.couplings):
+            try:
+                yield coupling.unit_coupling()
+            except InvalidInput as error:
+                raise InvalidInput(error.code, error.message, f"couplings.{k}.{error.field}") from error
 
     def _temperatures(self) -> mesh.Temperatures:
         """The solver's temperatures, the contact's bulk by default between those of the teeth."""

@@ -8,7 +8,8 @@ from pydantic_core import PydanticCustomError
 from app.contract.conversion import to_si
 from app.contract.quantities import Input
 from app.requests.common import Section
-from solvers.oils import SQUARE_MILLIMETRE, OilKind, OilSheet, iso_vg
+from solvers.oils import OilKind, OilSheet, iso_vg
+from solvers.viscosity_index import SQUARE_MILLIMETRE
 
 IsoGrade = Literal[32, 46, 68, 100, 150, 220, 320, 460, 680]
 

@@ -9,6 +9,7 @@ from solvers.coupling.friction.regimes import UNSTABLE_AREA
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.results import AxialThrust, Geometry, Kinematics, Limits, LoadDistribution, Lubrication
 from solvers.coupling.teeth.limits import SLIDING_VELOCITY_LIMIT
+from solvers.lubricants import thick_oil
 from solvers.notices import Notice
 
 ORBIT_RESOLUTION = 0.01
@@ -70,7 +71,9 @@ def load_notices(
 
 
 def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication: Lubrication) -> Iterator[Notice]:
-    """Notices about the contact on the face and the oil film."""
+    """Notices about the oil, the contact on the face and the film."""
+    if (thick := thick_oil(inputs.lubricant.viscosity)) is not None:
+        yield thick
     half_face = inputs.coupling.face_width / 2.0
     if lubrication.hertz_half_width > half_face:
         yield Notice("wide_contact", "the contact at rest is wider than the tooth face", "face_width")

@@ -7,6 +7,7 @@ import pytest
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant
 from solvers.oils import KINDS, TYPICAL_VISCOSITY_100, OilKind, OilSheet, iso_vg, lubricant_at
+from solvers.viscosity_index import viscosity_index
 
 GRADES = sorted(TYPICAL_VISCOSITY_100)
 
@@ -89,3 +90,44 @@ def test_oil_that_does_not_thin_is_refused() -> None:
     with pytest.raises(InvalidInput, match="thinner at 100") as refusal:
         OilSheet(10e-6, 10e-6)
     assert (refusal.value.code, refusal.value.field) == ("viscosity_order", "lubricant.kinematic_viscosity_100")
+
+
+@pytest.mark.parametrize(("viscosity_40", "viscosity_100", "index"), [(73.30, 8.86, 92.0), (22.83, 5.05, 156.0)])
+def test_viscosity_index_of_oils_with_a_known_one(viscosity_40: float, viscosity_100: float, index: float) -> None:
+    """The two worked examples of ASTM D2270."""
+    assert viscosity_index(viscosity_40 * 1e-6, viscosity_100 * 1e-6) == pytest.approx(index, abs=0.5)
+
+
+@pytest.mark.parametrize("grade", GRADES)
+def test_grades_have_the_index_of_a_mineral_oil(grade: int) -> None:
+    assert 94.0 < viscosity_index(grade * 1e-6, TYPICAL_VISCOSITY_100[grade]) < 103.0
+
+
+@pytest.mark.parametrize(
+    ("viscosity_40", "viscosity_100", "code"),
+    [
+        (5000, 1, "viscosity_index"),
+        (220, 130, "viscosity_index"),
+        (float("nan"), 5, "viscosity_order"),
+        (float("inf"), 5, "viscosity_index"),
+        (5, 0.2, "out_of_range"),
+    ],
+)
+def test_viscosities_that_no_oil_has_are_refused(viscosity_40: float, viscosity_100: float, code: str) -> None:
+    with pytest.raises(InvalidInput) as refusal:
+        OilSheet(viscosity_40 * 1e-6, viscosity_100 * 1e-6)
+    assert (refusal.value.code, refusal.value.field) == (code, "lubricant.kinematic_viscosity_100")
+
+
+def test_the_law_ends_where_oils_hardly_flow() -> None:
+    """VG 46 at -40 C has 8.9e4 mm2/s, at -41 C 1.06e5."""
+    assert iso_vg(46).kinematic_viscosity(233.15) == pytest.approx(8.91e-2, rel=1e-3)
+    with pytest.raises(InvalidInput) as refusal:
+        iso_vg(46).lubricant(232.15)
+    assert (refusal.value.code, refusal.value.field) == ("oil_too_thick", "lubricant.kinematic_viscosity_40")
+
+
+def test_a_viscosity_without_pressure_that_no_oil_has_is_refused() -> None:
+    with pytest.raises(InvalidInput) as refusal:
+        Lubricant(temperature_viscosity=0.2).viscosity_at(0.0, 220.0)
+    assert (refusal.value.code, refusal.value.field) == ("viscosity_range", "lubricant.temperature_viscosity")

@@ -8,11 +8,10 @@ from scipy.optimize import brentq
 from solvers.contact.ehl.dimensionless import expected_gap, groups
 from solvers.contact.ehl.inputs import LineContactInputs
 from solvers.errors import InvalidInput
-from solvers.lubricants import ROELANDS_POLE_TEMPERATURE, log_viscosity, pressure_part
+from solvers.lubricants import HIGHEST_VISCOSITY, ROELANDS_POLE_TEMPERATURE, log_viscosity, pressure_part
 
 LOWEST_SPEED = 1e-9  # m/s, three centimetres a year
 LOWEST_VISCOSITY = 7e-5  # Pa s; Roelands' law ends at 6.31e-5
-HIGHEST_VISCOSITY = 1e4  # Pa s without pressure; no oil flows there
 HIGHEST_VISCOSITY_UNDER_PRESSURE = 1e100  # Pa s; glass begins at 1e12
 LOWEST_TEMPERATURE = ROELANDS_POLE_TEMPERATURE + 60.0  # K; no oil flows there
 HIGHEST_PRESSURE = 4e9  # Pa

@@ -1,0 +1,111 @@
+"""Oils that none can be, and oils used where no law describes them, are refused by name wherever an oil is taken."""
+
+import copy
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.random import Generator
+
+from app.calculations import BY_PATH
+from app.formats.json import answer
+from app.library import examples
+from app.problems import Unprocessable
+from solvers.oils import TYPICAL_VISCOSITY_100
+from tests.app.test_practice import CONTACT, COUPLING, PAIR, solved
+
+OPERATION = {"torque_n_m": 3000, "speed_rpm": 1910}
+RECOMMENDED = {**COUPLING, "operation": {**OPERATION, "misalignment_range_deg": [0.05, 0.1]}}
+UNIT: dict[str, Any] = examples()["starter-turbo-gear-drive-train"].request
+WAX = {"kinematic_viscosity_40_mm2_per_s": 5000, "kinematic_viscosity_100_mm2_per_s": 1}
+# an endpoint, a request, the path of its oil, and the temperatures at which that is used
+USES: dict[str, tuple[str, dict[str, Any], str, tuple[str, ...]]] = {
+    "coupling": ("/v1/coupling", COUPLING, "lubricant", ("lubricant.temperature_c",)),
+    "orbit": ("/v1/coupling/sleeve-orbit", COUPLING, "lubricant", ("lubricant.temperature_c",)),
+    "recommendation": ("/v1/coupling/recommendation", RECOMMENDED, "lubricant", ("lubricant.temperature_c",)),
+    "scuffing": ("/v1/scuffing", PAIR, "lubricant", ("temperatures.oil_c", "temperatures.bulk_c")),
+    "line contact": ("/v1/scuffing/line-contact", CONTACT, "lubricant", ("temperatures.inlet_c",)),
+    "unit": ("/v1/drive-train", UNIT, "lubricant", ("temperatures.oil_c", "temperatures.bulk_c")),
+    "coupling of a unit": ("/v1/drive-train", UNIT, "couplings.0.lubricant", ("couplings.0.lubricant.temperature_c",)),
+}
+
+
+def with_oil(body: dict[str, Any], path: str, oil: dict[str, Any], temperatures: dict[str, float]) -> dict[str, Any]:
+    """A request with another oil at a dotted path, used at other temperatures."""
+    result = copy.deepcopy(body)
+    for name, value in {path: oil, **temperatures}.items():
+        *way, last = name.split(".")
+        place: Any = result
+        for part in way:
+            place = place[int(part)] if part.isdecimal() else place.setdefault(part, {})
+        place[last] = copy.copy(value)
+    return result
+
+
+def outcome(use: str, oil: dict[str, Any], temperatures: list[float]) -> Unprocessable | None:
+    """How the request was refused, or None where it was answered."""
+    endpoint, body, path, places = USES[use]
+    calculation = BY_PATH[endpoint]
+    request = with_oil(body, path, oil, dict(zip(places, temperatures, strict=True)))
+    try:
+        answer(calculation, calculation.request.model_validate({**request, "detail": "summary"}))
+    except Unprocessable as refusal:
+        return refusal
+    return None
+
+
+@pytest.mark.parametrize("use", USES)
+def test_an_oil_whose_index_none_has_is_refused_at_its_field(use: str) -> None:
+    """5000 and 1 mm2/s at 40 and 100 C: a viscosity index of -10^6, and an overflow of Walther's law at -50 C."""
+    refusal = outcome(use, WAX, [-50.0] * len(USES[use][3]))
+    assert isinstance(refusal, Unprocessable)
+    assert (refusal.code, refusal.path) == ("viscosity_index", f"{USES[use][2]}.kinematic_viscosity_100_mm2_per_s")
+
+
+@pytest.mark.parametrize("use", USES)
+def test_an_oil_too_cold_to_flow_is_refused_at_its_field(use: str) -> None:
+    """VG 680 at -45 C: 10^8 mm2/s; at -50 C it gave a coupling 8.9e7 N of capacity without a warning."""
+    refusal = outcome(use, {"iso_vg": 680}, [-45.0] * len(USES[use][3]))
+    assert isinstance(refusal, Unprocessable)
+    assert (refusal.code, refusal.path) == ("oil_too_thick", f"{USES[use][2]}.iso_vg")
+    assert "10^8.0 mm²/s at -45 °C" in refusal.message
+
+
+@pytest.mark.parametrize(
+    ("oil", "field"),
+    [({"viscosity_pa_s": 25}, "lubricant.viscosity_pa_s"), ({"iso_vg": 460, "temperature_c": 10}, "lubricant.iso_vg")],
+)
+def test_a_coupling_s_oil_that_is_very_thick_is_warned_of(oil: dict[str, Any], field: str) -> None:
+    warnings = solved("/v1/coupling", COUPLING, {"lubricant": oil})["warnings"]
+    told = [(each["field"], each["message"]) for each in warnings if each["code"] == "unusual_value"]
+    assert [place for place, _ in told] == [field]
+    assert "Pa s at operating temperature is very thick" in told[0][1]
+
+
+def random_oil(draw: Generator, use: str) -> dict[str, Any]:
+    """Any oil that the schema of a use allows: a grade, a sheet, or a viscosity."""
+    match draw.integers(3):
+        case 0:
+            return {"iso_vg": int(draw.choice(list(TYPICAL_VISCOSITY_100)))}
+        case 1:
+            thick, thin = np.exp(draw.uniform([np.log(2), 0.0], np.log([5000, 1000])))
+            return {"kinematic_viscosity_40_mm2_per_s": float(thick), "kinematic_viscosity_100_mm2_per_s": float(thin)}
+    oil: dict[str, Any] = {"viscosity_pa_s": float(np.exp(draw.uniform(*np.log([1e-5, 100]))))}
+    if not any(place.startswith(USES[use][2]) for place in USES[use][3]):
+        oil["reference_temperature_c"] = draw.uniform(-50, 300)
+        oil["temperature_viscosity_per_k"] = draw.uniform(0, 0.2)
+        oil["pressure_viscosity_per_gpa"] = draw.uniform(1, 60)
+        oil["pressure_viscosity_law"] = str(draw.choice(["roelands", "barus"]))
+    return oil
+
+
+@pytest.mark.parametrize("use", USES)
+def test_any_oil_at_any_temperature_is_answered_or_refused_at_a_field(use: str) -> None:
+    """An answer holds finite numbers only, or its validation raises; 60 oils."""
+    draw = np.random.default_rng(14)
+    outcomes = [
+        outcome(use, random_oil(draw, use), list(draw.uniform(-50.0, 300.0, len(USES[use][3])))) for _ in range(60)
+    ]
+    refusals = [each for each in outcomes if isinstance(each, Unprocessable)]
+    assert all(refusal.path for refusal in refusals)
+    assert 10 <= len(refusals) <= 50
