@@ -9,7 +9,6 @@ from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic.fields import FieldInfo
-from pydantic_core import PydanticUndefined
 
 from app.contract.conversion import group_of
 from app.contract.quantities import Bound, Detail, Documented, Input, Output
@@ -46,6 +45,7 @@ class Leaf:
     assumed: str | None
     advanced: bool
     tolerance: float | None
+    relative_tolerance: float | None
     exclusive: tuple[str, ...]
     detail: Detail
     axes: tuple[str, ...]
@@ -138,13 +138,14 @@ def _leaf(model: type[Documented], name: str, info: FieldInfo, meaning: Input | 
         dimensions=_dimensions(info.annotation),
         nullable=NoneType in get_args(info.annotation),
         required=info.is_required(),
-        default=None if info.default is PydanticUndefined else info.default,
+        default=None if info.is_required() else info.get_default(call_default_factory=True),
         default_text=given.default_text if given else None,
         bounds={key: bound for key in ("ge", "gt", "le", "lt") if given and (bound := getattr(given, key)) is not None},
         options=_options(kinds),
         assumed=given.assumed if given else None,
         advanced=place.advanced,
         tolerance=given.tolerance if given else None,
+        relative_tolerance=given.relative_tolerance if given else None,
         exclusive=tuple(
             _absolute(fellow, prefix)
             for group in model.exclusive

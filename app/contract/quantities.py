@@ -20,7 +20,9 @@ class Input:
     `title` is a label that stands alone, `text` says more. The range bounds the number as sent; its unit is in the
     field's name. `assumed` is the reason behind a default that is ours and not the paper's; a result that rests on
     the default lists it. `default_text` says what a null stands for. `advanced` marks options of model and
-    resolution, `tolerance` is what manufacture or measurement usually leaves open, in the field's unit.
+    resolution, `tolerance` is what manufacture or measurement usually leaves open, in the field's unit, and
+    `relative_tolerance` the same as a share of the value where that is more. Every field that may be zero has a
+    tolerance, by which a sensitivity moves it.
     """
 
     title: str
@@ -35,6 +37,7 @@ class Input:
     default_text: str | None = None
     advanced: bool = False
     tolerance: float | None = None
+    relative_tolerance: float | None = None
 
     @property
     def description(self) -> str:
@@ -52,6 +55,7 @@ class Input:
             "x-default-text": self.default_text,
             "x-advanced": self.advanced or None,
             "x-tolerance": self.tolerance,
+            "x-relative-tolerance": self.relative_tolerance,
         }
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:

@@ -106,9 +106,9 @@ def _excludes(leaf: Leaf, name: str) -> tuple[str, ...]:
 def _placeholder(leaf: Leaf, name: str, state: State) -> str:
     """What an empty field stands for: the value in use after an answer, the default before."""
     value = state.resolved.get(name, leaf.default)
-    if isinstance(value, list):
+    if isinstance(value, list) and value:
         return " ".join(text_of(item) for item in value[:6]) + (" …" if len(value) > 6 else "")
-    if value is not None:
+    if value is not None and value != []:
         return f"{value:.6g}" if isinstance(value, float) else text_of(value)
     if leaf.default_text:
         return leaf.default_text

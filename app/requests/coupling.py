@@ -67,14 +67,15 @@ class CouplingModel(Section):
             text="tooth angle whose hydrodynamic velocity builds the film, 90 at the tilt position",
             ge=-360,
             le=360,
+            tolerance=1,
             default_text="that of the largest hydrodynamic velocity",
             assumed="the largest hydrodynamic velocity of a revolution; the paper does not say which it takes",
             advanced=True,
         ),
     ] = None
-    rotor_angle_deg: Annotated[float, Input("rotor angle of the tooth forces", "θ", ge=-360, le=360, advanced=True)] = (
-        _DEFAULTS.rotor_angle
-    )
+    rotor_angle_deg: Annotated[
+        float, Input("rotor angle of the tooth forces", "θ", ge=-360, le=360, tolerance=0.1, advanced=True)
+    ] = _DEFAULTS.rotor_angle
     simple_thrust_factor: Annotated[
         float,
         Input(
@@ -84,6 +85,7 @@ class CouplingModel(Section):
             text="share of the sleeve force that the one-pair model of self-induced thrust turns into tooth forces",
             ge=0,
             le=10,
+            tolerance=0.1,
             assumed="all of it; the paper does not state the share",
             advanced=True,
         ),

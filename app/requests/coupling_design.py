@@ -91,13 +91,16 @@ class CouplingDesign(Section):
             text="pitch errors, one per tooth, positive = early, carries more",
             ge=-1e4,
             le=1e4,
+            tolerance=1,
             default_text="none",
         ),
     ] = None
     youngs_modulus_gpa: Annotated[float, Input("Young's modulus of the teeth", "E", ge=1, le=2000, assumed="steel")] = (
         206.0
     )
-    poisson_ratio: Annotated[float, Input("Poisson's ratio of the teeth", "ν", ge=0, lt=0.5, assumed="steel")] = 0.3
+    poisson_ratio: Annotated[
+        float, Input("Poisson's ratio of the teeth", "ν", ge=0, lt=0.5, tolerance=0.01, assumed="steel")
+    ] = 0.3
 
 
 class CrownedCoupling(CouplingDesign):

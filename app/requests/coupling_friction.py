@@ -22,7 +22,15 @@ class MixedFrictionTable(Section):
     sliding_velocity_m_per_s: Annotated[
         list[float],
         Field(min_length=1, max_length=1000),
-        Input("table of sliding velocities", "v_G", text="sliding velocities, rising", ge=0, le=1000),
+        Input(
+            "table of sliding velocities",
+            "v_G",
+            text="sliding velocities, rising",
+            ge=0,
+            le=1000,
+            tolerance=0.01,
+            relative_tolerance=0.01,
+        ),
     ]
     coefficient: Annotated[
         list[float],
@@ -74,6 +82,7 @@ class CouplingFriction(Section):
             FIG_9,
             ge=0,
             le=2,
+            tolerance=0.02,
             default_text="the law of the friction regime",
             assumed="no coefficient given: the law of the friction regime, ours inside the paper's bands",
         ),
@@ -86,6 +95,7 @@ class CouplingFriction(Section):
             PAHL,
             ge=0,
             le=2,
+            tolerance=0.02,
             default_text="the coefficient given, else that of the law at rest without film",
             assumed="0.16, the law of the friction regime at rest without film",
         ),

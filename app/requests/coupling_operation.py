@@ -16,9 +16,21 @@ from solvers.coupling.teeth.geometry import offset_misalignment
 class CouplingLoad(Section):
     """Torque, speed and arrangement."""
 
-    torque_n_m: Annotated[float, Input("transmitted torque", "T", PAHL, ge=0, le=1e8)]
+    torque_n_m: Annotated[
+        float, Input("transmitted torque", "T", PAHL, ge=0, le=1e8, tolerance=1, relative_tolerance=0.01)
+    ]
     speed_rpm: Annotated[
-        float, Input("speed", "n", PAHL, text="speed; the sign is the sense of rotation", ge=-1e5, le=1e5)
+        float,
+        Input(
+            "speed",
+            "n",
+            PAHL,
+            text="speed; the sign is the sense of rotation",
+            ge=-1e5,
+            le=1e5,
+            tolerance=1,
+            relative_tolerance=0.01,
+        ),
     ]
     axial_velocity_mm_per_s: Annotated[
         float,
@@ -29,6 +41,7 @@ class CouplingLoad(Section):
             text="axial speed hub against sleeve at each mesh; positive: shafts move apart",
             ge=-1e4,
             le=1e4,
+            tolerance=0.1,
         ),
     ] = 0.0
     arrangement: Annotated[

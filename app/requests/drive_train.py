@@ -61,7 +61,10 @@ class DriveTrainRequest(Request):
     ] = Field(default_factory=list)
     operation: Annotated[TrainOperation, Input("operating point")]
     face_start_mm: Annotated[
-        float, Input("start of the face", "z_F", text="end of lowest Z of the common face", ge=-20000, le=20000)
+        float,
+        Input(
+            "start of the face", "z_F", text="end of lowest Z of the common face", ge=-20000, le=20000, tolerance=0.1
+        ),
     ]
     pinion_shaft: Annotated[UnitShaft, Input("pinion shaft", text="shaft of the driving gear")]
     wheel_shaft: Annotated[UnitShaft, Input("wheel shaft", text="shaft of the driven gear")]

@@ -22,7 +22,15 @@ class ShaftAlignment(Section):
 
     unit_height_mm: Annotated[
         float | None,
-        Input("height of the unit's shaft", "h_U", text="over its feet", ge=0, le=20000, default_text="no growth"),
+        Input(
+            "height of the unit's shaft",
+            "h_U",
+            text="over its feet",
+            ge=0,
+            le=20000,
+            tolerance=1,
+            default_text="no growth",
+        ),
     ] = None
     unit_rise_k: Annotated[
         float | None,
@@ -37,7 +45,15 @@ class ShaftAlignment(Section):
     ] = None
     machine_height_mm: Annotated[
         float | None,
-        Input("height of the machine's shaft", "h_M", text="over its feet", ge=0, le=20000, default_text="no growth"),
+        Input(
+            "height of the machine's shaft",
+            "h_M",
+            text="over its feet",
+            ge=0,
+            le=20000,
+            tolerance=1,
+            default_text="no growth",
+        ),
     ] = None
     machine_rise_k: Annotated[
         float | None,
@@ -51,7 +67,8 @@ class ShaftAlignment(Section):
         ),
     ] = None
     expansion_per_k: Annotated[
-        float, Input("thermal expansion of the supports", "α_S", text="of cast iron and steel", ge=0, le=1e-4)
+        float,
+        Input("thermal expansion of the supports", "α_S", text="of cast iron and steel", ge=0, le=1e-4, tolerance=1e-6),
     ] = _ALIGNMENT.expansion
 
     def alignment(self) -> si.Alignment:
@@ -64,7 +81,7 @@ class UnitCoupling(Section):
 
     shaft: Annotated[si.ShaftName, Input("shaft of the coupling", text="which of the unit's shafts it sits on")]
     position_mm: Annotated[
-        float, Input("hub position", "z_H", text="tooth plane of the unit's hub", ge=-20000, le=20000)
+        float, Input("hub position", "z_H", text="tooth plane of the unit's hub", ge=-20000, le=20000, tolerance=0.1)
     ]
     machine_side: Annotated[
         Literal["minus", "plus"], Input("side of the machine", text="to which side along Z the machine lies")
@@ -114,6 +131,7 @@ class UnitCoupling(Section):
             text="share of the friction limit that acts along the shaft, towards +Z if positive",
             ge=-1,
             le=1,
+            tolerance=0.1,
             assumed="none: all friction resists the tilting, which bends the shaft most",
         ),
     ] = 0.0

@@ -35,6 +35,7 @@ class ToothHeat(Section):
             "κ_2",
             ge=0,
             le=1.5,
+            tolerance=0.1,
             default_text="the pinion's times z1/z2",
             assumed="a wheel tooth meets the hot gas once a turn of the wheel",
         ),
@@ -64,7 +65,8 @@ class ToothHeat(Section):
         ),
     ] = 80.0
     reference_c: Annotated[
-        float, Input("temperature of the drawing", "θ_0", text="at which flanks are as drawn", ge=-70, le=200)
+        float,
+        Input("temperature of the drawing", "θ_0", text="at which flanks are as drawn", ge=-70, le=200, tolerance=5),
     ] = 20.0
     bulk_includes_pumping: Annotated[
         bool,

@@ -34,6 +34,7 @@ class TrainGears(BacklashGears):
             text="tip radius coefficient of the rack, of mesh and pumped spaces alike",
             ge=0,
             le=0.6,
+            tolerance=0.02,
             default_text=f"{MESH_RACK} for the mesh, {PUMPING_RACK} for the pumped spaces",
             assumed=f"rack A of ISO 53, {MESH_RACK}, for the mesh; a ground fillet, {PUMPING_RACK}, for the spaces",
         ),
@@ -60,13 +61,15 @@ class TrainOperation(ScuffingLoad):
     ] = _ARRANGEMENT.rotation
     wheel_angle_deg: Annotated[
         float,
-        Input("direction to the wheel", "γ_W", text="from pinion to wheel, from X towards Y", ge=-360, le=360),
+        Input(
+            "direction to the wheel", "γ_W", text="from pinion to wheel, from X towards Y", ge=-360, le=360, tolerance=1
+        ),
     ] = _ARRANGEMENT.wheel_angle
     gravity_angle_deg: Annotated[
-        float, Input("direction of gravity", "γ_g", text="from X towards Y", ge=-360, le=360)
+        float, Input("direction of gravity", "γ_g", text="from X towards Y", ge=-360, le=360, tolerance=1)
     ] = -90.0
     gravity_factor: Annotated[
-        float, Input("gravity factor", "g/g_0", text="weight over that on earth", ge=0, le=10)
+        float, Input("gravity factor", "g/g_0", text="weight over that on earth", ge=0, le=10, tolerance=0.1)
     ] = _ARRANGEMENT.gravity_factor
 
     @model_validator(mode="after")
@@ -90,12 +93,19 @@ class GroundCurve(Section):
     position_mm: Annotated[
         list[float],
         Field(max_length=1000),
-        Input("positions of the lead curve", "y", text="rising, from the end that meshes first", ge=0, le=5000),
+        Input(
+            "positions of the lead curve",
+            "y",
+            text="rising, from the end that meshes first",
+            ge=0,
+            le=5000,
+            tolerance=0.1,
+        ),
     ] = Field(default_factory=list)
     gap_um: Annotated[
         list[float],
         Field(max_length=1000),
-        Input("lead curve", "Δ_β", text="gap, positive where material is missing", ge=-1000, le=1000),
+        Input("lead curve", "Δ_β", text="gap, positive where material is missing", ge=-1000, le=1000, tolerance=2),
     ] = Field(default_factory=list)
 
 

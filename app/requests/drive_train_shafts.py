@@ -47,19 +47,22 @@ class CylindricalSection(Section):
             le=3000,
         ),
     ]
-    inner_diameter_mm: Annotated[float, Input("section bore", "d_i", ge=0, le=3000)] = 0.0
+    inner_diameter_mm: Annotated[float, Input("section bore", "d_i", ge=0, le=3000, tolerance=0.1)] = 0.0
 
 
 class ShaftBearing(Section):
     """A radial bearing: a plain one, one by its stiffness, or a rigid one."""
 
-    position_mm: Annotated[float, Input("bearing position", "z_B", text="along the unit's Z", ge=-20000, le=20000)]
+    position_mm: Annotated[
+        float, Input("bearing position", "z_B", text="along the unit's Z", ge=-20000, le=20000, tolerance=0.1)
+    ]
     type: Annotated[
         Literal["journal", "linear", "rigid"],
         Input("bearing type", text="short plain bearing; stiffness given; rigid"),
     ] = "journal"
     offset_um: Annotated[
-        Pair, Input("bore offset", "e_B", text="[X, Y] of the bore against the datum axis", ge=-5000, le=5000)
+        Pair,
+        Input("bore offset", "e_B", text="[X, Y] of the bore against the datum axis", ge=-5000, le=5000, tolerance=2),
     ] = Field(default_factory=lambda: [0.0, 0.0])
     diameter_mm: Annotated[
         float | None,
@@ -114,6 +117,8 @@ class ShaftBearing(Section):
             text="a number or [[xx, xy], [yx, yy]]",
             ge=-1e5,
             le=1e5,
+            tolerance=1,
+            relative_tolerance=0.1,
             default_text="required of linear bearings",
         ),
     ] = None
@@ -168,9 +173,9 @@ class ThrustBearing(Section):
 class UnitShaft(Section):
     """A shaft in two bearings."""
 
-    start_mm: Annotated[float, Input("start of the shaft", "z_0", text="its end of lowest Z", ge=-20000, le=20000)] = (
-        0.0
-    )
+    start_mm: Annotated[
+        float, Input("start of the shaft", "z_0", text="its end of lowest Z", ge=-20000, le=20000, tolerance=0.1)
+    ] = 0.0
     sections: Annotated[
         list[CylindricalSection], Field(min_length=1, max_length=40), Input("sections", text="cylinders in order of Z")
     ]
@@ -181,12 +186,13 @@ class UnitShaft(Section):
             "z_T",
             ge=-20000,
             le=20000,
+            tolerance=0.1,
             default_text="the coupling's position; required without one",
         ),
     ] = None
     bearings: Annotated[list[ShaftBearing], Field(max_length=40), Input("bearings", text="exactly two")]
     youngs_modulus_gpa: Annotated[float, Input("Young's modulus", "E", ge=1, le=2000)] = 206.0
-    poisson_ratio: Annotated[float, Input("Poisson's ratio", "ν", ge=0, lt=0.5)] = _SHAFT.poisson_ratio
+    poisson_ratio: Annotated[float, Input("Poisson's ratio", "ν", ge=0, lt=0.5, tolerance=0.01)] = _SHAFT.poisson_ratio
     density_kg_per_m3: Annotated[float, Input("density", "ρ", ge=100, le=30000)] = _SHAFT.density
     thrust_bearing: Annotated[ThrustBearing, Input("thrust bearing")] = ThrustBearing()
 

@@ -9,7 +9,13 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth, normal_section
 
 ISO_21771 = "ISO 21771"
 RACK_TIP_RADIUS = Input(
-    "rack tip radius coefficient", "ρ_fP*", "ISO 53", text="tip radius coefficient of the rack", ge=0, le=0.6
+    "rack tip radius coefficient",
+    "ρ_fP*",
+    "ISO 53",
+    text="tip radius coefficient of the rack",
+    ge=0,
+    le=0.6,
+    tolerance=0.02,
 )
 
 
@@ -79,6 +85,7 @@ class Gears(Section):
             text="helix angle at the reference circle; the hand does not matter",
             ge=0,
             le=45,
+            tolerance=0.05,
         ),
     ] = 0.0
     face_width_mm: Annotated[

@@ -26,13 +26,27 @@ class LineContact(Section):
     speed_1_m_per_s: Annotated[
         float,
         Input(
-            "speed of surface 1", "u_1", f"{XUE}, Eq. 18", text="through the contact, positive into it", ge=-300, le=300
+            "speed of surface 1",
+            "u_1",
+            f"{XUE}, Eq. 18",
+            text="through the contact, positive into it",
+            ge=-300,
+            le=300,
+            tolerance=0.01,
+            relative_tolerance=0.01,
         ),
     ]
     speed_2_m_per_s: Annotated[
         float,
         Input(
-            "speed of surface 2", "u_2", f"{XUE}, Eq. 18", text="through the contact, positive into it", ge=-300, le=300
+            "speed of surface 2",
+            "u_2",
+            f"{XUE}, Eq. 18",
+            text="through the contact, positive into it",
+            ge=-300,
+            le=300,
+            tolerance=0.01,
+            relative_tolerance=0.01,
         ),
     ]
 
@@ -40,16 +54,23 @@ class LineContact(Section):
 class LineContactTemperatures(Section):
     """Temperatures far from the contact."""
 
-    surface_1_c: Annotated[float, Input("bulk temperature of surface 1", "θ_M1", XUE, ge=-50, le=400, assumed=BULK)] = (
-        86.85
-    )
-    surface_2_c: Annotated[float, Input("bulk temperature of surface 2", "θ_M2", XUE, ge=-50, le=400, assumed=BULK)] = (
-        86.85
-    )
+    surface_1_c: Annotated[
+        float, Input("bulk temperature of surface 1", "θ_M1", XUE, ge=-50, le=400, tolerance=5, assumed=BULK)
+    ] = 86.85
+    surface_2_c: Annotated[
+        float, Input("bulk temperature of surface 2", "θ_M2", XUE, ge=-50, le=400, tolerance=5, assumed=BULK)
+    ] = 86.85
     inlet_c: Annotated[
         float,
         Input(
-            "inlet temperature", "θ_in", XUE, text="temperature of the oil at the inlet", ge=-50, le=400, assumed=BULK
+            "inlet temperature",
+            "θ_in",
+            XUE,
+            text="temperature of the oil at the inlet",
+            ge=-50,
+            le=400,
+            tolerance=5,
+            assumed=BULK,
         ),
     ] = 86.85
 

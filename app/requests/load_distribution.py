@@ -33,8 +33,13 @@ class ScuffingLoad(Section):
 
     exclusive: ClassVar = (("pinion_torque_n_m", "power_kw"),)
 
-    pinion_torque_n_m: Annotated[float | None, Input("pinion torque", "T_1", XUE, ge=0, le=1e7)] = None
-    power_kw: Annotated[float | None, Input("transmitted power", "P", f"{XUE}, Eq. 1", ge=0, le=1e6)] = None
+    pinion_torque_n_m: Annotated[
+        float | None, Input("pinion torque", "T_1", XUE, ge=0, le=1e7, tolerance=1, relative_tolerance=0.01)
+    ] = None
+    power_kw: Annotated[
+        float | None,
+        Input("transmitted power", "P", f"{XUE}, Eq. 1", ge=0, le=1e6, tolerance=0.1, relative_tolerance=0.01),
+    ] = None
     pinion_speed_rpm: Annotated[float, Input("pinion speed", "n_1", XUE, ge=0.1, le=2e5)]
     application_factor: Annotated[
         float, Input("application factor", "K_A", ISO_6336, text="multiplies the load of the contacts", ge=0.1, le=10)

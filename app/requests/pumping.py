@@ -50,7 +50,15 @@ class GearGroove(Section):
 
     position_mm: Annotated[
         float,
-        Input("groove position", "z_g", MILIAN, text="centre, from the end that meshes first", ge=0, le=5000),
+        Input(
+            "groove position",
+            "z_g",
+            MILIAN,
+            text="centre, from the end that meshes first",
+            ge=0,
+            le=5000,
+            tolerance=0.1,
+        ),
     ]
     width_mm: Annotated[float, Input("groove width", "b_g", MILIAN, ge=0.01, le=5000)]
 
@@ -70,7 +78,15 @@ class Mist(Section):
     ] = 101.325
     temperature_c: Annotated[
         float,
-        Input("ambient temperature", "θ_e", MILIAN, ge=-70, le=400, assumed="a warm gear case; the paper gives none"),
+        Input(
+            "ambient temperature",
+            "θ_e",
+            MILIAN,
+            ge=-70,
+            le=400,
+            tolerance=5,
+            assumed="a warm gear case; the paper gives none",
+        ),
     ] = 50.0
     isentropic_exponent: Annotated[
         float,

@@ -97,13 +97,22 @@ class PumpingOptions(Section):
             text="of all openings of the chain, of the radial gaps of gas dynamics",
             ge=0,
             le=1,
+            tolerance=0.05,
             assumed="ideal",
             advanced=True,
         ),
     ] = _DEFAULTS.discharge_coefficient
     minimum_gap_um: Annotated[
         float,
-        Input("least radial clearance", "L_min", text="least radial clearance of a side", ge=0, le=1000, advanced=True),
+        Input(
+            "least radial clearance",
+            "L_min",
+            text="least radial clearance of a side",
+            ge=0,
+            le=1000,
+            tolerance=1,
+            advanced=True,
+        ),
     ] = _DEFAULTS.minimum_gap
 
     def pumping(self) -> si.PumpingModel:

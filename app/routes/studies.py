@@ -153,7 +153,8 @@ async def run_sensitivity(
     """Differences of the outputs for every number of the case, moved by its tolerance, else by 1 % (1 K, 1).
 
     `change` is what one step does to the output, `elasticity` per cent of the output for a per cent of the input;
-    `kink` says that the two sides differ by more than 10 %.
+    `kink` says that the two sides differ by more than 10 %, `curved` that half the step gives another derivative by
+    more than 10 %; it is null where the step is none of a tolerance.
     """
     raise NotImplementedError(body)  # documents the endpoint; StudyRoute answers
 

@@ -1,7 +1,7 @@
-"""How an input is moved, and what the answers to either side say: differences, slopes, kinks."""
+"""How an input is moved, and what the answers on both sides say: differences, slopes, kinks, curvature."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from app.contract.fields import Leaf
@@ -9,44 +9,46 @@ from app.studies.fields import fault
 
 RELATIVE_STEP = 0.01
 KELVIN_STEP = 1.0
-KINK = 0.1  # relative difference of the one-sided slopes
+DISAGREEMENT = 0.1  # relative difference of two slopes
 NOISE = 1e-7  # relative change of an output that an iteration may leave
 
 
 @dataclass(frozen=True, slots=True)
 class Probe:
-    """One input, where it stands and where it is moved to; None where its range ends."""
+    """One input, its value and the values it is moved to; None where its range ends.
+
+    `half` moves it by half the step, where the step is a tolerance: that need not be small.
+    """
 
     leaf: Leaf
     value: float
     step: float
     below: float | None
     above: float | None
+    half: "Probe | None" = None
 
     def overrides(self) -> Iterator[dict[str, Any]]:
-        """The points to solve, below before above."""
+        """The points to solve: below, above, then those of half the step."""
         yield from ({self.leaf.path: place} for place in (self.below, self.above) if place is not None)
+        if self.half is not None:
+            yield from self.half.overrides()
 
 
 def probe(leaf: Leaf, value: float) -> Probe | None:
     """How an input is moved: by its tolerance, else by 1 %, 1 K for a temperature, 1 for a count."""
-    step = _step(leaf, value)
+    if leaf.kind == "integer":
+        return _moved(leaf, value, 1.0)
+    if leaf.tolerance is not None:
+        step = max(leaf.tolerance, (leaf.relative_tolerance or 0.0) * abs(value))
+        found = _moved(leaf, value, step)
+        return None if found is None else replace(found, half=_moved(leaf, value, step / 2.0))
+    return _moved(leaf, value, KELVIN_STEP if leaf.unit == "°C" else RELATIVE_STEP * abs(value))
+
+
+def _moved(leaf: Leaf, value: float, step: float) -> Probe | None:
+    """The input moved by a step; None where it has no other value."""
     below, above = (_inside(leaf, value + sign * step) for sign in (-1.0, 1.0))
     return None if step == 0.0 or below is above is None else Probe(leaf, value, step, below, above)
-
-
-def _step(leaf: Leaf, value: float) -> float:
-    if leaf.kind == "integer":
-        return 1.0
-    if leaf.tolerance is not None:
-        return leaf.tolerance
-    if leaf.unit == "°C":
-        return KELVIN_STEP
-    if value != 0.0:
-        return RELATIVE_STEP * abs(value)
-    low = leaf.bounds.get("ge", leaf.bounds.get("gt", 0.0))
-    high = leaf.bounds.get("le", leaf.bounds.get("lt", 0.0))
-    return RELATIVE_STEP * (high - low)
 
 
 def _inside(leaf: Leaf, value: float) -> float | None:
@@ -62,6 +64,7 @@ class Differences:
     base: float | None
     below: float | None
     above: float | None
+    half: "Differences | None" = None
 
     @property
     def derivative(self) -> float | None:
@@ -92,13 +95,20 @@ class Differences:
     @property
     def kink(self) -> bool | None:
         """Whether the slopes to either side disagree by more than a tenth; None where one is missing."""
-        left, right = self._slopes()
-        if left is None or right is None or self.base is None:
+        return self._disagree(*self._slopes())
+
+    @property
+    def curved(self) -> bool | None:
+        """Whether the derivative differs by more than a tenth from that of half the step; None without half a step."""
+        return None if self.half is None else self._disagree(self.derivative, self.half.derivative)
+
+    def _disagree(self, one: float | None, other: float | None) -> bool | None:
+        if one is None or other is None or self.base is None:
             return None
-        largest = max(abs(left), abs(right))
+        largest = max(abs(one), abs(other))
         if largest * self.probe.step <= NOISE * abs(self.base):
             return False
-        return abs(left - right) > KINK * largest
+        return abs(one - other) > DISAGREEMENT * largest
 
     def _slopes(self) -> tuple[float | None, float | None]:
         at = self.probe.value

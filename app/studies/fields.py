@@ -91,14 +91,17 @@ def value_at(answer: Any, path: str) -> Any:
     return answer
 
 
-def is_reachable(body: dict[str, Any], path: str) -> bool:
-    """Whether a value can be set at this path: the lists on the way are long enough.
+def is_reachable(model: type[Documented], body: dict[str, Any], path: str) -> bool:
+    """Whether a value can be set at this path: the lists on the way, given or by default, are long enough.
 
     What is no section where one belongs is left to the request's own validation.
     """
     here: Any = body
-    for part in path.split("."):
+    parts = path.split(".")
+    for place, part in enumerate(parts):
         if part.isdecimal():
+            if here is None:
+                here = _default_list(model, parts[:place])
             if here is None or (isinstance(here, list) and int(part) >= len(here)):
                 return False
             here = here[int(part)] if isinstance(here, list) else {}
@@ -107,18 +110,24 @@ def is_reachable(body: dict[str, Any], path: str) -> bool:
     return True
 
 
-def set_value(body: dict[str, Any], path: str, value: Scalar) -> None:
-    """Set the value at a dotted path of a request, sections on the way made where they are missing."""
+def set_value(model: type[Documented], body: dict[str, Any], path: str, value: Scalar) -> None:
+    """Set the value at a dotted path of a request; sections and lists left to their defaults are filled in."""
     *way, last = path.split(".")
     here: Any = body
-    for part in way:
+    for place, part in enumerate(way, start=1):
         if isinstance(here, dict) and here.get(part) is None:
-            here[part] = {}
+            here[part] = _default_list(model, way[:place]) or {}
         here = _step(here, part)
     if isinstance(here, list):
         here[int(last)] = value
     elif isinstance(here, dict):
         here[last] = value
+
+
+def _default_list(model: type[Documented], way: list[str]) -> list[Any] | None:
+    """The list of values that a field holds where nothing is given; None where it is no such list."""
+    leaf = leaf_at(model, ".".join(way))
+    return list(leaf.default) if leaf is not None and isinstance(leaf.default, list) else None
 
 
 def clear(body: dict[str, Any], path: str) -> None:

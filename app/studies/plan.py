@@ -76,7 +76,7 @@ class Varied(NamedTuple):
     def leaf(self, path: str, place: str) -> Leaf:
         """The single value that a path names, if it can be set."""
         leaf = scalar_at(self.model, path, place, "unknown_path")
-        if not is_reachable(self.base, path):
+        if not is_reachable(self.model, self.base, path):
             raise Unprocessable("unknown_path", f"the request has no {path}: its list is shorter", place)
         return leaf
 

@@ -106,6 +106,6 @@ def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Ov
             for fellow in fellows(calculation.request, path):
                 clear(body, fellow)
     for path, value in overrides.items():
-        set_value(body, path, value)
+        set_value(calculation.request, body, path, value)
     body["detail"] = "summary"
     return body

@@ -65,16 +65,14 @@ class Sensitivity:
                     "step": each.probe.step,
                     "change": each.change,
                     "kink": each.kink,
+                    "curved": each.curved,
                 }
 
     def _differences(self, values: list[float | None]) -> Iterator[Differences]:
         """Every input's differences from the values of one output in the order of the points."""
         base, *moved = values
         rest = iter(moved)
-        for each in self.probes:
-            below = next(rest) if each.below is not None else None
-            above = next(rest) if each.above is not None else None
-            yield Differences(each, base, below, above)
+        yield from (_differences(each, base, rest) for each in self.probes)
 
     def _end(self, points: list[Point], clock: Clock) -> Line:
         base = points[0]
@@ -99,6 +97,14 @@ class Sensitivity:
             "case": self.case,
             "elapsed_s": clock.elapsed_s,
         }
+
+
+def _differences(probe: Probe, base: float | None, moved: Iterator[float | None]) -> Differences:
+    """The differences of one input, whose values come next."""
+    below = next(moved) if probe.below is not None else None
+    above = next(moved) if probe.above is not None else None
+    half = None if probe.half is None else _differences(probe.half, base, moved)
+    return Differences(probe, base, below, above, half)
 
 
 def _number(value: Any) -> float | None:

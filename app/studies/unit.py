@@ -4,11 +4,13 @@ import copy
 from collections.abc import Sequence
 from typing import Any
 
+from app.calculations import BY_PATH
 from app.contract.names import field_path
 from app.contract.units import split_unit
 from app.requests.common import Request
 from app.studies.fields import set_value
 from app.studies.requests import Axis, Scalar
+from app.studies.unit_requests import ENDPOINT
 from solvers.drive_train.studies.corners import MOST_RUNS, default_ranges
 
 MOST_CORNERS = MOST_RUNS
@@ -43,7 +45,7 @@ def lightened(request: dict[str, Any], outputs: Sequence[str]) -> dict[str, Any]
     """The request without thermal film and other states where no output tells of them; the outputs stay the same."""
     light = copy.deepcopy(request)
     if not BY_FILM & {path.removeprefix(COLD) for path in outputs}:
-        set_value(light, "model.lubrication", "closed_form")
+        set_value(BY_PATH[ENDPOINT].request, light, "model.lubrication", "closed_form")
     if not any(path.startswith(COLD) for path in outputs):
         light.pop("states", None)
     return light

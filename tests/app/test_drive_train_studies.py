@@ -7,6 +7,7 @@ from typing import Any
 import httpx
 import pytest
 
+from app.calculations import BY_PATH
 from app.library import examples
 from app.routes.study_examples import CORNERS_EXAMPLES, DESIGN_EXAMPLES
 from app.studies.corners import plan_corners
@@ -34,7 +35,7 @@ def test_corners_on_the_workers(post: Post) -> None:
     _, *points, _, _, end = lines(post(CORNERS, {"request": body, "ranges": ranges, "outputs": outputs}))
     assert end["counts"] == {"ok_with_warnings": 2}
     body = json.loads(json.dumps(body))
-    set_value(body, "thermal.wall_response", 1.0)
+    set_value(BY_PATH[UNIT.endpoint].request, body, "thermal.wall_response", 1.0)
     single = post(UNIT.endpoint, body).json()
     assert single["safety"]["thermal_ehl_feature"] is not None
     assert points[1]["out"] == [value_at(single, path) for path in outputs]

@@ -58,7 +58,7 @@ def test_points_are_what_single_requests_answer(post: Post, example: Any, axis: 
     outputs = [leaf.path for leaf in headlines(BY_PATH[example.endpoint].response)]
     for point in points:
         body = json.loads(json.dumps(example.request))
-        set_value(body, axis["path"], point["at"][0])
+        set_value(BY_PATH[example.endpoint].request, body, axis["path"], point["at"][0])
         single = post(example.endpoint, body).json()
         assert point["out"] == [value_at(single, path) for path in outputs]
         assert point["status"] == single["status"]
@@ -92,7 +92,7 @@ def test_errors_of_a_point_are_the_endpoints_own(post: Post) -> None:
         post("/v1/sweep", {"endpoint": LOADS.endpoint, "request": LOADS.request, "cases": cases})
     )
     body = json.loads(json.dumps(LOADS.request))
-    set_value(body, "gears.pinion.addendum", 3.0)
+    set_value(BY_PATH[LOADS.endpoint].request, body, "gears.pinion.addendum", 3.0)
     assert refused["error"] == post(LOADS.endpoint, body).json()["errors"][0]
     assert good["status"] in {"ok", "ok_with_warnings"}
     assert end["counts"]["refused"] == 1

@@ -7,16 +7,19 @@ from typing import Any
 
 import pytest
 
-from app.calculations import BY_PATH
+from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.contract.fields import Leaf, leaf_at, leaves
 from app.library import examples
 from app.studies.differences import Differences, probe
+from app.studies.fields import fault
 from app.studies.lines import encoded, json_line
 from app.studies.sensitivity import plan_sensitivity
 from app.studies.stream import Clock, guarded
+from app.studies.sweep import plan_sweep
 from tests.pools import InlinePool
 
 COUPLING = examples()["pahl-axial-displacement"]
+UNIT = examples()["starter-turbo-gear-drive-train"]
 
 
 def sensitivities(endpoint: str, request: dict[str, Any], **parts: Any) -> list[dict[str, Any]]:
@@ -94,8 +97,10 @@ def test_every_number_is_moved_sorted_by_influence() -> None:
         "lubricant.viscosity_pa_s",
         "coupling.tooth_stiffness_n_per_um",
     } <= moved
-    assert list(lines[0]) == ["type", "output", "path", "derivative", "elasticity", "step", "change", "kink"]
-    assert end["points"] == 1 + 2 * len(moved) - sum(line["kink"] is None for line in lines[: len(moved)])
+    assert list(lines[0]) == ["type", "output", "path", "derivative", "elasticity", "step", "change", "kink", "curved"]
+    whole = lines[: len(moved)]
+    sides = 2 * len(moved) - sum(line["kink"] is None for line in whole)
+    assert end["points"] == 1 + sides + 2 * sum(line["curved"] is not None for line in whole)
     assert end["status"] == "ok"
 
 
@@ -113,7 +118,13 @@ def test_places_of_lists_are_moved() -> None:
 def leaf(**changes: Any) -> Leaf:
     found = leaf_at(BY_PATH["/v1/coupling"].request, "friction.coefficient")
     assert found is not None
-    plain = {"kind": "number", "unit": None, "tolerance": None, "bounds": {"ge": 0.0, "le": 50.0}}
+    plain = {
+        "kind": "number",
+        "unit": None,
+        "tolerance": None,
+        "relative_tolerance": None,
+        "bounds": {"ge": 0.0, "le": 50.0},
+    }
     return replace(found, **{**plain, **changes})
 
 
@@ -127,8 +138,9 @@ def leaf(**changes: Any) -> Leaf:
         ({"unit": "°C", "tolerance": 2.0}, 20.0, 18.0, 22.0),
         ({"kind": "integer"}, 20, 19, 21),
         ({"kind": "integer", "bounds": {"ge": 20, "le": 50}}, 20, None, 21),
-        ({}, 0.0, None, 0.5),
-        ({"bounds": {"ge": -50.0, "le": 50.0}}, 0.0, -1.0, 1.0),
+        ({"tolerance": 0.5}, 0.0, None, 0.5),
+        ({"tolerance": 0.5, "relative_tolerance": 0.01}, 20.0, 19.5, 20.5),
+        ({"tolerance": 0.5, "relative_tolerance": 0.05}, 20.0, 19.0, 21.0),
         ({"bounds": {"gt": 0.0, "le": 50.0}, "tolerance": 1.0}, 1.0, None, 2.0),
         ({}, 50.0, 49.5, None),
         ({"bounds": {"ge": -50.0, "le": 50.0}}, -20.0, -20.2, -19.8),
@@ -146,7 +158,23 @@ def test_steps(changes: dict[str, Any], value: float, below: float | None, above
 
 def test_a_field_with_one_value_only_is_not_moved() -> None:
     assert probe(leaf(bounds={"ge": 3.0, "le": 3.0}), 3.0) is None
-    assert probe(leaf(bounds={"ge": 0.0, "le": 0.0}), 0.0) is None
+    assert probe(leaf(bounds={"ge": 0.0, "le": 0.0}, tolerance=1.0), 0.0) is None
+
+
+def test_a_tolerance_is_checked_at_half_of_it() -> None:
+    found = probe(leaf(tolerance=0.5), 20.0)
+    assert found is not None
+    assert [point["friction.coefficient"] for point in found.overrides()] == [19.5, 20.5, 19.75, 20.25]
+    small = probe(leaf(), 20.0)
+    assert small is not None
+    assert small.half is None
+
+
+@pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
+def test_every_number_that_may_be_zero_has_a_tolerance(calculation: Calculation) -> None:
+    for each in leaves(calculation.request):
+        if each.kind == "number" and fault(each, 0.0) is None:
+            assert each.tolerance, each.path
 
 
 def differences(
@@ -155,6 +183,26 @@ def differences(
     moved = probe(leaf(**{"tolerance": 1.0, **changes}), value)
     assert moved is not None
     return Differences(moved, base, below, above)
+
+
+@pytest.mark.parametrize(
+    ("half", "curved"),
+    [
+        ((95.0, 105.0), False),
+        ((95.4, 105.0), False),
+        ((96.0, 104.0), True),
+        ((None, 104.0), True),
+        ((None, None), None),
+    ],
+)
+def test_a_derivative_that_half_the_step_does_not_confirm_is_curved(
+    half: tuple[float | None, float | None], curved: bool | None
+) -> None:
+    whole = differences(100.0, 90.0, 110.0)
+    assert whole.curved is None
+    moved = whole.probe.half
+    assert moved is not None
+    assert replace(whole, half=Differences(moved, 100.0, *half)).curved is curved
 
 
 @pytest.mark.parametrize(
@@ -192,6 +240,76 @@ def test_no_elasticity_at_zero_and_for_degrees() -> None:
     assert differences(100.0, None, 110.0, value=0.0).elasticity is None
     assert differences(100.0, 90.0, 110.0, unit="°C").elasticity is None
     assert differences(0.0, -1.0, 1.0).elasticity is None
+
+
+@pytest.fixture(scope="module")
+def turbo_unit() -> list[dict[str, Any]]:
+    """How two outputs of the turbo unit move with the lists that its request leaves to their defaults, and others."""
+    inputs = [
+        *(
+            f"{shaft}_shaft.bearings.{k}.offset_um.{axis}"
+            for shaft in ("pinion", "wheel")
+            for k in (0, 1)
+            for axis in (0, 1)
+        ),
+        "couplings.0.slope_mrad.0",
+        "pinion_shaft.start_mm",
+    ]
+    request = {**UNIT.request, "model": {"lubrication": "closed_form"}}
+    assert not any("offset_um" in each for each in UNIT.request["pinion_shaft"]["bearings"])
+    return sensitivities(UNIT.endpoint, request, outputs=["load.face_load_factor", "safety.blok_flank"], inputs=inputs)
+
+
+def test_lists_left_to_their_defaults_are_moved(turbo_unit: list[dict[str, Any]]) -> None:
+    *lines, end = turbo_unit
+    assert len(lines) == 20
+    assert end["counts"]["ok_with_warnings"] == end["points"] - end["counts"].get("refused", 0)
+    assert all(line["derivative"] is not None for line in lines if "offset_um" in line["path"])
+    assert all(line["derivative"] for line in lines if line["path"] == "couplings.0.slope_mrad.0")
+
+
+def test_bore_offsets_move_by_what_a_bore_is_off(turbo_unit: list[dict[str, Any]]) -> None:
+    """Single requests with the near pinion bore 1 um up and down: +0.00118 per um; 100 um: -0.00024."""
+    (found,) = (
+        line
+        for line in turbo_unit
+        if line["type"] == "sensitivity"
+        and (line["output"], line["path"]) == ("load.face_load_factor", "pinion_shaft.bearings.0.offset_um.1")
+    )
+    assert found["step"] <= 5
+    assert found["derivative"] == pytest.approx(0.00118, rel=0.02)
+    assert found["curved"] is False
+
+
+def test_a_step_that_is_too_large_says_so() -> None:
+    """The bore of the last test moved by 100 um: -0.00024 per um, and both sides differ."""
+    path = "pinion_shaft.bearings.0.offset_um.1"
+    body = {"endpoint": UNIT.endpoint, "request": {**UNIT.request, "model": {"lubrication": "closed_form"}}}
+    sweep = {**body, "vary": [{"path": path, "values": [-100, -50, 0, 50, 100]}], "outputs": ["load.face_load_factor"]}
+    below, half_below, base, half_above, above = [line["out"][0] for line in points_of(sweep)]
+    whole = probe(replace(leaf_of(UNIT.endpoint, path), tolerance=100.0, path=path), 0.0)
+    assert whole is not None
+    assert whole.half is not None
+    found = Differences(whole, base, below, above, Differences(whole.half, base, half_below, half_above))
+    assert found.derivative == pytest.approx(-0.000236, rel=0.02)
+    assert found.kink is True
+
+
+def points_of(sweep: dict[str, Any]) -> list[dict[str, Any]]:
+    """The points of a sweep: a list that the request leaves to its default is reachable here too."""
+    study = plan_sweep(json.dumps(sweep).encode(), 2500, 30.0)
+
+    async def run() -> list[dict[str, Any]]:
+        found = study.lines(InlinePool(), Clock(study.total))
+        return [line async for group in found for line in group if line["type"] == "point"]
+
+    return asyncio.run(run())
+
+
+def leaf_of(endpoint: str, path: str) -> Leaf:
+    found = leaf_at(BY_PATH[endpoint].request, path.rpartition(".")[0])
+    assert found is not None
+    return found
 
 
 def test_a_change_of_regime_is_a_kink() -> None:

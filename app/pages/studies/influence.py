@@ -90,7 +90,7 @@ def _row(study: Asking, line: Line, inputs: dict[str, dict[str, Any]]) -> tuple[
         Cell(_step(line, inputs), right=True),
         Cell(shown(line["change"], 4), right=True),
         Cell(shown(line["elasticity"], 3), right=True),
-        Cell("up and down differ" if line["kink"] else ""),
+        Cell("up and down differ" if line["kink"] else "half a step differs" if line["curved"] else ""),
     )
 
 
