@@ -5,19 +5,25 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.requests.common import Request
-from app.requests.coupling import CouplingRequest, RecommendationRequest, SleeveOrbitRequest
 from app.requests.drive_train import DriveTrainRequest
 from app.requests.line_contact import LineContactRequest
 from app.requests.load_distribution import LoadDistributionRequest
 from app.requests.pumping import ChokingSpeedRequest, PumpingRequest
 from app.requests.scuffing import ScuffingRequest
 from app.responses.common import Response
-from app.responses.coupling import CouplingResponse, RecommendationResponse, SleeveOrbitResponse
 from app.responses.drive_train import DriveTrainResponse
 from app.responses.line_contact import LineContactResponse
 from app.responses.load_distribution import LoadDistributionResponse
 from app.responses.pumping import ChokingSpeedResponse, PumpingResponse
 from app.responses.scuffing import ScuffingResponse
+from app.schema.coupling import (
+    CouplingRequest,
+    CouplingResponse,
+    RecommendationRequest,
+    RecommendationResponse,
+    SleeveOrbitRequest,
+    SleeveOrbitResponse,
+)
 from solvers import coupling, drive_train, pumping, scuffing
 from solvers.contact import ehl
 

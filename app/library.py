@@ -8,7 +8,7 @@ from typing import Annotated, Any
 from fastapi import Body
 from pydantic import BaseModel
 
-from app.contract.quantities import Output
+from app.schema.quantities import Output
 
 STARTER = "starter-"
 

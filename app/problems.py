@@ -15,9 +15,9 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 from starlette.exceptions import HTTPException
 
-from app.contract.messages import MOST_FAULTS, pointer
-from app.contract.quantities import Output
 from app.reading import InvalidBody, Unreadable
+from app.schema.messages import MOST_FAULTS, pointer
+from app.schema.quantities import Output
 
 MEDIA_TYPE = "application/problem+json"
 

@@ -5,7 +5,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from app.contract.messages import Fault, faults
+from app.schema.messages import Fault, faults
 
 M = TypeVar("M", bound=BaseModel)
 MOST_MEMBERS = 1000

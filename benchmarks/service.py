@@ -21,8 +21,8 @@ from fastapi import FastAPI
 from app.__main__ import serve
 from app.library import Example, examples
 from app.main import create_app
-from app.requests.coupling import CouplingRequest
 from app.routes.service import Health
+from app.schema.coupling import CouplingRequest
 from app.workers.fork_server import ForkServer
 from tests.server import memory_mb, workers
 

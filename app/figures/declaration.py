@@ -4,8 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
-from app.contract.quantities import Detail
 from app.figures.data import Figure, NoFigure
+from solvers.quantity import Detail
 
 T = TypeVar("T")
 

@@ -5,8 +5,8 @@ from collections.abc import Iterable
 from io import StringIO
 from typing import Any
 
-from app.contract.fields import Leaf, leaf_at, leaves
 from app.responses.common import Response
+from app.schema.fields import Leaf, leaf_at, leaves
 
 
 def values(rows: Iterable[tuple[str, str, Any, str]]) -> bytes:

@@ -1,11 +1,11 @@
 """The answer as JSON."""
 
 from app.calculations import Calculation
-from app.contract.conversion import above
-from app.contract.quantities import Detail
 from app.evaluate import evaluate
 from app.requests.common import Request
 from app.responses.common import Response
+from app.schema.conversion import above
+from solvers.quantity import Detail
 
 
 def written(response: Response, detail: Detail = "fields") -> bytes:

@@ -5,10 +5,10 @@ from typing import Any, NamedTuple
 
 from markupsafe import Markup
 
-from app.contract.fields import Leaf, headlines, leaf_at
-from app.contract.quantities import Documented
 from app.pages.results import change, entries
 from app.pages.typesetting import shown, symbol, words
+from app.schema.fields import Leaf, headlines, leaf_at
+from app.schema.model import Documented
 
 DIGITS = 3
 NEAR = 0.8  # of an upper limit

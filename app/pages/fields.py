@@ -6,11 +6,11 @@ from typing import Any, Literal
 
 from markupsafe import Markup
 
-from app.contract.fields import Leaf
-from app.contract.tree import Field
-from app.contract.units import split_unit
 from app.pages.query import text_of
 from app.pages.typesetting import symbol, words
+from app.schema.fields import Leaf
+from app.schema.tree import Field
+from app.schema.units import split_unit
 
 Widget = Literal["number", "text", "list", "select"]
 ROWS_OF_TEXT = 3

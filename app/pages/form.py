@@ -4,13 +4,13 @@ from collections import Counter
 from collections.abc import Iterator
 from itertools import groupby
 
-from app.contract.fields import ITEM
-from app.contract.tree import Branch, Field, tree
 from app.pages.blocks import Block, Choice, Rows, Section, Single, Twins
 from app.pages.fields import FieldView, State, anchor, field_view
 from app.pages.query import PICK, PRESENT
 from app.pages.typesetting import symbol
 from app.requests.common import Request
+from app.schema.fields import ITEM
+from app.schema.tree import Branch, Field, tree
 
 DETAIL = "detail"
 """Not asked for: each view takes the level of detail that it needs."""

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
-from app.contract.fields import ITEM, Leaf, leaf_at
-from app.contract.quantities import Documented
-from app.contract.tree import branches
 from app.reading import Unreadable
+from app.schema.fields import ITEM, Leaf, leaf_at
+from app.schema.model import Documented
+from app.schema.tree import branches
 
 Pairs = list[tuple[str, str]]
 

@@ -7,11 +7,11 @@ from typing import Any
 
 from markupsafe import Markup
 
-from app.contract.fields import leaf_at
 from app.pages.about import about_of
 from app.pages.cases import Case
 from app.pages.results import flattened
 from app.pages.typesetting import shown, symbol
+from app.schema.fields import leaf_at
 
 NAMES = ("project", "part", "author", "checker", "notes")
 LONGEST_TEXT = 200

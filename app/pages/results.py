@@ -6,10 +6,10 @@ from typing import Any
 
 from markupsafe import Markup
 
-from app.contract.fields import Leaf
-from app.contract.quantities import Documented
-from app.contract.tree import Branch, Field, tree
 from app.pages.typesetting import percent_change, shown, symbol
+from app.schema.fields import Leaf
+from app.schema.model import Documented
+from app.schema.tree import Branch, Field, tree
 
 NOT_RESULTS = frozenset(
     {"status", "warnings", "residuals", "assumptions", "model_version", "sources", "model", "derived", "inputs", "case"}

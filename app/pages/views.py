@@ -4,8 +4,6 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from app.calculations import CALCULATIONS, Calculation
-from app.contract.fields import headlines, leaf_at
-from app.contract.tree import branches
 from app.figures.data import NoFigure, ThemeName
 from app.figures.registry import figures_of
 from app.figures.rendering import Format, written
@@ -25,6 +23,8 @@ from app.pages.templating import model_of, page_path, rendered
 from app.pages.typesetting import NO_VALUE
 from app.problems import Unprocessable
 from app.reading import InvalidBody, Unreadable
+from app.schema.fields import headlines, leaf_at
+from app.schema.tree import branches
 
 BY_PAGE = {page_path(calculation): calculation for calculation in CALCULATIONS}
 REFUSED = (Unreadable, InvalidBody, Unprocessable)

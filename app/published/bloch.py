@@ -25,5 +25,7 @@ def bloch(crowning: float = 1.0, stiffness: float = 2.8e8, axial_velocity: float
         tooth_stiffness=stiffness,
     )
     return solve(
-        CouplingInputs(design, Operation(TORQUE, 500.0, MISALIGNMENT, axial_velocity), friction=Friction(FRICTION))
+        CouplingInputs(
+            design, Operation(TORQUE, 500.0, axial_velocity, misalignment=MISALIGNMENT), friction=Friction(FRICTION)
+        )
     )

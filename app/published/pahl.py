@@ -41,7 +41,7 @@ def pahl_coupling(
     steel = Coupling(teeth=TEETH, module=3e-3, face_width=24e-3, tooth_height=6e-3)
     return CouplingInputs(
         coupling=replace(steel, **coupling),
-        operation=Operation(torque, speed, radians(misalignment_deg), axial_velocity, arrangement),
+        operation=Operation(torque, speed, axial_velocity, arrangement, misalignment=radians(misalignment_deg)),
         friction=Friction(coefficient=friction),
         model=model or ModelOptions(),
     )

@@ -1,19 +1,28 @@
 """What every request has in common."""
 
 from abc import abstractmethod
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 from pydantic import ConfigDict, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
-from app.contract.quantities import Detail, Documented, Input
+from app.schema.conversion import built
+from app.schema.model import Documented
+from app.schema.quantities import Input
+from solvers.quantity import Detail
+
+T = TypeVar("T")
 
 
 class Section(Documented):
     """A part of a request: unknown fields are refused, numbers are numbers, finite and in range."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+    def si(self, kind: type[T]) -> T:
+        """The solver's dataclass that these fields fill, in SI."""
+        return built(self, kind)
 
     def stands_for_null(self, _name: str) -> Any:
         """What a field that was left null stands for, where the section itself knows it."""

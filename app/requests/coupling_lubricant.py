@@ -5,11 +5,12 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from app.contract.conversion import to_si
-from app.contract.quantities import Input
-from app.requests.coupling_design import FIG_8
 from app.requests.sheet_oil import SheetOil, names_a_sheet
+from app.schema.conversion import to_si
+from app.schema.quantities import Input
 from solvers.coupling import inputs as si
+
+FIG_8 = "Pahl 1978, Fig. 8"
 
 
 class CouplingLubricant(SheetOil):

@@ -5,8 +5,6 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
-from app.contract.conversion import to_si
-from app.contract.quantities import Input
 from app.requests.common import Request, Section
 from app.requests.drive_train_couplings import UnitCoupling
 from app.requests.drive_train_heat import ToothHeat, TrainTemperatures
@@ -16,6 +14,8 @@ from app.requests.load_distribution import GearMaterials
 from app.requests.materials import XUE
 from app.requests.oil import Oil
 from app.requests.pumping import GearGroove, Mist
+from app.schema.conversion import to_si
+from app.schema.quantities import Input
 from solvers.drive_train import inputs as si
 from solvers.errors import InvalidInput
 from solvers.pumping import inputs as pumping

@@ -4,14 +4,13 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from app.contract.conversion import to_si
-from app.contract.quantities import Input
 from app.requests.common import Section
-from app.requests.coupling_design import CrownedCoupling
-from app.requests.coupling_friction import CouplingFriction
 from app.requests.coupling_lubricant import CouplingLubricant
 from app.requests.drive_train_shafts import Pair
-from solvers.coupling.inputs import proportioned
+from app.schema.conversion import to_si
+from app.schema.coupling import CouplingFriction, CrownedCoupling
+from app.schema.quantities import Input
+from solvers.coupling import inputs as coupling
 from solvers.drive_train import inputs as si
 
 _ALIGNMENT = si.Alignment()
@@ -142,9 +141,9 @@ class UnitCoupling(Section):
     def unit_coupling(self) -> si.UnitCoupling:
         """The solver's coupling."""
         return si.UnitCoupling(
-            coupling=proportioned(**to_si(self.coupling)),
+            coupling=self.coupling.si(coupling.CouplingDesign).coupling(),
             lubricant=self.lubricant.lubricant(),
-            friction=self.friction.friction(),
+            friction=self.friction.si(coupling.Friction),
             alignment=None if self.alignment is None else self.alignment.alignment(),
             **to_si(self),
         )

@@ -2,10 +2,10 @@
 
 from typing import Annotated
 
-from app.contract.quantities import Input
 from app.requests.common import Section
 from app.requests.materials import XUE
 from app.requests.scuffing import ContactTemperatures
+from app.schema.quantities import Input
 from solvers.drive_train import inputs as si
 
 _HEAT = si.Heat()

@@ -5,14 +5,14 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from app.contract.conversion import to_si
-from app.contract.quantities import Input
 from app.requests.common import Section
 from app.requests.flank_modifications import FlankModifications
 from app.requests.load_distribution import ScuffingLoad
 from app.requests.pumping import BacklashGears
 from app.requests.pumping_options import PumpingOptions
 from app.requests.scuffing import ScuffingModel
+from app.schema.conversion import to_si
+from app.schema.quantities import Input
 from solvers.drive_train import inputs as si
 from solvers.gears.inputs import GearPairInputs
 from solvers.scuffing import inputs as mesh

@@ -6,9 +6,9 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from app.contract.conversion import to_si
-from app.contract.quantities import Input
 from app.requests.common import Section
+from app.schema.conversion import to_si
+from app.schema.quantities import Input
 from solvers.drive_train import inputs as si
 
 OCVIRK = "DuBois and Ocvirk, NACA 1157"

@@ -3,9 +3,9 @@
 from dataclasses import replace
 from typing import Annotated
 
-from app.contract.quantities import Input
 from app.requests.common import Section
 from app.requests.materials import XUE
+from app.schema.quantities import Input
 from solvers.scuffing import inputs as si
 
 DEVIATIONS = "ISO/TR 10064-3"

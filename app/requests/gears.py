@@ -2,9 +2,9 @@
 
 from typing import Annotated, Literal
 
-from app.contract.conversion import to_si
-from app.contract.quantities import Input
 from app.requests.common import Section
+from app.schema.conversion import to_si
+from app.schema.quantities import Input
 from solvers.gears.inputs import GearPairInputs, GearTeeth, normal_section
 
 ISO_21771 = "ISO 21771"

@@ -3,11 +3,11 @@
 from dataclasses import replace
 from typing import Annotated, Any
 
-from app.contract.conversion import to_si
-from app.contract.quantities import Input
 from app.requests.common import Request, Section
 from app.requests.materials import XUE, Surface
 from app.requests.oil import Oil
+from app.schema.conversion import to_si
+from app.schema.quantities import Input
 from solvers.contact import ehl
 
 BULK = "360 K, the paper's bulk temperature"

@@ -6,12 +6,12 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from app.contract.conversion import to_si
-from app.contract.quantities import Input
 from app.requests.common import Request, Section
 from app.requests.flank_modifications import FlankModifications
 from app.requests.gears import RACK_TIP_RADIUS, Gears
 from app.requests.materials import XUE, Surface
+from app.schema.conversion import to_si
+from app.schema.quantities import Input
 from solvers.scuffing import inputs as si
 
 ISO_6336 = "ISO 6336-1"

@@ -2,9 +2,9 @@
 
 from typing import Annotated
 
-from app.contract.conversion import to_si
-from app.contract.quantities import Input
 from app.requests.common import Section
+from app.schema.conversion import to_si
+from app.schema.quantities import Input
 from solvers.materials import Solid
 
 XUE = "Xue 2020"

@@ -5,10 +5,10 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from app.contract.conversion import to_si
-from app.contract.quantities import Input
 from app.requests.materials import TABLE, XUE
 from app.requests.sheet_oil import BY_KIND, SheetOil, names_a_sheet
+from app.schema.conversion import to_si
+from app.schema.quantities import Input
 from solvers.lubricants import Lubricant, PressureViscosityLaw
 from solvers.oils import OilSheet
 

@@ -5,11 +5,11 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from app.contract.conversion import to_si
-from app.contract.quantities import Input
 from app.requests.common import Request, Section
 from app.requests.gears import RACK_TIP_RADIUS, Gears
 from app.requests.pumping_options import AXIAL_SPEED_ONLY, MILIAN, PumpingOptions
+from app.schema.conversion import to_si
+from app.schema.quantities import Input
 from solvers.pumping import inputs as si
 
 _AMBIENT = si.Ambient()

@@ -6,14 +6,14 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from app.contract.conversion import to_si
-from app.contract.quantities import Input
 from app.requests.common import Section
 from app.requests.line_contact import FilmModel
 from app.requests.load_distribution import LoadDistributionModel, LoadDistributionRequest
 from app.requests.materials import XUE
 from app.requests.oil import Oil
 from app.requests.temperatures import OIL_TEMPERATURE, SCUFFING_TEMPERATURE
+from app.schema.conversion import to_si
+from app.schema.quantities import Input
 from solvers.scuffing import inputs as si
 from solvers.scuffing.inputs import BulkMethod, OilSupply
 

@@ -5,9 +5,9 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from app.contract.conversion import to_si
-from app.contract.quantities import Input
 from app.requests.common import Section
+from app.schema.conversion import to_si
+from app.schema.quantities import Input
 from solvers.oils import OilKind, OilSheet, iso_vg
 from solvers.viscosity_index import SQUARE_MILLIMETRE
 

@@ -1,11 +1,12 @@
 """What every response has in common."""
 
 from importlib.metadata import version
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import ConfigDict
 
-from app.contract.quantities import Documented, Output
+from app.schema.model import Documented
+from app.schema.quantities import Output
 
 MODEL_VERSION = version("tribodrive")
 
@@ -14,6 +15,7 @@ class Group(Documented):
     """A part of a response; nothing in it is NaN or infinite."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+    _declares: ClassVar = Output
 
 
 class Notice(Group):
@@ -40,6 +42,8 @@ class Derived(Group):
 
 class Response(Group):
     """What every result says about itself; each adds its results."""
+
+    _optional: ClassVar = True
 
     status: Annotated[
         Literal["ok", "ok_with_warnings", "no_solution"],

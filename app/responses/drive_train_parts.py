@@ -2,10 +2,10 @@
 
 from typing import Annotated
 
-from app.contract.quantities import Output
 from app.responses.common import Group
 from app.responses.gear_mesh import Values
 from app.responses.load_distribution import MeshDerived
+from app.schema.quantities import Output
 
 XY = "X, Y"
 HUBS = "the unit's hub, the machine's"

@@ -2,8 +2,8 @@
 
 from typing import Annotated
 
-from app.contract.quantities import Output
 from app.responses.common import Group
+from app.schema.quantities import Output
 
 XUE = "Xue 2020"
 ISO_6336 = "ISO 6336-1"

@@ -2,9 +2,9 @@
 
 from typing import Annotated
 
-from app.contract.quantities import Output
 from app.responses.common import Group, Response
 from app.responses.oil import OilDerived
+from app.schema.quantities import Output
 from solvers.contact import ehl
 
 XUE = "Xue 2020"

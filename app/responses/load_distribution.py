@@ -2,7 +2,6 @@
 
 from typing import Annotated
 
-from app.contract.quantities import Output
 from app.responses.common import Derived, Group, Response
 from app.responses.gear_mesh import (
     ISO_6336,
@@ -14,6 +13,7 @@ from app.responses.gear_mesh import (
     TransmissionErrorResult,
     Values,
 )
+from app.schema.quantities import Output
 
 Gaps = list[float | None]
 MAP = ("profile_fraction", "face_fraction")

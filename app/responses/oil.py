@@ -2,8 +2,8 @@
 
 from typing import Annotated
 
-from app.contract.quantities import Output
 from app.responses.common import Derived
+from app.schema.quantities import Output
 
 
 class OilDerived(Derived):

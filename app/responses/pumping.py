@@ -2,9 +2,9 @@
 
 from typing import Annotated
 
-from app.contract.quantities import Output
 from app.responses.common import Derived, Group, Response
 from app.responses.pumping_spaces import EQ_7, PumpingSpaces, Values
+from app.schema.quantities import Output
 
 
 class PumpingDerived(Derived):

@@ -2,9 +2,9 @@
 
 from typing import Annotated, ClassVar
 
-from app.contract.quantities import Output
-from app.contract.units import UNITS
 from app.responses.common import Group
+from app.schema.quantities import Output
+from solvers.quantity import UNITS
 
 MILIAN = "Milian 2004"
 FIG_3 = f"{MILIAN}, Fig. 3"

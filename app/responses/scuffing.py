@@ -2,11 +2,11 @@
 
 from typing import Annotated, ClassVar
 
-from app.contract.quantities import Output
 from app.responses.common import Group
 from app.responses.gear_mesh import XUE, Values
 from app.responses.load_distribution import Gaps, LoadDistributionResponse, ScuffingDerived
 from app.responses.oil import OilDerived
+from app.schema.quantities import Output
 from solvers.contact.film import Regime
 from solvers.scuffing.safety_results import PointStatus
 from solvers.scuffing.thermal.practice import ScuffingRisk

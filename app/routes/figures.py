@@ -7,14 +7,14 @@ from fastapi import APIRouter, HTTPException, Path, Query, Request, Response
 from pydantic import BaseModel
 
 from app.calculations import CALCULATIONS, Calculation
-from app.contract.messages import Fault
-from app.contract.quantities import Output
 from app.figures.registry import figures_of
 from app.figures.rendering import MEDIA_TYPES, Format, render
 from app.library import body_of
 from app.problems import documented
 from app.reading import InvalidBody
 from app.routes.calculations import CalculationRoute, Work, read_case
+from app.schema.messages import Fault
+from app.schema.quantities import Output
 
 Theme = Literal["light", "dark"]
 FORMATS: tuple[Format, ...] = get_args(Format)

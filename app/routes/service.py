@@ -6,9 +6,9 @@ from fastapi import APIRouter, HTTPException, Path, Request, Response
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 from pydantic import BaseModel
 
-from app.contract.quantities import Output
 from app.library import Example, ExampleSummary, examples
 from app.problems import WarmingUp, WorkerLost, documented
+from app.schema.quantities import Output
 from app.start_up import StartUp
 from app.workers.pool import Pool
 

@@ -10,11 +10,11 @@ from fastapi.responses import StreamingResponse
 from fastapi.routing import APIRoute
 from starlette.types import Receive, Scope, Send
 
-from app.contract.messages import Fault
 from app.problems import documented
 from app.reading import InvalidBody
 from app.routes.calculations import require_json
 from app.routes.study_examples import CORNERS_EXAMPLES, DESIGN_EXAMPLES, SENSITIVITY_EXAMPLES, SWEEP_EXAMPLES
+from app.schema.messages import Fault
 from app.settings import Settings
 from app.start_up import StartUp
 from app.studies import corners, design_plan, sensitivity, sweep

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.contract.fields import Leaf
 from app.responses.common import MODEL_VERSION
+from app.schema.fields import Leaf
 from app.sources import SOURCES
 from app.studies.engine import Pool, Work, in_order, twice_if_lost
 from app.studies.points import Question

@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from app.contract.fields import Leaf
 from app.problems import Unprocessable
 from app.reading import read
+from app.schema.fields import Leaf
 from app.studies.design import Choice, Design
 from app.studies.fields import value_at
 from app.studies.outputs import output

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from app.contract.fields import Leaf
+from app.schema.fields import Leaf
 from app.studies.fields import fault
 
 RELATIVE_STEP = 0.01

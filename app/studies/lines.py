@@ -7,7 +7,7 @@ from collections.abc import AsyncGenerator, Callable
 from contextlib import aclosing
 from typing import Any
 
-from app.contract.fields import Leaf
+from app.schema.fields import Leaf
 from app.studies.plan import Plan
 from app.studies.points import Point
 from app.studies.stream import Line, Lines

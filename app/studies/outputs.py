@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from app.calculations import Calculation
-from app.contract.fields import Leaf, headlines
 from app.problems import Unprocessable
+from app.schema.fields import Leaf, headlines
 from app.studies.fields import scalar_at
 
 

@@ -6,9 +6,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from app.contract.fields import Leaf
-from app.contract.quantities import Documented
 from app.problems import Unprocessable
+from app.schema.fields import Leaf
+from app.schema.model import Documented
 from app.studies.fields import fault, is_reachable, scalar_at
 from app.studies.requests import Axis, Overrides, Sample, Scalar, SweepRequest
 

@@ -3,10 +3,10 @@
 from typing import Any
 
 from app.calculations import BY_PATH, Calculation
-from app.contract.cases import case_of
 from app.problems import Unprocessable
 from app.reading import InvalidBody, validated
 from app.requests.common import Request
+from app.schema.cases import case_of
 from app.sources import SOURCES
 from app.studies.points import with_overrides
 from app.studies.requests import Overrides, StudyRequest

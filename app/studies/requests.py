@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema, model_validator
 from pydantic_core import PydanticCustomError
 
-from app.contract.quantities import Input
+from app.schema.quantities import Input
 
 MOST_FIELDS_TOGETHER = 50
 LARGEST = 1e300

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.calculations import Calculation
-from app.contract.fields import ITEM, Leaf, leaves
 from app.problems import Unprocessable
 from app.reading import read
 from app.responses.common import MODEL_VERSION
+from app.schema.fields import ITEM, Leaf, leaves
 from app.sources import SOURCES
 from app.studies.differences import Differences, Probe, probe
 from app.studies.engine import Pool, Work, in_order

@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from typing import Any
 
-from app.contract.fields import Leaf
 from app.problems import Unprocessable
 from app.reading import read
 from app.responses.common import MODEL_VERSION
+from app.schema.fields import Leaf
 from app.sources import SOURCES
 from app.studies.engine import Pool, Work, in_order, twice_if_lost
 from app.studies.fields import did_you_mean, scalar_at

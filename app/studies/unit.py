@@ -5,9 +5,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from app.calculations import BY_PATH
-from app.contract.names import field_path
-from app.contract.units import split_unit
 from app.requests.common import Request
+from app.schema.names import field_path
+from app.schema.units import split_unit
 from app.studies.fields import set_value
 from app.studies.requests import Axis, Scalar
 from app.studies.unit_requests import ENDPOINT

@@ -4,7 +4,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from app.contract.quantities import Input
+from app.schema.quantities import Input
 from app.studies.requests import Axis, FieldPath, FieldPaths, Part, Value
 
 ENDPOINT = "/v1/drive-train"

@@ -64,10 +64,10 @@ def check_inputs(inputs: CouplingInputs) -> None:
     if 0.0 < inputs.operation.torque < LEAST_TORQUE:
         raise InvalidInput("out_of_range", f"a torque below {LEAST_TORQUE:g} N m is none; give 0 or more", "torque")
     _check_pitch_errors(inputs)
-    if isinstance(inputs.friction.mixed_law, MixedFrictionTable):
-        _check_mixed_table(inputs.friction.mixed_law)
+    if isinstance(inputs.friction.law, MixedFrictionTable):
+        _check_mixed_table(inputs.friction.law)
     else:
-        _check_mixed_curve(inputs.friction.mixed_law)
+        _check_mixed_curve(inputs.friction.law)
 
 
 def _check_ranges(group: object, ranges: tuple[_Range, ...]) -> None:

@@ -3,9 +3,13 @@
 Lengths [m], angles [rad], forces [N], speeds [rad/s]. Every name is the API's name without its unit.
 """
 
-from dataclasses import dataclass, field
-from math import radians
-from typing import Any, Literal
+from dataclasses import dataclass, field, fields
+from math import atan
+from typing import Literal
+
+from solvers.errors import InvalidInput
+from solvers.quantity import quantity, record
+from solvers.sources import PAHL
 
 Arrangement = Literal["single", "parallel_offset", "angular"]
 KinematicModel = Literal["tangential", "spatial"]
@@ -13,59 +17,226 @@ SleeveSupport = Literal["centred", "floating"]
 InletModel = Literal["face", "travel", "infinite"]
 
 
-@dataclass(frozen=True, slots=True)
-class Coupling:
-    """The coupling: crowned hub teeth in a straight internal sleeve.
+@record
+class CouplingDesign:
+    """The coupling: crowned hub teeth in a straight internal sleeve."""
 
-    `crowning_ratio` is crowning radius over pitch radius (1: heavily crowned). `face_width` and `tooth_height`
-    (load-carrying height, the length of the contact line) [m] belong to the hub. `hub_distance` [m] lies between
-    the two tooth planes. `tooth_stiffness` [N/m] is tangential, one tooth pair; its default is of the order of
-    ISO 6336 (14 N/(mm um) over 20 mm). `sleeve_mass` [kg] is the mass one mesh carries: half the sleeve.
-    `pitch_errors` [m], one a tooth, are positive where a tooth carries early; None means none.
+    teeth: int = quantity("number of teeth", "z", PAHL, ge=6, le=400)
+    module: float = quantity("module", "m", PAHL, unit="mm", ge=0.1, le=100)
+    pressure_angle: float = quantity(
+        "pressure angle", "α", unit="deg", default=20.0, ge=1, lt=45, assumed="the usual rack; the paper gives none"
+    )
+    face_width: float | None = quantity(
+        "hub tooth face width",
+        "b",
+        unit="mm",
+        default=None,
+        ge=0.1,
+        le=2000,
+        tolerance=0.1,
+        default_text="8 modules",
+        assumed="8 modules; the paper gives none",
+    )
+    tooth_height: float | None = quantity(
+        "load-carrying tooth height",
+        "h_trag",
+        f"{PAHL}, Fig. 8",
+        unit="mm",
+        default=None,
+        ge=0.05,
+        le=200,
+        tolerance=0.05,
+        text="load-carrying tooth height, the length of the contact line",
+        default_text="2 modules",
+        assumed="2 modules; the paper gives none",
+    )
+    crowning_ratio: float = quantity(
+        "crowning ratio", "ε", PAHL, default=1.0, ge=0.2, le=1e3, text="crowning radius over pitch radius, 1: heavy"
+    )
+    hub_distance: float = quantity(
+        "distance of the tooth planes",
+        "l_H",
+        f"{PAHL}, Fig. 13",
+        unit="mm",
+        default=200.0,
+        ge=1,
+        le=20000,
+        tolerance=0.5,
+        text="distance of the two tooth planes",
+        assumed="order of magnitude",
+    )
+    tooth_stiffness: float = quantity(
+        "tooth pair stiffness",
+        "c_t",
+        unit="n_per_um",
+        default=280.0,
+        ge=0.1,
+        le=1e5,
+        text="tangential stiffness of one tooth pair",
+        assumed="order of magnitude of ISO 6336-1: 14 N/(mm µm) over 20 mm of effective width",
+    )
+    sleeve_mass: float = quantity(
+        "sleeve mass per mesh",
+        "m_s",
+        unit="kg",
+        default=4.0,
+        ge=1e-3,
+        le=1e4,
+        text="mass carried by one mesh, half the sleeve",
+        assumed="order of magnitude",
+    )
+    pitch_errors: tuple[float, ...] | None = quantity(
+        "pitch errors",
+        "p_i",
+        f"{PAHL}, Fig. 4",
+        unit="um",
+        default=None,
+        ge=-1e4,
+        le=1e4,
+        length=(1, 1000),
+        text="pitch errors, one per tooth, positive = early, carries more",
+        default_text="none",
+        tolerance=1,
+    )
+    youngs_modulus: float = quantity(
+        "Young's modulus of the teeth", "E", unit="gpa", default=206.0, ge=1, le=2000, assumed="steel"
+    )
+    poisson_ratio: float = quantity(
+        "Poisson's ratio of the teeth", "ν", default=0.3, ge=0, lt=0.5, assumed="steel", tolerance=0.01
+    )
+
+    def coupling(self) -> "Coupling":
+        """The coupling with the proportions that were left open."""
+        known = {each.name: getattr(self, each.name) for each in fields(self)}
+        width = 8 * self.module if self.face_width is None else self.face_width
+        height = 2 * self.module if self.tooth_height is None else self.tooth_height
+        return Coupling(**known | {"face_width": width, "tooth_height": height})
+
+
+@record(kw_only=True)
+class Coupling(CouplingDesign):
+    """The coupling with all proportions known."""
+
+    face_width: float = quantity("face width used", "b", unit="mm")
+    tooth_height: float = quantity("tooth height used", "h_trag", unit="mm")
+
+
+@record
+class Load:
+    """Torque, speed and arrangement.
+
+    `arrangement`: `single` is one mesh, `parallel_offset` (Z) two hubs tilted alike against the sleeve, `angular` (M)
+    two hubs tilted oppositely.
     """
 
-    teeth: int
-    module: float
-    face_width: float
-    tooth_height: float
-    pressure_angle: float = radians(20.0)
-    crowning_ratio: float = 1.0
-    hub_distance: float = 0.2
-    tooth_stiffness: float = 2.8e8
-    sleeve_mass: float = 4.0
-    pitch_errors: tuple[float, ...] | None = None
-    youngs_modulus: float = 206e9
-    poisson_ratio: float = 0.3
-
-
-def proportioned(
-    *, module: float, face_width: float | None = None, tooth_height: float | None = None, **others: Any
-) -> Coupling:
-    """The coupling, a missing face width 8 modules and a missing tooth height 2 modules: the paper gives none."""
-    return Coupling(
-        module=module,
-        face_width=8 * module if face_width is None else face_width,
-        tooth_height=2 * module if tooth_height is None else tooth_height,
-        **others,
+    torque: float = quantity(
+        "transmitted torque", "T", PAHL, unit="n_m", ge=0, le=1e8, tolerance=1, relative_tolerance=0.01
+    )
+    speed: float = quantity(
+        "speed",
+        "n",
+        PAHL,
+        unit="rpm",
+        ge=-1e5,
+        le=1e5,
+        text="speed; the sign is the sense of rotation",
+        tolerance=1,
+        relative_tolerance=0.01,
+    )
+    axial_velocity: float = quantity(
+        "axial velocity",
+        "v_ax",
+        PAHL,
+        unit="mm_per_s",
+        default=0.0,
+        ge=-1e4,
+        le=1e4,
+        text="axial speed hub against sleeve at each mesh; positive: shafts move apart",
+        tolerance=0.1,
+    )
+    arrangement: Arrangement = quantity(
+        "arrangement",
+        None,
+        f"{PAHL}, Fig. 13",
+        default="single",
+        text="one mesh; two with parallel offset (Z); two with an angle (M)",
+    )
+    shaft_diameter: float | None = quantity(
+        "shaft diameter",
+        "D",
+        "API 671/617 practice, from memory",
+        unit="mm",
+        default=None,
+        ge=1,
+        le=2000,
+        text="of the customary thrust 0.25 T/D",
+        default_text="no customary thrust",
     )
 
 
-@dataclass(frozen=True, slots=True)
-class Operation:
-    """Load and motion.
+@record
+class OperatingPoint(Load):
+    """Operating point; the tilt is given, or follows from the offset of the shafts."""
 
-    `torque` [N m] >= 0. Signed: `speed` [rad/s] (sense of rotation), `misalignment` [rad] of hub against sleeve at
-    one mesh, `axial_velocity` [m/s] per mesh, positive where the shafts move apart. `arrangement`: `single` is one
-    mesh, `parallel_offset` (Z) two hubs tilted alike against the sleeve, `angular` (M) two hubs tilted oppositely.
-    `shaft_diameter` [m] is that of the customary thrust 0.25 T/D; None asks for none.
-    """
+    misalignment: float | None = quantity(
+        "misalignment",
+        "δ_HS",
+        PAHL,
+        unit="deg",
+        default=None,
+        ge=-6,
+        le=6,
+        tolerance=0.005,
+        text="tilt of hub against sleeve at one mesh",
+        default_text="by the parallel offset",
+    )
+    parallel_offset: float | None = quantity(
+        "parallel offset of the shafts",
+        "e",
+        unit="mm",
+        default=None,
+        ge=-1000,
+        le=1000,
+        tolerance=0.05,
+        text="instead of the tilt, which is atan(offset over hub distance)",
+    )
 
-    torque: float
-    speed: float
-    misalignment: float
-    axial_velocity: float = 0.0
-    arrangement: Arrangement = "single"
-    shaft_diameter: float | None = None
+    def operation(self, hub_distance: float) -> "Operation":
+        """The operating point with its tilt; `hub_distance` [m] lies between the tooth planes."""
+        tilt = self.misalignment
+        if tilt is None:
+            if self.parallel_offset is None:
+                raise InvalidInput("misalignment_or_offset", "give misalignment or parallel_offset", "misalignment")
+            tilt = atan(self.parallel_offset / hub_distance)
+        return Operation(**{each.name: getattr(self, each.name) for each in fields(Load)}, misalignment=tilt)
+
+
+@record
+class OperatingRange(Load):
+    """Operating point with a range of misalignment."""
+
+    misalignment_range: tuple[float, float] = quantity(
+        "range of misalignment",
+        "δ_HS",
+        PAHL,
+        unit="deg",
+        kw_only=True,
+        ge=1e-4,
+        le=6,
+        text="smallest and largest tilt of hub in sleeve",
+    )
+
+    def operation(self) -> "Operation":
+        """The operating point at the smallest misalignment."""
+        known = {each.name: getattr(self, each.name) for each in fields(Load)}
+        return Operation(**known, misalignment=self.misalignment_range[0])
+
+
+@record
+class Operation(Load):
+    """Operating point with the tilt [rad] of hub against sleeve at one mesh; its sign counts."""
+
+    misalignment: float = field(kw_only=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +247,7 @@ class Lubricant:
     reference_film: float = 1e-6
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MixedFrictionCurve:
     """Our law of mixed friction against sliding velocity: falls from `highest` to `lowest` at `velocity` [m/s].
 
@@ -84,53 +255,172 @@ class MixedFrictionCurve:
     crowned coupling at 0.4 degrees and 200 rad/s (the paper gives no speed for its Fig. 11).
     """
 
-    highest: float = 0.10
-    lowest: float = 0.05
-    velocity: float = 0.11
+    highest: float = quantity(
+        "highest mixed friction",
+        "μ_max",
+        f"{PAHL}, Fig. 9",
+        default=0.1,
+        ge=1e-4,
+        le=2,
+        text="coefficient at rest, and the most at high velocity",
+    )
+    lowest: float = quantity(
+        "lowest mixed friction", "μ_min", f"{PAHL}, Fig. 9", default=0.05, ge=1e-4, le=2, text="least coefficient"
+    )
+    velocity: float = quantity(
+        "velocity of least friction",
+        "v_G,min",
+        f"{PAHL}, Fig. 10",
+        unit="m_per_s",
+        default=0.11,
+        ge=1e-4,
+        le=1000,
+        text="largest sliding velocity at which the coefficient is least",
+        assumed="a calibration: it puts the friction minimum of the paper's heavily crowned coupling at 0.4° and"
+        " 200 1/s; the points of Fig. 10 and the speed of Fig. 11 are not in the text",
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MixedFrictionTable:
     """Measured mixed friction: `coefficient` [-] over rising `sliding_velocity` [m/s], one point or more.
 
     Constant outside the table.
     """
 
-    sliding_velocity: tuple[float, ...]
-    coefficient: tuple[float, ...]
+    sliding_velocity: tuple[float, ...] = quantity(
+        "table of sliding velocities",
+        "v_G",
+        unit="m_per_s",
+        ge=0,
+        le=1000,
+        length=(1, 1000),
+        text="sliding velocities, rising",
+        tolerance=0.01,
+        relative_tolerance=0.01,
+    )
+    coefficient: tuple[float, ...] = quantity(
+        "table of friction coefficients", "μ", ge=1e-4, le=2, length=(1, 1000), text="friction coefficients"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Friction:
     """Coefficients of friction: None means the law of the friction regime.
 
     `static_coefficient` None means the user's coefficient, without one that of the regime at rest without film.
     """
 
-    coefficient: float | None = None
-    static_coefficient: float | None = None
-    mixed_law: MixedFrictionCurve | MixedFrictionTable = field(default_factory=MixedFrictionCurve)
+    coefficient: float | None = quantity(
+        "coefficient of friction",
+        "μ",
+        f"{PAHL}, Fig. 9",
+        default=None,
+        ge=0,
+        le=2,
+        default_text="the law of the friction regime",
+        assumed="no coefficient given: the law of the friction regime, ours inside the paper's bands",
+        tolerance=0.02,
+    )
+    static_coefficient: float | None = quantity(
+        "coefficient of friction at rest",
+        "μ_s",
+        PAHL,
+        default=None,
+        ge=0,
+        le=2,
+        default_text="the coefficient given, else that of the law at rest without film",
+        assumed="0.16, the law of the friction regime at rest without film",
+        tolerance=0.02,
+    )
+    mixed_law: MixedFrictionTable | None = quantity(
+        "table of mixed friction",
+        None,
+        f"{PAHL}, Fig. 10",
+        default=None,
+        text="table that replaces the mixed-lubrication branch of the law, `mixed_curve`",
+    )
+    mixed_curve: MixedFrictionCurve = quantity(
+        "curve of mixed friction",
+        None,
+        f"{PAHL}, Fig. 10",
+        default_factory=MixedFrictionCurve,
+        text="mixed-lubrication branch of the law",
+    )
+
+    @property
+    def law(self) -> MixedFrictionCurve | MixedFrictionTable:
+        """The mixed-lubrication branch in force."""
+        return self.mixed_curve if self.mixed_law is None else self.mixed_law
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ModelOptions:
-    """Choices where the paper leaves room.
+    """Choices where the paper leaves room."""
 
-    `kinematics`: `tangential` is what the paper describes, `spatial` exact to first order (it adds the pivot motion).
-    `sleeve` of the single mesh. `inlet` of the oil film: `face` (the face left ahead of the contact at the reversal),
-    `travel` (the contact's travel) or `infinite`; `inlet_length` [m] overrides it. `film_angle` [rad]: the tooth
-    angle whose hydrodynamic velocity builds the film; None means its largest. `rotor_angle` [rad] at which the tooth
-    forces are reported. `simple_thrust_factor`: share of the sleeve force that the one-pair model of self-induced
-    thrust turns into a difference of tooth forces (the paper does not state it).
-    """
-
-    kinematics: KinematicModel = "tangential"
-    sleeve: SleeveSupport = "centred"
-    inlet: InletModel = "face"
-    inlet_length: float | None = None
-    film_angle: float | None = None
-    rotor_angle: float = 0.0
-    simple_thrust_factor: float = 1.0
+    kinematics: KinematicModel = quantity(
+        "kinematics of the teeth",
+        None,
+        PAHL,
+        default="tangential",
+        text="tangential: as the paper describes; spatial: exact to first order, with the pivot motion",
+        advanced=True,
+    )
+    sleeve: SleeveSupport = quantity(
+        "support of the sleeve",
+        default="centred",
+        text="whether the sleeve of the single mesh is centred or finds its place",
+        advanced=True,
+    )
+    inlet: InletModel = quantity(
+        "limit of the oil inlet",
+        "b_Ix",
+        f"{PAHL}, Fig. 8",
+        default="face",
+        text="what limits the oil inlet: the face left ahead of the contact, the contact's travel, nothing",
+        assumed="the paper does not define the inlet length",
+        advanced=True,
+    )
+    inlet_length: float | None = quantity(
+        "inlet length",
+        "b_Ix",
+        unit="mm",
+        default=None,
+        ge=1e-3,
+        le=2000,
+        text="inlet length instead of `inlet`",
+        default_text="by the limit of the oil inlet",
+        advanced=True,
+    )
+    film_angle: float | None = quantity(
+        "tooth angle of the film",
+        "φ",
+        f"{PAHL}, Fig. 8",
+        unit="deg",
+        default=None,
+        ge=-360,
+        le=360,
+        text="tooth angle whose hydrodynamic velocity builds the film, 90 at the tilt position",
+        default_text="that of the largest hydrodynamic velocity",
+        assumed="the largest hydrodynamic velocity of a revolution; the paper does not say which it takes",
+        advanced=True,
+        tolerance=1,
+    )
+    rotor_angle: float = quantity(
+        "rotor angle of the tooth forces", "θ", unit="deg", default=0.0, ge=-360, le=360, advanced=True, tolerance=0.1
+    )
+    simple_thrust_factor: float = quantity(
+        "share of the sleeve force in the one-pair model",
+        "κ",
+        f"{PAHL}, Fig. 13",
+        default=1.0,
+        ge=0,
+        le=10,
+        text="share of the sleeve force that the one-pair model of self-induced thrust turns into tooth forces",
+        assumed="all of it; the paper does not state the share",
+        advanced=True,
+        tolerance=0.1,
+    )
 
 
 @dataclass(frozen=True, slots=True)

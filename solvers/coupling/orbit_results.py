@@ -1,35 +1,63 @@
 """What one revolution of a floating sleeve answers, in SI: lengths [m], angles [rad], forces [N], arrays read-only."""
 
-from dataclasses import dataclass
-
 from solvers.arrays import FloatArray
 from solvers.coupling.results import Geometry
 from solvers.notices import Notice
+from solvers.quantity import quantity, record
+from solvers.sources import PAHL
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Orbit:
     """Path of the sleeve centre against the hub over one revolution."""
 
-    rotor_angle: FloatArray
-    x: FloatArray
-    y: FloatArray
+    rotor_angle: FloatArray = quantity("rotor angle", "θ", unit="deg")
+    x: FloatArray = quantity("sleeve displacement in the pivot direction", "e_x", unit="um", axis="rotor_angle")
+    y: FloatArray = quantity("sleeve displacement along the tilt axis", "e_y", unit="um", axis="rotor_angle")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class InertiaForce:
     """Inertia force of the sleeve mass of one mesh over the orbit's rotor angles; harmonics are amplitudes 2 |c_k|.
 
     Order 0 comes first and is the magnitude of the mean.
     """
 
-    x: FloatArray
-    y: FloatArray
-    harmonics_x: FloatArray
-    harmonics_y: FloatArray
+    x: FloatArray = quantity(
+        "inertia force in the pivot direction",
+        "F_x",
+        f"{PAHL}, Fig. 5",
+        unit="n",
+        detail="curves",
+        axis="orbit.rotor_angle_deg",
+    )
+    y: FloatArray = quantity(
+        "inertia force along the tilt axis",
+        "F_y",
+        f"{PAHL}, Fig. 5",
+        unit="n",
+        detail="curves",
+        axis="orbit.rotor_angle_deg",
+    )
+    harmonics_x: FloatArray = quantity(
+        "harmonics of the force in the pivot direction",
+        "F_x,k",
+        f"{PAHL}, Fig. 5",
+        unit="n",
+        text="amplitudes from order 0 up",
+        index="order from 0",
+    )
+    harmonics_y: FloatArray = quantity(
+        "harmonics of the force along the tilt axis",
+        "F_y,k",
+        f"{PAHL}, Fig. 5",
+        unit="n",
+        text="amplitudes from order 0 up",
+        index="order from 0",
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class OrbitResult:
     """One revolution of a floating sleeve under its own inertia.
 
@@ -38,12 +66,24 @@ class OrbitResult:
     orders; None where such a path does not settle. `derived` is the tooth that moves.
     """
 
-    orbit: Orbit
-    inertia_force: InertiaForce
-    max_displacement: float
-    displacement_uncertainty: float | None
-    harmonics_uncertainty: float | None
-    sweeps: int
-    change: float
-    derived: Geometry
+    orbit: Orbit = quantity("path of the sleeve centre", detail="curves")
+    inertia_force: InertiaForce = quantity("inertia force")
+    max_displacement: float = quantity("largest displacement", "e_max", unit="um")
+    displacement_uncertainty: float | None = quantity(
+        "uncertainty of the displacement",
+        "Δe_max",
+        unit="um",
+        text="change of the largest displacement with more rotor angles and orders",
+    )
+    harmonics_uncertainty: float | None = quantity(
+        "uncertainty of the harmonics",
+        "ΔF_k",
+        unit="n",
+        text="largest change of a harmonic with more rotor angles and orders",
+    )
+    sweeps: int = quantity("sweeps", text="sweeps over the revolution until it repeated")
+    change: float = quantity(
+        "change in the last sweep", "Δe", unit="um", text="how far the last sweep still moved the path"
+    )
+    derived: Geometry = quantity("radius used")
     warnings: tuple[Notice, ...]

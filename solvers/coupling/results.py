@@ -4,24 +4,26 @@ Lengths [m], angles [rad], forces [N], moments [N m]. A value that has no meanin
 says why.
 """
 
-from dataclasses import dataclass
-
 from solvers.arrays import FloatArray
 from solvers.coupling.inputs import Coupling
 from solvers.notices import Notice
+from solvers.quantity import quantity, record
+from solvers.sources import PAHL
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Geometry:
     """Radii of the crowned tooth [m]."""
 
-    pitch_radius: float
-    crowning_radius: float
-    tangential_flank_radius: float
-    normal_flank_radius: float
+    pitch_radius: float = quantity("pitch radius", "r_o", PAHL, unit="mm")
+    crowning_radius: float = quantity(
+        "crowning radius", "r_b", PAHL, unit="mm", text="radius of the cutter centre's path"
+    )
+    tangential_flank_radius: float = quantity("flank radius in the tangential plane", "R_t", unit="mm")
+    normal_flank_radius: float = quantity("flank radius in the plane of action", "R_e", f"{PAHL}, Fig. 8", unit="mm")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class KinematicCurves:
     """Motion over one revolution of a tooth of the driving hub, one value an angle.
 
@@ -29,33 +31,54 @@ class KinematicCurves:
     axial, hub against sleeve, signed; `hydrodynamic_velocity` a magnitude; `contact_position` axial on the hub tooth.
     """
 
-    angle: FloatArray
-    sliding_velocity: FloatArray
-    hydrodynamic_velocity: FloatArray
-    tangential_displacement: FloatArray
-    contact_position: FloatArray
+    angle: FloatArray = quantity("tooth angle", "φ", unit="deg", text="tooth angle from the pivot position")
+    sliding_velocity: FloatArray = quantity(
+        "axial sliding velocity",
+        "v_G",
+        f"{PAHL}, Fig. 6",
+        unit="m_per_s",
+        text="axial sliding velocity, signed",
+        axis="angle",
+    )
+    hydrodynamic_velocity: FloatArray = quantity(
+        "hydrodynamically effective velocity", "v_H", f"{PAHL}, Fig. 6", unit="m_per_s", axis="angle"
+    )
+    tangential_displacement: FloatArray = quantity(
+        "tangential displacement", "f_t", f"{PAHL}, Fig. 6", unit="um", axis="angle"
+    )
+    contact_position: FloatArray = quantity(
+        "contact position on the hub tooth", "s_1", f"{PAHL}, Fig. 7", unit="mm", axis="angle"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Kinematics:
     """Largest values of the tooth's motion over a revolution, all positive [m/s, m]."""
 
-    max_sliding_velocity: float
-    max_contact_travel: float
-    max_hydrodynamic_velocity: float
-    tangential_displacement_peak_to_peak: float
-    curves: KinematicCurves
+    max_sliding_velocity: float = quantity("largest sliding velocity", "v_G,max", f"{PAHL}, Fig. 6", unit="m_per_s")
+    max_contact_travel: float = quantity(
+        "largest contact travel", "s_1,max", f"{PAHL}, Fig. 7", unit="mm", text="largest travel from the tooth's middle"
+    )
+    max_hydrodynamic_velocity: float = quantity(
+        "largest hydrodynamically effective velocity", "v_H,max", f"{PAHL}, Fig. 6", unit="m_per_s"
+    )
+    tangential_displacement_peak_to_peak: float = quantity(
+        "peak-to-peak tangential displacement", "f_t,pp", f"{PAHL}, Fig. 6", unit="um"
+    )
+    curves: KinematicCurves = quantity("motion over one revolution", detail="curves")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LoadCurves:
     """Tooth forces at the rotor angle asked for: tooth i stands at `angle` = 2 pi i / teeth + rotor angle."""
 
-    angle: FloatArray
-    tangential_force: FloatArray
+    angle: FloatArray = quantity("angle of the tooth", "φ_i", unit="deg")
+    tangential_force: FloatArray = quantity(
+        "tangential force of the tooth", "F_t", f"{PAHL}, Fig. 3", unit="n", axis="angle"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LoadDistribution:
     """One mesh, the one where the hub drives the sleeve, at the rotor angle asked for.
 
@@ -65,20 +88,30 @@ class LoadDistribution:
     `iterations` of the floating sleeve, 0 for the centred one.
     """
 
-    mean_tangential_force: float
-    max_tangential_force: float
-    min_tangential_force: float
-    max_normal_force: float
-    load_concentration: float | None
-    loaded_teeth: int
-    rotation: float
-    unloading_misalignment: float
-    sleeve_displacement: tuple[float, float]
-    iterations: int
-    curves: LoadCurves
+    mean_tangential_force: float = quantity("mean tangential force", "F_m", unit="n", text="of a tooth")
+    max_tangential_force: float = quantity("largest tangential force", "F_max", f"{PAHL}, Fig. 3", unit="n")
+    min_tangential_force: float = quantity("smallest tangential force", "F_min", unit="n")
+    max_normal_force: float = quantity(
+        "largest normal force over the teeth", "F_n,max", PAHL, unit="n", text="at the rotor angle asked for"
+    )
+    load_concentration: float | None = quantity(
+        "load concentration", "F_max/F_m", text="largest over mean force; null without torque"
+    )
+    loaded_teeth: int = quantity("loaded teeth", "z_L", text="teeth that carry")
+    rotation: float = quantity(
+        "rotation of hub against sleeve", "ψ", unit="um", text="rotation, an arc at the pitch radius"
+    )
+    unloading_misalignment: float = quantity(
+        "unloading misalignment", "δ_L", unit="deg", text="misalignment beyond which some tooth is free"
+    )
+    sleeve_displacement: tuple[float, float] = quantity(
+        "sleeve displacement", "e", unit="um", text="displacement (x, y) of the sleeve", index="x, y"
+    )
+    iterations: int = quantity("iterations of the sleeve's balance", text="of a floating sleeve; 0 for a centred one")
+    curves: LoadCurves = quantity("load tooth by tooth", detail="curves")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Regime:
     """An area of the paper's map of friction conditions (Fig. 9); an open end of its friction band is None.
 
@@ -86,14 +119,17 @@ class Regime:
     both lie infinitely far (no misalignment).
     """
 
-    area: str
-    name: str
-    friction_min: float | None
-    friction_max: float | None
-    distance_to_boundary: float | None
+    area: str = quantity("friction area", None, f"{PAHL}, Fig. 9", text="area of the map of friction conditions")
+    name: str = quantity("kind of lubrication", None, f"{PAHL}, Fig. 9", text="lubrication in this area")
+    friction_min: float | None = quantity("lower end of the friction band", "μ_min", f"{PAHL}, Fig. 9")
+    friction_max: float | None = quantity("upper end of the friction band", "μ_max", f"{PAHL}, Fig. 9")
+    distance_to_boundary: float | None = quantity(
+        "distance to the next friction area",
+        text="smallest |ln| of overlap and load capacity against the map's boundaries",
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Lubrication:
     """Contact and film of the highest loaded tooth in the tilt position (over a revolution with pitch errors).
 
@@ -101,19 +137,27 @@ class Lubrication:
     `load_capacity_coefficient` None: no load.
     """
 
-    max_normal_force: float
-    hertz_half_width: float
-    hertz_pressure: float
-    contact_overlap: float | None
-    inlet_ratio: float | None
-    inlet_factor: float
-    hydrodynamic_capacity: float
-    load_capacity_coefficient: float | None
-    regime: Regime
-    friction_coefficient: float
+    max_normal_force: float = quantity(
+        "normal force in the tilt position",
+        "F_n",
+        PAHL,
+        unit="n",
+        text="normal force of a tooth where the displacement f_t peaks, or largest with pitch errors",
+    )
+    hertz_half_width: float = quantity("half width of the Hertzian contact", "a_HZ", f"{PAHL}, Fig. 7", unit="mm")
+    hertz_pressure: float = quantity("largest Hertzian pressure", "p_H", unit="mpa")
+    contact_overlap: float | None = quantity("contact surface overlap", "Pu", f"{PAHL}, Fig. 7")
+    inlet_ratio: float | None = quantity(
+        "inlet ratio", "B", f"{PAHL}, Fig. 8", text="inlet length over its scale; null: infinite"
+    )
+    inlet_factor: float = quantity("inlet factor", "f(B)", f"{PAHL}, Fig. 8", text="effect of the shortened inlet")
+    hydrodynamic_capacity: float = quantity("hydrodynamic load capacity", "F_HD", f"{PAHL}, Fig. 8", unit="n")
+    load_capacity_coefficient: float | None = quantity("load capacity coefficient", "Tr", PAHL)
+    regime: Regime = quantity("friction regime")
+    friction_coefficient: float = quantity("friction coefficient in use", "μ")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SelfInducedThrust:
     """Thrust that two meshes make without any axial motion, mean over one tooth pitch.
 
@@ -121,13 +165,32 @@ class SelfInducedThrust:
     closed forms (one tooth pair a mesh; all teeth loaded alike), zero in the angular arrangement.
     """
 
-    force: float
-    overturning_moment: float
-    simple_model_force: float
-    uniform_load_force: float
+    force: float = quantity(
+        "self-induced thrust",
+        "F_ax,0",
+        f"{PAHL}, Fig. 17",
+        unit="n",
+        text="force on one shaft, positive: pulled together",
+    )
+    overturning_moment: float = quantity(
+        "overturning moment", "M_2", f"{PAHL}, Fig. 13", unit="n_m", text="moment of friction on the sleeve"
+    )
+    simple_model_force: float = quantity(
+        "self-induced thrust of the one-pair model",
+        "F_ax,1",
+        f"{PAHL}, Fig. 13",
+        unit="n",
+        text="one tooth pair per mesh; zero with an angle (M)",
+    )
+    uniform_load_force: float = quantity(
+        "self-induced thrust under uniform load",
+        "F_ax,u",
+        unit="n",
+        text="closed form, all teeth loaded alike; zero with an angle (M)",
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class AxialThrust:
     """Mean axial thrust over one tooth pitch (one revolution with pitch errors).
 
@@ -139,20 +202,50 @@ class AxialThrust:
     it what practice reckons with, None without a shaft diameter.
     """
 
-    force: float
-    coaxial_limit: float
-    breakaway_force: float
-    design_force: float
-    customary_force: float | None
-    fraction_of_limit: float | None
-    uniform_load_force: float
-    lower_bound: float
-    upper_bound: float
-    indeterminate: bool
-    self_induced: SelfInducedThrust | None
+    force: float = quantity(
+        "axial thrust",
+        "F_ax",
+        PAHL,
+        unit="n",
+        text="thrust of one mesh, or with two meshes force on one shaft, positive: pulled together",
+    )
+    coaxial_limit: float = quantity(
+        "thrust limit of coaxial shafts", "F_ax,max", PAHL, unit="n", text="thrust of sliding coaxial shafts"
+    )
+    breakaway_force: float = quantity(
+        "breakaway thrust", "F_ax,s", PAHL, unit="n", text="thrust at which coaxial shafts start to slide"
+    )
+    design_force: float = quantity(
+        "thrust to be held", "F_ax,d", unit="n", text="what a thrust bearing must hold: force or breakaway, the larger"
+    )
+    customary_force: float | None = quantity(
+        "customary thrust",
+        "0.25 T/D",
+        "API 671/617 practice, from memory",
+        unit="n",
+        text="0.25 T/D; null without a shaft diameter",
+    )
+    fraction_of_limit: float | None = quantity(
+        "thrust over its limit", "F_ax/F_ax,max", text="force over coaxial limit"
+    )
+    uniform_load_force: float = quantity(
+        "thrust under uniform load", "F_ax,u", unit="n", text="closed form of one mesh, all teeth loaded alike"
+    )
+    lower_bound: float = quantity(
+        "lower bound of the thrust", "F_ax,lo", unit="n", text="least thrust where friction at rest is indeterminate"
+    )
+    upper_bound: float = quantity(
+        "upper bound of the thrust", "F_ax,up", unit="n", text="largest thrust where friction at rest is indeterminate"
+    )
+    indeterminate: bool = quantity(
+        "indeterminate friction", text="whether teeth stick, so that friction takes any value up to its limit"
+    )
+    self_induced: SelfInducedThrust | None = quantity(
+        "self-induced", text="with axial velocity zero; null for a single mesh"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Losses:
     """Friction power [W] and moments [N m] of one mesh, means over one tooth pitch (revolution with pitch errors).
 
@@ -160,36 +253,58 @@ class Losses:
     nothing slides the friction moment is open and reported as zero.
     """
 
-    friction_power: float
-    friction_moment: float
-    contact_shift_moment: float
-    hub_bending_moment: float
+    friction_power: float = quantity("friction power", "P_f", unit="w")
+    friction_moment: float = quantity("friction moment", "M_f", unit="n_m")
+    contact_shift_moment: float = quantity(
+        "contact shift moment", "M_s", unit="n_m", text="moment of the shifted contacts"
+    )
+    hub_bending_moment: float = quantity(
+        "bending moment on the hub", "M_b", unit="n_m", text="bending moment on the hub, resultant"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Limits:
     """Design limits and linear stiffness with every tooth loaded [m/s, rad, N m, N m/rad, N/m].
 
     `allowable_misalignment` None: the coupling turns too slowly to reach the limit, or not at all.
     """
 
-    sliding_velocity_limit: float
-    allowable_misalignment: float | None
-    sleeve_centring_torque: float
-    torsional_stiffness: float
-    lateral_stiffness: float
+    sliding_velocity_limit: float = quantity(
+        "sliding velocity limit",
+        "v_G,lim",
+        "Tribology Handbook B4.6",
+        unit="m_per_s",
+        text="largest lasting sliding velocity",
+    )
+    allowable_misalignment: float | None = quantity(
+        "allowable misalignment",
+        "δ_lim",
+        "Tribology Handbook B4.6",
+        unit="deg",
+        text="misalignment at that sliding velocity; null where none reaches it",
+    )
+    sleeve_centring_torque: float = quantity(
+        "sleeve centring torque", "T_c", unit="n_m", text="torque that keeps a heavy sleeve centred"
+    )
+    torsional_stiffness: float = quantity(
+        "torsional stiffness", "c_φ", unit="n_m_per_rad", text="of one mesh, all teeth loaded"
+    )
+    lateral_stiffness: float = quantity(
+        "lateral stiffness", "c_r", unit="n_per_um", text="of one mesh, all teeth loaded"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CouplingResult:
     """Everything about one operating point; `derived` is the coupling with its proportions filled in."""
 
-    geometry: Geometry
-    kinematics: Kinematics
-    load_distribution: LoadDistribution
-    lubrication: Lubrication
-    axial_thrust: AxialThrust
-    losses: Losses
-    limits: Limits
-    derived: Coupling
+    geometry: Geometry = quantity("geometry", text="radii")
+    kinematics: Kinematics = quantity("motion of the teeth")
+    load_distribution: LoadDistribution = quantity("load over the teeth")
+    lubrication: Lubrication = quantity("lubrication", text="overlap, load capacity, regime")
+    axial_thrust: AxialThrust = quantity("thrust", text="axial thrust")
+    losses: Losses = quantity("losses", text="friction losses and moments")
+    limits: Limits = quantity("limits and stiffnesses")
+    derived: Coupling = quantity("proportions used")
     warnings: tuple[Notice, ...]

@@ -10,8 +10,8 @@ import pytest
 from pydantic import BaseModel
 
 from app.calculations import CALCULATIONS, Calculation
-from app.contract.quantities import Input
 from app.library import Example, examples
+from app.schema.quantities import Input
 
 HOSTILE: list[Any] = ["30", True, "x" * 50, None, [], {}, -1e300, 1e300, 10**400, 0, 1e-9, 1e-300]
 

@@ -9,11 +9,11 @@ from typing import Any
 import pytest
 
 from app.calculations import CALCULATIONS, Calculation
-from app.contract.names import field_path
 from app.evaluate import evaluate
 from app.formats.json import written
 from app.library import examples
 from app.requests.common import Request
+from app.schema.names import field_path
 from app.sources import SOURCES
 
 BY_PATH = {each.path: each for each in CALCULATIONS}

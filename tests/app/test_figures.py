@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 from app.calculations import CALCULATIONS
-from app.contract.quantities import Documented
 from app.evaluate import evaluate
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, Role
@@ -21,6 +20,7 @@ from app.figures.models import drive_train
 from app.figures.registry import figures_of
 from app.figures.tables import table
 from app.library import examples
+from app.schema.model import Documented
 
 Post = Callable[[str, object], httpx.Response]
 

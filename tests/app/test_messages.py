@@ -6,10 +6,10 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from app.contract.messages import Fault, faults
 from app.requests.common import Request
-from app.requests.coupling import CouplingRequest
 from app.requests.load_distribution import LoadDistributionRequest
+from app.schema.coupling import CouplingRequest
+from app.schema.messages import Fault, faults
 
 COUPLING: dict[str, Any] = {
     "coupling": {"teeth": 52, "module_mm": 3.0},

@@ -8,14 +8,14 @@ from typing import Annotated, Any, ClassVar
 import pytest
 
 from app.calculations import CALCULATIONS
-from app.contract.conversion import from_si
-from app.contract.fields import leaf_at
-from app.contract.quantities import Output
 from app.evaluate import evaluate
 from app.formats.json import written
 from app.library import examples
 from app.responses.common import Group
-from app.responses.coupling import CouplingResponse
+from app.schema.conversion import from_si
+from app.schema.coupling import CouplingResponse
+from app.schema.fields import leaf_at
+from app.schema.quantities import Output
 from solvers.coupling.results import CouplingResult
 
 

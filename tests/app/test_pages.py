@@ -12,7 +12,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.calculations import CALCULATIONS, Calculation
-from app.contract.fields import ITEM, leaves
 from app.evaluate import evaluate
 from app.figures.registry import figures_of
 from app.formats.json import written
@@ -22,6 +21,7 @@ from app.pages.query import body_of, link, normalised, pairs_of, pairs_of_query
 from app.pages.results import NOT_RESULTS
 from app.pages.templating import page_path
 from app.reading import Unreadable
+from app.schema.fields import ITEM, leaves
 
 CALCULATION = {each.path: each for each in CALCULATIONS}
 IDS = [each.request.__name__ for each in CALCULATIONS]

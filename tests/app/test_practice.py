@@ -9,10 +9,10 @@ import pytest
 from pydantic import ValidationError
 
 from app.calculations import CALCULATIONS
-from app.contract.messages import faults
 from app.formats.json import answer
 from app.library import STARTER, examples
 from app.problems import Unprocessable
+from app.schema.messages import faults
 from tests.gear_pairs import FZG_TORQUES
 
 BY_PATH = {calculation.path: calculation for calculation in CALCULATIONS}

@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 from app.calculations import CALCULATIONS
-from app.contract.fields import ITEM, Leaf, headlines, leaf_at, leaves
-from app.contract.quantities import Documented
-from app.contract.units import split_unit
+from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves
+from app.schema.model import Documented
+from app.schema.units import split_unit
 
 REQUESTS = [each.request for each in CALCULATIONS]
 RESPONSES = [each.response for each in CALCULATIONS]

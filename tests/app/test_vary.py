@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from app.calculations import CALCULATIONS, Calculation
-from app.contract.fields import leaf_at, leaves
 from app.figures.data import Axis, values
 from app.figures.drawing.image import draw
 from app.figures.rendering import MEDIA_TYPES
@@ -29,6 +28,7 @@ from app.pages.vary.wish import case_of
 from app.pages.views import Asked
 from app.problems import Unprocessable
 from app.reading import InvalidBody
+from app.schema.fields import leaf_at, leaves
 from app.studies.lines import point_line
 from app.studies.points import solve_point
 

@@ -17,9 +17,9 @@ from urllib.parse import urlsplit
 import httpx
 import pytest
 
-from app.contract.fields import leaves
 from app.library import examples
-from app.responses.coupling import CouplingResponse
+from app.schema.coupling import CouplingResponse
+from app.schema.fields import leaves
 from tests.server import descendants, descriptors, memory_mb, running_server, send_signal, workers
 from tests.service.faulty_server import HANGING
 

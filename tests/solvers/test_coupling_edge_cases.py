@@ -268,7 +268,7 @@ def test_a_friction_table_of_one_point_is_a_constant() -> None:
 )
 def test_friction_curves_are_checked(law: MixedFrictionCurve, code: str, field: str) -> None:
     with pytest.raises(InvalidInput) as caught:
-        solve(replace(pahl_coupling(0.1), friction=Friction(mixed_law=law)))
+        solve(replace(pahl_coupling(0.1), friction=Friction(mixed_curve=law)))
     assert (caught.value.code, caught.value.field) == (code, field)
 
 

@@ -156,7 +156,7 @@ def test_a_film_lowers_friction_from_the_least_of_the_mixed_curve_in_use(lowest:
     # 0.02: it used to rise to 0.05 at a load capacity coefficient of 0.2.
     for law in (MixedFrictionCurve(lowest=lowest), MixedFrictionTable((0.01, 0.11, 1.0), (0.1, lowest, 0.1))):
         assert mixed_friction(law, 0.11) == pytest.approx(lowest, rel=1e-12)
-        friction = Friction(mixed_law=law)
+        friction = Friction(mixed_law=law) if isinstance(law, MixedFrictionTable) else Friction(mixed_curve=law)
         values = [friction_coefficient(friction, 0.5, capacity, 0.11) for capacity in (0.0, 0.1, 0.2, 0.5, 0.8, 1.6)]
         assert values[:3] == pytest.approx([lowest] * 3, rel=1e-12)
         assert np.diff(values).max() < 1e-15

@@ -12,9 +12,9 @@ from scipy.optimize import root
 from app.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from solvers.coupling import solve
 from solvers.coupling.friction.averaging import rotor_samples
-from solvers.coupling.inputs import Arrangement, CouplingInputs, KinematicModel, ModelOptions
+from solvers.coupling.inputs import Arrangement, CouplingInputs, KinematicModel, ModelOptions, OperatingPoint
 from solvers.coupling.sleeve.equilibrium import sleeve_equilibrium, two_meshes
-from solvers.coupling.teeth.geometry import offset_misalignment, tooth_geometry
+from solvers.coupling.teeth.geometry import tooth_geometry
 from solvers.errors import NoSolution
 from tests.couplings import random_pitch_errors
 from tests.plain_coupling import PlainMesh, midpoints
@@ -242,8 +242,9 @@ def test_customary_thrust_needs_a_shaft() -> None:
 
 
 def test_parallel_offset_tilts_both_hubs() -> None:
-    assert offset_misalignment(0.35e-3, 0.2) == pytest.approx(radians(0.10027), rel=1e-4)
-    assert offset_misalignment(-0.35e-3, 0.2) == -offset_misalignment(0.35e-3, 0.2)
+    ahead, behind = (OperatingPoint(1.0, 1.0, parallel_offset=offset) for offset in (0.35e-3, -0.35e-3))
+    assert ahead.operation(hub_distance=0.2).misalignment == pytest.approx(radians(0.10027), rel=1e-4)
+    assert behind.operation(0.2).misalignment == -ahead.operation(0.2).misalignment
 
 
 def test_overturned_sleeve_is_no_solution() -> None:

@@ -129,7 +129,7 @@ def test_a_sleeve_on_two_of_six_teeth_finds_the_balance_it_has() -> None:
         tooth_stiffness=799.9021774775054e6,
         pitch_errors=tuple(1e-6 * error for error in errors),
     )
-    operation = Operation(54.598150033144236, -1.0, radians(-1.0), -49.787e-3)
+    operation = Operation(54.598150033144236, -1.0, -49.787e-3, misalignment=radians(-1.0))
     model = ModelOptions(sleeve="floating", rotor_angle=0.5)
     load = solve(CouplingInputs(coupling, operation, model=model)).load_distribution
     force = load.curves.tangential_force
@@ -160,7 +160,9 @@ def random_balance(random: np.random.Generator) -> tuple[ToothLoads, np.ndarray,
     torque = spread(1e-6, 1e8) if random.random() < 0.5 else spread(1.0, 1e4)
     tilt = float(random.choice([-1.0, 0.0, 1.0])) * radians(spread(1e-4, 6.0))
     inputs = CouplingInputs(
-        coupling, Operation(torque, 1.0, tilt), model=ModelOptions(kinematics=random.choice(["tangential", "spatial"]))
+        coupling,
+        Operation(torque, 1.0, misalignment=tilt),
+        model=ModelOptions(kinematics=random.choice(["tangential", "spatial"])),
     )
     mesh = mesh_of(inputs)
     angles = random.uniform(0.0, 7.0) + np.arange(4) * float(random.choice([0.0, 1e-9, 0.01, pi / teeth, 0.5]))

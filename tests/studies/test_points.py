@@ -6,10 +6,10 @@ from typing import Any
 import pytest
 
 from app.calculations import BY_PATH
-from app.contract.fields import leaves
 from app.formats.json import answer
 from app.library import examples
 from app.problems import Unprocessable
+from app.schema.fields import leaves
 from app.studies import points
 from app.studies.fields import value_at
 from app.studies.points import Question, solve_chunk, with_overrides

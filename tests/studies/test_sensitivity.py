@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
-from app.contract.fields import Leaf, leaf_at, leaves
 from app.library import examples
+from app.schema.fields import Leaf, leaf_at, leaves
 from app.studies.differences import Differences, probe
 from app.studies.fields import fault
 from app.studies.lines import encoded, json_line

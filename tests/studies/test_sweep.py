@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from scipy.stats import spearmanr
 
-from app.contract.fields import Leaf
 from app.library import examples
+from app.schema.fields import Leaf
 from app.studies.lines import StudyBroke, Table, encoded, json_line
 from app.studies.plan import Plan, PlannedAxis
 from app.studies.points import Point

@@ -22,8 +22,7 @@ from app.figures.data import (
 from app.figures.declaration import Declaration, present
 from app.figures.models.friction_map import friction_map
 from app.figures.wording import number, percent
-from app.requests.coupling import CouplingRequest
-from app.responses.coupling import CouplingResponse
+from app.schema.coupling import CouplingRequest, CouplingResponse
 
 QUARTERS = (0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0, 360.0)
 TOOTH = Axis("tooth position φ (tilt at 90° and 270°)", "°", limits=(0.0, 360.0), ticks=QUARTERS, magnitude=False)

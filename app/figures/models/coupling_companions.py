@@ -5,8 +5,7 @@ import numpy as np
 from app.figures.data import Axis, Bars, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Span, Values, values
 from app.figures.declaration import Declaration, present
 from app.figures.wording import number
-from app.requests.coupling import RecommendationRequest, SleeveOrbitRequest
-from app.responses.coupling import RecommendationResponse, SleeveOrbitResponse
+from app.schema.coupling import RecommendationRequest, RecommendationResponse, SleeveOrbitRequest, SleeveOrbitResponse
 from solvers.coupling.friction.regimes import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES
 
 ROTOR = Axis(

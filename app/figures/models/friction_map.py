@@ -7,8 +7,7 @@ import numpy as np
 from app.figures.data import Area, Axis, Figure, Hue, Line, Mark, Panel, Role, values
 from app.figures.declaration import present
 from app.figures.wording import number
-from app.requests.coupling import CouplingRequest
-from app.responses.coupling import CouplingResponse
+from app.schema.coupling import CouplingRequest, CouplingResponse
 from solvers.coupling.friction.regimes import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES, friction_regime
 
 MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}

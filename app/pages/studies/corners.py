@@ -3,7 +3,6 @@
 from dataclasses import replace
 from typing import Any
 
-from app.contract.fields import Leaf, headlines
 from app.figures.comparison import compared
 from app.figures.corners import Uncertain, corners
 from app.figures.data import Axis, Figure, NoFigure
@@ -16,6 +15,7 @@ from app.pages.query import body_of
 from app.pages.studies.declaration import Asking, Cell, Lead, Result, StudyPage, Table
 from app.pages.typesetting import shown
 from app.pages.views import Asked
+from app.schema.fields import Leaf, headlines
 from app.studies.corners import plan_corners
 from app.studies.fields import scalar_at, value_at
 from app.studies.requests import Overrides

@@ -4,11 +4,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from app.contract.fields import Leaf
 from app.figures.data import Figure
 from app.pages.fields import FieldView
 from app.pages.offers import Offer
 from app.pages.views import Asked
+from app.schema.fields import Leaf
 from app.studies.stream import Line
 from app.studies.study import Study
 

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from math import inf
 from typing import Any
 
-from app.contract.fields import Leaf
 from app.figures.comparison import compared
 from app.figures.data import Axis, Figure, NoFigure
 from app.figures.design import Tried, search
@@ -18,6 +17,7 @@ from app.pages.studies.corners import OUTPUT, corner_table, load_figure, worst_e
 from app.pages.studies.declaration import Asking, Cell, Lead, Result, StudyPage, Table
 from app.pages.typesetting import shown, symbol
 from app.pages.views import Asked
+from app.schema.fields import Leaf
 from app.studies.design_plan import plan_design
 from app.studies.fields import scalar_at, value_at
 from app.studies.reading import checked_base

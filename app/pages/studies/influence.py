@@ -2,7 +2,6 @@
 
 from typing import Any
 
-from app.contract.fields import Leaf
 from app.figures.data import Axis
 from app.figures.influence import Influence, influence
 from app.pages import offers
@@ -10,6 +9,7 @@ from app.pages.query import body_of, link
 from app.pages.studies.declaration import Asking, Cell, Result, StudyPage, Table
 from app.pages.typesetting import shown
 from app.pages.views import Asked
+from app.schema.fields import Leaf
 from app.studies.sensitivity import plan_sensitivity
 from app.studies.stream import Line
 

@@ -4,7 +4,6 @@ import json
 from dataclasses import replace
 
 from app.calculations import Calculation
-from app.contract.fields import Leaf
 from app.figures.rendering import Format, written
 from app.figures.tables import table
 from app.pages.cases import Fault, faults_of
@@ -21,6 +20,7 @@ from app.pages.vary.controls import output_menu
 from app.pages.vary.wish import field_at_fault, shown_output
 from app.pages.views import REFUSED, Asked
 from app.reading import Unreadable
+from app.schema.fields import Leaf
 from app.studies.lines import StudyBroke
 from app.studies.stream import Line
 

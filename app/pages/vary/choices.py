@@ -5,10 +5,10 @@ from math import ceil, floor
 from typing import Any, NamedTuple
 
 from app.calculations import Calculation
-from app.contract.fields import ITEM, Leaf, headlines, leaves
-from app.contract.tree import tree
 from app.pages.results import NOT_RESULTS
 from app.pages.typesetting import shown
+from app.schema.fields import ITEM, Leaf, headlines, leaves
+from app.schema.tree import tree
 from app.studies.fields import value_at
 from app.studies.requests import Scalar
 from app.studies.sensitivity import NUMBERS, places

@@ -5,12 +5,12 @@ from itertools import groupby
 from typing import Any
 
 from app.calculations import Calculation
-from app.contract.fields import headlines
 from app.pages.fields import FieldView
 from app.pages.query import text_of
 from app.pages.typesetting import symbol
 from app.pages.vary.choices import Choice, shown_outputs, varied
 from app.pages.vary.wish import AXES, COUNTS, Varied, Wish
+from app.schema.fields import headlines
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from app.contract.fields import Leaf
 from app.figures.data import Axis, values
 from app.figures.sweep import Coordinate, Grid
 from app.pages.typesetting import words
 from app.pages.vary.wish import Varied, Wish
+from app.schema.fields import Leaf
 from app.studies.requests import Scalar
 from app.studies.stream import Line
 from app.studies.sweep import Sweep

@@ -4,7 +4,6 @@ import json
 from dataclasses import dataclass, replace
 from typing import Any
 
-from app.contract.fields import Leaf
 from app.figures.data import Figure
 from app.figures.rendering import Format, written
 from app.figures.sweep import figures_of
@@ -23,6 +22,7 @@ from app.pages.vary.gathered import Gathered, grid_of
 from app.pages.vary.wish import Wish, case_of, field_at_fault, is_leaf, sweep_of, wish_of
 from app.pages.views import REFUSED, Asked
 from app.reading import Unreadable
+from app.schema.fields import Leaf
 from app.studies.fields import value_at
 from app.studies.sweep import Sweep, plan_sweep
 

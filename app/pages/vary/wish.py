@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from app.calculations import Calculation
-from app.contract.fields import Leaf, headlines, leaf_at
 from app.pages.query import LOWER, TRIALS, UPPER, Pairs, body_of, number_of
 from app.pages.vary.choices import Range, grades_of, has_numbers, usual_range, words_of
 from app.problems import Unprocessable
 from app.reading import InvalidBody, validated
+from app.schema.fields import Leaf, headlines, leaf_at
 from app.studies.fields import scalar_at, value_at
 from app.studies.sensitivity import NUMBERS
 

@@ -104,7 +104,7 @@ def friction_coefficient(
     """The user's coefficient, or that of the regime at the largest sliding velocity [m/s]."""
     if friction.coefficient is not None:
         return friction.coefficient
-    law = friction.mixed_law
+    law = friction.law
     mixed = mixed_friction(law, sliding_velocity)
     return regime_friction(overlap, load_capacity_coefficient, mixed, lowest_mixed_friction(law))
 

@@ -1,6 +1,6 @@
 """The crowned hub tooth: its pitch radius and the radii of its flank."""
 
-from math import atan, sin, tan
+from math import sin, tan
 
 from solvers.coupling.inputs import Coupling
 from solvers.coupling.results import Geometry
@@ -9,11 +9,6 @@ from solvers.coupling.results import Geometry
 def pitch_radius(coupling: Coupling) -> float:
     """r_o = m z/2 [m]."""
     return coupling.module * coupling.teeth / 2.0
-
-
-def offset_misalignment(parallel_offset: float, hub_distance: float) -> float:
-    """Tilt of both hubs against the sleeve [rad] by an offset of the shafts [m]: atan(offset/hub distance)."""
-    return atan(parallel_offset / hub_distance)
 
 
 def tooth_geometry(coupling: Coupling) -> Geometry:

@@ -171,7 +171,7 @@ def hub_warnings(port: CouplingPort, tilt: float) -> tuple[Notice, ...]:
 def _operating_point(port: CouplingPort, tilt: float) -> CouplingInputs:
     unit = port.inputs
     return CouplingInputs(
-        unit.coupling, Operation(port.torque, port.speed, tilt), unit.lubricant, unit.friction, unit.model
+        unit.coupling, Operation(port.torque, port.speed, misalignment=tilt), unit.lubricant, unit.friction, unit.model
     )
 
 

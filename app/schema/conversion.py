@@ -1,16 +1,18 @@
 """From request fields to SI arguments, from SI results to response fields, by name and unit."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from functools import cache
 from types import UnionType
-from typing import Annotated, Any, Union, get_args, get_origin
+from typing import Annotated, Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 from pydantic.fields import FieldInfo
 
-from app.contract.quantities import Detail, Documented, Output
-from app.contract.units import Unit, split_unit
+from app.schema.model import Documented
+from app.schema.quantities import Output
+from solvers.quantity import Detail, Unit
 
+T = TypeVar("T")
 LEVELS: tuple[Detail, ...] = ("summary", "curves", "fields")
 
 
@@ -40,7 +42,7 @@ def _field(model: type[Documented], name: str, info: FieldInfo) -> _Field:
     output = next((item for item in info.metadata if isinstance(item, Output)), None)
     level = LEVELS.index(output.detail) if output else 0
     holder = output.of if output and output.of else _holder(model, name)
-    return _Field(name, split_unit(name)[0], model.unit_of(name), level, group_of(info.annotation), holder)
+    return _Field(name, model.solver_name(name), model.unit_of(name), level, group_of(info.annotation), holder)
 
 
 def _holder(model: type[Documented], name: str) -> str | None:
@@ -61,6 +63,41 @@ def group_of(annotation: Any) -> type[Documented] | None:
 def to_si(section: Documented) -> dict[str, Any]:
     """The section's plain fields by their solver names, in SI; nested sections are left to the caller."""
     return {field.si_name: _scaled(getattr(section, field.name), field.unit) for field in _plain_fields(type(section))}
+
+
+def built(section: Documented, kind: type[T]) -> T:
+    """The solver's dataclass that a section was filled from, in SI, with those of the sections inside it."""
+    given: dict[str, Any] = {}
+    record: Any = kind
+    for name, field, inner in _members(type(section), record):
+        value = getattr(section, field.name)
+        given[name] = _scaled(value, field.unit) if inner is None else _inner(value, inner)
+    return kind(**given)
+
+
+def _inner(value: Any, kind: type[Any]) -> Any:
+    if value is None:
+        return None
+    return tuple(built(each, kind) for each in value) if isinstance(value, list) else built(value, kind)
+
+
+@cache
+def _members(model: type[Documented], kind: Any) -> tuple[tuple[str, _Field, type[Any] | None], ...]:
+    """The fields that a dataclass takes from a section, and the dataclass of a section inside it."""
+    known = {field.si_name: field for field in _fields(model)}
+    hints = get_type_hints(kind)
+    return tuple(
+        (each.name, known[each.name], _record_in(hints[each.name]))
+        for each in fields(kind)
+        if each.init and each.name in known
+    )
+
+
+def _record_in(hint: Any) -> type[Any] | None:
+    """The dataclass in a type, alone, optional or as the item of a tuple."""
+    if isinstance(hint, type) and is_dataclass(hint):
+        return hint
+    return next((found for kind in get_args(hint) if (found := _record_in(kind))), None)
 
 
 @cache

@@ -2,8 +2,7 @@
 
 from collections.abc import Iterator
 
-from app.contract.quantities import Documented
-from app.contract.units import split_unit
+from app.schema.model import Documented
 
 
 def field_path(section: Documented, name: str) -> str | None:
@@ -37,7 +36,7 @@ def _means(wanted: tuple[str, ...], si_path: tuple[str, ...]) -> bool:
 def _paths(section: Documented, prefix: str, si_prefix: tuple[str, ...]) -> Iterator[tuple[str, tuple[str, ...]]]:
     """Every field as it was sent, beside the path of solver's names."""
     for name, value in section:
-        si_name, _ = split_unit(name)
+        si_name = section.solver_name(name)
         path, si_path = f"{prefix}{name}", (*si_prefix, si_name)
         yield f"{prefix}{_sent(section, name)}", si_path
         if isinstance(value, Documented):

@@ -10,8 +10,10 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
-from app.contract.conversion import group_of
-from app.contract.quantities import Bound, Detail, Documented, Input, Output
+from app.schema.conversion import group_of
+from app.schema.model import Documented
+from app.schema.quantities import Bound, Input, Output
+from solvers.quantity import Detail
 
 Kind = Literal["number", "integer", "boolean", "text", "other"]
 _KINDS: dict[Any, Kind] = {float: "number", int: "integer", bool: "boolean", str: "text"}

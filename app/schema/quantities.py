@@ -1,43 +1,20 @@
-"""What a field means: title, unit, symbol, source and range, carried into the schema and every view of it."""
+"""What a field of a request or response means, as pydantic takes it: its checks and its part of the JSON schema."""
 
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import Any, Literal
 
-from pydantic import BaseModel, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from app.contract.units import Unit, split_unit
+from solvers.quantity import Quantity
 
-Detail = Literal["summary", "curves", "fields"]
 Bound = Literal["upper", "lower"]
 
 
-@dataclass(frozen=True, slots=True)
-class Input:
-    """A field of a request.
-
-    `title` is a label that stands alone, `text` says more. The range bounds the number as sent; its unit is in the
-    field's name. `assumed` is the reason behind a default that is ours and not the paper's; a result that rests on
-    the default lists it. `default_text` says what a null stands for. `advanced` marks options of model and
-    resolution, `tolerance` is what manufacture or measurement usually leaves open, in the field's unit, and
-    `relative_tolerance` the same as a share of the value where that is more. Every field that may be zero has a
-    tolerance, by which a sensitivity moves it.
-    """
-
-    title: str
-    symbol: str | None = None
-    source: str | None = None
-    text: str | None = None
-    ge: float | None = None
-    gt: float | None = None
-    le: float | None = None
-    lt: float | None = None
-    assumed: str | None = None
-    default_text: str | None = None
-    advanced: bool = False
-    tolerance: float | None = None
-    relative_tolerance: float | None = None
+@dataclass(frozen=True)
+class Input(Quantity):
+    """The declaration of a field of a request; the unit is in the field's name."""
 
     @property
     def description(self) -> str:
@@ -69,8 +46,7 @@ class Input:
     def _strict(self, schema: CoreSchema) -> CoreSchema:
         match schema["type"]:
             case "float" | "int":
-                bounds = {name: getattr(self, name) for name in ("ge", "gt", "le", "lt")}
-                number: Any = {**schema, **{name: bound for name, bound in bounds.items() if bound is not None}}
+                number: Any = {**schema, **self.bounds}
                 if schema["type"] == "float":
                     number["allow_inf_nan"] = False
                 return core_schema.no_info_before_validator_function(_number, number)
@@ -84,30 +60,29 @@ class Input:
                 return {**schema, **parts}
 
 
-@dataclass(frozen=True, slots=True)
-class Output:
-    """A field of a response; `detail` is the least level of detail at which it is sent.
+@dataclass(frozen=True)
+class View:
+    """How a result is judged: rank among the headline numbers, 1 to 3, and what bounds it.
 
-    `axis` names the sibling field over which a curve runs, or the two of a map; `index` says what the places of a list
-    mean where no field does. `headline` ranks the numbers that decide, 1 to 3. `limit` is the number, or the dotted
-    field of request or answer, that bounds the value; `bound` says on which side a verdict about it finds the value
-    safe: below an upper limit, above a lower one. `needs` is the request field without which there is no value,
-    `verdict` the field of the answer that judges it in words. `of` is the member of the solver's result that holds the
-    value, where it is not the result itself.
+    `limit` is the number, or the dotted field of request or answer, that bounds the value; `bound` says on which side a
+    verdict finds the value safe: below an upper limit, above a lower one. `needs` is the request field without which
+    there is no value, `verdict` the field of the answer that judges it in words.
     """
 
-    title: str
-    symbol: str | None = None
-    source: str | None = None
-    text: str | None = None
-    detail: Detail = "summary"
-    axis: str | tuple[str, str] | None = None
-    index: str | None = None
     headline: int | None = None
     limit: str | float | None = None
     bound: Bound | None = None
     needs: str | None = None
     verdict: str | None = None
+
+
+@dataclass(frozen=True)
+class Output(View, Quantity):
+    """The declaration of a field of a response.
+
+    `of` is the member of the solver's result that holds the value, where it is not the result itself.
+    """
+
     of: str | None = None
 
     @property
@@ -156,36 +131,3 @@ def _documented(schema: JsonSchemaValue, meaning: Input | Output) -> JsonSchemaV
     """The schema with title, description and all that the field says of itself."""
     extras = {key: value for key, value in meaning.extras.items() if value is not None}
     return {**schema, "title": meaning.title, "description": meaning.description, **extras}
-
-
-class Documented(BaseModel):
-    """A model whose JSON schema states the unit of every field that has one.
-
-    `exclusive` lists groups of fields of which at most one is given. `member_unit` is the unit of the fields whose own
-    names carry none: a group `mass_flow_g_per_s` says it once for its members.
-    `solver_names` are the parts of dotted names that the solver spells otherwise, with the fields' spelling. `held`
-    are the members of the solver's result that hold what the models extended here show.
-    """
-
-    exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
-    member_unit: ClassVar[Unit | None] = None
-    solver_names: ClassVar[dict[str, str]] = {}
-    held: ClassVar[dict[type, str]] = {}
-
-    @classmethod
-    def unit_of(cls, name: str) -> Unit | None:
-        """The unit of a field."""
-        return split_unit(name)[1] or cls.member_unit
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        """The schema with `x-unit` added field by field, and `x-exclusive`."""
-        document = handler(schema)
-        definition = handler.resolve_ref_schema(document)
-        for name, field in definition.get("properties", {}).items():
-            unit = cls.unit_of(name) or getattr(cls.model_fields[name].annotation, "member_unit", None)
-            if unit is not None:
-                field["x-unit"] = unit.symbol
-        if cls.exclusive:
-            definition["x-exclusive"] = [list(group) for group in cls.exclusive]
-        return document

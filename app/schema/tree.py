@@ -6,9 +6,10 @@ from functools import cache
 from types import NoneType
 from typing import get_args, get_origin
 
-from app.contract.conversion import group_of
-from app.contract.fields import ITEM, Leaf, leaves
-from app.contract.quantities import Documented, Input, Output
+from app.schema.conversion import group_of
+from app.schema.fields import ITEM, Leaf, leaves
+from app.schema.model import Documented
+from app.schema.quantities import Input, Output
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,8 +10,9 @@ from typing import Any, NamedTuple
 
 from pydantic import BaseModel
 
-from app.contract.conversion import group_of
-from app.contract.quantities import Documented, Input
+from app.schema.conversion import group_of
+from app.schema.model import Documented
+from app.schema.quantities import Input
 
 LONGEST_POINTER_PART = 100
 MOST_FAULTS = 100

@@ -1,0 +1,269 @@
+"""Gear couplings: requests and answers of /v1/coupling and its two companions."""
+
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
+
+from app.requests.common import Request, Section
+from app.requests.coupling_lubricant import CouplingLubricant
+from app.responses.common import Derived, Group, Response
+from app.schema.quantities import Input, View
+from solvers.coupling import inputs as si
+from solvers.coupling import orbit_results, results
+from solvers.coupling.crowning import results as crowning
+
+
+class CouplingDesign(Section, of=si.CouplingDesign, without=("crowning_ratio",)):
+    """The coupling without its crowning."""
+
+
+class CrownedCoupling(CouplingDesign, of=si.CouplingDesign):
+    """The coupling."""
+
+
+class CouplingLoad(Section, of=si.Load):
+    """Torque, speed and arrangement."""
+
+
+class CouplingOperation(CouplingLoad, of=si.OperatingPoint):
+    """Operating point; the tilt is given, or follows from the shafts' offset."""
+
+    exclusive: ClassVar = (("misalignment_deg", "parallel_offset_mm"),)
+
+    @model_validator(mode="after")
+    def tilt_or_offset(self) -> Self:
+        """Refuse both and neither."""
+        if self.misalignment_deg is None and self.parallel_offset_mm is None:
+            raise PydanticCustomError("misalignment_or_offset", "give misalignment_deg or parallel_offset_mm")
+        if self.misalignment_deg is not None and self.parallel_offset_mm is not None:
+            raise PydanticCustomError("exclusive", "misalignment_deg and parallel_offset_mm are both given; keep one")
+        return self
+
+
+class CouplingOperationRange(CouplingLoad, of=si.OperatingRange):
+    """Operating point with a range of misalignment."""
+
+
+class MixedFrictionTable(Section, of=si.MixedFrictionTable):
+    """Measured mixed friction against sliding velocity, held constant outside; a single point is a constant."""
+
+
+class MixedFrictionCurve(Section, of=si.MixedFrictionCurve):
+    """Our law of mixed friction: it falls to its lowest value at one sliding velocity and rises again beyond."""
+
+
+class CouplingFriction(Section, of=si.Friction):
+    """Friction between the teeth."""
+
+    def unused_friction_defaults(self, section: str) -> frozenset[str]:
+        """A coefficient or a table leaves the curve out, a coefficient also what holds at rest."""
+        unused = set()
+        if self.coefficient is not None or self.mixed_law is not None:
+            unused.add(f"{section}.mixed_curve")
+        if self.coefficient is not None:
+            unused.add(f"{section}.static_coefficient")
+        return frozenset(unused)
+
+
+class CouplingModel(Section, of=si.ModelOptions):
+    """Choices where the paper leaves room."""
+
+
+class _CouplingRequest(Request):
+    """What the three coupling calculations have in common."""
+
+    coupling: Annotated[CouplingDesign, Input("coupling")]
+    operation: Annotated[CouplingLoad, Input("operating point")]
+    lubricant: Annotated[CouplingLubricant, Input("oil at the teeth")] = CouplingLubricant()
+    friction: Annotated[CouplingFriction, Input("friction between the teeth")] = CouplingFriction()
+    model: Annotated[CouplingModel, Input("model", text="choices where the paper leaves room", advanced=True)] = (
+        CouplingModel()
+    )
+
+    def options(self) -> dict[str, Any]:
+        """The model section."""
+        return self.model.model_dump()
+
+    def unused_defaults(self) -> frozenset[str]:
+        """What given values replace, and what the arrangement does without."""
+        unused = {*self.friction.unused_friction_defaults("friction"), *self.lubricant.unused_defaults("lubricant")}
+        if self.model.inlet_length_mm is not None:
+            unused.add("model.inlet")
+        offset = getattr(self.operation, "parallel_offset_mm", None)
+        if self.operation.arrangement == "single" and offset is None:
+            unused.add("coupling.hub_distance_mm")
+        if self.operation.arrangement != "parallel_offset":
+            unused.add("model.simple_thrust_factor")
+        return frozenset(unused)
+
+    def _design(self, operation: si.Operation) -> si.CouplingInputs:
+        return si.CouplingInputs(
+            coupling=self.coupling.si(si.CouplingDesign).coupling(),
+            operation=operation,
+            lubricant=self.lubricant.lubricant(),
+            friction=self.friction.si(si.Friction),
+            model=self.model.si(si.ModelOptions),
+        )
+
+
+class CouplingRequest(_CouplingRequest):
+    """A gear coupling at one operating point."""
+
+    coupling: Annotated[CrownedCoupling, Input("coupling")]
+    operation: Annotated[CouplingOperation, Input("operating point")]
+
+    def inputs(self) -> si.CouplingInputs:
+        """The solver's inputs."""
+        hub_distance = self.coupling.si(si.CouplingDesign).hub_distance
+        return self._design(self.operation.si(si.OperatingPoint).operation(hub_distance))
+
+
+class SleeveOrbitRequest(CouplingRequest):
+    """A gear coupling whose floating sleeve is followed over one revolution.
+
+    Its motion is one of tooth springs and sleeve mass: oil, friction and the contact's shape are accepted, not used.
+    """
+
+    def options(self) -> dict[str, Any]:
+        """The kinematics; the sleeve always floats."""
+        return {"kinematics": self.model.kinematics, "sleeve": "floating"}
+
+    def unused_defaults(self) -> frozenset[str]:
+        """All that belongs to contact, film, friction and a second mesh."""
+        contact = {"face_width_mm", "tooth_height_mm", "youngs_modulus_gpa", "poisson_ratio", "hub_distance_mm"}
+        return frozenset({"lubricant", "friction", "model", *(f"coupling.{name}" for name in contact)})
+
+
+class RecommendationRequest(_CouplingRequest):
+    """A gear coupling whose crowning is sought."""
+
+    coupling: Annotated[CouplingDesign, Input("coupling", text="the coupling without its crowning")]
+    operation: Annotated[CouplingOperationRange, Input("operating point", text="with a range of misalignment")]
+
+    def unused_defaults(self) -> frozenset[str]:
+        """Also what only a result at one operating point shows: the one-pair model of thrust, breakaway."""
+        return super().unused_defaults() | {"model.simple_thrust_factor", "friction.static_coefficient"}
+
+    def inputs(self) -> si.RecommendationInputs:
+        """The solver's inputs."""
+        operation = self.operation.si(si.OperatingRange)
+        smallest, largest = operation.misalignment_range
+        design = self._design(operation.operation())
+        return si.RecommendationInputs(design, min_misalignment=smallest, max_misalignment=largest)
+
+
+class CouplingGeometry(Group, of=results.Geometry):
+    """Radii of the crowned tooth."""
+
+
+class CouplingKinematicCurves(Group, of=results.KinematicCurves):
+    """Motion over one revolution of a tooth; 90° and 270° are the tilt positions."""
+
+
+class CouplingKinematics(Group, of=results.Kinematics):
+    """Largest values of the tooth's motion over a revolution."""
+
+    views: ClassVar = {
+        "max_sliding_velocity": View(headline=3, limit="limits.sliding_velocity_limit_m_per_s", bound="upper")
+    }
+
+
+class CouplingLoadCurves(Group, of=results.LoadCurves):
+    """Tooth forces."""
+
+
+class CouplingLoadDistribution(Group, of=results.LoadDistribution):
+    """Load over the teeth of one mesh, the one where the hub drives the sleeve, at the rotor angle asked for."""
+
+
+class FrictionRegime(Group, of=results.Regime):
+    """Area of the map of friction conditions; an open end of its friction band is null."""
+
+
+class CouplingLubrication(Group, of=results.Lubrication):
+    """Contact and film of the highest loaded tooth in the tilt position."""
+
+    views: ClassVar = {
+        "hertz_pressure": View(limit=2000.0, bound="upper"),
+        "contact_overlap": View(limit=1.0, bound="upper"),
+        "load_capacity_coefficient": View(headline=2, limit=0.8, bound="lower"),
+    }
+
+
+class SelfInducedThrust(Group, of=results.SelfInducedThrust):
+    """Thrust without axial motion."""
+
+
+class CouplingThrust(Group, of=results.AxialThrust):
+    """Axial thrust, mean over one tooth pitch (one revolution with pitch errors)."""
+
+    views: ClassVar = {
+        "force": View(headline=1, limit="axial_thrust.coaxial_limit_n", bound="upper"),
+        "fraction_of_limit": View(limit=1.0),
+    }
+
+
+class CouplingLosses(Group, of=results.Losses):
+    """Friction losses and moments of one mesh, the one where the hub drives the sleeve."""
+
+
+class CouplingLimits(Group, of=results.Limits):
+    """Limits and stiffnesses."""
+
+
+class CouplingDerived(Derived, of=si.Coupling, only=("face_width", "tooth_height")):
+    """Proportions of the tooth, where the request left them open."""
+
+
+class CouplingResponse(Response, of=results.CouplingResult):
+    """A gear coupling at one operating point; sections are missing where there is no solution."""
+
+    derived: CouplingDerived
+
+
+class SleeveOrbitDerived(Derived, of=results.Geometry, only=("pitch_radius",)):
+    """The circle on which the teeth stand."""
+
+
+class SleeveOrbit(Group, of=orbit_results.Orbit):
+    """Path of the sleeve centre."""
+
+
+class SleeveInertia(Group, of=orbit_results.InertiaForce):
+    """Inertia force of the sleeve mass of one mesh."""
+
+
+class SleeveOrbitResponse(Response, of=orbit_results.OrbitResult):
+    """One revolution of a floating sleeve under its own inertia."""
+
+    derived: SleeveOrbitDerived
+
+    views: ClassVar = {"max_displacement": View(headline=1)}
+
+
+class RecommendedPoint(Group, of=crowning.RecommendedPoint):
+    """The recommended coupling at one end of the range."""
+
+    views: ClassVar = {
+        "contact_overlap": View(limit=1.0, bound="upper"),
+        "load_capacity_coefficient": View(limit=0.8, bound="lower"),
+    }
+
+
+class CrowningScan(Group, of=crowning.CrowningScan):
+    """How crowning trades off."""
+
+    views: ClassVar = {"max_contact_overlap": View(limit=1.0)}
+
+
+class RecommendationResponse(Response, of=crowning.Recommendation):
+    """The crowning ratio with the largest load capacity over a range of misalignment."""
+
+    derived: CouplingDerived
+
+    views: ClassVar = {
+        "feasible": View(headline=2),
+        "crowning_ratio": View(headline=1),
+        "min_load_capacity_coefficient": View(headline=3),
+    }

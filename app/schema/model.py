@@ -1,0 +1,172 @@
+"""Models of requests and responses, filled from the dataclasses of the solvers.
+
+    class CouplingModel(Section, of=si.ModelOptions):
+        \"\"\"Choices where the paper leaves room.\"\"\"
+
+has a field for each declaration on `si.ModelOptions`, named with the suffix of its unit. What stands in the class
+itself is an ordinary field of pydantic: under the name of a filled field it changes the type or the default, and with
+`Input` or `Output` beside the type it replaces the declaration.
+"""
+
+from dataclasses import asdict, fields, is_dataclass
+from inspect import get_annotations
+from types import UnionType
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
+from pydantic import BaseModel, Field, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
+
+from app.schema.quantities import Input, Output, View
+from app.schema.units import split_unit
+from solvers.quantity import UNITS, Quantity, Unit, quantities
+
+
+class Documented(BaseModel):
+    """A model whose JSON schema states the unit of every field that has one.
+
+    `exclusive` lists groups of fields of which at most one is given. `member_unit` is the unit of the fields whose own
+    names carry none: a group `mass_flow_g_per_s` says it once for its members. `views` are the judgements of outputs,
+    by the solver's names.
+    `solver_names` are the parts of dotted names that the solver spells otherwise, with the fields' spelling. `held`
+    are the members of the solver's result that hold what the models extended here show.
+    """
+
+    exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    member_unit: ClassVar[Unit | None] = None
+    views: ClassVar[dict[str, View]] = {}
+    solver_names: ClassVar[dict[str, str]] = {}
+    held: ClassVar[dict[type, str]] = {}
+    in_solver: ClassVar[dict[str, str]] = {}
+    """The solver's name of each filled field."""
+    _declares: ClassVar[type[Input] | type[Output]] = Input
+    _optional: ClassVar[bool] = False
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            """Filled fields."""
+
+    def __init_subclass__(
+        cls,
+        *,
+        of: type | None = None,
+        only: tuple[str, ...] = (),
+        without: tuple[str, ...] = (),
+        names: dict[str, str] | None = None,
+        **config: Any,
+    ) -> None:
+        """Fill the model from the declarations of a dataclass: all, `only` some, or all `without` some.
+
+        `names` are the fields' names in the model, without their unit, where they are not the dataclass's.
+        """
+        super().__init_subclass__(**config)
+        if of is None:
+            return
+        chosen = {name: each for name, each in quantities(of).items() if name not in without}
+        if only:
+            chosen = {name: chosen[name] for name in only}
+        shown = {name: cls._shown(each, (names or {}).get(name, name)) for name, each in chosen.items()}
+        own, hints, filled = get_annotations(cls), get_type_hints(of), {}
+        factories = {each.name for each in fields(of) if callable(each.default_factory)}
+        for name, declared in chosen.items():
+            api_name = shown[name]
+            known = any(api_name in getattr(base, "in_solver", {}) for base in cls.__mro__[1:])
+            if _declaration(own.get(api_name)) or (known and api_name not in own):
+                continue
+            kind = own[api_name] if api_name in own else _published(hints[name], declared, cls._declares)
+            optional = cls._optional or declared.detail != "summary"
+            filled[api_name] = cls._annotated(kind | None if optional else kind, name, declared, shown)
+            if api_name not in cls.__dict__:
+                cls._set_default(api_name, kind, declared, optional=optional, factory=name in factories)
+        cls.__annotations__ = filled | {name: kind for name, kind in own.items() if name not in filled}
+        cls.in_solver = cls.in_solver | {api_name: name for name, api_name in shown.items()}
+        if not only and not without:
+            _MODELS.setdefault((cls._declares, of), cls)
+
+    @classmethod
+    def _shown(cls, declared: Quantity, name: str) -> str:
+        bare = declared.unit is None or UNITS[declared.unit] == cls.member_unit
+        return name if bare else f"{name}_{declared.unit}"
+
+    @classmethod
+    def _annotated(cls, kind: Any, name: str, declared: Quantity, shown: dict[str, str]) -> Any:
+        known: dict[str, Any] = {each.name: getattr(declared, each.name) for each in fields(declared)}
+        if declared.axis:
+            axes = tuple(shown.get(axis, axis) for axis in np.atleast_1d(declared.axis).tolist())
+            known["axis"] = axes if isinstance(declared.axis, tuple) else axes[0]
+        if cls._declares is Output:
+            return Annotated[kind, Output(**known, **asdict(cls.views.get(name, View())))]
+        if declared.length:
+            least, most = declared.length
+            return Annotated[kind, Field(min_length=least, max_length=most), Input(**known)]
+        return Annotated[kind, Input(**known)]
+
+    @classmethod
+    def _set_default(cls, name: str, kind: Any, declared: Quantity, *, optional: bool, factory: bool) -> None:
+        """The default of a filled field; results have none."""
+        if optional:
+            setattr(cls, name, None)
+        elif cls._declares is Input and isinstance(declared.default, tuple):
+            setattr(cls, name, Field(default_factory=lambda: [*declared.default]))
+        elif cls._declares is Input and declared.default is not ...:
+            setattr(cls, name, declared.default)
+        elif cls._declares is Input and factory:
+            setattr(cls, name, kind())
+
+    @classmethod
+    def solver_name(cls, name: str) -> str:
+        """The solver's name of a field."""
+        return cls.in_solver.get(name) or split_unit(name)[0]
+
+    @classmethod
+    def unit_of(cls, name: str) -> Unit | None:
+        """The unit of a field."""
+        return split_unit(name)[1] or cls.member_unit
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        """The schema with `x-unit` added field by field, and `x-exclusive`."""
+        document = handler(schema)
+        definition = handler.resolve_ref_schema(document)
+        for name, field in definition.get("properties", {}).items():
+            unit = cls.unit_of(name) or getattr(cls.model_fields[name].annotation, "member_unit", None)
+            if unit is not None:
+                field["x-unit"] = unit.symbol
+        if cls.exclusive:
+            definition["x-exclusive"] = [list(group) for group in cls.exclusive]
+        return document
+
+
+_MODELS: dict[tuple[type, type], type[Documented]] = {}
+"""The first model filled from a dataclass stands for it wherever another dataclass holds it."""
+
+
+def _declaration(annotation: Any) -> bool:
+    """Whether an annotation brings its own declaration."""
+    metadata = get_args(annotation)[1:] if get_origin(annotation) is Annotated else ()
+    return any(isinstance(each, Quantity) for each in metadata)
+
+
+def _published(hint: Any, declared: Quantity, declares: type) -> Any:
+    """The type of a field in the interface: models for dataclasses, lists for tuples and arrays."""
+    origin, arguments = get_origin(hint), get_args(hint)
+    if isinstance(hint, type) and is_dataclass(hint):
+        return _MODELS[declares, hint]
+    if origin in {Union, UnionType}:
+        return Union[tuple(_published(each, declared, declares) for each in arguments)]  # noqa: UP007
+    if origin is np.ndarray:
+        number: Any = bool if "bool" in str(arguments[1]) else float
+        row = _list_of(number | None if declared.gaps else number)
+        return _list_of(row) if isinstance(declared.axis, tuple) else row
+    if origin is tuple:
+        listed = _list_of(_published(arguments[0], declared, declares))
+        if declares is Input and arguments[-1] is not Ellipsis:
+            return Annotated[listed, Field(min_length=len(arguments), max_length=len(arguments))]
+        return listed
+    return hint
+
+
+def _list_of(kind: Any) -> Any:
+    return list[kind]

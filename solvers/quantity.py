@@ -1,0 +1,241 @@
+"""What is known of a quantity, declared once on the dataclass that holds it.
+
+    @record
+    class Coupling:
+        face_width: float = quantity("face width", "b", "ISO 21771", unit="mm", ge=0.1, le=2000, tolerance=0.1)
+
+The attribute is in SI; range, default and tolerance of the declaration are in the unit in which the quantity is shown.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields, is_dataclass
+from functools import cache
+from math import pi
+from typing import Any, Literal, NamedTuple, TypeVar, dataclass_transform, overload
+
+import numpy as np
+
+from solvers.errors import InvalidInput
+
+Detail = Literal["summary", "curves", "fields"]
+T = TypeVar("T")
+_KEY = "quantity"
+
+
+class Unit(NamedTuple):
+    """A unit in which a quantity is shown: SI value = scale × value + offset; `symbol` is how it is written."""
+
+    symbol: str
+    scale: float
+    offset: float = 0.0
+
+
+UNITS = {
+    "mm": Unit("mm", 1e-3),
+    "mm2": Unit("mm²", 1e-6),
+    "mm2_per_s": Unit("mm²/s", 1e-6),
+    "um": Unit("µm", 1e-6),
+    "deg": Unit("°", pi / 180),
+    "mrad": Unit("mrad", 1e-3),
+    "rpm": Unit("1/min", pi / 30),
+    "hz": Unit("Hz", 1.0),
+    "m_per_s": Unit("m/s", 1.0),
+    "mm_per_s": Unit("mm/s", 1e-3),
+    "kg": Unit("kg", 1.0),
+    "g_per_s": Unit("g/s", 1e-3),
+    "g_per_mol": Unit("g/mol", 1e-3),
+    "n": Unit("N", 1.0),
+    "n_m": Unit("N m", 1.0),
+    "n_per_mm": Unit("N/mm", 1e3),
+    "n_per_um": Unit("N/µm", 1e6),
+    "n_per_mm_um": Unit("N/(mm µm)", 1e9),
+    "n_m_per_rad": Unit("N m/rad", 1.0),
+    "mpa": Unit("MPa", 1e6),
+    "kpa": Unit("kPa", 1e3),
+    "gpa": Unit("GPa", 1e9),
+    "per_gpa": Unit("1/GPa", 1e-9),
+    "per_k": Unit("1/K", 1.0),
+    "pa_s": Unit("Pa s", 1.0),
+    "w": Unit("W", 1.0),
+    "kw": Unit("kW", 1e3),
+    "j": Unit("J", 1.0),
+    "w_per_mm": Unit("W/mm", 1e3),
+    "w_per_mm2": Unit("W/mm²", 1e6),
+    "c": Unit("°C", 1.0, 273.15),
+    "k": Unit("K", 1.0),
+    "kg_per_m3": Unit("kg/m³", 1.0),
+    "j_per_kg_k": Unit("J/(kg K)", 1.0),
+    "w_per_m_k": Unit("W/(m K)", 1.0),
+}
+"""By the suffix that names of the HTTP interface carry."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """The declaration of one field.
+
+    Parameters
+    ----------
+    title
+        Label that stands alone.
+    symbol, source
+        Of the field's literature.
+    text
+        Description, where the title does not suffice.
+    unit
+        Key of `UNITS`; None for what has no unit.
+    ge, gt, le, lt
+        Range of an input.
+    default
+        Of an input or of an option; `...` where there is none.
+    default_text
+        What None stands for.
+    assumed
+        Reason behind a default that is ours and not the paper's; a result that rests on the default lists it.
+    advanced
+        An option of model or resolution.
+    tolerance, relative_tolerance
+        What manufacture or measurement usually leaves open, in the shown unit; and as a share of the value where that
+        is more. Every input that may be zero has a tolerance, by which a sensitivity moves it.
+    length
+        Least and largest number of values of a list.
+    detail
+        Least level of detail at which a result holds the field.
+    axis
+        Field over which a curve runs, or the two of a map; a dotted name starts at the whole result.
+    index
+        What the places of a list mean where no field says it.
+    gaps
+        NaN inside an array marks a point without a value.
+
+    """
+
+    title: str
+    symbol: str | None = None
+    source: str | None = None
+    text: str | None = None
+    unit: str | None = None
+    ge: float | None = None
+    gt: float | None = None
+    le: float | None = None
+    lt: float | None = None
+    default: Any = ...
+    default_text: str | None = None
+    assumed: str | None = None
+    advanced: bool = False
+    tolerance: float | None = None
+    relative_tolerance: float | None = None
+    length: tuple[int, int] | None = None
+    detail: Detail = "summary"
+    axis: str | tuple[str, str] | None = None
+    index: str | None = None
+    gaps: bool = False
+
+    @property
+    def bounds(self) -> dict[str, float]:
+        """The ends of the range by name, those there are."""
+        return {name: end for name in ("ge", "gt", "le", "lt") if (end := getattr(self, name)) is not None}
+
+    def to_si(self, value: Any) -> Any:
+        """A number, or a list of them, in SI; what is no number passes unchanged."""
+        unit = UNITS[self.unit] if self.unit else None
+        return value if unit is None else _each(lambda number: number * unit.scale + unit.offset, value)
+
+    def from_si(self, value: Any) -> Any:
+        """A number, or a list of them, in the shown unit."""
+        unit = UNITS[self.unit] if self.unit else None
+        return value if unit is None else _each(lambda number: (number - unit.offset) / unit.scale, value)
+
+
+def quantity(
+    title: str,
+    symbol: str | None = None,
+    source: str | None = None,
+    *,
+    default: Any = ...,
+    default_factory: Callable[[], Any] | None = None,
+    kw_only: bool = False,
+    **known: Any,
+) -> Any:
+    """A dataclass field with its `Quantity`; the default is given in the shown unit and held in SI."""
+    declared = Quantity(title, symbol, source, default=default, **known)
+    options: dict[str, Any] = {"metadata": {_KEY: declared}}
+    if kw_only:
+        options["kw_only"] = True
+    if default_factory is not None:
+        options["default_factory"] = default_factory
+    elif default is not ...:
+        options["default"] = declared.to_si(default)
+    made: Any = field(**options)
+    return made
+
+
+@overload
+def record(cls: type[T], /) -> type[T]: ...
+@overload
+def record(*, kw_only: bool = False) -> Callable[[type[T]], type[T]]: ...
+@dataclass_transform(frozen_default=True, field_specifiers=(quantity, field))
+def record(cls: Any = None, /, *, kw_only: bool = False) -> Any:
+    """Make a frozen dataclass with slots, whose fields may be declared by `quantity`."""
+    made = dataclass(frozen=True, slots=True, kw_only=kw_only)
+    return made if cls is None else made(cls)
+
+
+@cache
+def quantities(kind: Any) -> dict[str, Quantity]:
+    """The declarations of a dataclass by field name, in its order."""
+    return {each.name: each.metadata[_KEY] for each in fields(kind) if _KEY in each.metadata}
+
+
+def checked(inputs: T, prefix: str = "") -> T:
+    """The inputs, a dataclass, with every declared number inside its range.
+
+    For inputs built in Python; those that come by HTTP have been checked on arrival. Raises `InvalidInput` with the
+    code `out_of_range` and the dotted name of the first field at fault.
+    """
+    kind: Any = type(inputs)
+    declared = quantities(kind)
+    for each in fields(kind):
+        value = getattr(inputs, each.name)
+        for place, item in enumerate(value if isinstance(value, tuple) else (value,)):
+            name = f"{prefix}{each.name}.{place}" if isinstance(value, tuple) else prefix + each.name
+            if is_dataclass(item):
+                checked(item, f"{name}.")
+            elif each.name in declared and isinstance(item, float | int):
+                _check(declared[each.name], float(item), name)
+    return inputs
+
+
+def _check(declared: Quantity, value: float, name: str) -> None:
+    ends = {end: declared.to_si(float(bound)) for end, bound in declared.bounds.items()}
+    inside = (
+        np.isfinite(value)
+        and ends.get("ge", value) <= value <= ends.get("le", value)
+        and ends.get("gt", -np.inf) < value < ends.get("lt", np.inf)
+    )
+    if not inside:
+        unit = f" {UNITS[declared.unit].symbol}" if declared.unit else ""
+        message = f"{name} is {declared.from_si(value):.12g}{unit}; allowed {allowed(declared)}"
+        raise InvalidInput("out_of_range", message, name)
+
+
+def allowed(declared: Quantity) -> str:
+    """The range in words, with its unit."""
+    words = {"ge": "at least", "gt": "above", "le": "at most", "lt": "below"}
+    ends = declared.bounds
+    if set(ends) == {"ge", "le"}:
+        text = f"{ends['ge']:.12g} to {ends['le']:.12g}"
+    else:
+        text = " and ".join(f"{words[end]} {ends[end]:.12g}" for end in ("gt", "ge", "lt", "le") if end in ends)
+    return f"{text} {UNITS[declared.unit].symbol}" if declared.unit else text
+
+
+def _each(convert: Callable[[Any], Any], value: Any) -> Any:
+    """Convert a number, an array or each member of a list; leave text, booleans and None."""
+    match value:
+        case None | bool() | str():
+            return value
+        case list() | tuple():
+            return tuple(_each(convert, item) for item in value)
+        case _:
+            return convert(value)
