@@ -50,6 +50,14 @@ def _is_text(statement: ast.stmt) -> bool:
     )
 
 
+def changes_since(sources: str) -> list[str]:
+    """What the changelog says to somebody whose results are of other sources; nothing where they are these.
+
+    `sources` is the hash or its beginning, and empty where it is not known.
+    """
+    return [] if SOURCES.startswith(sources) else recent_changes()
+
+
 def recent_changes() -> list[str]:
     """The entries of the newest section of the changelog, newest first, without the hashes of accepted numbers."""
     section = files("app").joinpath("CHANGELOG.md").read_text("utf-8").split("\n## ")[1]
@@ -58,3 +66,5 @@ def recent_changes() -> list[str]:
 
 
 SOURCES = sources_of(Path(solvers.__file__).parent)
+SHORT_SOURCES = SOURCES[:16]
+"""What links say of the sources."""

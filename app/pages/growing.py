@@ -6,6 +6,7 @@ from typing import Generic, TypeVar
 from app.pages.links import LONGEST_QUERY
 from app.pages.query import STUDY_NAMES, link
 from app.pages.views import Asked
+from app.sources import SHORT_SOURCES
 
 FRAMES = "<!-- the figures -->"
 S = TypeVar("S")
@@ -37,7 +38,7 @@ class StudyLinks:
     def view(self, below: str) -> str:
         """One of them."""
         said = {name: text for name, text in self.asked.views.items() if name in STUDY_NAMES or name == "theme"}
-        return link(f"{self.asked.path}/{self.name}{below}", self.asked.pairs, **said)
+        return link(f"{self.asked.path}/{self.name}{below}", self.asked.pairs, **said, sources=SHORT_SOURCES)
 
     @property
     def too_long(self) -> bool:

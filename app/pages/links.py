@@ -1,4 +1,7 @@
-"""The addresses of the views of a case, and the examples to start from."""
+"""The addresses of the views of a case, and the examples to start from.
+
+Addresses that are kept name the solvers' sources, so that a later reader is told whether numbers may differ.
+"""
 
 from dataclasses import dataclass
 
@@ -6,6 +9,7 @@ from app.calculations import Calculation
 from app.library import Example, examples
 from app.pages.query import Pairs, link, pairs_of
 from app.pages.templating import page_path
+from app.sources import SHORT_SOURCES
 
 LONGEST_QUERY = 6000
 IMAGE_FORMATS = ("svg", "png", "pdf", "csv")
@@ -33,21 +37,26 @@ class Links:
     @property
     def page(self) -> str:
         """The case and what it is compared with."""
-        return link(self.path, self.pairs, ref=self.ref, theme=self.theme)
+        return link(self.path, self.pairs, ref=self.ref, theme=self.theme, sources=SHORT_SOURCES)
 
     @property
     def alone(self) -> str:
         """The case without comparison."""
-        return link(self.path, self.pairs, theme=self.theme)
+        return link(self.path, self.pairs, theme=self.theme, sources=SHORT_SOURCES)
 
     @property
     def pinned(self) -> str:
         """The case compared with itself, to be changed."""
-        return link(self.path, self.pairs, ref=self.query, theme=self.theme)
+        return link(self.path, self.pairs, ref=self.query, theme=self.theme, sources=SHORT_SOURCES)
 
     def view(self, name: str, **views: str) -> str:
         """One view."""
         return link(f"{self.path}/{name}", self.pairs, **views)
+
+    @property
+    def report(self) -> str:
+        """The report of the case."""
+        return self.view("report", sources=SHORT_SOURCES)
 
     @property
     def vary(self) -> str:

@@ -21,7 +21,8 @@ STUDY_NAMES = frozenset(
     | {f"{end}{place}" for end in (LOWER, UPPER) for place in range(CHOSEN)}
     | {"show", "best", TRIALS}
 )
-VIEW_NAMES = STUDY_NAMES | {"ref", "theme", "curve", "paper", "project", "part", "author", "checker", "notes"}
+REPORT_NAMES = frozenset({"paper", "project", "part", "author", "checker", "notes"})
+VIEW_NAMES = STUDY_NAMES | REPORT_NAMES | {"ref", "theme", "sources", "curve"}
 PICK = "pick:"
 """Before the name of a choice between fields that exclude each other; its value is the field that counts."""
 MOST_FIELDS = 1000

@@ -25,6 +25,7 @@ from app.problems import Unprocessable
 from app.reading import InvalidBody, Unreadable
 from app.schema.fields import headlines, leaf_at
 from app.schema.tree import branches
+from app.sources import changes_since
 
 BY_PAGE = {page_path(calculation): calculation for calculation in CALCULATIONS}
 REFUSED = (Unreadable, InvalidBody, Unprocessable)
@@ -49,6 +50,11 @@ class Asked:
     def theme(self) -> ThemeName:
         """The theme asked for."""
         return "dark" if self.views.get("theme") == "dark" else "light"
+
+    @property
+    def outdated(self) -> list[str]:
+        """What has changed since the link was made, as far as it names the solvers' sources."""
+        return changes_since(self.views.get("sources", ""))
 
     @property
     def links(self) -> Links:
@@ -149,6 +155,7 @@ def report(asked: Asked, address: str) -> Shown:
         derived=_derived(case),
         charts=figures,
         missing=missing,
+        outdated=asked.outdated,
         **context,
     )
     return Shown(content.encode(), fresh=case.fresh)
@@ -165,6 +172,7 @@ def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
         model=model_of(calculation),
         sections=sections,
         links=asked.links,
+        outdated=asked.outdated,
         theme=asked.views.get("theme", ""),
         ref=asked.views.get("ref", ""),
         examples=[(example, example_link(calculation, example)) for example in examples_of(calculation)],

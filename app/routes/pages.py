@@ -20,6 +20,7 @@ from app.pages.query import link, normalised, pairs_of_query, split_views
 from app.pages.templating import ASSETS, asset, page_path
 from app.problems import PROBLEMS
 from app.reading import Unreadable
+from app.sources import SHORT_SOURCES
 from app.start_up import StartUp
 from app.workers.admission import Runner
 
@@ -124,8 +125,9 @@ async def _answer(
 
 
 def sent_on(place: str, asked: views.Asked) -> Response:
-    """To the address that says the same in fewer words."""
-    return RedirectResponse(quote(link(place, asked.pairs, **asked.views), safe="/?&=%,:.*+-_~"), 303)
+    """To the address that says the same in fewer words, and names the sources of the answer."""
+    looks = {**asked.views, "sources": asked.views.get("sources", SHORT_SOURCES)} if asked.pairs else asked.views
+    return RedirectResponse(quote(link(place, asked.pairs, **looks), safe="/?&=%,:.*+-_~"), 303)
 
 
 async def asked_of(http: Request, calculation: Calculation) -> tuple[views.Asked, bool]:

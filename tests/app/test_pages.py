@@ -22,6 +22,7 @@ from app.pages.results import NOT_RESULTS
 from app.pages.templating import page_path
 from app.reading import Unreadable
 from app.schema.fields import ITEM, leaves
+from app.sources import SHORT_SOURCES
 
 CALCULATION = {each.path: each for each in CALCULATIONS}
 IDS = [each.request.__name__ for each in CALCULATIONS]
@@ -298,7 +299,7 @@ def test_pages_answer_by_get_with_their_policies(client: httpx.Client) -> None:
 def test_empty_fields_are_dropped_by_a_redirect(client: httpx.Client) -> None:
     answer = client.get("/coupling?coupling.teeth=52&coupling.module_mm=&theme=dark&pick:x=y")
     assert answer.status_code == 303
-    assert answer.headers["location"] == "/coupling?coupling.teeth=52&theme=dark"
+    assert answer.headers["location"] == f"/coupling?coupling.teeth=52&theme=dark&sources={SHORT_SOURCES}"
     example = client.get("/coupling?example=pahl-axial-displacement")
     assert example.headers["location"] == "/coupling" + link(
         "", pairs_of(examples()["pahl-axial-displacement"].request)

@@ -1,10 +1,16 @@
 """The identity of the solvers' sources: prose leaves it, a constant changes it."""
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
+from markupsafe import escape
 
-from app.sources import SOURCES, recent_changes, sources_of
+from app.library import examples
+from app.pages import views
+from app.pages.query import pairs_of, pairs_of_query, split_views
+from app.sources import SOURCES, changes_since, recent_changes, sources_of
 
 MODULE = '''"""What is computed."""
 
@@ -63,3 +69,34 @@ def test_sources_are_a_hash_and_changes_are_plain_text() -> None:
     for change in recent_changes():
         assert "`" not in change
         assert "\n" not in change
+
+
+@pytest.mark.parametrize("sources", ["", SOURCES, SOURCES[:16]])
+def test_a_link_of_these_sources_has_no_changes(sources: str) -> None:
+    assert changes_since(sources) == []
+
+
+def test_a_link_of_other_sources_is_told_the_changelog() -> None:
+    assert changes_since("0" * 16) == recent_changes()
+
+
+def asked(**looks: str) -> views.Asked:
+    example = examples()["pahl-z-arrangement"]
+    return views.Asked("/coupling", pairs_of(example.request), looks)
+
+
+def test_links_name_the_sources_which_are_no_part_of_the_case() -> None:
+    links = asked().links
+    for address in (links.page, links.alone, links.pinned, links.report):
+        pairs, looks = split_views(pairs_of_query(address.partition("?")[2]))
+        assert looks["sources"] == SOURCES[:16]
+        assert pairs == asked().pairs
+
+
+@pytest.mark.parametrize("view", [views.page, partial(views.report, address="http://host")])
+def test_a_page_of_other_sources_says_that_numbers_may_differ(view: Callable[[views.Asked], views.Shown]) -> None:
+    page, outdated = (view(asked(**looks)).content.decode() for looks in ({}, {"sources": "0" * 16}))
+    assert SOURCES[:16] in page
+    assert "numbers may differ" not in page
+    assert "numbers may differ" in outdated
+    assert escape(recent_changes()[0]) in outdated

@@ -29,6 +29,7 @@ from app.pages.views import Asked
 from app.problems import Unprocessable
 from app.reading import InvalidBody
 from app.schema.fields import leaf_at, leaves
+from app.sources import SHORT_SOURCES
 from app.studies.lines import point_line
 from app.studies.points import solve_point
 
@@ -351,7 +352,9 @@ def test_empty_fields_are_dropped_by_a_redirect(client: httpx.Client) -> None:
     query = "coupling.teeth=52&coupling.module_mm=&x=operation.torque_n_m&y=&y.from="
     answer = client.get(f"/coupling/vary?{query}")
     assert answer.status_code == 303
-    assert answer.headers["location"] == "/coupling/vary?coupling.teeth=52&x=operation.torque_n_m"
+    assert answer.headers["location"] == (
+        f"/coupling/vary?coupling.teeth=52&x=operation.torque_n_m&sources={SHORT_SOURCES}"
+    )
 
 
 def test_figures_are_files(client: httpx.Client) -> None:

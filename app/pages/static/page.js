@@ -37,7 +37,8 @@ async function update(force = false) {
     const page = await ask(wanted);
     if (caseOf(form) === wanted || page.ok) take(page.document, page.ok);
     shown = wanted;
-    if (wanted.length <= long) history.replaceState(null, "", wanted ? `?${wanted}` : location.pathname);
+    const address = document.getElementById("copy")?.getAttribute("href") ?? (wanted ? `?${wanted}` : location.pathname);
+    if (wanted.length <= long) history.replaceState(null, "", address);
   } catch {
     say("The service does not answer; the result is that of before.");
   }

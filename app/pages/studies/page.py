@@ -59,6 +59,7 @@ def _page(page: StudyPage, asked: Asked, study: Asking | None, faults: list[Faul
         page=page,
         path=asked.path,
         case_links=asked.links,
+        outdated=asked.outdated,
         links=StudyLinks(offer.name, asked),
         show=replace(menu, empty=_output(page, calculation, {}).title),
         fields=fields,

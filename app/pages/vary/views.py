@@ -93,6 +93,7 @@ def _page(asked: Asked, study: Study | None, faults: list[Fault]) -> str:
         calculation=calculation,
         path=asked.path,
         case_links=asked.links,
+        outdated=asked.outdated,
         links=StudyLinks(NAME, asked),
         controls=controls(calculation, case, asked.views, known, study.wish if study else None),
         hidden=[pair for pair in (*asked.pairs, ("theme", asked.views.get("theme", ""))) if pair[1]],
