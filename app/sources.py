@@ -2,7 +2,6 @@
 
 import ast
 import re
-from collections.abc import Iterator
 from hashlib import sha256
 from importlib.resources import files
 from pathlib import Path
@@ -11,10 +10,13 @@ import solvers
 
 NO_CALCULATION = "published"
 """The package of what was printed and is compared with; nothing is calculated there."""
+DECLARE = frozenset({"quantity", "Quantity"})
+LABELS = frozenset({"title", "symbol", "source", "text", "default_text", "assumed", "index"})
+"""What the declaration of a quantity says in words, beside its positional arguments."""
 
 
 def sources_of(package: Path) -> str:
-    """SHA-256 in hex of the syntax trees of the modules in `package`, without docstrings and comments.
+    """SHA-256 in hex of the syntax trees of the modules in `package`, without docstrings, comments and labels.
 
     Layout and prose leave it as it is; a constant, a formula or the name of a module changes it. The trees, and with
     them the hash, may differ between versions of Python.
@@ -24,22 +26,20 @@ def sources_of(package: Path) -> str:
         place = path.relative_to(package)
         if NO_CALCULATION not in place.parts:
             found.update(f"{place.as_posix()}\n".encode())
-            found.update(ast.dump(_without_docstrings(path)).encode())
+            found.update(ast.dump(_without_prose(path)).encode())
     return found.hexdigest()
 
 
-def _without_docstrings(path: Path) -> ast.Module:
-    """The tree of a module without text that stands alone, which does nothing."""
+def _without_prose(path: Path) -> ast.Module:
+    """The tree of a module without text that stands alone and without the labels of quantities."""
     tree = ast.parse(path.read_bytes())
-    for block in _blocks(tree):
-        block[:] = [statement for statement in block if not _is_text(statement)]
-    return tree
-
-
-def _blocks(tree: ast.Module) -> Iterator[list[ast.stmt]]:
     for node in ast.walk(tree):
-        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
-            yield node.body
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
+            node.body = [statement for statement in node.body if not _is_text(statement)]
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in DECLARE:
+            node.args = []
+            node.keywords = [keyword for keyword in node.keywords if keyword.arg not in LABELS]
+    return tree
 
 
 def _is_text(statement: ast.stmt) -> bool:

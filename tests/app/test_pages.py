@@ -302,7 +302,7 @@ def test_empty_fields_are_dropped_by_a_redirect(client: httpx.Client) -> None:
     assert answer.headers["location"] == f"/coupling?coupling.teeth=52&theme=dark&sources={SHORT_SOURCES}"
     example = client.get("/coupling?example=pahl-axial-displacement")
     assert example.headers["location"] == "/coupling" + link(
-        "", pairs_of(examples()["pahl-axial-displacement"].request)
+        "", pairs_of(examples()["pahl-axial-displacement"].request), sources=SHORT_SOURCES
     )
 
 

@@ -21,6 +21,8 @@ LIMIT = 0.5
 class Pair:
     """Two gears."""
 
+    face_width: float = quantity("face width", "b", ISO_21771, unit="mm", default=20.0, text="of both")
+
 
 def double(x: float) -> float:
     """Twice x."""
@@ -44,6 +46,8 @@ def named(folder: Path, text: str, name: str = "module.py") -> str:
         ("# twice", "# because of the second flank"),
         ("LIMIT = 0.5", "LIMIT = 0.5\n\n"),
         ("2.0 * x", "(2.0 * x)"),
+        ('"face width", "b", ISO_21771', '"width of the face"'),
+        ('text="of both"', 'assumed="usual"'),
     ],
 )
 def test_prose_and_layout_do_not_change_the_sources(tmp_path: Path, old: str, new: str) -> None:
@@ -51,7 +55,10 @@ def test_prose_and_layout_do_not_change_the_sources(tmp_path: Path, old: str, ne
     assert named(tmp_path, MODULE) == named(tmp_path, MODULE.replace(old, new))
 
 
-@pytest.mark.parametrize(("old", "new"), [("0.5", "0.50001"), ("2.0 * x", "x * 2.0"), ("double", "twice")])
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("0.5", "0.50001"), ("20.0", "20.1"), ('"mm"', '"um"'), ("2.0 * x", "x * 2.0"), ("double", "twice")],
+)
 def test_a_constant_or_a_formula_changes_the_sources(tmp_path: Path, old: str, new: str) -> None:
     assert named(tmp_path, MODULE) != named(tmp_path, MODULE.replace(old, new))
 
