@@ -8,13 +8,11 @@ from app.requests.common import Request
 from app.requests.drive_train import DriveTrainRequest
 from app.requests.line_contact import LineContactRequest
 from app.requests.load_distribution import LoadDistributionRequest
-from app.requests.pumping import ChokingSpeedRequest, PumpingRequest
 from app.requests.scuffing import ScuffingRequest
 from app.responses.common import Response
 from app.responses.drive_train import DriveTrainResponse
 from app.responses.line_contact import LineContactResponse
 from app.responses.load_distribution import LoadDistributionResponse
-from app.responses.pumping import ChokingSpeedResponse, PumpingResponse
 from app.responses.scuffing import ScuffingResponse
 from app.schema.coupling import (
     CouplingRequest,
@@ -24,6 +22,7 @@ from app.schema.coupling import (
     SleeveOrbitRequest,
     SleeveOrbitResponse,
 )
+from app.schema.pumping import ChokingSpeedRequest, ChokingSpeedResponse, PumpingRequest, PumpingResponse
 from solvers import coupling, drive_train, pumping, scuffing
 from solvers.contact import ehl
 

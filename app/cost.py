@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 from app.problems import Unprocessable
 from app.requests.common import Request
 from app.requests.drive_train import DriveTrainRequest
-from app.requests.pumping import ChokingSpeedRequest
 from app.requests.scuffing import ScuffingRequest
+from app.schema.pumping import ChokingSpeedRequest
 from solvers.contact.ehl.solution.budget import Resolution, price
 
 

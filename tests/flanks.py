@@ -37,7 +37,7 @@ def draw_gears(rng: np.random.Generator) -> GearPairInputs:
             GearTeeth(int(rng.integers(20, 130)), rng.uniform(-0.3, 0.3)),
             module,
             module * rng.uniform(4, 35),
-            normal_pressure_angle=radians(rng.uniform(17, 25)),
+            pressure_angle=radians(rng.uniform(17, 25)),
             helix_angle=radians(rng.choice([0.0, rng.uniform(3, 32), rng.uniform(3, 32), rng.uniform(3, 32)])),
             rack_tip_radius=rng.uniform(0.1, 0.3),
         )
@@ -169,7 +169,7 @@ def scans(inputs: LoadDistributionInputs) -> dict[str, tuple[Callable[..., LoadD
         "helix_angle": (_with_gears("helix_angle"), 0.8 * helix, 1.2 * helix),
         "face_width": (_with_gears("face_width"), 0.7 * gears.face_width, 1.4 * gears.face_width),
         "centre_distance": (_with_gears("centre_distance"), free, free + 0.05 * module),
-        "pressure_angle": (_with_gears("normal_pressure_angle"), radians(19.0), radians(21.0)),
+        "pressure_angle": (_with_gears("pressure_angle"), radians(19.0), radians(21.0)),
         "profile_shift": (_with_pinion("profile_shift"), gears.pinion.profile_shift, gears.pinion.profile_shift + 0.1),
         "addendum": (_with_pinion("addendum"), 0.9, 1.05),
         "torque": (_with_torque, 0.1 * inputs.load.pinion_torque, 2 * inputs.load.pinion_torque),

@@ -29,9 +29,9 @@ def setups(draw: st.DrawFn, *, helix: bool = True) -> PumpingSetup:
     gears = GearPairInputs(
         pinion=draw(teeth(18, 70)),
         wheel=draw(teeth(25, 140)),
-        normal_module=module,
+        module=module,
         face_width=module * draw(st.floats(2, 40)),
-        normal_pressure_angle=radians(draw(st.floats(17, 26))),
+        pressure_angle=radians(draw(st.floats(17, 26))),
         helix_angle=radians(draw(st.floats(0, 32))) if helix else 0.0,
         rack_tip_radius=draw(st.floats(0.1, 0.38)),
     )

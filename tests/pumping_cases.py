@@ -33,7 +33,7 @@ def random_gears(draw: Generator) -> GearPairInputs:
         _teeth(draw, wheel),
         module,
         face_width=module * draw.uniform(6.0, 35.0),
-        normal_pressure_angle=radians(draw.choice([17.5, 20.0, 22.5, 25.0])),
+        pressure_angle=radians(draw.choice([17.5, 20.0, 22.5, 25.0])),
         helix_angle=helix,
         rack_tip_radius=draw.uniform(0.2, 0.3),
     )

@@ -24,25 +24,25 @@ from solvers.pumping import (
 from solvers.pumping.results import SpacesResult
 
 TABLE_1 = GearPairInputs(
-    GearTeeth(47, 0.291, 1.0, 1.475), GearTeeth(103, 0.322, 1.0, 1.474), 6.8e-3, 0.2, radians(22.5)
+    GearTeeth(47, 0.291, 1.0, 1.475), GearTeeth(103, 0.322, 1.0, 1.474), 6.8e-3, 0.2, pressure_angle=radians(22.5)
 )
 CASE_1 = GearPairInputs(
     GearTeeth(47, 0.16, 0.9919, 1.47921),
     GearTeeth(117, 0.05, 0.9925, 1.47885),
     7e-3,
     0.2,
-    radians(20),
-    radians(12.75),
-    0.590,
+    pressure_angle=radians(20),
+    helix_angle=radians(12.75),
+    centre_distance=0.590,
 )
 CASE_2 = GearPairInputs(
     GearTeeth(52, 0.198, 0.9891, 1.47469),
     GearTeeth(79, 0.21, 0.9894, 1.47507),
     6.8e-3,
     0.2,
-    radians(22.5),
-    radians(10),
-    0.455,
+    pressure_angle=radians(22.5),
+    helix_angle=radians(10),
+    centre_distance=0.455,
 )
 SPEED_1, SPEED_2 = 9267.0, 8962.0  # rpm of the pinion
 GROOVE = (Groove(0.1, 0.016),)

@@ -10,16 +10,17 @@ from app.requests.drive_train_couplings import UnitCoupling
 from app.requests.drive_train_heat import ToothHeat, TrainTemperatures
 from app.requests.drive_train_mesh import TrainGears, TrainModel, TrainModifications, TrainOperation
 from app.requests.drive_train_shafts import UnitShaft
-from app.requests.load_distribution import GearMaterials
-from app.requests.materials import XUE
 from app.requests.oil import Oil
-from app.requests.pumping import GearGroove, Mist
 from app.schema.conversion import to_si
+from app.schema.gears import GearMaterials
+from app.schema.pumping import GearGroove, Mist
 from app.schema.quantities import Input
 from solvers.drive_train import inputs as si
 from solvers.errors import InvalidInput
+from solvers.materials import Solid
 from solvers.pumping import inputs as pumping
 from solvers.scuffing import inputs as mesh
+from solvers.sources import XUE
 
 
 def _only_hot() -> list[si.State]:
@@ -103,9 +104,9 @@ class DriveTrainRequest(Request):
             pumping=pumping.PumpingSetup(
                 gears=self.gears.pumping_pair(),
                 normal_backlash=to_si(self.gears)["normal_backlash"],
-                grooves=tuple(pumping.Groove(**to_si(groove)) for groove in self.grooves),
-                ambient=pumping.Ambient(**to_si(self.ambient)),
-                model=self.model.pumping(),
+                grooves=tuple(groove.si(pumping.Groove) for groove in self.grooves),
+                ambient=self.ambient.si(pumping.Ambient),
+                model=self.model.si(pumping.PumpingModel),
             ),
             face_start=fields["face_start"],
             pinion_shaft=shafts[0],
@@ -146,8 +147,8 @@ class DriveTrainRequest(Request):
             gears=self.gears.mesh_pair(),
             load=self.operation.load(),
             modifications=self.modifications.modifications(),
-            pinion_material=self.materials.pinion.solid(),
-            wheel_material=self.materials.wheel.solid(),
+            pinion_material=self.materials.pinion.si(Solid),
+            wheel_material=self.materials.wheel.si(Solid),
             friction_coefficient=self.friction_coefficient,
             model=self.model.mesh_model(),
             resolution=mesh.Resolution(feature_points=self.model.feature_points),
@@ -165,7 +166,7 @@ class DriveTrainRequest(Request):
 
     def options(self) -> dict[str, Any]:
         """The model section, the number of slices filled in."""
-        return self.model.model_dump() | {"slices": self.model.pumping().slice_count}
+        return self.model.model_dump() | {"slices": self.model.si(pumping.PumpingModel).slice_count}
 
     def unused_defaults(self) -> frozenset[str]:
         """Of reliefs that are zero, of bearings and couplings of another kind, of effects that are left out."""

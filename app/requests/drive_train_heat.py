@@ -3,10 +3,10 @@
 from typing import Annotated
 
 from app.requests.common import Section
-from app.requests.materials import XUE
 from app.requests.scuffing import ContactTemperatures
 from app.schema.quantities import Input
 from solvers.drive_train import inputs as si
+from solvers.sources import XUE
 
 _HEAT = si.Heat()
 BULK = "usual of high-speed gears; measure it"

@@ -1,5 +1,6 @@
 """What a gear unit's mesh is described by beyond scuffing and pumping: sections of /v1/drive-train."""
 
+from dataclasses import replace
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
@@ -8,10 +9,10 @@ from pydantic_core import PydanticCustomError
 from app.requests.common import Section
 from app.requests.flank_modifications import FlankModifications
 from app.requests.load_distribution import ScuffingLoad
-from app.requests.pumping import BacklashGears
-from app.requests.pumping_options import PumpingOptions
 from app.requests.scuffing import ScuffingModel
 from app.schema.conversion import to_si
+from app.schema.gears import BacklashGears
+from app.schema.pumping import PumpingOptions
 from app.schema.quantities import Input
 from solvers.drive_train import inputs as si
 from solvers.gears.inputs import GearPairInputs
@@ -45,11 +46,16 @@ class TrainGears(BacklashGears):
 
     def mesh_pair(self) -> GearPairInputs:
         """The pair of the load distribution."""
-        return self.pair(MESH_RACK if self.rack_tip_radius is None else self.rack_tip_radius)
+        return self._pair(MESH_RACK)
 
     def pumping_pair(self) -> GearPairInputs:
         """The pair of the pumped spaces."""
-        return self.pair(PUMPING_RACK if self.rack_tip_radius is None else self.rack_tip_radius)
+        return self._pair(PUMPING_RACK)
+
+    def _pair(self, rack_tip_radius: float) -> GearPairInputs:
+        """The pair; `rack_tip_radius` counts where none is given."""
+        pair = self.si(GearPairInputs)
+        return pair if self.rack_tip_radius is not None else replace(pair, rack_tip_radius=rack_tip_radius)
 
 
 class TrainOperation(ScuffingLoad):

@@ -4,9 +4,9 @@ from dataclasses import replace
 from typing import Annotated
 
 from app.requests.common import Section
-from app.requests.materials import XUE
 from app.schema.quantities import Input
 from solvers.scuffing import inputs as si
+from solvers.sources import XUE
 
 DEVIATIONS = "ISO/TR 10064-3"
 NO_LENGTHS = "the paper gives no relief lengths"

@@ -4,11 +4,13 @@ from dataclasses import replace
 from typing import Annotated, Any
 
 from app.requests.common import Request, Section
-from app.requests.materials import XUE, Surface
 from app.requests.oil import Oil
 from app.schema.conversion import to_si
+from app.schema.gears import Surface
 from app.schema.quantities import Input
 from solvers.contact import ehl
+from solvers.materials import Solid
+from solvers.sources import XUE
 
 BULK = "360 K, the paper's bulk temperature"
 
@@ -163,8 +165,8 @@ class LineContactRequest(Request):
         temperatures = ehl.Temperatures(**to_si(self.temperatures))
         return ehl.LineContactInputs(
             contact=ehl.Contact(**to_si(self.contact)),
-            surface_1=self.surface_1.solid(),
-            surface_2=self.surface_2.solid(),
+            surface_1=self.surface_1.si(Solid),
+            surface_2=self.surface_2.si(Solid),
             lubricant=self.lubricant.lubricant(temperatures.inlet),
             temperatures=temperatures,
             model=replace(self.model.film(), thermal=self.model.thermal),

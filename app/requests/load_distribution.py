@@ -1,6 +1,5 @@
 """The loaded gear pair: request of /v1/scuffing/load-distribution."""
 
-from dataclasses import replace
 from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import model_validator
@@ -8,24 +7,17 @@ from pydantic_core import PydanticCustomError
 
 from app.requests.common import Request, Section
 from app.requests.flank_modifications import FlankModifications
-from app.requests.gears import RACK_TIP_RADIUS, Gears
-from app.requests.materials import XUE, Surface
 from app.schema.conversion import to_si
+from app.schema.gears import GearMaterials, ScuffingGears
 from app.schema.quantities import Input
+from solvers.gears.inputs import GearPairInputs
+from solvers.materials import Solid
 from solvers.scuffing import inputs as si
+from solvers.sources import XUE
 
 ISO_6336 = "ISO 6336-1"
 
 _DEFAULTS = si.Model()
-
-
-class ScuffingGears(Gears):
-    """The gear pair."""
-
-    rack_tip_radius: Annotated[
-        float,
-        replace(RACK_TIP_RADIUS, assumed="rack A of ISO 53; the paper gives none"),
-    ] = 0.38
 
 
 class ScuffingLoad(Section):
@@ -66,31 +58,6 @@ class ScuffingLoad(Section):
         torque, power, speed = fields["pinion_torque"], fields["power"], fields["pinion_speed"]
         factors = {name: getattr(self, name) for name in ("application_factor", "dynamic_factor", "mesh_load_factor")}
         return si.Load(si.torque_from_power(power, speed) if torque is None else torque, speed, **factors)
-
-
-class GearMaterial(Surface):
-    """Material and finish of one gear."""
-
-    roughness_um: Annotated[
-        float,
-        Input(
-            "roughness",
-            "Ra",
-            f"{XUE}, Eq. 28",
-            text="arithmetic mean roughness",
-            ge=0.001,
-            le=100,
-            assumed="ground flanks; the paper gives none",
-            tolerance=0.1,
-        ),
-    ] = 0.4
-
-
-class GearMaterials(Section):
-    """Materials of the pair."""
-
-    pinion: Annotated[GearMaterial, Input("pinion material")] = GearMaterial()
-    wheel: Annotated[GearMaterial, Input("wheel material")] = GearMaterial()
 
 
 class LoadDistributionModel(Section):
@@ -190,11 +157,11 @@ class LoadDistributionRequest(Request):
     def distribution(self) -> si.LoadDistributionInputs:
         """The solver's inputs of the load distribution."""
         return si.LoadDistributionInputs(
-            gears=self.gears.pair(self.gears.rack_tip_radius),
+            gears=self.gears.si(GearPairInputs),
             load=self.load.load(),
             modifications=si.Modifications(**to_si(self.modifications)),
-            pinion_material=self.materials.pinion.solid(),
-            wheel_material=self.materials.wheel.solid(),
+            pinion_material=self.materials.pinion.si(Solid),
+            wheel_material=self.materials.wheel.si(Solid),
             friction_coefficient=self.friction_coefficient,
             model=self.model.mesh_model(),
             resolution=si.Resolution(feature_points=self.model.feature_points),

@@ -5,13 +5,14 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from app.requests.materials import TABLE, XUE
 from app.requests.sheet_oil import BY_KIND, SheetOil, names_a_sheet
 from app.schema.conversion import to_si
 from app.schema.quantities import Input
 from solvers.lubricants import Lubricant, PressureViscosityLaw
 from solvers.oils import OilSheet
+from solvers.sources import XUE
 
+TABLE = f"{XUE}, Table 2"
 _OIL = Lubricant()
 _THE_PAPERS = "the paper's oil"
 

@@ -9,13 +9,13 @@ from pydantic_core import PydanticCustomError
 from app.requests.common import Section
 from app.requests.line_contact import FilmModel
 from app.requests.load_distribution import LoadDistributionModel, LoadDistributionRequest
-from app.requests.materials import XUE
 from app.requests.oil import Oil
 from app.requests.temperatures import OIL_TEMPERATURE, SCUFFING_TEMPERATURE
 from app.schema.conversion import to_si
 from app.schema.quantities import Input
 from solvers.scuffing import inputs as si
 from solvers.scuffing.inputs import BulkMethod, OilSupply
+from solvers.sources import XUE
 
 FZG = "ISO 14635-1"
 TR_13989 = "ISO/TR 13989-1, as read in a public implementation"

@@ -1,7 +1,7 @@
 """Temperatures of an oil and its contact, as every request words them; each request adds its own defaults."""
 
-from app.requests.materials import XUE
 from app.schema.quantities import Input
+from solvers.sources import XUE
 
 OIL_TEMPERATURE = Input("oil temperature", "θ_oil", f"{XUE}, Eq. 26", ge=-70, le=500, tolerance=5)
 SCUFFING_TEMPERATURE = Input(

@@ -100,7 +100,7 @@ class Documented(BaseModel):
             return Annotated[kind, Output(**known, **asdict(cls.views.get(name, View())))]
         if declared.length:
             least, most = declared.length
-            return Annotated[kind, Field(min_length=least, max_length=most), Input(**known)]
+            return Annotated[kind, Field(min_length=least or None, max_length=most), Input(**known)]
         return Annotated[kind, Input(**known)]
 
     @classmethod
@@ -141,6 +141,12 @@ class Documented(BaseModel):
 
 _MODELS: dict[tuple[type, type], type[Documented]] = {}
 """The first model filled from a dataclass stands for it wherever another dataclass holds it."""
+
+
+def declared(kind: type, name: str, **changes: Any) -> Input:
+    """The declaration of a dataclass's field, changed for one request."""
+    known = quantities(kind)[name]
+    return Input(**{each.name: getattr(known, each.name) for each in fields(known)} | changes)
 
 
 def _declaration(annotation: Any) -> bool:

@@ -1,39 +1,116 @@
 """What describes a gear pair."""
 
-from dataclasses import dataclass
-from math import atan, cos, radians, tan
+from math import atan, cos, tan
+from typing import Literal
+
+from solvers.quantity import quantity, record
+from solvers.sources import ISO_21771
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class GearTeeth:
     """One gear's teeth; every coefficient counts normal modules."""
 
-    teeth: int
-    profile_shift: float = 0.0
-    addendum: float = 1.0
-    dedendum: float = 1.25
+    teeth: int = quantity("number of teeth", "z", ISO_21771, ge=5, le=1000)
+    profile_shift: float = quantity(
+        "profile shift coefficient", "x", ISO_21771, default=0.0, ge=-2, le=3, tolerance=0.01
+    )
+    addendum: float = quantity(
+        "addendum coefficient",
+        "h_aP*",
+        "ISO 53",
+        default=1.0,
+        ge=0.01,
+        le=3,
+        text="addendum coefficient of the rack; the tip radius follows",
+    )
+    dedendum: float = quantity(
+        "dedendum coefficient",
+        "h_fP*",
+        "ISO 53",
+        default=1.25,
+        ge=0.01,
+        le=3,
+        text="dedendum coefficient of the rack; the root radius follows",
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class GearPairInputs:
-    """An external parallel-axis pair; the pinion drives.
+    """An external parallel-axis pair, spur or helical; the pinion drives."""
 
-    Units: normal_module, face_width, centre_distance [m]; normal_pressure_angle and helix_angle [rad] at the
-    reference circle; rack_tip_radius counts normal modules. centre_distance None is the backlash-free value.
-    """
+    pinion: GearTeeth = quantity("pinion", text="the driving gear")
+    wheel: GearTeeth = quantity("wheel", text="the driven gear")
+    module: float = quantity(
+        "module", "m", ISO_21771, unit="mm", ge=0.01, le=100, text="module, in the plane named by `module_plane`"
+    )
+    module_plane: Literal["normal", "transverse"] = quantity(
+        "plane of the module",
+        None,
+        ISO_21771,
+        kw_only=True,
+        default="normal",
+        text="plane of module and pressure angle",
+    )
+    pressure_angle: float = quantity(
+        "pressure angle",
+        "α",
+        ISO_21771,
+        unit="deg",
+        kw_only=True,
+        default=20.0,
+        ge=10,
+        le=35,
+        text="pressure angle at the reference circle, in the module's plane",
+    )
+    helix_angle: float = quantity(
+        "helix angle",
+        "β",
+        ISO_21771,
+        unit="deg",
+        kw_only=True,
+        default=0.0,
+        ge=0,
+        le=45,
+        tolerance=0.05,
+        text="helix angle at the reference circle; the hand does not matter",
+    )
+    face_width: float = quantity(
+        "face width", "b", ISO_21771, unit="mm", ge=0.01, le=5000, tolerance=0.1, text="common face width"
+    )
+    centre_distance: float | None = quantity(
+        "centre distance",
+        "a",
+        ISO_21771,
+        unit="mm",
+        kw_only=True,
+        default=None,
+        ge=0.1,
+        le=20000,
+        tolerance=0.02,
+        default_text="the backlash-free value",
+    )
+    rack_tip_radius: float = quantity(
+        "rack tip radius coefficient",
+        "ρ_fP*",
+        "ISO 53",
+        kw_only=True,
+        default=0.25,
+        ge=0,
+        le=0.6,
+        tolerance=0.02,
+        text="tip radius coefficient of the rack, at most the full radius",
+        assumed="a usual ground fillet; the paper gives none",
+    )
 
-    pinion: GearTeeth
-    wheel: GearTeeth
-    normal_module: float
-    face_width: float
-    normal_pressure_angle: float = radians(20.0)
-    helix_angle: float = 0.0
-    centre_distance: float | None = None
-    rack_tip_radius: float = 0.25
+    @property
+    def normal_module(self) -> float:
+        """Module in the normal section [m]."""
+        return self.module if self.module_plane == "normal" else self.module * cos(self.helix_angle)
 
-
-def normal_section(
-    transverse_module: float, transverse_pressure_angle: float, helix_angle: float
-) -> tuple[float, float]:
-    """Normal module [m] and normal pressure angle [rad] of a rack given in its transverse plane."""
-    return transverse_module * cos(helix_angle), atan(tan(transverse_pressure_angle) * cos(helix_angle))
+    @property
+    def normal_pressure_angle(self) -> float:
+        """Pressure angle at the reference circle in the normal section [rad]."""
+        if self.module_plane == "normal":
+            return self.pressure_angle
+        return atan(tan(self.pressure_angle) * cos(self.helix_angle))

@@ -1,10 +1,11 @@
 """What describes a pumping calculation."""
 
-from dataclasses import dataclass, field
 from enum import StrEnum
 from math import pi
 
 from solvers.gears.inputs import GearPairInputs
+from solvers.quantity import quantity, record
+from solvers.sources import MILIAN
 
 MOLAR_GAS_CONSTANT = 8.314462618  # J/(mol K)
 
@@ -39,25 +40,70 @@ class Spaces(StrEnum):
     WHEEL = "wheel"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Groove:
     """A circumferential groove of full tooth depth; centre `position` from the end that meshes first, `width` [m]."""
 
-    position: float
-    width: float
+    position: float = quantity(
+        "groove position",
+        "z_g",
+        MILIAN,
+        unit="mm",
+        ge=0,
+        le=5000,
+        tolerance=0.1,
+        text="centre, from the end that meshes first",
+    )
+    width: float = quantity("groove width", "b_g", MILIAN, unit="mm", ge=0.01, le=5000)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Ambient:
     """The mist around the mesh, a perfect gas; pressure [Pa], temperature [K], molar mass [kg/mol]."""
 
-    pressure: float = 101325.0
-    temperature: float = 323.15
-    isentropic_exponent: float = 1.4
-    molar_mass: float = 0.0289647
+    pressure: float = quantity(
+        "ambient pressure",
+        "p_e",
+        MILIAN,
+        unit="kpa",
+        default=101.325,
+        ge=0.1,
+        le=1e4,
+        assumed="normal atmosphere; the paper gives none",
+    )
+    temperature: float = quantity(
+        "ambient temperature",
+        "θ_e",
+        MILIAN,
+        unit="c",
+        default=50.0,
+        ge=-70,
+        le=400,
+        tolerance=5,
+        assumed="a warm gear case; the paper gives none",
+    )
+    isentropic_exponent: float = quantity(
+        "isentropic exponent",
+        "γ",
+        MILIAN,
+        default=1.4,
+        ge=1.01,
+        le=2,
+        text="isentropic exponent; oil droplets at the gas's temperature lower it",
+    )
+    molar_mass: float = quantity(
+        "molar mass",
+        "M",
+        MILIAN,
+        unit="g_per_mol",
+        default=28.9647,
+        ge=1,
+        le=500,
+        assumed="dry air; oil in the air raises it",
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PumpingModel:
     """The options in force.
 
@@ -67,14 +113,83 @@ class PumpingModel:
     side.
     """
 
-    flow: Flow = Flow.GAS_DYNAMICS
-    closure: Closure = Closure.ENERGY
-    gap: Gap = Gap.CONTACT
-    wall_transport: bool = True
-    slices: int | None = None
-    spaces: Spaces = Spaces.BOTH
-    discharge_coefficient: float = 1.0
-    minimum_gap: float = 0.0
+    flow: Flow = quantity(
+        "flow model",
+        None,
+        f"{MILIAN}, Eqs. 2-7",
+        default=Flow.GAS_DYNAMICS,
+        text="quasi-one-dimensional gas dynamics; the paper's chain of pockets; incompressible flow of one spur pocket",
+        assumed="converges with the slices; pressures of the paper's pocket chain depend on the number of pockets",
+        advanced=True,
+    )
+    closure: Closure = quantity(
+        "closure of a pocket",
+        None,
+        f"{MILIAN}, Eq. 1",
+        default=Closure.ENERGY,
+        text="what a pocket of the chain conserves beside mass",
+        assumed="the paper's isentropic pockets lose the heat that throttling makes",
+        advanced=True,
+    )
+    gap: Gap = quantity(
+        "place of the radial clearances",
+        "L_1, L_2",
+        f"{MILIAN}, Fig. 1",
+        default=Gap.CONTACT,
+        text="radial clearances at the flanks' narrowest sections, sealed in contact, or at the mate's tip corners",
+        assumed="flanks in contact seal; with the paper's tip corners its test speeds are far from sonic",
+        advanced=True,
+    )
+    wall_transport: bool = quantity(
+        "transport by the flanks",
+        default=True,
+        text="whether flanks that roll through the coast-side gap carry their gas along",
+        assumed="follows from the flanks' motion; the paper has no such term",
+        advanced=True,
+    )
+    slices: int | None = quantity(
+        "slices",
+        "N",
+        MILIAN,
+        default=None,
+        ge=1,
+        le=1000,
+        text="slices or pockets over the face width",
+        default_text="100 of gas dynamics, 10 pockets",
+        assumed="the paper gives none; peak pressures of gas dynamics are within 0.1 % at 100",
+        advanced=True,
+    )
+    spaces: Spaces = quantity(
+        "pumping tooth spaces",
+        None,
+        MILIAN,
+        default=Spaces.BOTH,
+        text="whose tooth spaces pump",
+        assumed="both gears' do; the paper models the pinion's",
+        advanced=True,
+    )
+    discharge_coefficient: float = quantity(
+        "discharge coefficient",
+        "C_d",
+        default=1.0,
+        ge=0,
+        le=1,
+        tolerance=0.05,
+        text="of all openings of the chain, of the radial gaps of gas dynamics",
+        assumed="ideal",
+        advanced=True,
+    )
+    minimum_gap: float = quantity(
+        "least radial clearance",
+        "L_min",
+        unit="um",
+        default=0.0,
+        ge=0,
+        le=1000,
+        tolerance=1,
+        text="least radial clearance of a side",
+        advanced=True,
+    )
 
     @property
     def slice_count(self) -> int:
@@ -84,31 +199,53 @@ class PumpingModel:
         return {Flow.GAS_DYNAMICS: 100, Flow.POCKET_CHAIN: 10, Flow.INCOMPRESSIBLE: 1}[self.flow]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PumpingSetup:
     """All but the speed; `normal_backlash` [m] is added to what the centre distance gives."""
 
-    gears: GearPairInputs
-    normal_backlash: float = 0.3e-3
-    grooves: tuple[Groove, ...] = ()
-    ambient: Ambient = field(default_factory=Ambient)
-    model: PumpingModel = field(default_factory=PumpingModel)
+    gears: GearPairInputs = quantity("gear pair")
+    normal_backlash: float = quantity(
+        "normal backlash",
+        "j_n",
+        unit="mm",
+        default=0.3,
+        ge=0,
+        le=20,
+        tolerance=0.05,
+        text="normal backlash added to what the centre distance gives, by a thinner mating tooth",
+        assumed="order of magnitude for module 7 mm; the paper gives none",
+    )
+    grooves: tuple[Groove, ...] = quantity(
+        "grooves", None, f"{MILIAN}, Figs. 5, 6", default=(), length=(0, 50), text="circumferential grooves"
+    )
+    ambient: Ambient = quantity("ambient", default_factory=Ambient, text="the mist around the mesh")
+    model: PumpingModel = quantity(
+        "model", default_factory=PumpingModel, text="choices where the paper leaves room", advanced=True
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PumpingInputs:
     """One operating point; `pinion_speed` [rad/s]."""
 
     setup: PumpingSetup
-    pinion_speed: float
+    pinion_speed: float = quantity("pinion speed", "n_1", MILIAN, unit="rpm", gt=0, le=1e5)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ChokingInputs:
     """A search for the speeds that choke the flow, up to `search_limit` [rad/s] of the pinion."""
 
     setup: PumpingSetup
-    search_limit: float
+    search_limit: float = quantity(
+        "end of the search",
+        "n_1,max",
+        unit="rpm",
+        default=6e4,
+        ge=100,
+        le=1e5,
+        text="pinion speed at which the search ends",
+    )
 
 
 def rpm(speed: float) -> float:

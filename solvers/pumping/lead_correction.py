@@ -8,38 +8,50 @@ angle changes. Along the transverse line of action that is
 The first term is the larger radius. The second is the longer body, which turns its own helix.
 """
 
-from dataclasses import dataclass
 from math import sin, tan
 
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.gears.pair import GearPair
+from solvers.quantity import quantity, record
 
 EXPANSION = 12e-6  # of steel, 1/K
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LeadCurves:
     """Along the face, each (slices,) [m]: positions, growth d, its radial part alone, the correction."""
 
-    position: FloatArray
-    growth: FloatArray
-    radial_only: FloatArray
-    correction: FloatArray
+    position: FloatArray = quantity("position on the pinion", "z", unit="mm", text="from the end that meshes first")
+    growth: FloatArray = quantity(
+        "thermal growth",
+        "d",
+        unit="um",
+        text="thermal growth along the transverse line of action, of radius and length",
+        axis="position",
+    )
+    radial_only: FloatArray = quantity(
+        "radial thermal growth", "d_r", unit="um", text="the part of the larger radius alone", axis="position"
+    )
+    correction: FloatArray = quantity("lead correction", "C", unit="um", text="what undoes the growth", axis="position")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LeadCorrection:
     """Range of the growth [m], and slope and crown of the parabola fitted to the correction by least squares [m].
 
     Slope is its rise from the end that meshes first to the other, crown the height of its middle above its ends.
     """
 
-    range: float
-    slope: float
-    crown: float
-    curves: LeadCurves
+    range: float = quantity("range of the thermal growth", "C_r", unit="um")
+    slope: float = quantity(
+        "slope of the lead correction", "C_H", unit="um", text="rise of the fitted parabola, front to rear"
+    )
+    crown: float = quantity(
+        "crown of the lead correction", "C_c", unit="um", text="height of its middle above its ends"
+    )
+    curves: LeadCurves = quantity("along the pinion's face", detail="curves")
 
 
 def lead_correction(pair: GearPair, position: FloatArray, temperature_rise: FloatArray) -> LeadCorrection:

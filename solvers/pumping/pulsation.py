@@ -1,22 +1,25 @@
 """Pulsating mass flow out of the ends of the face at the meshing frequency and its multiples."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.pumping.flow.space_flow import SpaceFlow
+from solvers.quantity import quantity, record
 
 HARMONICS = 8
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Pulsation:
     """Amplitudes of the mass flow at each end [kg/s] at multiples of the meshing frequency [Hz], all (harmonics,)."""
 
-    frequency: FloatArray
-    front_mass_flow: FloatArray
-    rear_mass_flow: FloatArray
+    frequency: FloatArray = quantity("pulsation frequency", "k f_m", unit="hz")
+    front_mass_flow: FloatArray = quantity(
+        "front mass flow amplitude", "m_f,k", unit="g_per_s", text="at the end that meshes first", axis="frequency"
+    )
+    rear_mass_flow: FloatArray = quantity(
+        "rear mass flow amplitude", "m_r,k", unit="g_per_s", text="at the end that meshes last", axis="frequency"
+    )
 
 
 def pulsation(meshing_frequency: float, flows: list[tuple[SpaceFlow, float, float]]) -> Pulsation:

@@ -1,40 +1,44 @@
 """What a pumping calculation gives back, SI."""
 
-from dataclasses import dataclass
-
 from solvers.arrays import FloatArray
 from solvers.notices import Notice
 from solvers.pumping.lead_correction import LeadCorrection
 from solvers.pumping.pulsation import Pulsation
 from solvers.pumping.space.stroke import StrokeTable
+from solvers.quantity import quantity, record
+from solvers.sources import MILIAN
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MeshGeometry:
     """The pair as meshed; lengths [m], angle [rad]."""
 
-    centre_distance: float
-    backlash_free_centre_distance: float
-    working_pressure_angle: float
-    transverse_contact_ratio: float
-    normal_backlash: float
-    undercut: bool
+    centre_distance: float = quantity("centre distance", "a", unit="mm", text="centre distance in use")
+    backlash_free_centre_distance: float = quantity("centre distance without backlash", "a_0", unit="mm")
+    working_pressure_angle: float = quantity(
+        "working pressure angle", "α_wt", unit="deg", text="working transverse pressure angle"
+    )
+    transverse_contact_ratio: float = quantity("transverse contact ratio", "ε_α")
+    normal_backlash: float = quantity(
+        "normal backlash", "j_n", unit="um", text="normal backlash of centre distance and thinned tooth"
+    )
+    undercut: bool = quantity("undercut", text="whether either gear is undercut")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Stroke:
     """One stroke of a tooth space: angles of its gear from the line of centres [rad], areas [m^2]."""
 
-    start: float
-    contact_start: float
-    contact_end: float
-    end: float
-    max_area: float
-    min_area: float
-    curves: StrokeTable
+    start: float = quantity("start of the stroke", "φ_s", unit="deg", text="the mating tooth enters")
+    contact_start: float = quantity("start of contact", "φ_A", unit="deg", text="the driving flanks touch")
+    contact_end: float = quantity("end of contact", "φ_E", unit="deg", text="the driving flanks part")
+    end: float = quantity("end of the stroke", "φ_e", unit="deg", text="the mating tooth has left")
+    max_area: float = quantity("largest area of the tooth space", "S_A,max", unit="mm2")
+    min_area: float = quantity("smallest area of the tooth space", "S_A,min", unit="mm2")
+    curves: StrokeTable = quantity("curves of the stroke", detail="curves")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MassFlow:
     """Mass flow out of the spaces of one gear [kg/s].
 
@@ -42,28 +46,50 @@ class MassFlow:
     the net flows of the ends, small differences of these, and the radial one may be off by their resolution.
     """
 
-    front: float
-    rear: float
-    radial: float
-    grooves: float
-    reset: float
-    front_out: float
-    front_in: float
-    rear_out: float
-    rear_in: float
-    net_uncertainty: float
-    radial_uncertainty: float
+    front: float = quantity("net mass flow at the front", "m_f", unit="g_per_s", text="at the end that meshes first")
+    rear: float = quantity("net mass flow at the rear", "m_r", unit="g_per_s", text="at the end that meshes last")
+    radial: float = quantity(
+        "net radial mass flow",
+        "m_rad",
+        unit="g_per_s",
+        text="through the radial clearances, with what the flanks carry",
+    )
+    grooves: float = quantity("net mass flow into the grooves", "m_g", unit="g_per_s")
+    reset: float = quantity(
+        "mass flow of the reset",
+        "m_0",
+        unit="g_per_s",
+        text="given back when a slice's stroke ends and begins, with its idle neighbours",
+    )
+    front_out: float = quantity("mass flow out of the front", "m_f,out", unit="g_per_s", text="while gas leaves there")
+    front_in: float = quantity("mass flow into the front", "m_f,in", unit="g_per_s", text="while gas enters there")
+    rear_out: float = quantity("mass flow out of the rear", "m_r,out", unit="g_per_s", text="while gas leaves there")
+    rear_in: float = quantity("mass flow into the rear", "m_r,in", unit="g_per_s", text="while gas enters there")
+    net_uncertainty: float = quantity(
+        "uncertainty of the net mass flows",
+        "Δm",
+        unit="g_per_s",
+        text="of front and rear, small differences of out and in: three times what half the resolution changes",
+    )
+    radial_uncertainty: float = quantity(
+        "uncertainty of the radial mass flow",
+        "Δm_rad",
+        unit="g_per_s",
+        text="three times what half the resolution changes of it",
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Balance:
     """Relative errors of the books; `energy_error` is None where the model conserves no energy."""
 
-    mass_error: float
-    energy_error: float | None
+    mass_error: float = quantity("mass balance error", text="relative error of the books on mass")
+    energy_error: float | None = quantity(
+        "energy balance error", text="relative error of the books on energy; null where none is conserved"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Resolution:
     """Relative uncertainties of the summary by its resolution, pressures as gauge pressures; see `resolution`.
 
@@ -71,61 +97,97 @@ class Resolution:
     would compress. `temperature_rise` is None where the flow model gives none; net flows state theirs.
     """
 
-    peak_pressure: float
-    min_pressure: float
-    axial_mach: float
-    pumping_power: float
-    temperature_rise: float | None
-    gross_flow: float
+    peak_pressure: float = quantity("uncertainty of the peak pressure", text="of the largest gauge pressure")
+    min_pressure: float = quantity("uncertainty of the least pressure", text="of the smallest gauge pressure")
+    axial_mach: float = quantity("uncertainty of the axial Mach number")
+    pumping_power: float = quantity("uncertainty of the pumping power")
+    temperature_rise: float | None = quantity(
+        "uncertainty of the temperature rise", text="of the largest temperature rise"
+    )
+    gross_flow: float = quantity(
+        "uncertainty of the gross mass flows", text="of what leaves and what enters at the ends"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FaceProfile:
     """Over the face, (slices,): stroke means of the rise of stagnation and static temperature [K], peak pressures."""
 
-    position: FloatArray
-    temperature_rise: FloatArray | None
-    static_temperature_rise: FloatArray | None
-    peak_pressure_ratio: FloatArray
+    position: FloatArray = quantity("position", "z", unit="mm", text="from the end that meshes first")
+    temperature_rise: FloatArray | None = quantity(
+        "mean temperature rise",
+        "Δθ_0",
+        f"{MILIAN}, Figs. 5, 6",
+        unit="k",
+        text="stroke mean of the stagnation temperature above ambient, by the axial speed alone, not that of the teeth",
+        axis="position",
+    )
+    static_temperature_rise: FloatArray | None = quantity(
+        "mean static temperature rise",
+        "Δθ",
+        unit="k",
+        text="stroke mean of the temperature above ambient",
+        axis="position",
+    )
+    peak_pressure_ratio: FloatArray = quantity(
+        "local peak pressure ratio", "p_max/p_e", text="largest pressure over ambient pressure", axis="position"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class GasField:
     """The gas over angle [rad] and position [m], (angles, slices); `temperature_rise` [K] of stagnation."""
 
-    angle: FloatArray
-    position: FloatArray
-    pressure_ratio: FloatArray
-    axial_mach: FloatArray
-    temperature_rise: FloatArray | None
+    angle: FloatArray = quantity(
+        "angle of the gear",
+        "φ",
+        unit="deg",
+        text="angle of the gear, zero with the front end's space on the line of centres",
+    )
+    position: FloatArray = quantity("position of the map", "z", unit="mm", text="from the end that meshes first")
+    pressure_ratio: FloatArray = quantity(
+        "pressure ratio", "p/p_e", text="pressure over ambient pressure", axis=("angle", "position")
+    )
+    axial_mach: FloatArray = quantity("axial Mach number", "Ma", axis=("angle", "position"))
+    temperature_rise: FloatArray | None = quantity(
+        "temperature rise", "Δθ_0", unit="k", text="stagnation temperature above ambient", axis=("angle", "position")
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SpacesResult:
     """The spaces of one gear: power [W], work per space and stroke [J], `mass_flow` [kg/s], temperatures [K].
 
     Pressures are ratios to the ambient one. None where the flow model gives no such value; a notice says so.
     """
 
-    stroke: Stroke
-    peak_pressure_ratio: float
-    min_pressure_ratio: float
-    peak_axial_mach: float
-    peak_axial_velocity: float
-    radial_choked: bool
-    axial_choked: bool
-    max_temperature_rise: float | None
-    hottest_position: float | None
-    pumping_power: float
-    work_per_space: float
-    mass_flow: MassFlow
-    balance: Balance
-    profile: FaceProfile
-    field: GasField
+    stroke: Stroke = quantity("stroke", text="one stroke")
+    peak_pressure_ratio: float = quantity(
+        "peak pressure ratio", "p_max/p_e", text="largest pressure over ambient pressure"
+    )
+    min_pressure_ratio: float = quantity(
+        "least pressure ratio", "p_min/p_e", text="smallest pressure over ambient pressure"
+    )
+    peak_axial_mach: float = quantity("largest axial Mach number", "Ma_max", text="of slices and ends")
+    peak_axial_velocity: float = quantity("largest axial velocity", "U_max", MILIAN, unit="m_per_s")
+    radial_choked: bool = quantity(
+        "radial choking", None, f"{MILIAN}, Eq. 7", text="whether radial clearances become sonic"
+    )
+    axial_choked: bool = quantity("axial choking", None, f"{MILIAN}, Eq. 7", text="whether an end becomes sonic")
+    max_temperature_rise: float | None = quantity(
+        "largest temperature rise", "Δθ_0,max", MILIAN, unit="k", text="largest of the profile"
+    )
+    hottest_position: float | None = quantity("hottest position", "z_max", MILIAN, unit="mm")
+    pumping_power: float = quantity("pumping power of these spaces", "P", unit="w")
+    work_per_space: float = quantity("work per space", "W", unit="j", text="work on the gas of one space in a stroke")
+    mass_flow: MassFlow = quantity("mass flow", unit="g_per_s", text="net mass flow out")
+    balance: Balance = quantity("balance", text="how the books close")
+    profile: FaceProfile = quantity("along the face", detail="curves")
+    field: GasField = quantity("over angle and position", detail="fields")
     steps: int
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Totals:
     """Power of all spaces asked for [W], meshing frequency [Hz], speed of the meshing point along the face [m/s].
 
@@ -133,55 +195,87 @@ class Totals:
     at once.
     """
 
-    pumping_power: float
-    meshing_frequency: float
-    axial_meshing_speed: float | None
-    axial_meshing_mach: float | None
+    pumping_power: float = quantity("pumping power", "P", unit="w")
+    meshing_frequency: float = quantity("meshing frequency", "f_m", unit="hz")
+    axial_meshing_speed: float | None = quantity(
+        "axial meshing speed",
+        "v_ax",
+        unit="m_per_s",
+        text="speed of the meshing point along the face; null for spur gears",
+    )
+    axial_meshing_mach: float | None = quantity(
+        "axial meshing Mach number", "Ma_ax", text="over the ambient speed of sound; null for spur gears"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Derived:
     """What follows from the inputs before any physics: centre distance [m], slices with the grooves' parts.
 
     rack_tip_radius is what both racks have room for, in normal modules.
     """
 
-    centre_distance: float
-    slices: int
-    rack_tip_radius: float
+    centre_distance: float = quantity("centre distance used", "a", unit="mm")
+    slices: int = quantity("slices asked for", "N_0", text="slices or pockets, those of the grooves included")
+    rack_tip_radius: float = quantity(
+        "rack tip radius used", "ρ_fP*", text="in normal modules, as far as both racks have room for it"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PumpingResult:
     """One operating point. `slices` is the number in force; `lead_correction` is for the pinion, wall response 1."""
 
-    geometry: MeshGeometry
-    pinion_spaces: SpacesResult | None
-    wheel_spaces: SpacesResult | None
-    total: Totals
-    lead_correction: LeadCorrection | None
-    pulsation: Pulsation
-    resolution: Resolution
-    slices: int
-    derived: Derived
+    geometry: MeshGeometry = quantity("mesh", text="the mesh")
+    pinion_spaces: SpacesResult | None = quantity("pinion spaces", text="spaces of the pinion; null unless asked for")
+    wheel_spaces: SpacesResult | None = quantity("wheel spaces", text="spaces of the wheel; null unless asked for")
+    total: Totals = quantity("total", text="of all spaces asked for")
+    lead_correction: LeadCorrection | None = quantity(
+        "lead correction of the pinion", text="of the pinion; null without its temperatures"
+    )
+    pulsation: Pulsation = quantity("pulsation", text="pulsating mass flow", detail="curves")
+    resolution: Resolution = quantity(
+        "resolution", text="relative uncertainties, after the grid convergence index of first order"
+    )
+    slices: int = quantity("slices in force", "N", text="slices or pockets in force, grooves left out")
+    derived: Derived = quantity("distance and slices used")
     warnings: tuple[Notice, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ChokingCurves:
     """Coarse scan, (speeds,): peak pressure ratio and Mach number asked for at the ends over pinion speed [rad/s]."""
 
-    pinion_speed: FloatArray
-    peak_pressure_ratio: FloatArray
-    exit_mach: FloatArray
+    pinion_speed: FloatArray = quantity("pinion speed scanned", "n_1", unit="rpm")
+    peak_pressure_ratio: FloatArray = quantity(
+        "peak pressure ratio", "p_max/p_e", text="largest pressure over ambient pressure", axis="pinion_speed"
+    )
+    exit_mach: FloatArray = quantity(
+        "exit Mach number",
+        "Ma_e",
+        text="Mach number that the ambient pressure asks for at the ends; above 1: choked",
+        axis="pinion_speed",
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ChokingSpeeds:
     """Pinion speeds [rad/s] at which the flow becomes sonic: None beyond the search limit."""
 
-    radial_choking_speed: float | None
-    axial_choking_speed: float | None
-    curves: ChokingCurves
-    derived: Derived
+    radial_choking_speed: float | None = quantity(
+        "radial choking speed",
+        "n_rad",
+        f"{MILIAN}, Eq. 7",
+        unit="rpm",
+        text="radial clearances become sonic; null beyond the search limit",
+    )
+    axial_choking_speed: float | None = quantity(
+        "axial choking speed",
+        "n_ax",
+        f"{MILIAN}, Eq. 7",
+        unit="rpm",
+        text="an end becomes sonic; null beyond the search limit",
+    )
+    curves: ChokingCurves = quantity("scan of the speeds", detail="curves")
+    derived: Derived = quantity("distance and slices used")
     warnings: tuple[Notice, ...]

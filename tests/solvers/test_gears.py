@@ -44,7 +44,7 @@ def test_a_larger_centre_distance_is_used_as_given() -> None:
 
 
 def test_a_rack_without_room_for_its_tip_radius_cuts_with_the_full_one() -> None:
-    steep = replace(paper_gears(1), normal_pressure_angle=radians(25))
+    steep = replace(paper_gears(1), pressure_angle=radians(25))
     assert rack_tip_radius(steep, steep.pinion) == pytest.approx(0.31788, abs=5e-6)
     notices = [notice for notice in pair_notices(meshing_path(steep)) if notice.code == "rack_tip_radius"]
     assert len(notices) == 2

@@ -8,7 +8,7 @@ import pytest
 
 from app.published.xue import PAPER_LOAD, paper_gears, paper_pair
 from solvers.errors import InvalidInput
-from solvers.gears.inputs import GearPairInputs, GearTeeth, normal_section
+from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.scuffing import solve_load_distribution, solve_scuffing
 from solvers.scuffing.inputs import (
     Load,
@@ -125,7 +125,7 @@ def test_a_path_shortened_by_the_fillet_is_a_warning() -> None:
 
 
 def test_a_rack_tip_radius_beyond_the_rack_is_held_with_a_warning() -> None:
-    gears = replace(paper_gears(1), normal_pressure_angle=radians(25))
+    gears = replace(paper_gears(1), pressure_angle=radians(25))
     held, exact = solve_gears(gears), solve_gears(replace(gears, rack_tip_radius=0.31788))
     assert "rack_tip_radius" in codes(held)
     assert "rack_tip_radius" not in codes(exact)
@@ -154,10 +154,14 @@ def test_root_circle_too_small_for_its_teeth_is_refused() -> None:
 
 
 def test_teeth_pointed_in_their_normal_section_only_are_refused_there() -> None:
-    helix_angle = radians(43.0)
-    normal_module, normal_pressure_angle = normal_section(5e-3, radians(30.8), helix_angle)
     gears = GearPairInputs(
-        GearTeeth(26, 2.38), GearTeeth(165, 1.01), normal_module, 50e-3, normal_pressure_angle, helix_angle
+        GearTeeth(26, 2.38),
+        GearTeeth(165, 1.01),
+        5e-3,
+        50e-3,
+        module_plane="transverse",
+        pressure_angle=radians(30.8),
+        helix_angle=radians(43.0),
     )
     assert everything_finite(solve_gears(gears, model=Model(section="transverse")))
     with pytest.raises(InvalidInput) as caught:
@@ -325,7 +329,7 @@ def test_the_parabola_refuses_half_space_contact() -> None:
     ("gears", "code"),
     [
         (replace(paper_gears(1), pinion=GearTeeth(7, 0.3), wheel=GearTeeth(60)), "teeth_range"),
-        (replace(paper_gears(1), normal_pressure_angle=radians(14.0)), "pressure_angle_range"),
+        (replace(paper_gears(1), pressure_angle=radians(14.0)), "pressure_angle_range"),
         (replace(paper_gears(1), helix_angle=radians(46.0)), "helix_angle_range"),
     ],
 )

@@ -52,9 +52,9 @@ def gears(draw: st.DrawFn) -> GearPairInputs:
     inputs = GearPairInputs(
         pinion,
         wheel,
-        normal_module=draw(st.floats(1e-3, 10e-3)),
+        module=draw(st.floats(1e-3, 10e-3)),
         face_width=1.0,
-        normal_pressure_angle=radians(draw(st.floats(17.5, 24.0))),
+        pressure_angle=radians(draw(st.floats(17.5, 24.0))),
         helix_angle=radians(helix),
         rack_tip_radius=0.25,
     )
@@ -128,7 +128,7 @@ def test_gears_of_another_size_under_the_same_stress_deform_alike(inputs: LoadDi
     gears, shape = inputs.gears, inputs.modifications
     scaled = replace(
         inputs,
-        gears=replace(gears, normal_module=gears.normal_module * size, face_width=gears.face_width * size),
+        gears=replace(gears, module=gears.normal_module * size, face_width=gears.face_width * size),
         load=replace(inputs.load, pinion_torque=inputs.load.pinion_torque * size**3),
         modifications=replace(shape, **{name: getattr(shape, name) * size for name in AMPLITUDES}),
     )

@@ -8,8 +8,7 @@ from app.figures.data import Axis, Figure, Hue, Level, Line, Panel, values
 from app.figures.declaration import Declaration
 from app.figures.models.pumping_maps import critical_ratio
 from app.figures.wording import number
-from app.requests.pumping import ChokingSpeedRequest
-from app.responses.pumping import ChokingSpeedResponse
+from app.schema.pumping import ChokingSpeedRequest, ChokingSpeedResponse
 from solvers.pumping.results import ChokingCurves
 from solvers.pumping.speed_scan import speed_scan
 

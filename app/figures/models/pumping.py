@@ -22,9 +22,7 @@ from app.figures.data import (
 from app.figures.declaration import Declaration, present
 from app.figures.models.pumping_maps import MAPS, critical_ratio, spaces
 from app.figures.wording import number, ratio
-from app.requests.pumping import PumpingRequest
-from app.responses.pumping import PumpingResponse
-from app.responses.pumping_spaces import PumpingSpaces
+from app.schema.pumping import PumpingRequest, PumpingResponse, PumpingSpaces
 
 HUES = {"pinion": Hue.BLUE, "wheel": Hue.VERMILLION}
 NO_FLOW = 1e-9  # g/s

@@ -7,9 +7,7 @@ import numpy as np
 from app.figures.data import Axis, Critical, Figure, Map, Mark, NoFigure, Panel, Scale, Span, matrix, values
 from app.figures.declaration import Declaration, present
 from app.figures.wording import number, ratio
-from app.requests.pumping import ChokingSpeedRequest, PumpingRequest
-from app.responses.pumping import PumpingResponse
-from app.responses.pumping_spaces import PumpingField, PumpingSpaces
+from app.schema.pumping import ChokingSpeedRequest, PumpingField, PumpingRequest, PumpingResponse, PumpingSpaces
 
 Rows = list[list[float]]
 

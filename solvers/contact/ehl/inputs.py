@@ -5,11 +5,13 @@ from typing import Literal
 
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
+from solvers.quantity import quantity, record
+from solvers.sources import XUE
 
 Rheology = Literal["ree_eyring", "newtonian"]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Contact:
     """Two cylinders rolling and sliding on a film that enters with the surfaces' mean speed.
 
@@ -17,10 +19,30 @@ class Contact:
     the contact, positive into it) [m/s].
     """
 
-    line_load: float
-    radius: float
-    speed_1: float
-    speed_2: float
+    line_load: float = quantity("line load", "w", XUE, unit="n_per_mm", gt=0, le=1e5, text="load per length of contact")
+    radius: float = quantity(
+        "reduced radius", "R", XUE, unit="mm", ge=0.01, le=1e4, text="reduced radius of curvature, 1/R = 1/R_1 + 1/R_2"
+    )
+    speed_1: float = quantity(
+        "speed of surface 1",
+        "u_1",
+        f"{XUE}, Eq. 18",
+        unit="m_per_s",
+        ge=-300,
+        le=300,
+        tolerance=0.01,
+        text="through the contact, positive into it",
+    )
+    speed_2: float = quantity(
+        "speed of surface 2",
+        "u_2",
+        f"{XUE}, Eq. 18",
+        unit="m_per_s",
+        ge=-300,
+        le=300,
+        tolerance=0.01,
+        text="through the contact, positive into it",
+    )
 
     @property
     def entrainment_speed(self) -> float:
@@ -42,7 +64,7 @@ class Temperatures:
     inlet: float = 360.0
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Model:
     """Physics and resolution; eyring_stress [Pa], `nodes` along the contact, `film_nodes` across the film.
 
@@ -50,12 +72,34 @@ class Model:
     The paper's film is Newtonian; near pure rolling its friction is not physical, so Ree-Eyring is the default.
     """
 
-    thermal: bool = True
-    rheology: Rheology = "ree_eyring"
-    eyring_stress: float = 5e6
-    nodes: int = 121
-    film_nodes: int = 21
-    refine: bool = True
+    thermal: bool = quantity("thermal film", None, XUE, default=True, text="whether the film heats up", advanced=True)
+    rheology: Rheology = quantity(
+        "rheology",
+        None,
+        XUE,
+        default="ree_eyring",
+        text="how shear stress depends on shear rate",
+        assumed="the paper's film is Newtonian, whose friction is not physical near pure rolling",
+        advanced=True,
+    )
+    eyring_stress: float = quantity(
+        "Eyring stress",
+        "τ_0",
+        unit="mpa",
+        default=5.0,
+        ge=1,
+        le=50,
+        assumed="middle of the usual 3 to 12 MPa of gear oils",
+        advanced=True,
+    )
+    nodes: int = quantity("nodes along the contact", "N", default=121, ge=61, le=481, advanced=True)
+    film_nodes: int = quantity("nodes across the film", "N_z", default=21, ge=7, le=61, advanced=True)
+    refine: bool = quantity(
+        "refine the mesh",
+        default=True,
+        text="add nodes, up to 481, until the estimated error of the mesh is below 2 %",
+        advanced=True,
+    )
 
 
 @dataclass(frozen=True, slots=True)

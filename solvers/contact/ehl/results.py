@@ -1,76 +1,88 @@
 """What a solved line contact is, in SI units."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Literal
 
 from solvers.arrays import FloatArray
 from solvers.lubricants import OilInUse
 from solvers.notices import Notice
+from solvers.quantity import quantity, record
+from solvers.sources import XUE
 
 Status = Literal["ok", "ok_with_warnings", "no_solution"]
 Stage = Literal["isothermal", "coupling", "heat_balance", "verification"]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class HertzContact:
     """Dry contact: half_width [m], max_pressure [Pa]."""
 
-    half_width: float
-    max_pressure: float
+    half_width: float = quantity("half width of the contact", "b", unit="mm")
+    max_pressure: float = quantity("Hertz pressure", "p_H", f"{XUE}, Eq. 14 without its π/4", unit="mpa")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Dimensionless:
     """Moes' load and lubricant parameters, slide-roll ratio (u1 - u2)/um, Peclet numbers u b rho c/(2 lambda)."""
 
-    moes_m: float
-    moes_l: float
-    slide_roll_ratio: float
-    peclet_1: float
-    peclet_2: float
+    moes_m: float = quantity("load parameter of Moes", "M", "Moes 1992")
+    moes_l: float = quantity("lubricant parameter of Moes", "L", "Moes 1992")
+    slide_roll_ratio: float = quantity("slide-roll ratio", "SRR", text="sliding over mean speed")
+    peclet_1: float = quantity("Péclet number of surface 1", "Pe_1")
+    peclet_2: float = quantity("Péclet number of surface 2", "Pe_2")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FilmThickness:
     """Film at x = 0, smallest film and where, and the formula of Dowson and Higginson (minimum) [m]."""
 
-    central: float | None
-    minimum: float | None
+    central: float | None = quantity(
+        "central film thickness", "h_c", f"{XUE}, Eq. 21", unit="um", text="film thickness at x = 0"
+    )
+    minimum: float | None = quantity("minimum film thickness", "h_min", f"{XUE}, Eq. 21", unit="um")
     minimum_at: float | None
-    dowson_higginson: float
+    dowson_higginson: float = quantity(
+        "film thickness by Dowson and Higginson",
+        "h_min,DH",
+        "Dowson and Higginson; Xue 2020, Eq. 27",
+        unit="um",
+        text="minimum film by formula",
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ContactPressure:
     """Pressure at x = 0 and its largest value [Pa], its position [m]; the second maximum, if there is one.
 
     The height of a sharp second maximum depends on the mesh.
     """
 
-    centre: float
-    maximum: float
-    maximum_at: float
+    centre: float = quantity("pressure in the centre", "p(0)", f"{XUE}, Eq. 17", unit="mpa", text="pressure at x = 0")
+    maximum: float = quantity(
+        "largest film pressure", "p_max", XUE, unit="mpa", text="largest; a sharp second maximum depends on the mesh"
+    )
+    maximum_at: float = quantity("place of the largest pressure", "x_p,max", unit="mm")
     second_maximum: float | None
     second_maximum_at: float | None
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ContactTemperature:
     """Largest temperatures [K] of film, mid-film and surfaces, positions [m], flash temperatures over bulk [K]."""
 
-    film_max: float
+    film_max: float = quantity("largest film temperature", "θ_max", f"{XUE}, Eq. 23", unit="c")
     film_max_at: float
     mid_film_max: float
     mid_film_max_at: float
-    surface_1_max: float
+    surface_1_max: float = quantity("largest temperature of surface 1", "θ_1,max", f"{XUE}, Eq. 24", unit="c")
     surface_1_max_at: float
-    surface_2_max: float
+    surface_2_max: float = quantity("largest temperature of surface 2", "θ_2,max", f"{XUE}, Eq. 24", unit="c")
     surface_2_max_at: float
-    surface_1_flash: float
-    surface_2_flash: float
+    surface_1_flash: float = quantity("flash temperature of surface 1", "Δθ_1", unit="k")
+    surface_2_flash: float = quantity("flash temperature of surface 2", "Δθ_2", unit="k")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ContactFriction:
     """Coefficient from the mid-film stress and those of the two faces [-], magnitudes; power mu w |du| [W/m].
 
@@ -78,16 +90,16 @@ class ContactFriction:
     (or a tenth of the largest pressure, where that is less).
     """
 
-    coefficient: float
+    coefficient: float = quantity("friction coefficient", "μ", text="coefficient of friction, a magnitude")
     coefficient_1: float
     coefficient_2: float
-    power: float
-    max_shear_stress: float
+    power: float = quantity("sliding power", "P", unit="w_per_mm", text="sliding power per length of contact")
+    max_shear_stress: float = quantity("largest shear stress", "τ_max", unit="mpa")
     max_pressure_stress: float
     traction_ratio: float
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ContactHeat:
     """Heat per length of contact [W/m]; into the surfaces and convected out positive.
 
@@ -95,15 +107,18 @@ class ContactHeat:
     where that is more: between surfaces of different temperatures the film conducts heat that it does not generate.
     """
 
-    generated: float
-    compression: float
-    to_surface_1: float
-    to_surface_2: float
-    convected: float
-    balance_error: float
+    generated: float = quantity("heat of shear", "q_s", unit="w_per_mm", text="heat generated by shear")
+    compression: float = quantity("heat of compression", "q_c", unit="w_per_mm", text="heat by compression, added")
+    to_surface_1: float = quantity("heat into surface 1", "q_1", unit="w_per_mm")
+    to_surface_2: float = quantity("heat into surface 2", "q_2", unit="w_per_mm")
+    convected: float = quantity("heat carried out by the oil", "q_o", unit="w_per_mm")
+    balance_error: float = quantity(
+        "heat balance error",
+        text="what is missing, over generated plus absolute convected heat, or over what one surface takes if more",
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MeshError:
     """Estimated error that the mesh leaves in what is reported, relative; temperatures and heat None if isothermal.
 
@@ -111,18 +126,24 @@ class MeshError:
     stress, film temperature) have none: where they are sharp, no mesh resolves them.
     """
 
-    central_film: float
-    minimum_film: float
-    centre_pressure: float
-    friction: float
-    surface_1_flash: float | None = None
-    surface_2_flash: float | None = None
-    generated_heat: float | None = None
+    central_film: float = quantity("mesh error of the central film", text="of the film at x = 0")
+    minimum_film: float = quantity("mesh error of the minimum film")
+    centre_pressure: float = quantity("mesh error of the centre pressure", text="of the pressure at x = 0")
+    friction: float = quantity("mesh error of friction", text="of the coefficient of friction")
+    surface_1_flash: float | None = quantity(
+        "mesh error of flash temperature 1", text="of surface 1; null if isothermal", default=None
+    )
+    surface_2_flash: float | None = quantity(
+        "mesh error of flash temperature 2", text="of surface 2; null if isothermal", default=None
+    )
+    generated_heat: float | None = quantity(
+        "mesh error of the heat", text="heat by shear; null if isothermal", default=None
+    )
 
     @property
     def known(self) -> dict[str, float]:
         """By name, without what an isothermal contact does not have."""
-        return {name: value for name in self.__slots__ if (value := getattr(self, name)) is not None}
+        return {each.name: value for each in fields(self) if (value := getattr(self, each.name)) is not None}
 
     @property
     def largest(self) -> float:
@@ -130,7 +151,7 @@ class MeshError:
         return max(self.known.values())
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Convergence:
     """Newton steps in all, last changes of P and of temperature [K], load error (relative), nodes of the last mesh.
 
@@ -139,14 +160,35 @@ class Convergence:
     `verification.departure` finds in a finished thermal state.
     """
 
-    iterations: int
-    pressure_change: float | None
-    temperature_change: float | None
-    load_error: float
-    nodes: int
-    stage: Stage
-    eyring_stress: float | None
-    departure: float | None
+    iterations: int = quantity("Newton steps", text="Newton steps in all")
+    pressure_change: float | None = quantity(
+        "last change of pressure",
+        text="last change of the pressure over the Hertz pressure; null if no step could be taken",
+    )
+    temperature_change: float | None = quantity(
+        "last change of temperature",
+        "Δθ",
+        unit="k",
+        text="last change of temperature; null if isothermal or no step could be taken",
+    )
+    load_error: float = quantity("load error", text="relative error of the load")
+    nodes: int = quantity("nodes in use", text="nodes of the last mesh")
+    stage: Stage = quantity(
+        "last stage",
+        text="where it ended: isothermal film, film and temperatures, the books on heat, the check of the state",
+    )
+    eyring_stress: float | None = quantity(
+        "Eyring stress reached",
+        "τ_0",
+        unit="mpa",
+        text="Eyring stress that a continuation without solution reached; null where none was tried",
+    )
+    departure: float | None = quantity(
+        "departure of the finished state",
+        "Δθ_check",
+        unit="k",
+        text="what an independent check of the finished temperatures finds, at most 0.1; null if isothermal",
+    )
 
     @property
     def residuals(self) -> dict[str, float]:
@@ -160,60 +202,66 @@ class Convergence:
         return {name: value for name, value in known.items() if value is not None}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ContactCurves:
     """Along the contact, (n,): x [m], pressures [Pa], film [m]; None if isothermal: temperatures [K], heat fluxes.
 
     Fluxes [W/m^2] are those into the surfaces, linear between the nodes.
     """
 
-    x: FloatArray
-    pressure: FloatArray
-    hertz_pressure: FloatArray
-    film: FloatArray
+    x: FloatArray = quantity("position along the flow", "x", unit="mm")
+    pressure: FloatArray = quantity("film pressure", "p", unit="mpa", text="pressure in the film", axis="x")
+    hertz_pressure: FloatArray = quantity("dry pressure", "p_dry", unit="mpa", axis="x")
+    film: FloatArray = quantity("film thickness", "h", unit="um", axis="x")
     shear_stress: FloatArray
     fluid_fraction: FloatArray
-    mid_film_temperature: FloatArray | None
-    surface_1_temperature: FloatArray | None
-    surface_2_temperature: FloatArray | None
-    surface_1_heat_flux: FloatArray | None
-    surface_2_heat_flux: FloatArray | None
+    mid_film_temperature: FloatArray | None = quantity("mid-film temperature", "θ_mid", unit="c", axis="x")
+    surface_1_temperature: FloatArray | None = quantity("temperature of surface 1", "θ_1", unit="c", axis="x")
+    surface_2_temperature: FloatArray | None = quantity("temperature of surface 2", "θ_2", unit="c", axis="x")
+    surface_1_heat_flux: FloatArray | None = quantity(
+        "heat flux into surface 1", "q_1", XUE, unit="w_per_mm2", axis="x"
+    )
+    surface_2_heat_flux: FloatArray | None = quantity(
+        "heat flux into surface 2", "q_2", XUE, unit="w_per_mm2", axis="x"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ContactField:
     """Temperature (n, k) [K] over x (n,) [m] and height over film thickness (k,)."""
 
-    x: FloatArray
-    film_fraction: FloatArray
-    temperature: FloatArray
+    x: FloatArray = quantity("position along the flow", "x", unit="mm")
+    film_fraction: FloatArray = quantity("height in the film", "z/h", text="height over film thickness from surface 1")
+    temperature: FloatArray = quantity("temperature in the film", "θ", unit="c", axis=("x", "film_fraction"))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Derived(OilInUse):
     """What follows from the inputs before any physics: mean surface speed [m/s], reduced modulus E' [Pa], the oil."""
 
-    entrainment_speed: float
-    reduced_modulus: float
+    entrainment_speed: float = quantity("mean surface speed", "u_m", XUE, unit="m_per_s")
+    reduced_modulus: float = quantity("reduced modulus", "E'", XUE, unit="gpa")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LineContactResult:
     """A lubricated line contact; what was not solved is None, and then status is no_solution."""
 
     status: Status
-    hertz: HertzContact
-    dimensionless: Dimensionless
-    film: FilmThickness
-    pressure: ContactPressure | None
-    temperature: ContactTemperature | None
-    friction: ContactFriction | None
-    heat: ContactHeat | None
-    mesh_error: MeshError | None
-    convergence: Convergence
-    curves: ContactCurves | None
-    field: ContactField | None
-    derived: Derived
+    hertz: HertzContact = quantity("dry contact")
+    dimensionless: Dimensionless = quantity("dimensionless numbers")
+    film: FilmThickness = quantity("film")
+    pressure: ContactPressure | None = quantity("pressure")
+    temperature: ContactTemperature | None = quantity("temperatures", text="temperatures; null if isothermal")
+    friction: ContactFriction | None = quantity("friction")
+    heat: ContactHeat | None = quantity("heat", text="heat; null if isothermal")
+    mesh_error: MeshError | None = quantity(
+        "estimated mesh error", text="estimated relative error of the mesh; null where it is not known"
+    )
+    convergence: Convergence = quantity("convergence", text="how the iteration ended")
+    curves: ContactCurves | None = quantity("along the contact", detail="curves")
+    field: ContactField | None = quantity("film map", text="temperature in the film", detail="fields")
+    derived: Derived = quantity("speed and modulus used")
     warnings: tuple[Notice, ...]
 
     @property

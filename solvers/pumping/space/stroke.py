@@ -1,6 +1,5 @@
 """Areas and clearances of a tooth space tabulated over one stroke, the table that all slices share."""
 
-from dataclasses import dataclass
 from math import degrees
 
 import numpy as np
@@ -10,13 +9,15 @@ from solvers.compiled import kernel
 from solvers.errors import InvalidInput
 from solvers.pumping.space.section import section
 from solvers.pumping.space.tooth_space import StrokeLimits, ToothSpace, stroke_limits
+from solvers.quantity import quantity, record
+from solvers.sources import MILIAN
 
 POSITIONS = 361
 SMOOTH = 3.0  # times the change of the area's logarithm over the positions beside
 JUMP = 0.01
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class StrokeTable:
     """One stroke of a tooth space, of shape (positions,) at equal steps of the owner's angle [rad].
 
@@ -26,10 +27,23 @@ class StrokeTable:
     """
 
     limits: StrokeLimits
-    angle: FloatArray
-    area: FloatArray
-    clearance_left: FloatArray
-    clearance_right: FloatArray
+    angle: FloatArray = quantity(
+        "angle of the tooth space", "φ", unit="deg", text="angle of the space's gear from the line of centres"
+    )
+    area: FloatArray = quantity(
+        "area of the tooth space",
+        "S_A",
+        f"{MILIAN}, Fig. 3",
+        unit="mm2",
+        text="area left by the mating tooth",
+        axis="angle",
+    )
+    clearance_left: FloatArray = quantity(
+        "left clearance", "L_1", f"{MILIAN}, Fig. 3", unit="mm", text="clearance of the flank behind", axis="angle"
+    )
+    clearance_right: FloatArray = quantity(
+        "right clearance", "L_2", f"{MILIAN}, Fig. 3", unit="mm", text="clearance of the flank ahead", axis="angle"
+    )
     carried: FloatArray
 
     def columns(self, *, wall_transport: bool) -> FloatArray:

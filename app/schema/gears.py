@@ -1,0 +1,58 @@
+"""Gear pairs and their materials, shared by pumping and scuffing."""
+
+from typing import Annotated
+
+from app.requests.common import Section
+from app.schema.model import declared
+from app.schema.quantities import Input
+from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.materials import Solid
+from solvers.pumping.inputs import PumpingSetup
+
+
+class GearMember(Section, of=GearTeeth):
+    """One gear of the pair; coefficients count normal modules."""
+
+
+class Gears(Section, of=GearPairInputs, without=("rack_tip_radius",)):
+    """An external parallel-axis pair, spur or helical; the pinion drives.
+
+    Each model adds `rack_tip_radius` with its own default.
+    """
+
+
+class ScuffingGears(Gears):
+    """The gear pair."""
+
+    rack_tip_radius: Annotated[
+        float,
+        declared(
+            GearPairInputs,
+            "rack_tip_radius",
+            text="tip radius coefficient of the rack",
+            assumed="rack A of ISO 53; the paper gives none",
+        ),
+    ] = 0.38
+
+
+class BacklashGears(Gears, of=PumpingSetup, only=("normal_backlash",)):
+    """The gear pair with its backlash."""
+
+
+class PumpingGears(BacklashGears, of=GearPairInputs):
+    """The gear pair."""
+
+
+class Surface(Section, of=Solid, without=("roughness",)):
+    """The solid under one surface; steel by default."""
+
+
+class GearMaterial(Surface, of=Solid):
+    """Material and finish of one gear."""
+
+
+class GearMaterials(Section):
+    """Materials of the pair."""
+
+    pinion: Annotated[GearMaterial, Input("pinion material")] = GearMaterial()
+    wheel: Annotated[GearMaterial, Input("wheel material")] = GearMaterial()

@@ -1,0 +1,173 @@
+"""Pumping: requests and answers of /v1/pumping and /v1/pumping/choking-speed."""
+
+from dataclasses import replace
+from typing import Annotated, Any, ClassVar
+
+from app.requests.common import Request, Section
+from app.responses.common import Derived, Group, Response
+from app.schema.conversion import to_si
+from app.schema.gears import PumpingGears
+from app.schema.quantities import Input, View
+from solvers.pumping import inputs as si
+from solvers.pumping import lead_correction, pulsation, results
+from solvers.pumping.space import stroke
+from solvers.quantity import UNITS
+
+AXIAL_SPEED_ONLY = (
+    "the stagnation temperature counts the axial speed only; air drawn in from rest meets a tooth at the pitch-line "
+    "speed U, whose recovery is worth up to U²/(2 c_p) more"
+)
+
+
+class GearGroove(Section, of=si.Groove):
+    """A circumferential groove of full tooth depth."""
+
+
+class PumpingOperation(Section, of=si.PumpingInputs):
+    """Operating point."""
+
+
+class Mist(Section, of=si.Ambient):
+    """The air and oil mist around the mesh, a perfect gas."""
+
+
+class PumpingOptions(Section, of=si.PumpingModel):
+    """Choices where the paper leaves room."""
+
+    def unused_pumping_defaults(self, section: str) -> frozenset[str]:
+        """Closure belongs to the pocket chain, wall transport to gas dynamics with contact gaps, slices to both."""
+        unused = set()
+        if self.flow != "pocket_chain":
+            unused.add(f"{section}.closure")
+        if self.flow != "gas_dynamics" or self.gap != "contact":
+            unused.add(f"{section}.wall_transport")
+        if self.flow == "incompressible":
+            unused.add(f"{section}.slices")
+        return frozenset(unused)
+
+
+class _PumpingSetup(Request, of=si.PumpingSetup, without=("normal_backlash",)):
+    """What both calculations have in common."""
+
+    gears: PumpingGears
+    model: PumpingOptions
+
+    def options(self) -> dict[str, Any]:
+        """The model section, the number of slices filled in."""
+        return self.model.model_dump() | {"slices": self.model.si(si.PumpingModel).slice_count}
+
+    def unused_defaults(self) -> frozenset[str]:
+        """What the flow model leaves out."""
+        return self.model.unused_pumping_defaults("model")
+
+    def assumed_by_the_model(self) -> dict[str, str]:
+        """A flow with temperatures knows one speed only."""
+        return {} if self.model.flow == "incompressible" else {"model.flow": AXIAL_SPEED_ONLY}
+
+    def _setup(self) -> si.PumpingSetup:
+        return replace(self.si(si.PumpingSetup), normal_backlash=to_si(self.gears)["normal_backlash"])
+
+
+class PumpingRequest(_PumpingSetup):
+    """A gear pair that pumps the mist around it, at one speed."""
+
+    operation: Annotated[PumpingOperation, Input("operating point")]
+
+    def inputs(self) -> si.PumpingInputs:
+        """The solver's inputs."""
+        return si.PumpingInputs(self._setup(), **to_si(self.operation))
+
+
+class ChokingSpeedRequest(_PumpingSetup, of=si.ChokingInputs):
+    """A gear pair whose choking speeds are sought."""
+
+    def inputs(self) -> si.ChokingInputs:
+        """The solver's inputs."""
+        return si.ChokingInputs(self._setup(), search_limit=to_si(self)["search_limit"])
+
+
+class StrokeCurves(Group, of=stroke.StrokeTable):
+    """Section of the tooth space over one stroke."""
+
+
+class PumpingStroke(Group, of=results.Stroke):
+    """One stroke of a tooth space; angles of its gear from the line of centres."""
+
+
+class PumpingMassFlow(Group, of=results.MassFlow):
+    """Mass flow out of the tooth spaces: net by exit, the first five sum to zero; gross at the ends."""
+
+    member_unit: ClassVar = UNITS["g_per_s"]
+
+
+class PumpingBalance(Group, of=results.Balance):
+    """Relative errors of the books."""
+
+
+class PumpingProfile(Group, of=results.FaceProfile):
+    """Along the face, outside the grooves."""
+
+
+class PumpingField(Group, of=results.GasField):
+    """Over angle and position, indexed [angle][position]."""
+
+    views: ClassVar = {"axial_mach": View(limit=1.0)}
+
+
+class PumpingSpaces(Group, of=results.SpacesResult):
+    """The tooth spaces of one gear."""
+
+    views: ClassVar = {
+        "peak_pressure_ratio": View(headline=3),
+        "peak_axial_mach": View(limit=1.0),
+        "max_temperature_rise": View(headline=2),
+    }
+
+
+class PumpingDerived(Derived, of=results.Derived):
+    """Centre distance and resolution, where the request left them open."""
+
+
+class PumpingGeometry(Group, of=results.MeshGeometry):
+    """The mesh."""
+
+
+class PumpingTotal(Group, of=results.Totals):
+    """Of all spaces asked for."""
+
+    views: ClassVar = {"pumping_power": View(headline=1)}
+
+
+class LeadCurves(Group, of=lead_correction.LeadCurves):
+    """Along the pinion's face."""
+
+
+class PumpingLeadCorrection(Group, of=lead_correction.LeadCorrection):
+    """Thermal lead correction of the pinion where the metal warms as much as the gas."""
+
+
+class PumpingPulsation(Group, of=pulsation.Pulsation):
+    """Amplitudes of the mass flow at the ends, at multiples of the meshing frequency."""
+
+
+class PumpingResolution(Group, of=results.Resolution):
+    """Relative uncertainties by what half and a quarter of the slices, steps or positions change."""
+
+
+class PumpingResponse(Response, of=results.PumpingResult):
+    """Pumping at one operating point; sections are missing where there is no solution."""
+
+
+class ChokingCurves(Group, of=results.ChokingCurves):
+    """What a coarse scan saw, the largest over the spaces asked for."""
+
+    views: ClassVar = {"exit_mach": View(limit=1.0)}
+
+
+class ChokingSpeedResponse(Response, of=results.ChokingSpeeds):
+    """Lowest pinion speeds with sonic flow in any of the spaces asked for."""
+
+    views: ClassVar = {
+        "radial_choking_speed": View(headline=1, limit="search_limit_rpm"),
+        "axial_choking_speed": View(headline=2, limit="search_limit_rpm"),
+    }
