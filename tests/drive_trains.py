@@ -50,7 +50,15 @@ COUPLING = UnitCoupling(
     shaft="pinion",
     position=0.02,
     machine_side="minus",
-    coupling=Coupling(60, 3e-3, 30e-3, 6e-3, crowning_ratio=4.0, hub_distance=0.4, sleeve_mass=12.0),
+    coupling=Coupling(
+        teeth=60,
+        module=3e-3,
+        face_width=30e-3,
+        tooth_height=6e-3,
+        crowning_ratio=4.0,
+        hub_distance=0.4,
+        sleeve_mass=12.0,
+    ),
     friction=Friction(coefficient=0.15),
     offset=(0.0, 400e-6),
 )

@@ -33,8 +33,16 @@ class ShaftThrust(Group):
     """Axial load, positive towards +Z; of a coupling's friction only the limit is known."""
 
     mesh_n: Annotated[float, Output("axial force of the mesh", "F_a")]
+    coupling_n: Annotated[
+        float,
+        Output("thrust of the couplings", "τ F_max", text="the stated share of the friction limit of all couplings"),
+    ]
     coupling_limit_n: Annotated[
         float, Output("limit of the coupling's thrust", "F_max", text="of all couplings of the shaft")
+    ]
+    collar_n: Annotated[
+        float | None,
+        Output("force of the thrust collar", "F_k", text="holds mesh and couplings of the pinion; null without one"),
     ]
     lower_n: Annotated[
         float | None, Output("least bearing thrust", "F_ax,min", API_613, text="null where a collar holds the shaft")
@@ -89,7 +97,7 @@ class UnitCouplingState(Group):
     tilt_mrad: Annotated[Values, Output("tilt of the hubs", "δ", text="of hub against sleeve", index=HUBS)]
     stuck: Annotated[list[bool], Output("sticking hubs", text="whether no tooth of a hub slides", index=HUBS)]
     moment_n_m: Annotated[Values, Output("moment on the unit's hub", "M_H", index=XY)]
-    force_n: Annotated[Values, Output("force on the unit's hub", "F_H", index=XY)]
+    force_n: Annotated[Values, Output("force on the unit's hub", "F_H", text="with half the sleeve's weight", index=XY)]
     friction_share: Annotated[
         Values,
         Output(
@@ -98,6 +106,9 @@ class UnitCouplingState(Group):
     ]
     friction_coefficient: Annotated[
         float, Output("coefficient of friction of the coupling", "μ", text="the smaller of both hubs")
+    ]
+    thrust_n: Annotated[
+        float, Output("thrust of the coupling on its shaft", "τ F_max", text="the stated share of the limit, along +Z")
     ]
     thrust_limit_n: Annotated[float, Output("limit of the axial friction", "F_max")]
     friction_power_w: Annotated[float, Output("friction power of the coupling", "P_C", text="of both hubs")]

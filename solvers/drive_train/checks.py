@@ -51,7 +51,7 @@ def _check_bearings(inputs: DriveTrainInputs, shaft: Shaft, name: str) -> None:
     if len(shaft.bearings) != 2:
         raise InvalidInput("bearing_count", "a shaft runs in exactly two bearings", f"{name}.bearings")
     for k, bearing in enumerate(shaft.bearings):
-        if not shaft.start <= bearing.position <= shaft.end:
+        if not _on(shaft, bearing.position):
             message = f"bearing {k} lies outside the shaft"
             raise InvalidInput("bearing_outside", message, f"{name}.bearings.{k}.position")
         if isinstance(bearing, LinearBearing):
@@ -67,6 +67,11 @@ def _check_bearings(inputs: DriveTrainInputs, shaft: Shaft, name: str) -> None:
         raise InvalidInput("bearing_distance", message, f"{name}.bearings.1.position")
 
 
+def _on(shaft: Shaft, position: float) -> bool:
+    """Whether a position [m] is on the shaft, its ends included, whose places are sums of lengths."""
+    return shaft.start - COINCIDENT <= position <= shaft.end + COINCIDENT
+
+
 def _check_torque(inputs: DriveTrainInputs, index: int, name: str) -> None:
     shaft, field = inputs.shafts[index], f"{name}.torque_position"
     position = shaft.torque_position
@@ -75,7 +80,7 @@ def _check_torque(inputs: DriveTrainInputs, index: int, name: str) -> None:
         if not own:
             raise InvalidInput("torque_position", "say where torque enters a shaft without a coupling", field)
         position = own[0]
-    if not shaft.start <= position <= shaft.end:
+    if not _on(shaft, position):
         raise InvalidInput("torque_position", "torque must enter within the shaft", field)
     end = inputs.face_start + inputs.mesh.distribution.gears.face_width
     if inputs.face_start + COINCIDENT < position < end - COINCIDENT:
@@ -90,7 +95,7 @@ def _check_couplings(inputs: DriveTrainInputs) -> None:
         if names.index(coupling.shaft) != k:
             raise InvalidInput("couplings_on_shaft", "a shaft takes one coupling", f"{field}.shaft")
         shaft = inputs.pinion_shaft if coupling.shaft == "pinion" else inputs.wheel_shaft
-        if not shaft.start <= coupling.position <= shaft.end:
+        if not _on(shaft, coupling.position):
             raise InvalidInput("position_outside", "the hub lies outside its shaft", f"{field}.position")
         if (coupling.position > middle) != (coupling.machine_side == "plus"):
             message = "the machine would lie on the gears' side of the hub; turn machine_side or move the hub"

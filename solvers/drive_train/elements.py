@@ -9,7 +9,7 @@ from solvers.drive_train.gap.balance import Equilibrium
 from solvers.drive_train.inputs import DriveTrainInputs, Vector2
 from solvers.drive_train.results import BearingResult, CouplingResult, ShaftCurves, ShaftResult
 from solvers.drive_train.shafts.bearings import BearingState
-from solvers.drive_train.shafts.coupling_loads import LEAST_TILT, HubMoments, hub_moments, hub_warnings
+from solvers.drive_train.shafts.coupling_loads import LEAST_TILT, LOADS, TILTS, HubMoments, hub_moments, hub_warnings
 from solvers.drive_train.shafts.influence import ShaftPorts, Unit
 from solvers.drive_train.shafts.thrust_budget import mesh_thrust, thrust_budget
 from solvers.gears.path_of_contact import PathOfContact
@@ -44,7 +44,8 @@ def coupling_results(
     """Loads of the couplings on their shafts; the conjugate moments m = -Z x M turned back to M."""
     results = []
     for k, (port, pair) in enumerate(zip(unit.couplings, hubs, strict=True)):
-        tilts, loads = found.hubs.tilts[4 * k : 4 * k + 4], found.loads[unit.stations.size + 4 * k :][:4]
+        tilts = found.hubs.tilts[TILTS * k : TILTS * (k + 1)]
+        loads = found.loads[unit.stations.size + LOADS * k :][:LOADS]
         sizes = (hypot(tilts[0], tilts[1]), hypot(tilts[2], tilts[3]))
         results.append(
             CouplingResult(
@@ -52,8 +53,9 @@ def coupling_results(
                 stuck=(pair[0].sticks, pair[1].sticks),
                 friction_share=(pair[0].share, pair[1].share),
                 moment=(-float(loads[3]), float(loads[2])),
-                force=(float(loads[0]), float(loads[1])),
+                force=_pair(loads[:2] + port.sleeve_weight),
                 friction_coefficient=min(hub.friction_coefficient for hub in pair),
+                thrust=float(loads[4]),
                 thrust_limit=min(hub.thrust_limit for hub in pair),
                 friction_power=sum(hub.loss * port.speed * size for hub, size in zip(pair, sizes, strict=True)),
             )
@@ -69,19 +71,21 @@ def shaft_results(
     couplings: tuple[CouplingResult, ...],
 ) -> tuple[ShaftResult, ShaftResult]:
     """Bearings, thrust and deflection of both shafts."""
-    limits = [
-        sum(one.thrust_limit for port, one in zip(unit.couplings, couplings, strict=True) if port.inputs.shaft == name)
+    own_couplings = [
+        [one for port, one in zip(unit.couplings, couplings, strict=True) if port.inputs.shaft == name]
         for name in ("pinion", "wheel")
     ]
+    acting = [sum(one.thrust for one in own) for own in own_couplings]
+    limits = [sum(one.thrust_limit for one in own) for own in own_couplings]
     mesh = mesh_thrust(inputs, path, unit.frame)
     diameters = (_hub_diameter(inputs, 0), _hub_diameter(inputs, 1))
-    thrusts = thrust_budget(inputs, mesh, (limits[0], limits[1]), diameters)
+    thrusts = thrust_budget(inputs, mesh, (acting[0], acting[1]), (limits[0], limits[1]), diameters)
     states = unit.bearings(found.loads)
     shafts = []
     for i, side in enumerate(unit.shafts):
-        own = states[2 * i : 2 * i + 2]
-        curves = _curves(side, found.loads, own, unit.offsets[4 * i : 4 * i + 4])
-        shafts.append(ShaftResult((_bearing(own[0]), _bearing(own[1])), thrusts[i], curves))
+        bearings = states[2 * i : 2 * i + 2]
+        curves = _curves(side, found.loads, bearings, unit.offsets[4 * i : 4 * i + 4])
+        shafts.append(ShaftResult((_bearing(bearings[0]), _bearing(bearings[1])), thrusts[i], curves))
     return shafts[0], shafts[1]
 
 

@@ -9,7 +9,7 @@ from solvers.drive_train.checks import check_inputs
 from solvers.drive_train.derived import derived
 from solvers.drive_train.elements import coupling_results, hubs_of, shaft_results, warnings_of
 from solvers.drive_train.gap.balance import Equilibrium, LoadedMesh, equilibrium
-from solvers.drive_train.gap.hub_balance import loads_at_rest
+from solvers.drive_train.gap.hub_balance import free_hubs
 from solvers.drive_train.gap.misalignment import misalignment
 from solvers.drive_train.gap.thermal_lead import ThermalLead, gas_heat, no_heat, thermal_lead
 from solvers.drive_train.inputs import DriveTrainInputs
@@ -73,7 +73,7 @@ def settle(inputs: DriveTrainInputs, prepared: Prepared, start: FloatArray | Non
     mesh = prepared.mesh
     response = mesh.respond(gap)
     force, by_gap = mesh.scale * response.force, mesh.scale * response.derivative
-    return Equilibrium(gap, 0.0, force, loads_at_rest(prepared.unit), mesh.balance(gap), by_gap, 0, 0.0)
+    return Equilibrium(gap, 0.0, force, free_hubs(prepared.unit, force), mesh.balance(gap), by_gap, 0, 0.0)
 
 
 def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTrainResult:

@@ -119,7 +119,8 @@ class ShaftResult:
 class CouplingResult:
     """A coupling: tilts of the hubs A (unit) and B (machine) [rad], whether they stick; loads on hub A [N m, N].
 
-    `friction_share` is the friction moment of each hub over that of full sliding; friction_coefficient the smaller.
+    `force` holds half the sleeve's weight; `thrust` is the stated part of the limit, towards +Z. `friction_share` is
+    the friction moment of each hub over that of full sliding; friction_coefficient the smaller.
     """
 
     tilt: Vector2
@@ -128,6 +129,7 @@ class CouplingResult:
     moment: Vector2
     force: Vector2
     friction_coefficient: float
+    thrust: float
     thrust_limit: float
     friction_power: float
 

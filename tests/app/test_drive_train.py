@@ -491,3 +491,43 @@ def test_friction_by_the_oil_replaces_the_coefficient(post: Post) -> None:
     ratio = by_oil["flash"]["flank_k"] / given["flash"]["flank_k"]
     assert by_oil["losses"]["mesh_w"] / given["losses"]["mesh_w"] == pytest.approx(ratio, rel=1e-6)
     assert abs(ratio - 1) > 0.05
+
+
+# Thrust collar, hand, sleeve
+
+
+def test_a_collar_takes_the_thrust_that_is_reported(post: Post) -> None:
+    """Friction by the coupling's law: the collar holds mesh and coupling at the tilt found, not at a tiny one."""
+    body = request(thrust_collar={"radius_mm": 128})
+    body["couplings"][0].pop("friction")
+    body["couplings"][0]["thrust_fraction"] = 1
+    found = answered(post, body)
+    assert found["load"]["face_load_factor"] == pytest.approx(1.671, abs=0.0006)
+    assert found["safety"]["blok_flank"] == pytest.approx(1.490, abs=0.0006)
+    assert found["misalignment"]["shaft_slope_um"] == pytest.approx(0.64, abs=0.006)
+    thrust, (coupling,) = found["shafts"][0]["thrust"], found["couplings"]
+    assert coupling["friction_coefficient"] == pytest.approx(0.0993, abs=0.0001)
+    assert thrust["coupling_n"] == coupling["thrust_n"] == coupling["thrust_limit_n"] == pytest.approx(13456, abs=2)
+    assert thrust["collar_n"] == pytest.approx(-19526 - 13456, abs=3)
+    assert found["shafts"][1]["thrust"]["collar_n"] == -thrust["collar_n"]
+
+
+def test_spur_gears_have_no_hand(post: Post) -> None:
+    """K_Hbeta 1.463 of either hand; the face begins at the end of high Z where the pinion turns counter-clockwise."""
+    answers = []
+    for hand in ("right", "left"):
+        body = request(gears={"helix_angle_deg": 0, "hand": hand}, detail="curves")
+        answers.append({**answered(post, body), "inputs": None, "case": None})
+    assert answers[0] == answers[1]
+    assert answers[1]["load"]["face_load_factor"] == pytest.approx(1.4626, abs=0.0003)
+    assert answers[1]["misalignment"]["curves"]["z_mm"][0] == 520.0
+
+
+def test_the_sleeve_weighs_on_the_hub(post: Post) -> None:
+    """12 kg a mesh: 117.7 N downwards in the force on the hub, as in the balance."""
+    (coupling,) = answered(post, request())["couplings"]
+    assert coupling["force_n"] == pytest.approx([5181.3, 2679.7], abs=0.5)
+    light = request()
+    light["couplings"][0]["coupling"]["sleeve_mass_kg"] = 0.001
+    (weightless,) = answered(post, light)["couplings"]
+    assert coupling["force_n"][1] - weightless["force_n"][1] == pytest.approx(-12 * 9.80665, abs=1.5)

@@ -278,7 +278,16 @@ def mirrored(inputs: DriveTrainInputs) -> DriveTrainInputs:
         wheel_angle=pi - own.wheel_angle,
         gravity_angle=pi - own.gravity_angle,
     )
-    return _mapped(inputs, lambda v: (-v[0], v[1]), lambda k: flip @ k @ flip, arrangement)
+    return spur_face_reversed(_mapped(inputs, lambda v: (-v[0], v[1]), lambda k: flip @ k @ flip, arrangement))
+
+
+def spur_face_reversed(image: DriveTrainInputs) -> DriveTrainInputs:
+    """The mirrored unit; of a spur pair, whose face begins where the rotation says, the flank is mirrored too."""
+    distribution = image.mesh.distribution
+    if distribution.gears.helix_angle > 0.0:
+        return image
+    shape = replace(distribution.modifications, helix_slope=-distribution.modifications.helix_slope)
+    return with_distribution(image, replace(distribution, modifications=shape))
 
 
 def reversed_ends(inputs: DriveTrainInputs) -> DriveTrainInputs:
@@ -295,7 +304,7 @@ def reversed_ends(inputs: DriveTrainInputs) -> DriveTrainInputs:
         )
         for shaft in inputs.shafts
     ]
-    return replace(
+    image = replace(
         inputs,
         face_start=-inputs.face_start - width,
         pinion_shaft=shafts[0],
@@ -311,6 +320,7 @@ def reversed_ends(inputs: DriveTrainInputs) -> DriveTrainInputs:
         ),
         arrangement=replace(inputs.arrangement, hand=hand),  # type: ignore[arg-type]
     )
+    return spur_face_reversed(image)
 
 
 def _mapped(inputs, vector, matrix, arrangement):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN202
@@ -332,10 +342,11 @@ SAME = 1e-9
 @examples(8, 100, units(), st.floats(-3.0, 3.0))
 def test_a_unit_turned_or_mirrored_answers_alike(inputs: DriveTrainInputs, angle: float) -> None:
     one = outcome(inputs)
-    for image in (rotated(inputs, angle), mirrored(inputs), reversed_ends(inputs)):
+    turns = -1.0 if inputs.mesh.distribution.gears.helix_angle == 0.0 else 1.0
+    for image, sign in ((rotated(inputs, angle), 1.0), (mirrored(inputs), turns), (reversed_ends(inputs), turns)):
         other = outcome(image)
         assert other.face_load_factor == pytest.approx(one.face_load_factor, rel=SAME)
-        assert other.shaft_slope == pytest.approx(one.shaft_slope, rel=SAME, abs=1e-14)
+        assert sign * other.shaft_slope == pytest.approx(one.shaft_slope, rel=SAME, abs=1e-14)
         assert other.max_pressure == pytest.approx(one.max_pressure, rel=SAME)
         assert other.safety == pytest.approx(one.safety, rel=SAME)
 

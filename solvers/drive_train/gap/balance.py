@@ -13,7 +13,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.drive_train.gap.face_curves import face_mean
-from solvers.drive_train.gap.hub_balance import HubLoads, Yielding, loads_at_rest, respond
+from solvers.drive_train.gap.hub_balance import HubLoads, Yielding, free_hubs, respond
 from solvers.drive_train.shafts.influence import Unit
 from solvers.errors import NoSolution
 from solvers.scuffing.balance.contact_slices import Mesh
@@ -102,7 +102,7 @@ def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -
 
     Raises NoSolution drive_train with the residual [um] where it does not converge.
     """
-    hubs = loads_at_rest(unit)
+    hubs = free_hubs(unit, uniform_force(mesh.transmitted, unit.stations.size))
     if start is None:
         start, hubs = _rough(unit, mesh.coarser, hubs)
     state = _evaluate(unit, mesh, start, hubs, None)
@@ -165,12 +165,17 @@ def _matrix(mesh: LoadedMesh, state: _State) -> FloatArray:
 
 
 def _advance(unit: Unit, mesh: LoadedMesh, state: _State) -> _State:
-    """The state after Newton's step, halved while the residual does not fall."""
+    """The state after Newton's step, halved while the residual does not fall or the parts find no balance there."""
     step, share = centred(np.asarray(np.linalg.solve(_matrix(mesh, state), -state.residual), dtype=float)), 1.0
     while True:
-        following = _evaluate(unit, mesh, state.gap + share * step, state.answer.hubs, state.response)
-        if following.size < state.size or share < LEAST_STEP:
-            return following
+        try:
+            following = _evaluate(unit, mesh, state.gap + share * step, state.answer.hubs, state.response)
+        except NoSolution:
+            if share < LEAST_STEP:
+                raise
+        else:
+            if following.size < state.size or share < LEAST_STEP:
+                return following
         share /= 2
 
 

@@ -9,6 +9,7 @@ from solvers.drive_train.gap.hub_balance import respond
 from solvers.drive_train.gap.thermal_lead import ThermalLead
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import GapCurves, Misalignment, Parts
+from solvers.drive_train.shafts.coupling_loads import LOADS
 from solvers.drive_train.shafts.influence import Unit
 from solvers.scuffing.flank.modification import gaps_at
 
@@ -49,6 +50,7 @@ def gap_parts(unit: Unit, loads: FloatArray) -> Parts:
     """Slopes of the gap by the loads of the ports."""
     count = unit.stations.size
     force, hubs = loads[:count], loads[count:]
+    axial = np.arange(hubs.size) % LOADS == LOADS - 1
     sums = dict.fromkeys(("bending", "torsion", "tilting_moment", "coupling", "collar", "weight"), 0.0)
     for side in unit.shafts:
         transverse = side.mesh_loads @ force
@@ -56,8 +58,8 @@ def gap_parts(unit: Unit, loads: FloatArray) -> Parts:
         causes = {
             "bending": transverse,
             "tilting_moment": whole - transverse,
-            "coupling": side.loads[:, :, count:] @ hubs,
-            "collar": side.collar,
+            "coupling": side.loads[:, :, count:] @ np.where(axial, 0.0, hubs),
+            "collar": side.collar + side.loads[:, :, count:] @ np.where(axial, hubs, 0.0),
             "weight": side.weight,
         }
         for name, cause in causes.items():

@@ -6,12 +6,13 @@ in the planes X and Y. Loads are conjugate to slopes, m = -Z x M: with a = M_s +
     on the hub       m = -a e + s (M_l - s_d T delta / 2) Z x e
     on its shaft     f = -a e / l + s (M_l + s_d T delta / 2) Z x e / l     times `towards`, of both hubs
 M_l dissipates, M_s and M_e straighten; s is the sense of rotation, s_d = +1 where the hub drives the sleeve. The sign
-of T delta / 2 differs between hub and sleeve because the torque bisects their axes.
+of T delta / 2 differs between hub and sleeve because the torque bisects their axes. Along Z the shaft is pushed by the
+part tau of the friction limit, which is the smaller one of both hubs.
 """
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import acos, cos, hypot, pi, sin, sqrt
 
 import numpy as np
@@ -31,6 +32,8 @@ from solvers.drive_train.inputs import CouplingFriction, UnitCoupling
 from solvers.errors import InvalidInput
 from solvers.notices import Notice
 
+LOADS = 5  # of a coupling on its shaft: F_X, F_Y, m_X, m_Y, F_Z
+TILTS = 4  # of a coupling: hub A and hub B in both planes
 STEP = 1e-4  # of the tilt, for differences
 LEAST_TILT = 1e-12  # rad; below it nothing is tilted
 
@@ -54,7 +57,8 @@ class HubMoments:
 class CouplingPort:
     """A coupling as the shaft meets it; torque [N m] and speed [rad/s] of its shaft, sense of rotation of its shaft.
 
-    The tilts of both hubs are `rest` + `lever` @ (U, V, slopes of the shaft at the hub).
+    The tilts of both hubs are `rest` + `lever` @ (U, V, slopes of the shaft at the hub, its motion along Z).
+    `sleeve_weight` (X, Y) [N] rests on the hub.
     """
 
     inputs: UnitCoupling
@@ -65,7 +69,7 @@ class CouplingPort:
     rotation: float
     rest: FloatArray
     lever: FloatArray
-    softness: float = 1.0
+    sleeve_weight: FloatArray
 
     @property
     def length(self) -> float:
@@ -86,12 +90,13 @@ def coupling_port(
     torque: float,
     speed: float,
     rotation: float,
-    up: FloatArray,
+    down: FloatArray,
+    gravity: float,
 ) -> CouplingPort:
-    """The coupling of a shaft; `up` points against gravity, where the machine's shaft grows to."""
-    offset = np.array(inputs.offset) + (0.0 if inputs.alignment is None else inputs.alignment.growth) * up
+    """The coupling of a shaft; `down` is the direction of gravity [m/s^2], against which the machine's shaft grows."""
+    offset = np.array(inputs.offset) - (0.0 if inputs.alignment is None else inputs.alignment.growth) * down
     distance = inputs.coupling.hub_distance if inputs.machine_side == "plus" else -inputs.coupling.hub_distance
-    one, none = np.eye(2), np.zeros((2, 2))
+    one, none, axial = np.eye(2), np.zeros((2, 2)), np.zeros((2, 1))
     return CouplingPort(
         inputs=inputs,
         index=index,
@@ -100,7 +105,8 @@ def coupling_port(
         speed=speed,
         rotation=rotation,
         rest=np.concatenate([-offset / distance, np.array(inputs.slope) - offset / distance]),
-        lever=np.block([[one / distance, one], [one / distance, none]]),
+        lever=np.block([[one / distance, one, axial], [one / distance, none, axial]]),
+        sleeve_weight=gravity * inputs.coupling.sleeve_mass * down,
     )
 
 
@@ -109,7 +115,7 @@ def sliding_tilt(port: CouplingPort, friction: float) -> float:
     coupling = port.inputs.coupling
     stiffness = port.inputs.axial_tooth_stiffness or coupling.tooth_stiffness
     elastic = coupling.teeth * pitch_radius(coupling) ** 2 * cos(coupling.pressure_angle) * stiffness
-    return port.softness * axial_share(port) * friction * port.torque / elastic
+    return axial_share(port) * friction * port.torque / elastic
 
 
 def axial_share(port: CouplingPort) -> float:
@@ -186,43 +192,44 @@ def _prefixed(port: CouplingPort) -> Iterator[None]:
 
 
 def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Loads (F_X, F_Y, m_X, m_Y) on the unit's shaft by both hubs' tilts (4,) [rad], and their derivative (4, 4)."""
-    loads, derivative = np.zeros(4), np.zeros((4, 4))
+    """Loads (F_X, F_Y, m_X, m_Y, F_Z) on the unit's shaft by both hubs' tilts (4,) [rad], and their derivative."""
+    loads, derivative = np.zeros(LOADS), np.zeros((LOADS, TILTS))
+    least = np.inf
     for hub, driving in enumerate(port.driving):
         part = slice(2 * hub, 2 * hub + 2)
         tilt = tilts[part]
         size = max(hypot(*tilt), LEAST_TILT)
-        now, further = _moments(port, size), _moments(port, size * (1 + STEP))
+        now, further = _moments_and_limit(port, size), _moments_and_limit(port, size * (1 + STEP))
         slopes = (further - now) / (size * STEP)
         sleeve, by_sleeve = _polar(tilt, now, slopes, port.rotation * driving * port.torque / 2)
         loads[:2] += sleeve / port.length
         derivative[:2, part] += by_sleeve / port.length
         if hub == 0:
-            loads[2:], derivative[2:, part] = _polar(tilt, now, slopes, -port.rotation * driving * port.torque / 2)
+            loads[2:4], derivative[2:4, part] = _polar(tilt, now, slopes, -port.rotation * driving * port.torque / 2)
+        if now[2] < least:
+            least = now[2]
+            loads[4], derivative[4] = port.inputs.thrust_fraction * least, 0.0
+            derivative[4, part] = port.inputs.thrust_fraction * slopes[2] * tilt / size
     return loads, derivative
 
 
 def _polar(tilt: FloatArray, moments: FloatArray, slopes: FloatArray, torque: float) -> tuple[FloatArray, FloatArray]:
     """-a e + (b + torque delta) Z x e of a tilt delta e, and its derivative by the tilt's components.
 
-    `moments` holds a and b, `slopes` their derivatives by delta; below the least tilt both are proportional to it.
+    `moments` begins with a and b, `slopes` with their derivatives by delta; below the least tilt both are proportional
+    to it.
     """
     size = hypot(*tilt)
     direction = tilt / size if size > 0.0 else np.array([1.0, 0.0])
     across = np.array([-direction[1], direction[0]])
-    a, b = moments / max(size, LEAST_TILT)
+    a, b = moments[:2] / max(size, LEAST_TILT)
     along = -slopes[0] * direction + (slopes[1] + torque) * across
     turning = -a * across - (b + torque) * direction
     loads = size * (-a * direction + (b + torque) * across)
     return loads, np.outer(along, direction) + np.outer(turning, across)
 
 
-def _moments(port: CouplingPort, tilt: float) -> FloatArray:
-    """Straightening a and loss moment, with the sense of rotation's sign, of a hub."""
+def _moments_and_limit(port: CouplingPort, tilt: float) -> FloatArray:
+    """Straightening a [N m], loss moment with the sense of rotation's sign [N m] and limit of thrust [N] of a hub."""
     hub = hub_moments(port, tilt)
-    return np.array([hub.straightening, port.rotation * hub.loss])
-
-
-def softened(port: CouplingPort, factor: float) -> CouplingPort:
-    """The same coupling with teeth that yield `factor` times as far before they slide."""
-    return replace(port, softness=factor)
+    return np.array([hub.straightening, port.rotation * hub.loss, hub.thrust_limit])

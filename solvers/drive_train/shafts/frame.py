@@ -43,11 +43,12 @@ def frame(arrangement: Arrangement, path: PathOfContact) -> Frame:
     """The frame of a unit.
 
     e_t = sigma Z x e_r is the velocity of the pinion at C; the flank force on the pinion opposes it,
-    n_t = -(cos a_wt e_t + sin a_wt e_r); a helix adds -tan beta_b along y, and y runs along -sigma h Z.
+    n_t = -(cos a_wt e_t + sin a_wt e_r); a helix adds -tan beta_b along y, and y runs along -sigma h Z. A spur pair
+    meshes everywhere at once: there y runs along -sigma Z, whatever its hand is said to be.
     """
     pair = path.pair
     rotation = 1.0 if arrangement.rotation == "counterclockwise" else -1.0
-    hand = 1.0 if arrangement.hand == "right" else -1.0
+    hand = -1.0 if arrangement.hand == "left" and path.plane.tan_base_helix > 0.0 else 1.0
     radial = np.array([cos(arrangement.wheel_angle), sin(arrangement.wheel_angle), 0.0])
     tangential = rotation * np.cross(Z_AXIS, radial)
     angle = pair.working_pressure_angle

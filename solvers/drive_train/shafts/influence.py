@@ -13,10 +13,10 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.drive_train.inputs import DriveTrainInputs, Shaft
 from solvers.drive_train.shafts.bearings import BearingState, bearing_state
-from solvers.drive_train.shafts.coupling_loads import CouplingPort, coupling_port
+from solvers.drive_train.shafts.coupling_loads import LOADS, CouplingPort, coupling_port
 from solvers.drive_train.shafts.frame import Frame, frame
 from solvers.drive_train.shafts.shaft import GRAVITY, ShaftModel, shaft_model
-from solvers.drive_train.shafts.thrust_budget import collar_force
+from solvers.drive_train.shafts.thrust_budget import mesh_thrust
 from solvers.gears.path_of_contact import PathOfContact
 
 
@@ -25,7 +25,8 @@ class ShaftPorts:
     """One shaft and how its ports load its nodes: `loads` (2 planes, 2N, ports), `torques` (N, ports).
 
     `mesh_loads` are the same of the stations' transverse forces alone. Loads that do not change, as vectors
-    (2 planes, 2N): `weight` with half a sleeve, `collar`.
+    (2 planes, 2N): `weight` with half a sleeve, `collar` under the axial force of the mesh. Under that of a coupling on
+    the pinion the collar is part of `loads`.
     """
 
     model: ShaftModel
@@ -54,7 +55,9 @@ class ShaftPorts:
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """The system by its ports, the n stations of the face first, then four a coupling (U, V and the slopes there).
+    """The system by its ports, the n stations of the face first, then five a coupling: U, V, the slopes there, along Z.
+
+    The last is the collar's answer to the coupling's thrust, and nothing without a collar.
 
     `elastic` (ports, ports) [m/N, ...] between bearings at rest, `rest` the motion of the ports under loads that do not
     change; the bearings (pinion's two, wheel's two; X and Y) take `bearing_loads` @ q + `bearing_rest` [N].
@@ -108,11 +111,11 @@ def unit(inputs: DriveTrainInputs, path: PathOfContact) -> Unit:
                 torques[i],
                 speeds[i],
                 directions.shaft_rotation(i),
-                -directions.down,
+                directions.down,
+                GRAVITY * inputs.arrangement.gravity_factor,
             )
         )
-    collar = collar_force(inputs, path, directions, tuple(couplings))
-    sides = [_shaft_ports(inputs, path, directions, stations, tuple(couplings), speeds[i], collar, i) for i in range(2)]
+    sides = [_shaft_ports(inputs, path, directions, stations, tuple(couplings), speeds[i], i) for i in range(2)]
     elastic = sum(_elastic(side) for side in sides)
     shares = [np.einsum("bn,dnp->bdp", side.model.bearing_share, side.loads) for side in sides]
     rests = [np.einsum("bn,dn->bd", side.model.bearing_share, side.fixed) for side in sides]
@@ -152,7 +155,6 @@ def _shaft_ports(
     stations: FloatArray,
     couplings: tuple[CouplingPort, ...],
     speed: float,
-    collar: float,
     index: int,
 ) -> ShaftPorts:
     """One shaft's ports; its own part of the mesh force is +d on the pinion, -d on the wheel."""
@@ -160,7 +162,7 @@ def _shaft_ports(
     z = directions.positions(inputs.face_start, path.plane.face_width, stations)
     hubs = [port.inputs.position for port in couplings if port.inputs.shaft == name]
     model = shaft_model(shaft, torque_position(inputs, index), np.concatenate([z, hubs]))
-    nodes, count = model.z.size, stations.size + 4 * len(couplings)
+    nodes, count = model.z.size, stations.size + LOADS * len(couplings)
     loads, torques = np.zeros((2, 2 * nodes, count)), np.zeros((nodes, count))
     mesh_loads = np.zeros((2, 2 * nodes, stations.size))
     arm, force = directions.arms[index], directions.force
@@ -172,13 +174,16 @@ def _shaft_ports(
         loads[:, nodes + node, k] = -sign * force[2] * arm[:2]
         torques[node, k] = sign * lever
     loads[:, :, : stations.size] += mesh_loads
+    collar = _collar_loads(inputs, path, directions, model, z[-1], index)
     for k, port in enumerate(couplings):
+        first = stations.size + LOADS * k
+        if port.inputs.shaft == "pinion":
+            loads[:, :, first + 4] = -collar
         if port.inputs.shaft == name:
-            node, first = model.node(port.inputs.position), stations.size + 4 * k
+            node = model.node(port.inputs.position)
             loads[0, node, first] = loads[1, node, first + 1] = 1.0
             loads[0, nodes + node, first + 2] = loads[1, nodes + node, first + 3] = 1.0
-            half_sleeve = GRAVITY * inputs.arrangement.gravity_factor * port.inputs.coupling.sleeve_mass
-            weight[:, node] += half_sleeve * directions.down
+            weight[:, node] += port.sleeve_weight
     return ShaftPorts(
         model=model,
         shaft=shaft,
@@ -188,7 +193,7 @@ def _shaft_ports(
         mesh_loads=mesh_loads,
         torques=torques,
         weight=weight,
-        collar=_collar_loads(inputs, path, directions, model, z[-1], collar, index),
+        collar=-mesh_thrust(inputs, path, directions) * collar,
     )
 
 
@@ -198,13 +203,15 @@ def _collar_loads(
     directions: Frame,
     model: ShaftModel,
     position: float,
-    collar: float,
     index: int,
 ) -> FloatArray:
-    """Tilting moment of the collar's axial force [N] on the pinion, -Z on the wheel, at its radius, y = b."""
+    """Tilting moment of a unit axial force of the collar, +Z on the pinion, -Z on the wheel, at its radius, y = b.
+
+    The collar holds what mesh and couplings push along the pinion. Without one it is 0.
+    """
     loads = np.zeros((2, 2 * model.z.size))
     if inputs.collar_radius is not None:
         radius = inputs.collar_radius - (0.0 if index == 0 else path.pair.centre_distance)
         sign = 1.0 if index == 0 else -1.0
-        loads[:, model.z.size + model.node(position)] = -sign * collar * radius * directions.radial[:2]
+        loads[:, model.z.size + model.node(position)] = -sign * radius * directions.radial[:2]
     return loads

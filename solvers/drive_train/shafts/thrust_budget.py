@@ -6,24 +6,25 @@ API 613 (5th ed., 2003) adds the coupling's force numerically and loads a thrust
 from dataclasses import dataclass
 
 from solvers.drive_train.inputs import DriveTrainInputs
-from solvers.drive_train.shafts.coupling_loads import CouplingPort, hub_moments
 from solvers.drive_train.shafts.frame import Frame
 from solvers.gears.path_of_contact import PathOfContact
 
 USABLE = 0.5  # of the ultimate rating
-SMALL_TILT = 1e-6  # rad, where a limit is wanted before the tilts are known
 
 
 @dataclass(frozen=True, slots=True)
 class Thrust:
-    """Of one shaft, towards +Z [N]: mesh, the limit of its couplings' friction, bounds of the thrust bearing's load.
+    """Of one shaft, towards +Z [N]: mesh, its couplings, their friction's limit, bounds of the thrust bearing's load.
 
-    Bounds are None where a collar stands in for the bearing. `use` is the largest load over half the ultimate rating.
-    `customary` is 0.25 T / D, the rule of thumb for couplings.
+    `coupling` is the stated part of the limit, `collar` the force on this shaft that holds mesh and couplings of the
+    pinion, None without a collar. Bounds are None where a collar stands in for the bearing. `use` is the largest load
+    over half the ultimate rating. `customary` is 0.25 T / D, the rule of thumb for couplings.
     """
 
     mesh: float
+    coupling: float
     coupling_limit: float
+    collar: float | None
     lower: float | None
     upper: float | None
     use: float | None
@@ -41,24 +42,14 @@ def mesh_thrust(inputs: DriveTrainInputs, path: PathOfContact, directions: Frame
     return float(tangential * directions.force[2])
 
 
-def collar_force(
-    inputs: DriveTrainInputs, path: PathOfContact, directions: Frame, couplings: tuple[CouplingPort, ...]
-) -> float:
-    """Axial force of the collar on the pinion [N]: it holds what mesh and couplings push; 0 without one."""
-    if inputs.collar_radius is None:
-        return 0.0
-    pushed = sum(
-        port.inputs.thrust_fraction * hub_moments(port, SMALL_TILT).thrust_limit
-        for port in couplings
-        if port.inputs.shaft == "pinion" and port.torque > 0.0
-    )
-    return -(mesh_thrust(inputs, path, directions) + pushed)
-
-
 def thrust_budget(
-    inputs: DriveTrainInputs, mesh: float, limits: tuple[float, float], diameters: tuple[float | None, float | None]
+    inputs: DriveTrainInputs,
+    mesh: float,
+    couplings: tuple[float, float],
+    limits: tuple[float, float],
+    diameters: tuple[float | None, float | None],
 ) -> tuple[Thrust, Thrust]:
-    """Bounds of both shafts' thrust; `mesh` on the pinion, `limits` of the couplings of each shaft [N].
+    """Bounds of both shafts' thrust; `mesh` on the pinion, thrust and limits of the couplings of each shaft [N].
 
     `diameters` [m] of the shafts at their couplings. A collar hands the pinion's couplings on to the wheel's bearing.
     """
@@ -67,36 +58,32 @@ def thrust_budget(
     load = inputs.mesh.distribution
     ratio = load.gears.wheel.teeth / load.gears.pinion.teeth
     torques = (load.load.pinion_torque, load.load.pinion_torque * ratio)
-    customary = [
-        None if diameter is None else 0.25 * torque / diameter
-        for torque, diameter in zip(torques, diameters, strict=True)
-    ]
-    if collared:
-        own = Thrust(mesh, pinion, None, None, None, customary[0])
-        both = pinion + wheel
-        return own, Thrust(
-            -mesh, wheel, -both, both, _use(-both, both, inputs.wheel_shaft.ultimate_thrust), customary[1]
+    bounds = (
+        ((None, None), (-pinion - wheel, pinion + wheel))
+        if collared
+        else (
+            (mesh - pinion, mesh + pinion),
+            (-mesh - wheel, -mesh + wheel),
         )
-    return (
-        Thrust(
-            mesh,
-            pinion,
-            mesh - pinion,
-            mesh + pinion,
-            _use(mesh - pinion, mesh + pinion, inputs.pinion_shaft.ultimate_thrust),
-            customary[0],
-        ),
-        Thrust(
-            -mesh,
-            wheel,
-            -mesh - wheel,
-            -mesh + wheel,
-            _use(-mesh - wheel, -mesh + wheel, inputs.wheel_shaft.ultimate_thrust),
-            customary[1],
-        ),
     )
+    thrusts = [
+        Thrust(
+            mesh=sign * mesh,
+            coupling=couplings[i],
+            coupling_limit=limits[i],
+            collar=-sign * (mesh + couplings[0]) if collared else None,
+            lower=lower,
+            upper=upper,
+            use=_use(lower, upper, inputs.shafts[i].ultimate_thrust),
+            customary=None if (diameter := diameters[i]) is None else 0.25 * torques[i] / diameter,
+        )
+        for i, (sign, (lower, upper)) in enumerate(zip((1.0, -1.0), bounds, strict=True))
+    ]
+    return thrusts[0], thrusts[1]
 
 
-def _use(lower: float, upper: float, ultimate: float | None) -> float | None:
-    """Largest load over the usable half of the rating; None without one."""
-    return None if ultimate is None else max(abs(lower), abs(upper)) / (USABLE * ultimate)
+def _use(lower: float | None, upper: float | None, ultimate: float | None) -> float | None:
+    """Largest load over the usable half of the rating; None without one, or without a bearing."""
+    if lower is None or upper is None or ultimate is None:
+        return None
+    return max(abs(lower), abs(upper)) / (USABLE * ultimate)
