@@ -182,7 +182,7 @@ class FrictionRegime(Group, of=results.Regime):
 
 
 class CouplingLubrication(Group, of=results.Lubrication):
-    """Contact and film of the highest loaded tooth in the tilt position."""
+    """Contact and film of the highest loaded tooth of a revolution."""
 
     views: ClassVar = {
         "hertz_pressure": View(limit=2000.0, bound="upper"),

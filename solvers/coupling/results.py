@@ -131,18 +131,18 @@ class Regime:
 
 @record
 class Lubrication:
-    """Contact and film of the highest loaded tooth in the tilt position (over a revolution with pitch errors).
+    """Contact and film of the highest loaded tooth of a revolution.
 
     `contact_overlap` None: the contact does not travel. `inlet_ratio` None: infinite inlet.
     `load_capacity_coefficient` None: no load.
     """
 
     max_normal_force: float = quantity(
-        "normal force in the tilt position",
+        "largest normal force of a revolution",
         "F_n",
         PAHL,
         unit="n",
-        text="normal force of a tooth where the displacement f_t peaks, or largest with pitch errors",
+        text="met in the tilt position, with spatial kinematics past it, where the displacement f_t peaks",
     )
     hertz_half_width: float = quantity("half width of the Hertzian contact", "a_HZ", f"{PAHL}, Fig. 7", unit="mm")
     hertz_pressure: float = quantity("largest Hertzian pressure", "p_H", unit="mpa")

@@ -1,6 +1,6 @@
 """Air and mist pumped by the teeth of high-speed gears (Milian, Distretti, Leoni, Velex, Gear Technology 2004)."""
 
-from math import pi, tan
+from math import inf, pi, tan
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from solvers.notices import Notice
 from solvers.pumping.checks import check_speed
 from solvers.pumping.flow.nozzle import Gas
 from solvers.pumping.flow.space_flow import SpaceFlow
-from solvers.pumping.inputs import PumpingInputs
+from solvers.pumping.inputs import Flow, PumpingInputs
 from solvers.pumping.lead_correction import LeadCorrection, lead_correction
 from solvers.pumping.notices import flow_notices, net_flow_notices, resolution_notices, speed_notices
 from solvers.pumping.pulsation import Pulsation, pulsation
@@ -96,7 +96,14 @@ def _on_grids(mesh: Mesh, space: Space, speed: float, slices: int) -> Grids:
     """One stroke at the resolution asked for, and at coarser ones to see what it is worth."""
     flow = flow_at(mesh, space, speed, slices)  # first, for it refuses what takes too long
     half, quarter = (coarser_flow_at(mesh, space, speed, slices, times) for times in (2, 4))
-    return Grids(flow, half, quarter)
+    return Grids(flow, half, quarter, _lead(mesh, space, speed))
+
+
+def _lead(mesh: Mesh, space: Space, speed: float) -> float:
+    """By how much sound gets ahead of the meshing line or falls behind it; only gas dynamics has waves."""
+    if mesh.setup.model.flow is not Flow.GAS_DYNAMICS:
+        return inf
+    return abs(mesh.gas.sound_speed * space.lag / (speed * space.speed_ratio) - 1.0)
 
 
 def _spaces_result(gas: Gas, space: Space, grids: Grids, frequency: float) -> SpacesResult:

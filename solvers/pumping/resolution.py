@@ -5,6 +5,11 @@ grid convergence index states three times their difference as the uncertainty of
 1994, 405). Extremes wander between the slices, and two grids may agree on one by luck: a third with a quarter of the
 resolution has a say, a fifth is added, and so are places that are not the highest yet but rise with the resolution. Of
 800 random pairs, one then moves by more than it states with twice the slices, by a hundredth more.
+
+Grids may also agree on an extreme while the pressure around it differs, because they damp its waves alike: what they
+differ by close to it counts as well. And where the meshing line moves along the face about as fast as sound, its own
+waves leave it within a layer too thin for the slices of the coarser grids. These see none of it and agree among
+themselves; nothing is then deduced from how fast they converge.
 """
 
 from math import expm1
@@ -21,15 +26,26 @@ SAFETY = 3.0
 OF_EXTREMES = 1.2  # times that
 RISE = 2.0  # times what a place rose from half the resolution to all of it, it may still rise
 NEAR = 0.97  # of the largest Mach number: from there on that of the slices may overtake the one at the end of the face
+CLOSE = 0.9  # of an extreme gauge pressure: where and while that is reached, the pressure is close to the extreme
+SPREAD = 4.0  # slices over which a grid spreads a wave
 LOST = 1.0  # where a pressure is not known to its own size, no number is: the finer flow may be another one
 
 
 class Grids(NamedTuple):
-    """One stroke at the resolution asked for, at half and at a quarter of it."""
+    """One stroke at the resolution asked for, at half and at a quarter of it.
+
+    `lead`: by how much sound gets ahead of the meshing line along the face, or falls behind it, as a share of the way.
+    """
 
     flow: SpaceFlow
     halved: SpaceFlow
     quartered: SpaceFlow
+    lead: float
+
+    @property
+    def blind(self) -> bool:
+        """Whether the waves of the meshing line stay closer to it than the coarsest grid resolves."""
+        return self.lead * self.quartered.position.size < SPREAD
 
 
 def resolution(gas: Gas, spaces: list[Grids]) -> Resolution:
@@ -99,11 +115,29 @@ def radial_uncertainty(grids: Grids, jumped: float) -> float:
 
 def _shares(gas: Gas, grids: Grids) -> dict[str, float]:
     """Relative uncertainties of the summary of one space."""
-    fine, half, quarter = (_summary(gas, flow) for flow in grids)
+    fine, half, quarter = (_summary(gas, flow) for flow in (grids.flow, grids.halved, grids.quartered))
     shares = {name: _relative(value, half[name], quarter[name]) for name, value in fine.items()}
     for name, reach in _reaches(gas, grids).items():
         shares[name] = max(OF_EXTREMES * shares[name], _of(reach - fine[name], fine[name]))
+    apart = _side_by_side(gas, grids.flow, grids.halved)
+    for name, sign in (("peak_pressure", 1.0), ("min_pressure", -1.0)):
+        around = SAFETY * _of(_difference(*(sign * pressure for pressure in apart)), fine[name])
+        unseen = SAFETY * _of(abs(quarter[name] - fine[name]), fine[name]) if grids.blind else 0.0
+        shares[name] = max(shares[name], around, unseen)
     return shares
+
+
+def _side_by_side(gas: Gas, fine: SpaceFlow, coarse: SpaceFlow) -> tuple[FloatArray, FloatArray]:
+    """Gauge pressures [Pa] of two grids at the angles of the coarse and the positions of the fine one."""
+    here = [np.interp(coarse.angle, fine.angle, column) for column in fine.pressure.T]
+    there = [np.interp(fine.position, coarse.position, row) for row in coarse.pressure]
+    return np.transpose(here) - gas.pressure, np.array(there) - gas.pressure
+
+
+def _difference(here: FloatArray, there: FloatArray) -> float:
+    """Root mean square of the difference of two pressures where and while both are close to their maximum."""
+    close = (here >= CLOSE * here.max()) & (there >= CLOSE * there.max())
+    return float(np.sqrt(np.mean((here - there)[close] ** 2))) if close.any() else 0.0
 
 
 def _summary(gas: Gas, flow: SpaceFlow) -> dict[str, float]:
@@ -124,7 +158,7 @@ def _summary(gas: Gas, flow: SpaceFlow) -> dict[str, float]:
 
 def _reaches(gas: Gas, grids: Grids) -> dict[str, float]:
     """What extremes over the face may reach with more slices."""
-    fine, half, _ = grids
+    fine, half = grids.flow, grids.halved
     here, there = _profiles(gas, fine), _profiles(gas, half)
     reaches = {name: _reach(fine.position, here[name], half.position, there[name]) for name in here}
     reaches["axial_mach"] = _mach_reach(fine, half)

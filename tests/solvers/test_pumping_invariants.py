@@ -27,10 +27,12 @@ from tests.pumping_cases import (
     check_books,
     check_no_jump,
     check_resolution,
+    numbers,
     random_gears,
     random_setup,
     random_speed,
     rough_gears,
+    spaces_of,
 )
 
 WEAK = PumpingSetup(
@@ -320,6 +322,23 @@ def test_a_stroke_faster_than_sound_takes_one_course() -> None:
         assert wheel is not None
         net.append(wheel.mass_flow.rear)
     assert net[0] == pytest.approx(net[1], rel=0.04)
+
+
+def test_waves_that_stay_with_the_meshing_line_are_not_called_resolved() -> None:
+    """At 0.96 times the speed of sound grids of 25, 50 and 100 slices agree on 2638 Pa at the peak, 400 have 2662.
+
+    Stated before: 0.53 % of the peak and 0.55 % of the least pressure, which move by 0.90 and 0.98 %.
+    """
+    gears = GearPairInputs(GearTeeth(45, 0.16), GearTeeth(98, -0.07), 6e-3, 0.0633, helix_angle=radians(6.3))
+    setup = PumpingSetup(gears, normal_backlash=0.49e-3)
+    coarse, fine = (
+        solve(PumpingInputs(replace(setup, model=PumpingModel(slices=slices)), 2682 * pi / 30)) for slices in (100, 400)
+    )
+    stated = {"peak_pressure": coarse.resolution.peak_pressure, "min_pressure": coarse.resolution.min_pressure}
+    for here, there in zip(spaces_of(coarse), spaces_of(fine), strict=True):
+        for name, share in stated.items():
+            before, after = numbers(here)[name], numbers(there)[name]
+            assert abs(after - before) < share * before < 0.02 * before, (name, before, after, share)
 
 
 @pytest.mark.slow

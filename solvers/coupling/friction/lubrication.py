@@ -47,9 +47,11 @@ class FilmState:
 
 
 def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
-    """Largest normal tooth force [N], met by a tooth where f_t peaks; with pitch errors searched over a revolution.
+    """Largest normal tooth force of a revolution [N]; with pitch errors it is searched for.
 
-    The tilt position of `tangential` is where f_t peaks. `spatial` has the same f_t, turned: where its own peaks.
+    Without, a tooth meets it where f_t peaks: in the tilt position at 90 degrees with `tangential`, at 90 degrees +
+    side (alpha - chi) with `spatial` kinematics. A rotor angle that puts a tooth of the spatial coupling at 90 degrees
+    puts no tooth at the peak; its largest force depends on the tooth pitch, and vanishing pitch errors would raise it.
     """
     peak = displacement_peak(mesh)
     if inputs.coupling.pitch_errors is None:
