@@ -4,16 +4,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from app.requests.common import Request
 from app.requests.drive_train import DriveTrainRequest
 from app.requests.line_contact import LineContactRequest
 from app.requests.load_distribution import LoadDistributionRequest
 from app.requests.scuffing import ScuffingRequest
-from app.responses.common import Response
 from app.responses.drive_train import DriveTrainResponse
-from app.responses.line_contact import LineContactResponse
 from app.responses.load_distribution import LoadDistributionResponse
 from app.responses.scuffing import ScuffingResponse
+from app.schema.base import Request, Response
 from app.schema.coupling import (
     CouplingRequest,
     CouplingResponse,
@@ -22,6 +20,7 @@ from app.schema.coupling import (
     SleeveOrbitRequest,
     SleeveOrbitResponse,
 )
+from app.schema.line_contact import LineContactResponse
 from app.schema.pumping import ChokingSpeedRequest, ChokingSpeedResponse, PumpingRequest, PumpingResponse
 from solvers import coupling, drive_train, pumping, scuffing
 from solvers.contact import ehl

@@ -4,9 +4,9 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from app.problems import Unprocessable
-from app.requests.common import Request
 from app.requests.drive_train import DriveTrainRequest
 from app.requests.scuffing import ScuffingRequest
+from app.schema.base import Request
 from app.schema.pumping import ChokingSpeedRequest
 from solvers.contact.ehl.solution.budget import Resolution, price
 

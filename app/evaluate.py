@@ -7,11 +7,10 @@ from typing import Any
 from app.calculations import Calculation
 from app.plausibility import unusual
 from app.problems import Unprocessable
-from app.requests.common import Request, Section
-from app.responses.common import MODEL_VERSION, Notice, Response
+from app.schema.base import MODEL_VERSION, Notice, Request, Response, Section
 from app.schema.cases import case_of
 from app.schema.conversion import from_si, group_of
-from app.schema.names import field_path
+from app.schema.paths import field_path
 from app.schema.quantities import Input
 from app.sources import SOURCES
 from solvers import notices

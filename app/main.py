@@ -10,8 +10,8 @@ from app import problems
 from app.answers import Answers
 from app.compression import Compression
 from app.protection import Protection
-from app.responses.common import MODEL_VERSION
 from app.routes import calculations, figures, pages, service, studies, study_pages, vary
+from app.schema.base import MODEL_VERSION
 from app.settings import MEBIBYTE, settings
 from app.start_up import StartUp
 from app.studies.office import Office

@@ -4,8 +4,7 @@ from collections.abc import Iterator
 from math import cos, pi, radians
 from typing import Any
 
-from app.requests.common import Request
-from app.responses.common import Notice
+from app.schema.base import Notice, Request
 from solvers.lubricants import thick_oil
 
 THIN_AIR = 20.0  # kPa

@@ -8,7 +8,7 @@ from app.figures.data import Figure, NoFigure, ThemeName
 from app.figures.declaration import Declaration
 from app.figures.tables import table
 from app.problems import Unprocessable
-from app.requests.common import Request
+from app.schema.base import Request
 
 Format = Literal["svg", "png", "pdf", "csv"]
 MEDIA_TYPES: dict[Format, str] = {

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from io import StringIO
 from typing import Any
 
-from app.responses.common import Response
+from app.schema.base import Response
 from app.schema.fields import Leaf, leaf_at, leaves
 
 

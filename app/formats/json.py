@@ -2,8 +2,7 @@
 
 from app.calculations import Calculation
 from app.evaluate import evaluate
-from app.requests.common import Request
-from app.responses.common import Response
+from app.schema.base import Request, Response
 from app.schema.conversion import above
 from solvers.quantity import Detail
 

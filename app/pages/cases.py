@@ -11,8 +11,7 @@ from app.figures.registry import figures_of
 from app.pages.query import Pairs, body_of
 from app.problems import Unprocessable
 from app.reading import InvalidBody, validated
-from app.requests.common import Request
-from app.responses.common import Response
+from app.schema.base import Request, Response
 
 COMPRESSION = 1
 

@@ -8,7 +8,7 @@ from app.pages.blocks import Block, Choice, Rows, Section, Single, Twins
 from app.pages.fields import FieldView, State, anchor, field_view
 from app.pages.query import PICK, PRESENT
 from app.pages.typesetting import symbol
-from app.requests.common import Request
+from app.schema.base import Request
 from app.schema.fields import ITEM
 from app.schema.tree import Branch, Field, tree
 

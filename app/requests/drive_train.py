@@ -5,12 +5,12 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
-from app.requests.common import Request, Section
 from app.requests.drive_train_couplings import UnitCoupling
 from app.requests.drive_train_heat import ToothHeat, TrainTemperatures
 from app.requests.drive_train_mesh import TrainGears, TrainModel, TrainModifications, TrainOperation
 from app.requests.drive_train_shafts import UnitShaft
 from app.requests.oil import Oil
+from app.schema.base import Request, Section
 from app.schema.conversion import to_si
 from app.schema.gears import GearMaterials
 from app.schema.pumping import GearGroove, Mist

@@ -4,9 +4,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from app.requests.common import Section
 from app.requests.coupling_lubricant import CouplingLubricant
 from app.requests.drive_train_shafts import Pair
+from app.schema.base import Section
 from app.schema.conversion import to_si
 from app.schema.coupling import CouplingFriction, CrownedCoupling
 from app.schema.quantities import Input

@@ -2,8 +2,8 @@
 
 from typing import Annotated
 
-from app.requests.common import Section
 from app.requests.scuffing import ContactTemperatures
+from app.schema.base import Section
 from app.schema.quantities import Input
 from solvers.drive_train import inputs as si
 from solvers.sources import XUE

@@ -6,10 +6,10 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from app.requests.common import Section
 from app.requests.flank_modifications import FlankModifications
 from app.requests.load_distribution import ScuffingLoad
 from app.requests.scuffing import ScuffingModel
+from app.schema.base import Section
 from app.schema.conversion import to_si
 from app.schema.gears import BacklashGears
 from app.schema.pumping import PumpingOptions

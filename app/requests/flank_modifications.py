@@ -3,7 +3,7 @@
 from dataclasses import replace
 from typing import Annotated
 
-from app.requests.common import Section
+from app.schema.base import Section
 from app.schema.quantities import Input
 from solvers.scuffing import inputs as si
 from solvers.sources import XUE

@@ -3,8 +3,8 @@
 from dataclasses import replace
 from typing import Annotated, Any
 
-from app.requests.common import Request, Section
 from app.requests.oil import Oil
+from app.schema.base import Request, Section
 from app.schema.conversion import to_si
 from app.schema.gears import Surface
 from app.schema.quantities import Input

@@ -5,8 +5,8 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from app.requests.common import Request, Section
 from app.requests.flank_modifications import FlankModifications
+from app.schema.base import Request, Section
 from app.schema.conversion import to_si
 from app.schema.gears import GearMaterials, ScuffingGears
 from app.schema.quantities import Input

@@ -6,11 +6,11 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from app.requests.common import Section
 from app.requests.line_contact import FilmModel
 from app.requests.load_distribution import LoadDistributionModel, LoadDistributionRequest
 from app.requests.oil import Oil
 from app.requests.temperatures import OIL_TEMPERATURE, SCUFFING_TEMPERATURE
+from app.schema.base import Section
 from app.schema.conversion import to_si
 from app.schema.quantities import Input
 from solvers.scuffing import inputs as si

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from app.requests.common import Section
+from app.schema.base import Section
 from app.schema.conversion import to_si
 from app.schema.quantities import Input
 from solvers.oils import OilKind, OilSheet, iso_vg

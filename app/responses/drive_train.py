@@ -2,10 +2,10 @@
 
 from typing import Annotated, ClassVar
 
-from app.responses.common import Group, Response
 from app.responses.drive_train_parts import DriveTrainDerived, ShaftState, ShaftSummary, UnitCouplingState
 from app.responses.gear_mesh import ISO_6336, Values
 from app.responses.load_distribution import MAP, FlankPlace, Gaps
+from app.schema.base import Group, Response
 from app.schema.quantities import Output
 from solvers.quantity import UNITS
 

@@ -2,9 +2,9 @@
 
 from typing import Annotated
 
-from app.responses.common import Group
 from app.responses.gear_mesh import Values
 from app.responses.load_distribution import MeshDerived
+from app.schema.base import Group
 from app.schema.quantities import Output
 
 XY = "X, Y"

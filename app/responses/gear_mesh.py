@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from app.responses.common import Group
+from app.schema.base import Group
 from app.schema.quantities import Output
 
 XUE = "Xue 2020"

@@ -2,7 +2,6 @@
 
 from typing import Annotated
 
-from app.responses.common import Derived, Group, Response
 from app.responses.gear_mesh import (
     ISO_6336,
     XUE,
@@ -13,6 +12,7 @@ from app.responses.gear_mesh import (
     TransmissionErrorResult,
     Values,
 )
+from app.schema.base import Derived, Group, Response
 from app.schema.quantities import Output
 
 Gaps = list[float | None]

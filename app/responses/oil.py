@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from app.responses.common import Derived
+from app.schema.base import Derived
 from app.schema.quantities import Output
 
 

@@ -2,10 +2,10 @@
 
 from typing import Annotated, ClassVar
 
-from app.responses.common import Group
 from app.responses.gear_mesh import XUE, Values
 from app.responses.load_distribution import Gaps, LoadDistributionResponse, ScuffingDerived
 from app.responses.oil import OilDerived
+from app.schema.base import Group
 from app.schema.quantities import Output
 from solvers.contact.film import Regime
 from solvers.scuffing.safety_results import PointStatus

@@ -13,7 +13,7 @@ from app.formats.json import answer
 from app.library import body_of
 from app.problems import documented
 from app.reading import read
-from app.requests.common import Request as Model
+from app.schema.base import Request as Model
 from app.settings import Settings
 from app.start_up import StartUp
 from app.workers.admission import Runner

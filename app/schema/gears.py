@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from app.requests.common import Section
+from app.schema.base import Section
 from app.schema.model import declared
 from app.schema.quantities import Input
 from solvers.gears.inputs import GearPairInputs, GearTeeth

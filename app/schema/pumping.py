@@ -3,8 +3,7 @@
 from dataclasses import replace
 from typing import Annotated, Any, ClassVar
 
-from app.requests.common import Request, Section
-from app.responses.common import Derived, Group, Response
+from app.schema.base import Derived, Group, Request, Response, Section
 from app.schema.conversion import to_si
 from app.schema.gears import PumpingGears
 from app.schema.quantities import Input, View

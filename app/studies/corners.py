@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from app.problems import Unprocessable
 from app.reading import read
-from app.responses.common import MODEL_VERSION
+from app.schema.base import MODEL_VERSION
 from app.sources import SOURCES
 from app.studies.engine import Pool, Work, in_order
 from app.studies.lines import point_line

@@ -5,7 +5,7 @@ from typing import Any
 from app.calculations import BY_PATH, Calculation
 from app.problems import Unprocessable
 from app.reading import InvalidBody, validated
-from app.requests.common import Request
+from app.schema.base import Request
 from app.schema.cases import case_of
 from app.sources import SOURCES
 from app.studies.points import with_overrides

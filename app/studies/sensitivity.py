@@ -8,7 +8,7 @@ from typing import Any
 from app.calculations import Calculation
 from app.problems import Unprocessable
 from app.reading import read
-from app.responses.common import MODEL_VERSION
+from app.schema.base import MODEL_VERSION
 from app.schema.fields import ITEM, Leaf, leaves
 from app.sources import SOURCES
 from app.studies.differences import Differences, Probe, probe

@@ -5,7 +5,7 @@ from typing import Any
 
 from app.problems import Unprocessable
 from app.reading import read
-from app.responses.common import MODEL_VERSION
+from app.schema.base import MODEL_VERSION
 from app.schema.fields import Leaf
 from app.sources import SOURCES
 from app.studies.engine import Pool, Work, in_order, twice_if_lost

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from app.calculations import BY_PATH
-from app.requests.common import Request
-from app.schema.names import field_path
+from app.schema.base import Request
+from app.schema.paths import field_path
 from app.schema.units import split_unit
 from app.studies.fields import set_value
 from app.studies.requests import Axis, Scalar

@@ -12,8 +12,8 @@ from app.calculations import CALCULATIONS, Calculation
 from app.evaluate import evaluate
 from app.formats.json import written
 from app.library import examples
-from app.requests.common import Request
-from app.schema.names import field_path
+from app.schema.base import Request
+from app.schema.paths import field_path
 from app.sources import SOURCES
 
 BY_PATH = {each.path: each for each in CALCULATIONS}

@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from app.requests.common import Request
 from app.requests.load_distribution import LoadDistributionRequest
+from app.schema.base import Request
 from app.schema.coupling import CouplingRequest
 from app.schema.messages import Fault, faults
 

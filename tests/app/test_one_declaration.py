@@ -11,7 +11,7 @@ from app.calculations import CALCULATIONS
 from app.evaluate import evaluate
 from app.formats.json import written
 from app.library import examples
-from app.responses.common import Group
+from app.schema.base import Group
 from app.schema.conversion import from_si
 from app.schema.coupling import CouplingResponse
 from app.schema.fields import leaf_at

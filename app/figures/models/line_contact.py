@@ -6,7 +6,7 @@ from app.figures.data import Axis, Figure, Hue, Line, Map, Mark, NoFigure, Panel
 from app.figures.declaration import Declaration, present
 from app.figures.wording import number, percent
 from app.requests.line_contact import LineContactRequest
-from app.responses.line_contact import LineContactResponse
+from app.schema.line_contact import LineContactResponse
 
 ACROSS = "position across the contact, along the flow"
 THICK = 3.0  # film beyond so many central films is inlet and outlet, not contact
