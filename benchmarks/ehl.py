@@ -21,7 +21,11 @@ ISOTHERMAL = Model(thermal=False, rheology="newtonian")
 
 def path(model: Model, points: int = 50) -> list[LineContactInputs]:
     """Gear pair 1 from A to E at 273 N/mm."""
-    pair = gear_pair(GearPairInputs(GearTeeth(23), GearTeeth(30), 3e-3, 20e-3, radians(20.0), radians(9.8)))
+    pair = gear_pair(
+        GearPairInputs(
+            GearTeeth(23), GearTeeth(30), 3e-3, 20e-3, pressure_angle=radians(20.0), helix_angle=radians(9.8)
+        )
+    )
     turn = 2000 * pi / 30
     contacts = []
     for k in range(points):

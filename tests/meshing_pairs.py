@@ -1,5 +1,6 @@
 """Random gear pairs that mesh, for properties that hold for any."""
 
+from dataclasses import replace
 from math import radians
 
 from hypothesis import assume
@@ -39,7 +40,7 @@ def setups(draw: st.DrawFn, *, helix: bool = True) -> PumpingSetup:
     try:
         apart = gear_pair(gears).backlash_free_centre_distance + module * draw(st.floats(0, 0.05))
         meshed = PumpingSetup(
-            GearPairInputs(*(getattr(gears, name) for name in gears.__slots__[:6]), apart, gears.rack_tip_radius),
+            replace(gears, centre_distance=apart),
             normal_backlash=setup.normal_backlash,
         )
         prepare(meshed)

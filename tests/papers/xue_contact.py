@@ -16,7 +16,9 @@ from solvers.gears.pair import gear_pair
 
 LINE_LOAD = 2.73e5  # N/m
 START = Contact(LINE_LOAD, 4.015e-3, 1.0179, 3.7076)  # approach point A
-PAIR_1 = GearPairInputs(GearTeeth(23), GearTeeth(30), 3e-3, 20e-3, radians(20.0), radians(9.8))
+PAIR_1 = GearPairInputs(
+    GearTeeth(23), GearTeeth(30), 3e-3, 20e-3, pressure_angle=radians(20.0), helix_angle=radians(9.8)
+)
 PATH_POINTS = 50
 
 

@@ -93,7 +93,12 @@ def test_coarse_grids_dissipate_at_low_speed() -> None:
     # what a Riemann solver's pressure loses at jumps of velocity between slices falls with the Mach number more slowly
     # than the power: 12 slices make it 2 times too large at Mach 0.01, 50 agree with 100 to half a percent
     gears = GearPairInputs(
-        GearTeeth(18, 0.0, 1.0, 1.5), GearTeeth(25, 0.0, 1.0, 1.5), 7.8125e-3, 0.125, radians(17), radians(20)
+        GearTeeth(18, 0.0, 1.0, 1.5),
+        GearTeeth(25, 0.0, 1.0, 1.5),
+        7.8125e-3,
+        0.125,
+        pressure_angle=radians(17),
+        helix_angle=radians(20),
     )
     setup = PumpingSetup(gears, 0.0)
     speeds = {12: (10.0, 20.0, 40.0), 50: (20.0, 40.0), 100: (40.0,)}
@@ -180,7 +185,9 @@ def test_mean_temperatures_are_those_of_the_field() -> None:
 
 def test_pulses_of_two_equal_gears_alternate() -> None:
     # a space of the wheel is in the middle half a period after one of the pinion: odd orders cancel, even ones double
-    gears = GearPairInputs(GearTeeth(40, 0.1), GearTeeth(40, 0.1), 5e-3, 0.1, radians(20), rack_tip_radius=0.25)
+    gears = GearPairInputs(
+        GearTeeth(40, 0.1), GearTeeth(40, 0.1), 5e-3, 0.1, pressure_angle=radians(20), rack_tip_radius=0.25
+    )
     alone, both = (
         solve(PumpingInputs(PumpingSetup(gears, 0.0, model=PumpingModel(gap=Gap.TIP, spaces=spaces)), 600.0)).pulsation
         for spaces in (Spaces.PINION, Spaces.BOTH)

@@ -204,7 +204,7 @@ def test_fillet_joins_involute_and_bottom_land(setup: PumpingSetup) -> None:
 @pytest.mark.parametrize("helix", [0.0, 0.4])
 def test_fillet_is_the_envelope_of_the_rack(teeth: GearTeeth, helix: float) -> None:
     # roll the rack tooth through the blank: nothing of it may pass the profile, and it must touch it everywhere
-    gears = GearPairInputs(teeth, GearTeeth(60, 0.4), 5e-3, 0.05, 0.35, helix)
+    gears = GearPairInputs(teeth, GearTeeth(60, 0.4), 5e-3, 0.05, pressure_angle=0.35, helix_angle=helix)
     pair = gear_pair(gears)
     gear, root = pair.pinion, root_profile(gears, teeth, pair.pinion)
     arc = np.linspace(0, np.pi / 2 - 0.35, 400)

@@ -36,7 +36,15 @@ from tests.pumping_cases import (
 )
 
 WEAK = PumpingSetup(
-    GearPairInputs(GearTeeth(47), GearTeeth(117), 7e-3, 0.03, radians(20), radians(20), rack_tip_radius=0.25),
+    GearPairInputs(
+        GearTeeth(47),
+        GearTeeth(117),
+        7e-3,
+        0.03,
+        pressure_angle=radians(20),
+        helix_angle=radians(20),
+        rack_tip_radius=0.25,
+    ),
     model=PumpingModel(gap=Gap.TIP, spaces=Spaces.PINION),
 )
 
@@ -80,9 +88,9 @@ def test_a_slice_that_ends_its_stroke_within_a_step_is_no_peak() -> None:
             GearTeeth(92, 0.1648532859400542, 1.0425728249685073, 1.3022469942755852),
             5e-3,
             0.13857141301725098,
-            radians(20),
-            0.10072094843317085,
-            0.3217315628663042,
+            pressure_angle=radians(20),
+            helix_angle=0.10072094843317085,
+            centre_distance=0.3217315628663042,
             rack_tip_radius=0.2702237256753388,
         ),
         normal_backlash=0.00029620273202542337,
@@ -249,9 +257,9 @@ def test_where_pressures_are_lost_no_number_is_called_known() -> None:
         GearTeeth(21, 0.29914633129765145, 0.9458162664287502, 1.2409903172810326),
         0.01,
         0.26930643857833836,
-        radians(20),
-        0.2903381865026459,
-        0.21468543570320542,
+        pressure_angle=radians(20),
+        helix_angle=0.2903381865026459,
+        centre_distance=0.21468543570320542,
         rack_tip_radius=0.25843878968564726,
     )
     setup = PumpingSetup(gears, 0.00015405195933059767, model=PumpingModel(gap=Gap.TIP, spaces=Spaces.WHEEL))

@@ -112,7 +112,12 @@ def test_tips_that_reach_below_an_involute_shorten_the_path(pair: GearPairInputs
 def test_jumping_feet_of_tip_gaps_are_named() -> None:
     setup = PumpingSetup(
         GearPairInputs(
-            GearTeeth(19, 0.0, 0.7, 0.85), GearTeeth(25, 0.0, 0.7, 0.85), 1e-3, 0.01, 0.2967, rack_tip_radius=0.1
+            GearTeeth(19, 0.0, 0.7, 0.85),
+            GearTeeth(25, 0.0, 0.7, 0.85),
+            1e-3,
+            0.01,
+            pressure_angle=0.2967,
+            rack_tip_radius=0.1,
         ),
         normal_backlash=0.0,
         model=PumpingModel(gap=Gap.TIP, slices=10),
@@ -180,10 +185,10 @@ def test_a_chain_whose_flow_turns_round_takes_finer_steps() -> None:
         GearTeeth(136, 0.0, 1.072923182032606, 1.2605652403431145),
         0.0035877575329388294,
         0.01584270315227065,
-        0.3141592653589793,
-        0.5247308275427033,
-        0.31920332047188477,
-        0.173941375245739,
+        pressure_angle=0.3141592653589793,
+        helix_angle=0.5247308275427033,
+        centre_distance=0.31920332047188477,
+        rack_tip_radius=0.173941375245739,
     )
     options = PumpingModel(flow=Flow.POCKET_CHAIN, slices=6, spaces=Spaces.PINION)
     result = solved(PumpingSetup(gears, 4.305309039526595e-08, model=options), 11892.522826318651).pinion_spaces
