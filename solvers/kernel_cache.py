@@ -1,14 +1,14 @@
-"""Machine code of compiled kernels on disk: never stale, never in the way.
+"""Where numba keeps the machine code of compiled kernels: never stale, in whatever folder there is.
 
-Numba's own cache notices a change of the file that a kernel stands in, not of the files whose kernels it calls. Here
+Numba's own locators notice a change of the file that a kernel stands in, not of the files whose kernels it calls. Here
 the code of a module lies in a folder named by a hash of that module, of every module of this package that it imports,
-directly or not, and of the versions of Python and numba: an edit or an upgrade anywhere below gives another folder.
+directly or not, of the versions of Python and numba and of the processor: a change of any of them gives another folder.
 
 A folder that cannot be written is read all the same (an installation compiled once and mounted read-only), a broken
-file is compiled again, and where nothing can be written kernels live in memory.
+file is removed and compiled again, and where there is no folder kernels live in memory. Where nothing can be written
+and a kernel is called with types that the folder does not hold, numba raises OSError.
 """
 
-import fcntl
 import hashlib
 import logging
 import os
@@ -18,95 +18,122 @@ import shutil
 import sys
 import tempfile
 import time
+from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from pickletools import genops
 from typing import Any
 
 import numba
-from llvmlite.binding import get_host_cpu_name
-from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile
+from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
 
 PACKAGE = Path(__file__).resolve().parent
 IMPORT = re.compile(rf"^\s*(?:from|import)\s+({PACKAGE.name}[\w.]*)(?:\s+import\s+(\([^)]*\)|[^\n#]*))?", re.MULTILINE)
 
-KEPT_UNUSED_S = 30 * 86400
+KEPT_UNUSED_S = 30 * 86400  # a month: folders of earlier versions serve again when one goes back and forth
+NEEDED_BYTES = 100_000_000  # all kernels take 25 MB; some room for two versions
+
+PICKLES = {".nbi": 2, ".nbc": 1}  # how many pickles numba writes into an index and into a file of code
 
 logger = logging.getLogger(__name__)
 
 
-class KernelCache(FunctionCache):
-    """The cached machine code of one kernel, in the form that numba's dispatcher uses."""
+class KernelLocator:
+    """Where the machine code of one kernel lies, in the form that NUMBA_CACHE_LOCATOR_CLASSES asks for."""
 
-    def __init__(self, function: Callable[..., Any], variant: str) -> None:
-        folder = folder_name(Path(function.__code__.co_filename).resolve())
-        base = f"{function.__qualname__}-{function.__code__.co_firstlineno}{variant}"
-        self._files = [IndexDataCacheFile(str(root / folder), base, folder) for root in roots()]
-        self._name = function.__qualname__
-        self._py_func = function
-        self._impl = _Implementation(function)
-        self._enabled = True
+    def __init__(self, function: Callable[..., Any], folder: Path) -> None:
+        self._line = function.__code__.co_firstlineno
+        self._folder = folder
 
-    @property
-    def cache_path(self) -> str:
-        """Where new code is written, or would be."""
-        writable = writable_root()
-        return str(writable or "")
+    @classmethod
+    def from_function(cls, function: Callable[..., Any], file: str) -> "KernelLocator | None":
+        """The locator of a kernel that is defined in `file`."""
+        folder = cache_folder(Path(file).resolve())
+        return None if folder is None else cls(function, folder)
 
-    def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """The compiled kernel, or None where no folder has a sound one."""
-        target_context.refresh()
-        key = FunctionCache._index_key(self, sig, target_context.codegen())
-        for file in self._files:
-            try:
-                data = file.load(key)
-                if data is not None:
-                    return self._impl.rebuild(target_context, data)
-            except Exception as error:  # noqa: BLE001  whatever a broken file makes of the reader
-                logger.warning("discarded a broken kernel cache: %s (%s)", file._index_path, error)
-                _discard(Path(file._index_path))
-        return None
+    def ensure_cache_path(self) -> None:
+        """Make the folder: numba asks for it before it writes."""
+        self._folder.mkdir(parents=True, exist_ok=True)
 
-    def save_overload(self, sig: Any, data: Any) -> None:
-        """Keep the compiled kernel where possible; one process at a time writes to a folder."""
-        root = writable_root()
-        if root is None or not self._impl.check_cachable(data):
-            return
-        file = self._files[roots().index(root)]
-        try:
-            with _locked(Path(file._cache_path)):
-                file.save(FunctionCache._index_key(self, sig, data.codegen), self._impl.reduce(data))
-        except OSError as error:
-            logger.warning("kernels are kept in memory only: %s", error)
-            writable_root.cache_clear()
-            _unwritable.add(root)
+    def get_cache_path(self) -> str:
+        """Where numba reads and writes."""
+        return str(self._folder)
+
+    def get_source_stamp(self) -> str:
+        """What the code was compiled from: the folder's name is a hash of it."""
+        return self._folder.name
+
+    def get_disambiguator(self) -> str:
+        """What tells two kernels of the same name in one module apart."""
+        return str(self._line)
 
 
-class _Implementation(CompileResultCacheImpl):
-    """Numba's way to store a compiled function, without its search for a place."""
-
-    def __init__(self, function: Callable[..., Any]) -> None:
-        self._lineno = function.__code__.co_firstlineno
-        self._locator = _Source(function.__code__.co_filename)
-
-
-@dataclass
-class _Source:
-    """What numba's warnings want to know of a locator."""
-
-    _py_file: str
+@contextmanager
+def located() -> Iterator[None]:
+    """Kernels decorated in this context have their machine code where `KernelLocator` says; no others."""
+    config: Any = numba.config  # fills its attributes from the environment
+    before = config.CACHE_LOCATOR_CLASSES
+    config.CACHE_LOCATOR_CLASSES = f"{KernelLocator.__module__}.{KernelLocator.__qualname__}"
+    try:
+        yield
+    finally:
+        config.CACHE_LOCATOR_CLASSES = before
 
 
-_unwritable: set[Path] = set()
+@cache
+def cache_folder(source: Path) -> Path | None:
+    """The folder for the machine code of the module `source`, or None if there is no place for it.
+
+    It lies in the first root that can be written. Where none can, a folder that is there already is read. Numba reads
+    and writes in one folder: what an earlier root holds that can only be read is linked into the one that is written.
+    """
+    name = folder_name(source)
+    existing = next((root / name for root in roots() if _is_sound(root / name)), None)
+    root = writable_root()
+    if root is None:
+        return existing
+    folder = root / name
+    if existing is not None and existing != folder:
+        with suppress(OSError):  # another process may link at the same time
+            shutil.copytree(existing, folder, copy_function=os.symlink, dirs_exist_ok=True)
+    return folder
+
+
+def _is_sound(folder: Path) -> bool:
+    """Whether the folder is there and holds whole files only, after the others were removed."""
+    if not folder.is_dir():
+        return False
+    broken = [
+        file
+        for suffix, pickles in PICKLES.items()
+        for file in folder.glob(f"*{suffix}")
+        if not _is_whole(file, pickles)
+    ]
+    for file in broken:
+        logger.warning("discarded a broken kernel cache: %s", file)
+        with suppress(OSError):
+            file.unlink(missing_ok=True)
+    return not any(file.exists() for file in broken)
+
+
+def _is_whole(file: Path, pickles: int) -> bool:
+    """Whether the file holds so many pickles, each to its end; nothing of them is executed."""
+    try:
+        with file.open("rb") as stream:
+            for _ in range(pickles):
+                deque(genops(stream), maxlen=0)
+    except (OSError, ValueError):
+        return False
+    return True
 
 
 @cache
 def roots() -> list[Path]:
     """Where kernels may lie, best first: where NUMBA_CACHE_DIR says, or else beside the sources or with the user."""
-    if told := os.environ.get("NUMBA_CACHE_DIR"):
-        return [Path(told)]
+    if chosen := os.environ.get("NUMBA_CACHE_DIR"):
+        return [Path(chosen)]
     home = Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))  # noqa: PTH111  raises nothing
     private = Path(tempfile.gettempdir()) / f"tribodrive-{os.getuid()}"
     places = [PACKAGE / "__pycache__" / "kernels"]
@@ -118,14 +145,18 @@ def roots() -> list[Path]:
 @cache
 def writable_root() -> Path | None:
     """The first of the roots that can be written."""
-    return next((root for root in roots() if root not in _unwritable and _is_ours(root)), None)
+    return next((root for root in roots() if _is_ours(root)), None)
 
 
 def _is_ours(folder: Path, mode: int = 0o755) -> bool:
     """Whether the folder is there, made if need be, belongs to this user and takes files."""
     try:
         folder.mkdir(mode, parents=True, exist_ok=True)
-        return folder.lstat().st_uid == os.getuid() and os.access(folder, os.W_OK | os.X_OK)
+        return (
+            folder.lstat().st_uid == os.getuid()
+            and os.access(folder, os.W_OK | os.X_OK)
+            and shutil.disk_usage(folder).free > NEEDED_BYTES
+        )
     except OSError:
         return False
 
@@ -133,11 +164,16 @@ def _is_ours(folder: Path, mode: int = 0o755) -> bool:
 @cache
 def folder_name(path: Path) -> str:
     """The module's name and a hash of everything its machine code depends on."""
-    digest = hashlib.sha256(f"{sys.version} {platform.machine()} {numba.__version__}".encode())
+    digest = hashlib.sha256(f"{sys.version} {_processor()} {numba.__version__}".encode())
     for source in sorted(sources(path) - {Path(__file__).resolve()}):  # the place of the code does not change it
         digest.update(os.path.relpath(source, PACKAGE).encode())  # machine code names its module
         digest.update(_text(source).encode())
     return f"{path.stem}-{digest.hexdigest()[:24]}"
+
+
+@cache
+def _processor() -> str:
+    return f"{platform.machine()} {get_host_cpu_name()} {get_host_cpu_features().flatten()}"
 
 
 @cache
@@ -180,7 +216,7 @@ def is_complete(content: str) -> bool:
 def mark_complete(content: str) -> None:
     """Note that everything that `content` names is compiled and kept."""
     root = writable_root()
-    if root is not None and not _unwritable:
+    if root is not None:
         with suppress(OSError):
             (root / _mark(content)).touch()
             _prune(root)
@@ -195,26 +231,7 @@ def _prune(root: Path) -> None:
 
 
 def _mark(content: str) -> str:
-    digest = hashlib.sha256(f"{content} {get_host_cpu_name()}".encode())
+    digest = hashlib.sha256(content.encode())
     for source in sorted(PACKAGE.rglob("*.py")):
         digest.update(folder_name(source).encode())
     return f"complete-{digest.hexdigest()[:24]}"
-
-
-@contextmanager
-def _locked(folder: Path) -> Iterator[None]:
-    folder.mkdir(parents=True, exist_ok=True)
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX)
-        yield
-    finally:
-        os.close(descriptor)
-
-
-def _discard(index: Path) -> None:
-    """Remove the index, so that the kernel is compiled again; where that is not allowed, it is ignored each time."""
-    try:
-        index.unlink(missing_ok=True)
-    except OSError:
-        return

@@ -9,14 +9,13 @@ from app.warm_up import COUPLING, LINE_CONTACT, STAGES, needed_for
 
 COUNT_COLD = """
 import gc
-from numba.core.registry import CPUDispatcher
+from numba.extending import is_jitted
 from app.library import examples
 from app.warm_up import STAGES, calculate
-from solvers.compiled import Kernel
 
 def compiled():
-    return {(each.py_func.__module__, each.py_func.__name__, isinstance(each, Kernel)): len(each.signatures)
-            for each in gc.get_objects() if isinstance(each, CPUDispatcher)}
+    return {(each.py_func.__module__, each.py_func.__name__): len(each.signatures)
+            for each in gc.get_objects() if is_jitted(each)}
 
 for stage in STAGES:
     for name in stage.examples:

@@ -92,21 +92,53 @@ def test_broken_files_are_compiled_again_with_a_word(package: Path, kind: str, s
     assert outcome(package) == (3.0, True, "")
 
 
-def test_bare_code_from_the_cache_is_linked_and_raises(package: Path) -> None:
+def test_code_from_the_cache_is_linked_and_raises(package: Path) -> None:
     inner = "def inner(x):\n    if x < 0.0:\n        raise ValueError('below zero')\n    return 2.0 * x\n"
     (package / "inner.py").write_text(f"from solvers.compiled import kernel\n@kernel\n{inner}")
     outcome(package)
-    kept = package / "__pycache__" / "kernels"
-    (bare,) = kept.glob("inner-*/inner-*-bare.nbi")
-    before = bare.stat().st_mtime_ns
+    (index,) = (package / "__pycache__" / "kernels").glob("inner-*/inner.inner-*.nbi")
+    before = index.stat().st_mtime_ns
     outer = package / "outer.py"
     outer.write_text(outer.read_text().replace("+ 1.0", "+ 2.0"))
     assert outcome(package)[:2] == (4.0, False)
-    assert bare.stat().st_mtime_ns == before  # linked from the cache, not compiled again
+    assert index.stat().st_mtime_ns == before  # linked from the cache, not compiled again
     outer.write_text(outer.read_text().replace("inner(x)", "inner(-x)"))
     with pytest.raises(subprocess.CalledProcessError) as failed:
         outcome(package)
     assert "ValueError: below zero" in failed.value.stderr
+
+
+WITH_INTEGERS = """
+import os
+import solvers.kernel_cache as cache
+first, second = cache.PACKAGE / "__pycache__" / "kernels", cache.PACKAGE.parent / "user"
+cache.roots = lambda: [first, second]
+cache._is_ours = lambda folder, mode=0o755: folder == second  # the first root is read-only, also for a superuser
+from solvers.outer import outer
+print(outer(1.0), len(outer.stats.cache_hits), outer(1), len(outer.stats.cache_hits))
+"""
+
+
+def test_a_read_only_folder_is_read_and_what_it_lacks_is_kept_elsewhere(package: Path) -> None:
+    outcome(package)
+    kept = package / "__pycache__" / "kernels"
+    before = {file: file.read_bytes() for file in kept.rglob("*.nb?")}
+    answers = [
+        subprocess.run(
+            [sys.executable, "-c", WITH_INTEGERS], cwd=package.parent, check=True, capture_output=True, text=True
+        ).stdout.split()
+        for _ in range(2)
+    ]
+    assert answers == [["3.0", "1", "3.0", "1"], ["3.0", "1", "3.0", "2"]]
+    assert {file: file.read_bytes() for file in kept.rglob("*.nb?")} == before
+
+
+def test_kernels_of_others_are_left_to_numba(package: Path) -> None:
+    (package.parent / "other.py").write_text(
+        "import solvers.outer\nimport numba\n@numba.njit(cache=True)\ndef outer(x):\n    return x + 2.0\n"
+    )
+    assert outcome(package, module="other")[:2] == (3.0, False)
+    assert list((package.parent / "__pycache__").glob("other.outer-*.nbi"))
 
 
 def test_without_any_place_kernels_live_in_memory(package: Path) -> None:
