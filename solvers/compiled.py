@@ -5,7 +5,6 @@ zero gives infinity or NaN as IEEE 754 says instead of an exception.
 """
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import ParamSpec, TypeVar, cast
 
 import numba
@@ -31,7 +30,7 @@ def inlined_kernel(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def _compiled(function: Callable[P, R], *, forceinline: bool = False) -> Callable[P, R]:
-    keep = cache_folder(Path(function.__code__.co_filename).resolve()) is not None
+    keep = cache_folder(function.__code__.co_filename) is not None
     with located():
         compiled = numba.njit(cache=keep, error_model="numpy", nogil=True, forceinline=forceinline)(function)
     return cast("Callable[P, R]", compiled)

@@ -50,7 +50,7 @@ class KernelLocator:
     @classmethod
     def from_function(cls, function: Callable[..., Any], file: str) -> "KernelLocator | None":
         """The locator of a kernel that is defined in `file`."""
-        folder = cache_folder(Path(file).resolve())
+        folder = cache_folder(file)
         return None if folder is None else cls(function, folder)
 
     def ensure_cache_path(self) -> None:
@@ -83,13 +83,13 @@ def located() -> Iterator[None]:
 
 
 @cache
-def cache_folder(source: Path) -> Path | None:
-    """The folder for the machine code of the module `source`, or None if there is no place for it.
+def cache_folder(file: str) -> Path | None:
+    """The folder for the machine code of the module in `file`, or None if there is no place for it.
 
     It lies in the first root that can be written. Where none can, a folder that is there already is read. Numba reads
     and writes in one folder: what an earlier root holds that can only be read is linked into the one that is written.
     """
-    name = folder_name(source)
+    name = folder_name(Path(file).resolve())
     existing = next((root / name for root in roots() if _is_sound(root / name)), None)
     root = writable_root()
     if root is None:
