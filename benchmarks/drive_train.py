@@ -13,7 +13,7 @@ from solvers.drive_train.gap.thermal_lead import gas_heat
 from solvers.drive_train.studies.corners import default_ranges, run_corners, single
 from solvers.drive_train.studies.design import Variable, design
 from solvers.drive_train.studies.outcome import outcome
-from tests.drive_trains import COUPLING, GROUND, SPEED, turbo_gear
+from tests.support.drive_trains import COUPLING, GROUND, SPEED, turbo_gear
 
 REPEATS = 20
 SHAPE = "mesh.distribution.modifications"

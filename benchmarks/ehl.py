@@ -11,7 +11,7 @@ from benchmarks.timing import Figure, MedianFigure, print_times
 from solvers.contact.ehl import Contact, LineContactInputs, Model, solve, solve_path
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
-from tests.line_contacts import POINT, grid_contacts
+from tests.support.line_contacts import POINT, grid_contacts
 
 EYRING = Model()
 STIFF = Model(eyring_stress=10e6)

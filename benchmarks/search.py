@@ -12,7 +12,7 @@ from secrets import randbits
 
 import numpy as np
 
-from tests import coupling_checks, flanks, modified_pairs, pumping_cases
+from tests.support import coupling_checks, flanks, modified_pairs, pumping_cases
 
 Check = Callable[[np.random.Generator], object]
 

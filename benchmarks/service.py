@@ -24,7 +24,7 @@ from app.main import create_app
 from app.routes.service import Health
 from app.schema.coupling import CouplingRequest
 from app.workers.fork_server import ForkServer
-from tests.server import memory_mb, workers
+from tests.support.server import memory_mb, workers
 
 PORT = 8765
 ADDRESS = f"http://127.0.0.1:{PORT}"

@@ -10,7 +10,7 @@ from time import process_time
 
 from benchmarks.ehl import EYRING, ISOTHERMAL, NEWTONIAN
 from solvers.contact.ehl import LineContactInputs, solve, warm_up
-from tests.line_contacts import grid_contacts, random_contacts
+from tests.support.line_contacts import grid_contacts, random_contacts
 
 
 def print_row(name: str, contacts: Sequence[LineContactInputs]) -> None:

@@ -13,7 +13,7 @@ from contextlib import suppress
 import httpx
 
 from app.library import examples
-from tests.server import (
+from tests.support.server import (
     memory_mb,
     private_memory_mb,
     send_signal,

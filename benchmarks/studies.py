@@ -20,8 +20,8 @@ from app.library import examples
 from app.studies.fields import set_value
 from app.studies.points import Question, solve_point
 from app.studies.sweep import plan_sweep
-from tests.dask_cluster import running_cluster
-from tests.server import running_server
+from tests.support.dask_cluster import running_cluster
+from tests.support.server import running_server
 
 
 class Kind(NamedTuple):

@@ -6,7 +6,7 @@ import httpx
 import pytest
 from hypothesis import HealthCheck, settings
 
-from tests.server import running_server
+from tests.support.server import running_server
 
 # The first example of a property may compile a kernel; the same examples every time, searches live in benchmarks.
 settings.register_profile(

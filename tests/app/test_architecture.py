@@ -1,6 +1,9 @@
-"""Data flows one way: app calls solvers, solvers know nothing of HTTP."""
+"""Data flows one way: app calls solvers, solvers know nothing of HTTP, no module needs itself."""
 
 import ast
+from collections.abc import Iterator
+from graphlib import TopologicalSorter
+from itertools import takewhile
 from pathlib import Path
 
 import pytest
@@ -8,6 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 ALLOWED = {"solvers", "numpy", "scipy", "numba"}
 KEEPS_FILES = {"solvers/kernel_cache.py"}  # the one module that knows of files and processes
+MODULES = [path for package in ("app", "solvers") for path in (ROOT / package).rglob("*.py")]
 STANDARD = {"collections", "contextlib", "dataclasses", "enum", "functools", "itertools", "math", "operator", "typing"}
 
 
@@ -32,3 +36,48 @@ def test_every_solver_package_is_found() -> None:
 def test_one_module_knows_dask() -> None:
     knowing = [path for path in (ROOT / "app").rglob("*.py") if {"dask", "distributed"} & imported(path)]
     assert knowing == [ROOT / "app" / "studies" / "cluster.py"]
+
+
+def name_of(path: Path) -> str:
+    return ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
+
+
+NAMES = {name_of(path) for path in MODULES}
+PACKAGES = {name_of(path) for path in MODULES if path.name == "__init__.py"}
+SOLVERS = {name for name in PACKAGES if name.startswith("solvers")}
+
+
+def modules_imported(path: Path) -> Iterator[str]:
+    """The project's modules that a module imports, wherever in it."""
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.module in NAMES:
+            for alias in node.names:
+                inner = f"{node.module}.{alias.name}"
+                yield inner if inner in NAMES else node.module
+        elif isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name in NAMES)
+
+
+def siblings(name: str, other: str) -> tuple[str, str]:
+    """The two packages side by side to which two modules belong; equal ones where they belong to the same."""
+    one, two = name.split("."), other.split(".")
+    shared = len(list(takewhile(lambda pair: pair[0] == pair[1], zip(one, two, strict=False))))
+    return ".".join(one[: shared + 1]), ".".join(two[: shared + 1])
+
+
+def test_imports_have_no_circle_between_modules_or_packages_of_solvers() -> None:
+    imports = {name_of(path): set(modules_imported(path)) for path in MODULES}
+    assert set(TopologicalSorter(imports).static_order()) >= NAMES
+    between: dict[str, set[str]] = {}
+    for name, others in imports.items():
+        for one, two in (siblings(name, other) for other in others):
+            if one != two and {one, two} <= PACKAGES and {one, two} & SOLVERS:
+                between.setdefault(one, set()).add(two)
+    order = list(TopologicalSorter(between).static_order())
+    assert order.index("solvers.scuffing.flank") < order.index("solvers.scuffing.thermal")
+    assert order.index("solvers") < order.index("app")
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_a_module_says_what_it_is_about(path: Path) -> None:
+    assert ast.get_docstring(ast.parse(path.read_text("utf-8")))

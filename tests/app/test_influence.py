@@ -20,7 +20,7 @@ from app.pages.typesetting import shown
 from app.pages.vary import views
 from app.pages.views import Asked
 from app.studies.stream import Clock
-from tests.pools import InlinePool
+from tests.support.pools import InlinePool
 
 MOST, DEADLINE_S = 2500, 30.0
 COUPLING = "pahl-axial-displacement"

@@ -13,7 +13,7 @@ from app.formats.json import answer
 from app.library import STARTER, examples
 from app.problems import Unprocessable
 from app.schema.messages import faults
-from tests.gear_pairs import FZG_TORQUES
+from tests.support.gear_pairs import FZG_TORQUES
 
 BY_PATH = {calculation.path: calculation for calculation in CALCULATIONS}
 PAIR: dict[str, Any] = {

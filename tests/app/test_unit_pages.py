@@ -24,7 +24,7 @@ from app.pages.templating import page_path
 from app.pages.typesetting import shown
 from app.pages.views import Asked
 from app.studies.stream import Clock
-from tests.pools import InlinePool
+from tests.support.pools import InlinePool
 
 MOST, DEADLINE_S = 2500, 30.0
 UNIT = "starter-generator-gear-drive-train"

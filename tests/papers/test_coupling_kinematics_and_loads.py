@@ -17,7 +17,7 @@ from solvers.coupling.results import KinematicCurves
 from solvers.coupling.teeth.geometry import tooth_geometry
 from solvers.coupling.teeth.kinematics import displacement_peak, mesh_motion, tooth_positions
 from solvers.coupling.teeth.loads import centred_loads
-from tests.couplings import random_pitch_errors
+from tests.support.couplings import random_pitch_errors
 
 ALPHA = radians(20.0)
 SPATIAL = ModelOptions(kinematics="spatial")

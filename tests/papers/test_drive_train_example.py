@@ -17,7 +17,7 @@ from solvers.drive_train import solve
 from solvers.drive_train.inputs import DriveTrainInputs, Effects, RigidBearing, Shaft
 from solvers.drive_train.results import DriveTrainResult
 from solvers.pumping.inputs import Groove
-from tests.drive_trains import COUPLING, GROUND, HEAT, NO_EFFECTS, cold, turbo_gear
+from tests.support.drive_trains import COUPLING, GROUND, HEAT, NO_EFFECTS, cold, turbo_gear
 
 
 def _ground() -> DriveTrainInputs:

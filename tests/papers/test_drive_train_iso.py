@@ -18,7 +18,7 @@ from solvers.drive_train.studies.outcome import outcome
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.path_of_contact import meshing_path
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, Modifications
-from tests.drive_trains import turbo_gear
+from tests.support.drive_trains import turbo_gear
 
 E = 206e9
 SOLID = 0.023e-6 * 1e-3  # f_sh/(F_m/b) in m per N/m

@@ -10,7 +10,7 @@ from dataclasses import replace
 import pytest
 
 from solvers.contact.ehl import Model, solve
-from tests.papers.xue_contact import contact, point_a
+from tests.support.xue_contact import contact, point_a
 
 NEWTONIAN = [
     (81, 0.5118, 0.3008, 0.0483, 584.6, 576.7, 470.8, 417.6, 36666),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, solve
-from tests.papers.xue_contact import START, blok_flash, contact, path, path_contacts, point_a
+from tests.support.xue_contact import START, blok_flash, contact, path, path_contacts, point_a
 
 
 def solved(result: LineContactResult) -> tuple[float, float, float, float, float]:

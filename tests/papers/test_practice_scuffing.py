@@ -14,7 +14,7 @@ from solvers.scuffing.thermal.practice import (
     scuffing_risk,
     scuffing_temperature,
 )
-from tests.gear_pairs import FZG_A, FZG_TORQUES
+from tests.support.gear_pairs import FZG_A, FZG_TORQUES
 
 PITCH_LINE_SPEED = 8.3  # m/s, the 8.3 of A/8.3/90
 GROUND = Solid(roughness=0.35e-6)

@@ -20,7 +20,7 @@ from solvers.scuffing.balance.load_balance import line_loads
 from solvers.scuffing.distribution.mesh_stiffness import standard_stiffness
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, Resolution, angular_speed
 from solvers.scuffing.teeth.stiffness import linear_contact_compliance
-from tests.gear_pairs import FZG_A, FZG_TORQUES, with_torque
+from tests.support.gear_pairs import FZG_A, FZG_TORQUES, with_torque
 
 STEEL = Solid()
 MODULUS = hertz.reduced_modulus(STEEL, STEEL)

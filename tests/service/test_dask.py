@@ -14,9 +14,9 @@ import pytest
 from app.library import examples
 from app.studies.stream import Clock
 from app.studies.sweep import plan_sweep
-from tests.dask_cluster import DaskProcesses, running_cluster
-from tests.pools import InlinePool
-from tests.server import free_port, running_server
+from tests.support.dask_cluster import DaskProcesses, running_cluster
+from tests.support.pools import InlinePool
+from tests.support.server import free_port, running_server
 
 pytestmark = pytest.mark.service
 

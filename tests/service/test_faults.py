@@ -16,7 +16,7 @@ import httpx
 import pytest
 
 from app.library import examples
-from tests.server import (
+from tests.support.server import (
     descendants,
     descriptors,
     is_alive,
@@ -30,7 +30,7 @@ from tests.server import (
 
 pytestmark = pytest.mark.service
 
-FAULTY = [sys.executable, "-m", "tests.service.faulty_server"]
+FAULTY = [sys.executable, "-m", "tests.support.faulty_server"]
 KILLS = 50
 KILL_EVERY_S = 0.5
 

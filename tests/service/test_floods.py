@@ -13,7 +13,7 @@ from urllib.parse import urlsplit
 import httpx
 import pytest
 
-from tests.server import memory_mb, running_server
+from tests.support.server import memory_mb, running_server
 
 pytestmark = pytest.mark.service
 

@@ -11,12 +11,12 @@ from urllib.parse import urlsplit
 import httpx
 import pytest
 
-from tests.server import running_server, started_server, wait_until_warm
 from tests.service.test_floods import answer_to, connected
+from tests.support.server import running_server, started_server, wait_until_warm
 
 pytestmark = pytest.mark.service
 
-FAULTY = [sys.executable, "-m", "tests.service.faulty_server"]
+FAULTY = [sys.executable, "-m", "tests.support.faulty_server"]
 
 
 def lines_of(log: Path) -> list[dict[str, object]]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.server import running_server
+from tests.support.server import running_server
 
 ROOT = Path(__file__).parents[2]
 

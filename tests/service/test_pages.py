@@ -9,7 +9,7 @@ from playwright.sync_api import Page, expect
 
 from app.library import examples
 from app.pages.query import link, pairs_of
-from tests.service.browsing import PHONE, address_of, overflow, serious
+from tests.support.browsing import PHONE, address_of, overflow, serious
 
 pytestmark = pytest.mark.service
 

@@ -14,7 +14,8 @@ import httpx
 import pytest
 
 from app.library import examples
-from tests.server import (
+from tests.support.caches import complete_cache
+from tests.support.server import (
     ROOT,
     children,
     descendants,
@@ -26,7 +27,6 @@ from tests.server import (
     wait_until_warm,
     workers,
 )
-from tests.service.caches import complete_cache
 
 pytestmark = pytest.mark.service
 

@@ -20,12 +20,12 @@ import pytest
 from app.library import examples
 from app.schema.coupling import CouplingResponse
 from app.schema.fields import leaves
-from tests.server import descendants, descriptors, memory_mb, running_server, send_signal, workers
-from tests.service.faulty_server import HANGING
+from tests.support.faulty_server import HANGING
+from tests.support.server import descendants, descriptors, memory_mb, running_server, send_signal, workers
 
 pytestmark = pytest.mark.service
 
-FAULTY = [sys.executable, "-m", "tests.service.faulty_server"]
+FAULTY = [sys.executable, "-m", "tests.support.faulty_server"]
 SWEEP = "/v1/sweep"
 LOADS = examples()["xue-pair-1-modified"]
 COUPLING = examples()["pahl-axial-displacement"]

@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from app.pages.vary.examples import STUDIES
-from tests.service.browsing import PHONE, address_of, overflow, serious
+from tests.support.browsing import PHONE, address_of, overflow, serious
 
 pytestmark = pytest.mark.service
 

@@ -8,7 +8,7 @@ import pytest
 from app.problems import DeadlineExceeded, WorkerLost
 from app.studies.engine import CHUNKS_PER_SLOT, PoolLost, Work, in_order
 from app.studies.points import CHUNK_SECONDS, Point
-from tests.pools import QUESTION, ScriptedPool, at
+from tests.support.pools import QUESTION, ScriptedPool, at
 
 
 def solved(pool: ScriptedPool, total: int) -> list[tuple[int, Point]]:

@@ -16,7 +16,7 @@ from app.studies.lines import encoded, json_line
 from app.studies.sensitivity import plan_sensitivity
 from app.studies.stream import Clock, guarded
 from app.studies.sweep import plan_sweep
-from tests.pools import InlinePool
+from tests.support.pools import InlinePool
 
 COUPLING = examples()["pahl-axial-displacement"]
 UNIT = examples()["starter-turbo-gear-drive-train"]

@@ -20,7 +20,7 @@ from app.studies.requests import Best
 from app.studies.stream import Clock, guarded
 from app.studies.summary import Summary, statistics
 from app.studies.sweep import plan_sweep
-from tests.pools import InlinePool
+from tests.support.pools import InlinePool
 
 COUPLING = examples()["pahl-axial-displacement"]
 THRUST = "axial_thrust.force_n"

@@ -27,7 +27,7 @@ from app.studies.unit import lightened
 from solvers.arrays import FloatArray
 from solvers.drive_train.studies.corners import run_corners, single
 from solvers.drive_train.studies.design import Variable, design, search
-from tests.pools import InlinePool
+from tests.support.pools import InlinePool
 
 UNIT = BY_PATH["/v1/drive-train"]
 TURBO = examples()["starter-turbo-gear-drive-train"].request

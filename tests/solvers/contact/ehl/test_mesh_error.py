@@ -1,0 +1,178 @@
+"""The error of the mesh: estimated honestly, refined below 2 % where it is allowed, said where it is not."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, solve
+from tests.support.line_contacts import POINT, at_pressure, random_contacts
+
+FINE = Model(nodes=481, refine=False)
+AS_GIVEN = Model(refine=False)
+# Pure rolling, and light loads: what 121 nodes get wrong.
+ROLLING = LineContactInputs(Contact(3e4, 5e-3, 4.0, 4.0))
+LIGHT = LineContactInputs(Contact(2e4, 0.01, 20.0, 16.0))
+
+
+def numbers(result: LineContactResult) -> dict[str, float]:
+    """By the names of `MeshError`."""
+    assert result.friction is not None
+    assert result.pressure is not None
+    found = {
+        "central_film": result.film.central or 0.0,
+        "minimum_film": result.film.minimum or 0.0,
+        "centre_pressure": result.pressure.centre,
+        "friction": result.friction.coefficient,
+    }
+    if result.temperature is not None and result.heat is not None:
+        found |= {
+            "surface_1_flash": result.temperature.surface_1_flash,
+            "surface_2_flash": result.temperature.surface_2_flash,
+            "generated_heat": result.heat.generated,
+        }
+    return found
+
+
+LEAST = {"friction": 1e-3, "surface_1_flash": 25.0, "surface_2_flash": 25.0}
+
+
+def differences(one: LineContactResult, other: LineContactResult) -> dict[str, float]:
+    """Relative, small numbers as in the estimate."""
+    first, second = numbers(one), numbers(other)
+    return {name: abs(first[name] - second[name]) / max(abs(second[name]), LEAST.get(name, 0.0)) for name in first}
+
+
+@pytest.mark.parametrize("inputs", [LineContactInputs(POINT), ROLLING, LIGHT], ids=["A", "rolling", "light"])
+def test_the_estimate_covers_what_481_nodes_say(inputs: LineContactInputs) -> None:
+    """Within a factor of 1.5, or half a percent."""
+    result = solve(replace(inputs, model=AS_GIVEN))
+    assert result.mesh_error is not None
+    for name, error in differences(result, solve(replace(inputs, model=FINE))).items():
+        assert error <= max(1.5 * result.mesh_error.known[name], 0.005), name
+
+
+def test_the_estimate_is_no_exaggeration() -> None:
+    """Film at A: 1.8 % at the centre, 1.5 % at its thinnest (table of the specification)."""
+    error = solve(LineContactInputs(POINT, model=AS_GIVEN)).mesh_error
+    assert error is not None
+    assert error.central_film == pytest.approx(0.018, abs=0.004)
+    assert error.minimum_film == pytest.approx(0.015, abs=0.004)
+
+
+@pytest.mark.parametrize("inputs", [LineContactInputs(POINT), ROLLING, LIGHT], ids=["A", "rolling", "light"])
+def test_half_the_spacing_makes_the_estimate_smaller(inputs: LineContactInputs) -> None:
+    """By at least 2 over all that is reported; second order would make it 4."""
+    coarse, fine = (solve(replace(inputs, model=Model(nodes=n, refine=False))).mesh_error for n in (121, 241))
+    assert coarse is not None
+    assert fine is not None
+    assert fine.largest < 0.5 * coarse.largest
+
+
+def test_a_mesh_too_coarse_is_refined() -> None:
+    result = solve(LineContactInputs(POINT, model=Model(nodes=61)))
+    assert result.convergence.nodes > 61
+    assert result.mesh_error is not None
+    assert result.mesh_error.largest <= 0.02
+    assert max(differences(result, solve(LineContactInputs(POINT, model=FINE))).values()) < 0.02
+    assert "mesh_error" not in {warning.code for warning in result.warnings}
+
+
+def test_a_mesh_as_given_is_warned_about() -> None:
+    result = solve(LineContactInputs(POINT, model=Model(nodes=61, refine=False)))
+    assert result.convergence.nodes == 61
+    (warning,) = [warning for warning in result.warnings if warning.code == "mesh_error"]
+    assert "central film" in warning.message
+    assert result.status == "ok_with_warnings"
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.01])
+def test_heat_of_pure_rolling_is_right_within_2_percent(ratio: float) -> None:
+    """At 121 nodes it is up to 14 % high."""
+    inputs = at_pressure(0.4e9, ratio, 5.0, 0.08, 8e-3, Model())
+    result, fine = solve(inputs), solve(replace(inputs, model=FINE))
+    assert result.heat is not None
+    assert fine.heat is not None
+    stated = 0.0 if result.mesh_error is None else result.mesh_error.largest
+    assert abs(result.heat.generated / fine.heat.generated - 1.0) < max(0.02, 1.5 * stated)
+
+
+def test_isothermal_contacts_have_no_error_of_heat() -> None:
+    error = solve(LineContactInputs(POINT, model=Model(thermal=False))).mesh_error
+    assert error is not None
+    assert (error.surface_1_flash, error.surface_2_flash, error.generated_heat) == (None, None, None)
+    assert 0.0 < error.largest <= 0.02
+
+
+def check_doubled_nodes(inputs: LineContactInputs) -> None:
+    """Twice the nodes move every number by less than 1 % or what the answer states."""
+    result = solve(inputs)
+    doubled = solve(replace(inputs, model=replace(inputs.model, nodes=2 * inputs.model.nodes - 1)))
+    if "no_solution" in {result.status, doubled.status}:
+        return
+    assert result.mesh_error is not None
+    for name, moved in differences(result, doubled).items():
+        assert moved < max(0.01, 1.5 * result.mesh_error.known[name]), (name, inputs)
+
+
+def check_doubled_film_nodes(inputs: LineContactInputs) -> None:
+    """Twice the nodes across the film move every number by less than 1 %, or 1.5 % where the answer states as much.
+
+    They move mu by 0.3 % mostly. The one number of some hundred contacts beyond 1 % is a friction of 0.0064 (1.06 %)
+    under a spike in the centre of a light contact (M = 1, L = 36), which leaves 3 to 7 % of it uncertain anyway.
+    """
+    result = solve(inputs)
+    doubled = solve(replace(inputs, model=replace(inputs.model, film_nodes=2 * inputs.model.film_nodes - 1)))
+    if "no_solution" in {result.status, doubled.status}:
+        return
+    assert result.mesh_error is not None
+    for name, moved in differences(result, doubled).items():
+        assert moved < max(0.01, min(result.mesh_error.known[name], 0.015)), (name, inputs)
+
+
+@pytest.mark.parametrize("check", [check_doubled_nodes, check_doubled_film_nodes])
+def test_resolution_does_not_decide(check: object) -> None:
+    for inputs in random_contacts(AS_GIVEN, 8, seed=21):
+        check(inputs)  # type: ignore[operator]
+
+
+# Newtonian contacts of which half the nodes once said too little: seed, index, what it was.
+SPIKES = [
+    pytest.param(22, 4, id="cooler film and sharper spike cancel in the flash temperature"),
+    pytest.param(22, 7, id="pressure falls between the same two nodes on both meshes"),
+    pytest.param(122, 26, id="errors of the thinnest film cancel, not those of the centre"),
+    pytest.param(122, 101, id="flash 5.2 % off, 0.03 % stated"),
+    pytest.param(901, 35, id="friction before and behind the spike's place cancels"),
+    pytest.param(901, 72, id="the hottest place moves onto the spike"),
+    pytest.param(903, 54, id="kink of the wall on one node"),
+]
+
+
+@pytest.mark.parametrize(("seed", "index"), SPIKES)
+def test_spikes_are_not_taken_for_resolved(seed: int, index: int) -> None:
+    check_doubled_nodes(random_contacts(replace(AS_GIVEN, rheology="newtonian"), index + 1, seed)[index])
+
+
+def test_what_a_spike_leaves_is_stated_rather_than_chased() -> None:
+    """Its smooth part is below 2 %, and more nodes would sharpen the spike."""
+    result = solve(random_contacts(Model(rheology="newtonian"), 35, seed=22)[34])
+    assert result.convergence.nodes == 121
+    assert result.mesh_error is not None
+    assert result.mesh_error.surface_1_flash is not None
+    assert 0.02 < result.mesh_error.surface_1_flash < 0.05  # 481 nodes: 3.9 %
+    assert "mesh_error" in {warning.code for warning in result.warnings}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("rheology", ["ree_eyring", "newtonian"])
+def test_resolution_does_not_decide_over_many_contacts(rheology: str) -> None:
+    for inputs in random_contacts(replace(AS_GIVEN, rheology=rheology), 60, seed=22):
+        check_doubled_nodes(inputs)
+        check_doubled_film_nodes(inputs)
+
+
+def test_errors_are_relative_and_finite() -> None:
+    for inputs in random_contacts(AS_GIVEN, 6, seed=23):
+        error = solve(inputs).mesh_error
+        assert error is not None
+        assert all(np.isfinite(value) and 0.0 <= value < 0.5 for value in error.known.values())

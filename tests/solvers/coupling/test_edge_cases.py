@@ -1,0 +1,418 @@
+"""Zeros, refusals and random inputs: every answer is finite or a stated reason."""
+
+from collections.abc import Callable
+from dataclasses import fields, is_dataclass, replace
+from math import cos, degrees, inf, isfinite, nan, pi, radians
+
+import numpy as np
+import pytest
+from hypothesis import strategies as st
+
+from app.published.pahl import pahl_coupling
+from solvers.coupling import recommend, solve, solve_orbit
+from solvers.coupling.crowning.results import Recommendation
+from solvers.coupling.inputs import (
+    Arrangement,
+    Coupling,
+    CouplingInputs,
+    Friction,
+    KinematicModel,
+    Lubricant,
+    MixedFrictionCurve,
+    MixedFrictionTable,
+    ModelOptions,
+    Operation,
+    RecommendationInputs,
+)
+from solvers.coupling.results import CouplingResult
+from solvers.errors import InvalidInput, NoSolution, SolverError
+from tests.support.properties import examples
+
+
+def assert_finite(value: object, path: str = "result") -> None:
+    """No NaN or infinity anywhere, and every array read-only."""
+    if is_dataclass(value):
+        for part in fields(value):
+            assert_finite(getattr(value, part.name), f"{path}.{part.name}")
+    elif isinstance(value, tuple):
+        for part in value:
+            assert_finite(part, path)
+    elif isinstance(value, np.ndarray):
+        assert np.isfinite(value).all(), path
+        assert not value.flags.writeable, path
+    elif isinstance(value, float):
+        assert isfinite(value), path
+
+
+def codes(result: CouplingResult) -> set[str]:
+    return {notice.code for notice in result.warnings}
+
+
+def test_an_ordinary_case_has_no_warning() -> None:
+    result = solve(pahl_coupling(0.1, friction=None))
+    assert_finite(result)
+    assert result.warnings == ()
+    assert not result.axial_thrust.indeterminate
+
+
+@pytest.mark.parametrize("arrangement", ["single", "parallel_offset", "angular"])
+def test_aligned_and_still_shafts_hold_any_thrust_up_to_the_limit(arrangement: Arrangement) -> None:
+    result = solve(pahl_coupling(0.0, arrangement=arrangement, friction=None))
+    assert_finite(result)
+    film, thrust = result.lubrication, result.axial_thrust
+    assert film.contact_overlap is None
+    assert film.load_capacity_coefficient == film.hydrodynamic_capacity == 0.0
+    assert (film.regime.area, film.regime.distance_to_boundary) == ("1.3", None)
+    assert film.friction_coefficient == pytest.approx(0.16, rel=1e-12)
+    assert (thrust.force, thrust.indeterminate) == (0.0, True)
+    assert thrust.upper_bound == pytest.approx(thrust.coaxial_limit, rel=1e-9)
+    assert thrust.lower_bound == pytest.approx(-thrust.coaxial_limit, rel=1e-9)
+    assert {"no_misalignment", "friction_indeterminate"} <= codes(result)
+    assert result.losses.friction_power == 0.0
+
+
+def test_aligned_shafts_that_separate_have_no_self_induced_thrust_of_their_own() -> None:
+    result = solve(pahl_coupling(0.0, axial_velocity=1e-3, arrangement="parallel_offset"))
+    assert result.axial_thrust.self_induced is not None
+    assert result.axial_thrust.self_induced.force == 0.0
+    assert not result.axial_thrust.indeterminate
+    assert "friction_indeterminate" in codes(result)
+
+
+@pytest.mark.parametrize("arrangement", ["single", "parallel_offset", "angular"])
+@pytest.mark.parametrize("sleeve", ["centred", "floating"])
+def test_no_torque_no_forces(arrangement: Arrangement, sleeve: str) -> None:
+    options = ModelOptions(sleeve=sleeve)  # type: ignore[arg-type]
+    result = solve(pahl_coupling(0.1, torque=0.0, arrangement=arrangement, model=options, axial_velocity=1e-3))
+    assert_finite(result)
+    assert result.load_distribution.max_tangential_force == result.axial_thrust.force == 0.0
+    assert result.load_distribution.loaded_teeth == 0
+    assert result.lubrication.load_capacity_coefficient is None
+    assert result.load_distribution.load_concentration is None
+    assert result.axial_thrust.fraction_of_limit is None
+    assert result.axial_thrust.self_induced is None or result.axial_thrust.self_induced.force == 0.0
+    assert result.losses.hub_bending_moment == 0.0
+    assert "no_load" in codes(result)
+
+
+def test_a_tooth_with_a_billionth_of_the_load_does_not_count_as_loaded() -> None:
+    # The unloading misalignment leaves the pivot teeth with rounding, or with as little as one likes.
+    limit = degrees(solve(pahl_coupling(0.2)).load_distribution.unloading_misalignment)
+    load = solve(pahl_coupling(limit * (1.0 - 1e-10))).load_distribution
+    assert 0.0 < load.min_tangential_force < 1e-6 * load.mean_tangential_force
+    assert load.loaded_teeth == 50
+    assert solve(pahl_coupling(limit * (1.0 - 1e-5))).load_distribution.loaded_teeth == 52
+    assert solve(pahl_coupling(limit)).load_distribution.min_tangential_force == 0.0
+
+
+def test_standing_coupling() -> None:
+    result = solve(pahl_coupling(0.1, speed=0.0, axial_velocity=1e-3, friction=None))
+    assert_finite(result)
+    assert result.limits.allowable_misalignment is None
+    assert result.lubrication.load_capacity_coefficient == 0.0
+    assert result.axial_thrust.fraction_of_limit == pytest.approx(1.0, rel=1e-9)
+    assert "not_turning" in codes(result)
+    assert solve(pahl_coupling(0.1, speed=0.0)).axial_thrust.indeterminate
+
+
+def test_everything_zero_at_once() -> None:
+    for arrangement in ("single", "parallel_offset", "angular"):
+        result = solve(pahl_coupling(0.0, torque=0.0, speed=0.0, friction=0.0, arrangement=arrangement))  # type: ignore[arg-type]
+        assert_finite(result)
+        assert result.axial_thrust.force == 0.0
+        assert {"no_misalignment", "no_load", "not_turning"} <= codes(result)
+
+
+def test_frictionless_coupling() -> None:
+    result = solve(pahl_coupling(0.1, friction=0.0, arrangement="parallel_offset", axial_velocity=1e-3))
+    assert_finite(result)
+    assert result.axial_thrust.force == 0.0
+    assert result.axial_thrust.fraction_of_limit is None
+    assert "no_friction" in codes(result)
+
+
+ON_TWO_TEETH = ModelOptions(sleeve="floating", rotor_angle=pi / 2)
+
+
+@pytest.mark.parametrize(
+    ("inputs", "code"),
+    [
+        (pahl_coupling(0.5, speed=400.0), "sliding_velocity"),
+        (pahl_coupling(0.5, crowning_ratio=8.0), "edge_contact"),
+        (pahl_coupling(0.1, crowning_ratio=8.0, face_width=3e-3), "wide_contact"),
+        (pahl_coupling(0.1, torque=5.0), "sleeve_not_centred"),
+        (pahl_coupling(0.1, model=ModelOptions(inlet="infinite")), "infinite_inlet"),
+        (pahl_coupling(2.0, teeth=6, module=26e-3, torque=10.0, model=ON_TWO_TEETH), "sleeve_position"),
+        (replace(pahl_coupling(0.02, crowning_ratio=11.0), lubricant=Lubricant(viscosity=1.0)), "unstable_regime"),
+        (pahl_coupling(0.1, speed=0.9), "no_sliding_limit"),
+        (pahl_coupling(0.1, speed=-14.0), "allowable_misalignment"),
+    ],
+)
+def test_ranges_left_are_named(inputs: CouplingInputs, code: str) -> None:
+    result = solve(inputs)
+    assert_finite(result)
+    assert code in codes(result)
+
+
+@pytest.mark.parametrize(
+    ("speed", "allowed", "code"),
+    [
+        (0.0, False, "not_turning"),
+        (0.97, False, "no_sliding_limit"),  # 0.12 m/s over 0.078 m is 1.54 rad/s at an angle of one, 0.98 at pi/2
+        (0.99, True, "allowable_misalignment"),
+        (14.6, True, "allowable_misalignment"),  # 14.69 rad/s: 6 degrees
+        (14.8, True, None),
+    ],
+)
+def test_allowable_misalignment_is_given_or_its_absence_explained(
+    speed: float, allowed: bool, code: str | None
+) -> None:
+    result = solve(pahl_coupling(0.1, speed=speed, axial_velocity=1e-3))
+    assert (result.limits.allowable_misalignment is not None) == allowed
+    assert codes(result) & {"not_turning", "no_sliding_limit", "allowable_misalignment"} == ({code} if code else set())
+
+
+@pytest.mark.parametrize(("misalignment", "area"), [(0.1, "3.1"), (0.0, "1.3")])
+def test_without_load_the_notice_says_what_regime_and_friction_rest_on(misalignment: float, area: str) -> None:
+    result = solve(pahl_coupling(misalignment, torque=0.0, friction=None))
+    message = next(notice.message for notice in result.warnings if notice.code == "no_load")
+    assert "regime and coefficient are those of a vanishing load" in message
+    vanishing = solve(pahl_coupling(misalignment, torque=1e-6, friction=None)).lubrication
+    assert result.lubrication.regime.area == vanishing.regime.area == area
+    assert result.lubrication.friction_coefficient == pytest.approx(vanishing.friction_coefficient, rel=1e-6)
+
+
+INVALID = [
+    ("coupling", "teeth", 5),
+    ("coupling", "module", 0.0),
+    ("coupling", "face_width", -1.0),
+    ("coupling", "tooth_height", nan),
+    ("coupling", "pressure_angle", radians(45.0)),
+    ("coupling", "pressure_angle", 0.0),
+    ("coupling", "crowning_ratio", 0.19),
+    ("coupling", "hub_distance", 0.0),
+    ("coupling", "tooth_stiffness", inf),
+    ("coupling", "sleeve_mass", 0.0),
+    ("coupling", "youngs_modulus", 0.0),
+    ("coupling", "poisson_ratio", 0.5),
+    ("operation", "torque", -1.0),
+    ("operation", "speed", inf),
+    ("operation", "misalignment", radians(6.1)),
+    ("operation", "misalignment", nan),
+    ("operation", "axial_velocity", nan),
+    ("operation", "shaft_diameter", 0.0),
+    ("lubricant", "viscosity", 0.0),
+    ("lubricant", "reference_film", 0.0),
+    ("friction", "coefficient", -0.1),
+    ("friction", "static_coefficient", nan),
+    ("model", "inlet_length", 0.0),
+    ("model", "film_angle", nan),
+    ("model", "rotor_angle", inf),
+    ("model", "simple_thrust_factor", -0.1),
+]
+
+
+@pytest.mark.parametrize(("group", "field", "value"), INVALID)
+def test_numbers_out_of_range_are_refused(group: str, field: str, value: float) -> None:
+    inputs = pahl_coupling(0.1)
+    bad = replace(inputs, **{group: replace(getattr(inputs, group), **{field: value})})
+    for calculation in (solve, solve_orbit):
+        with pytest.raises(InvalidInput) as caught:
+            calculation(bad)
+        assert (caught.value.code, caught.value.field) == ("out_of_range", field)
+
+
+@pytest.mark.parametrize(("errors", "code"), [((0.0,) * 51, "pitch_errors_length"), ((nan,) * 52, "out_of_range")])
+def test_pitch_errors_are_checked(errors: tuple[float, ...], code: str) -> None:
+    with pytest.raises(InvalidInput) as caught:
+        solve(pahl_coupling(0.1, pitch_errors=errors))
+    assert (caught.value.code, caught.value.field) == (code, "pitch_errors")
+
+
+@pytest.mark.parametrize(
+    ("velocity", "coefficient"),
+    [
+        ((), ()),
+        ((0.1, 0.1), (0.1, 0.1)),
+        ((0.1,), (0.1, 0.2)),
+        ((-0.1, 0.1), (0.1, 0.1)),
+        ((0.1, inf), (0.1, 0.1)),
+        ((0.1, 0.2), (0.1, 0.0)),
+    ],
+)
+def test_friction_tables_are_checked(velocity: tuple[float, ...], coefficient: tuple[float, ...]) -> None:
+    law = Friction(mixed_law=MixedFrictionTable(velocity, coefficient))
+    with pytest.raises(InvalidInput) as caught:
+        solve(replace(pahl_coupling(0.1), friction=law))
+    assert (caught.value.code, caught.value.field) == ("mixed_law", "mixed_law")
+
+
+def test_a_friction_table_of_one_point_is_a_constant() -> None:
+    law = MixedFrictionTable((0.1,), (0.07,))
+    films = [
+        solve(replace(pahl_coupling(0.4, speed=speed), friction=Friction(mixed_law=law))).lubrication
+        for speed in (20.0, 200.0)
+    ]
+    assert [film.regime.area for film in films] == ["1.1", "1.1"]
+    assert [film.friction_coefficient for film in films] == pytest.approx([0.07, 0.07], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("law", "code", "field"),
+    [
+        (MixedFrictionCurve(highest=0.0), "out_of_range", "highest"),
+        (MixedFrictionCurve(lowest=nan), "out_of_range", "lowest"),
+        (MixedFrictionCurve(velocity=0.0), "out_of_range", "velocity"),
+        (MixedFrictionCurve(highest=0.04), "mixed_curve", "lowest"),
+    ],
+)
+def test_friction_curves_are_checked(law: MixedFrictionCurve, code: str, field: str) -> None:
+    with pytest.raises(InvalidInput) as caught:
+        solve(replace(pahl_coupling(0.1), friction=Friction(mixed_curve=law)))
+    assert (caught.value.code, caught.value.field) == (code, field)
+
+
+def test_contacts_beyond_hertz_are_refused() -> None:
+    with pytest.raises(InvalidInput) as caught:
+        solve(pahl_coupling(0.1, torque=2e6))
+    assert (caught.value.code, caught.value.field) == ("hertz_pressure", "torque")
+    with pytest.raises(InvalidInput) as caught:
+        solve(pahl_coupling(0.1, torque=2e5, youngs_modulus=1e9))
+    assert (caught.value.code, caught.value.field) == ("contact_width", "crowning_ratio")
+
+
+@st.composite
+def any_inputs(draw: st.DrawFn) -> CouplingInputs:
+    """Valid inputs over orders of magnitude, zeros among them."""
+
+    def spread(low: float, high: float) -> float:
+        return float(np.exp(draw(st.floats(np.log(low), np.log(high)))))
+
+    def signed(low: float, high: float) -> float:
+        return draw(st.sampled_from([-1.0, 0.0, 1.0])) * spread(low, high)
+
+    teeth, module = draw(st.integers(6, 120)), spread(5e-4, 2e-2)
+    size = draw(st.sampled_from([0.0, 1e-7, 5e-6]))
+    errors = None
+    if size:
+        errors = tuple(size * np.random.default_rng(draw(st.integers(0, 99))).normal(size=teeth))
+    coupling = Coupling(
+        teeth=teeth,
+        module=module,
+        face_width=module * spread(2.0, 20.0),
+        tooth_height=module * spread(0.5, 3.0),
+        pressure_angle=radians(draw(st.floats(5.0, 40.0))),
+        crowning_ratio=spread(0.2, 50.0),
+        hub_distance=spread(0.01, 3.0),
+        tooth_stiffness=spread(1e6, 1e10),
+        sleeve_mass=spread(0.01, 500.0),
+        pitch_errors=errors,
+    )
+    operation = Operation(
+        torque=draw(st.sampled_from([0.0, 1.0])) * spread(1.0, 1e5),
+        speed=signed(1.0, 3000.0),
+        misalignment=radians(signed(1e-4, 6.0)),
+        axial_velocity=signed(1e-5, 0.1),
+        arrangement=draw(st.sampled_from(["single", "parallel_offset", "angular"])),
+    )
+    options = ModelOptions(
+        kinematics=draw(st.sampled_from(["tangential", "spatial"])),
+        sleeve=draw(st.sampled_from(["centred", "floating"])),
+        inlet=draw(st.sampled_from(["face", "travel", "infinite"])),
+        rotor_angle=draw(st.floats(-7.0, 7.0)),
+    )
+    friction = Friction(draw(st.sampled_from([None, 0.0, 0.1, 0.4])))
+    return CouplingInputs(coupling, operation, friction=friction, model=options)
+
+
+def answered(calculation: Callable[[], object], reasons: set[str]) -> object | None:
+    """What the calculation answers, None where it refuses or fails for one of the reasons."""
+    try:
+        result = calculation()
+    except SolverError as error:
+        if error.code not in reasons:
+            raise
+        if isinstance(error, NoSolution):
+            assert_finite(tuple(error.residuals.values()))
+        return None
+    assert_finite(result)
+    return result
+
+
+@examples(100, 300, any_inputs())
+def test_any_valid_input_is_answered_or_refused_with_a_reason(inputs: CouplingInputs) -> None:
+    reasons = {"hertz_pressure", "contact_width"}
+    friction = 0.16 if inputs.friction.coefficient is None else inputs.friction.coefficient
+    diameter, teeth = inputs.coupling.module * inputs.coupling.teeth, inputs.coupling.teeth
+    if friction * diameter / inputs.coupling.hub_distance > 0.999 * cos(pi / teeth):
+        # Below, Brouwer's theorem promises an equilibrium: friction maps the forces the teeth hold into themselves.
+        reasons.add("sleeve_equilibrium")
+    result = answered(lambda: solve(inputs), reasons)
+    if isinstance(result, CouplingResult):
+        force = result.load_distribution.curves.tangential_force
+        assert force.min() >= 0.0
+        assert force.sum() * result.geometry.pitch_radius == pytest.approx(inputs.operation.torque, rel=1e-6)
+
+
+@examples(100, 300, any_inputs())
+def test_every_floating_sleeve_is_balanced(inputs: CouplingInputs) -> None:
+    alone = replace(
+        inputs,
+        operation=replace(inputs.operation, arrangement="single"),
+        model=replace(inputs.model, sleeve="floating"),
+    )
+    answered(lambda: solve(alone), {"hertz_pressure", "contact_width"})
+
+
+@examples(
+    100,
+    300,
+    misalignment=st.floats(0.005, 3.0),
+    teeth=st.integers(6, 100),
+    friction=st.floats(0.01, 0.3),
+    share=st.floats(0.01, 0.99),
+    torque=st.floats(30.0, 5000.0),
+    velocity=st.sampled_from([0.0, 1e-4, -1e-3, 1e-2]),
+    arrangement=st.sampled_from(["parallel_offset", "angular"]),
+    model=st.sampled_from(["tangential", "spatial"]),
+    errors=st.sampled_from([0.0, 1e-6, 1e-5]),
+)
+def test_every_sleeve_whose_equilibrium_exists_is_balanced(
+    misalignment: float,
+    teeth: int,
+    friction: float,
+    share: float,
+    torque: float,
+    velocity: float,
+    arrangement: Arrangement,
+    model: KinematicModel,
+    errors: float,
+) -> None:
+    inputs = pahl_coupling(
+        misalignment,
+        torque=torque,
+        axial_velocity=velocity,
+        arrangement=arrangement,
+        friction=friction,
+        model=ModelOptions(kinematics=model),
+        teeth=teeth,
+        module=0.156 / teeth,
+        hub_distance=friction * 0.156 / (share * cos(pi / teeth)),
+        pitch_errors=tuple(errors * np.random.default_rng(teeth).normal(size=teeth)) if errors else None,
+    )
+    answered(lambda: solve(inputs), {"hertz_pressure"})
+
+
+@examples(20, 60, any_inputs())
+def test_any_orbit_is_answered_or_refused_with_a_reason(inputs: CouplingInputs) -> None:
+    answered(lambda: solve_orbit(inputs), {"torque_too_low", "sleeve_orbit"})
+
+
+@examples(20, 60, any_inputs(), st.floats(1e-3, 1.0), st.floats(1.0, 5.0))
+def test_any_recommendation_is_answered_or_refused_with_a_reason(
+    inputs: CouplingInputs, low: float, width: float
+) -> None:
+    wanted = RecommendationInputs(inputs, radians(low), radians(low * width))
+    result = answered(lambda: recommend(wanted), {"no_load", "not_turning", "sleeve_equilibrium"})
+    if isinstance(result, Recommendation):
+        assert result.feasible == (result.failed_constraint is None) == (result.crowning_ratio is not None)

@@ -1,0 +1,254 @@
+"""Thrust and sleeve equilibrium against limits, an independent solution of the six equations and plain averaging."""
+
+from dataclasses import replace
+from math import cos, pi, radians, sin, tan
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import root
+
+from app.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
+from solvers.coupling import solve
+from solvers.coupling.friction.averaging import rotor_samples
+from solvers.coupling.inputs import Arrangement, CouplingInputs, KinematicModel, ModelOptions, OperatingPoint
+from solvers.coupling.sleeve.equilibrium import sleeve_equilibrium, two_meshes
+from solvers.coupling.teeth.geometry import tooth_geometry
+from solvers.errors import NoSolution
+from tests.support.couplings import random_pitch_errors
+from tests.support.plain_coupling import PlainMesh, midpoints
+
+ALPHA = radians(20.0)
+STIFFNESS = 2.8e8
+
+
+def six_equations(inputs: CouplingInputs, friction: float, velocity: float, angle: float) -> tuple[float, float]:
+    """Thrust on the left and on the right shaft at one rotor angle, by a general root finder, lengths in um."""
+    right_tilt = 1 if inputs.operation.arrangement == "parallel_offset" else -1
+    meshes = PlainMesh(inputs), PlainMesh(inputs, side=-1, tilt=right_tilt)
+    phi = meshes[0].angles(np.array([angle]))[0]
+    ahead = [mesh.ahead(phi) for mesh in meshes]
+    normal = [mesh.normals(phi) for mesh in meshes]
+    direction = [np.sign(v + mesh.sliding(phi)) for mesh, v in zip(meshes, (-velocity, velocity), strict=True)]
+
+    def forces(x: np.ndarray) -> list[np.ndarray]:
+        states = 1e-6 * x.reshape(2, 3)
+        return [STIFFNESS * np.maximum(0.0, states[i, 0] + ahead[i] - states[i, 1:] @ normal[i]) for i in range(2)]
+
+    def residuals(x: np.ndarray) -> np.ndarray:
+        tangential = forces(x)
+        lateral = [normal[i] @ tangential[i] for i in range(2)]
+        axial = [friction / cos(ALPHA) * tangential[i] * direction[i] for i in range(2)]
+        moment_x = PITCH_RADIUS * sum((force * np.sin(phi)).sum() for force in axial)
+        moment_y = -PITCH_RADIUS * sum((force * np.cos(phi)).sum() for force in axial)
+        half = inputs.coupling.hub_distance / 2
+        return np.array(
+            [
+                PITCH_RADIUS * tangential[0].sum() - inputs.operation.torque,
+                PITCH_RADIUS * tangential[1].sum() - inputs.operation.torque,
+                *(lateral[0] + lateral[1]),
+                moment_x + half * (lateral[0][1] - lateral[1][1]),
+                moment_y + half * (lateral[1][0] - lateral[0][0]),
+            ]
+        )
+
+    guess = np.zeros((2, 3))
+    guess[:, 0] = 1e6 * inputs.operation.torque / (PITCH_RADIUS * STIFFNESS * TEETH)
+    found = root(residuals, guess.ravel(), tol=1e-12)
+    assert np.abs(found.fun).max() < 1e-5
+    tangential = forces(found.x)
+    left, right = (friction / cos(ALPHA) * float(tangential[i] @ direction[i]) for i in range(2))
+    return -left, right
+
+
+@pytest.mark.parametrize("arrangement", ["parallel_offset", "angular"])
+@pytest.mark.parametrize("model", ["tangential", "spatial"])
+@pytest.mark.parametrize(("misalignment", "velocity"), [(0.05, 2e-3), (0.1, 0.0), (0.3, -1e-3)])
+def test_sleeve_equilibrium_solves_the_six_equations(
+    arrangement: Arrangement, model: KinematicModel, misalignment: float, velocity: float
+) -> None:
+    inputs = pahl_coupling(misalignment, arrangement=arrangement, model=ModelOptions(kinematics=model))
+    geometry = tooth_geometry(inputs.coupling)
+    samples = rotor_samples(inputs.coupling, two_meshes(inputs, geometry)[0], velocity)
+    angles = np.arctan2(samples.teeth.sine[:, 0], samples.teeth.cosine[:, 0])
+    left, right = samples.weight @ [six_equations(inputs, 0.2, velocity, angle) for angle in angles]
+    force = sleeve_equilibrium(inputs, geometry, 0.2, velocity).thrust
+    assert force == pytest.approx(left, rel=1e-6, abs=1e-4)
+    # Without pitch errors the sleeve is in axial balance by symmetry, though no equation asks for it.
+    assert left == pytest.approx(right, rel=1e-6, abs=1e-4)
+
+
+@pytest.mark.parametrize("kinematics", ["tangential", "spatial"])
+@pytest.mark.parametrize("errors", [None, random_pitch_errors(3)])
+@pytest.mark.parametrize("misalignment", [0.06, 0.6])
+def test_mean_of_one_mesh_agrees_with_many_midpoints(
+    misalignment: float, errors: tuple[float, ...] | None, kinematics: KinematicModel
+) -> None:
+    model = ModelOptions(kinematics=kinematics)
+    inputs = pahl_coupling(misalignment, axial_velocity=2e-3, pitch_errors=errors, model=model)
+    rotor = midpoints(4000, 2 * pi / TEETH) if errors is None else midpoints(600 * TEETH, 2 * pi)
+    force, moment, power = PlainMesh(inputs).friction(rotor, 0.2)
+    result = solve(inputs)
+    # A midpoint rule misses up to half a step of a jump of 2 mu F_n.
+    missed = 0.2 * result.lubrication.max_normal_force / 500
+    assert result.axial_thrust.force == pytest.approx(force, abs=missed)
+    assert result.losses.friction_moment == pytest.approx(moment, abs=missed * PITCH_RADIUS)
+    assert result.losses.friction_power == pytest.approx(power, rel=1e-5)
+
+
+@pytest.mark.parametrize("teeth", [6, 52, 208, 400])
+def test_a_revolution_is_sampled_as_finely_whatever_the_number_of_teeth(teeth: int) -> None:
+    inputs = pahl_coupling(0.3, teeth=teeth, module=2 * PITCH_RADIUS / teeth, pitch_errors=(0.0,) * teeth)
+    samples = rotor_samples(inputs.coupling, two_meshes(inputs, tooth_geometry(inputs.coupling))[0], 2e-3)
+    assert samples.weight.sum() == pytest.approx(1.0, rel=1e-12)
+    # At most six reversals of friction a pitch leave seven pieces, each with its share of the 208 angles.
+    assert 208 <= samples.weight.size <= 7 * max(212, teeth)
+
+
+@pytest.mark.parametrize("teeth", [6, 400])
+def test_mean_over_a_revolution_is_as_good_with_few_and_with_many_teeth(teeth: int) -> None:
+    errors = tuple(2e-6 * np.random.default_rng(5).normal(size=teeth))
+    module = 2 * PITCH_RADIUS / teeth
+    inputs = pahl_coupling(0.06, axial_velocity=2e-3, teeth=teeth, module=module, pitch_errors=errors)
+    parts = [PlainMesh(inputs).friction(midpoints(51200, 2 * pi)[part::16], 0.2) for part in range(16)]
+    force, _, power = np.mean(parts, axis=0)
+    result = solve(inputs)
+    assert result.axial_thrust.force == pytest.approx(force, abs=2e-4 * result.axial_thrust.coaxial_limit)
+    assert result.losses.friction_power == pytest.approx(power, rel=1e-4)
+
+
+def test_mean_of_two_meshes_agrees_with_many_midpoints() -> None:
+    inputs = pahl_coupling(0.06, axial_velocity=2e-3, arrangement="parallel_offset")
+    angles = (np.arange(400) + 0.5) / 400 * 2 * pi / TEETH
+    mean = float(np.mean([six_equations(inputs, 0.2, 2e-3, angle)[0] for angle in angles]))
+    assert solve(inputs).axial_thrust.force == pytest.approx(mean, abs=2 * 0.2 * 1000.0 / 400)
+
+
+def test_self_induced_thrust_of_equal_loads() -> None:
+    for friction in (0.05, 0.2):
+        # Higher orders in mu are below mu^2 (r_o/l_H)^2: 1 % at 0.2.
+        induced = solve(pahl_coupling(1e-3, friction=friction, arrangement="parallel_offset")).axial_thrust.self_induced
+        expected = 16 / pi**2 * friction**2 * 3000 * tan(ALPHA) / 0.2
+        assert induced is not None
+        assert induced.uniform_load_force == pytest.approx(expected, rel=1e-12)
+        assert induced.force == pytest.approx(expected, rel=2e-3)
+
+
+def test_self_induced_thrust_of_concentrated_loads_tends_to_sin_alpha() -> None:
+    # kappa -> sin(alpha) and M_2 -> 2 mu T/cos(alpha) with the load in the tilt zones; soft in misalignment, so 2 %.
+    inputs = pahl_coupling(2.0, arrangement="parallel_offset", friction=0.05, teeth=520, module=0.3e-3)
+    inputs = replace(inputs, coupling=replace(inputs.coupling, tooth_height=6e-2))
+    induced = solve(inputs).axial_thrust.self_induced
+    assert induced is not None
+    assert induced.force == pytest.approx(sin(ALPHA) * 2 * 0.05**2 * 3000 / cos(ALPHA) / 0.2, rel=2e-2)
+    assert induced.overturning_moment == pytest.approx(2 * 0.05 * 3000 / cos(ALPHA), rel=2e-2)
+
+
+def test_closed_forms_of_the_angular_arrangement_are_zero() -> None:
+    # One tooth pair a mesh, or equal loads: friction's moments are opposite in both meshes.
+    for model in ("tangential", "spatial"):
+        options = ModelOptions(kinematics=model)  # type: ignore[arg-type]
+        induced = solve(pahl_coupling(0.3, arrangement="angular", model=options)).axial_thrust.self_induced
+        assert induced is not None
+        assert induced.simple_model_force == induced.uniform_load_force == 0.0
+        # The full model agrees in the limit of equal loads.
+        limit = solve(pahl_coupling(1e-3, arrangement="angular", model=options)).axial_thrust.self_induced
+        assert limit is not None
+        assert limit.force == pytest.approx(0.0, abs=1e-2)
+        assert limit.overturning_moment == pytest.approx(0.0, abs=1e-2)
+
+
+@pytest.mark.parametrize("factor", [0.0, 0.25])
+def test_one_pair_model_is_proportional_to_its_factor(factor: float) -> None:
+    base, scaled = (
+        solve(
+            pahl_coupling(0.1, arrangement="parallel_offset", model=ModelOptions(simple_thrust_factor=share))
+        ).axial_thrust.self_induced
+        for share in (1.0, factor)
+    )
+    assert base is not None
+    assert scaled is not None
+    assert scaled.simple_model_force == pytest.approx(factor * base.simple_model_force, rel=1e-12)
+    assert scaled.force == base.force
+
+
+def test_coaxial_shafts_that_separate_are_pulled_with_the_whole_limit() -> None:
+    for arrangement in ("parallel_offset", "angular"):
+        for sign in (1, -1):
+            result = solve(pahl_coupling(0.0, axial_velocity=sign * 1e-3, arrangement=arrangement)).axial_thrust  # type: ignore[arg-type]
+            assert result.force == pytest.approx(sign * result.coaxial_limit, rel=1e-9)
+
+
+@given(
+    misalignment=st.floats(1e-3, 2.0),
+    velocity=st.floats(-5e-3, 5e-3),
+    torque=st.floats(100.0, 5000.0),
+)
+def test_closed_form_bounds_the_thrust_of_a_centred_sleeve(misalignment: float, velocity: float, torque: float) -> None:
+    result = solve(pahl_coupling(misalignment, torque=torque, axial_velocity=velocity)).axial_thrust
+    # A pitch of 7 degrees: the mean over 52 teeth differs from the integral by less than 1e-3 of the limit.
+    assert abs(result.force) <= abs(result.uniform_load_force) + 1e-3 * result.coaxial_limit
+    assert result.force * velocity >= -1e-9
+
+
+@settings(max_examples=60)
+@given(
+    misalignment=st.floats(1e-3, 3.0),
+    velocity=st.floats(-5e-3, 5e-3),
+    ratio=st.floats(0.3, 12.0),
+    spatial=st.booleans(),
+    parallel=st.booleans(),
+    seed=st.none() | st.integers(0, 20),
+)
+def test_thrust_never_exceeds_its_coaxial_limit(
+    misalignment: float, velocity: float, ratio: float, spatial: bool, parallel: bool, seed: int | None
+) -> None:
+    inputs = pahl_coupling(
+        misalignment,
+        axial_velocity=velocity,
+        arrangement="parallel_offset" if parallel else "angular",
+        model=ModelOptions(kinematics="spatial" if spatial else "tangential"),
+        crowning_ratio=ratio,
+        pitch_errors=None if seed is None else random_pitch_errors(seed),
+    )
+    result = solve(inputs).axial_thrust
+    assert abs(result.force) <= result.coaxial_limit * (1 + 1e-9)
+    assert result.lower_bound == result.force == result.upper_bound
+
+
+@pytest.mark.parametrize(
+    ("arrangement", "velocity", "static", "expected"),
+    [
+        ("single", 0.0, None, 8186.0),  # at rest friction may hold the whole limit though it turns without thrust
+        ("single", 0.1, 0.1, 8186.0),  # all teeth slide axially: running thrust beyond breakaway
+        ("parallel_offset", -0.1, 0.1, 8186.0),
+        ("single", 0.1, 0.3, 12279.0),
+    ],
+)
+def test_the_bearing_is_designed_for_the_larger_of_thrust_and_breakaway(
+    arrangement: Arrangement, velocity: float, static: float | None, expected: float
+) -> None:
+    inputs = pahl_coupling(0.1, axial_velocity=velocity, arrangement=arrangement)
+    result = solve(replace(inputs, friction=replace(inputs.friction, static_coefficient=static))).axial_thrust
+    assert result.design_force == pytest.approx(expected, abs=0.1)
+
+
+def test_customary_thrust_needs_a_shaft() -> None:
+    inputs = pahl_coupling(0.1)
+    assert solve(inputs).axial_thrust.customary_force is None
+    shaft = replace(inputs, operation=replace(inputs.operation, shaft_diameter=0.1))
+    assert solve(shaft).axial_thrust.customary_force == 7500.0  # 0.25 x 3000 N m/0.1 m
+
+
+def test_parallel_offset_tilts_both_hubs() -> None:
+    ahead, behind = (OperatingPoint(1.0, 1.0, parallel_offset=offset) for offset in (0.35e-3, -0.35e-3))
+    assert ahead.operation(hub_distance=0.2).misalignment == pytest.approx(radians(0.10027), rel=1e-4)
+    assert behind.operation(0.2).misalignment == -ahead.operation(0.2).misalignment
+
+
+def test_overturned_sleeve_is_no_solution() -> None:
+    with pytest.raises(NoSolution) as caught:
+        solve(pahl_coupling(0.1, friction=0.4, hub_distance=0.02, arrangement="parallel_offset"))
+    assert caught.value.code == "sleeve_equilibrium"
+    assert all(np.isfinite(value) for value in caught.value.residuals.values())

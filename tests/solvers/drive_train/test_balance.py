@@ -1,0 +1,462 @@
+"""The coupled balance: limits in which it is today's load distribution, invariances of random units, convergence."""
+
+from dataclasses import replace
+from math import pi, radians
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from solvers.coupling.inputs import Friction
+from solvers.drive_train import solve
+from solvers.drive_train.gap.face_curves import face_mean
+from solvers.drive_train.gap.thermal_lead import thermal_lead
+from solvers.drive_train.inputs import (
+    Arrangement,
+    Bearing,
+    DriveTrainInputs,
+    Effects,
+    Heat,
+    JournalBearing,
+    LinearBearing,
+    RigidBearing,
+    Shaft,
+    ShaftSection,
+    UnitCoupling,
+)
+from solvers.drive_train.model import prepare, settle
+from solvers.drive_train.studies.outcome import outcome
+from solvers.errors import NoSolution
+from solvers.gears.inputs import GearTeeth
+from solvers.scuffing import solve_load_distribution
+from solvers.scuffing.balance.face_response import face_response
+from solvers.scuffing.balance.load_balance import balance_load
+from solvers.scuffing.inputs import LeadCurve, LoadDistributionInputs, Resolution
+from solvers.scuffing.model import mesh_of
+from tests.support.drive_trains import COUPLING, GROUND, NO_EFFECTS, SPEED, turbo_gear
+from tests.support.properties import examples
+
+COARSE = Resolution(roll_positions=24, slices=20, profile_points=31, face_points=31, feature_points=5)
+
+
+def with_distribution(inputs: DriveTrainInputs, distribution: LoadDistributionInputs) -> DriveTrainInputs:
+    return replace(inputs, mesh=replace(inputs.mesh, distribution=distribution))
+
+
+# Today's load distribution
+
+
+def test_an_even_load_of_a_spur_gear_is_even_at_the_stations() -> None:
+    """Its lines run along the face, where slices and stations would beat against each other."""
+    inputs = replace(turbo_gear(), effects=NO_EFFECTS)
+    distribution = inputs.mesh.distribution
+    gears = replace(distribution.gears, helix_angle=0.0)
+    inputs = replace(
+        with_distribution(inputs, replace(distribution, gears=gears)),
+        pumping=replace(inputs.pumping, gears=replace(inputs.pumping.gears, helix_angle=0.0)),
+    )
+    force = solve(inputs).misalignment.curves.line_force
+    assert force == pytest.approx(np.full(force.size, force.mean()), rel=1e-9)
+
+
+@pytest.mark.parametrize("rigid", ["no effects", "stiff shafts in rigid bearings"])
+def test_rigid_shafts_are_todays_load_distribution(rigid: str) -> None:
+    inputs = replace(turbo_gear(GROUND), effects=Effects(coupling=False, thermal=False))
+    if rigid == "no effects":
+        inputs = replace(inputs, effects=NO_EFFECTS)
+    else:
+        stiff = [
+            replace(
+                shaft,
+                youngs_modulus=1e30,
+                density=0.0,
+                bearings=tuple(RigidBearing(bearing.position) for bearing in shaft.bearings),
+            )
+            for shaft in inputs.shafts
+        ]
+        inputs = replace(inputs, pinion_shaft=stiff[0], wheel_shaft=stiff[1])
+    found, today = solve(inputs).mesh, solve_load_distribution(inputs.mesh.distribution)
+    error, expected = found.balance.transmission_error, today.balance.transmission_error
+    assert error == pytest.approx(expected, abs=1e-12 * np.abs(expected).max())
+    assert found.load.face_load_factor == pytest.approx(today.load.face_load_factor, rel=1e-12)
+    assert found.pressure.max == pytest.approx(today.pressure.max, rel=1e-12)
+    assert found.friction_loss.power == pytest.approx(today.friction_loss.power, rel=1e-12)
+    if rigid == "no effects":
+        assert np.array_equal(error, expected)
+
+
+def test_lead_curves() -> None:
+    """A straight line is a helix slope; a curve of zeros is none, bit by bit."""
+    plain = turbo_gear().mesh.distribution
+    width, slope = plain.gears.face_width, 20e-6
+    straight = replace(plain.modifications, lead_curve=LeadCurve((0.0, 0.03, width), (-10e-6, -7e-6, 10e-6)))
+    sloped = replace(plain.modifications, helix_slope=slope)
+    one, other = (solve_load_distribution(replace(plain, modifications=m)) for m in (straight, sloped))
+    error = other.balance.transmission_error
+    assert one.balance.transmission_error == pytest.approx(error, abs=1e-12 * error.max())
+    zeros = replace(plain.modifications, lead_curve=LeadCurve((0.0, width), (0.0, 0.0)))
+    nothing, none = (solve_load_distribution(replace(plain, modifications=m)) for m in (zeros, plain.modifications))
+    assert np.array_equal(nothing.balance.transmission_error, none.balance.transmission_error)
+    assert np.array_equal(nothing.flank.line_load, none.flank.line_load)
+
+
+@pytest.mark.parametrize("contact", ["hertzian", "linear"])
+@pytest.mark.parametrize("helix", [0.0, 11.5])
+def test_face_response_is_the_balances_own(contact: str, helix: float) -> None:
+    """Force over the face adds up; its derivative is the difference quotient; a start changes nothing."""
+    plain = turbo_gear(GROUND).mesh.distribution
+    gears = replace(plain.gears, helix_angle=radians(helix))
+    plain = replace(plain, gears=gears, model=replace(plain.model, contact=contact))  # type: ignore[arg-type]
+    given_mesh = mesh_of(plain)
+    lead = np.random.default_rng(3).normal(size=11) * 3e-6
+    change = np.random.default_rng(4).normal(size=11)
+
+    def under(gap: np.ndarray, start: object = None) -> object:
+        fine = np.interp(np.linspace(0, 1, 401), np.linspace(0, 1, 11), gap)
+        mesh = given_mesh.mesh._replace(gap=given_mesh.mesh.gap._replace(lead=fine))
+        return face_response(mesh, given_mesh.rolls, given_mesh.force, 100, 11, start)  # type: ignore[arg-type]
+
+    found, step = under(lead), 1e-9
+    assert found.force.sum() == pytest.approx(given_mesh.tangential_force, rel=1e-12)  # type: ignore[attr-defined]
+    scale = np.abs(found.derivative).max()  # type: ignore[attr-defined]
+    assert found.derivative.sum(axis=0) == pytest.approx(np.zeros(11), abs=1e-12 * scale)  # type: ignore[attr-defined]
+    assert found.derivative == pytest.approx(found.derivative.T, abs=1e-12 * scale)  # type: ignore[attr-defined]
+    quotient = (under(lead + step * change).force - under(lead - step * change).force) / (2 * step)  # type: ignore[attr-defined]
+    assert found.derivative @ change == pytest.approx(quotient, abs=1e-4 * np.abs(quotient).max())  # type: ignore[attr-defined]
+    far = under(lead + 20e-6 * change)
+    again = under(lead, far)
+    assert again.force == pytest.approx(found.force, rel=1e-10, abs=1e-10 * found.force.max())  # type: ignore[attr-defined]
+    fine = np.interp(np.linspace(0, 1, 401), np.linspace(0, 1, 11), lead)
+    mesh = given_mesh.mesh._replace(gap=given_mesh.mesh.gap._replace(lead=fine))
+    balance = balance_load(mesh, given_mesh.rolls, given_mesh.force, 100)
+    if helix == 0.0:
+        return  # the error jumps where a spur gear's pairs come and go, and both stand for either side
+    # The balance cuts lines that are loaded in part finer than the response does.
+    error = np.interp(given_mesh.rolls.phase, balance.rolls.phase, balance.transmission_error)
+    assert again.error == pytest.approx(error, rel=5e-4)  # type: ignore[attr-defined]
+
+
+# Heat
+
+
+def test_equally_hot_gears_have_no_error() -> None:
+    inputs = turbo_gear()
+    path = mesh_of(inputs.mesh.distribution).path
+    heat = Heat(0.0, pinion_bulk=360.0, wheel_bulk=360.0)
+    found = thermal_lead(replace(inputs, heat=heat), path, np.linspace(0, 0.2, 41))
+    assert found.lead == pytest.approx(np.zeros(41), abs=1e-15)
+    assert found.profile_slope == 0.0
+    assert found.base_pitch == 0.0
+
+
+def test_a_hot_pinion_leaves_its_contact_lines_parallel() -> None:
+    """Lead and profile together: no mismatch along a line, alpha dT p_bt between neighbours."""
+    inputs = turbo_gear()
+    path = mesh_of(inputs.mesh.distribution).path
+    plane, rise = path.plane, 15.0
+    y = np.linspace(0.0, plane.face_width, 41)
+    heat = Heat(0.0, pinion_bulk=353.15 + rise, wheel_bulk=353.15)
+    found = thermal_lead(replace(inputs, heat=heat), path, y)
+    assert found.base_pitch == pytest.approx(12e-6 * rise * plane.base_pitch, rel=1e-12)
+
+    def gap(line: float) -> np.ndarray:
+        x = line - y * plane.tan_base_helix
+        whole = found.lead + found.profile_slope * (x / plane.path_length - 0.5)
+        return np.asarray(whole[(x >= 0.0) & (x <= plane.path_length)])
+
+    lines = [gap(2.1 * plane.base_pitch), gap(3.1 * plane.base_pitch)]
+    for line in lines:
+        assert np.ptp(line) < 1e-15
+    assert lines[0][0] - lines[1][0] == pytest.approx(found.base_pitch, rel=1e-9)
+
+
+# Random units
+
+
+def bearings(draw: st.DrawFn, first: float, second: float, kind: str) -> tuple[Bearing, Bearing]:
+    built: list[Bearing] = []
+    for position in (first, second):
+        offset = (draw(st.floats(-2e-5, 2e-5)), draw(st.floats(-2e-5, 2e-5)))
+        if kind == "journal":
+            diameter = draw(st.floats(0.12, 0.2))
+            viscosity, clearance = draw(st.floats(0.008, 0.03)), draw(st.floats(1e-3, 2e-3)) * diameter / 2
+            built.append(JournalBearing(position, diameter, 0.6 * diameter, viscosity, clearance, offset))
+        elif kind == "linear":
+            stiff, cross = draw(st.floats(2e8, 2e9)), draw(st.floats(-1e8, 1e8))
+            built.append(LinearBearing(position, ((stiff, cross), (-0.7 * cross, 1.4 * stiff)), offset))
+        else:
+            built.append(RigidBearing(position, offset))
+    return built[0], built[1]
+
+
+@st.composite
+def units(draw: st.DrawFn) -> DriveTrainInputs:
+    """Shaft lengths, bearings, gears, coupling on either shaft or none, any angles and senses."""
+    plain = turbo_gear()
+    helix = draw(st.sampled_from([0.0, 8.0, 11.5, 20.0]))
+    gears = replace(
+        plain.mesh.distribution.gears,
+        pinion=GearTeeth(draw(st.integers(30, 45))),
+        wheel=GearTeeth(draw(st.integers(70, 140))),
+        helix_angle=radians(helix),
+        face_width=draw(st.floats(0.12, 0.22)),
+    )
+    shape = replace(GROUND, helix_slope=draw(st.floats(-5e-5, 8e-5)), lead_crowning=draw(st.floats(0.0, 1e-5)))
+    distribution = replace(plain.mesh.distribution, gears=gears, modifications=shape, resolution=COARSE)
+    torque = distribution.load.pinion_torque * draw(st.floats(0.2, 1.2)) * gears.face_width / 0.22
+    distribution = replace(distribution, load=replace(distribution.load, pinion_torque=torque))
+    low, high = 0.32 - draw(st.floats(0.06, 0.12)), 0.32 + gears.face_width + draw(st.floats(0.06, 0.12))
+    shafts = []
+    for diameter, core in ((0.15, 0.17), (0.2, 0.4)):
+        kind = draw(st.sampled_from(["journal", "linear", "rigid"]))
+        sections = (
+            ShaftSection(0.32, diameter, draw(st.floats(0.0, 0.05))),
+            ShaftSection(gears.face_width, core),
+            ShaftSection(0.35, diameter),
+        )
+        shafts.append(
+            Shaft(sections, bearings(draw, low, high, kind), torque_position=draw(st.sampled_from([0.03, 0.75])))
+        )
+    couplings: tuple[UnitCoupling, ...] = ()
+    driven = draw(st.sampled_from([None, "pinion", "wheel"]))
+    if driven is not None:
+        couplings = (
+            replace(
+                COUPLING,
+                shaft=driven,
+                position=0.03,
+                friction=Friction(draw(st.floats(0.03, 0.25))),
+                offset=(draw(st.floats(-4e-4, 4e-4)), draw(st.floats(-4e-4, 4e-4))),
+                slope=(draw(st.floats(-3e-4, 3e-4)), draw(st.floats(-3e-4, 3e-4))),
+                thrust_fraction=draw(st.sampled_from([0.0, 0.5, -0.8])),
+            ),
+        )
+    return replace(
+        with_distribution(plain, distribution),
+        pinion_shaft=shafts[0],
+        wheel_shaft=shafts[1],
+        couplings=couplings,
+        heat=Heat(0.0, pinion_bulk=365.0, wheel_bulk=355.0),
+        arrangement=Arrangement(
+            hand=draw(st.sampled_from(["right", "left"])),
+            rotation=draw(st.sampled_from(["counterclockwise", "clockwise"])),
+            wheel_angle=draw(st.floats(-pi, pi)),
+            gravity_angle=draw(st.floats(-pi, pi)),
+        ),
+        coupling_friction=draw(st.sampled_from(["elastic_plastic", "sliding"])),
+        face_stations=21,
+    )
+
+
+def turned(vector: tuple[float, float], angle: float) -> tuple[float, float]:
+    x, y = vector
+    return (x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle))
+
+
+def rotated(inputs: DriveTrainInputs, angle: float) -> DriveTrainInputs:
+    """The whole unit turned about Z."""
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    return _mapped(
+        inputs,
+        lambda v: turned(v, angle),
+        lambda k: turn @ k @ turn.T,
+        replace(
+            inputs.arrangement,
+            wheel_angle=inputs.arrangement.wheel_angle + angle,
+            gravity_angle=inputs.arrangement.gravity_angle + angle,
+        ),
+    )
+
+
+def mirrored(inputs: DriveTrainInputs) -> DriveTrainInputs:
+    """The whole unit seen in a mirror across X."""
+    flip, own = np.diag([-1.0, 1.0]), inputs.arrangement
+    arrangement = Arrangement(
+        hand="left" if own.hand == "right" else "right",
+        rotation="clockwise" if own.rotation == "counterclockwise" else "counterclockwise",
+        wheel_angle=pi - own.wheel_angle,
+        gravity_angle=pi - own.gravity_angle,
+    )
+    return spur_face_reversed(_mapped(inputs, lambda v: (-v[0], v[1]), lambda k: flip @ k @ flip, arrangement))
+
+
+def spur_face_reversed(image: DriveTrainInputs) -> DriveTrainInputs:
+    """The mirrored unit; of a spur pair, whose face begins where the rotation says, the flank is mirrored too."""
+    distribution = image.mesh.distribution
+    if distribution.gears.helix_angle > 0.0:
+        return image
+    shape = replace(distribution.modifications, helix_slope=-distribution.modifications.helix_slope)
+    return with_distribution(image, replace(distribution, modifications=shape))
+
+
+def reversed_ends(inputs: DriveTrainInputs) -> DriveTrainInputs:
+    """The whole unit seen in a mirror across Z; slopes of the machine change their sign."""
+    width = inputs.mesh.distribution.gears.face_width
+    hand = "left" if inputs.arrangement.hand == "right" else "right"
+    shafts = [
+        replace(
+            shaft,
+            start=-shaft.end,
+            sections=shaft.sections[::-1],
+            bearings=tuple(replace(bearing, position=-bearing.position) for bearing in shaft.bearings),
+            torque_position=None if shaft.torque_position is None else -shaft.torque_position,
+        )
+        for shaft in inputs.shafts
+    ]
+    image = replace(
+        inputs,
+        face_start=-inputs.face_start - width,
+        pinion_shaft=shafts[0],
+        wheel_shaft=shafts[1],
+        couplings=tuple(
+            replace(
+                one,
+                position=-one.position,
+                machine_side="plus" if one.machine_side == "minus" else "minus",
+                slope=(-one.slope[0], -one.slope[1]),
+            )
+            for one in inputs.couplings
+        ),
+        arrangement=replace(inputs.arrangement, hand=hand),  # type: ignore[arg-type]
+    )
+    return spur_face_reversed(image)
+
+
+def _mapped(inputs, vector, matrix, arrangement):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN202
+    def bearing(one: Bearing) -> Bearing:
+        moved = replace(one, offset=vector(one.offset))
+        if isinstance(moved, LinearBearing):
+            stiffness = matrix(np.array(moved.stiffness))
+            return replace(moved, stiffness=tuple(map(tuple, stiffness.tolist())))  # type: ignore[arg-type]
+        return moved
+
+    shafts = [replace(shaft, bearings=tuple(bearing(one) for one in shaft.bearings)) for shaft in inputs.shafts]
+    couplings = tuple(replace(one, offset=vector(one.offset), slope=vector(one.slope)) for one in inputs.couplings)
+    return replace(inputs, pinion_shaft=shafts[0], wheel_shaft=shafts[1], couplings=couplings, arrangement=arrangement)
+
+
+SAME = 1e-9
+
+
+@examples(8, 100, units(), st.floats(-3.0, 3.0))
+def test_a_unit_turned_or_mirrored_answers_alike(inputs: DriveTrainInputs, angle: float) -> None:
+    one = outcome(inputs)
+    turns = -1.0 if inputs.mesh.distribution.gears.helix_angle == 0.0 else 1.0
+    for image, sign in ((rotated(inputs, angle), 1.0), (mirrored(inputs), turns), (reversed_ends(inputs), turns)):
+        other = outcome(image)
+        assert other.face_load_factor == pytest.approx(one.face_load_factor, rel=SAME)
+        assert sign * other.shaft_slope == pytest.approx(one.shaft_slope, rel=SAME, abs=1e-14)
+        assert other.max_pressure == pytest.approx(one.max_pressure, rel=SAME)
+        assert other.safety == pytest.approx(one.safety, rel=SAME)
+
+
+@settings(
+    max_examples=25,
+    derandomize=True,
+    deadline=None,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
+)
+@given(units())
+def test_forces_and_moments_are_in_balance(inputs: DriveTrainInputs) -> None:
+    found = solve(inputs)
+    assert found.balance.force_error is not None
+    assert found.balance.force_error < 1e-10
+    assert found.balance.moment_error is not None
+    assert found.balance.moment_error < 1e-10
+    assert found.convergence.residual <= 1e-12
+    curves = found.misalignment.curves
+    assert face_mean(curves.shaft) == pytest.approx(0.0, abs=1e-15)
+    # The gap is what the shafts make of the load that the gap leaves.
+    parts = found.misalignment.parts
+    total = sum(
+        getattr(parts, name)
+        for name in ("bending", "torsion", "tilting_moment", "films", "bearing_offsets", "coupling", "collar", "weight")
+    )
+    assert total == pytest.approx(found.misalignment.shaft_slope, abs=2e-12)
+
+
+@pytest.mark.slow
+@settings(
+    max_examples=1000,
+    derandomize=True,
+    deadline=None,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
+)
+@given(units())
+def test_a_thousand_random_units_converge_or_say_so(inputs: DriveTrainInputs) -> None:
+    outcome = residual_or_refusal(inputs)
+    if isinstance(outcome, NoSolution):
+        assert outcome.code in {"drive_train", "journal", "load_balance"}
+        assert outcome.residuals
+    else:
+        assert outcome <= 1e-12
+
+
+def residual_or_refusal(inputs: DriveTrainInputs) -> float | NoSolution:
+    try:
+        return settle(inputs, prepare(inputs)).residual
+    except NoSolution as refusal:
+        return refusal
+
+
+def test_finer_stations_change_little() -> None:
+    """41 against 81 stations: K 2e-5, slope 9e-5; 200 x 100 against 96 x 100 roll positions and slices: 3e-5."""
+    plain = turbo_gear()
+    one, other = outcome(plain), outcome(replace(plain, face_stations=81))
+    assert other.face_load_factor == pytest.approx(one.face_load_factor, rel=1e-4)
+    assert other.shaft_slope == pytest.approx(one.shaft_slope, rel=2e-4)
+    coarse = replace(plain.mesh.distribution, resolution=Resolution(roll_positions=96, slices=60))
+    assert outcome(with_distribution(plain, coarse)).face_load_factor == pytest.approx(one.face_load_factor, rel=1e-3)
+
+
+def test_without_torque_the_shafts_bend_by_weight_and_offsets_alone() -> None:
+    plain = turbo_gear()
+    idle = replace(plain.mesh.distribution, load=replace(plain.mesh.distribution.load, pinion_torque=0.0))
+    shafts = [replace(shaft, bearings=(RigidBearing(0.22, (0.0, 20e-6)), RigidBearing(0.62))) for shaft in plain.shafts]
+    inputs = replace(with_distribution(plain, idle), pinion_shaft=shafts[0])
+    found = solve(inputs)
+    assert found.load.face_load_factor is None
+    assert found.load.face_load_at is None
+    assert found.misalignment.parts.bearing_offsets != 0.0
+    assert found.misalignment.parts.bending == 0.0
+    assert found.balance.force_error is None
+    error = found.mesh.balance
+    assert np.array_equal(error.transmission_error, error.unloaded_error)
+    assert found.losses.efficiency is None
+
+
+def test_order_of_couplings_does_not_matter() -> None:
+    plain = turbo_gear()
+    wheel = replace(COUPLING, shaft="wheel", position=0.88, machine_side="plus", offset=(200e-6, -100e-6))
+    one, other = (outcome(replace(plain, couplings=pair)) for pair in ((COUPLING, wheel), (wheel, COUPLING)))
+    assert other.face_load_factor == pytest.approx(one.face_load_factor, rel=1e-10)
+    assert other.shaft_slope == pytest.approx(one.shaft_slope, rel=1e-9)
+    assert outcome(plain).face_load_factor != pytest.approx(one.face_load_factor, rel=1e-4)
+
+
+def test_contact_load_factors_raise_the_contacts_alone() -> None:
+    """Pressure grows, the shafts still carry F_bt."""
+    plain = replace(turbo_gear(), effects=Effects(coupling=False, thermal=False))
+    given = plain.mesh.distribution
+    factored = replace(given, load=replace(given.load, application_factor=1.5))
+    one, other = solve(plain), solve(with_distribution(plain, factored))
+    assert other.load.max_pressure > 1.1 * one.load.max_pressure
+    for a, b in zip(one.shafts, other.shafts, strict=True):
+        for first, second in zip(a.bearings, b.bearings, strict=True):
+            assert np.hypot(*second.reaction) == pytest.approx(np.hypot(*first.reaction), rel=0.03)
+    assert other.balance.moment_error is not None
+    assert other.balance.moment_error < 1e-10
+
+
+def test_aligned_and_random_offsets_find_one_solution() -> None:
+    """Elastic-plastic hubs, from a cold start and from a far one."""
+    rng = np.random.default_rng(7)
+    plain = replace(turbo_gear(GROUND), coupling_friction="elastic_plastic")
+    plain = with_distribution(plain, replace(plain.mesh.distribution, resolution=COARSE))
+    far = outcome(replace(plain, couplings=(replace(COUPLING, offset=(500e-6, -500e-6)),))).gap
+    for offset in [(0.0, 0.0), *map(tuple, rng.uniform(-500e-6, 500e-6, (24, 2)).tolist())]:
+        unit = replace(plain, couplings=(replace(COUPLING, offset=offset),))
+        one, other = outcome(unit), outcome(unit, far)
+        assert other.gap == pytest.approx(one.gap, abs=1e-12)
+    assert pytest.approx(2 * pi * 10000 / 60) == SPEED

@@ -1,0 +1,59 @@
+"""What a drive train says of scuffing is what the pair alone would be told."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from solvers.contact import ehl
+from solvers.drive_train.gap.thermal_lead import no_heat
+from solvers.drive_train.safety import FlankHeat, flank_heat
+from solvers.scuffing import solve_scuffing
+from solvers.scuffing.inputs import Load, LoadDistributionInputs, ScuffingInputs, Temperatures, angular_speed
+from solvers.scuffing.model import solve
+from tests.support.drive_trains import turbo_gear
+from tests.support.gear_pairs import UNDERCUT_PAIR
+from tests.support.modified_pairs import relieved_pair
+
+COARSE = ehl.Model(nodes=61, film_nodes=11, refine=False)
+
+
+def heat_of(inputs: ScuffingInputs) -> FlankHeat:
+    """Of a pair without shafts that bend or heat that spreads."""
+    thermal = no_heat(np.linspace(0.0, inputs.distribution.gears.face_width, 11))
+    return flank_heat(replace(turbo_gear(), mesh=inputs), solve(inputs.distribution), thermal)
+
+
+def test_a_point_too_light_to_matter_keeps_the_verdict() -> None:
+    """Some points carry next to nothing: refused, but shown to be no hotter than the hottest."""
+    inputs = replace(relieved_pair(200), film=COARSE)
+    alone, heat = solve_scuffing(inputs), heat_of(inputs)
+    assert heat.unsolved_points > 0
+    assert heat.safety is not None
+    assert alone.safety is not None
+    assert heat.safety.thermal_ehl_feature == pytest.approx(alone.safety.thermal_ehl_factor, rel=1e-3)
+    assert heat.safety.thermal_ehl_profile is not None
+
+
+def test_points_that_may_decide_take_it() -> None:
+    """At 80 Pa s most of the path is not solved."""
+    inputs = relieved_pair(8)
+    inputs = replace(inputs, lubricant=replace(inputs.lubricant, viscosity=80.0), film=COARSE)
+    heat = heat_of(inputs)
+    assert heat.unsolved_points > 0
+    assert heat.safety is not None
+    assert (heat.safety.thermal_ehl_feature, heat.safety.thermal_ehl_profile) == (None, None)
+    assert heat.safety.blok_flank is not None
+
+
+@pytest.mark.parametrize("lubrication", ["closed_form", "thermal_ehl"])
+def test_a_load_that_reaches_a_base_circle_leaves_no_safety(lubrication: str) -> None:
+    distribution = LoadDistributionInputs(UNDERCUT_PAIR, Load(50.0, angular_speed(1000.0)))
+    inputs = replace(
+        ScuffingInputs(distribution, temperatures=Temperatures(scuffing=573.15), path_points=8), lubrication=lubrication
+    )
+    heat = heat_of(inputs)
+    assert (heat.flash.feature, heat.flash.flank, heat.flash.flank_at) == (None, None, None)
+    assert heat.safety is not None
+    assert (heat.safety.blok_feature, heat.safety.blok_flank, heat.safety.minimum) == (None, None, None)
+    assert heat.safety.thermal_ehl_feature is None

@@ -1,0 +1,369 @@
+"""Pumping on random cases of the kind users have, and what default requests once got wrong."""
+
+import re
+from collections import Counter
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from math import atan, cos, pi, radians, sin, tan
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from app.published.milian import CASE_1, SPEED_1, pinion
+from solvers.errors import InvalidInput
+from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.notices import pair_notices
+from solvers.gears.pair import gear_pair
+from solvers.gears.path_of_contact import meshing_path
+from solvers.notices import Notice
+from solvers.pumping import Ambient, Gap, Groove, PumpingInputs, PumpingModel, PumpingSetup, Spaces, solve
+from solvers.pumping.lead_correction import EXPANSION, lead_correction
+from solvers.pumping.results import SpacesResult
+from solvers.pumping.spaces import prepare
+from tests.support.gear_pairs import FZG_A, INCH_PAIR
+from tests.support.pumping_cases import (
+    SCANS,
+    check_books,
+    check_no_jump,
+    check_resolution,
+    numbers,
+    random_gears,
+    random_setup,
+    random_speed,
+    rough_gears,
+    spaces_of,
+)
+
+WEAK = PumpingSetup(
+    GearPairInputs(
+        GearTeeth(47),
+        GearTeeth(117),
+        7e-3,
+        0.03,
+        pressure_angle=radians(20),
+        helix_angle=radians(20),
+        rack_tip_radius=0.25,
+    ),
+    model=PumpingModel(gap=Gap.TIP, spaces=Spaces.PINION),
+)
+
+
+def weak(rpm: float, slices: int = 100) -> float:
+    """Gauge peak of a pair that pumps weakly, over the ambient pressure."""
+    setup = replace(WEAK, model=replace(WEAK.model, slices=slices))
+    return pinion(solve(PumpingInputs(setup, rpm * pi / 30))).peak_pressure_ratio - 1
+
+
+def test_weak_peaks_grow_with_the_square_of_the_speed() -> None:
+    assert [weak(rpm) / weak(1000) for rpm in (2000, 3000)] == pytest.approx([4, 9], rel=0.01)
+
+
+def test_weak_peaks_are_those_of_the_flow() -> None:
+    # what leaves through the radial gaps alone needs 1/2 rho (S' omega/L)^2: 0.0063 at 3000 rpm; ends take some of it
+    table = prepare(WEAK).spaces[0].table
+    flow = np.gradient(table.area, table.angle) * 3000 * pi / 30 / (table.clearance_left + table.clearance_right)
+    gas = prepare(WEAK).gas
+    closed_form = 0.5 * gas.density * (flow[table.angle < -0.02] ** 2).max() / gas.pressure
+    assert closed_form == pytest.approx(0.0063, abs=1e-4)
+    assert 0.85 * closed_form < weak(3000) < closed_form
+    assert weak(3000, 50) == pytest.approx(weak(3000, 200), rel=5e-3)
+
+
+def test_a_stroke_that_begins_at_once_is_no_peak() -> None:
+    """Found by the search: the first steps of a weak spur gear overshot the balance of walls and gaps by a fifth."""
+    spur = replace(WEAK, gears=replace(WEAK.gears, helix_angle=0.0))
+    peaks = []
+    for slices in (25, 50, 100):
+        setup = replace(spur, model=replace(WEAK.model, slices=slices))
+        peaks.append(pinion(solve(PumpingInputs(setup, 500 * pi / 30))).peak_pressure_ratio - 1.0)
+    assert peaks == pytest.approx([peaks[-1]] * 3, rel=3e-3)
+
+
+def test_a_slice_that_ends_its_stroke_within_a_step_is_no_peak() -> None:
+    # a step that led 0.2 % of itself into the stroke shut the slice for the rest: 1.28 mbar at 344.0 K, 0.70 at 343.2
+    setup = PumpingSetup(
+        GearPairInputs(
+            GearTeeth(35, 0.3472820889712632, 1.012615377337245, 1.3044837593677192),
+            GearTeeth(92, 0.1648532859400542, 1.0425728249685073, 1.3022469942755852),
+            5e-3,
+            0.13857141301725098,
+            pressure_angle=radians(20),
+            helix_angle=0.10072094843317085,
+            centre_distance=0.3217315628663042,
+            rack_tip_radius=0.2702237256753388,
+        ),
+        normal_backlash=0.00029620273202542337,
+        model=PumpingModel(gap=Gap.TIP, slices=40, spaces=Spaces.PINION),
+    )
+    peaks = []
+    for temperature in 326.11230823977587 * (1.0 + 0.1 * np.array([21, 22]) / 40):
+        case = replace(setup, ambient=Ambient(temperature=temperature))
+        peaks.append(pinion(solve(PumpingInputs(case, 205.87959815621443))).peak_pressure_ratio - 1)
+    assert peaks[1] == pytest.approx(peaks[0], rel=0.01)
+
+
+@pytest.mark.parametrize(("spaces", "start"), [(Spaces.PINION, 590.25), (Spaces.WHEEL, 590.09)])
+def test_net_flows_change_with_the_centre_distance_steadily(spaces: Spaces, start: float) -> None:
+    # once 1.29 and then 1.54 g/s, 4.96 and then 5.22, as the last step of an end fell
+    results = [at_centre_distance(start + 0.005 * k, spaces) for k in range(8)]
+    for name in ("front", "rear", "front_in", "rear_in"):
+        steps = np.abs(np.diff([getattr(result.mass_flow, name) for result in results]))
+        assert steps.max() < 2 * np.median(steps), name
+
+
+def at_centre_distance(millimetres: float, spaces: Spaces, slices: int = 100) -> SpacesResult:
+    gears = replace(CASE_1, centre_distance=1e-3 * millimetres)
+    setup = PumpingSetup(gears, model=PumpingModel(spaces=spaces, slices=slices))
+    result = solve(PumpingInputs(setup, SPEED_1 * pi / 30))
+    found = result.pinion_spaces or result.wheel_spaces
+    assert found is not None
+    return found
+
+
+def test_net_flows_are_known_as_well_as_they_say() -> None:
+    here, fine = (at_centre_distance(590.0, Spaces.PINION, slices).mass_flow for slices in (100, 400))
+    assert max(abs(here.front - fine.front), abs(here.rear - fine.rear)) < here.net_uncertainty
+    assert here.net_uncertainty < 0.2 * min(here.front, here.rear)  # three times a change of 6 %
+    coarse = PumpingSetup(CASE_1, model=PumpingModel(slices=20))
+    assert "net_flow_uncertain" in {notice.code for notice in solve(PumpingInputs(coarse, 300.0)).warnings}
+
+
+def test_gross_flows_of_case_1() -> None:
+    # one calculation without wall transport: out 18.3 and 29.6, in 13.3 and 25.3, net 4.96 and 4.25 g/s
+    setup = PumpingSetup(CASE_1, model=PumpingModel(wall_transport=False, spaces=Spaces.PINION, slices=200))
+    flow = pinion(solve(PumpingInputs(setup, SPEED_1 * pi / 30))).mass_flow
+    gross = np.array([flow.front_out, flow.rear_out, flow.front_in, flow.rear_in]) * 1e3
+    assert gross == pytest.approx([18.3, 29.6, 13.3, 25.3], rel=0.02)
+
+
+@pytest.mark.parametrize("hand", [1, -1])
+def test_lead_of_a_hot_pinion_is_that_of_a_similar_body(hand: int) -> None:
+    # brute force: cold and hot helicoid cut by the line of action in the transverse plane z
+    pair, warming = gear_pair(CASE_1), 1e-3
+    base, working = pair.pinion.base_radius, pair.working_pressure_angle
+    turn = hand * tan(pair.base_helix_angle) / base  # rad per metre of face
+
+    def reached(z: float, strain: float) -> float:
+        """Roll length on the line of action of the flank at z that passes the cold pitch point when it is cold."""
+        origin = turn * z / (1 + strain) - turn * z  # the flank is rolled to the pitch point in every plane when cold
+        start = tan(working) - origin * hand
+
+        def off(roll: float) -> float:
+            radius, hot = np.hypot(base, roll), base * (1 + strain)
+            pressure = np.arccos(hot / radius)
+            own = tan(pressure) - pressure  # involute of the hot base circle
+            here = atan(roll / base)
+            return (start - tan(working)) + (tan(working) - working) - own - (here - working)
+
+        return float(brentq(off, 0.5 * base * tan(working), 2 * base * tan(working)))
+
+    position = np.linspace(0, CASE_1.face_width, 11)
+    strain = warming / 1e3
+    brute = np.array([reached(z, strain) - reached(z, 0.0) for z in position])
+    lead = lead_correction(pair, position, np.full(11, strain / EXPANSION)).curves.growth
+    assert np.diff(np.abs(brute)) == pytest.approx(np.diff(lead), rel=1e-4)
+
+
+def test_lead_of_case_1() -> None:
+    pair = gear_pair(CASE_1)
+    position = np.array([0.0, 0.1, 0.2])
+    lead = lead_correction(pair, position, np.array([0.0, 10.0, 20.0]))
+    radial = EXPANSION * pair.pinion_working_radius * sin(pair.working_pressure_angle)
+    assert radial * 1e6 == pytest.approx(0.7221, abs=1e-4)  # the first edition: 0.79
+    assert lead.curves.radial_only == pytest.approx(radial * np.array([0.0, 10.0, 20.0]))
+    longer = EXPANSION * tan(pair.base_helix_angle) * np.array([0.0, 0.5, 2.0])
+    assert lead.curves.growth == pytest.approx(lead.curves.radial_only + longer)
+    assert lead.curves.correction == pytest.approx(-lead.curves.growth)
+
+
+def test_crown_is_the_height_of_the_middle_above_the_ends() -> None:
+    pair = gear_pair(replace(CASE_1, helix_angle=0.0, centre_distance=None))
+    place = np.linspace(-0.5, 0.5, 41)
+    lead = lead_correction(pair, (place + 0.5) * 0.2, 20.0 * (1 - 4 * place**2))
+    curve = lead.curves.correction
+    assert lead.crown == pytest.approx(curve[20] - 0.5 * (curve[0] + curve[-1]), rel=1e-9)
+    radial = EXPANSION * pair.pinion_working_radius * sin(pair.working_pressure_angle)
+    assert lead.crown == pytest.approx(-20 * radial, rel=1e-9)
+
+
+def test_uniform_warmth_turns_the_helix() -> None:
+    pair = gear_pair(CASE_1)
+    lead = lead_correction(pair, np.linspace(0.001, 0.199, 100), np.full(100, 15.0))
+    assert lead.range == pytest.approx(15 * EXPANSION * tan(pair.base_helix_angle) * 0.198)
+    assert lead.slope == pytest.approx(-15 * EXPANSION * tan(pair.base_helix_angle) * 0.2)
+    assert cos(pair.base_helix_angle) < 1
+
+
+@pytest.mark.parametrize("gears", [FZG_A, INCH_PAIR])
+def test_printed_pairs_pump(gears: GearPairInputs) -> None:
+    result = solve(PumpingInputs(PumpingSetup(gears, 0.1e-3, model=PumpingModel(slices=20)), 300.0))
+    assert result.geometry.centre_distance == result.geometry.backlash_free_centre_distance
+    assert result.total.pumping_power > 0
+    assert result.geometry.transverse_contact_ratio == meshing_path(gears).transverse_contact_ratio
+
+
+def test_one_pair_one_verdict() -> None:
+    # tips that meet fillets or reach past a base circle shorten the path in both models, and both say so
+    draw, seen = np.random.default_rng(9), Counter[str | None]()
+    for k in range(300):
+        gears = rough_gears(draw) if k % 2 else random_gears(draw)
+        setup = PumpingSetup(gears, 0.1e-3)
+        verdict, notices = verdict_of(lambda gears=gears: pair_notices(meshing_path(gears)))
+        pumping, said = verdict_of(lambda setup=setup: prepare(setup).notices)
+        assert pumping == verdict, gears
+        assert notices <= said, gears
+        seen.update([verdict, *notices])
+    assert {None, "flank_interference", "no_tip_clearance", "pointed_tooth", "path_shortened", "undercut"} <= set(seen)
+    assert seen["path_shortened"] > 20
+
+
+def verdict_of(attempt: Callable[[], Iterable[Notice]]) -> tuple[str | None, set[str]]:
+    """The code of a refusal, and those of the notices without one."""
+    try:
+        return None, {notice.code for notice in attempt()}
+    except InvalidInput as error:
+        return error.code, set()
+
+
+@pytest.mark.parametrize("spaces", [Spaces.WHEEL, Spaces.BOTH])
+def test_advice_on_speed_is_on_that_of_the_pinion(spaces: Spaces) -> None:
+    setup = PumpingSetup(CASE_1, model=PumpingModel(spaces=spaces, slices=400))
+    with pytest.raises(InvalidInput) as refusal:
+        solve(PumpingInputs(setup, 300 * pi / 30))
+    assert (refusal.value.code, refusal.value.field) == ("too_many_steps", "pinion_speed")
+    found = re.search(r"at least ([\d.e+]+) rpm of the pinion, or at most (\d+) slices", refusal.value.message)
+    assert found is not None
+    fits = replace(setup, model=replace(setup.model, slices=int(found[2])))
+    assert solve(PumpingInputs(fits, 300 * pi / 30)).slices == int(found[2])
+
+
+def test_a_sliver_of_face_beside_a_groove_is_named() -> None:
+    setup = PumpingSetup(CASE_1, grooves=(Groove(0.008001, 0.016),))
+    with pytest.raises(InvalidInput) as refusal:
+        solve(PumpingInputs(setup, SPEED_1 * pi / 30))
+    assert (refusal.value.code, refusal.value.field) == ("narrow_land", "grooves")
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_books_close(seed: int) -> None:
+    check_books(np.random.default_rng(seed))
+
+
+def test_where_pressures_are_lost_no_number_is_called_known() -> None:
+    # a space that nearly closes: twice the slices let the peak fall from 0.27 to 0.16 bar, the power from 221 to 143 W
+    gears = GearPairInputs(
+        GearTeeth(19, 0.34832681016050526, 1.0271447678963832, 1.4015825069408312),
+        GearTeeth(21, 0.29914633129765145, 0.9458162664287502, 1.2409903172810326),
+        0.01,
+        0.26930643857833836,
+        pressure_angle=radians(20),
+        helix_angle=0.2903381865026459,
+        centre_distance=0.21468543570320542,
+        rack_tip_radius=0.25843878968564726,
+    )
+    setup = PumpingSetup(gears, 0.00015405195933059767, model=PumpingModel(gap=Gap.TIP, spaces=Spaces.WHEEL))
+    result = solve(PumpingInputs(setup, 292.3113237111824))
+    assert result.resolution.pumping_power >= 1.0
+    assert "not_resolved" in {notice.code for notice in result.warnings}
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_no_number_depends_on_the_slices(seed: int) -> None:
+    check_resolution(np.random.default_rng(seed))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(40))
+def test_no_number_depends_on_the_slices_for_any_case(seed: int) -> None:
+    check_resolution(np.random.default_rng(seed))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SCANS)
+@pytest.mark.parametrize("seed", range(3))
+def test_no_jump_without_a_cause(seed: int, name: str) -> None:
+    check_no_jump(np.random.default_rng(seed), name)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "seed", [(902102, 101), (902102, 234), (902101, 74), (902103, 172), (902105, 49), (902106, 109)]
+)
+def test_strokes_that_begin_leave_no_jump(seed: tuple[int, int]) -> None:
+    """Found by the search: the peak was that of a slice just begun, by how steps fell on its beginning."""
+    check_no_jump(np.random.default_rng(seed))
+
+
+@pytest.mark.slow
+def test_a_step_that_only_the_answer_behind_it_calls_uncertain() -> None:
+    """Found by the search: the peak steps by 2.2 % onto a pair known to 31 %, from one known to 0.3 %."""
+    check_no_jump(np.random.default_rng([3772975107, 2223, 24]))
+
+
+def test_a_jump_of_the_area_is_named_and_nothing_claimed_beyond_it() -> None:
+    """Found by the search: tip gaps whose foot leaves the flank halve the area at once, on every grid the same."""
+    draw = np.random.default_rng([3772975107, 2571, 69])
+    setup = random_setup(draw)
+    inputs = PumpingInputs(setup, random_speed(draw, setup))
+    result = solve(inputs)
+    told = {notice.code: notice.message for notice in result.warnings}
+    assert set(told) == {"area_jump", "not_resolved", "net_flow_uncertain", "spur_gear"}
+    assert "the area of a tooth space jumps by 84 % at -11.40 deg" in told["area_jump"]
+    peak = pinion(result).peak_pressure_ratio
+    assert result.resolution.peak_pressure == pytest.approx(1.35 * peak / (peak - 1.0), rel=0.01)
+    check_resolution(np.random.default_rng([3772975107, 2571, 69]))
+    by_contact = solve(replace(inputs, setup=replace(setup, model=replace(setup.model, gap=Gap.CONTACT))))
+    assert "area_jump" not in {notice.code for notice in by_contact.warnings}
+
+
+def test_a_stroke_faster_than_sound_takes_one_course() -> None:
+    """Found by the search: 2.3e-8 or 1.7e-8 kg a stroke out of the rear, by how the steps fell."""
+    check_resolution(np.random.default_rng([2585062864, 2571, 34]))
+    draw = np.random.default_rng([2585062864, 2571, 34])
+    setup = random_setup(draw)
+    speed = random_speed(draw, setup)
+    net = []
+    for slices in (100, 200):
+        model = replace(setup.model, slices=slices, spaces=Spaces.WHEEL)
+        wheel = solve(PumpingInputs(replace(setup, model=model), speed)).wheel_spaces
+        assert wheel is not None
+        net.append(wheel.mass_flow.rear)
+    assert net[0] == pytest.approx(net[1], rel=0.04)
+
+
+def test_waves_that_stay_with_the_meshing_line_are_not_called_resolved() -> None:
+    """At 0.96 times the speed of sound grids of 25, 50 and 100 slices agree on 2638 Pa at the peak, 400 have 2662.
+
+    Stated before: 0.53 % of the peak and 0.55 % of the least pressure, which move by 0.90 and 0.98 %.
+    """
+    gears = GearPairInputs(GearTeeth(45, 0.16), GearTeeth(98, -0.07), 6e-3, 0.0633, helix_angle=radians(6.3))
+    setup = PumpingSetup(gears, normal_backlash=0.49e-3)
+    coarse, fine = (
+        solve(PumpingInputs(replace(setup, model=PumpingModel(slices=slices)), 2682 * pi / 30)) for slices in (100, 400)
+    )
+    stated = {"peak_pressure": coarse.resolution.peak_pressure, "min_pressure": coarse.resolution.min_pressure}
+    for here, there in zip(spaces_of(coarse), spaces_of(fine), strict=True):
+        for name, share in stated.items():
+            before, after = numbers(here)[name], numbers(there)[name]
+            assert abs(after - before) < share * before < 0.02 * before, (name, before, after, share)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("seed", "cases"),
+    [
+        ((3772975107, 2571), (120, 173)),
+        ((3975487181, 2571), (47, 61)),
+        ((77,), (54, 62, 84, 139)),
+        ((902102,), (75, 124)),
+        ((902103,), (127, 268)),
+        ((902106,), (57, 102, 136)),
+        ((902108,), (44,)),
+        ((4242,), (1342, 1396, 2012)),
+    ],
+)
+def test_grids_that_agree_by_luck_are_not_taken_at_their_word(seed: tuple[int, ...], cases: tuple[int, ...]) -> None:
+    """Found by searches: half the slices alone said 1.09 % for 1.17 %, 2.7 % for 17 %; some have two peaks, or jump."""
+    for case in cases:
+        check_resolution(np.random.default_rng([*seed, case]))

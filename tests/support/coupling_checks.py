@@ -1,0 +1,223 @@
+"""Random couplings of the kind users have, and what must hold for each: drawn by the tests and by the long search.
+
+Every check takes a generator, draws one case and raises AssertionError with the case where it does not hold.
+"""
+
+from collections.abc import Callable
+from contextlib import ExitStack
+from dataclasses import replace
+from math import hypot
+from unittest.mock import patch
+
+import numpy as np
+from numpy.random import Generator
+
+from solvers.coupling import recommend, solve, solve_orbit
+from solvers.coupling.crowning import recommendation
+from solvers.coupling.friction import averaging
+from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
+from solvers.coupling.results import CouplingResult
+from solvers.coupling.teeth import kinematics
+from solvers.errors import SolverError
+from tests.support.couplings import random_inputs
+
+
+def numbers(result: CouplingResult) -> dict[str, tuple[float, float]]:
+    """Every summary number by its name, with the scale against which it counts (0: its own size).
+
+    Thrust and moments are differences of much larger forces: they count against what friction could hold.
+    """
+    limit = result.axial_thrust.coaxial_limit
+    moment = limit * result.geometry.pitch_radius
+    scales = {
+        ("axial_thrust", "force"): limit,
+        ("axial_thrust", "lower_bound"): limit,
+        ("axial_thrust", "upper_bound"): limit,
+        ("axial_thrust", "fraction_of_limit"): 1.0,
+        ("losses", "friction_moment"): moment,
+        ("losses", "hub_bending_moment"): moment,
+        ("load_distribution", "min_tangential_force"): result.load_distribution.mean_tangential_force,
+    }
+    found = {}
+    for group in ("load_distribution", "lubrication", "axial_thrust", "losses", "limits"):
+        part = getattr(result, group)
+        for name in part.__slots__:
+            value = getattr(part, name)
+            if type(value) is float:
+                found[f"{group}.{name}"] = value, scales.get((group, name), 0.0)
+    induced = result.axial_thrust.self_induced
+    if induced is not None:
+        found["self_induced.force"] = induced.force, limit
+        found["self_induced.overturning_moment"] = induced.overturning_moment, moment
+    return found
+
+
+def check_power_and_moments(random: Generator) -> None:
+    """Friction power is what moment and thrust do; hub and sleeve books of moments close tooth by tooth."""
+    inputs = random_inputs(random)
+    alone = replace(inputs, operation=replace(inputs.operation, arrangement="single"))
+    result, operation = solve(alone), inputs.operation
+    losses = result.losses
+    done = losses.friction_moment * abs(operation.speed * operation.misalignment)
+    done += result.axial_thrust.force * operation.axial_velocity
+    assert np.isclose(losses.friction_power, done, rtol=1e-9), inputs
+    if inputs.model.kinematics == "tangential":
+        about_pivot = losses.friction_moment - operation.torque * abs(operation.misalignment) / 2.0
+        bending = hypot(about_pivot, losses.contact_shift_moment)
+        assert np.isclose(losses.hub_bending_moment, bending, rtol=1e-9), inputs
+    load = result.load_distribution
+    force, angle = load.curves.tangential_force, load.curves.angle
+    assert np.isclose(force.sum() * result.geometry.pitch_radius, operation.torque, rtol=1e-9), inputs
+    if inputs.model.sleeve == "floating":
+        radial = np.tan(inputs.coupling.pressure_angle)
+        for lateral in (radial * np.cos(angle) - np.sin(angle), radial * np.sin(angle) + np.cos(angle)):
+            assert abs(force @ lateral) < 1e-9 * force.sum(), inputs
+
+
+def finer() -> ExitStack:
+    """Every internal resolution of one operating point doubled."""
+    stack = ExitStack()
+    stack.enter_context(patch.object(averaging, "_PITCH_NODES", 2 * averaging._PITCH_NODES))
+    stack.enter_context(patch.object(kinematics, "_LEAST_ROTOR_POSITIONS", 2 * kinematics._LEAST_ROTOR_POSITIONS))
+    return stack
+
+
+def check_resolution(random: Generator) -> None:
+    """No summary number moves by 1 % with every resolution doubled.
+
+    Thrust and moments are what is left of friction forces that cancel. Where teeth load and unload the quadrature
+    leaves up to 6e-5 of what friction could hold (2600 random couplings), however little is left. Besides the 1 % they
+    may move by 1e-4 of that limit: 1 % of a thrust of a hundredth of the limit, below which it is an absolute error.
+    """
+    inputs = random_inputs(random)
+    before = numbers(solve(inputs))
+    with finer():
+        after = numbers(solve(inputs))
+    for name, (value, scale) in before.items():
+        assert abs(after[name][0] - value) <= 0.01 * abs(value) + 1e-4 * scale, (name, value, after[name][0], inputs)
+
+
+def check_orbit_resolution(random: Generator) -> None:
+    """Twice the rotor angles move an orbit's summary by less than 1 %, or by what it states, or with a notice."""
+    inputs = random_inputs(random, errors=True)
+    try:
+        before = solve_orbit(inputs)
+        with patch.object(kinematics, "_LEAST_ROTOR_POSITIONS", 2 * kinematics._LEAST_ROTOR_POSITIONS):
+            after = solve_orbit(inputs)
+    except SolverError as refusal:
+        if refusal.code not in {"sleeve_orbit", "torque_too_low"}:
+            raise
+        return
+    if any(notice.code == "orbit_resolution" for notice in before.warnings):
+        return
+    assert abs(after.max_displacement - before.max_displacement) <= 0.01 * before.max_displacement + 1e-12, inputs
+    largest = max(before.inertia_force.harmonics_x.max(), before.inertia_force.harmonics_y.max())
+    for axis in ("harmonics_x", "harmonics_y"):
+        moved = np.abs(getattr(after.inertia_force, axis) - getattr(before.inertia_force, axis)).max()
+        assert moved <= 0.02 * largest + 1e-9, (axis, moved, largest, inputs)
+
+
+def check_recommendation_resolution(random: Generator) -> None:
+    """Twice the crowning ratios tried find no better one, and the same verdict."""
+    inputs = random_inputs(random)
+    low = abs(inputs.operation.misalignment)
+    wanted = RecommendationInputs(inputs, low, low * random.uniform(1.0, 3.0))
+    before = recommend(wanted)
+    with ExitStack() as stack:
+        for name in ("_SCAN_POINTS", "_WINDOW_POINTS"):
+            stack.enter_context(patch.object(recommendation, name, 2 * getattr(recommendation, name) - 1))
+        after = recommend(wanted)
+    assert before.feasible == after.feasible, inputs
+    assert before.failed_constraint == after.failed_constraint, inputs
+    if before.min_load_capacity_coefficient is not None and after.min_load_capacity_coefficient is not None:
+        change = after.min_load_capacity_coefficient / before.min_load_capacity_coefficient - 1.0
+        assert abs(change) < 0.01, (change, wanted)
+
+
+SCANNED = {
+    "coupling": ("face_width", "tooth_height", "pressure_angle", "crowning_ratio", "hub_distance", "tooth_stiffness"),
+    "operation": ("torque", "speed", "misalignment", "axial_velocity"),
+    "lubricant": ("viscosity", "reference_film"),
+    "friction": ("coefficient",),
+    "model": ("rotor_angle",),
+}
+HALVINGS = 16  # the narrowest ramp seen, of a tooth that lifts off, is 1/250 of a scan's step
+EDGE = ("lubrication.", "axial_thrust.", "losses.", "self_induced.")
+"""What depends on the oil film, which ends where the contact leaves the tooth, unless the inlet shrinks to that."""
+
+
+def varied(inputs: CouplingInputs, group: str, name: str, factor: float) -> CouplingInputs:
+    """The inputs with one of them changed: by a factor, the pitch errors too; the rotor angle by it in radians."""
+    if name == "pitch_errors":
+        errors = tuple(factor * error for error in inputs.coupling.pitch_errors or ())
+        return replace(inputs, coupling=replace(inputs.coupling, pitch_errors=errors))
+    part = getattr(inputs, group)
+    value = factor if name == "rotor_angle" else factor * getattr(part, name)
+    return replace(inputs, **{group: replace(part, **{name: value})})
+
+
+def on_the_tooth(inputs: CouplingInputs, result: CouplingResult) -> bool:
+    """Whether the contact stays on the tooth."""
+    return result.kinematics.max_contact_travel < inputs.coupling.face_width / 2.0
+
+
+def check_no_jump(random: Generator) -> None:
+    """Scan one input: where a number changes ten times as fast as around, its change shrinks with the step.
+
+    The one jump with a cause: the film of a contact that leaves the tooth, with an inlet that does not shrink to zero.
+    """
+    inputs = random_inputs(random)
+    choices = [(group, name) for group, names in SCANNED.items() for name in names]
+    if inputs.coupling.pitch_errors is not None:
+        choices.append(("coupling", "pitch_errors"))
+    group, name = choices[random.integers(len(choices))]
+    if name == "coefficient" and inputs.friction.coefficient is None:
+        return
+    wide = name in {"misalignment", "axial_velocity", "pitch_errors", "rotor_angle"}
+    factors = np.linspace(-1.5, 1.5, 42) if wide else np.linspace(0.7, 1.3, 42)
+    if name == "pressure_angle":
+        factors = factors[factors * inputs.coupling.pressure_angle < 0.78]
+
+    def at(factor: float) -> tuple[dict[str, tuple[float, float]], bool]:
+        point = varied(inputs, group, name, factor)
+        result = solve(point)
+        return numbers(result), on_the_tooth(point, result)
+
+    scan = [at(float(factor)) for factor in factors]
+    for key in scan[0][0]:
+        values = np.array([point[0].get(key, (np.nan, 0.0))[0] for point in scan])
+        change = np.abs(np.diff(values))
+        rounding = 1e-8 * np.abs(values).max() + 1e-6 * scan[0][0][key][1]
+        for place in np.flatnonzero(change > 1e-3 * np.ptp(values) + rounding):
+            around = np.delete(change[max(0, place - 3) : place + 4], min(place, 3))
+            if change[place] <= 10.0 * around.max():
+                continue
+            steep = narrowed(at, key, (float(factors[place]), float(factors[place + 1])))
+            assert steep is None or steep < 0.1 * change[place], (group, name, key, factors[place], inputs)
+
+
+def narrowed(
+    at: Callable[[float], tuple[dict[str, tuple[float, float]], bool]], key: str, interval: tuple[float, float]
+) -> float | None:
+    """What is left of the change over an interval when it is halved often, None where the film has a cause."""
+    low, high = interval
+    (at_low, on_low), (at_high, on_high) = at(low), at(high)
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        at_middle, on_middle = at(middle)
+        if abs(at_middle[key][0] - at_low[key][0]) > abs(at_high[key][0] - at_middle[key][0]):
+            high, at_high, on_high = middle, at_middle, on_middle
+        else:
+            low, at_low, on_low = middle, at_middle, on_middle
+    if on_low != on_high and key.startswith(EDGE):
+        return None
+    return abs(at_high[key][0] - at_low[key][0])
+
+
+CHECKS = (
+    check_power_and_moments,
+    check_resolution,
+    check_orbit_resolution,
+    check_recommendation_resolution,
+    check_no_jump,
+)

@@ -1,0 +1,78 @@
+"""A Dask cluster of processes on this machine."""
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager, suppress
+
+from distributed import Client
+
+from tests.support.server import ROOT, free_port
+
+ENVIRONMENT = {
+    **os.environ,
+    "PYTHONPATH": str(ROOT),
+    "OMP_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+    "NUMBA_NUM_THREADS": "1",
+}
+START_S = 60.0
+
+
+@contextmanager
+def _process(*arguments: str) -> Iterator[subprocess.Popen[bytes]]:
+    process = subprocess.Popen(
+        [sys.executable, "-m", *arguments], env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
+    try:
+        yield process
+    finally:
+        process.terminate()
+        with suppress(subprocess.TimeoutExpired):
+            process.wait(10)
+        process.kill()
+        process.wait()
+
+
+class DaskProcesses:
+    """The scheduler, its address, and the workers."""
+
+    def __init__(self, stack: ExitStack) -> None:
+        port = free_port()
+        self.address = f"tcp://127.0.0.1:{port}"
+        self._stack = stack
+        options = ("--host", "127.0.0.1", "--port", str(port), "--no-dashboard", "--no-show")
+        self.scheduler = stack.enter_context(_process("distributed.cli.dask_scheduler", *options))
+        self.workers: list[subprocess.Popen[bytes]] = []
+
+    def add_worker(self) -> None:
+        """One more worker process of one thread, without a nanny that would start it again."""
+        options = ("--nthreads", "1", "--no-nanny", "--no-dashboard", "--host", "127.0.0.1", "--death-timeout", "60")
+        self.workers.append(self._stack.enter_context(_process("distributed.cli.dask_worker", self.address, *options)))
+
+    def wait(self) -> None:
+        """Until every worker is there."""
+        end = time.monotonic() + START_S
+        while True:
+            with (
+                suppress(OSError, TimeoutError),
+                Client(self.address, timeout=5, set_as_default=False) as client,
+            ):
+                client.wait_for_workers(len(self.workers), timeout=START_S)
+                return
+            if time.monotonic() > end:
+                raise RuntimeError("the Dask cluster did not start")
+            time.sleep(0.2)
+
+
+@contextmanager
+def running_cluster(workers: int = 2) -> Iterator[DaskProcesses]:
+    """A scheduler and workers in processes of their own."""
+    with ExitStack() as stack:
+        cluster = DaskProcesses(stack)
+        for _ in range(workers):
+            cluster.add_worker()
+        cluster.wait()
+        yield cluster

@@ -1,0 +1,77 @@
+"""The service with more endpoints that misbehave on demand, run as `python -m tests.support.faulty_server`."""
+
+import os
+import signal
+import time
+from collections.abc import Sequence
+
+import numpy as np
+from fastapi import FastAPI, Request
+
+from app.__main__ import serve
+from app.main import create_app
+from app.studies import engine
+from app.studies.points import Chunk, Question, solve_chunk
+from app.studies.requests import Overrides
+from app.workers.fork_server import ForkServer
+
+HANGING = 1234.5  # a varied value whose point never ends
+
+
+def sleep(seconds: float) -> float:
+    time.sleep(seconds)
+    return seconds
+
+
+def spin(seconds: float) -> float:
+    """Busy, and deaf to everything but SIGKILL."""
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        pass
+    return seconds
+
+
+def allocate(mebibytes: int) -> int:
+    return int(np.ones(mebibytes * 2**17).size)
+
+
+def solve_chunk_that_may_hang(question: Question, overrides: Sequence[Overrides]) -> Chunk:
+    if any(HANGING in each.values() for each in overrides):
+        time.sleep(600)
+    return solve_chunk(question, overrides)
+
+
+def create_faulty_app(template: ForkServer) -> FastAPI:
+    app = create_app(template)
+    engine.solve_chunk = solve_chunk_that_may_hang
+
+    @app.post("/sleep/{seconds}")
+    async def _(http: Request, seconds: float) -> float:
+        result: float = await app.state.runner.run(http.receive, sleep, seconds)
+        return result
+
+    @app.post("/spin/{seconds}")
+    async def _(http: Request, seconds: float) -> float:
+        result: float = await app.state.runner.run(http.receive, spin, seconds)
+        return result
+
+    @app.post("/allocate/{mebibytes}")
+    async def _(http: Request, mebibytes: int) -> int:
+        result: int = await app.state.runner.run(http.receive, allocate, mebibytes)
+        return result
+
+    @app.post("/worker")
+    async def _(http: Request) -> int:
+        result: int = await app.state.runner.run(http.receive, os.getpid)
+        return result
+
+    @app.post("/bug")
+    async def _() -> None:
+        raise RuntimeError("a bug")
+
+    return app
+
+
+if __name__ == "__main__":
+    serve("tests.support.faulty_server:create_faulty_app")

@@ -1,0 +1,141 @@
+"""Starts the service as a process of its own, and looks at its processes from outside."""
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+import httpx
+
+ROOT = Path(__file__).parents[2]
+START_UP_S = 1200.0  # kernels are compiled the first time, by several services side by side
+
+
+def free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port: int = probe.getsockname()[1]
+        return port
+
+
+@contextmanager
+def started_server(
+    command: list[str] | None = None,
+    *,
+    log: Path | int | None = None,
+    environment: dict[str, str] | None = None,
+    **settings: object,
+) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """A server process and its address, whatever it answers yet; settings become environment variables."""
+    port = free_port()
+    variables = {f"TRIBODRIVE_{name.upper()}": str(value) for name, value in settings.items()}
+    output = log if isinstance(log, int) else (log or Path(os.devnull)).open("w")
+    process = subprocess.Popen(
+        command or [sys.executable, "-m", "app"],
+        env={**os.environ, **variables, **(environment or {}), "TRIBODRIVE_PORT": str(port)},
+        cwd=ROOT,
+        stdout=output,
+        stderr=output if log else None,
+        text=True,
+    )
+    try:
+        yield process, f"http://127.0.0.1:{port}"
+    finally:
+        process.terminate()
+        with suppress(subprocess.TimeoutExpired):
+            process.wait(40)
+        process.kill()
+        process.wait()
+        if not isinstance(output, int):
+            output.close()
+
+
+@contextmanager
+def running_server(
+    command: list[str] | None = None, *, log: Path | None = None, **settings: object
+) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """The same, once everything is warm."""
+    with started_server(command, log=log, **settings) as (process, address):
+        wait_until_warm(process, address)
+        yield process, address
+
+
+def unhurried(seconds: float) -> float:
+    """So many seconds of free cores, as many times as the cores are asked for now."""
+    return seconds * max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1))
+
+
+def wait_until_warm(process: subprocess.Popen[str], address: str, seconds: float = START_UP_S) -> None:
+    end = time.monotonic() + seconds
+    with httpx.Client(base_url=address, timeout=seconds) as client:  # a new one each time would take part of a core
+        while time.monotonic() < end and process.poll() is None:
+            with suppress(httpx.TransportError):
+                if client.get("/readyz").status_code == httpx.codes.OK:
+                    return
+            time.sleep(0.1)
+    raise RuntimeError(f"the service did not start: exit code {process.poll()}")
+
+
+def children(pid: int) -> list[int]:
+    """Process ids of the children of a process."""
+    with suppress(OSError):
+        return [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text("ascii").split()]
+    return []
+
+
+def template(process: subprocess.Popen[Any]) -> int:
+    """Process id of the fork server: the child that has been told so."""
+    return next(child for child in children(process.pid) if "app.workers.template" in command_line(child))
+
+
+def workers(process: subprocess.Popen[Any]) -> list[int]:
+    """Process ids of the workers."""
+    return children(template(process))
+
+
+def descendants(pid: int) -> set[int]:
+    """Every process below a process."""
+    found = set(children(pid))
+    return found.union(*map(descendants, found))
+
+
+def command_line(pid: int) -> str:
+    with suppress(OSError):
+        return Path(f"/proc/{pid}/cmdline").read_text().replace("\0", " ")
+    return ""
+
+
+def is_alive(pid: int) -> bool:
+    """Whether the process runs: neither gone nor a zombie."""
+    with suppress(OSError):
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    return False
+
+
+def descriptors(pid: int) -> int:
+    """How many files and sockets a process has open."""
+    return len(list(Path(f"/proc/{pid}/fd").iterdir()))
+
+
+def memory_mb(pid: int) -> float:
+    """Resident memory of one process [MiB]."""
+    pages = int(Path(f"/proc/{pid}/statm").read_text("ascii").split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE") / 2**20
+
+
+def private_memory_mb(pid: int) -> float:
+    """Memory of one process that it shares with no other [MiB]."""
+    lines = Path(f"/proc/{pid}/smaps_rollup").read_text("ascii").splitlines()
+    return sum(int(line.split()[1]) for line in lines if line.startswith("Private_")) / 1024
+
+
+def send_signal(pid: int, number: signal.Signals) -> None:
+    """Signal a process that may have gone meanwhile."""
+    with suppress(ProcessLookupError):
+        os.kill(pid, number)
