@@ -146,7 +146,9 @@ class TrainLosses(Group):
     mesh_w: Annotated[float, Output("loss of the mesh", "P_V")]
     bearings_w: Annotated[float, Output("loss of the plain bearings", "P_B")]
     total_w: Annotated[float, Output("loss in all", "P_L")]
-    efficiency: Annotated[float | None, Output("efficiency", "η", text="null without power")]
+    efficiency: Annotated[
+        float | None, Output("efficiency", "η", text="null without power, or where the losses exceed it")
+    ]
 
 
 class TrainBalance(Group):

@@ -16,12 +16,12 @@ def train_losses(
     shafts: tuple[ShaftResult, ShaftResult],
     couplings: tuple[CouplingResult, ...],
 ) -> TrainLosses:
-    """Losses [W] of all parts; `mesh` and `pumping` are the models' own."""
+    """Losses [W] of all parts; `mesh` and `pumping` are the models' own. No efficiency where they exceed the power."""
     bearings = sum(bearing.friction_power for shaft in shafts for bearing in shaft.bearings)
     coupling = sum(one.friction_power for one in couplings)
     total = coupling + pumping + mesh + bearings
     power = inputs.mesh.distribution.load.power
-    return TrainLosses(coupling, pumping, mesh, bearings, total, 1 - total / power if power > 0.0 else None)
+    return TrainLosses(coupling, pumping, mesh, bearings, total, 1 - total / power if power > total else None)
 
 
 def force_balance(unit: Unit, found: Equilibrium, torques: tuple[float, float], force: float) -> ForceBalance:

@@ -14,7 +14,7 @@ from solvers.drive_train.gap.misalignment import misalignment
 from solvers.drive_train.gap.thermal_lead import ThermalLead, gas_heat, no_heat, thermal_lead
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.losses import force_balance, train_losses
-from solvers.drive_train.notices import coupling_notices, load_notices, shaft_notices
+from solvers.drive_train.notices import coupling_notices, load_notices, loss_notices, shaft_notices
 from solvers.drive_train.results import Convergence, DriveTrainResult, FaceLoad
 from solvers.drive_train.safety import flank_heat
 from solvers.drive_train.shafts.influence import Unit, unit
@@ -94,6 +94,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     gas = gas_heat(inputs.pumping, inputs.mesh.distribution.load.pinion_speed)
     heat = flank_heat(inputs, spread, thermal)
     load = face_load(spread)
+    losses = train_losses(inputs, spread.friction_loss.power, gas.power, shafts, couplings)
     return DriveTrainResult(
         misalignment=misalignment(inputs, system, mesh, thermal, found),
         load=load,
@@ -101,7 +102,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
         couplings=couplings,
         flash=heat.flash,
         safety=heat.safety,
-        losses=train_losses(inputs, spread.friction_loss.power, gas.power, shafts, couplings),
+        losses=losses,
         balance=force_balance(system, found, _torques(inputs), mesh.transmitted),
         convergence=Convergence(found.iterations, found.residual),
         mesh=spread,
@@ -113,6 +114,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
             *coupling_notices(inputs, couplings, warnings_of(system, found)),
             *shaft_notices(inputs, shafts),
             *load_notices(inputs, load, heat.safety),
+            *loss_notices(inputs, losses),
             *heat.warnings,
         ),
     )

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from solvers.drive_train.checks import NAMES
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing
-from solvers.drive_train.results import CouplingResult, FaceLoad, ShaftResult, TrainSafety
+from solvers.drive_train.results import CouplingResult, FaceLoad, ShaftResult, TrainLosses, TrainSafety
 from solvers.notices import Notice
 
 SHORT_BEARING = 0.7  # width over diameter
@@ -67,6 +67,17 @@ def load_notices(inputs: DriveTrainInputs, load: FaceLoad, safety: TrainSafety |
     if inputs.effects.thermal and inputs.heat.wall_response is None:
         message = "the wall response is assumed (0.5); only measurements give it, between 0.2 and 1"
         yield Notice("wall_response_assumed", message, "heat.wall_response")
+
+
+def loss_notices(inputs: DriveTrainInputs, losses: TrainLosses) -> Iterator[Notice]:
+    """Losses that the power does not cover."""
+    power = inputs.mesh.distribution.load.power
+    if 0.0 < power <= losses.total:
+        message = (
+            f"the losses of {losses.total / 1e3:.4g} kW exceed the power of {power / 1e3:.4g} kW: there is no "
+            "efficiency, the driven machine has to help"
+        )
+        yield Notice("losses_exceed_power", message, "pinion_torque")
 
 
 def coupling_notices(

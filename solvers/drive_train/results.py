@@ -161,7 +161,7 @@ class TrainSafety:
 
 @dataclass(frozen=True, slots=True)
 class TrainLosses:
-    """Power [W] lost in couplings, to pumping, in the mesh and in plain bearings; efficiency None without power."""
+    """Power [W] lost in couplings, to pumping, in mesh and plain bearings; efficiency None where they exceed it."""
 
     coupling: float
     pumping: float

@@ -13,7 +13,7 @@ from solvers.notices import Notice
 from solvers.scuffing.balance.load_balance import line_loads
 from solvers.scuffing.distribution.feature_line import contact_points
 from solvers.scuffing.results import ContactPoints, LoadDistribution, Place
-from solvers.scuffing.safety import safety_factor
+from solvers.scuffing.safety import SURVEY_POINTS, safety_factor
 from solvers.scuffing.thermal.blok import blok_flash
 from solvers.scuffing.thermal.thermal_path import thermal_path
 from solvers.scuffing.thermal.verdict import unknown_points
@@ -39,7 +39,7 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: Therma
     x, y = np.meshgrid(
         mesh.flank.profile_fraction * plane.path_length, mesh.flank.face_fraction * plane.face_width, indexing="ij"
     )
-    psi = np.linspace(0.0, 1.0, inputs.mesh.path_points)
+    psi = _feature_points(inputs, mesh, thermal)
     along, across = psi * plane.path_length, psi * plane.face_width
     feature = _points(inputs, mesh, along, line_loads(mesh.balance, along, across))
     flank = _points(inputs, mesh, x, mesh.flank.line_load)
@@ -50,7 +50,7 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: Therma
     worst = np.unravel_index(int(np.argmax(warm_flank)), warm_flank.shape)
     hottest: list[float | None] = [float(warm.max()) if defined else None for warm in (warm_feature, warm_flank)]
     unsolved, warnings = 0, list[Notice]()
-    for line, where in _thermal_lines(inputs, mesh, feature, across, float(y[worst])):
+    for line, where in _thermal_lines(inputs, mesh, feature, across, (float(x[worst]), float(y[worst]))):
         found, missing, notices = _thermal(inputs, line, _bulk(inputs, thermal, where))
         hottest.append(found if defined else None)
         unsolved += missing
@@ -69,6 +69,19 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: Therma
     )
 
 
+def _feature_points(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: ThermalLead) -> FloatArray:
+    """Psi of the feature line's points: equidistant, and where flash and contact temperature by Blok are largest.
+
+    Without the latter, the maxima would depend on the number of points.
+    """
+    plane, psi = mesh.path_of_contact.plane, np.linspace(0.0, 1.0, SURVEY_POINTS)
+    along, across = psi * plane.path_length, psi * plane.face_width
+    line = _points(inputs, mesh, along, line_loads(mesh.balance, along, across))
+    flash = blok_flash(inputs.mesh.distribution, line)
+    hottest = [int(np.argmax(flash)), int(np.argmax(flash + _bulk(inputs, thermal, across)))]
+    return np.unique([*np.linspace(0.0, 1.0, inputs.mesh.path_points), *psi[hottest]])
+
+
 def _place(mesh: LoadDistribution, flank: ContactPoints, index: tuple[np.intp, ...]) -> Place:
     return Place(
         gamma=float(flank.gamma[index]),
@@ -78,13 +91,21 @@ def _place(mesh: LoadDistribution, flank: ContactPoints, index: tuple[np.intp, .
 
 
 def _thermal_lines(
-    inputs: DriveTrainInputs, mesh: LoadDistribution, feature: ContactPoints, across: FloatArray, worst: float
+    inputs: DriveTrainInputs,
+    mesh: LoadDistribution,
+    feature: ContactPoints,
+    across: FloatArray,
+    worst: tuple[float, float],
 ) -> list[tuple[ContactPoints, FloatArray]]:
-    """Lines for the thermal film and their y [m]: the feature line, and the profile through the flank's worst point."""
+    """Lines for the thermal film and their y [m]: the feature line, and the profile through the flank's worst point.
+
+    `worst` holds that point's x and y [m].
+    """
     if inputs.mesh.lubrication == "closed_form":
         return []
-    profile = np.linspace(0.0, mesh.path_of_contact.plane.path_length, across.size)
-    there = np.full(across.size, worst)
+    even = np.linspace(0.0, mesh.path_of_contact.plane.path_length, inputs.mesh.path_points)
+    profile = np.unique([*even, worst[0]])
+    there = np.full(profile.size, worst[1])
     return [(feature, across), (_points(inputs, mesh, profile, line_loads(mesh.balance, profile, there)), there)]
 
 

@@ -295,7 +295,7 @@ def test_ester_has_no_friction_law() -> None:
             "/v1/scuffing/load-distribution",
             PAIR | {"model": {}},
             {"load.power_kw": 900},
-            "load",
+            "load.power_kw",
             "the Hertz pressure of 5917 MPa is beyond what steel carries; too much load?",
         ),
         (
@@ -330,7 +330,7 @@ def test_ester_has_no_friction_law() -> None:
             "/v1/scuffing/load-distribution",
             PAIR | {"model": {}},
             {"load.power_kw": 0.05},
-            "load",
+            "load.power_kw",
             "the line load is 0.367 N/mm at most; kW or kN m?",
         ),
     ],
