@@ -119,6 +119,7 @@ class DriveTrainRequest(Request):
             coupling_friction=self.model.coupling_friction,
             face_stations=self.model.face_stations,
             local_bulk=self.temperatures.local_bulk,
+            bulk_given=self.temperatures.bulk_c is not None,
             states=fields["states"],
         )
 

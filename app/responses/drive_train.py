@@ -2,7 +2,7 @@
 
 from typing import Annotated, ClassVar
 
-from app.responses.drive_train_parts import DriveTrainDerived, ShaftState, ShaftSummary, UnitCouplingState
+from app.responses.drive_train_parts import DriveTrainDerived, ShaftState, ShaftSummary, StateDerived, UnitCouplingState
 from app.responses.gear_mesh import ISO_6336, Values
 from app.responses.load_distribution import MAP, FlankPlace, Gaps
 from app.schema.base import Group, Response
@@ -199,6 +199,7 @@ class TrainSummary(Group):
     losses: Annotated[TrainLosses, Output("losses")]
     balance: Annotated[TrainBalance, Output("balance")]
     convergence: Annotated[TrainConvergence, Output("convergence")]
+    derived: Annotated[StateDerived, Output("what was left open, as used")]
 
 
 class TrainStates(Group):

@@ -159,6 +159,12 @@ class TemperaturesInForce(Group):
     ]
 
 
+class StateDerived(Group):
+    """What the request left open, as a state of the unit has it."""
+
+    temperatures: Annotated[TemperaturesInForce, Output("temperatures used")]
+
+
 class DriveTrainDerived(MeshDerived):
     """What the request left open, in groups named as its sections are."""
 

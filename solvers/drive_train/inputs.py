@@ -187,7 +187,8 @@ class DriveTrainInputs:
     The mesh and the pumped spaces are of one pair; only the radius of the rack's tip may differ. `face_start` [m] is
     the end of the common face with the lower Z. The load factors of the mesh raise the load of its contacts only.
     A thrust collar of `collar_radius` [m] on the pinion takes the place of the pinion's thrust bearing.
-    `local_bulk` adds the local pumping heat to the contact's bulk temperature. The answer is of the hot unit, with
+    `local_bulk` adds the local pumping heat to the contact's bulk temperature, which is that of the cold unit too where
+    `bulk_given`, and else there the reference temperature. The answer is of the hot unit, with
     that of the cold one beside it where `states` holds it.
     """
 
@@ -204,6 +205,7 @@ class DriveTrainInputs:
     coupling_friction: CouplingFriction = "elastic_plastic"
     face_stations: int = STATIONS
     local_bulk: bool = False
+    bulk_given: bool = True
     states: tuple[State, ...] = ("hot",)
 
     @property

@@ -6,7 +6,7 @@ from solvers.arrays import FloatArray
 from solvers.drive_train import model
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import DriveTrainResult, States
-from solvers.errors import NoSolution
+from solvers.errors import InvalidInput, NoSolution
 from solvers.notices import Notice
 
 
@@ -14,14 +14,14 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     """The unit's answer, with that of its cold state where `inputs.states` asks for it.
 
     What only the cold unit warns of stands among the warnings. Raises what `model.solve` raises for the hot unit; a
-    cold one without solution is a warning.
+    cold one without solution, or whose oil is none any more, is a warning.
     """
     found = model.solve(inputs, start)
     if "cold" not in inputs.states:
         return found
     try:
         other = model.solve(cold(inputs), start)
-    except NoSolution as failure:
+    except (NoSolution, InvalidInput) as failure:
         notice = Notice("no_cold_solution", f"the cold unit: {failure.message}", "states")
         return replace(found, states=States(None), warnings=(*found.warnings, notice))
     known = {(notice.code, notice.field) for notice in found.warnings}
@@ -31,10 +31,17 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
 
 
 def cold(inputs: DriveTrainInputs) -> DriveTrainInputs:
-    """Every tooth at the reference temperature, nothing pumped warm, supports that have not grown."""
+    """Every tooth at the reference temperature, nothing pumped warm, supports that have not grown.
+
+    The contact's bulk temperature is a tooth's as well, unless it is given.
+    """
     heat, reference = inputs.heat, inputs.heat.reference
+    mesh = inputs.mesh
+    if not inputs.bulk_given:
+        mesh = replace(mesh, temperatures=replace(mesh.temperatures, bulk=reference, bulk_method="given"))
     return replace(
         inputs,
+        mesh=mesh,
         heat=replace(heat, wall_response=0.0, wall_response_wheel=0.0, pinion_bulk=reference, wheel_bulk=reference),
         couplings=tuple(replace(coupling, alignment=None) for coupling in inputs.couplings),
     )

@@ -634,3 +634,18 @@ def test_torque_may_enter_at_the_very_end_of_a_shaft(post: Post) -> None:
     for position in ends:
         body["pinion_shaft"]["torque_position_mm"] = position
         assert answered(post, body)["status"] != "no_solution"
+
+
+def test_the_cold_unit_s_contact_is_cold(post: Post) -> None:
+    """Teeth at 20 C where no bulk temperature is given: S 5.98, which was 1.77 with the hot teeth's mean."""
+    body = request(states=["hot", "cold"])
+    given = answered(post, body)
+    assert given["derived"]["temperatures"]["bulk_c"] == pytest.approx(95)
+    assert given["states"]["cold"]["derived"]["temperatures"]["bulk_c"] == pytest.approx(95)
+    body["temperatures"].pop("bulk_c")
+    found = answered(post, body)
+    cold = found["states"]["cold"]
+    assert found["derived"]["temperatures"]["bulk_c"] == pytest.approx(87.5)
+    assert cold["derived"]["temperatures"]["bulk_c"] == pytest.approx(20)
+    assert cold["safety"]["blok_flank"] == pytest.approx(5.98, abs=0.01)
+    assert cold["flash"]["flank_k"] == pytest.approx(given["states"]["cold"]["flash"]["flank_k"], rel=1e-9)
