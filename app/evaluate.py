@@ -1,7 +1,7 @@
 """From a validated request to its answer: every view starts from here."""
 
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, reduce
 from typing import Any
 
 from app.calculations import Calculation
@@ -89,8 +89,7 @@ def _assumptions(
 def _model_assumptions(request: Request) -> Iterator[dict[str, Any]]:
     """What the options in force take for granted."""
     for path, reason in request.assumed_by_the_model().items():
-        section, _, name = path.rpartition(".")
-        yield {"field": path, "value": getattr(getattr(request, section), name), "reason": reason}
+        yield {"field": path, "value": reduce(getattr, path.split("."), request), "reason": reason}
 
 
 @cache

@@ -11,6 +11,7 @@ from solvers.errors import InvalidInput
 from solvers.notices import Notice
 
 PressureViscosityLaw = Literal["roelands", "barus"]
+OilKind = Literal["mineral", "pao", "ester", "polyglycol"]
 
 HIGHEST_VISCOSITY = 1e4  # Pa s without pressure; no oil flows there
 THICK_OIL = 1.0  # Pa s at operating temperature, beyond which a slip is likely
@@ -27,7 +28,8 @@ class Lubricant:
     Units: viscosity, at reference_temperature and zero pressure [Pa s], reference_temperature [K],
     pressure_viscosity (Barus coefficient) [1/Pa], temperature_viscosity (Reynolds coefficient) [1/K],
     density, at reference_temperature [kg/m^3], specific_heat [J/(kg K)], thermal_conductivity [W/(m K)].
-    An incompressible oil keeps its density at every pressure and temperature.
+    An incompressible oil keeps its density at every pressure and temperature. `kind` is its base oil, which only the
+    lubricant factor of ISO/TR 13989-1 depends on.
     """
 
     viscosity: float = 0.08
@@ -39,6 +41,7 @@ class Lubricant:
     thermal_conductivity: float = 0.14
     pressure_viscosity_law: PressureViscosityLaw = "roelands"
     compressible: bool = True
+    kind: OilKind = "mineral"
 
     @property
     def laws(self) -> "FluidLaws":

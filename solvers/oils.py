@@ -2,13 +2,10 @@
 
 from dataclasses import dataclass
 from math import log, log10
-from typing import Literal
 
 from solvers.errors import InvalidInput
-from solvers.lubricants import Lubricant, PressureViscosityLaw
+from solvers.lubricants import Lubricant, OilKind, PressureViscosityLaw
 from solvers.viscosity_index import SQUARE_MILLIMETRE, viscosity_index
-
-OilKind = Literal["mineral", "pao", "ester", "polyglycol"]
 
 CELSIUS = 273.15  # K
 WALTHER_SHIFT = 0.7  # mm^2/s
@@ -147,6 +144,7 @@ class OilSheet:
             ),
             pressure_viscosity_law=self.pressure_viscosity_law,
             compressible=self.compressible,
+            kind=self.kind,
         )
 
     def _walther(self) -> tuple[float, float]:

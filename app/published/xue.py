@@ -99,7 +99,9 @@ def film_over_formula() -> float:
 
 def thinnest_psi() -> float:
     """Fig. 23: where on the path the film is thinnest."""
-    return scuffing().film.min_at_psi or 0.0
+    film = scuffing().film
+    assert film is not None
+    return film.min_at_psi or 0.0
 
 
 def helix_slope_pressure(slope: float) -> float:

@@ -1,15 +1,23 @@
 """A gear unit whole: request of /v1/drive-train."""
 
 from collections.abc import Iterator
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from app.requests.drive_train_couplings import UnitCoupling
 from app.requests.drive_train_heat import ToothHeat, TrainTemperatures
 from app.requests.drive_train_mesh import TrainGears, TrainModel, TrainModifications, TrainOperation
 from app.requests.drive_train_shafts import UnitShaft
 from app.requests.oil import Oil
+from app.requests.practice import (
+    PRACTICAL_FRICTION,
+    assumed_in_practice,
+    check_friction,
+    friction_said,
+    lubricant_factor_asked,
+    with_default,
+)
 from app.schema.base import Request, Section
 from app.schema.conversion import to_si
 from app.schema.gears import GearMaterials
@@ -17,10 +25,11 @@ from app.schema.pumping import GearGroove, Mist
 from app.schema.quantities import Input
 from solvers.drive_train import inputs as si
 from solvers.errors import InvalidInput
+from solvers.lubricants import Lubricant
 from solvers.materials import Solid
+from solvers.oils import OilSheet
 from solvers.pumping import inputs as pumping
 from solvers.scuffing import inputs as mesh
-from solvers.sources import XUE
 
 
 def _only_hot() -> list[si.State]:
@@ -82,9 +91,7 @@ class DriveTrainRequest(Request):
     materials: Annotated[GearMaterials, Input("materials", text="materials of the pair")] = GearMaterials()
     lubricant: Annotated[Oil, Input("oil")] = Oil()
     temperatures: Annotated[TrainTemperatures, Input("temperatures", text="of contact and oil")] = TrainTemperatures()
-    friction_coefficient: Annotated[
-        float, Input("coefficient of friction", "μ_m", f"{XUE}, Eq. 25", ge=0, le=1, tolerance=0.01)
-    ] = 0.06
+    friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
     states: Annotated[
         list[si.State],
         Field(min_length=1, max_length=2),
@@ -94,13 +101,33 @@ class DriveTrainRequest(Request):
         TrainModel()
     )
 
+    @model_validator(mode="before")
+    @classmethod
+    def said_in_other_sections(cls, given: Any) -> Any:
+        """A coefficient of friction, or a tooth temperature, says by itself that friction, or bulk, is given."""
+        if not isinstance(given, dict):
+            return given
+        teeth = given.get("thermal")
+        if isinstance(teeth, dict) and any(teeth.get(name) is not None for name in ("pinion_bulk_c", "wheel_bulk_c")):
+            given = with_default(given, "temperatures", "bulk_method", "given")
+        return friction_said(given)
+
+    @model_validator(mode="after")
+    def known_friction(self) -> Self:
+        """A coefficient of friction that is given is a number."""
+        check_friction(self.friction_coefficient, self.model)
+        return self
+
     def inputs(self) -> si.DriveTrainInputs:
-        """The solver's inputs."""
-        temperatures = self._temperatures()
-        shafts = [shaft.shaft(self._viscosity, temperatures.oil) for shaft in (self.pinion_shaft, self.wheel_shaft)]
+        """The solver's inputs. Raises InvalidInput no_oil where a plain bearing has neither a viscosity nor an oil."""
+        temperatures, oil = self.temperatures.contact_temperatures(), self.lubricant.oil()
+        shafts = [
+            shaft.shaft(name, oil, temperatures.oil)
+            for name, shaft in (("pinion_shaft", self.pinion_shaft), ("wheel_shaft", self.wheel_shaft))
+        ]
         fields = to_si(self)
         return si.DriveTrainInputs(
-            mesh=self._mesh(temperatures),
+            mesh=self._mesh(temperatures, oil),
             pumping=pumping.PumpingSetup(
                 gears=self.gears.pumping_pair(),
                 normal_backlash=to_si(self.gears)["normal_backlash"],
@@ -131,19 +158,7 @@ class DriveTrainRequest(Request):
             except InvalidInput as error:
                 raise InvalidInput(error.code, error.message, f"couplings.{k}.{error.field}") from error
 
-    def _temperatures(self) -> mesh.Temperatures:
-        """The solver's temperatures, the contact's bulk by default between those of the teeth."""
-        teeth = to_si(self.thermal)
-        return self.temperatures.contact_temperatures((teeth["pinion_bulk"] + teeth["wheel_bulk"]) / 2)
-
-    def _viscosity(self, temperature: float) -> float:
-        """Viscosity [Pa s] of the gears' oil at a temperature [K]."""
-        oil = self.lubricant.oil()
-        if oil is not None:
-            return oil.viscosity(temperature)
-        return self.lubricant.lubricant().viscosity_at(0.0, temperature)
-
-    def _mesh(self, temperatures: mesh.Temperatures) -> mesh.ScuffingInputs:
+    def _mesh(self, temperatures: mesh.Temperatures, oil: OilSheet | Lubricant | None) -> mesh.ScuffingInputs:
         distribution = mesh.LoadDistributionInputs(
             gears=self.gears.mesh_pair(),
             load=self.operation.load(),
@@ -156,8 +171,8 @@ class DriveTrainRequest(Request):
         )
         return mesh.ScuffingInputs(
             distribution=distribution,
-            lubricant=self.lubricant.lubricant(),
-            oil=self.lubricant.oil(),
+            lubricant=None,
+            oil=oil,
             temperatures=temperatures,
             lubrication=self.model.lubrication,
             friction=self.model.friction,
@@ -172,11 +187,10 @@ class DriveTrainRequest(Request):
     def unused_defaults(self) -> frozenset[str]:
         """Of reliefs that are zero, of bearings and couplings of another kind, of effects that are left out."""
         unused = set(self.modifications.unused_defaults("modifications"))
-        unused |= self.lubricant.unused_defaults("lubricant")
-        unused |= self.temperatures.unused_temperature_defaults("temperatures")
+        factor = lubricant_factor_asked(self.lubricant, self.temperatures, self.model)
+        unused |= self.lubricant.unused_defaults("lubricant", factor=factor)
+        unused |= self.temperatures.unused_temperature_defaults("temperatures", oil=self.lubricant.known)
         unused |= self.model.unused_pumping_defaults("model")
-        if self.model.friction != "given":
-            unused.add("friction_coefficient")
         unused |= self.pinion_shaft.unused_shaft_defaults("pinion_shaft")
         unused |= self.wheel_shaft.unused_shaft_defaults("wheel_shaft")
         for index, coupling in enumerate(self.couplings):
@@ -185,6 +199,10 @@ class DriveTrainRequest(Request):
             unused |= {"couplings", "model.coupling_friction"}
         if not self.effects.thermal:
             unused |= {"thermal.wall_response", "thermal.wall_response_wheel"}
-        if self.model.lubrication == "closed_form":
+        if self.model.lubrication == "closed_form" or not self.lubricant.known:
             return frozenset({*unused, "model.rheology", "model.eyring_stress_mpa"})
         return frozenset(unused | self.model.unused_film_defaults("model"))
+
+    def assumed_by_the_model(self) -> dict[str, str]:
+        """What friction, oil and bulk temperature take for granted."""
+        return assumed_in_practice(self.friction_coefficient, self.lubricant, self.temperatures, self.model)

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from app.requests.scuffing import ContactTemperatures
+from app.requests.scuffing_options import ContactTemperatures
 from app.schema.base import Section
 from app.schema.quantities import Input
 from solvers.drive_train import inputs as si
@@ -89,7 +89,7 @@ class TrainTemperatures(ContactTemperatures):
             text="bulk temperature of the contact, at which the oil enters",
             ge=-70,
             le=500,
-            default_text="the mean of the tooth temperatures, or estimated",
+            default_text="the mean of the tooth temperatures where one of them is given, else estimated",
             assumed="the mean of the two tooth temperatures",
             tolerance=5,
         ),

@@ -8,7 +8,7 @@ from pydantic_core import PydanticCustomError
 
 from app.requests.flank_modifications import FlankModifications
 from app.requests.load_distribution import ScuffingLoad
-from app.requests.scuffing import ScuffingModel
+from app.requests.scuffing_options import ScuffingModel
 from app.schema.base import Section
 from app.schema.conversion import to_si
 from app.schema.gears import BacklashGears

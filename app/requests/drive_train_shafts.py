@@ -1,6 +1,5 @@
 """Shafts of a gear unit, their sections and bearings: sections of /v1/drive-train."""
 
-from collections.abc import Callable
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
@@ -10,6 +9,9 @@ from app.schema.base import Section
 from app.schema.conversion import to_si
 from app.schema.quantities import Input
 from solvers.drive_train import inputs as si
+from solvers.errors import InvalidInput
+from solvers.lubricants import Lubricant
+from solvers.oils import OilSheet, lubricant_at
 
 OCVIRK = "DuBois and Ocvirk, NACA 1157"
 FILM_ABOVE_OIL = 15.0  # K
@@ -24,8 +26,6 @@ def _isotropic(value: Any) -> Any:
     return value
 
 
-Viscosity = Callable[[float], float]
-"""Of the gears' oil [Pa s] at a temperature [K]."""
 Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
 Stiffness = Annotated[
     Annotated[list[Pair], Field(min_length=2, max_length=2)],
@@ -134,23 +134,30 @@ class ShaftBearing(Section):
                 )
         return self
 
-    def bearing(self, viscosity_at: Viscosity, oil_temperature: float) -> si.Bearing:
-        """The solver's bearing; where it has no viscosity of its own it runs in the gears' oil [K]."""
+    def bearing(self, place: str, oil: OilSheet | Lubricant | None, oil_temperature: float) -> si.Bearing:
+        """The solver's bearing; where it has no viscosity of its own it runs in the gears' oil [K].
+
+        Raises InvalidInput no_oil where there is none; `place` is the bearing's dotted name.
+        """
         fields = to_si(self)
-        place = {"position": fields["position"], "offset": fields["offset"]}
+        at = {"position": fields["position"], "offset": fields["offset"]}
         if self.type == "rigid":
-            return si.RigidBearing(**place)
+            return si.RigidBearing(**at)
         if self.type == "linear":
-            return si.LinearBearing(stiffness=fields["stiffness"], **place)
+            return si.LinearBearing(stiffness=fields["stiffness"], **at)
         film, viscosity = fields["film_temperature"], fields["viscosity"]
         if viscosity is None:
-            viscosity = viscosity_at(oil_temperature + FILM_ABOVE_OIL if film is None else film)
+            if oil is None:
+                message = "without an oil of the gears a plain bearing needs its own viscosity; give it, or the oil"
+                raise InvalidInput("no_oil", message, f"{place}.viscosity")
+            film = oil_temperature + FILM_ABOVE_OIL if film is None else film
+            viscosity = lubricant_at(oil, film).viscosity_at(0.0, film)
         return si.JournalBearing(
             diameter=fields["diameter"],
             width=fields["width"],
             viscosity=viscosity,
             radial_clearance=fields["radial_clearance"],
-            **place,
+            **at,
         )
 
 
@@ -196,11 +203,17 @@ class UnitShaft(Section):
     density_kg_per_m3: Annotated[float, Input("density", "ρ", ge=100, le=30000)] = _SHAFT.density
     thrust_bearing: Annotated[ThrustBearing, Input("thrust bearing")] = ThrustBearing()
 
-    def shaft(self, viscosity_at: Viscosity, oil_temperature: float) -> si.Shaft:
-        """The solver's shaft; plain bearings without viscosity run in the gears' oil [K]."""
+    def shaft(self, name: str, oil: OilSheet | Lubricant | None, oil_temperature: float) -> si.Shaft:
+        """The solver's shaft, of this name; plain bearings without viscosity run in the gears' oil [K].
+
+        Raises InvalidInput no_oil where there is none.
+        """
         return si.Shaft(
             sections=tuple(si.ShaftSection(**to_si(section)) for section in self.sections),
-            bearings=tuple(bearing.bearing(viscosity_at, oil_temperature) for bearing in self.bearings),
+            bearings=tuple(
+                bearing.bearing(f"{name}.bearings.{index}", oil, oil_temperature)
+                for index, bearing in enumerate(self.bearings)
+            ),
             ultimate_thrust=to_si(self.thrust_bearing)["ultimate_load"],
             **to_si(self),
         )

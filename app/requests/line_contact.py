@@ -9,7 +9,9 @@ from app.schema.conversion import to_si
 from app.schema.gears import Surface
 from app.schema.quantities import Input
 from solvers.contact import ehl
+from solvers.errors import InvalidInput
 from solvers.materials import Solid
+from solvers.oils import lubricant_at
 from solvers.sources import XUE
 
 BULK = "360 K, the paper's bulk temperature"
@@ -161,13 +163,19 @@ class LineContactRequest(Request):
         return unused if self.model.thermal else unused | {"temperatures.surface_1_c", "temperatures.surface_2_c"}
 
     def inputs(self) -> ehl.LineContactInputs:
-        """The solver's inputs; an oil by its data sheet is what it is at the inlet."""
-        temperatures = ehl.Temperatures(**to_si(self.temperatures))
+        """The solver's inputs; an oil by its data sheet is what it is at the inlet.
+
+        Raises InvalidInput no_oil without one.
+        """
+        temperatures, oil = ehl.Temperatures(**to_si(self.temperatures)), self.lubricant.oil()
+        if oil is None:
+            message = "there is no film without an oil: give iso_vg, two kinematic viscosities or viscosity_pa_s"
+            raise InvalidInput("no_oil", message, "lubricant")
         return ehl.LineContactInputs(
             contact=ehl.Contact(**to_si(self.contact)),
             surface_1=self.surface_1.si(Solid),
             surface_2=self.surface_2.si(Solid),
-            lubricant=self.lubricant.lubricant(temperatures.inlet),
+            lubricant=lubricant_at(oil, temperatures.inlet),
             temperatures=temperatures,
             model=replace(self.model.film(), thermal=self.model.thermal),
         )

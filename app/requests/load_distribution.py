@@ -17,6 +17,16 @@ from solvers.sources import XUE
 
 ISO_6336 = "ISO 6336-1"
 
+FRICTION_COEFFICIENT = Input(
+    "coefficient of friction",
+    "μ_m",
+    f"{XUE}, Eq. 25",
+    ge=0,
+    le=1,
+    tolerance=0.01,
+    assumed="0.06, the paper's; the scuffing check computes it from the oil, which this check does not know",
+)
+
 _DEFAULTS = si.Model()
 
 
@@ -125,7 +135,7 @@ class LoadDistributionModel(Section):
         return si.Model(**{name: fields[name] for name in si.Model.__dataclass_fields__})
 
 
-class LoadDistributionRequest(Request):
+class GearPairRequest(Request):
     """A loaded, modified, misaligned gear pair."""
 
     gears: Annotated[ScuffingGears, Input("gear pair")]
@@ -134,27 +144,8 @@ class LoadDistributionRequest(Request):
         FlankModifications()
     )
     materials: Annotated[GearMaterials, Input("materials", text="materials of the pair")] = GearMaterials()
-    friction_coefficient: Annotated[
-        float,
-        Input(
-            "coefficient of friction",
-            "μ_m",
-            f"{XUE}, Eq. 25",
-            ge=0,
-            le=1,
-            tolerance=0.01,
-            assumed="0.06, the paper's; `model.friction` of the scuffing check computes it",
-        ),
-    ] = 0.06
-    model: Annotated[
-        LoadDistributionModel, Input("model", text="choices where the paper leaves room", advanced=True)
-    ] = LoadDistributionModel()
 
-    def inputs(self) -> Any:
-        """The solver's inputs."""
-        return self.distribution()
-
-    def distribution(self) -> si.LoadDistributionInputs:
+    def distribution(self, friction: float | None, model: LoadDistributionModel) -> si.LoadDistributionInputs:
         """The solver's inputs of the load distribution."""
         return si.LoadDistributionInputs(
             gears=self.gears.si(GearPairInputs),
@@ -162,10 +153,26 @@ class LoadDistributionRequest(Request):
             modifications=si.Modifications(**to_si(self.modifications)),
             pinion_material=self.materials.pinion.si(Solid),
             wheel_material=self.materials.wheel.si(Solid),
-            friction_coefficient=self.friction_coefficient,
-            model=self.model.mesh_model(),
-            resolution=si.Resolution(feature_points=self.model.feature_points),
+            friction_coefficient=friction,
+            model=model.mesh_model(),
+            resolution=si.Resolution(feature_points=model.feature_points),
         )
+
+
+class LoadDistributionRequest(GearPairRequest):
+    """A loaded, modified, misaligned gear pair and the friction between its flanks."""
+
+    friction_coefficient: Annotated[
+        float,
+        FRICTION_COEFFICIENT,
+    ] = 0.06
+    model: Annotated[
+        LoadDistributionModel, Input("model", text="choices where the paper leaves room", advanced=True)
+    ] = LoadDistributionModel()
+
+    def inputs(self) -> si.LoadDistributionInputs:
+        """The solver's inputs."""
+        return self.distribution(self.friction_coefficient, self.model)
 
     def options(self) -> dict[str, Any]:
         """The model section."""

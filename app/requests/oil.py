@@ -9,6 +9,7 @@ from app.requests.sheet_oil import BY_KIND, SheetOil, names_a_sheet
 from app.schema.conversion import to_si
 from app.schema.quantities import Input
 from solvers.lubricants import Lubricant, PressureViscosityLaw
+from solvers.oil_choice import OilChoice
 from solvers.oils import OilSheet
 from solvers.sources import XUE
 
@@ -18,7 +19,7 @@ _THE_PAPERS = "the paper's oil"
 
 
 class Oil(SheetOil):
-    """The oil of a lubricated contact; without grade or data sheet it is the paper's, at 360 K."""
+    """The oil of a lubricated contact: by grade, by data sheet or by its viscosity; nothing names none."""
 
     exclusive: ClassVar = (
         ("viscosity_pa_s", "iso_vg", "kinematic_viscosity_40_mm2_per_s"),
@@ -34,10 +35,9 @@ class Oil(SheetOil):
             text="viscosity at the reference temperature and no pressure",
             ge=1e-5,
             le=100,
-            default_text="by grade or data sheet",
-            assumed=f"{_THE_PAPERS}, 0.08 Pa s at 86.85 °C; an ISO VG 220 has 0.024 there",
+            default_text="by grade or data sheet; with neither no oil is known",
         ),
-    ] = _OIL.viscosity
+    ] = None
     reference_temperature_c: Annotated[
         float | None,
         Input(
@@ -49,7 +49,7 @@ class Oil(SheetOil):
             le=300,
             tolerance=1,
             default_text="with grade or data sheet, where the oil enters the contact",
-            assumed="360 K: the only temperature at which the paper's viscosity gives its film thickness",
+            assumed="86.85 °C, 360 K, at which the paper's viscosity gives its film thickness; give that of yours",
         ),
     ] = 86.85
     pressure_viscosity_per_gpa: Annotated[
@@ -138,55 +138,48 @@ class Oil(SheetOil):
     @model_validator(mode="before")
     @classmethod
     def properties_follow_the_sheet(cls, given: Any) -> Any:
-        """With grade or data sheet, what is not given is no default of the paper's but follows from the sheet."""
-        return dict.fromkeys(_OF_THE_PAPER) | given if names_a_sheet(given) else given
+        """Properties have defaults of their own only with a viscosity; otherwise they follow from the sheet, if any."""
+        if not isinstance(given, dict) or (given.get("viscosity_pa_s") is not None and not names_a_sheet(given)):
+            return given
+        return dict.fromkeys(_WITH_VISCOSITY) | given
 
     @model_validator(mode="after")
     def one_reference(self) -> Self:
-        """Viscosity and its temperature stand alone; without a sheet no property may be null."""
+        """Viscosity and its temperature stand alone; with a viscosity no property may be null."""
         if self.by_sheet:
             for name in ("viscosity_pa_s", "reference_temperature_c", "density_kg_per_m3"):
                 if getattr(self, name) is not None:
                     raise PydanticCustomError(
                         "exclusive", "{name} and a grade or data sheet are both given; keep one", {"name": name}
                     )
-            return self
-        missing = [name for name in _OF_THE_PAPER if getattr(self, name) is None]
-        if missing:
-            raise PydanticCustomError(
-                "missing_property", "give {name}, or the oil by its grade or data sheet", {"name": missing[0]}
-            )
+        elif self.viscosity_pa_s is not None:
+            missing = [name for name in _WITH_VISCOSITY if getattr(self, name) is None]
+            if missing:
+                raise PydanticCustomError(
+                    "missing_property", "give {name}, or the oil by its grade or data sheet", {"name": missing[0]}
+                )
         return self
 
-    def oil(self) -> OilSheet | None:
-        """The solver's oil, where it is given by grade or data sheet."""
-        fields = to_si(self)
-        return self.sheet(**{name: fields[name] for name in _BEYOND_VISCOSITY}) if self.by_sheet else None
+    @property
+    def known(self) -> bool:
+        """Whether an oil is given."""
+        return self.by_sheet or self.viscosity_pa_s is not None
 
-    def lubricant(self, temperature: float = _OIL.reference_temperature) -> Lubricant:
-        """The solver's lubricant; one by grade or data sheet as it is at a temperature [K]."""
-        oil = self.oil()
-        if oil is not None:
-            return oil.lubricant(temperature)
-        fields = to_si(self)
-        return Lubricant(**{name: fields[name] for name in Lubricant.__dataclass_fields__})
+    def oil(self) -> OilSheet | Lubricant | None:
+        """The solver's oil. Raises what `OilChoice.resolve` raises."""
+        return OilChoice(**to_si(self)).resolve()
 
-    def unused_defaults(self, section: str) -> frozenset[str]:
-        """What this way of giving the oil leaves out of a result."""
+    def unused_defaults(self, section: str, *, factor: bool = False) -> frozenset[str]:
+        """What this way of giving the oil leaves out of a result; `factor` says that its kind counts."""
+        if not self.known:
+            return frozenset(f"{section}.{name}" for name in type(self).model_fields)
         unused = self.unused_sheet_defaults(section)
-        replaced = {"viscosity_pa_s", "reference_temperature_c", "density_kg_per_m3"}
-        return unused | ({f"{section}.{name}" for name in replaced} if self.by_sheet else set())
+        if self.by_sheet:
+            return unused | {f"{section}.{name}" for name in ("reference_temperature_c", "density_kg_per_m3")}
+        return unused - {f"{section}.kind"} if factor else unused
 
 
-_BEYOND_VISCOSITY = (
-    "pressure_viscosity",
-    "temperature_viscosity",
-    "specific_heat",
-    "thermal_conductivity",
-    "pressure_viscosity_law",
-    "compressible",
-)
-_OF_THE_PAPER = tuple(
+_WITH_VISCOSITY = tuple(
     name
     for name, field in Oil.model_fields.items()
     if name not in SheetOil.model_fields and field.default is not None and not isinstance(field.default, bool | str)

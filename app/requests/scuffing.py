@@ -1,170 +1,27 @@
 """Scuffing of a gear pair: request of /v1/scuffing."""
 
-from dataclasses import replace
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, Any, Self
 
 from pydantic import model_validator
-from pydantic_core import PydanticCustomError
 
-from app.requests.line_contact import FilmModel
-from app.requests.load_distribution import LoadDistributionModel, LoadDistributionRequest
+from app.requests.load_distribution import GearPairRequest
 from app.requests.oil import Oil
-from app.requests.temperatures import OIL_TEMPERATURE, SCUFFING_TEMPERATURE
-from app.schema.base import Section
-from app.schema.conversion import to_si
+from app.requests.practice import (
+    PRACTICAL_FRICTION,
+    assumed_in_practice,
+    check_friction,
+    friction_said,
+    lubricant_factor_asked,
+)
+from app.requests.scuffing_options import ScuffingModel, ScuffingTemperatures
 from app.schema.quantities import Input
 from solvers.scuffing import inputs as si
-from solvers.scuffing.inputs import BulkMethod, OilSupply
-from solvers.sources import XUE
-
-FZG = "ISO 14635-1"
-TR_13989 = "ISO/TR 13989-1, as read in a public implementation"
-
-_TEMPERATURES = si.Temperatures()
 
 
-class ScuffingTest(Section):
-    """A scuffing test of the oil; stages of other tests than A/8.3/90 mean other temperatures."""
-
-    fzg_stage: Annotated[int, Input("failing load stage", "S", FZG, ge=1, le=12)]
-    test: Annotated[Literal["A/8.3/90"], Input("scuffing test", None, FZG)] = "A/8.3/90"
-    structure_factor: Annotated[
-        float,
-        Input("structure factor", "X_W", TR_13989, ge=0.1, le=2, assumed="case-hardened steel with normal austenite"),
-    ] = 1.0
-    lubricant_factor: Annotated[
-        float | None,
-        Input("lubricant factor", "X_L", TR_13989, ge=0.1, le=2, default_text="by the oil's kind and its viscosity"),
-    ] = None
-
-
-class ContactTemperatures(Section):
-    """Temperatures of teeth and oil, as numbers or by what practice makes of test and supply."""
-
-    exclusive: ClassVar = (("scuffing_c", "scuffing_test"),)
-
-    bulk_c: Annotated[float | None, Input("bulk temperature")] = None
-    bulk_method: Annotated[
-        BulkMethod,
-        Input("bulk temperature method", None, TR_13989, text="given, or estimated from oil, its supply and flash"),
-    ] = _TEMPERATURES.bulk_method
-    oil_supply: Annotated[
-        OilSupply, Input("oil supply", "X_S", TR_13989, assumed="spray lubrication; it decides the estimated bulk")
-    ] = _TEMPERATURES.oil_supply
-    oil_c: Annotated[float, replace(OIL_TEMPERATURE, assumed="60 °C, as in the paper")] = 60.0
-    scuffing_c: Annotated[
-        float | None,
-        replace(SCUFFING_TEMPERATURE, default_text="by `scuffing_test`; with neither no safety factor"),
-    ] = None
-    scuffing_test: Annotated[
-        ScuffingTest | None, Input("scuffing test", text="instead of the temperature: the stage at which the oil fails")
-    ] = None
-
-    @model_validator(mode="after")
-    def one_way(self) -> Self:
-        """One bulk temperature, one scuffing temperature."""
-        if self.bulk_method == "estimated" and self.bulk_c is not None:
-            raise PydanticCustomError("exclusive", "bulk_c and an estimated bulk are both given; keep one")
-        if self.scuffing_c is not None and self.scuffing_test is not None:
-            raise PydanticCustomError("exclusive", "scuffing_c and scuffing_test are both given; keep one")
-        return self
-
-    def contact_temperatures(self, bulk: float | None = None) -> si.Temperatures:
-        """The solver's temperatures; where nothing is said of the bulk it is that [K], by default the oil's."""
-        fields = to_si(self)
-        test = None
-        if self.scuffing_test is not None:
-            said = to_si(self.scuffing_test)
-            test = si.ScuffingTest(**{name: said[name] for name in si.ScuffingTest.__dataclass_fields__})
-        own = next(each for each in (fields["bulk"], bulk, fields["oil"]) if each is not None)
-        return si.Temperatures(
-            bulk=own,
-            oil=fields["oil"],
-            scuffing=fields["scuffing"],
-            scuffing_test=test,
-            bulk_method=fields["bulk_method"],
-            oil_supply=fields["oil_supply"],
-        )
-
-    def unused_temperature_defaults(self, section: str) -> frozenset[str]:
-        """What the way of saying bulk and scuffing temperature leaves out of a result."""
-        return frozenset({f"{section}.bulk_c"} if self.bulk_method == "estimated" else {f"{section}.oil_supply"})
-
-
-class ScuffingTemperatures(ContactTemperatures):
-    """Temperatures of teeth and oil."""
-
-    bulk_c: Annotated[
-        float | None,
-        Input(
-            "bulk temperature",
-            "θ_M",
-            f"{XUE}, Eq. 16",
-            text="bulk temperature of the teeth, at which the oil enters",
-            ge=-70,
-            le=500,
-            tolerance=5,
-            default_text="estimated",
-            assumed="360 K, the paper's bulk temperature; `bulk_method` estimates it from the oil",
-        ),
-    ] = 86.85
-
-    @model_validator(mode="before")
-    @classmethod
-    def estimated_bulk_is_not_the_paper_s(cls, given: Any) -> Any:
-        """An estimate leaves the paper's bulk temperature out."""
-        if isinstance(given, dict) and given.get("bulk_method") == "estimated":
-            return {"bulk_c": None} | given
-        return given
-
-    @model_validator(mode="after")
-    def known_bulk(self) -> Self:
-        """A bulk temperature that is given is a number."""
-        if self.bulk_method == "given" and self.bulk_c is None:
-            raise PydanticCustomError("missing_bulk", "give bulk_c, or bulk_method estimated")
-        return self
-
-
-class ScuffingModel(LoadDistributionModel, FilmModel):
-    """Choices where the paper leaves room, and physics and resolution of the film."""
-
-    friction: Annotated[
-        si.FrictionMethod,
-        Input(
-            "friction law",
-            None,
-            TR_13989,
-            text="the coefficient given, or the mean one of ISO/TR 13989-1, for Blok and the losses",
-        ),
-    ] = "given"
-
-    lubrication: Annotated[
-        si.Lubrication,
-        Input(
-            "lubrication model",
-            None,
-            XUE,
-            text="film and flash temperature by the thermal EHL solution, or by formulas alone",
-            advanced=True,
-        ),
-    ] = "thermal_ehl"
-    path_points: Annotated[
-        int,
-        Input(
-            "points of the scuffing check",
-            None,
-            XUE,
-            text="points of the check along the feature line",
-            ge=2,
-            le=500,
-            advanced=True,
-        ),
-    ] = 50
-
-
-class ScuffingRequest(LoadDistributionRequest):
+class ScuffingRequest(GearPairRequest):
     """A loaded gear pair, its oil and temperatures."""
 
+    friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
     lubricant: Annotated[Oil, Input("oil")] = Oil()
     temperatures: Annotated[ScuffingTemperatures, Input("temperatures", text="temperatures of teeth and oil")] = (
         ScuffingTemperatures()
@@ -173,11 +30,23 @@ class ScuffingRequest(LoadDistributionRequest):
         ScuffingModel()
     )
 
+    @model_validator(mode="before")
+    @classmethod
+    def friction_given(cls, given: Any) -> Any:
+        """A coefficient of friction says by itself that it is given."""
+        return friction_said(given)
+
+    @model_validator(mode="after")
+    def known_friction(self) -> Self:
+        """A coefficient of friction that is given is a number."""
+        check_friction(self.friction_coefficient, self.model)
+        return self
+
     def inputs(self) -> si.ScuffingInputs:
         """The solver's inputs."""
         return si.ScuffingInputs(
-            distribution=self.distribution(),
-            lubricant=self.lubricant.lubricant(),
+            distribution=self.distribution(self.friction_coefficient, self.model),
+            lubricant=None,
             oil=self.lubricant.oil(),
             temperatures=self.temperatures.contact_temperatures(),
             lubrication=self.model.lubrication,
@@ -186,12 +55,20 @@ class ScuffingRequest(LoadDistributionRequest):
             path_points=self.model.path_points,
         )
 
+    def options(self) -> dict[str, Any]:
+        """The model section."""
+        return self.model.model_dump()
+
     def unused_defaults(self) -> frozenset[str]:
         """Of reliefs that are zero, of the film's model in closed form, of oil and bulk; roughness counts here."""
-        unused = self.modifications.unused_defaults("modifications") | self.lubricant.unused_defaults("lubricant")
-        unused |= self.temperatures.unused_temperature_defaults("temperatures")
-        if self.model.friction != "given":
-            unused |= {"friction_coefficient"}
-        if self.model.lubrication == "closed_form":
+        factor = lubricant_factor_asked(self.lubricant, self.temperatures, self.model)
+        unused = self.modifications.unused_defaults("modifications")
+        unused |= self.lubricant.unused_defaults("lubricant", factor=factor)
+        unused |= self.temperatures.unused_temperature_defaults("temperatures", oil=self.lubricant.known)
+        if self.model.lubrication == "closed_form" or not self.lubricant.known:
             return unused | {"model.rheology", "model.eyring_stress_mpa"}
         return unused | self.model.unused_film_defaults("model")
+
+    def assumed_by_the_model(self) -> dict[str, str]:
+        """What friction, oil and bulk temperature take for granted."""
+        return assumed_in_practice(self.friction_coefficient, self.lubricant, self.temperatures, self.model)

@@ -8,7 +8,8 @@ from pydantic_core import PydanticCustomError
 from app.schema.base import Section
 from app.schema.conversion import to_si
 from app.schema.quantities import Input
-from solvers.oils import OilKind, OilSheet, iso_vg
+from solvers.lubricants import OilKind
+from solvers.oils import OilSheet, iso_vg
 from solvers.viscosity_index import SQUARE_MILLIMETRE
 
 IsoGrade = Literal[32, 46, 68, 100, 150, 220, 320, 460, 680]

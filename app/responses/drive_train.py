@@ -143,9 +143,9 @@ class TrainLosses(Group):
 
     coupling_w: Annotated[float, Output("loss of the couplings", "P_C")]
     pumping_w: Annotated[float, Output("loss by pumping", "P_P", text="of air and mist between the teeth")]
-    mesh_w: Annotated[float, Output("loss of the mesh", "P_V")]
+    mesh_w: Annotated[float | None, Output("loss of the mesh", "P_V", text="null without a coefficient of friction")]
     bearings_w: Annotated[float, Output("loss of the plain bearings", "P_B")]
-    total_w: Annotated[float, Output("loss in all", "P_L")]
+    total_w: Annotated[float | None, Output("loss in all", "P_L", text="null without the loss of the mesh")]
     efficiency: Annotated[
         float | None, Output("efficiency", "η", text="null without power, or where the losses exceed it")
     ]
@@ -183,7 +183,7 @@ class TrainMaps(Group):
         list[Gaps], Output("Hertz pressure", "p_H", text="null where the reduced radius vanishes", axis=MAP)
     ]
     contact_temperature_c: Annotated[
-        list[Values], Output("contact temperature by Blok", "θ_B", text="bulk and flash", axis=MAP)
+        list[Gaps], Output("contact temperature by Blok", "θ_B", text="bulk and flash; null without an oil", axis=MAP)
     ]
 
 

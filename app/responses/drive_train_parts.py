@@ -152,7 +152,10 @@ class HeatInForce(Group):
 class TemperaturesInForce(Group):
     """Bulk and scuffing temperature."""
 
-    bulk_c: Annotated[float, Output("bulk temperature used", "θ_M", text="given, the teeth's mean, or estimated")]
+    bulk_c: Annotated[
+        float | None,
+        Output("bulk temperature used", "θ_M", text="given, the teeth's mean, or estimated; null without an oil"),
+    ]
     scuffing_c: Annotated[
         float | None,
         Output("scuffing temperature used", "θ_S", text="given or by a test; null with neither"),

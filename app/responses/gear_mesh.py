@@ -127,7 +127,10 @@ class TransmissionErrorResult(Group):
 class MeshLoss(Group):
     """Friction loss at the mean coefficient; power and efficiency are those of the transmitted power."""
 
-    coefficient: Annotated[float, Output("mean coefficient of friction", "μ_m", text="the one in force")]
+    coefficient: Annotated[
+        float | None,
+        Output("mean coefficient of friction", "μ_m", text="the one in force; null if neither it nor an oil is given"),
+    ]
     loss_factor: Annotated[float | None, Output("tooth loss factor", "H_V", text="loss factor; null without load")]
-    power_w: Annotated[float, Output("friction power", "P_V")]
+    power_w: Annotated[float | None, Output("friction power", "P_V", text="null without a coefficient of friction")]
     efficiency: Annotated[float | None, Output("mesh efficiency", "η_z", text="1 - μ_m H_V; null without load")]

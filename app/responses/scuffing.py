@@ -39,7 +39,7 @@ class FlashTemperature(Group):
             "largest flash temperature by Blok",
             "Δθ_fl,B",
             f"{XUE}, Eq. 25",
-            text="by Blok; null where a loaded point has none",
+            text="by Blok; null where a loaded point has none, as all do without a coefficient of friction",
         ),
     ]
     blok_at_psi: Annotated[
@@ -140,7 +140,7 @@ class ScuffingSafety(Group):
         Output(
             "scuffing safety by thermal EHL",
             "S_B,EHL",
-            text="by the thermal EHL solution; null in closed form",
+            text="by the thermal EHL solution, whose flanks touch nowhere; null in closed form",
             limit=1.0,
             bound="lower",
         ),
@@ -206,10 +206,14 @@ class ScuffingResponse(LoadDistributionResponse):
     held: ClassVar = {LoadDistributionResponse: "distribution"}
 
     flash: Annotated[FlashTemperature | None, Output("flash temperature")] = None
-    contact_temperature: Annotated[ContactTemperatureResult | None, Output("contact temperature")] = None
-    film: Annotated[ThinnestFilm | None, Output("film", text="film thickness")] = None
+    contact_temperature: Annotated[
+        ContactTemperatureResult | None, Output("contact temperature", text="null without an oil or a bulk temperature")
+    ] = None
+    film: Annotated[
+        ThinnestFilm | None, Output("film", text="film thickness; null without an oil or a bulk temperature")
+    ] = None
     safety: Annotated[
-        ScuffingSafety | None, Output("safety", text="safety factors; null without a scuffing temperature")
+        ScuffingSafety | None, Output("safety", text="safety factors; null without a scuffing temperature or an oil")
     ] = None
     path: Annotated[ScuffingPathCurves | None, Output("scuffing check along the feature line", detail="curves")] = None
     unsolved_points: Annotated[

@@ -43,7 +43,7 @@ class DerivedHeat:
 class DerivedTemperatures:
     """Bulk temperature of the contact and scuffing temperature [K]; None where there is none."""
 
-    bulk: float
+    bulk: float | None
     scuffing: float | None
 
 

@@ -11,14 +11,19 @@ from solvers.drive_train.shafts.influence import ShaftPorts, Unit
 
 def train_losses(
     inputs: DriveTrainInputs,
-    mesh: float,
+    mesh: float | None,
     pumping: float,
     shafts: tuple[ShaftResult, ShaftResult],
     couplings: tuple[CouplingResult, ...],
 ) -> TrainLosses:
-    """Losses [W] of all parts; `mesh` and `pumping` are the models' own. No efficiency where they exceed the power."""
+    """Losses [W] of all parts; `mesh` and `pumping` are the models' own.
+
+    Without the mesh's no sum is known; where they exceed the power there is no efficiency.
+    """
     bearings = sum(bearing.friction_power for shaft in shafts for bearing in shaft.bearings)
     coupling = sum(one.friction_power for one in couplings)
+    if mesh is None:
+        return TrainLosses(coupling, pumping, None, bearings, None, None)
     total = coupling + pumping + mesh + bearings
     power = inputs.mesh.distribution.load.power
     return TrainLosses(coupling, pumping, mesh, bearings, total, 1 - total / power if power > total else None)

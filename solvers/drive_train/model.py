@@ -16,11 +16,11 @@ from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.losses import force_balance, train_losses
 from solvers.drive_train.notices import coupling_notices, load_notices, loss_notices, shaft_notices
 from solvers.drive_train.results import Convergence, DriveTrainResult, FaceLoad
-from solvers.drive_train.safety import flank_heat
+from solvers.drive_train.safety import contact_of, flank_heat
 from solvers.drive_train.shafts.influence import Unit, unit
 from solvers.scuffing.model import distribution, mesh_of
 from solvers.scuffing.results import LoadDistribution
-from solvers.scuffing.thermal.temperatures import with_friction, with_temperatures
+from solvers.scuffing.thermal.temperatures import in_force, oil_notices
 
 LEAST_POINTS = 400  # of the gap over the face, the stations among them
 
@@ -82,12 +82,12 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     Raises InvalidInput (codes of `check_inputs` and of the three models) and NoSolution (drive_train, load_balance,
     journal).
     """
-    inputs = replace(inputs, mesh=with_friction(inputs.mesh))
     prepared = prepare(inputs)
     system, mesh, thermal = prepared.unit, prepared.mesh, prepared.thermal
     found = settle(inputs, prepared, start)
     spread = distribution(inputs.mesh.distribution, mesh.prepared, found.balance)
-    inputs = replace(inputs, mesh=with_temperatures(inputs.mesh, spread))
+    contact, spread = in_force(contact_of(inputs), spread)
+    inputs = replace(inputs, mesh=contact)
     hubs = hubs_of(system, found)
     couplings = coupling_results(system, found, hubs)
     shafts = shaft_results(inputs, mesh.prepared.path, system, found, couplings)
@@ -115,6 +115,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
             *shaft_notices(inputs, shafts),
             *load_notices(inputs, load, heat.safety),
             *loss_notices(inputs, losses),
+            *oil_notices(inputs.mesh, spread.path_of_contact),
             *heat.warnings,
         ),
     )

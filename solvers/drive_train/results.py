@@ -161,13 +161,16 @@ class TrainSafety:
 
 @dataclass(frozen=True, slots=True)
 class TrainLosses:
-    """Power [W] lost in couplings, to pumping, in mesh and plain bearings; efficiency None where they exceed it."""
+    """Power [W] lost in couplings, to pumping, in mesh and plain bearings; efficiency None where they exceed it.
+
+    Where the mesh's coefficient of friction is not known, its loss, the total and the efficiency are None.
+    """
 
     coupling: float
     pumping: float
-    mesh: float
+    mesh: float | None
     bearings: float
-    total: float
+    total: float | None
     efficiency: float | None
 
 

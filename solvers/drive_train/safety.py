@@ -1,6 +1,6 @@
 """Scuffing over the whole flank: a load at one end is hottest in a corner that the feature line never meets."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from solvers.drive_train.results import FlashPlaces, TrainSafety
 from solvers.notices import Notice
 from solvers.scuffing.balance.load_balance import line_loads
 from solvers.scuffing.distribution.feature_line import contact_points
+from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.results import ContactPoints, LoadDistribution, Place
 from solvers.scuffing.safety import SURVEY_POINTS, safety_factor
 from solvers.scuffing.thermal.blok import blok_flash
@@ -30,10 +31,19 @@ class FlankHeat:
     warnings: tuple[Notice, ...]
 
 
+def contact_of(inputs: DriveTrainInputs) -> ScuffingInputs:
+    """The mesh with its bulk temperature: where it is given and no number, the mean of the tooth temperatures."""
+    temperatures = inputs.mesh.temperatures
+    if temperatures.bulk is not None or temperatures.bulk_method == "estimated":
+        return inputs.mesh
+    mean = (inputs.heat.pinion_bulk + inputs.heat.wheel_bulk) / 2
+    return replace(inputs.mesh, temperatures=replace(temperatures, bulk=mean))
+
+
 def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: ThermalLead) -> FlankHeat:
     """Flash temperature on the feature line and over the flank, thermal EHL on the two lines that matter.
 
-    Loaded next to a base circle neither has a largest value.
+    Loaded next to a base circle neither has a largest value; without an oil there is no contact temperature.
     """
     plane = mesh.path_of_contact.plane
     x, y = np.meshgrid(
@@ -47,20 +57,21 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: Therma
     warm_feature = on_feature + _bulk(inputs, thermal, across)
     warm_flank = on_flank + _bulk(inputs, thermal, y)
     defined = not np.any(mesh.balance.survey.undefined > 0.0)
-    worst = np.unravel_index(int(np.argmax(warm_flank)), warm_flank.shape)
-    hottest: list[float | None] = [float(warm.max()) if defined else None for warm in (warm_feature, warm_flank)]
+    known = inputs.mesh.temperatures.bulk is not None
+    worst = np.unravel_index(int(np.argmax(warm_flank if known else on_flank)), warm_flank.shape)
+    hottest = [_largest(warm) if defined else None for warm in (warm_feature, warm_flank)]
     unsolved, warnings = 0, list[Notice]()
     for line, where in _thermal_lines(inputs, mesh, feature, across, (float(x[worst]), float(y[worst]))):
         found, missing, notices = _thermal(inputs, line, _bulk(inputs, thermal, where))
         hottest.append(found if defined else None)
         unsolved += missing
         warnings += notices
-    place = _place(mesh, flank, worst) if defined and on_flank.max() > 0.0 else None
+    place = _place(mesh, flank, worst) if defined and (_largest(on_flank) or 0.0) > 0.0 else None
     return FlankHeat(
         temperature=warm_flank,
         flash=FlashPlaces(
-            feature=float(on_feature.max()) if defined else None,
-            flank=float(on_flank.max()) if defined else None,
+            feature=_largest(on_feature) if defined else None,
+            flank=_largest(on_flank) if defined else None,
             flank_at=place,
         ),
         safety=_safety(inputs, hottest, place),
@@ -82,6 +93,11 @@ def _feature_points(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: T
     return np.unique([*np.linspace(0.0, 1.0, inputs.mesh.path_points), *psi[hottest]])
 
 
+def _largest(values: FloatArray) -> float | None:
+    """The largest of all; None if one is not known."""
+    return None if np.isnan(values).any() else float(values.max())
+
+
 def _place(mesh: LoadDistribution, flank: ContactPoints, index: tuple[np.intp, ...]) -> Place:
     return Place(
         gamma=float(flank.gamma[index]),
@@ -101,7 +117,7 @@ def _thermal_lines(
 
     `worst` holds that point's x and y [m].
     """
-    if inputs.mesh.lubrication == "closed_form":
+    if inputs.mesh.lubrication == "closed_form" or inputs.mesh.temperatures.bulk is None:
         return []
     even = np.linspace(0.0, mesh.path_of_contact.plane.path_length, inputs.mesh.path_points)
     profile = np.unique([*even, worst[0]])
@@ -116,8 +132,9 @@ def _points(inputs: DriveTrainInputs, mesh: LoadDistribution, x: FloatArray, loa
 
 
 def _bulk(inputs: DriveTrainInputs, thermal: ThermalLead, y: FloatArray) -> FloatArray:
-    """Bulk temperature [K] of the contact at y: the given one, and with `local_bulk` the members' mean pumping heat."""
-    bulk = np.full(y.shape, inputs.mesh.temperatures.bulk)
+    """Bulk temperature [K] of the contact at y or NaN; with `local_bulk` the members' mean pumping heat is added."""
+    temperature = inputs.mesh.temperatures.bulk
+    bulk = np.full(y.shape, np.nan if temperature is None else temperature)
     if inputs.local_bulk:
         stations = np.linspace(0.0, inputs.mesh.distribution.gears.face_width, thermal.pinion_rise.size)
         bulk += np.interp(y, stations, (thermal.pinion_rise + thermal.wheel_rise) / 2)
@@ -139,7 +156,7 @@ def _thermal(
 
 def _safety(inputs: DriveTrainInputs, hottest: list[float | None], worst: Place | None) -> TrainSafety | None:
     temperatures = inputs.mesh.temperatures
-    if temperatures.scuffing is None:
+    if temperatures.scuffing is None or temperatures.bulk is None:
         return None
     limit, oil = temperatures.scuffing, temperatures.oil
     factors = [None if contact is None else safety_factor(limit, oil, contact) for contact in hottest]

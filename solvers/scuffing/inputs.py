@@ -132,21 +132,21 @@ class Resolution:
 
 @dataclass(frozen=True, slots=True)
 class LoadDistributionInputs:
-    """A loaded pair of modified, misaligned gears."""
+    """A loaded pair of modified, misaligned gears; without a coefficient of friction its loss is not known."""
 
     gears: GearPairInputs
     load: Load
     modifications: Modifications = field(default_factory=Modifications)
     pinion_material: Solid = field(default_factory=Solid)
     wheel_material: Solid = field(default_factory=Solid)
-    friction_coefficient: float = 0.06
+    friction_coefficient: float | None = 0.06
     model: Model = field(default_factory=Model)
     resolution: Resolution = field(default_factory=Resolution)
 
 
 @dataclass(frozen=True, slots=True)
 class ScuffingTest:
-    """The FZG A/8.3/90 load stage at which the oil fails; X_W of the steel, X_L of the oil (None: that of friction)."""
+    """The FZG A/8.3/90 load stage at which the oil fails; X_W of the steel, X_L of the oil (None: that at 90 C)."""
 
     fzg_stage: int
     structure_factor: float = 1.0
@@ -157,12 +157,12 @@ class ScuffingTest:
 class Temperatures:
     """Bulk temperature of the teeth and of the oil they draw in, oil temperature, scuffing temperature [K].
 
-    With bulk_method "estimated" the bulk follows from the oil, its supply and Blok's flash temperature. The scuffing
-    temperature is a property of oil and material that the paper does not give: a number, or what a test says; with
-    neither there is no safety.
+    With bulk_method "estimated" the bulk follows from the oil, its supply and Blok's flash temperature, and `bulk` is
+    None until it does. The scuffing temperature is a property of oil and material that the paper does not give: a
+    number, or what a test says; with neither there is no safety.
     """
 
-    bulk: float = 360.0
+    bulk: float | None = 360.0
     oil: float = 333.15
     scuffing: float | None = None
     scuffing_test: ScuffingTest | None = None
@@ -174,17 +174,23 @@ class Temperatures:
 class ScuffingInputs:
     """What scuffing depends on; `path_points` along the feature line.
 
-    An `oil` by its data sheet takes the place of the lubricant, as it is at the bulk temperature. friction: "given" is
-    the coefficient of the distribution, "iso_tr_13989" the mean coefficient of that report, for Blok and the losses.
+    An `oil` takes the place of the lubricant, as it is at the bulk temperature; with neither there are no film, contact
+    temperature and safety. friction: "given" is the coefficient of the distribution,
+    "iso_tr_13989" the mean coefficient of that report, for Blok and the losses.
     lubrication: "thermal_ehl" solves the film under the local load (`film` is its model), "closed_form" leaves it at
     Blok's and Dowson and Higginson's formulas, which are there in either case.
     """
 
     distribution: LoadDistributionInputs
-    lubricant: Lubricant = field(default_factory=Lubricant)
-    oil: OilSheet | None = None
+    lubricant: Lubricant | None = field(default_factory=Lubricant)
+    oil: OilSheet | Lubricant | None = None
     temperatures: Temperatures = field(default_factory=Temperatures)
     lubrication: Lubrication = "thermal_ehl"
     friction: FrictionMethod = "given"
     film: ehl.Model = field(default_factory=ehl.Model)
     path_points: int = 50
+
+    @property
+    def known_oil(self) -> OilSheet | Lubricant | None:
+        """The oil, however it is described."""
+        return self.lubricant if self.oil is None else self.oil

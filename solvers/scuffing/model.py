@@ -93,7 +93,7 @@ def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance
         balance=balance,
         geometry=_geometry(path),
         contact_lines=_contact_lines(lengths, balance),
-        stiffness=stiffness(path, balance, balance.force / lengths.mean, tangential_force),
+        stiffness=stiffness(path, balance, inputs.load, balance.force / lengths.mean, tangential_force),
         transmission_error=transmission_error(balance),
         load=_load_on_flank(path, balance, inputs.load, tangential_force),
         pressure=_pressure(path, balance, modulus),

@@ -136,11 +136,15 @@ class Pressure:
 
 @dataclass(frozen=True, slots=True)
 class FrictionLoss:
-    """Mean coefficient of friction, loss factor H_V and efficiency (None without load), friction power [W]."""
+    """Mean coefficient of friction, loss factor H_V, friction power [W] and efficiency.
 
-    coefficient: float
+    Without load loss factor and efficiency are None; where the coefficient is not known it is None, and power and
+    efficiency are.
+    """
+
+    coefficient: float | None
     loss_factor: float | None
-    power: float
+    power: float | None
     efficiency: float | None
 
 

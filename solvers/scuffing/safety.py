@@ -12,6 +12,7 @@ from solvers.arrays import FloatArray, frozen
 from solvers.contact.film import dowson_higginson_minimum, thickness_ratio
 from solvers.contact.hertz import reduced_modulus
 from solvers.lubricants import OilInUse, oil_in_use
+from solvers.oils import OilSheet
 from solvers.scuffing.balance.line_survey import reaches_base_circle
 from solvers.scuffing.distribution.feature_line import feature_line
 from solvers.scuffing.inputs import ScuffingInputs, Temperatures
@@ -29,7 +30,7 @@ from solvers.scuffing.safety_results import (
 )
 from solvers.scuffing.thermal.blok import blok_flash
 from solvers.scuffing.thermal.practice import scuffing_risk
-from solvers.scuffing.thermal.temperatures import with_friction, with_temperatures
+from solvers.scuffing.thermal.temperatures import in_force, oil_notices
 from solvers.scuffing.thermal.thermal_path import thermal_path
 from solvers.scuffing.thermal.verdict import largest_flash, path_notices, thinnest_film, unknown_points, without_thermal
 
@@ -39,43 +40,46 @@ SURVEY_POINTS = 4001  # of the formulas along the feature line, to find where th
 def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     """Load distribution and scuffing check.
 
-    Raises what `model.solve`, `with_friction` and `with_temperatures` raise, and what the thermal EHL solver raises if
-    it refuses every point.
+    Without an oil or a bulk temperature there are neither film nor contact temperature nor safety. Raises what
+    `model.solve` and `in_force` raise, and what the thermal EHL solver raises if it refuses every point.
     """
-    inputs = with_friction(inputs)
-    distribution = solve(inputs.distribution)
-    inputs = with_temperatures(inputs, distribution)
-    temperatures = inputs.temperatures
+    inputs, distribution = in_force(inputs, solve(inputs.distribution))
+    bulk = inputs.temperatures.bulk
     line = _checked_line(inputs, distribution)
     path = _closed_form_path(inputs, line)
     thermal: ThermalPath | None = None
-    warnings = distribution.warnings
-    if inputs.lubrication == "thermal_ehl":
+    warnings = (*distribution.warnings, *oil_notices(inputs, distribution.path_of_contact))
+    if inputs.lubrication == "thermal_ehl" and bulk is not None:
         thermal = thermal_path(inputs, line, np.isin(path.status, "ok"))
         path = _with_thermal(inputs, path, thermal)
         warnings += thermal.warnings
-    unknown = 0 if thermal is None else unknown_points(thermal, temperatures.bulk)
+    unknown = 0 if thermal is None or bulk is None else unknown_points(thermal, bulk)
     flash, film = largest_flash(path), thinnest_film(path)
     if reaches_base_circle(distribution.balance.survey):
         flash, film = Flash(None, None), Film()
     elif unknown:
         flash, film = without_thermal(flash, film)
-    contact_temperature = ContactTemperature(
-        bulk=temperatures.bulk,
-        blok_max=None if flash.blok_max is None else temperatures.bulk + flash.blok_max,
-        thermal_ehl_max=None if flash.thermal_ehl_max is None else temperatures.bulk + flash.thermal_ehl_max,
-    )
-    safety = _safety(temperatures, contact_temperature)
+    hottest = None if bulk is None else _contact_temperature(bulk, flash)
+    safety = None if hottest is None else _safety(inputs.temperatures, hottest)
     return Scuffing(
         distribution=distribution,
         flash=flash,
-        contact_temperature=contact_temperature,
-        film=film,
+        contact_temperature=hottest,
+        film=None if bulk is None else film,
         safety=safety,
         path=path,
         derived=_derived(inputs, distribution.derived),
-        warnings=warnings + path_notices(distribution, path, contact_temperature, safety, unknown),
+        warnings=warnings + path_notices(distribution, path, hottest, safety, unknown),
         unsolved_points=path.status.count("no_solution") + path.status.count("refused"),
+    )
+
+
+def _contact_temperature(bulk: float, flash: Flash) -> ContactTemperature:
+    """Bulk [K] and flash."""
+    return ContactTemperature(
+        bulk=bulk,
+        blok_max=None if flash.blok_max is None else bulk + flash.blok_max,
+        thermal_ehl_max=None if flash.thermal_ehl_max is None else bulk + flash.thermal_ehl_max,
     )
 
 
@@ -99,8 +103,9 @@ def _checked_line(inputs: ScuffingInputs, distribution: LoadDistribution) -> Fea
 
     survey = _closed_form_path(inputs, line_at(np.linspace(0.0, 1.0, SURVEY_POINTS)))
     psi = [*np.linspace(0.0, 1.0, inputs.path_points)]
-    if "ok" in survey.status:
-        psi += [survey.psi[np.nanargmax(survey.blok_flash)], survey.psi[np.nanargmin(survey.dowson_higginson)]]
+    for curve, extreme in ((survey.blok_flash, np.nanargmax), (survey.dowson_higginson, np.nanargmin)):
+        if "ok" in survey.status and np.isfinite(curve).any():
+            psi.append(survey.psi[extreme(curve)])
     if "refused" in survey.status:
         psi.append(survey.psi[survey.status.index("refused")])
     return line_at(np.unique(psi))
@@ -108,11 +113,12 @@ def _checked_line(inputs: ScuffingInputs, distribution: LoadDistribution) -> Fea
 
 def _derived(inputs: ScuffingInputs, mesh: Derived) -> ScuffingDerived:
     """What follows from the inputs for mesh and oil."""
+    sheet = inputs.oil if isinstance(inputs.oil, OilSheet) else None
     return ScuffingDerived(
         mesh=mesh,
-        oil=OilInUse(**oil_in_use(inputs.lubricant)),
-        kinematic_viscosity_100=None if inputs.oil is None else inputs.oil.kinematic_viscosity_100,
-        density_15=None if inputs.oil is None else inputs.oil.reference_density,
+        oil=None if inputs.lubricant is None else OilInUse(**oil_in_use(inputs.lubricant)),
+        kinematic_viscosity_100=None if sheet is None else sheet.kinematic_viscosity_100,
+        density_15=None if sheet is None else sheet.reference_density,
     )
 
 
@@ -136,21 +142,22 @@ def _safety(temperatures: Temperatures, contact: ContactTemperature) -> Safety |
 def _closed_form_path(inputs: ScuffingInputs, line: FeatureLine) -> ScuffingPath:
     """Flash temperature (Eq. 25) and film (Eqs. 27, 28) along the feature line.
 
-    A loaded point too near a base circle has neither: it is "refused".
+    A loaded point too near a base circle has neither: it is "refused". Without an oil there is no film.
     """
-    given, lubricant = inputs.distribution, inputs.lubricant
+    given, lubricant, bulk = inputs.distribution, inputs.lubricant, inputs.temperatures.bulk
     pinion, wheel = given.pinion_material, given.wheel_material
     defined = line.in_contact
     film = np.full(line.psi.size, np.nan)
     speed_1, speed_2, load = line.pinion_speed[defined], line.wheel_speed[defined], line.line_load[defined]
-    film[defined] = dowson_higginson_minimum(
-        viscosity=lubricant.viscosity_at(0.0, inputs.temperatures.bulk),
-        pressure_viscosity=lubricant.pressure_viscosity,
-        mean_speed=(speed_1 + speed_2) / 2,
-        radius=line.radius[defined],
-        line_load=load,
-        modulus=reduced_modulus(pinion, wheel),
-    )
+    if lubricant is not None and bulk is not None:
+        film[defined] = dowson_higginson_minimum(
+            viscosity=lubricant.viscosity_at(0.0, bulk),
+            pressure_viscosity=lubricant.pressure_viscosity,
+            mean_speed=(speed_1 + speed_2) / 2,
+            radius=line.radius[defined],
+            line_load=load,
+            modulus=reduced_modulus(pinion, wheel),
+        )
     return ScuffingPath(
         psi=line.psi,
         status=tuple(np.where(defined, "ok", np.where(line.undefined, "refused", "unloaded")).tolist()),

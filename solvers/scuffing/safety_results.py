@@ -61,13 +61,13 @@ class Safety:
 
 @dataclass(frozen=True, slots=True)
 class ScuffingDerived:
-    """What follows for mesh and oil as it enters the contact; where a sheet gives it nu at 100 C, rho at 15 C.
+    """What follows for mesh and oil, if any, as it enters the contact; where a sheet gives it nu at 100 C, rho at 15 C.
 
     kinematic_viscosity_100 [m^2/s], density_15 [kg/m^3].
     """
 
     mesh: Derived
-    oil: OilInUse
+    oil: OilInUse | None
     kinematic_viscosity_100: float | None
     density_15: float | None
 
@@ -116,13 +116,14 @@ class ScuffingPath:
 class Scuffing:
     """The scuffing check on a load distribution; `safety` is None without a scuffing temperature.
 
+    Without an oil, contact temperature, film and safety are None.
     `warnings` are those of the load distribution and of the check.
     """
 
     distribution: LoadDistribution
     flash: Flash
-    contact_temperature: ContactTemperature
-    film: Film
+    contact_temperature: ContactTemperature | None
+    film: Film | None
     safety: Safety | None
     path: ScuffingPath
     derived: ScuffingDerived

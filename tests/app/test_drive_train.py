@@ -23,8 +23,14 @@ TURBO, COLD, GENERATOR = (
 
 
 def request(name: str = TURBO, **changes: Any) -> dict[str, Any]:
-    """An example, in short, with some fields of its sections changed; what is no section is replaced."""
+    """An example, in short, with some fields of its sections changed; what is no section is replaced.
+
+    The turbo gear takes friction and bulk temperature of the worked example.
+    """
     body = copy.deepcopy({**examples()[name].request, "detail": "summary"})
+    if name in {TURBO, COLD}:
+        bulk = {"bulk_method": "given", "bulk_c": 95.0}
+        body |= {"friction_coefficient": 0.04, "temperatures": {**body["temperatures"], **bulk}}
     for section, value in changes.items():
         old = body.get(section)
         body[section] = {**old, **value} if isinstance(old, dict) and isinstance(value, dict) else value
@@ -486,9 +492,11 @@ def test_oil_by_grade_fills_gears_and_journals(post: Post) -> None:
 
 def test_friction_by_the_oil_replaces_the_coefficient(post: Post) -> None:
     given, by_oil = (
-        answered(post, request(model={"lubrication": "closed_form", "friction": law}))
-        for law in ("given", "iso_tr_13989")
+        answered(post, request(model={"lubrication": "closed_form"}, friction_coefficient=coefficient))
+        for coefficient in (0.04, None)
     )
+    assert given["inputs"]["model"]["friction"] == "given"
+    assert by_oil["inputs"]["model"]["friction"] == "iso_tr_13989"
     ratio = by_oil["flash"]["flank_k"] / given["flash"]["flank_k"]
     assert by_oil["losses"]["mesh_w"] / given["losses"]["mesh_w"] == pytest.approx(ratio, rel=1e-6)
     assert abs(ratio - 1) > 0.05

@@ -1,5 +1,6 @@
 """Corners and design of a gear unit by their addresses."""
 
+import copy
 import json
 from collections.abc import Callable
 from typing import Any
@@ -42,7 +43,9 @@ def test_corners_on_the_workers(post: Post) -> None:
 
 
 def test_a_design_on_the_workers(post: Post) -> None:
-    body = {**DESIGN_EXAMPLES["robust"]["value"], "evaluations": 1}
+    body = copy.deepcopy({**DESIGN_EXAMPLES["robust"]["value"], "evaluations": 1})
+    body["request"] |= {"friction_coefficient": 0.04}
+    body["request"]["temperatures"] |= {"bulk_c": 95.0}
     header, trial, end = lines(post(DESIGN, body))
     assert header["corners"] == 12
     assert trial["objective"] == end["objective_best"] == end["objective_start"]

@@ -79,7 +79,7 @@ def test_a_figure_that_the_case_does_not_have_names_the_field(post: Post) -> Non
 
 def test_a_case_without_solution_is_a_problem(post: Post) -> None:
     contact = {"line_load_n_per_mm": 68.0028, "radius_mm": 5, "speed_1_m_per_s": 10.5, "speed_2_m_per_s": 9.5}
-    body = {"contact": contact, "model": {"rheology": "newtonian"}}
+    body = {"contact": contact, "lubricant": {"viscosity_pa_s": 0.08}, "model": {"rheology": "newtonian"}}
     assert post("/v1/scuffing/line-contact", body).json()["status"] == "no_solution"
     response = post("/v1/scuffing/line-contact/figures/contact.svg", body)
     assert response.status_code == 422

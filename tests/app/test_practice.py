@@ -11,7 +11,6 @@ from pydantic import ValidationError
 from app.calculations import CALCULATIONS
 from app.formats.json import answer
 from app.library import STARTER, examples
-from app.problems import Unprocessable
 from app.schema.messages import faults
 from tests.support.gear_pairs import FZG_TORQUES
 
@@ -114,7 +113,7 @@ def test_fzg_type_a_at_its_own_failing_stage_stands_at_the_limit(
 
 
 def test_oil_by_its_grade_is_what_it_is_at_the_bulk_temperature() -> None:
-    derived = solved("/v1/scuffing", PAIR, {"lubricant": {"iso_vg": 220}})["derived"]
+    derived = solved("/v1/scuffing", PAIR, {"lubricant": {"iso_vg": 220}, "temperatures.bulk_c": 86.85})["derived"]
     assert derived["reference_temperature_c"] == pytest.approx(86.85)
     assert derived["viscosity_pa_s"] == pytest.approx(0.0237, rel=5e-3)
     assert derived["pressure_viscosity_per_gpa"] == pytest.approx(15.76, rel=1e-3)
@@ -129,9 +128,11 @@ def test_grade_and_its_two_viscosities_are_one_oil() -> None:
 
 
 def test_oil_of_the_same_pair_by_grade_has_half_the_paper_s_film() -> None:
-    paper = solved("/v1/scuffing", PAIR, {})["film"]["dowson_higginson_min_um"]
-    graded = solved("/v1/scuffing", PAIR, {"lubricant": {"iso_vg": 220}})["film"]["dowson_higginson_min_um"]
-    assert 0.3 < graded / paper < 0.5
+    by_paper, by_grade = (
+        solved("/v1/scuffing", PAIR, {"lubricant": oil, "temperatures.bulk_c": 86.85})["film"]
+        for oil in ({"viscosity_pa_s": 0.08}, {"iso_vg": 220})
+    )
+    assert 0.3 < by_grade["dowson_higginson_min_um"] / by_paper["dowson_higginson_min_um"] < 0.5
 
 
 def test_line_contact_takes_the_oil_at_its_inlet() -> None:
@@ -173,13 +174,25 @@ def test_load_factors_raise_the_contacts_not_the_power() -> None:
 
 
 def test_efficiency_is_what_friction_leaves() -> None:
-    loss = solved("/v1/scuffing", PAIR, {})["friction_loss"]
+    loss = solved("/v1/scuffing", PAIR, {"friction_coefficient": 0.06})["friction_loss"]
     assert loss["efficiency"] == pytest.approx(1.0 - loss["power_w"] / 50e3, rel=1e-12)
 
 
 def test_defaults_of_oil_temperature_and_friction_are_assumptions() -> None:
-    named = {item["field"] for item in solved("/v1/scuffing", PAIR, {})["assumptions"]}
-    assert {"lubricant.viscosity_pa_s", "temperatures.bulk_c", "temperatures.oil_c", "friction_coefficient"} <= named
+    by_grade = solved("/v1/scuffing", PAIR, {"lubricant": {"iso_vg": 220}})["assumptions"]
+    assert {
+        "lubricant.density_15_kg_per_m3",
+        "temperatures.bulk_method",
+        "temperatures.oil_supply",
+        "temperatures.oil_c",
+        "model.friction",
+    } <= {item["field"] for item in by_grade}
+    by_viscosity = solved("/v1/scuffing", PAIR, {"lubricant": {"viscosity_pa_s": 0.02}})["assumptions"]
+    assert {"lubricant.reference_temperature_c", "lubricant.pressure_viscosity_per_gpa", "lubricant.kind"} <= {
+        item["field"] for item in by_viscosity
+    }
+    loads = solved("/v1/scuffing/load-distribution", PAIR | {"model": {}}, {})["assumptions"]
+    assert {item["field"]: item["value"] for item in loads}["friction_coefficient"] == 0.06
 
 
 def test_from_a_data_sheet_to_a_safety_factor_in_one_request() -> None:
@@ -247,12 +260,6 @@ def test_what_excludes_what(endpoint: str, body: dict[str, Any], changes: dict[s
     assert refused(endpoint, body, changes) == message
 
 
-def test_ester_has_no_friction_law() -> None:
-    with pytest.raises(Unprocessable) as refusal:
-        solved("/v1/scuffing", PAIR, {"lubricant": {"iso_vg": 150, "kind": "ester"}, "model.friction": "iso_tr_13989"})
-    assert (refusal.value.code, refusal.value.path) == ("oil_kind", "lubricant.kind")
-
-
 @pytest.mark.parametrize(
     ("endpoint", "body", "changes", "field", "message"),
     [
@@ -308,7 +315,7 @@ def test_ester_has_no_friction_law() -> None:
         (
             "/v1/scuffing",
             PAIR,
-            {"temperatures.oil_c": 95},
+            {"lubricant": {"iso_vg": 220}, "temperatures": {"oil_c": 95, "bulk_c": 86.85}},
             "temperatures.oil_c",
             "the oil at 95 °C is hotter than the teeth at 86.85 °C; exchanged?",
         ),

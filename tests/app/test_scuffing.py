@@ -209,7 +209,8 @@ def test_a_path_that_reaches_a_base_circle_has_no_verdict(post: Post, lubricatio
             "face_width_mm": 20,
         },
         "load": {"pinion_torque_n_m": 50, "pinion_speed_rpm": 1000},
-        "temperatures": {"scuffing_c": 300},
+        "lubricant": {"viscosity_pa_s": 0.08},
+        "temperatures": {"scuffing_c": 300, "bulk_c": 86.85},
         "model": {"lubrication": lubrication, "path_points": points},
     }
     result = post(SCUFFING, body).json()

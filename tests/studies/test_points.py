@@ -92,7 +92,7 @@ def test_what_cannot_finish_is_a_point() -> None:
 
 def test_no_solution_is_a_point() -> None:
     contact = {"line_load_n_per_mm": 68.0028, "radius_mm": 5, "speed_1_m_per_s": 10.5, "speed_2_m_per_s": 9.5}
-    body = {"contact": contact, "model": {"rheology": "newtonian"}}
+    body = {"contact": contact, "lubricant": {"viscosity_pa_s": 0.08}, "model": {"rheology": "newtonian"}}
     question = Question("/v1/scuffing/line-contact", body, ["film.minimum_um", "status"], 30.0)
     (point,) = solve_chunk(question, [{}]).points
     assert (point.status, point.out) == ("no_solution", [None, "no_solution"])

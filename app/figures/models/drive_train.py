@@ -201,14 +201,18 @@ def thrust(request: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
 def losses(_: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
     """What the unit loses, and where."""
     found = present(answer.losses)
-    rows = (
-        Row("plain bearings", found.bearings_w, Hue.BLUE),
-        Row("mesh", found.mesh_w, Hue.VERMILLION),
-        Row("pumping of air and mist", found.pumping_w, Hue.GREEN),
-        Row("couplings", found.coupling_w, Hue.ORANGE),
+    parts = (
+        ("plain bearings", found.bearings_w, Hue.BLUE),
+        ("mesh", found.mesh_w, Hue.VERMILLION),
+        ("pumping of air and mist", found.pumping_w, Hue.GREEN),
+        ("couplings", found.coupling_w, Hue.ORANGE),
     )
+    rows = tuple(Row(name, power, hue) for name, power, hue in parts if power is not None)
     efficiency = "" if found.efficiency is None else f", efficiency {number(100 * found.efficiency, '%', digits=4)}"
-    finding = f"{number(found.total_w / NEWTONS, 'kW')} in all{efficiency}"
+    if found.total_w is None:
+        finding = "without the loss of the mesh, whose coefficient of friction is not known"
+    else:
+        finding = f"{number(found.total_w / NEWTONS, 'kW')} in all{efficiency}"
     return Figure(finding, (Panel(x=Axis("power lost", "W"), y=Axis("where"), rows=rows),))
 
 

@@ -33,15 +33,17 @@ def flank_load(_: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
     return Figure(f"{finding}, K_Hβ = {number(factor)}", (Panel(x=FACE, y=PROFILE, map=chart, marks=(mark,)),))
 
 
-def contact_temperature(request: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
+def contact_temperature(_: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
     """Contact temperature by Blok over the flank; the corners that a feature line never meets count."""
     flank = present(answer.flank)
     grid = matrix(flank.contact_temperature_c)
+    if present(answer.derived).temperatures.bulk_c is None:
+        raise NoFigure("no_oil", "Without an oil and a bulk temperature there is no contact temperature", "lubricant")
     if not np.isfinite(grid).all():
         raise NoFigure(
             "no_temperature", "The loaded path reaches a base circle, where there is no temperature", "gears"
         )
-    limit = request.temperatures.scuffing_c
+    limit = present(answer.derived).temperatures.scuffing_c
     low, high = float(grid.min()), float(grid.max())
     critical = (Critical(limit, "scuffing"),) if limit is not None and low < limit < high else ()
     chart = Map(

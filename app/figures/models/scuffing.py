@@ -15,6 +15,7 @@ WARNED = "outside validity"
 
 def contact_temperature(_: ScuffingRequest, answer: ScuffingResponse) -> Figure:
     """Bulk and flash of both flanks by thermal EHL beside Blok, against the scuffing temperature."""
+    _with_oil(answer)
     path, bulk = present(answer.path), present(answer.contact_temperature).bulk_c
     psi = values(path.psi)
     lines = []
@@ -37,6 +38,15 @@ def contact_temperature(_: ScuffingRequest, answer: ScuffingResponse) -> Figure:
         marks=_hottest(lines[:-1] or lines),
     )
     return Figure(_safety(answer), (panel,), unsolved=_unsolved(path))
+
+
+def _with_oil(answer: ScuffingResponse) -> None:
+    """Refuse a figure of what only an oil at its temperature makes known."""
+    if answer.path is not None and answer.contact_temperature is None:
+        message = (
+            "Without an oil and the bulk temperature at which it enters there is neither film nor contact temperature"
+        )
+        raise NoFigure("no_oil", message, "lubricant")
 
 
 def _safety(answer: ScuffingResponse) -> str:
@@ -62,6 +72,7 @@ def _hottest(lines: list[Line]) -> tuple[Mark, ...]:
 
 def film(request: ScuffingRequest, answer: ScuffingResponse) -> Figure:
     """Minimum and central film, the formula, and the film that is as thick as the roughness."""
+    _with_oil(answer)
     path, thinnest = present(answer.path), present(answer.film)
     psi = values(path.psi)
     formula = values(path.dowson_higginson_um)
@@ -103,7 +114,8 @@ def roughness(request: ScuffingRequest) -> float:
 
 
 def friction(_: ScuffingRequest, answer: ScuffingResponse) -> Figure:
-    """Coefficient of friction and film pressure along the path, from thermal EHL."""
+    """Coefficient of friction and film pressure along the path, from thermal EHL, beside the mean one in force."""
+    _with_oil(answer)
     path = present(answer.path)
     if path.friction_coefficient is None or path.max_pressure_mpa is None:
         raise NoFigure(
@@ -116,7 +128,7 @@ def friction(_: ScuffingRequest, answer: ScuffingResponse) -> Figure:
             x=PATH,
             y=Axis("coefficient of friction"),
             lines=(Line("friction", psi, friction_line, named=False),),
-            levels=points,
+            levels=(*points, *_mean_friction(answer)),
             spans=_warned(path),
             marks=_largest(psi, friction_line, "", Hue.BLUE),
         ),
@@ -132,6 +144,12 @@ def friction(_: ScuffingRequest, answer: ScuffingResponse) -> Figure:
     known = friction_line[np.isfinite(friction_line)]
     finding = f"μ from {number(float(known.min()))} to {number(float(known.max()))}" if known.size else "nowhere known"
     return Figure(finding, panels, unsolved=_unsolved(path))
+
+
+def _mean_friction(answer: ScuffingResponse) -> tuple[Level, ...]:
+    """The coefficient that Blok's flash temperature and the losses take."""
+    mean = None if answer.friction_loss is None else answer.friction_loss.coefficient
+    return () if mean is None else (Level(mean, f"mean of the formulas {number(mean)}"),)
 
 
 def _largest(psi: Values, y: Values, unit: str, hue: Hue) -> tuple[Mark, ...]:

@@ -28,6 +28,12 @@ ABOUT = About(
         ),
         Equation("Eq. 25", "flash temperature by Blok", "Δθ = 0.7858 μ w |u_1 − u_2| / ((B_1 √u_1 + B_2 √u_2) √b_0)"),
         Equation("Eq. 26", "safety against scuffing", "S_B = (θ_S − θ_oil) / (θ_B,max − θ_oil)"),
+        Equation(
+            "ISO/TR 13989-1",
+            "mean friction, where none is given",
+            "μ = 0.060 (w_Bt / (v_ΣC ρ_relC))^0.2 X_L X_R,  w_Bt ≥ 150 N/mm,  v_t ≤ 50 m/s in v_ΣC",
+        ),
+        Equation("ISO/TR 13989-1", "bulk temperature, where none is given", "θ_M = θ_oil + 0.47 X_S Δθ_mean"),
         Equation("Eq. 28", "specific film thickness", "λ = h_min / mean roughness of both flanks"),
     ),
     misprints=(
@@ -56,6 +62,8 @@ ABOUT = About(
         "Quasi-static: no dynamics, so speed enters through power, sliding and film only.",
         "Smooth surfaces: below λ = 1 the film is thinner than the roughness, and the numbers are bounds.",
         "Surfaces move fast against heat: below a Peclet number of 5 the flash temperature is too high.",
+        "The estimated bulk temperature is one of flooded flanks: beyond 60 m/s it is a lower bound.",
+        "Where the bulk temperature is given it does not follow the oil: a hotter oil alone then looks safer.",
         "The scuffing temperature is the user's; it belongs to oil, additive, material and finish.",
         "The thinnest film printed, 0.42 µm, does not follow from the printed equations; see the table.",
     ),

@@ -9,6 +9,7 @@ from app.pages.query import body_of, link
 from app.pages.studies.declaration import Asking, Cell, Result, StudyPage, Table
 from app.pages.typesetting import shown
 from app.pages.views import Asked
+from app.requests.practice import GIVEN_BULK
 from app.schema.fields import Leaf
 from app.studies.sensitivity import plan_sensitivity
 from app.studies.stream import Line
@@ -45,6 +46,8 @@ def _result(study: Asking, lines: list[Line]) -> Result:
             remarks.append(f"No input moves the {output.title} of this case.")
     else:
         remarks.append(f"The case has no {output.title}, so nothing moves it.")
+    if GIVEN_BULK in {each["reason"] for each in end["assumptions"]}:
+        remarks.append(f"Oil temperature: {GIVEN_BULK}.")
     tables = (_table(study, moved, inputs),) if moved else ()
     return Result(progress, figures, tables, tuple(remarks))
 

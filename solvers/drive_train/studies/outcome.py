@@ -9,10 +9,10 @@ from solvers.drive_train.gap.balance import Equilibrium
 from solvers.drive_train.gap.face_curves import face_slope
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.model import Prepared, prepare, settle
-from solvers.drive_train.safety import flank_heat
+from solvers.drive_train.safety import contact_of, flank_heat
 from solvers.errors import InvalidInput
 from solvers.scuffing.model import distribution
-from solvers.scuffing.thermal.temperatures import with_friction, with_temperatures
+from solvers.scuffing.thermal.temperatures import in_force
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,9 +61,9 @@ def outcome(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Outcom
 
 def outcome_of(inputs: DriveTrainInputs, prepared: Prepared, found: Equilibrium) -> Outcome:
     """The figures of a unit whose gap is known; the thermal film is left out."""
-    rubbing = with_friction(inputs.mesh)
-    spread = distribution(rubbing.distribution, prepared.mesh.prepared, found.balance)
-    closed = replace(inputs, mesh=replace(with_temperatures(rubbing, spread), lubrication="closed_form"))
+    spread = distribution(inputs.mesh.distribution, prepared.mesh.prepared, found.balance)
+    contact, spread = in_force(contact_of(inputs), spread)
+    closed = replace(inputs, mesh=replace(contact, lubrication="closed_form"))
     heat = flank_heat(closed, spread, prepared.thermal)
     shares = np.trapezoid(spread.flank.line_load, axis=0)
     mean = float(np.trapezoid(shares) / (shares.size - 1))

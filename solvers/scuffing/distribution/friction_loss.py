@@ -7,7 +7,9 @@ from solvers.scuffing.inputs import Load
 from solvers.scuffing.results import FrictionLoss
 
 
-def friction_loss(path: PathOfContact, balance: LoadBalance, load: Load, friction_coefficient: float) -> FrictionLoss:
+def friction_loss(
+    path: PathOfContact, balance: LoadBalance, load: Load, friction_coefficient: float | None
+) -> FrictionLoss:
     """P_V = f/p_bt int sum_j int w |u1 - u2| dl dphase, u1 - u2 = (omega_1 + omega_2)(s - s_C); H_V = P_V / (f P).
 
     Power and efficiency are those of the transmitted power; load factors raise the load of the contacts only.
@@ -17,6 +19,8 @@ def friction_loss(path: PathOfContact, balance: LoadBalance, load: Load, frictio
     speed_ratio = path.pair.pinion.teeth / path.pair.wheel.teeth
     moment = period_mean(balance.survey.friction_moment, balance.rolls.phase) / load.contact_factor
     loss_factor = moment * (1 + speed_ratio) / load.pinion_torque
+    if friction_coefficient is None:
+        return FrictionLoss(None, loss_factor=loss_factor, power=None, efficiency=None)
     return FrictionLoss(
         friction_coefficient,
         loss_factor=loss_factor,

@@ -10,6 +10,7 @@ from solvers.gears.pair import GearPair
 from solvers.gears.path_of_contact import PathOfContact
 from solvers.scuffing.balance.load_balance import LoadBalance
 from solvers.scuffing.distribution.transmission_error import period_mean
+from solvers.scuffing.inputs import Load
 from solvers.scuffing.results import Stiffness, StiffnessCurves
 from solvers.scuffing.teeth.stiffness import single_stiffness
 
@@ -29,11 +30,13 @@ class StandardStiffness:
     mesh_bending: float
 
 
-def standard_stiffness(path: PathOfContact) -> StandardStiffness:
+def standard_stiffness(path: PathOfContact, line_load: float = REFERENCE_LOAD) -> StandardStiffness:
     """Stiffness by ISO 6336-1: c' = c'_th C_M C_R C_B cos beta, c_ga = c' (0.75 eps_alpha + 0.25), c_gb = 0.85 c_ga.
 
     1/c'_th = 0.04723 + 0.15551/z_n1 + 0.25791/z_n2 - 0.00635 x1 - 0.11654 x1/z_n1 - 0.00193 x2 - 0.24188 x2/z_n2
-              + 0.00529 x1^2 + 0.00182 x2^2 [mm um/N]; C_B for the basic rack; for line loads of 100 N/mm and more.
+              + 0.00529 x1^2 + 0.00182 x2^2 [mm um/N]; C_B for the basic rack.
+
+    Below a line load F_t K_A/b [N/m] of 100 N/mm c' falls with its fourth root.
     """
     inputs = path.pair.inputs
     virtual = cos(path.pair.base_helix_angle) ** 2 * cos(inputs.helix_angle)
@@ -43,9 +46,16 @@ def standard_stiffness(path: PathOfContact) -> StandardStiffness:
     flexibility += -0.00193 * x2 - 0.24188 * x2 / z2 + 0.00529 * x1**2 + 0.00182 * x2**2
     theoretical = 1e9 / flexibility
     rack = _rack_factor(path.pair)
-    single = theoretical * MEASURED_FRACTION * DISC_FACTOR * rack * cos(inputs.helix_angle)
+    light = min(line_load / REFERENCE_LOAD, 1.0) ** 0.25
+    single = theoretical * MEASURED_FRACTION * DISC_FACTOR * rack * cos(inputs.helix_angle) * light
     mesh = single * (0.75 * path.transverse_contact_ratio + 0.25)
     return StandardStiffness(theoretical, single, mesh, 0.85 * mesh)
+
+
+def _standard_line_load(path: PathOfContact, load: Load) -> float:
+    """F_t K_A/b [N/m] with F_t at the reference circle; without load the one c' is stated for."""
+    tangential = load.application_factor * load.pinion_torque / path.pair.pinion.reference_radius
+    return tangential / path.plane.face_width if tangential > 0.0 else REFERENCE_LOAD
 
 
 def _rack_factor(pair: GearPair) -> float:
@@ -62,7 +72,9 @@ def mesh_stiffness(balance: LoadBalance, tangential_force: float) -> FloatArray 
     return np.asarray(tangential_force / (balance.mesh.plane.face_width * approach))
 
 
-def stiffness(path: PathOfContact, balance: LoadBalance, mean_load: float, tangential_force: float) -> Stiffness:
+def stiffness(
+    path: PathOfContact, balance: LoadBalance, load: Load, mean_load: float, tangential_force: float
+) -> Stiffness:
     """Stiffness of one pair along the path, secant at the mean line load [N/m] if any, and of the mesh."""
     secant_load = mean_load if mean_load > 0.0 else REFERENCE_LOAD
     single = single_stiffness(balance.mesh.compliance, secant_load)
@@ -70,7 +82,7 @@ def stiffness(path: PathOfContact, balance: LoadBalance, mean_load: float, tange
     pitch_x = path.pitch_point - path.start
     curve = np.linspace(0.0, path.length, CURVE_POINTS)
     mesh = mesh_stiffness(balance, tangential_force)
-    standard = standard_stiffness(path)
+    standard = standard_stiffness(path, _standard_line_load(path, load))
     return Stiffness(
         max=float(single.max()),
         max_at_gamma=float(path.profile_parameter(x[np.argmax(single)])),

@@ -9,8 +9,14 @@ from solvers.scuffing.results import ContactPoints
 
 
 def blok_flash(given: LoadDistributionInputs, points: ContactPoints) -> FloatArray:
-    """Blok's flash temperature [K] (Eq. 25) at the points; 0 where nothing touches or moves, NaN without a limit."""
+    """Blok's flash temperature [K] (Eq. 25) at the points.
+
+    0 where nothing touches or moves; NaN where it has no limit, and at every contact without a coefficient of friction.
+    """
     flash, touching = np.where(points.undefined, np.nan, 0.0), points.in_contact
+    if given.friction_coefficient is None:
+        flash[touching] = np.nan
+        return flash
     flash[touching] = blok_flash_temperature(
         friction=given.friction_coefficient,
         line_load=points.line_load[touching],

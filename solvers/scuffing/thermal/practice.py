@@ -1,6 +1,7 @@
 """What ISO/TR 13989-1 adds in practice: mean friction, scuffing temperature of an FZG stage, bulk temperature, risk.
 
-The standard's formulas are taken as a public implementation of it reads.
+The standard's formulas are taken as a public implementation of it reads, its load factors and the bound of 50 m/s on
+the speed too; the bound of 150 N/mm on the line load is quoted from memory.
 """
 
 from typing import Literal
@@ -8,15 +9,18 @@ from typing import Literal
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.errors import InvalidInput
 from solvers.gears.path_of_contact import PathOfContact
-from solvers.oils import OilKind
+from solvers.lubricants import OilKind
 from solvers.scuffing.inputs import LoadDistributionInputs, OilSupply
 
 ScuffingRisk = Literal["high", "moderate", "low"]
 
 OIL_SUPPLY_FACTOR: dict[OilSupply, float] = {"spray": 1.2, "dip": 1.0, "submerged": 0.2}  # X_S
-OIL_KIND_FACTOR: dict[OilKind, float] = {"mineral": 1.0, "pao": 0.8, "polyglycol": 0.7}
+OIL_KIND_FACTOR: dict[OilKind, float] = {"mineral": 1.0, "pao": 0.8, "polyglycol": 0.7, "ester": 1.0}
+LEAST_LINE_LOAD = 150.0  # N/mm, of w_Bt in the friction law
+FASTEST_PITCH_LINE = 50.0  # m/s, of v_t in the friction law
+TEST_TEMPERATURE = 363.15  # K, of the oil in A/8.3/90
+FLOODED_UP_TO = 60.0  # m/s, pitch-line velocity beyond which the estimated bulk is a lower bound
 FLASH_SHARE = 0.47  # of the mean flash temperature that the bulk takes on
 HIGH_RISK_BELOW, LOW_RISK_ABOVE = 1.0, 2.0
 
@@ -24,14 +28,8 @@ HIGH_RISK_BELOW, LOW_RISK_ABOVE = 1.0, 2.0
 def lubricant_factor(viscosity: float, kind: OilKind) -> float:
     """X_L = eta_oil^-0.05, eta_oil in mPa s, times 0.8 for polyalphaolefins and 0.7 for polyglycols.
 
-    viscosity [Pa s] at the oil temperature. Raises InvalidInput oil_kind for an ester, for which no factor is known.
+    viscosity [Pa s] at the oil temperature. For esters no factor is known; they count as mineral oils.
     """
-    if kind not in OIL_KIND_FACTOR:
-        raise InvalidInput(
-            "oil_kind",
-            "the friction law of ISO/TR 13989-1 has no lubricant factor for an ester; give the friction coefficient",
-            "lubricant.kind",
-        )
     return float(OIL_KIND_FACTOR[kind] * (viscosity * 1e3) ** -0.05)
 
 
@@ -40,16 +38,23 @@ def roughness_factor(roughness_1: float, roughness_2: float) -> float:
     return float(((roughness_1 + roughness_2) / 2 * 1e6) ** 0.25)
 
 
-def mean_friction(inputs: LoadDistributionInputs, path: PathOfContact, factor: float) -> float:
+def pitch_line_velocity(inputs: LoadDistributionInputs, path: PathOfContact) -> float:
+    """Speed of the working pitch circles [m/s]."""
+    return inputs.load.pinion_speed * path.pair.pinion_working_radius
+
+
+def mean_friction(inputs: LoadDistributionInputs, path: PathOfContact, factor: float, face_load_factor: float) -> float:
     """Mean coefficient of friction mu = 0.060 [w_Bt/(v_SigmaC rho_relC)]^0.2 X_L X_R.
 
-    w_Bt = K F_t/b [N/mm] with F_t at the reference circle, v_SigmaC the sum of the tangential speeds [m/s] and rho_relC
-    the reduced radius [mm] at the pitch point; `factor` is X_L.
+    w_Bt = K_A K_v K_gamma K_Hbeta K_Halpha F_t/b [N/mm], at least 150 N/mm, with F_t at the reference circle and
+    K_Halpha taken as 1; v_SigmaC the sum of the tangential speeds at the pitch point [m/s], of a pitch-line velocity of
+    at most 50 m/s; rho_relC the reduced radius there [mm]; `factor` is X_L. The speed must not be 0.
     """
     load, pair, pitch = inputs.load, path.pair, path.pitch_point
     tangential = load.contact_factor * load.pinion_torque / pair.pinion.reference_radius
-    line_load = tangential / inputs.gears.face_width * 1e-3
-    speeds = load.pinion_speed * (pitch + pair.pinion.teeth / pair.wheel.teeth * (pair.line_of_action - pitch))
+    line_load = max(face_load_factor * tangential / inputs.gears.face_width * 1e-3, LEAST_LINE_LOAD)
+    speed = load.pinion_speed * min(1.0, FASTEST_PITCH_LINE / pitch_line_velocity(inputs, path))
+    speeds = speed * (pitch + pair.pinion.teeth / pair.wheel.teeth * (pair.line_of_action - pitch))
     radius = pitch * (pair.line_of_action - pitch) / (pair.line_of_action * path.plane.cos_base_helix) * 1e3
     rough = roughness_factor(inputs.pinion_material.roughness, inputs.wheel_material.roughness)
     return float(0.060 * (line_load / (speeds * radius)) ** 0.2 * factor * rough)

@@ -3,70 +3,126 @@
 Nothing iterates: friction takes the oil at the oil temperature, only the film's oil follows the bulk.
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from solvers.contact.hertz import reduced_modulus
 from solvers.errors import InvalidInput
-from solvers.gears.path_of_contact import meshing_path
+from solvers.gears.path_of_contact import PathOfContact
+from solvers.lubricants import Lubricant
+from solvers.notices import Notice
+from solvers.oils import OilSheet, lubricant_at
 from solvers.scuffing.distribution.feature_line import feature_line
+from solvers.scuffing.distribution.friction_loss import friction_loss
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.thermal.blok import blok_flash
-from solvers.scuffing.thermal.practice import bulk_temperature, lubricant_factor, mean_friction, scuffing_temperature
+from solvers.scuffing.thermal.practice import (
+    FLOODED_UP_TO,
+    TEST_TEMPERATURE,
+    bulk_temperature,
+    lubricant_factor,
+    mean_friction,
+    pitch_line_velocity,
+    scuffing_temperature,
+)
 
 COLDEST_OIL, HOTTEST_OIL = 223.15, 573.15  # K, the range of reference temperatures
 MEAN_POINTS = 1001  # of the mean flash temperature along the path
 
 
-def with_friction(inputs: ScuffingInputs) -> ScuffingInputs:
-    """The inputs with the coefficient of friction in force. Raises what `meshing_path` and `lubricant_factor` raise."""
-    given = inputs.distribution
-    if inputs.friction == "given" or given.load.pinion_torque == 0.0:
-        return inputs
-    coefficient = mean_friction(given, meshing_path(given.gears), _oil_factor(inputs))
-    return replace(inputs, distribution=replace(given, friction_coefficient=coefficient))
+def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[ScuffingInputs, LoadDistribution]:
+    """Inputs and load distribution with friction, temperatures and oil as numbers. Raises what its two parts raise."""
+    inputs, distribution = with_friction(inputs, distribution)
+    return with_temperatures(inputs, distribution), distribution
+
+
+def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[ScuffingInputs, LoadDistribution]:
+    """Inputs and load distribution with the coefficient of friction in force and what it loses.
+
+    The mean coefficient of ISO/TR 13989-1 is None without an oil, a load or a speed.
+    """
+    if inputs.friction == "given":
+        return inputs, distribution
+    given, path, oil = inputs.distribution, distribution.path_of_contact, inputs.known_oil
+    coefficient = None
+    if oil is not None and distribution.balance.force > 0.0 and given.load.pinion_speed > 0.0:
+        face_load_factor = distribution.load.face_load_factor or 1.0
+        coefficient = mean_friction(given, path, _oil_factor(oil, inputs.temperatures.oil), face_load_factor)
+    loss = friction_loss(path, distribution.balance, given.load, coefficient)
+    rubbing = replace(inputs, distribution=replace(given, friction_coefficient=coefficient))
+    return rubbing, replace(distribution, friction_loss=loss)
 
 
 def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution) -> ScuffingInputs:
     """The inputs with bulk and scuffing temperature as numbers and the oil as it enters the contact.
 
-    Raises InvalidInput no_bulk_estimate where the flash temperature has no mean, oil_temperature where an oil by its
-    sheet would be too hot or too cold, scuffing_temperature where the oil is not cooler than that, and what
-    `lubricant_factor` raises.
+    Without an oil, or where the flash temperature has no mean to estimate the bulk from, neither bulk nor lubricant is
+    known. Raises InvalidInput missing_bulk where the bulk is neither given nor estimated, oil_temperature where an oil
+    by its sheet would be too hot or too cold, scuffing_temperature where the oil is not cooler than that.
     """
-    temperatures = inputs.temperatures
+    temperatures, oil = inputs.temperatures, inputs.known_oil
+    if oil is None:
+        return replace(inputs, temperatures=replace(temperatures, bulk=None))
     if temperatures.bulk_method == "estimated":
         temperatures = replace(temperatures, bulk=_estimated_bulk(inputs, distribution))
     if temperatures.scuffing_test is not None:
         test = temperatures.scuffing_test
-        factor = _oil_factor(inputs) if test.lubricant_factor is None else test.lubricant_factor
+        factor = _oil_factor(oil, TEST_TEMPERATURE) if test.lubricant_factor is None else test.lubricant_factor
         limit = scuffing_temperature(test.fzg_stage, test.structure_factor, factor)
         temperatures = replace(temperatures, scuffing=limit)
     if temperatures.scuffing is not None and temperatures.scuffing <= temperatures.oil:
         message = "the scuffing temperature must lie above the oil temperature"
         raise InvalidInput("scuffing_temperature", message, "temperatures.scuffing")
-    if inputs.oil is not None and not COLDEST_OIL <= temperatures.bulk <= HOTTEST_OIL:
+    bulk = temperatures.bulk
+    if bulk is None and temperatures.bulk_method == "given":
+        raise InvalidInput("missing_bulk", "a bulk temperature that is given is a number", "temperatures.bulk")
+    if bulk is None:
+        return replace(inputs, temperatures=temperatures, oil=oil, lubricant=None)
+    if isinstance(oil, OilSheet) and not COLDEST_OIL <= bulk <= HOTTEST_OIL:
         message = (
-            f"the oil would enter at {temperatures.bulk - 273.15:.4g} °C, where no grade or data sheet tells what it "
+            f"the oil would enter at {bulk - 273.15:.4g} °C, where no grade or data sheet tells what it "
             "is; give a lower load, another bulk temperature, or the oil by its viscosity"
         )
         raise InvalidInput("oil_temperature", message, "temperatures.bulk_method")
-    lubricant = inputs.lubricant if inputs.oil is None else inputs.oil.lubricant(temperatures.bulk)
-    return replace(inputs, temperatures=temperatures, lubricant=lubricant)
+    return replace(inputs, temperatures=temperatures, lubricant=lubricant_at(oil, bulk))
 
 
-def _oil_factor(inputs: ScuffingInputs) -> float:
-    """X_L of the oil at the oil temperature; an oil given by its viscosity counts as mineral."""
-    temperature = inputs.temperatures.oil
-    if inputs.oil is None:
-        return lubricant_factor(inputs.lubricant.viscosity_at(0.0, temperature), "mineral")
-    return lubricant_factor(inputs.oil.viscosity(temperature), inputs.oil.kind)
+def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]:
+    """No oil, or no bulk temperature; an estimated one beyond the speeds that its formula holds for."""
+    if inputs.known_oil is None:
+        message = (
+            "no oil is given (iso_vg, two kinematic viscosities or viscosity_pa_s): film, contact temperature and "
+            "safety are not stated"
+        )
+        yield Notice("no_oil", message, "lubricant")
+        return
+    if inputs.temperatures.bulk is None:
+        message = (
+            "the path of contact reaches a base circle, where no flash temperature is defined to estimate the bulk "
+            "temperature from: film, contact temperature and safety are not stated; give the bulk temperature"
+        )
+        yield Notice("no_bulk_estimate", message, "temperatures.bulk_method")
+        return
+    speed = pitch_line_velocity(inputs.distribution, path)
+    if inputs.temperatures.bulk_method == "estimated" and speed > FLOODED_UP_TO:
+        message = (
+            f"the bulk temperature is estimated for flooded flanks; at {speed:.4g} m/s, beyond 60 m/s, it is a lower "
+            "bound, the contact temperature is higher and the safety lower than stated"
+        )
+        yield Notice("bulk_lower_bound", message, "temperatures.bulk_method")
 
 
-def _estimated_bulk(inputs: ScuffingInputs, distribution: LoadDistribution) -> float:
-    """Bulk temperature [K] by the mean flash temperature along the path."""
+def _oil_factor(oil: OilSheet | Lubricant, temperature: float) -> float:
+    """X_L of the oil at a temperature [K]."""
+    lubricant = lubricant_at(oil, temperature)
+    return lubricant_factor(lubricant.viscosity_at(0.0, temperature), lubricant.kind)
+
+
+def _estimated_bulk(inputs: ScuffingInputs, distribution: LoadDistribution) -> float | None:
+    """Bulk temperature [K] by the mean flash temperature along the path; None where that is not defined."""
     given = inputs.distribution
     line = feature_line(
         distribution.path_of_contact,
@@ -77,7 +133,6 @@ def _estimated_bulk(inputs: ScuffingInputs, distribution: LoadDistribution) -> f
         np.linspace(0.0, 1.0, MEAN_POINTS),
     )
     if np.any(line.undefined):
-        message = "the path of contact reaches a base circle, where no flash temperature is defined; give the bulk"
-        raise InvalidInput("no_bulk_estimate", message, "temperatures.bulk_method")
+        return None
     flash = blok_flash(given, line)
     return bulk_temperature(inputs.temperatures.oil, inputs.temperatures.oil_supply, line.psi, flash)

@@ -55,8 +55,10 @@ def thermal_path(inputs: ScuffingInputs, points: ContactPoints, loaded: BoolArra
 
 
 def contact_at(inputs: ScuffingInputs, points: ContactPoints, point: int) -> ehl.LineContactInputs:
-    """One of the points as the line contact it is."""
-    given, bulk = inputs.distribution, inputs.temperatures.bulk
+    """One of the points as the line contact it is, between an oil and a bulk temperature in force."""
+    given, bulk, lubricant = inputs.distribution, inputs.temperatures.bulk, inputs.lubricant
+    assert bulk is not None
+    assert lubricant is not None
     return ehl.LineContactInputs(
         contact=ehl.Contact(
             line_load=float(points.line_load[point]),
@@ -66,7 +68,7 @@ def contact_at(inputs: ScuffingInputs, points: ContactPoints, point: int) -> ehl
         ),
         surface_1=given.pinion_material,
         surface_2=given.wheel_material,
-        lubricant=inputs.lubricant,
+        lubricant=lubricant,
         temperatures=ehl.Temperatures(surface_1=bulk, surface_2=bulk, inlet=bulk),
         model=inputs.film,
     )

@@ -78,7 +78,7 @@ def _what_leaves_no_film(distribution: LoadDistribution) -> str:
 def path_notices(
     distribution: LoadDistribution,
     path: ScuffingPath,
-    hottest: ContactTemperature,
+    hottest: ContactTemperature | None,
     safety: Safety | None,
     unknown: int,
 ) -> tuple[Notice, ...]:
@@ -96,7 +96,7 @@ def path_notices(
                 "largest flash temperature, thinnest film or safety is stated from the others",
             )
         )
-    if safety is not None and safety.blok_factor is None and hottest.blok_max is not None:
+    if safety is not None and safety.blok_factor is None and hottest is not None and hottest.blok_max is not None:
         notices.append(
             Notice("no_safety", "the teeth stay as cool as the oil; the safety factor has no meaning", "temperatures")
         )

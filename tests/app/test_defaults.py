@@ -1,0 +1,242 @@
+"""What an answer rests on where a request leaves oil, bulk temperature and friction out: practice, or nothing."""
+
+from typing import Any
+
+import pytest
+
+from app.figures.data import NoFigure
+from app.figures.models.scuffing import contact_temperature, friction
+from app.library import examples
+from app.problems import Unprocessable
+from app.requests.scuffing import ScuffingRequest
+from app.responses.scuffing import ScuffingResponse
+from tests.app.test_practice import CONTACT, refused, solved
+
+SCUFFING, TRAIN = "/v1/scuffing", "/v1/drive-train"
+STAGE: dict[str, Any] = {
+    "gears": {
+        "pinion": {"teeth": 25},
+        "wheel": {"teeth": 76},
+        "module_mm": 4,
+        "helix_angle_deg": 10,
+        "face_width_mm": 60,
+    },
+    "load": {"power_kw": 75, "pinion_speed_rpm": 1500},
+    "lubricant": {"iso_vg": 220},
+    "temperatures": {"scuffing_test": {"fzg_stage": 12}},
+    "model": {"lubrication": "closed_form"},
+}
+DRY = {name: section for name, section in STAGE.items() if name != "lubricant"}
+TURBO = examples()["starter-turbo-gear-drive-train"].request
+
+
+def codes(answer: dict[str, Any]) -> set[str]:
+    return {warning["code"] for warning in answer["warnings"]}
+
+
+def reasons(answer: dict[str, Any]) -> dict[str, str]:
+    return {each["field"]: each["reason"] for each in answer["assumptions"]}
+
+
+def test_without_an_oil_there_is_no_verdict() -> None:
+    answer = solved(SCUFFING, DRY, {})
+    assert "no_oil" in codes(answer)
+    assert (answer["film"], answer["contact_temperature"], answer["safety"]) == (None, None, None)
+    assert (answer["flash"]["blok_max_k"], answer["friction_loss"]["coefficient"]) == (None, None)
+    assert (answer["friction_loss"]["power_w"], answer["friction_loss"]["efficiency"]) == (None, None)
+    assert answer["friction_loss"]["loss_factor"] > 0.0
+    assert answer["inputs"]["lubricant"]["viscosity_pa_s"] is None
+    again = solved(SCUFFING, {**answer["inputs"], "detail": "summary"}, {})
+    assert {**again, "assumptions": answer["assumptions"]} == answer
+
+
+def test_flash_stays_without_an_oil_where_friction_is_given() -> None:
+    dry = solved(SCUFFING, DRY, {"friction_coefficient": 0.05})
+    oiled = solved(SCUFFING, STAGE, {"friction_coefficient": 0.05})
+    assert dry["flash"]["blok_max_k"] == pytest.approx(oiled["flash"]["blok_max_k"], rel=1e-9)
+    assert dry["friction_loss"] == oiled["friction_loss"]
+    assert dry["safety"] is None
+
+
+def test_figures_of_what_only_an_oil_tells_say_so() -> None:
+    request = ScuffingRequest.model_validate(DRY)
+    answer = ScuffingResponse.model_validate(solved(SCUFFING, DRY, {"detail": "curves"}))
+    for figure in (contact_temperature, friction):
+        with pytest.raises(NoFigure) as refusal:
+            figure(request, answer)
+        assert refusal.value.code == "no_oil"
+
+
+def test_a_line_contact_needs_an_oil() -> None:
+    with pytest.raises(Unprocessable) as refusal:
+        solved("/v1/scuffing/line-contact", CONTACT, {})
+    assert (refusal.value.code, refusal.value.path) == ("no_oil", "lubricant")
+
+
+def test_a_bulk_temperature_says_by_itself_that_it_is_given() -> None:
+    estimated = solved(SCUFFING, STAGE, {})
+    assert estimated["inputs"]["temperatures"]["bulk_method"] == "estimated"
+    assert estimated["inputs"]["temperatures"]["bulk_c"] is None
+    assert {"temperatures.bulk_method", "temperatures.oil_supply"} <= set(reasons(estimated))
+    given = solved(SCUFFING, STAGE, {"temperatures.bulk_c": 86.85})
+    assert given["inputs"]["temperatures"]["bulk_method"] == "given"
+    assert given["contact_temperature"]["bulk_c"] == pytest.approx(86.85)
+    assert refused(SCUFFING, STAGE, {"temperatures.bulk_method": "given"}) == "give bulk_c, or bulk_method estimated"
+
+
+def test_a_coefficient_of_friction_says_by_itself_that_it_is_given() -> None:
+    by_oil = solved(SCUFFING, STAGE, {})
+    assert by_oil["inputs"]["model"]["friction"] == "iso_tr_13989"
+    assert by_oil["inputs"]["friction_coefficient"] is None
+    assert "K_Hα is taken as 1" in reasons(by_oil)["model.friction"]
+    given = solved(SCUFFING, STAGE, {"friction_coefficient": 0.06})
+    assert given["inputs"]["model"]["friction"] == "given"
+    assert given["friction_loss"]["coefficient"] == 0.06
+    message = "give friction_coefficient, or friction iso_tr_13989"
+    assert refused(SCUFFING, STAGE, {"model.friction": "given"}) == message
+
+
+def test_the_scuffing_temperature_is_a_property_of_oil_and_steel() -> None:
+    """It is X_L at the test's 90 C; at the oil temperature it rose from 329 to 353 C between 40 and 80 C."""
+    limits = [solved(SCUFFING, STAGE, {"temperatures.oil_c": oil})["safety"]["scuffing_c"] for oil in (40, 60, 80)]
+    assert limits == [pytest.approx(357.99, abs=0.01)] * 3
+
+
+def test_a_hotter_oil_is_never_safer() -> None:
+    """With the bulk left at 86.85 C the same stage seems twice as safe with oil of 80 C as with 40 C."""
+    oils = (40, 60, 80)
+    safe = [solved(SCUFFING, STAGE, {"temperatures.oil_c": oil})["safety"]["blok_factor"] for oil in oils]
+    assert safe == [pytest.approx(value, abs=0.01) for value in (14.37, 12.78, 11.45)]
+    paper = {"temperatures.bulk_c": 86.85, "friction_coefficient": 0.06}
+    answers = [solved(SCUFFING, STAGE, {"temperatures.oil_c": oil, **paper}) for oil in oils]
+    given = [answer["safety"]["blok_factor"] for answer in answers]
+    assert given == [pytest.approx(value, abs=0.01) for value in (4.42, 5.73, 8.68)]
+    assert all("safety rises" in reasons(answer)["temperatures.bulk_method"] for answer in answers)
+
+
+@pytest.mark.parametrize(
+    ("name", "warned"), [("starter-high-speed-scuffing", True), ("starter-industrial-scuffing", False)]
+)
+def test_beyond_60_metres_per_second_the_estimated_bulk_is_a_lower_bound(name: str, warned: bool) -> None:
+    request = {**examples()[name].request, "model": {"lubrication": "closed_form"}}
+    assert ("bulk_lower_bound" in codes(solved(SCUFFING, request, {}))) == warned
+    given = {"temperatures.bulk_method": "given", "temperatures.bulk_c": 80}
+    assert "bulk_lower_bound" not in codes(solved(SCUFFING, request, given))
+
+
+def test_an_ester_takes_the_factor_of_a_mineral_oil_and_says_so() -> None:
+    ester = {"lubricant": {"viscosity_pa_s": 0.02, "kind": "ester"}}
+    answer = solved(SCUFFING, STAGE, ester)
+    mineral = solved(SCUFFING, STAGE, {"lubricant": {"viscosity_pa_s": 0.02}})
+    assert answer["friction_loss"] == mineral["friction_loss"]
+    assert answer["safety"] == mineral["safety"]
+    assert "mineral oil" in reasons(answer)["lubricant.kind"]
+    known = {**ester, "friction_coefficient": 0.05, "temperatures": {"scuffing_c": 300}}
+    assert "lubricant.kind" not in reasons(solved(SCUFFING, STAGE, known))
+
+
+def test_the_kind_of_an_oil_given_by_its_viscosity_counts() -> None:
+    mineral, polyglycol = (
+        solved(SCUFFING, STAGE, {"lubricant": {"viscosity_pa_s": 0.02, "kind": kind}})["friction_loss"]["coefficient"]
+        for kind in ("mineral", "polyglycol")
+    )
+    assert polyglycol / mineral == pytest.approx(0.7, rel=1e-12)
+
+
+def test_without_load_no_coefficient_is_stated() -> None:
+    answer = solved(SCUFFING, STAGE, {"load": {"pinion_torque_n_m": 0, "pinion_speed_rpm": 1500}})
+    assert answer["friction_loss"]["coefficient"] is None
+    assert answer["friction_loss"]["power_w"] == 0.0
+    given = solved(
+        SCUFFING, STAGE, {"load": {"pinion_torque_n_m": 0, "pinion_speed_rpm": 1500}, "friction_coefficient": 0.05}
+    )
+    assert given["friction_loss"]["coefficient"] == 0.05
+
+
+def test_misalignment_raises_the_coefficient_of_friction_by_the_face_load_factor() -> None:
+    straight = solved(SCUFFING, STAGE, {"load": {"power_kw": 400, "pinion_speed_rpm": 1500}})
+    tilted = solved(
+        SCUFFING, STAGE, {"load": {"power_kw": 400, "pinion_speed_rpm": 1500}, "modifications.helix_slope_um": 30}
+    )
+    factors = [answer["load"]["face_load_factor"] for answer in (straight, tilted)]
+    ratio = tilted["friction_loss"]["coefficient"] / straight["friction_loss"]["coefficient"]
+    assert factors[1] > 1.2 * factors[0]
+    assert ratio == pytest.approx((factors[1] / factors[0]) ** 0.2, rel=1e-9)
+
+
+def test_no_mean_flash_no_bulk() -> None:
+    """The loaded path reaches the base circle of 12 teeth: all that needs no bulk temperature is answered."""
+    gears = {
+        "pinion": {"teeth": 12},
+        "wheel": {"teeth": 60},
+        "module_mm": 2,
+        "helix_angle_deg": 15,
+        "face_width_mm": 20,
+    }
+    answer = solved(SCUFFING, STAGE, {"gears": gears, "load": {"pinion_torque_n_m": 50, "pinion_speed_rpm": 1000}})
+    assert {"path_reaches_base_circle", "no_bulk_estimate"} <= codes(answer)
+    assert (answer["film"], answer["contact_temperature"], answer["safety"]) == (None, None, None)
+    assert answer["load"]["max_line_load_n_per_mm"] > 0.0
+
+
+def test_a_unit_takes_friction_from_its_oil_and_the_bulk_from_its_teeth() -> None:
+    answer = solved(TRAIN, TURBO, {})
+    assert answer["inputs"]["friction_coefficient"] is None
+    assert answer["inputs"]["model"]["friction"] == "iso_tr_13989"
+    assert answer["inputs"]["temperatures"]["bulk_method"] == "given"
+    assert answer["derived"]["temperatures"]["bulk_c"] == pytest.approx((95 + 80) / 2)
+    assert "safety rises" in reasons(answer)["temperatures.bulk_method"]
+
+
+def test_a_unit_that_says_nothing_of_its_teeth_estimates_the_bulk() -> None:
+    request = {**TURBO, "thermal": {"wall_response": 0.6}}
+    cool, warm = (solved(TRAIN, request, {"temperatures.oil_c": oil}) for oil in (50, 60))
+    assert cool["inputs"]["temperatures"]["bulk_method"] == "estimated"
+    assert "bulk_lower_bound" in codes(cool)
+    assert warm["safety"]["blok_flank"] < cool["safety"]["blok_flank"]
+
+
+def test_a_unit_without_oil_has_no_verdict() -> None:
+    request = {name: section for name, section in TURBO.items() if name != "lubricant"}
+    answer = solved(TRAIN, request, {"detail": "fields"})
+    assert "no_oil" in codes(answer)
+    assert answer["safety"] is None
+    assert answer["derived"]["temperatures"]["bulk_c"] is None
+    assert (answer["flash"]["flank_k"], answer["losses"]["mesh_w"], answer["losses"]["total_w"]) == (None, None, None)
+    assert answer["flank"]["contact_temperature_c"][0][0] is None
+    assert solved(TRAIN, request, {"friction_coefficient": 0.04})["flash"]["flank_k"] > 0.0
+    request["pinion_shaft"] = {**request["pinion_shaft"]}
+    request["pinion_shaft"]["bearings"] = [
+        {name: value for name, value in bearing.items() if name != "viscosity_pa_s"}
+        for bearing in request["pinion_shaft"]["bearings"]
+    ]
+    with pytest.raises(Unprocessable) as refusal:
+        solved(TRAIN, request, {})
+    assert (refusal.value.code, refusal.value.path) == ("no_oil", "pinion_shaft.bearings.0.viscosity_pa_s")
+
+
+@pytest.mark.parametrize(("torque", "factor"), [(6.0, 0.25**0.25), (48.0, 1.0)])
+def test_standard_stiffness_of_light_loads_falls_with_their_fourth_root(torque: float, factor: float) -> None:
+    """A spur pair of m 4, 20 teeth, 6 mm wide: 6 N m are 150 N, 25 N/mm; from 100 N/mm on c' is constant."""
+    pair = {"pinion": {"teeth": 20}, "wheel": {"teeth": 40}, "module_mm": 4, "face_width_mm": 6}
+    light, full = (
+        solved(
+            "/v1/scuffing/load-distribution",
+            {"gears": pair, "load": {"pinion_torque_n_m": each, "pinion_speed_rpm": 1500}},
+            {},
+        )["stiffness"]
+        for each in (torque, 24.0)
+    )
+    for name in ("standard_single_n_per_mm_um", "standard_mesh_n_per_mm_um"):
+        assert light[name] / full[name] == pytest.approx(factor, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", [name for name in examples() if name.startswith("xue-")])
+def test_examples_of_the_paper_assume_nothing_of_oil_bulk_and_friction(name: str) -> None:
+    example = examples()[name]
+    if example.endpoint == SCUFFING:
+        assert example.request["temperatures"]["bulk_c"] == 86.85
+    if example.endpoint != "/v1/scuffing/load-distribution":
+        assert example.request["lubricant"]["viscosity_pa_s"] == 0.08
+    if example.endpoint != "/v1/scuffing/line-contact":
+        assert example.request["friction_coefficient"] == 0.06

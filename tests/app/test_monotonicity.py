@@ -1,0 +1,123 @@
+"""What physics demands of random industrial requests with the defaults in force, whatever they leave out."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.app.test_practice import solved
+
+SCUFFING = "/v1/scuffing"
+GRADES = (68, 100, 150, 220, 320, 460)
+CASES = 10
+MORE_CASES = 120
+ROUNDING = 1e-6
+
+
+def industrial(seed: int) -> dict[str, Any]:
+    """A gear stage as gearbox makers have them: 250 to 500 MPa nominal, 3 to 35 m/s, an oil by its grade."""
+    rng = np.random.default_rng([22, seed])
+    teeth, module = int(rng.integers(18, 36)), float(rng.choice((2, 3, 4, 5, 6, 8, 10)))
+    helix, width = float(rng.choice((0, 8, 10, 12, 15, 20))), float(rng.uniform(8, 14)) * module
+    diameter = teeth * module / np.cos(np.radians(helix))
+    velocity = float(np.exp(rng.uniform(np.log(3), np.log(35))))
+    line_load = float(rng.uniform(25, 60)) * module
+    return {
+        "gears": {
+            "pinion": {"teeth": teeth, "profile_shift": round(float(rng.uniform(0, 0.4)), 2)},
+            "wheel": {"teeth": int(teeth * rng.uniform(1.2, 4.5))},
+            "module_mm": module,
+            "helix_angle_deg": helix,
+            "face_width_mm": width,
+        },
+        "load": {
+            "pinion_torque_n_m": line_load * width * diameter / 2e3,
+            "pinion_speed_rpm": velocity / (np.pi * diameter) * 6e4,
+            "application_factor": float(rng.choice((1.0, 1.25, 1.5))),
+        },
+        "modifications": {
+            "tip_relief_um": float(rng.uniform(0, 5)) * module,
+            "root_relief_um": float(rng.uniform(0, 5)) * module,
+            "lead_crowning_um": float(rng.uniform(0, 12)),
+            "helix_slope_um": float(rng.uniform(-15, 15)),
+        },
+        "lubricant": {"iso_vg": int(rng.choice(GRADES[:-1]))},
+        "temperatures": {
+            "oil_c": float(rng.uniform(40, 80)),
+            "oil_supply": str(rng.choice(("spray", "dip"))),
+            "scuffing_test": {"fzg_stage": int(rng.integers(9, 13))},
+        },
+        "model": {"lubrication": "closed_form"},
+    }
+
+
+def check_oil_temperature(body: dict[str, Any]) -> None:
+    """An oil 15 K hotter is no safer.
+
+    By thermal EHL it may be by percents, and the answer says so: the film is full, and its friction falls as it thins.
+    """
+    hotter = body["temperatures"]["oil_c"] + 15
+    cool, hot = (solved(SCUFFING, body, {"temperatures.oil_c": oil}) for oil in (hotter - 15, hotter))
+    assert hot["safety"]["blok_factor"] <= cool["safety"]["blok_factor"] * (1 + ROUNDING)
+    by_film = [answer["safety"]["thermal_ehl_factor"] for answer in (cool, hot)]
+    if None not in by_film and by_film[1] > by_film[0]:
+        assert by_film[1] < 1.05 * by_film[0]
+        assert hot["flash"]["thermal_ehl_max_k"] < cool["flash"]["thermal_ehl_max_k"]
+        assert hot["film"]["thermal_ehl_min_um"] < cool["film"]["thermal_ehl_min_um"]
+        said = {each["field"]: each["reason"] for each in hot["assumptions"]}
+        assert "friction of a full film falls" in said["model.lubrication"]
+
+
+def check_torque(body: dict[str, Any], temperature: str) -> None:
+    """A torque 20 % larger is no cooler."""
+    torque = body["load"]["pinion_torque_n_m"]
+    light, heavy = (solved(SCUFFING, body, {"load.pinion_torque_n_m": each}) for each in (torque, 1.2 * torque))
+    assert heavy["contact_temperature"][temperature] >= light["contact_temperature"][temperature] - ROUNDING
+    assert heavy["contact_temperature"]["bulk_c"] >= light["contact_temperature"]["bulk_c"] - ROUNDING
+
+
+def check_viscosity(body: dict[str, Any], film: str) -> None:
+    """The next thicker grade has no thinner film."""
+    grade = body["lubricant"]["iso_vg"]
+    thin, thick = (
+        solved(SCUFFING, body, {"lubricant.iso_vg": each})["film"][film]
+        for each in (grade, GRADES[GRADES.index(grade) + 1])
+    )
+    assert thick >= thin * (1 - ROUNDING)
+
+
+def check_misalignment(body: dict[str, Any]) -> None:
+    """A uniform pair's face load factor does not fall with its helix slope, of either sign."""
+    uniform = {name: body[name] for name in ("gears", "load")}
+    for sign in (-1.0, 1.0):
+        factors = [
+            solved(f"{SCUFFING}/load-distribution", uniform, {"modifications.helix_slope_um": sign * slope})["load"][
+                "face_load_factor"
+            ]
+            for slope in (0.0, 5.0, 15.0, 40.0)
+        ]
+        assert all(np.diff(factors) >= -ROUNDING), factors
+
+
+@pytest.mark.parametrize("seed", range(CASES))
+def test_physics_of_a_random_stage(seed: int) -> None:
+    body = industrial(seed)
+    check_oil_temperature(body)
+    check_torque(body, "blok_max_c")
+    check_viscosity(body, "dowson_higginson_min_um")
+    check_misalignment(body)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(CASES, MORE_CASES))
+def test_physics_of_more_random_stages(seed: int) -> None:
+    test_physics_of_a_random_stage(seed)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(CASES))
+def test_physics_of_the_thermal_film(seed: int) -> None:
+    body = industrial(seed) | {"model": {"path_points": 8}}
+    check_oil_temperature(body)
+    check_torque(body, "thermal_ehl_max_c")
+    check_viscosity(body, "thermal_ehl_min_um")
