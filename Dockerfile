@@ -7,7 +7,7 @@ COPY solvers solvers
 RUN python -m venv /opt/tribodrive && /opt/tribodrive/bin/pip install --no-cache-dir -c constraints.txt .
 WORKDIR /
 # Beside the installed sources, where the service finds the kernels and need not write.
-RUN /opt/tribodrive/bin/python -m app.warm_up
+RUN /opt/tribodrive/bin/python -m app.workers.stages
 
 FROM python:3.11-slim
 COPY --from=build /opt/tribodrive /opt/tribodrive

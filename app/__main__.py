@@ -10,7 +10,7 @@ from io import TextIOWrapper
 from pydantic.fields import FieldInfo
 
 from app.settings import Settings, settings
-from app.workers.fork_server import ForkServer
+from app.workers.control import Template
 
 INTERRUPTED = 130
 
@@ -23,11 +23,11 @@ def main() -> None:
         epilog=_documentation(),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     ).parse_args()
-    serve("app.main:create_app")
+    serve("app.main:app")
 
 
-def serve(factory: str) -> None:
-    """Run the application that `factory` ("module:function") makes around the template process of its workers.
+def serve(application: str) -> None:
+    """Run the application at `application` ("module:attribute") with the template process of its workers.
 
     The port is open before anything is loaded, and the template loads what it needs beside the service.
     """
@@ -40,11 +40,11 @@ def serve(factory: str) -> None:
         reason = error.strerror if isinstance(error, socket.gaierror) else os.strerror(error.errno or 0)
         sys.exit(f"tribodrive: cannot listen on port {limits.port} of {limits.host}: {reason}")
     gc.disable()  # `run` enables it: imports leave no garbage, and looking for it takes a third of their time
-    template = ForkServer.start()
+    template = Template()
     try:
         from app.server import run  # noqa: PLC0415  seconds of imports, for which port and template need not wait
 
-        run(factory, listener, template)
+        run(application, listener, template)
     except KeyboardInterrupt:
         sys.exit(INTERRUPTED)
     finally:

@@ -13,24 +13,25 @@ from app.protection import Protection
 from app.routes import calculations, figures, pages, service, studies, study_pages, vary
 from app.schema.base import MODEL_VERSION
 from app.settings import MEBIBYTE, settings
-from app.start_up import StartUp
 from app.studies.office import Office
 from app.workers.admission import Runner
-from app.workers.fork_server import ForkServer
+from app.workers.control import Template
 from app.workers.pool import Pool
+from app.workers.start_up import StartUp
 
 DESCRIPTION = """Tribology of high-speed drive trains: gear couplings (Pahl), air-oil pumping between gear teeth
 (Milian, Distretti, Leoni, Velex), load distribution and scuffing of helical gears (Xue, Zhang, Wang).
 Units are in the field names; every example below runs as it stands."""
 
 
-def create_app(template: ForkServer) -> FastAPI:
-    """The service around the process that its workers are copied from; settings come from the environment."""
+def create_app() -> FastAPI:
+    """The service; settings come from the environment."""
     limits = settings()
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        app.state.pool = Pool(limits.workers, limits.worker_memory_mb, template)
+        template = getattr(app.state, "template", None) or Template()
+        app.state.pool = Pool(limits.workers, limits.queue, limits.worker_memory_mb, template)
         app.state.start_up = StartUp(app.state.pool)
         app.state.settings = limits
         app.state.runner = Runner(limits, app.state.pool)
@@ -53,3 +54,6 @@ def create_app(template: ForkServer) -> FastAPI:
     app.add_middleware(Compression)
     app.add_middleware(Protection, settings=limits)
     return app
+
+
+app = create_app()

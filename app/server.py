@@ -12,7 +12,7 @@ from uvicorn.importer import import_from_string
 from app import log
 from app.connection import LimitedProtocol
 from app.settings import settings
-from app.workers.fork_server import ForkServer
+from app.workers.control import Template
 
 INTERRUPT_S = 0.5
 
@@ -35,10 +35,11 @@ class Server(uvicorn.Server):
         super().handle_exit(sig, frame)
 
 
-def run(factory: str, listener: socket.socket, template: ForkServer) -> None:
+def run(address: str, listener: socket.socket, template: Template) -> None:
     """Serve on the open port until told to stop."""
     limits = settings()
-    application = import_from_string(factory)(template)
+    application = import_from_string(address)
+    application.state.template = template
     gc.freeze()  # what was imported stays: looking through it for garbage would hold up requests for 0.1 s each time
     gc.enable()
     log.install(limits.log_level)

@@ -1,12 +1,11 @@
 """Every limit of the service: one environment variable each, `TRIBODRIVE_` and the name in capitals."""
 
 import os
+import resource
 from functools import lru_cache
 
 from pydantic import Field
 from pydantic_settings import BaseSettings, SettingsConfigDict
-
-from app.processes import descriptor_limit
 
 MEBIBYTE = 2**20
 CLUSTER_POINTS = 100_000
@@ -22,6 +21,9 @@ class Settings(BaseSettings):
     port: int = Field(8000, ge=1, le=65535, description="port to listen on")
     workers: int = Field(os.cpu_count() or 2, ge=1, le=256, description="worker processes that solve")
     queue: int = Field(64, ge=0, description="requests that may wait for a worker; one more is answered 503")
+    client_header: str | None = Field(
+        None, description="header in which a proxy names the client, for fair shares; without it the address counts"
+    )
     deadline_s: float = Field(30.0, gt=0, description="longest time for one calculation, waiting included; then 504")
     study_points: int = Field(
         2500, ge=1, le=1_000_000, description="most points of one study, with a scheduler 100000; beyond it 422"
@@ -37,7 +39,9 @@ class Settings(BaseSettings):
     max_header_bytes: int = Field(16384, ge=1024, description="largest sum of request headers; beyond it 431")
     header_deadline_s: float = Field(10.0, gt=0, description="longest time for request headers to arrive; then 408")
     max_connections: int = Field(
-        default_factory=lambda: max(16, min(10_000, descriptor_limit() - RESERVED_DESCRIPTORS)),
+        default_factory=lambda: max(
+            16, min(10_000, resource.getrlimit(resource.RLIMIT_NOFILE)[0] - RESERVED_DESCRIPTORS)
+        ),
         ge=1,
         description="open connections; one more is answered 503",
     )

@@ -23,7 +23,6 @@ from app.library import Example, examples
 from app.main import create_app
 from app.routes.service import Health
 from app.schema.coupling import CouplingRequest
-from app.workers.fork_server import ForkServer
 from tests.support.server import memory_mb, workers
 
 PORT = 8765
@@ -43,9 +42,8 @@ def with_empty_endpoint(app: FastAPI) -> FastAPI:
     return app
 
 
-def bare(template: ForkServer) -> FastAPI:
+def bare() -> FastAPI:
     """FastAPI and nothing of ours around it."""
-    template.close()
     app = with_empty_endpoint(FastAPI())
 
     @app.get("/readyz")
@@ -55,9 +53,9 @@ def bare(template: ForkServer) -> FastAPI:
     return app
 
 
-def ours(template: ForkServer) -> FastAPI:
+def ours() -> FastAPI:
     """The service and the same empty endpoint."""
-    return with_empty_endpoint(create_app(template))
+    return with_empty_endpoint(create_app())
 
 
 @contextmanager

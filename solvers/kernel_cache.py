@@ -208,6 +208,14 @@ def _text(path: Path) -> str:
     return path.read_text("utf-8")
 
 
+def discard(module: str) -> None:
+    """Remove the kept kernels of this module and of every module that it imports: some file among them is damaged."""
+    path = PACKAGE.parent.joinpath(*module.split("."))
+    for source in sources(path / "__init__.py" if path.is_dir() else path.with_suffix(".py")):
+        for root in roots():
+            shutil.rmtree(root / folder_name(source), ignore_errors=True)
+
+
 def is_complete(content: str) -> bool:
     """Whether everything that `content` names was compiled for these sources on this kind of processor."""
     return any((root / _mark(content)).is_file() for root in roots())

@@ -15,8 +15,8 @@ from app.problems import documented
 from app.reading import read
 from app.schema.base import Request as Model
 from app.settings import Settings
-from app.start_up import StartUp
 from app.workers.admission import Runner
+from app.workers.start_up import StartUp
 
 
 class Work(NamedTuple):
@@ -48,7 +48,7 @@ class CalculationRoute(APIRoute):
             start_up.require(work.path)
             runner: Runner = http.app.state.runner
             limits: Settings = http.app.state.settings
-            content = await runner.run(http.receive, work.function, await http.body(), limits.deadline_s)
+            content = await runner.run(http, work.function, await http.body(), limits.deadline_s)
             headers = {"Content-Security-Policy": work.policy} if work.policy else None
             return Response(content, headers=headers, media_type=work.media_type)
 

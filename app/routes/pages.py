@@ -21,8 +21,8 @@ from app.pages.templating import ASSETS, asset, page_path
 from app.problems import PROBLEMS
 from app.reading import Unreadable
 from app.sources import SHORT_SOURCES
-from app.start_up import StartUp
 from app.workers.admission import Runner
+from app.workers.start_up import StartUp
 
 PAGE_POLICY = "default-src 'self'; img-src 'self' data:; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
 DOCUMENT_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'none'"
@@ -56,7 +56,7 @@ def _add_about(model: str) -> None:
         if model not in known:
             runner: Runner = http.app.state.runner
             try:
-                known[model] = await runner.run(http.receive, rows_of, model)
+                known[model] = await runner.run(http, rows_of, model)
             except TROUBLES as error:
                 return trouble_page(error)
         return html(about_page(model, known[model]))
@@ -157,7 +157,7 @@ async def _shown(
 ) -> views.Shown:
     runner: Runner = http.app.state.runner
     answers: Answers = http.app.state.answers
-    shown: views.Shown = await runner.run(http.receive, view, asked, *arguments)
+    shown: views.Shown = await runner.run(http, view, asked, *arguments)
     if shown.fresh is not None:
         answers.keep(key_of(asked.path, asked.pairs), shown.fresh)
     if shown.fresh_ref is not None:

@@ -9,8 +9,8 @@ from pydantic import BaseModel
 from app.library import Example, ExampleSummary, examples
 from app.problems import WarmingUp, WorkerLost, documented
 from app.schema.quantities import Output
-from app.start_up import StartUp
 from app.workers.pool import Pool
+from app.workers.start_up import StartUp
 
 router = APIRouter(tags=["service"])
 

@@ -16,7 +16,6 @@ from app.routes.calculations import require_json
 from app.routes.study_examples import CORNERS_EXAMPLES, DESIGN_EXAMPLES, SENSITIVITY_EXAMPLES, SWEEP_EXAMPLES
 from app.schema.messages import Fault
 from app.settings import Settings
-from app.start_up import StartUp
 from app.studies import corners, design_plan, sensitivity, sweep
 from app.studies.lines import encoded, json_line
 from app.studies.office import Office
@@ -25,6 +24,7 @@ from app.studies.stream import Clock, guarded
 from app.studies.study import Study
 from app.studies.unit_requests import CornersRequest, DesignRequest
 from app.workers.admission import Runner
+from app.workers.start_up import StartUp
 
 Format = Literal["ndjson", "csv"]
 MEDIA_TYPES: dict[Format, str] = {"ndjson": "application/x-ndjson", "csv": "text/csv"}
@@ -80,7 +80,7 @@ class StudyRoute(APIRoute):
             body = await http.body()
             with ExitStack() as stack:
                 stack.enter_context(office.place())
-                study = await runner.run(http.receive, planner, body, limits.most_study_points, limits.deadline_s)
+                study = await runner.run(http, planner, body, limits.most_study_points, limits.deadline_s)
                 start_up.require(study.question.endpoint)
                 clock = Clock(study.total)
                 lines = guarded(study.lines(await office.pool(), clock), clock, limits.study_deadline_s)

@@ -51,7 +51,7 @@ def _add(calculation: Calculation, own: StudyPage) -> None:
         asking = await _asking(http, calculation, own)
 
         async def pieces(found: Lines, office: Office) -> AsyncGenerator[bytes, None]:
-            yield await twice_if_lost(office.own, pages.file, asking, await _gathered(found), name, image_format)
+            yield await twice_if_lost(office.own(), pages.file, asking, await _gathered(found), name, image_format)
 
         return await stream(http, asking.study, pieces, kinds[image_format], DOCUMENT_POLICY)
 
@@ -66,7 +66,7 @@ async def _asking(http: Request, calculation: Calculation, own: StudyPage) -> As
     start_up(http).require(calculation.path)
     limits = limits_of(http)
     asking: Asking = await runner(http).run(
-        http.receive, pages.planned, own, asked, limits.most_study_points, limits.deadline_s
+        http, pages.planned, own, asked, limits.most_study_points, limits.deadline_s
     )
     return asking
 

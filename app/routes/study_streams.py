@@ -11,12 +11,12 @@ from app.problems import DeadlineExceeded, WorkerLost
 from app.routes.pages import HTML, PAGE_POLICY, TROUBLES, asked_of, html, sent_on, trouble_page
 from app.routes.studies import PATIENCE_S, StudyStream
 from app.settings import Settings
-from app.start_up import StartUp
 from app.studies.engine import twice_if_lost
 from app.studies.office import Office
 from app.studies.stream import Clock, Lines, guarded
 from app.studies.study import Study
 from app.workers.admission import Runner
+from app.workers.start_up import StartUp
 
 NOT_DRAWN = (
     b'<div class="frame"><p class="warning">The figure could not be drawn; the files hold the points.</p>'
@@ -41,7 +41,7 @@ async def study_page(
         if asked.pairs:
             start_up(http).require(calculation.path)
         limits = limits_of(http)
-        opened = await runner(http).run(http.receive, view, asked, limits.most_study_points, limits.deadline_s)
+        opened = await runner(http).run(http, view, asked, limits.most_study_points, limits.deadline_s)
         if opened.study is None:
             return html(opened.head + opened.tail, opened.status)
         return await stream(http, *growing(opened), HTML, PAGE_POLICY)
@@ -65,7 +65,7 @@ async def stream(http: Request, study: Study, pieces: Pieces, media: str, policy
 async def drawn(office: Office, view: Callable[..., bytes], *arguments: Any) -> bytes:
     """What a worker draws, or that it could not."""
     try:
-        made: bytes = await twice_if_lost(office.own, view, *arguments)
+        made: bytes = await twice_if_lost(office.own(), view, *arguments)
     except (WorkerLost, DeadlineExceeded):
         return NOT_DRAWN
     return made

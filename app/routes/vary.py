@@ -68,9 +68,7 @@ async def _study(http: Request, calculation: Calculation) -> views.Study:
     asked, _ = await asked_of(http, calculation)
     start_up(http).require(calculation.path)
     limits = limits_of(http)
-    study: views.Study = await runner(http).run(
-        http.receive, views.planned, asked, limits.most_study_points, limits.deadline_s
-    )
+    study: views.Study = await runner(http).run(http, views.planned, asked, limits.most_study_points, limits.deadline_s)
     return study
 
 
@@ -106,7 +104,7 @@ def _file_pieces(study: views.Study, name: str, image_format: str) -> Pieces:
                     gathered.add(line)
         if gathered.broke:
             raise StudyBroke(gathered.broke)
-        yield await twice_if_lost(office.own, views.file, study, gathered, name, image_format)
+        yield await twice_if_lost(office.own(), views.file, study, gathered, name, image_format)
 
     return pieces
 

@@ -14,7 +14,7 @@ from distributed import Client, KilledWorker
 from app.problems import SchedulerUnavailable, WorkerLost
 from app.sources import SOURCES
 from app.studies.engine import PoolLost
-from app.warm_up import STAGES, warm
+from app.workers.stages import STAGES, warm
 
 CONNECT_S = 10.0
 WATCH_S = 0.5

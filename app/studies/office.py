@@ -10,7 +10,7 @@ from app.metrics import STUDIES
 from app.problems import SchedulerUnavailable, StudiesFull
 from app.settings import Settings
 from app.studies.engine import Pool
-from app.workers.patient import PatientPool
+from app.workers.admission import StudyPool
 from app.workers.pool import Pool as WorkerPool
 
 logger = logging.getLogger("tribodrive")
@@ -38,7 +38,8 @@ class Office:
 
     def __init__(self, settings: Settings, workers: WorkerPool) -> None:
         self._most = settings.studies
-        self._own = PatientPool(workers, settings.workers, settings.deadline_s)
+        self._settings = settings
+        self._workers = workers
         self._cluster = connectable(settings.scheduler) if settings.scheduler else None
         self._running = 0
 
@@ -55,15 +56,14 @@ class Office:
             self._running -= 1
             STUDIES.set(self._running)
 
-    @property
     def own(self) -> Pool:
-        """The service's own workers, where a study's figures are drawn whoever solves its points."""
-        return self._own
+        """The service's own workers for one study, where its figures are drawn whoever solves its points."""
+        return StudyPool(self._settings, self._workers)
 
     async def pool(self) -> Pool:
         """Where points are solved; raises SchedulerUnavailable."""
         if self._cluster is None:
-            return self._own
+            return self.own()
         return await self._cluster.ready()
 
     @asynccontextmanager

@@ -1,14 +1,13 @@
-"""Processes that calculate: admission, a pool of workers, and the fork server that starts them in milliseconds.
+"""Worker processes that calculate: who gets one, how they are started and replaced, and the first start.
 
-template     one warmed, single-threaded process; copies of it are the workers
-worker       what a copy does: one call after the other
-compiler     what other copies do on the first start
-fork_server  the service's end of the template
-pool         who calculates what; a worker that is late, unwanted, dead or stopped is replaced
-admission    how many may wait, how long, and for whom
+stages     what is compiled and loaded one after the other, and the endpoints that then answer
+template   the process that loads everything once and is forked; what its copies do
+control    the service's end of these processes
+pool       who gets the next worker; a worker that dies, stops or is not wanted any more is replaced
+admission  calls of single requests and of studies: queue, deadline, a client that leaves
+start_up   compiles and loads stage after stage while the port is open
 
-Why not a ready-made pool. `multiprocessing`'s fork server loads its modules once, before anything can be forked, and
-cannot be told later that more kernels are ready. `ProcessPoolExecutor` and loky give up all calls when one worker
-dies. pebble's workers share one channel behind a lock; a worker that is killed or stopped while it holds the lock
-blocks all others. Here each worker has a socket of its own, and the copy is what it always was: `os.fork`.
+multiprocessing's own fork server loads modules before its first fork only, and blocks when it is stopped, so the
+template is ours; pipes, pickling and the passing of descriptors are multiprocessing's. The pools of concurrent.futures,
+loky and pebble were tried: a dead or stopped worker costs other callers their results or blocks them.
 """

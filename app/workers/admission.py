@@ -1,68 +1,69 @@
-"""Who may calculate: a bounded queue, a deadline that counts the waiting, and an end when the client leaves."""
+"""The workers as requests and studies see them."""
 
 import asyncio
-from collections.abc import AsyncIterator, Callable
-from contextlib import asynccontextmanager
+from collections.abc import Callable
 from typing import Any
 
-from starlette.types import Receive
+from fastapi import Request
 
-from app.metrics import DEADLINES_MISSED, QUEUE
-from app.problems import ClientGone, DeadlineExceeded, QueueFull
 from app.settings import Settings
-from app.workers.pool import Pool
+from app.workers.pool import Job, Pool
+
+GRACE_S = 0.5  # after a study has ended, for calculations that are about to finish
 
 
 class Runner:
-    """Admits single calculations to the pool."""
+    """Single calculations, each for the client of a request."""
 
     def __init__(self, settings: Settings, pool: Pool) -> None:
         self._settings = settings
         self._pool = pool
-        self._admitted = 0
 
-    async def run(self, receive: Receive, function: Callable[..., Any], *arguments: Any) -> Any:
-        """The function's result; the client's disconnect, seen by `receive`, ends the work.
+    async def run(self, http: Request, function: Callable[..., Any], *arguments: Any) -> Any:
+        """The function's result; the client's disconnect ends the work.
 
         Raises QueueFull, DeadlineExceeded, WorkerLost, ClientGone, and what the function raises.
         """
-        if self._admitted >= self._settings.workers + self._settings.queue:
-            raise QueueFull
-        self._admitted += 1
-        QUEUE.set(self._admitted)
+        job = Job(self._client(http), http.scope["route"].path, self._settings.deadline_s)
+        watcher = asyncio.create_task(_watch(http, job))
         try:
-            async with _time_and_client(receive, self._settings.deadline_s):
-                return await self._pool.run(function, *arguments)
+            return await self._pool.run(job, function, *arguments)
         finally:
-            self._admitted -= 1
-            QUEUE.set(self._admitted)
+            watcher.cancel()
+
+    def _client(self, http: Request) -> str:
+        """Whose request it is: the name in the header that the settings say, else the address."""
+        header = self._settings.client_header
+        name = http.headers.get(header) if header else None
+        return name or (http.client.host if http.client else "")
 
 
-@asynccontextmanager
-async def _time_and_client(receive: Receive, seconds: float) -> AsyncIterator[None]:
-    """Cancel the body of the context at the deadline or when the client leaves, whichever comes first."""
-    loop = asyncio.get_running_loop()
-    gone = False
-    scope = asyncio.timeout(seconds)
+async def _watch(http: Request, job: Job) -> None:
+    while (await http.receive())["type"] != "http.disconnect":
+        pass
+    job.leave()
 
-    async def watch() -> None:
-        nonlocal gone
-        while (await receive())["type"] != "http.disconnect":
-            pass
-        gone = True
-        if not scope.expired():
-            scope.reschedule(loop.time())
 
-    watcher = loop.create_task(watch())
-    try:
-        async with scope:
-            yield
-    except TimeoutError as error:
-        if not scope.expired():
-            raise
-        if gone:
-            raise ClientGone from error
-        DEADLINES_MISSED.inc()
-        raise DeadlineExceeded from error
-    finally:
-        watcher.cancel()
+class StudyPool:
+    """The workers for one study, which shares them with clients and other studies like one more client."""
+
+    def __init__(self, settings: Settings, pool: Pool) -> None:
+        self._deadline_s = settings.deadline_s
+        self._pool = pool
+        self.slots = pool.size
+
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
+        """The function's result; cancelled, the call ends at once if it waits, and else soon.
+
+        The future raises WorkerLost, DeadlineExceeded, and what the function raises.
+        """
+        job = Job(self, self, self._deadline_s, of_study=True)
+        call = asyncio.create_task(self._pool.run(job, function, *arguments))
+        outcome = asyncio.shield(call)
+
+        def end(_: object) -> None:
+            if outcome.cancelled():
+                asyncio.get_running_loop().call_later(GRACE_S if job.worker else 0.0, call.cancel)
+
+        outcome.add_done_callback(end)
+        return outcome

@@ -1,245 +1,316 @@
-"""A fixed number of workers. One that dies, is stopped or is no longer wanted costs its own call and is replaced."""
+"""Who gets the next worker, and workers that die, stop or are not wanted any more are replaced.
+
+Shares are fair: the next worker goes to the client or study with the fewest calculations running. Who has waited for a
+second while another holds more than an equal share gets the other's youngest calculation ended, which is asked again
+later; the worker that this frees is then kept for short calculations as long as they come. A calculation is ended in
+this way once at most. A client alone is never touched by any of this.
+"""
 
 import asyncio
-import contextlib
 import logging
-import os
-from collections import deque
+import statistics
+from collections import Counter, deque
 from collections.abc import AsyncIterator, Callable, Coroutine, Sequence
 from contextlib import asynccontextmanager
-from typing import Any, TypeVar
+from dataclasses import dataclass, field
+from typing import Any
 
-from app.metrics import WORKERS_LOST
-from app.problems import WorkerLost
-from app.processes import is_stopped
-from app.workers.fork_server import Compiler, ForkServer, TemplateLost, Worker, WorkerDied
+from cachetools import LRUCache
 
-SUPERVISION_S = 0.25
-PING_EVERY_S = 2.0
-PING_TIMEOUT_S = 5.0
+from app.metrics import CALCULATIONS, DEADLINES_MISSED, ENDED, REFUSED, WAITING, WORKERS_LOST
+from app.problems import ClientGone, DeadlineExceeded, QueueFull, WorkerLost
+from app.workers.control import Template, TemplateLost, Worker, WorkerDied, is_running
+
+SUPERVISION_S = 0.1
+PATIENCE_S = 1.0  # so long who holds less than his share waits for others to finish
+SHORT_S = 1.0  # a calculation is short when the median of the last ones of its kind took less
+KEPT_S = 2.0  # a worker is kept for short calculations until none has come for so long
+REMEMBERED = 15  # durations of each kind
 
 logger = logging.getLogger("tribodrive")
-T = TypeVar("T")
+
+
+@dataclass(eq=False, slots=True)
+class Job:
+    """One call. `owner` is the client or study that asks; calls of one `kind` take about as long as each other.
+
+    A single request has `deadline_s` from when it begins to wait, a call of a study from when it begins.
+    """
+
+    owner: object
+    kind: object
+    deadline_s: float
+    of_study: bool = False
+    worker: Worker | None = None
+    began: float = 0.0  # to wait, or with a worker to calculate
+    taken: Worker | None = None  # the worker that it had to give up for others
+    left: bool = False
+    place: asyncio.Future[Worker] = field(init=False)
+    timeout: asyncio.Timeout = field(init=False)
+
+    def leave(self) -> None:
+        """The client is gone: the call raises ClientGone."""
+        self.left = True
+        self.expire_at(asyncio.get_running_loop().time())
+
+    def expire_at(self, when: float | None) -> None:
+        """Move the deadline."""
+        if not self.timeout.expired():
+            self.timeout.reschedule(when)
 
 
 class Pool:
-    """Workers copied from one template process, and who waits for them."""
+    """A fixed number of workers, copies of one template process."""
 
-    def __init__(self, size: int, memory_mb: int, template: ForkServer) -> None:
+    def __init__(self, size: int, queue: int, memory_mb: int, template: Template) -> None:
         self._size = size
+        self._places = size + queue
         self._memory_mb = memory_mb
         self._template = template
-        self._warm: list[str] = []
+        self._open = False  # whether the template has loaded what workers need
         self._workers: set[Worker] = set()
         self._stale: set[Worker] = set()
         self._idle: list[Worker] = []
-        self._waiting: deque[asyncio.Future[Worker]] = deque()
-        self._patient: deque[asyncio.Future[Worker]] = deque()
         self._starting = 0
+        self._waiting: list[Job] = []
+        self._running: set[Job] = set()
+        self._served: dict[object, float] = {}
+        self._seconds: LRUCache[object, deque[float]] = LRUCache(256)
+        self._kept_until = 0.0
         self._tasks: set[asyncio.Task[None]] = set()
-        self._closed = False
+        self.template_restarted = asyncio.Event()
 
     @asynccontextmanager
     async def running(self) -> AsyncIterator[None]:
-        """The template is supervised while the context is open; afterwards no process is left."""
-        self.spawn_task(self._repeat(SUPERVISION_S, self._supervise))
-        self.spawn_task(self._repeat(PING_EVERY_S, self._ping))
+        """Workers and template are supervised while the context is open; afterwards no process is left."""
+        self._spawn(self._supervise())
         try:
             yield
         finally:
-            self._closed = True
+            self._open = False
             for task in self._tasks:
                 task.cancel()
-            for worker in list(self._workers):
-                worker.kill()
+            for worker in self._workers:
+                worker.end()
             self._template.close()
+
+    @property
+    def size(self) -> int:
+        """How many calls run at once."""
+        return self._size
 
     @property
     def workers_alive(self) -> int:
         """How many workers can calculate."""
         return len(self._workers)
 
-    async def warm(self, stage: str) -> None:
-        """Have the template load what the stage needs."""
-        await self._patiently(lambda: self._template.warm(stage))
-        self._warm.append(stage)
+    async def run(self, job: Job, function: Callable[..., Any], *arguments: Any) -> Any:
+        """The function's result; a caller that is cancelled ends its worker.
+
+        Raises QueueFull, DeadlineExceeded, ClientGone, WorkerLost, and what the function raises.
+        """
+        if not job.of_study:
+            self._admit(job)
+        job.timeout = asyncio.timeout(None if job.of_study else job.deadline_s)
+        try:
+            async with job.timeout:
+                while True:
+                    worker = await self._turn(job)
+                    try:
+                        return await worker.call(function, *arguments)
+                    except WorkerDied as error:
+                        if worker.begun and worker is not job.taken:
+                            WORKERS_LOST.inc()
+                            logger.warning("worker %d was lost while it calculated", worker.pid)
+                            raise WorkerLost from error
+                    finally:
+                        self._release(job, worker)
+        except TimeoutError as error:
+            if not job.timeout.expired():
+                raise
+            if job.left:
+                raise ClientGone from error
+            DEADLINES_MISSED.inc()
+            raise DeadlineExceeded from error
+
+    def _admit(self, job: Job) -> None:
+        """Where all places are taken, refuse the newest request of the client that has most."""
+        singles = [each for each in (*self._running, *self._waiting, job) if not each.of_study]
+        if len(singles) <= self._places:
+            return
+        places = Counter(each.owner for each in singles)
+        newest_first = [job, *(each for each in reversed(self._waiting) if not each.of_study)]
+        refused = max(newest_first, key=lambda each: places[each.owner])
+        REFUSED.inc()
+        if refused is job:
+            raise QueueFull
+        self._waiting.remove(refused)
+        refused.place.set_exception(QueueFull())
+
+    async def _turn(self, job: Job) -> Worker:
+        """A worker, when it is the job's turn."""
+        loop = asyncio.get_running_loop()
+        job.place, job.began = loop.create_future(), loop.time()
+        self._waiting.append(job)
+        self._hand_out()
+        try:
+            return await job.place
+        except asyncio.CancelledError:
+            if job.worker is not None:
+                self._release(job, job.worker)
+            raise
+        finally:
+            if job in self._waiting:
+                self._waiting.remove(job)
+            self._count()
+
+    def _release(self, job: Job, worker: Worker) -> None:
+        """The job has finished with its worker; one whose call has no outcome is ended."""
+        now = asyncio.get_running_loop().time()
+        if not worker.busy or now - job.began > SHORT_S:
+            self._seconds.setdefault(job.kind, deque(maxlen=REMEMBERED)).append(now - job.began)
+        self._running.discard(job)
+        job.worker = None
+        if all(each.owner is not job.owner for each in (*self._running, *self._waiting)):
+            self._served.pop(job.owner, None)
+        if worker.busy or worker in self._stale or not worker.alive:
+            self._replace(worker)
+        else:
+            self._idle.append(worker)
+        self._hand_out()
+
+    def _hand_out(self) -> None:
+        """Give idle workers to those who wait."""
+        now = asyncio.get_running_loop().time()
+        while self._idle and (job := self._next(now)) is not None:
+            if self._is_short(job) and now < self._kept_until:
+                self._kept_until = now + KEPT_S
+            self._waiting.remove(job)
+            self._running.add(job)
+            self._served[job.owner] = job.began = now
+            job.worker = self._idle.pop()
+            if job.of_study:
+                job.expire_at(now + job.deadline_s)
+            job.place.set_result(job.worker)
+        self._count()
+
+    def _next(self, now: float) -> Job | None:
+        """Of those who wait: whose owner has the fewest running; single requests before studies; who waited longest."""
+        waiting = [job for job in self._waiting if not job.place.done()]  # cancelled, and about to leave
+        if now < self._kept_until and sum(not self._is_short(job) for job in self._running) >= self._size - 1 > 0:
+            waiting = [job for job in waiting if self._is_short(job)]
+        held = Counter(job.owner for job in self._running)
+        return min(
+            waiting, key=lambda job: (held[job.owner], job.of_study, self._served.get(job.owner, 0.0)), default=None
+        )
+
+    def _is_short(self, job: Job) -> bool:
+        seconds = self._seconds.get(job.kind)
+        return seconds is None or statistics.median(seconds) < SHORT_S
+
+    def _take_for_others(self) -> None:
+        """End one calculation for the sake of who has waited long enough and holds less than his share."""
+        if not self._waiting or len(self._running) < self._size:  # else a worker is on its way
+            return
+        now = asyncio.get_running_loop().time()
+        held = Counter(job.owner for job in self._running)
+        share = self._size / len({job.owner for job in (*self._running, *self._waiting)})
+        for job in self._waiting:
+            # A long calculation takes a worker for good, so that its owner then must not hold more than the other.
+            least = held[job.owner] + (1 if self._is_short(job) else 2)
+            others = [
+                each
+                for each in self._running
+                if each.taken is None and held[each.owner] > share and held[each.owner] >= least
+            ]
+            if others and now - job.began >= PATIENCE_S:
+                if self._is_short(job):
+                    self._kept_until = now + KEPT_S
+                self._take(max(others, key=lambda each: each.began), now)
+                return
+
+    def _take(self, job: Job, now: float) -> None:
+        """End the calculation of a job that is asked again later."""
+        assert job.worker is not None
+        ENDED.inc()
+        job.taken = job.worker
+        job.expire_at(None if job.of_study else now + job.deadline_s)
+        self._replace(job.worker)
+
+    def _count(self) -> None:
+        waiting = sum(not job.of_study for job in self._waiting)
+        WAITING.set(waiting)
+        CALCULATIONS.set(waiting + sum(not job.of_study for job in self._running))
 
     def renew(self) -> None:
         """Replace every worker, the busy ones after their call, by copies of the template as it is now."""
-        for worker in self._idle:
-            worker.kill()
-        self._stale = self._workers - set(self._idle)
-        self._idle.clear()
+        self._open = True
+        self._stale = set(self._workers)
+        for worker in list(self._idle):
+            self._replace(worker)
         self._fill()
 
+    async def warm(self, stage: str) -> int:
+        """Have the template load a stage; how many kernels had to be compiled. Raises TemplateLost."""
+        return await self._template.warm(stage)
+
     @asynccontextmanager
-    async def compiler(self, stages: Sequence[str]) -> AsyncIterator[asyncio.StreamReader]:
-        """What a process that compiles these stages says; it ends with the context at the latest."""
-        compiler = await self._patiently(lambda: self._template.compile(stages))
+    async def compiler(self, stages: Sequence[str]) -> AsyncIterator[Worker]:
+        """A process that compiles these stages; it ends with the context at the latest."""
+        process = await self._template.compile(stages)
         try:
-            yield compiler.lines
+            yield process
         finally:
-            compiler.end()
-            if not self._closed:
-                self.spawn_task(self._reap(compiler))
+            process.end()
 
-    async def _patiently(self, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
-        """The template's outcome; a template that is lost meanwhile is replaced, and asked again."""
-        while True:
-            with contextlib.suppress(TemplateLost):
-                return await command()
-            await asyncio.sleep(SUPERVISION_S)
-
-    async def run(self, function: Callable[..., Any], *arguments: Any) -> Any:
-        """The function's result; a caller that is cancelled takes its worker's process along.
-
-        Raises WorkerLost, and what the function raises.
-        """
-        worker = await self._acquire()
-        try:
-            return await worker.call(function, *arguments)
-        except asyncio.CancelledError:
-            worker.kill()
-            raise
-        except WorkerDied as error:
-            self.report_lost(worker)
-            raise WorkerLost from error
-        finally:
-            self.release(worker)
-
-    def patient_place(self) -> asyncio.Future[Worker]:
-        """A worker as soon as one is free and nobody in `run` waits for it; to be released, or cancelled before."""
-        place: asyncio.Future[Worker] = asyncio.get_running_loop().create_future()
-        if (worker := self._take_idle()) is not None:
-            place.set_result(worker)
-        else:
-            self._patient.append(place)
-        return place
-
-    def report_lost(self, worker: Worker) -> None:
-        """Write to the books that a worker died over a call."""
-        WORKERS_LOST.inc()
-        logger.warning("worker %d was lost while it calculated", worker.pid)
-
-    def _take_idle(self) -> Worker | None:
-        while self._idle:
-            worker = self._idle.pop()
-            if worker.alive:
-                return worker
-        return None
-
-    async def _acquire(self) -> Worker:
-        if (worker := self._take_idle()) is not None:
-            return worker
-        place: asyncio.Future[Worker] = asyncio.get_running_loop().create_future()
-        self._waiting.append(place)
-        try:
-            return await place
-        except asyncio.CancelledError:
-            if place.done() and not place.cancelled():
-                self.release(place.result())
-            raise
-
-    def release(self, worker: Worker) -> None:
-        """Give a worker to whoever waits, single requests before patient calls."""
-        if worker in self._stale:
-            worker.kill()
-        if not worker.alive or worker not in self._workers:
-            return
-        for places in (self._waiting, self._patient):
-            while places:
-                place = places.popleft()
-                if not place.done():
-                    place.set_result(worker)
-                    return
-        self._idle.append(worker)
-
-    def _ended(self, worker: Worker) -> None:
-        """A worker's socket closed: the process is dead or about to be."""
+    def _replace(self, worker: Worker) -> None:
+        """End a worker and start another."""
+        worker.end()
         self._workers.discard(worker)
         self._stale.discard(worker)
         if worker in self._idle:
             self._idle.remove(worker)
-        if not self._closed:
-            self.spawn_task(self._reap(worker))
-            self._fill()
-
-    async def _reap(self, ended: Worker | Compiler) -> None:
-        """Have the template that the process was copied from forget it, if there still is that template."""
-        with contextlib.suppress(TemplateLost):
-            await ended.server.reap(ended.pid)
+        self._fill()
 
     def _fill(self) -> None:
         """Start as many workers as are missing."""
-        if not self._warm or self._closed:
-            return
-        for _ in range(self._size - len(self._workers - self._stale) - self._starting):
-            self._starting += 1
-            self.spawn_task(self._start_worker())
+        if self._open:
+            for _ in range(self._size - len(self._workers - self._stale) - self._starting):
+                self._starting += 1
+                self._spawn(self._start_worker())
 
     async def _start_worker(self) -> None:
         try:
-            worker = await self._template.fork(self._memory_mb, self._ended)
-        except TemplateLost:
-            return
+            worker = await self._template.fork(self._memory_mb)
+        except (TemplateLost, WorkerDied):
+            return  # the supervision tries again
         finally:
             self._starting -= 1
         self._workers.add(worker)
-        if worker.alive:
-            self.release(worker)
-        else:
-            self._ended(worker)
+        self._idle.append(worker)
+        self._hand_out()
 
-    async def _repeat(self, every_s: float, duty: Callable[[], Coroutine[Any, Any, None]]) -> None:
-        """A duty that is never given up."""
+    async def _supervise(self) -> None:
+        """Never miss a process that died or was stopped, nor who waits too long."""
         while True:
-            await asyncio.sleep(every_s)
+            await asyncio.sleep(SUPERVISION_S)
             try:
-                await duty()
+                for worker in [worker for worker in self._workers if not is_running(worker.pid)]:
+                    logger.warning("worker %d died or was stopped; it is replaced", worker.pid)
+                    self._replace(worker)
+                if self._template.lost:
+                    logger.warning("the template process was lost; it is started again")
+                    self._open = False
+                    self._template.close()
+                    self._template = Template()
+                    self.template_restarted.set()
+                self._fill()
+                self._take_for_others()
+                self._hand_out()
             except Exception:
                 logger.exception("supervision of the workers failed; it goes on")
 
-    async def _supervise(self) -> None:
-        """Miss nobody: a stopped worker is ended, a lost template started again, a missing worker replaced."""
-        for worker in [worker for worker in self._workers if is_stopped(worker.pid)]:
-            logger.warning("worker %d was stopped; it is replaced", worker.pid)
-            worker.kill()
-        if self._template.lost:
-            logger.warning("the template process was lost; it is started again")
-            self._restart_template()
-        self._fill()
-
-    def _restart_template(self) -> None:
-        self._template.close()
-        self._template = ForkServer.start()
-        self.spawn_task(self._warm_again(self._template))
-
-    async def _warm_again(self, template: ForkServer) -> None:
-        """Have a new template load what the lost one had; beside the supervision, which watches this one too."""
-        with contextlib.suppress(TemplateLost):
-            for stage in list(self._warm):
-                await template.warm(stage)
-
-    async def _ping(self) -> None:
-        """Ask idle workers for a sign of life."""
-        for worker in list(self._idle):
-            if worker in self._idle:
-                self._idle.remove(worker)
-                await self._sign_of_life(worker)
-
-    async def _sign_of_life(self, worker: Worker) -> None:
-        try:
-            async with asyncio.timeout(PING_TIMEOUT_S):
-                await worker.call(os.getpid)
-        except TimeoutError:
-            logger.warning("worker %d does not answer; it is replaced", worker.pid)
-            worker.kill()
-        except WorkerDied:
-            pass
-        finally:
-            self.release(worker)
-
-    def spawn_task(self, coroutine: Coroutine[Any, Any, None]) -> None:
+    def _spawn(self, coroutine: Coroutine[Any, Any, None]) -> None:
         """Run something beside, until the pool closes."""
         task = asyncio.get_running_loop().create_task(coroutine)
         self._tasks.add(task)

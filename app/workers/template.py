@@ -1,91 +1,151 @@
-"""The fork server: one process that loads the kernels and is copied.
+"""The template process and its copies: workers answer calls, compilers fill the kernel cache.
 
-It has one thread, so that a copy holds no lock that nobody will release, and puts everything it has loaded beyond the
-reach of the garbage collector, so that the copies share its memory. Its standard input is a socket. On it the template
-says that it is ready, and the service then sends one command at a time:
+The template has one thread, so that no copy inherits a lock that is held, and freezes what it has loaded, so that the
+garbage collector of a copy does not touch it and the memory stays shared. It obeys one command at a time:
 
-    fork MEMORY_MB   with a socket: a new worker that serves it; answers its process id
-    compile STAGES   with a socket: a process that compiles these stages (with commas between) and tells the socket
-    reap PID         forget a process that has ended
-    warm STAGE       load the kernels of a stage
-
-Garbage collection is off here, and on in every copy.
-
-A process id is free for another process only after `reap`: the service can never signal a stranger.
+    ("fork", memory_mb), then a descriptor      a new worker that serves the descriptor; answers its process id
+    ("compile", stage names), then a descriptor a process that compiles these stages; answers its process id
+    ("reap", process id)                        the process has ended; its id is free from now on
+    ("warm", stage name)                        load a stage; answers how many kernels had to be compiled for it
 """
 
+import ctypes
 import gc
 import logging
 import os
+import pickle
+import resource
+import select
 import signal
-import socket
 import sys
-from collections.abc import Callable
+import threading
+import traceback
+from collections.abc import Callable, Sequence
 from functools import partial
-from typing import NoReturn
+from multiprocessing.connection import Connection
+from multiprocessing.reduction import recv_handle
+from typing import Any
 
-from app.warm_up import stage_of, warm
-from app.workers import compiler, worker
-
-LONGEST_COMMAND = 4096
+PR_SET_PDEATHSIG = 1
+MEBIBYTE = 2**20
 
 logger = logging.getLogger("tribodrive")
 
 
-def main() -> None:
-    """Obey commands until the service hangs up."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    with socket.socket(fileno=os.dup(sys.stdin.fileno())) as control:
-        null = os.open(os.devnull, os.O_RDWR)
-        os.dup2(null, sys.stdin.fileno())  # no copy of this process keeps the socket open
-        os.close(null)
-        gc.freeze()
-        control.sendall(b"ready\n")
+def main(parent: int, descriptor: int) -> None:
+    """Obey the commands that arrive on the descriptor until the parent process ends."""
+    if sys.platform == "linux":  # elsewhere the process ends when it next reads a command
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    if os.getppid() != parent:
+        return
+    gc.disable()  # imports leave no garbage, and looking for it takes a third of their time
+    import app.main  # noqa: F401, PLC0415  so that no worker has to import what it is asked to call
+
+    gc.freeze()
+    with Connection(descriptor) as control:
+        control.send("ready")
         while True:
-            command, descriptors, _, _ = socket.recv_fds(control, LONGEST_COMMAND, 1)
-            if not command:
+            try:
+                command = control.recv()
+            except EOFError:
                 return
-            control.sendall(_obey(command.decode().split(" ", 1), descriptors, control).encode() + b"\n")
+            control.send(_obey(control, *command))
 
 
-def _obey(command: list[str], descriptors: list[int], control: socket.socket) -> str:
-    match command:
-        case ["fork", memory_mb]:
-            return _copy(control, descriptors[0], partial(worker.serve, memory_mb=int(memory_mb)))
-        case ["compile", stages]:
-            return _copy(control, descriptors[0], partial(compiler.serve, stages=stages.split(",")))
-        case ["reap", pid]:
-            os.waitpid(int(pid), 0)
-            return "done"
-        case ["warm", name]:
-            return _warm(name)
+def _obey(control: Connection, name: str, argument: Any) -> int:
+    match name:
+        case "fork":
+            return _copy(control, partial(_work, memory_mb=argument))
+        case "compile":
+            return _copy(control, partial(_compile, names=argument))
+        case "reap":
+            return os.waitpid(argument, 0)[0]
         case _:
-            return "unknown"
+            return _warm(argument)
 
 
-def _copy(control: socket.socket, descriptor: int, serve: Callable[[socket.socket], NoReturn]) -> str:
-    """Another process like this one, which serves the socket."""
-    with socket.socket(fileno=descriptor) as connection:
-        pid = os.fork()
-        if pid == 0:
-            control.close()
-            gc.enable()
-            serve(connection)
-        return str(pid)
+def _warm(name: str) -> int:
+    """Load a stage; one that fails is logged, and costs its first callers time."""
+    from app.workers import stages  # noqa: PLC0415  numba, which the service's own process does without
 
-
-def _warm(name: str) -> str:
-    """Load a stage; one that fails is reported and costs nothing but speed."""
     try:
-        warm(stage_of(name))
+        return stages.warm(stages.stage_of(name))
     except Exception:
         logger.exception("%s failed while its kernels were loaded", name)
-        return "failed"
+        return 0
     finally:
         gc.collect()
         gc.freeze()
-    return "done"
+
+
+def _copy(control: Connection, serve: Callable[[Connection], None]) -> int:
+    """The process id of a copy of this process that serves the descriptor which follows the command."""
+    descriptor = recv_handle(control)
+    pid = os.fork()
+    if pid:
+        os.close(descriptor)
+        return pid
+    try:
+        control.close()
+        gc.enable()
+        connection = Connection(descriptor)
+        threading.Thread(target=_end_with_the_service, args=(descriptor,), daemon=True).start()
+        serve(connection)
+    except (EOFError, OSError):  # the service is gone
+        pass
+    except BaseException:
+        logger.exception("a worker process failed")
+    finally:
+        os._exit(0)
+
+
+def _end_with_the_service(descriptor: int) -> None:
+    """End this process, whatever it does, when the other end of its connection is closed."""
+    poll = select.poll()
+    poll.register(descriptor, 0)  # nothing but the hang-up, which is always reported
+    poll.poll()
+    os._exit(1)
+
+
+def _work(connection: Connection, memory_mb: int) -> None:
+    """Answer calls: an empty message when one begins, then its pickled outcome."""
+    from app.workers import stages  # noqa: PLC0415
+
+    resource.setrlimit(resource.RLIMIT_DATA, (memory_mb * MEBIBYTE, memory_mb * MEBIBYTE))
+    stages.touch_shared_memory()
+    connection.send_bytes(b"")
+    while True:
+        call = connection.recv_bytes()
+        connection.send_bytes(b"")
+        connection.send_bytes(_outcome(call))
+
+
+def _outcome(call: bytes) -> bytes:
+    """The pickled pair of whether the call succeeded, and its result or its exception with the traceback as a note."""
+    try:
+        function, arguments = pickle.loads(call)  # noqa: S301  from the service itself
+        return pickle.dumps((True, function(*arguments)), pickle.HIGHEST_PROTOCOL)
+    except Exception as error:  # noqa: BLE001  handed to the caller
+        error.add_note(f"In the worker process:\n{traceback.format_exc()}")
+        try:
+            content = pickle.dumps((False, error), pickle.HIGHEST_PROTOCOL)
+            pickle.loads(content)  # noqa: S301
+        except Exception:  # noqa: BLE001  not every exception can be pickled and read again
+            return pickle.dumps((False, RuntimeError(traceback.format_exc())), pickle.HIGHEST_PROTOCOL)
+        return content
+
+
+def _compile(connection: Connection, names: Sequence[str]) -> None:
+    """Compile stages; one message for every kernel ("kernel") and every stage ("stage")."""
+    from app.workers import stages  # noqa: PLC0415
+
+    try:
+        stages.compile_stages(names, lambda message: connection.send_bytes(message.encode()))
+    except OSError:
+        raise
+    except Exception:
+        logger.exception("the compilation failed")
 
 
 if __name__ == "__main__":
-    main()
+    main(int(sys.argv[1]), int(sys.argv[2]))

@@ -5,13 +5,13 @@ import sys
 
 from app.calculations import CALCULATIONS
 from app.library import examples
-from app.warm_up import COUPLING, LINE_CONTACT, STAGES, needed_for
+from app.workers.stages import COUPLING, LINE_CONTACT, STAGES, needed_for
 
 COUNT_COLD = """
 import gc
 from numba.extending import is_jitted
 from app.library import examples
-from app.warm_up import STAGES, calculate
+from app.workers.stages import STAGES, calculate
 
 def compiled():
     return {(each.py_func.__module__, each.py_func.__name__): len(each.signatures)

@@ -3,7 +3,7 @@
 from functools import cache
 from pathlib import Path
 
-from app.warm_up import content
+from app.workers.stages import content
 from solvers.kernel_cache import is_complete, roots
 from tests.support.server import running_server
 

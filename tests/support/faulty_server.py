@@ -13,9 +13,9 @@ from app.main import create_app
 from app.studies import engine
 from app.studies.points import Chunk, Question, solve_chunk
 from app.studies.requests import Overrides
-from app.workers.fork_server import ForkServer
 
 HANGING = 1234.5  # a varied value whose point never ends
+LONG = 987.5  # and one whose point takes three seconds
 
 
 def sleep(seconds: float) -> float:
@@ -36,34 +36,45 @@ def allocate(mebibytes: int) -> int:
     return int(np.ones(mebibytes * 2**17).size)
 
 
+def fail_deep_inside() -> None:
+    raise ZeroDivisionError("deep inside")
+
+
 def solve_chunk_that_may_hang(question: Question, overrides: Sequence[Overrides]) -> Chunk:
     if any(HANGING in each.values() for each in overrides):
         time.sleep(600)
+    for each in overrides:
+        if LONG in each.values():
+            time.sleep(3)
     return solve_chunk(question, overrides)
 
 
-def create_faulty_app(template: ForkServer) -> FastAPI:
-    app = create_app(template)
+def create_faulty_app() -> FastAPI:
+    app = create_app()
     engine.solve_chunk = solve_chunk_that_may_hang
 
     @app.post("/sleep/{seconds}")
     async def _(http: Request, seconds: float) -> float:
-        result: float = await app.state.runner.run(http.receive, sleep, seconds)
+        result: float = await app.state.runner.run(http, sleep, seconds)
         return result
 
     @app.post("/spin/{seconds}")
     async def _(http: Request, seconds: float) -> float:
-        result: float = await app.state.runner.run(http.receive, spin, seconds)
+        result: float = await app.state.runner.run(http, spin, seconds)
         return result
 
     @app.post("/allocate/{mebibytes}")
     async def _(http: Request, mebibytes: int) -> int:
-        result: int = await app.state.runner.run(http.receive, allocate, mebibytes)
+        result: int = await app.state.runner.run(http, allocate, mebibytes)
         return result
+
+    @app.post("/fail")
+    async def _(http: Request) -> None:
+        await app.state.runner.run(http, fail_deep_inside)
 
     @app.post("/worker")
     async def _(http: Request) -> int:
-        result: int = await app.state.runner.run(http.receive, os.getpid)
+        result: int = await app.state.runner.run(http, os.getpid)
         return result
 
     @app.post("/bug")
@@ -74,4 +85,6 @@ def create_faulty_app(template: ForkServer) -> FastAPI:
 
 
 if __name__ == "__main__":
-    serve("tests.support.faulty_server:create_faulty_app")
+    serve("tests.support.faulty_server:app")
+else:
+    app = create_faulty_app()

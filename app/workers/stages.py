@@ -1,20 +1,22 @@
 """The stages in which kernels are compiled and loaded: examples that between them touch every one.
 
-`python -m app.warm_up` compiles all of them and keeps the machine code on disk.
+`python -m app.workers.stages` compiles all of them and keeps the machine code on disk.
 """
 
+import os
+import sys
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib import import_module
 
 from numba.core import event
 
-from app.calculations import CALCULATIONS
+from app.calculations import BY_PATH
 from app.figures.registry import figures_of
 from app.figures.rendering import render
 from app.formats.json import answer
 from app.library import examples
-from solvers.kernel_cache import mark_complete
+from solvers.kernel_cache import discard, mark_complete
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +62,11 @@ TRACKS = ((COUPLING, SLEEVE, LOADS, PUMPING, DRIVE_TRAIN, FIGURES), (LINE_CONTAC
 STAGES = tuple(stage for track in TRACKS for stage in track)
 
 
+# A new worker answers these two before its first call (1 and 8 ms): writing to a page of memory that it shares with the
+# template copies the page, which would double the time of a first call, and these touch most of what others touch.
+TOUCHING = (COUPLING, LOADS)
+
+
 def content() -> str:
     """What a cache holds that is complete."""
     return " ".join(name for stage in STAGES for name in stage.examples)
@@ -78,30 +85,43 @@ def stage_of(name: str) -> Stage:
 def calculate(name: str) -> None:
     """Answer one example."""
     example = examples()[name]
-    calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
+    calculation = BY_PATH[example.endpoint]
     answer(calculation, calculation.request.model_validate(example.request))
 
 
-def warm(stage: Stage) -> None:
-    """Load what the stage needs; kernels that are not kept are compiled."""
-    for name in stage.examples:
-        calculate(name)
-    if stage is FIGURES:
-        for module in MODULES:
-            import_module(module)
-        _draw()
+_warm: set[Stage] = set()  # in this process
+
+
+def warm(stage: Stage) -> int:
+    """Load what the stage needs; how many kernels were not kept and had to be compiled."""
+    with event.install_recorder("numba:compile") as compilations:
+        for name in stage.examples:
+            calculate(name)
+        if stage is FIGURES:
+            for module in MODULES:
+                import_module(module)
+            _draw()
+    _warm.add(stage)
+    return sum(each.is_end for _, each in compilations.buffer)
+
+
+def touch_shared_memory() -> None:
+    """Make this process's own copy of the memory that calculations write to."""
+    for stage in TOUCHING:
+        if stage in _warm:
+            calculate(stage.examples[0])
 
 
 def _draw() -> None:
     """Load what draws figures."""
     example = examples()[DRAWN]
-    calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
+    calculation = BY_PATH[example.endpoint]
     request = calculation.request.model_validate(example.request)
     render(calculation, figures_of(calculation.path)[0], request, "svg", "light")
 
 
-class _Ticks(event.Listener):
-    """Tells of every kernel compiled, for the service to count."""
+class _Told(event.Listener):
+    """Tells of every kernel that is compiled."""
 
     def __init__(self, tell: Callable[[str], None]) -> None:
         self._tell = tell
@@ -114,18 +134,30 @@ class _Ticks(event.Listener):
         self._tell("kernel")
 
 
-def compile_stages(stages: Iterable[Stage], tell: Callable[[str], None]) -> None:
-    """Have the kernels of these stages on disk; `tell` hears "kernel" and "stage ..." when one is."""
-    event.register("numba:compile", _Ticks(tell))
-    for stage in stages:
-        for name in stage.examples:
-            calculate(name)
-        tell(f"stage {stage.name}")
+def compile_stages(names: Iterable[str], tell: Callable[[str], None]) -> None:
+    """Have the kernels of these stages on disk; `tell` hears "kernel" for each and "stage" when one is done."""
+    with event.install_listener("numba:compile", _Told(tell)):
+        for name in names:
+            for example in stage_of(name).examples:
+                calculate(example)
+            tell("stage")
+
+
+def discard_kernels(stage: Stage) -> None:
+    """Remove the kept kernels of the modules that the stage's endpoints call."""
+    for endpoint in stage.endpoints:
+        discard(BY_PATH[endpoint].solve.__module__)
 
 
 def main() -> None:
-    """Compile all stages."""
-    compile_stages(STAGES, print)
+    """Compile all stages in another process, then load them in this one, which tells whether every kernel was kept."""
+    if os.fork() == 0:
+        compile_stages([stage.name for stage in STAGES], print)
+        os._exit(0)
+    _, status = os.wait()
+    missing = sum(map(warm, STAGES))
+    if status or missing:
+        sys.exit(f"tribodrive: {missing} kernels could not be kept")
     mark_complete(content())
 
 

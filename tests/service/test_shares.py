@@ -1,0 +1,258 @@
+"""Clients and studies share the workers: nobody pays for what another client does."""
+
+import json
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from app.library import examples
+from tests.support.server import running_server, send_signal, workers
+from tests.support.faulty_server import LONG
+
+pytestmark = pytest.mark.service
+
+FAULTY = [sys.executable, "-m", "tests.support.faulty_server"]
+COUPLING = examples()["pahl-axial-displacement"]
+SUMMARY = {**COUPLING.request, "detail": "summary"}
+HONEST, GREEDY = "127.0.0.2", "127.0.0.3"
+Server = tuple[subprocess.Popen[str], str]
+
+
+@pytest.fixture(scope="module")
+def faulty() -> Iterator[Server]:
+    with running_server(FAULTY, workers=2, deadline_s=40, log_level="error") as server:
+        yield server
+
+
+def client(address: str, source: str) -> httpx.Client:
+    """A client with an address of its own."""
+    return httpx.Client(base_url=address, timeout=60, transport=httpx.HTTPTransport(local_address=source))
+
+
+def metric(address: str, name: str) -> float:
+    lines = httpx.get(f"{address}/metrics").text.splitlines()
+    return float(next(line.split()[1] for line in lines if line.startswith(f"{name} ")))
+
+
+def wait_for(address: str, name: str, value: float, seconds: float = 20.0) -> None:
+    end = time.monotonic() + seconds
+    while metric(address, name) != value:
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
+@contextmanager
+def asking(address: str, path: str, *, times: int, source: str = GREEDY) -> Iterator[list[int]]:
+    """So many requests at once, asked again and again while the context is open; the statuses of the answers."""
+    statuses: list[int] = []
+    done = threading.Event()
+
+    def ask() -> None:
+        with client(address, source) as own:
+            while not done.is_set():
+                with suppress(httpx.TransportError):
+                    statuses.append(own.post(path).status_code)
+
+    threads = [threading.Thread(target=ask) for _ in range(times)]
+    for each in threads:
+        each.start()
+    try:
+        yield statuses
+    finally:
+        done.set()
+        for each in threads:
+            each.join()
+
+
+def honest_waits(address: str, count: int, pause_s: float = 0.05) -> list[float]:
+    """How long so many coupling summaries of another client take, each of them answered; in order of length [s]."""
+    waits = []
+    with client(address, HONEST) as own:
+        for _ in range(count):
+            started = time.monotonic()
+            answer = own.post(COUPLING.endpoint, json=SUMMARY)
+            assert answer.status_code == 200, answer.text
+            waits.append(time.monotonic() - started)
+            time.sleep(pause_s)
+    return sorted(waits)
+
+
+def test_a_worker_whose_client_left_is_not_handed_on(faulty: Server) -> None:
+    _, address = faulty
+    for _ in range(6):
+        with (
+            ThreadPoolExecutor(3) as pool,
+            client(address, GREEDY) as staying,
+            client(address, "127.0.0.4") as leaving,
+        ):
+            stays = pool.submit(staying.post, "/sleep/0.9")
+            leaves = pool.submit(leaving.post, "/sleep/20", timeout=0.5)
+            wait_for(address, "tribodrive_calculations", 2)
+            honest = pool.submit(honest_waits, address, 1)
+            with pytest.raises(httpx.ReadTimeout):
+                leaves.result()
+            honest.result()
+            assert stays.result().status_code == 200
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
+def test_a_worker_that_dies_before_its_call_began_is_no_loss(faulty: Server, number: signal.Signals) -> None:
+    process, address = faulty
+    lost = metric(address, "tribodrive_workers_lost_total")
+    with client(address, HONEST) as own:
+        for _ in range(10):
+            for worker in workers(process):
+                send_signal(worker, number)
+            assert own.post(COUPLING.endpoint, json=SUMMARY).status_code == 200
+    assert metric(address, "tribodrive_workers_lost_total") == lost
+
+
+def test_beside_80_long_calculations_of_another_client(faulty: Server) -> None:
+    _, address = faulty
+    with asking(address, "/sleep/3", times=80) as statuses:
+        wait_for(address, "tribodrive_calculations_waiting", 64)
+        waits = honest_waits(address, 60)
+    assert waits[57] < 2.0
+    assert set(statuses) <= {200, 503, 504}
+    assert statuses.count(200) > 0
+    assert metric(address, "tribodrive_calculations_refused_total") > 0
+
+
+def long_study(count: int) -> dict[str, Any]:
+    cases = [{"operation.speed_rpm": LONG}] * count
+    return {"endpoint": COUPLING.endpoint, "request": COUPLING.request, "cases": cases}
+
+
+@contextmanager
+def running_studies(address: str, count: int) -> Iterator[None]:
+    with ThreadPoolExecutor(count) as pool:
+        done = threading.Event()
+
+        def read() -> None:
+            with (
+                client(address, GREEDY) as own,
+                own.stream("POST", "/v1/sweep", json=long_study(400)) as response,
+            ):
+                for line in response.iter_lines():
+                    if done.is_set():
+                        return
+                    assert json.loads(line)["type"] != "error"
+
+        flights = [pool.submit(read) for _ in range(count)]
+        wait_for(address, "tribodrive_studies", count)
+        try:
+            yield
+        finally:
+            done.set()
+            for flight in flights:
+                flight.result()
+
+
+def test_beside_two_studies_of_long_points(faulty: Server) -> None:
+    _, address = faulty
+    with running_studies(address, 2):
+        time.sleep(1.0)
+        waits = honest_waits(address, 60)
+    assert waits[57] < 2.0
+
+
+def test_beside_clients_that_leave(faulty: Server) -> None:
+    _, address = faulty
+    done = threading.Event()
+
+    def leave(seconds: float) -> None:
+        with client(address, GREEDY) as own:
+            while not done.is_set():
+                with suppress(httpx.ReadTimeout):
+                    own.post("/sleep/20", timeout=httpx.Timeout(5, read=seconds))
+
+    threads = [threading.Thread(target=leave, args=(seconds,)) for seconds in (0.1, 0.4, 1.0)]
+    for each in threads:
+        each.start()
+    waits = honest_waits(address, 60)
+    done.set()
+    for each in threads:
+        each.join()
+    assert waits[57] < 2.0
+
+
+def test_points_of_a_study_end_with_it(faulty: Server) -> None:
+    """Within a second, though each takes three."""
+    process, address = faulty
+    before = set(workers(process))
+    with client(address, GREEDY) as own, own.stream("POST", "/v1/sweep", json=long_study(20)) as response:
+        next(response.iter_lines())
+        time.sleep(0.5)
+    left = time.monotonic()
+    while set(workers(process)) & before:
+        assert time.monotonic() - left < 1.0
+        time.sleep(0.02)
+    wait_for(address, "tribodrive_studies", 0)
+
+
+def test_a_full_queue_refuses_whoever_has_most_places() -> None:
+    with (
+        running_server(FAULTY, workers=1, queue=3, log_level="error") as (_, address),
+        ThreadPoolExecutor(8) as pool,
+        client(address, GREEDY) as greedy,
+        client(address, HONEST) as honest,
+    ):
+        many = [pool.submit(greedy.post, "/sleep/0.8") for _ in range(4)]
+        wait_for(address, "tribodrive_calculations_waiting", 3)
+        mine = pool.submit(honest.post, "/sleep/0.01")
+        assert mine.result().status_code == 200
+        assert sorted(each.result().status_code for each in many) == [200, 200, 200, 503]
+        assert metric(address, "tribodrive_calculations_refused_total") == 1
+
+
+def test_a_header_can_name_the_client() -> None:
+    """Behind a proxy all requests come from one address."""
+    with (
+        running_server(FAULTY, workers=1, queue=1, client_header="X-User", log_level="error") as (_, address),
+        ThreadPoolExecutor(4) as pool,
+        client(address, HONEST) as proxy,
+    ):
+        many = [pool.submit(proxy.post, "/sleep/1", headers={"X-User": "greedy"}) for _ in range(2)]
+        wait_for(address, "tribodrive_calculations_waiting", 1)
+        assert proxy.post("/sleep/0", headers={"X-User": "honest"}).status_code == 200
+        assert sorted(each.result().status_code for each in many) == [200, 503]
+
+
+def test_the_log_has_the_cause_from_the_worker(tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    with running_server(FAULTY, log=log, workers=1) as (_, address):
+        assert httpx.post(f"{address}/fail").status_code == 500
+    text = log.read_text("utf-8")
+    assert "in fail_deep_inside" in text
+    assert "ZeroDivisionError: deep inside" in text
+
+
+def test_the_first_call_of_a_new_worker_is_like_any_other(faulty: Server) -> None:
+    process, address = faulty
+    with client(address, HONEST) as own:
+
+        def seconds() -> float:
+            answer = own.post(COUPLING.endpoint, json=SUMMARY)
+            return float(answer.headers["server-timing"].partition("dur=")[2]) / 1e3
+
+        firsts, later = [], []
+        for _ in range(10):
+            before = set(workers(process))
+            for worker in before:
+                send_signal(worker, signal.SIGKILL)
+            while set(workers(process)) & before or len(workers(process)) < 2:
+                time.sleep(0.01)
+            time.sleep(0.3)
+            firsts.append(seconds())
+            later += [seconds() for _ in range(5)]
+    assert sorted(firsts)[5] < 2 * sorted(later)[25] + 0.002
