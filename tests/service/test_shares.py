@@ -16,8 +16,8 @@ import httpx
 import pytest
 
 from app.library import examples
-from tests.support.server import running_server, send_signal, workers
 from tests.support.faulty_server import LONG
+from tests.support.server import running_server, send_signal, workers
 
 pytestmark = pytest.mark.service
 
