@@ -121,9 +121,11 @@ def _shares(gas: Gas, grids: Grids) -> dict[str, float]:
         shares[name] = max(OF_EXTREMES * shares[name], _of(reach - fine[name], fine[name]))
     apart = _side_by_side(gas, grids.flow, grids.halved)
     for name, sign in (("peak_pressure", 1.0), ("min_pressure", -1.0)):
-        around = SAFETY * _of(_difference(*(sign * pressure for pressure in apart)), fine[name])
-        unseen = SAFETY * _of(abs(quarter[name] - fine[name]), fine[name]) if grids.blind else 0.0
-        shares[name] = max(shares[name], around, unseen)
+        around = _difference(*(sign * pressure for pressure in apart))
+        shares[name] = max(shares[name], SAFETY * _of(around, fine[name]))
+    if grids.blind:
+        for name in ("peak_pressure", "min_pressure", "pumping_power"):
+            shares[name] = max(shares[name], SAFETY * _of(abs(quarter[name] - fine[name]), abs(fine[name])))
     return shares
 
 
