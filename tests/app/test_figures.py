@@ -24,7 +24,7 @@ from app.schema.model import Documented
 
 Post = Callable[[str, object], httpx.Response]
 
-# The table of interface.md section 2.
+# The figures that every calculation has.
 FIGURES = {
     "/v1/coupling": {"friction-regime", "tooth-loads", "tooth-motion", "contact-track", "axial-thrust", "losses"},
     "/v1/coupling/sleeve-orbit": {"orbit", "inertia-force", "orders"},

@@ -83,13 +83,16 @@ def finer() -> ExitStack:
 
 
 def check_resolution(random: Generator) -> None:
+    check_resolution_of(random_inputs(random))
+
+
+def check_resolution_of(inputs: CouplingInputs) -> None:
     """No summary number moves by 1 % with every resolution doubled.
 
     Thrust and moments are what is left of friction forces that cancel. Where teeth load and unload the quadrature
     leaves up to 6e-5 of what friction could hold (2600 random couplings), however little is left. Besides the 1 % they
     may move by 1e-4 of that limit: 1 % of a thrust of a hundredth of the limit, below which it is an absolute error.
     """
-    inputs = random_inputs(random)
     before = numbers(solve(inputs))
     with finer():
         after = numbers(solve(inputs))
@@ -98,8 +101,11 @@ def check_resolution(random: Generator) -> None:
 
 
 def check_orbit_resolution(random: Generator) -> None:
+    check_orbit_resolution_of(random_inputs(random, errors=True))
+
+
+def check_orbit_resolution_of(inputs: CouplingInputs) -> None:
     """Twice the rotor angles move an orbit's summary by less than 1 %, or by what it states, or with a notice."""
-    inputs = random_inputs(random, errors=True)
     try:
         before = solve_orbit(inputs)
         with patch.object(kinematics, "_LEAST_ROTOR_POSITIONS", 2 * kinematics._LEAST_ROTOR_POSITIONS):

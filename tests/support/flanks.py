@@ -91,8 +91,11 @@ def summary(result: LoadDistribution) -> dict[str, tuple[float, float]]:
 
 
 def check_resolution(rng: np.random.Generator) -> None:
+    check_resolution_of(draw_flank(rng))
+
+
+def check_resolution_of(inputs: LoadDistributionInputs) -> None:
     """Doubling any number of points moves no summary number by more than 1 %."""
-    inputs = draw_flank(rng)
     plain = summary(solve_load_distribution(inputs))
     for name in RESOLUTIONS:
         finer = replace(inputs.resolution, **{name: 2 * getattr(inputs.resolution, name)})
@@ -103,8 +106,11 @@ def check_resolution(rng: np.random.Generator) -> None:
 
 
 def check_books(rng: np.random.Generator) -> None:
+    check_books_of(draw_flank(rng))
+
+
+def check_books_of(inputs: LoadDistributionInputs) -> None:
     """Forces, friction power, the face load factor and all maxima by quadrature of the answer's own line loads."""
-    inputs = draw_flank(rng)
     result = solve_load_distribution(inputs)
     balance, plane = result.balance, result.path_of_contact.plane
     y = (np.arange(800) + 0.5) / 800 * plane.face_width

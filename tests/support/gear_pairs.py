@@ -6,7 +6,7 @@ from math import radians
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.scuffing.inputs import LoadDistributionInputs
 
-# FZG type A (published.md of the specifications): centre distance and profile shifts are rounded.
+# FZG type A as standards print it: centre distance and profile shifts are rounded.
 FZG_A = GearPairInputs(
     GearTeeth(16, 0.8532, (88.8 / 2 - 36) / 4.5 - 0.8532),
     GearTeeth(24, -0.5, (112.5 / 2 - 54) / 4.5 + 0.5),

@@ -1,6 +1,6 @@
 """One mesh of a gear coupling written down again from its equations in plain numpy: nothing of the solver's own.
 
-Frame as in the specification: tooth angle phi from the pivot position, tilt positions at 90 and 270 degrees.
+Frame: tooth angle phi from the pivot position, tilt positions at 90 and 270 degrees.
 """
 
 from dataclasses import dataclass

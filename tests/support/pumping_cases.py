@@ -150,10 +150,13 @@ def uncertain(result: PumpingResult, spaces: SpacesResult, name: str, value: flo
 
 
 def check_resolution(draw: Generator) -> None:
-    """Twice the slices move no number by more than 1 % or its stated uncertainty."""
     setup = random_setup(draw)
-    case = PumpingInputs(setup, random_speed(draw, setup))
-    finer = replace(case, setup=replace(setup, model=replace(setup.model, slices=200)))
+    check_resolution_of(PumpingInputs(setup, random_speed(draw, setup)))
+
+
+def check_resolution_of(case: PumpingInputs) -> None:
+    """Twice the slices move no number by more than 1 % or its stated uncertainty."""
+    finer = replace(case, setup=replace(case.setup, model=replace(case.setup.model, slices=200)))
     here, there = solve(case), solve(finer)
     for coarse, fine in zip(spaces_of(here), spaces_of(there), strict=True):
         flow, after = coarse.mass_flow, numbers(fine)
@@ -234,15 +237,19 @@ def jumps(values: list[float]) -> list[int]:
 
 
 def check_no_jump(draw: Generator, name: str | None = None) -> None:
-    """A fine scan of one input (any, unless named) has no jump.
+    """Scan one input, any unless named, of a random case."""
+    setup = random_setup(draw, PumpingModel(slices=40, gap=Gap(draw.choice(list(Gap)))))
+    case = PumpingInputs(setup, random_speed(draw, setup))
+    check_no_jump_of(case, name or str(draw.choice(list(SCANS))))
+
+
+def check_no_jump_of(case: PumpingInputs, scanned: str) -> None:
+    """A fine scan of one input has no jump.
 
     Where a stroke takes a whole step more or less, or a land between grooves a slice, numbers step: by no more than
     the answers on both sides say that they are uncertain, and by little; the radial flow, which is left of what
     passes the ends, by little of that.
     """
-    setup = random_setup(draw, PumpingModel(slices=40, gap=Gap(draw.choice(list(Gap)))))
-    case = PumpingInputs(setup, random_speed(draw, setup))
-    scanned = name or str(draw.choice(list(SCANS)))
     cases = [SCANS[scanned](case, k / (POINTS - 1)) for k in range(POINTS)]
     try:
         found = scan(cases)

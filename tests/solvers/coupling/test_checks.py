@@ -9,10 +9,11 @@ import pytest
 from numpy.random import Generator
 
 from solvers.coupling import solve, solve_orbit
-from solvers.coupling.inputs import SleeveSupport
+from solvers.coupling.inputs import CouplingInputs, SleeveSupport
 from solvers.coupling.teeth import kinematics
-from tests.support.coupling_checks import CHECKS, check_resolution, finer
+from tests.support.coupling_checks import CHECKS, check_resolution_of, finer
 from tests.support.couplings import random_inputs
+from tests.support.stored import stored
 
 # How many cases a second allows in the default run.
 CASES = dict(zip((check.__name__ for check in CHECKS), (40, 25, 10, 3, 4), strict=True))
@@ -34,25 +35,22 @@ def test_many_random_couplings(check: Callable[[Generator], None]) -> None:
 
 
 def test_the_largest_force_is_not_among_the_highest_samples() -> None:
-    """Found by the search: of 80 teeth with errors, the sample beside the largest force was the fourteenth peak."""
-    check_resolution(np.random.default_rng([3745621194, sum(b"coupling: check_resolution"), 5842]))
+    """Of 80 teeth with errors, the sample beside the largest force was the fourteenth peak."""
+    (inputs,) = stored(CouplingInputs, "coupling", "largest force not among the highest samples")
+    check_resolution_of(inputs)
 
 
 def test_the_largest_force_between_few_loaded_teeth_is_found() -> None:
-    # Found by the search: 208 rotor angles missed up to 3.5 % of it.
-    random = np.random.default_rng(424242)
-    drawn = [random_inputs(random) for _ in range(1355)]
-    for inputs in (drawn[278], drawn[965], drawn[1354]):
+    # 208 rotor angles missed up to 3.5 % of it.
+    for inputs in stored(CouplingInputs, "coupling", "largest force between few loaded teeth"):
         with finer():
             exact = solve(inputs).lubrication.max_normal_force
         assert solve(inputs).lubrication.max_normal_force == pytest.approx(exact, rel=5e-3)
 
 
 def test_the_largest_displacement_between_few_loaded_teeth_is_found() -> None:
-    # Found by the search: 220 and 240 rotor angles missed 3.5 % and 2.2 % of it without a notice.
-    random = np.random.default_rng(424242)
-    drawn = [random_inputs(random, errors=True) for _ in range(422)]
-    for inputs in (drawn[252], drawn[421]):
+    # 220 and 240 rotor angles missed 3.5 % and 2.2 % of it without a notice.
+    for inputs in stored(CouplingInputs, "coupling", "largest displacement between few loaded teeth"):
         result = solve_orbit(inputs)
         assert not any(notice.code == "orbit_resolution" for notice in result.warnings)
         with patch.object(kinematics, "_LEAST_ROTOR_POSITIONS", 32 * kinematics._LEAST_ROTOR_POSITIONS):

@@ -1,4 +1,4 @@
-"""Studies on the worked example: corners, sensitivities, tolerances, design; figures of the specification."""
+"""Studies on the worked example: corners, sensitivities, tolerances, design; numbers of an independent calculation."""
 
 from dataclasses import replace
 

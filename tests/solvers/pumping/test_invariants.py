@@ -26,14 +26,15 @@ from tests.support.pumping_cases import (
     SCANS,
     check_books,
     check_no_jump,
+    check_no_jump_of,
     check_resolution,
+    check_resolution_of,
     numbers,
     random_gears,
-    random_setup,
-    random_speed,
     rough_gears,
     spaces_of,
 )
+from tests.support.stored import stored
 
 WEAK = PumpingSetup(
     GearPairInputs(
@@ -287,46 +288,43 @@ def test_no_jump_without_a_cause(seed: int, name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "seed", [(902102, 101), (902102, 234), (902101, 74), (902103, 172), (902105, 49), (902106, 109)]
-)
-def test_strokes_that_begin_leave_no_jump(seed: tuple[int, int]) -> None:
-    """Found by the search: the peak was that of a slice just begun, by how steps fell on its beginning."""
-    check_no_jump(np.random.default_rng(seed))
+@pytest.mark.parametrize("scanned", ["speed", "groove_position", "backlash", "face_width"])
+def test_strokes_that_begin_leave_no_jump(scanned: str) -> None:
+    """The peak was that of a slice just begun, by how steps fell on its beginning."""
+    for case in stored(PumpingInputs, "pumping", f"strokes that begin, over {scanned}"):
+        check_no_jump_of(case, scanned)
 
 
 @pytest.mark.slow
 def test_a_step_that_only_the_answer_behind_it_calls_uncertain() -> None:
-    """Found by the search: the peak steps by 2.2 % onto a pair known to 31 %, from one known to 0.3 %."""
-    check_no_jump(np.random.default_rng([3772975107, 2223, 24]))
+    """The peak steps by 2.2 % onto a pair known to 31 %, from one known to 0.3 %."""
+    (case,) = stored(PumpingInputs, "pumping", "uncertain behind a step only, over helix_angle")
+    check_no_jump_of(case, "helix_angle")
 
 
 def test_a_jump_of_the_area_is_named_and_nothing_claimed_beyond_it() -> None:
-    """Found by the search: tip gaps whose foot leaves the flank halve the area at once, on every grid the same."""
-    draw = np.random.default_rng([3772975107, 2571, 69])
-    setup = random_setup(draw)
-    inputs = PumpingInputs(setup, random_speed(draw, setup))
+    """Tip gaps whose foot leaves the flank halve the area at once, on every grid the same."""
+    (inputs,) = stored(PumpingInputs, "pumping", "jump of the area")
     result = solve(inputs)
     told = {notice.code: notice.message for notice in result.warnings}
     assert set(told) == {"area_jump", "not_resolved", "net_flow_uncertain", "spur_gear"}
     assert "the area of a tooth space jumps by 84 % at -11.40 deg" in told["area_jump"]
     peak = pinion(result).peak_pressure_ratio
     assert result.resolution.peak_pressure == pytest.approx(1.35 * peak / (peak - 1.0), rel=0.01)
-    check_resolution(np.random.default_rng([3772975107, 2571, 69]))
+    check_resolution_of(inputs)
+    setup = inputs.setup
     by_contact = solve(replace(inputs, setup=replace(setup, model=replace(setup.model, gap=Gap.CONTACT))))
     assert "area_jump" not in {notice.code for notice in by_contact.warnings}
 
 
 def test_a_stroke_faster_than_sound_takes_one_course() -> None:
-    """Found by the search: 2.3e-8 or 1.7e-8 kg a stroke out of the rear, by how the steps fell."""
-    check_resolution(np.random.default_rng([2585062864, 2571, 34]))
-    draw = np.random.default_rng([2585062864, 2571, 34])
-    setup = random_setup(draw)
-    speed = random_speed(draw, setup)
+    """2.3e-8 or 1.7e-8 kg a stroke out of the rear, by how the steps fell."""
+    (inputs,) = stored(PumpingInputs, "pumping", "stroke faster than sound")
+    check_resolution_of(inputs)
     net = []
     for slices in (100, 200):
-        model = replace(setup.model, slices=slices, spaces=Spaces.WHEEL)
-        wheel = solve(PumpingInputs(replace(setup, model=model), speed)).wheel_spaces
+        model = replace(inputs.setup.model, slices=slices, spaces=Spaces.WHEEL)
+        wheel = solve(replace(inputs, setup=replace(inputs.setup, model=model))).wheel_spaces
         assert wheel is not None
         net.append(wheel.mass_flow.rear)
     assert net[0] == pytest.approx(net[1], rel=0.04)
@@ -350,20 +348,7 @@ def test_waves_that_stay_with_the_meshing_line_are_not_called_resolved() -> None
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("seed", "cases"),
-    [
-        ((3772975107, 2571), (120, 173)),
-        ((3975487181, 2571), (47, 61)),
-        ((77,), (54, 62, 84, 139)),
-        ((902102,), (75, 124)),
-        ((902103,), (127, 268)),
-        ((902106,), (57, 102, 136)),
-        ((902108,), (44,)),
-        ((4242,), (1342, 1396, 2012)),
-    ],
-)
-def test_grids_that_agree_by_luck_are_not_taken_at_their_word(seed: tuple[int, ...], cases: tuple[int, ...]) -> None:
-    """Found by searches: half the slices alone said 1.09 % for 1.17 %, 2.7 % for 17 %; some have two peaks, or jump."""
-    for case in cases:
-        check_resolution(np.random.default_rng([*seed, case]))
+@pytest.mark.parametrize("case", stored(PumpingInputs, "pumping", "grids that agree by luck"))
+def test_grids_that_agree_by_luck_are_not_taken_at_their_word(case: PumpingInputs) -> None:
+    """Half the slices alone said 1.09 % for 1.17 %, 2.7 % for 17 %; some have two peaks, or jump."""
+    check_resolution_of(case)

@@ -29,6 +29,7 @@ from tests.support.modified_pairs import (
     turbo_pair,
     with_points,
 )
+from tests.support.stored import stored
 
 SCUFFING = Temperatures(scuffing=573.15)
 POINTS = [pytest.param(points, marks=() if points < 100 else pytest.mark.slow) for points in PATH_POINTS]
@@ -93,16 +94,15 @@ def check_backwards(inputs: ScuffingInputs, result: Scuffing) -> None:
         )
 
 
-@pytest.mark.parametrize("seed", [4, 13])
-def test_direction_does_not_matter(seed: int) -> None:
-    inputs = with_points(random_pair(np.random.default_rng(seed)), 25)
-    check_backwards(inputs, solve_scuffing(inputs))
+@pytest.mark.parametrize("inputs", stored(ScuffingInputs, "scuffing", "path taken backwards"))
+def test_direction_does_not_matter(inputs: ScuffingInputs) -> None:
+    coarse = with_points(inputs, 25)
+    check_backwards(coarse, solve_scuffing(coarse))
 
 
-@pytest.mark.parametrize("seed", [6, 12])
-def test_number_of_points_does_not_decide(seed: int) -> None:
+@pytest.mark.parametrize("inputs", stored(ScuffingInputs, "scuffing", "twice the points"))
+def test_number_of_points_does_not_decide(inputs: ScuffingInputs) -> None:
     """Twice the points move no summary number by more than 1 %: the formulas' extremes are among them."""
-    inputs = random_pair(np.random.default_rng(seed))
     check_number_of_points(inputs)
 
 

@@ -11,9 +11,10 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.path_of_contact import meshing_path
 from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.flank.modification import gap
-from solvers.scuffing.inputs import Model, Modifications, Resolution
+from solvers.scuffing.inputs import LoadDistributionInputs, Model, Modifications, Resolution
 from tests.support import flanks
 from tests.support.gear_pairs import with_torque
+from tests.support.stored import stored
 
 SHORT, LONG = 5, 60
 
@@ -32,18 +33,18 @@ def test_many_random_flanks(check: flanks.Check, case: int) -> None:
 
 
 def test_of_two_peaks_over_the_face_the_larger_one_counts() -> None:
-    """Found by the search: where lines are loaded in part a first look erred by more than two peaks differ."""
-    flanks.check_books(np.random.default_rng([3745621194, sum(b"flank: check_books"), 116]))
+    """Where lines are loaded in part a first look erred by more than two peaks differ."""
+    flanks.check_books_of(*stored(LoadDistributionInputs, "scuffing", "two peaks over the face"))
 
 
 def test_the_least_gap_within_half_a_slice_of_a_kink() -> None:
-    """Found by the search: it was taken at the kink, and the mesh was 3 % too stiff on 100 slices."""
-    flanks.check_resolution(np.random.default_rng([3745621194, sum(b"flank: check_resolution"), 1826]))
+    """It was taken at the kink, and the mesh was 3 % too stiff on 100 slices."""
+    flanks.check_resolution_of(*stored(LoadDistributionInputs, "scuffing", "least gap within half a slice of a kink"))
 
 
 def test_the_largest_line_load_of_a_light_contact() -> None:
-    """Found by the search: between roll positions its line loads are interpolated to 2 %."""
-    flanks.check_books(np.random.default_rng([3745621194, sum(b"flank: check_books"), 2303]))
+    """Between roll positions its line loads are interpolated to 2 %."""
+    flanks.check_books_of(*stored(LoadDistributionInputs, "scuffing", "largest line load of a light contact"))
 
 
 PEAKED = {
@@ -107,7 +108,7 @@ def test_default_relief_lengths_are_continuous_in_the_contact_ratio(ratio: float
     ("ratio", "fraction"), [(0.9, 0.1), (1.05, 0.1), (1.5, 1 / 3), (1.9, 0.9 / 1.9), (2.1, 0.5), (2.3, 0.5)]
 )
 def test_default_relief_length(ratio: float, fraction: float) -> None:
-    """(eps_alpha - 1) p_bt, a tenth of the path at least, half of it at most (helical.md 1.6)."""
+    """(eps_alpha - 1) p_bt, a tenth of the path at least, half of it at most."""
     path = meshing_path(paper_gears(1))
     cut = replace(path, end=path.start + ratio * path.pair.transverse_base_pitch)
     form = gap(Modifications(tip_relief=1e-6, root_relief=1e-6), cut)

@@ -7,6 +7,7 @@ import pytest
 
 from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, solve
 from tests.support.line_contacts import POINT, at_pressure, random_contacts
+from tests.support.stored import stored
 
 FINE = Model(nodes=481, refine=False)
 AS_GIVEN = Model(refine=False)
@@ -53,7 +54,7 @@ def test_the_estimate_covers_what_481_nodes_say(inputs: LineContactInputs) -> No
 
 
 def test_the_estimate_is_no_exaggeration() -> None:
-    """Film at A: 1.8 % at the centre, 1.5 % at its thinnest (table of the specification)."""
+    """Film at A: 1.8 % at the centre, 1.5 % at its thinnest."""
     error = solve(LineContactInputs(POINT, model=AS_GIVEN)).mesh_error
     assert error is not None
     assert error.central_film == pytest.approx(0.018, abs=0.004)
@@ -136,26 +137,26 @@ def test_resolution_does_not_decide(check: object) -> None:
         check(inputs)  # type: ignore[operator]
 
 
-# Newtonian contacts of which half the nodes once said too little: seed, index, what it was.
+# Newtonian contacts of which half the nodes once said too little, by what it was.
 SPIKES = [
-    pytest.param(22, 4, id="cooler film and sharper spike cancel in the flash temperature"),
-    pytest.param(22, 7, id="pressure falls between the same two nodes on both meshes"),
-    pytest.param(122, 26, id="errors of the thinnest film cancel, not those of the centre"),
-    pytest.param(122, 101, id="flash 5.2 % off, 0.03 % stated"),
-    pytest.param(901, 35, id="friction before and behind the spike's place cancels"),
-    pytest.param(901, 72, id="the hottest place moves onto the spike"),
-    pytest.param(903, 54, id="kink of the wall on one node"),
+    "cooler film and sharper spike cancel in the flash temperature",
+    "pressure falls between the same two nodes on both meshes",
+    "errors of the thinnest film cancel, not those of the centre",
+    "flash 5.2 % off, 0.03 % stated",
+    "friction before and behind the spike's place cancels",
+    "the hottest place moves onto the spike",
+    "kink of the wall on one node",
 ]
 
 
-@pytest.mark.parametrize(("seed", "index"), SPIKES)
-def test_spikes_are_not_taken_for_resolved(seed: int, index: int) -> None:
-    check_doubled_nodes(random_contacts(replace(AS_GIVEN, rheology="newtonian"), index + 1, seed)[index])
+@pytest.mark.parametrize("name", SPIKES)
+def test_spikes_are_not_taken_for_resolved(name: str) -> None:
+    check_doubled_nodes(*stored(LineContactInputs, "line_contact", name))
 
 
 def test_what_a_spike_leaves_is_stated_rather_than_chased() -> None:
     """Its smooth part is below 2 %, and more nodes would sharpen the spike."""
-    result = solve(random_contacts(Model(rheology="newtonian"), 35, seed=22)[34])
+    result = solve(*stored(LineContactInputs, "line_contact", "spike that is stated rather than chased"))
     assert result.convergence.nodes == 121
     assert result.mesh_error is not None
     assert result.mesh_error.surface_1_flash is not None
