@@ -1,4 +1,4 @@
-"""The worked example of the drive train's specification: 21 rows by two calculations, and what is read off them.
+"""The drive train's worked example: 21 rows by two calculations, and what is read off them.
 
 Slopes within 0.5 um or 1 %, K_H_beta and safety within 0.5 %, the other columns within their printed digits. Minus is a
 gap that opens towards y = 0, so that the load runs to y = b.
