@@ -151,6 +151,24 @@ class Map:
     range: tuple[float, float] | None = None
     bar: bool = True
 
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Least and greatest value that has a colour of its own: those of the range if there is one."""
+        if self.range is not None:
+            return self.range
+        finite = self.values[np.isfinite(self.values)]
+        low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+        match self.scale:
+            case Scale.RATIO:
+                reach = max(high, 1.0 / max(low, 1e-3), 1.0001)
+                return 1.0 / reach, reach
+            case Scale.SIGNED:
+                reach = max(abs(low), abs(high), 1e-12)
+                return -reach, reach
+            case Scale.MAGNITUDE:
+                low = min(low, 0.0)
+                return low, high if high > low else low + 1.0
+
 
 @dataclass(frozen=True, slots=True)
 class Level:

@@ -11,7 +11,7 @@ from app.figures.registry import figures_of
 from app.pages.query import Pairs, body_of
 from app.problems import Unprocessable
 from app.reading import InvalidBody, validated
-from app.schema.base import Request, Response
+from app.schema.base import Request
 
 COMPRESSION = 1
 
@@ -25,25 +25,28 @@ class Fault(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """A request and its answer; `fresh` is the answer to be kept, if it was not kept already."""
+    """A request and its answer; `kept` are both as they are kept, and `fresh` says that they were not yet."""
 
     calculation: Calculation
     pairs: Pairs
     request: Request
     response: Any
-    fresh: bytes | None
+    kept: bytes
+    fresh: bool
 
 
 def solved(calculation: Calculation, pairs: Pairs, kept: bytes | None) -> Case:
-    """The case with all that its figures need, from the answer kept if there is one.
+    """The case with all that its figures need; the one that is kept if there is one, whatever the fields.
 
     Raises Unreadable, InvalidBody and Unprocessable.
     """
-    request = _request(calculation, pairs)
     if kept is not None:
-        return Case(calculation, pairs, request, pickle.loads(zlib.decompress(kept)), None)  # noqa: S301  our own
-    response: Response = evaluate(calculation, request)
-    return Case(calculation, pairs, request, response, zlib.compress(pickle.dumps(response), COMPRESSION))
+        request, response = pickle.loads(zlib.decompress(kept))  # noqa: S301  our own
+        return Case(calculation, pairs, request, response, kept, fresh=False)
+    request = _request(calculation, pairs)
+    response = evaluate(calculation, request)
+    kept = zlib.compress(pickle.dumps((request, response)), COMPRESSION)
+    return Case(calculation, pairs, request, response, kept, fresh=True)
 
 
 def faults_of(error: Exception) -> list[Fault]:

@@ -1,16 +1,16 @@
-"""The figures of a case on a page: an image in its address, values for the pointer, a table below."""
+"""The figures of a case on a page: where their images are, and what the script and the table of values show of them."""
 
 import base64
 import json
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from app.figures.comparison import compared
-from app.figures.data import Bars, Figure, Line, NoFigure, Panel, Role, ThemeName, Values
+from app.figures.data import Bars, Figure, Line, NoFigure, Role, ThemeName, Values
 from app.figures.declaration import Declaration
-from app.figures.drawing.style import WIDTH
 from app.figures.registry import figures_of
 from app.figures.rendering import written
 from app.figures.tables import columns_of
@@ -19,25 +19,30 @@ from app.pages.cases import Case
 VARIANT = "variant A"
 MOST_LINES = 200
 DIGITS = 6
+PIXELS = 100  # of an inch
 
 
 @dataclass(frozen=True, slots=True)
 class Chart:
-    """A figure ready to be shown; `width` and `height` are in pixels.
+    """A figure on a page.
 
-    `series` is JSON for the script, `study` too: the points of a sweep, each of which opens its case.
+    `image` is the address of its image, `dark` that of the one for dark pages if there are two. Its values are either
+    at the address `values` or in `content`, as JSON; `study` is JSON too: the points of a sweep, each of which opens
+    its case. Width and height are in pixels, the height None where it is not known before the figure is drawn.
     """
 
     name: str
     title: str
     subtitle: str
     image: str
-    width: int
-    height: int
-    series: str
-    header: tuple[str, ...]
-    lines: tuple[tuple[str, ...], ...]
-    more: int
+    dark: str = ""
+    width: int | None = None
+    height: int | None = None
+    values: str = ""
+    content: str = ""
+    header: tuple[str, ...] = ()
+    lines: tuple[tuple[str, ...], ...] = ()
+    more: int = 0
     study: str = ""
 
 
@@ -62,45 +67,81 @@ def figure_of(declaration: Declaration, case: Case, variant: Case | None) -> Fig
     return compared(figure, other, VARIANT)
 
 
-def charts(case: Case, variant: Case | None, theme: ThemeName) -> tuple[list[Chart], list[Missing]]:
-    """Every figure of a case, and those that it lacks."""
+def charts(
+    case: Case, variant: Case | None, chart: Callable[[Declaration, Figure | None], Chart], *, compute: bool = False
+) -> tuple[list[Chart], list[Missing]]:
+    """Every figure of a case made a `chart` of, and those that it lacks.
+
+    The data of figures that need more than the answer are None unless `compute` asks for them.
+    """
     found, missing = [], []
     for declaration in figures_of(case.calculation.path):
+        known = compute or declaration.compute is None
         try:
-            figure = figure_of(declaration, case, variant)
+            found.append(chart(declaration, figure_of(declaration, case, variant) if known else None))
         except NoFigure as reason:
             missing.append(Missing(declaration.title, reason.message, reason.field))
-        else:
-            found.append(chart_of(declaration.name, figure, theme))
     return found, missing
 
 
-def chart_of(name: str, figure: Figure, theme: ThemeName) -> Chart:
-    """A figure drawn, with its values."""
-    from app.figures.drawing.image import arranged  # noqa: PLC0415  only workers draw
+def linked(
+    declaration: Declaration, figure: Figure | None, address: Callable[..., str], theme: ThemeName | None
+) -> Chart:
+    """A figure whose image and values are at addresses of their own, dark on dark pages unless the page has a theme."""
+    from app.figures.drawing.image import size  # noqa: PLC0415  only workers draw
 
-    columns = columns_of(figure)
-    cells = [column.cells(MOST_LINES) for column in columns]
-    slots, height = arranged(figure)
-    count = max((len(column.content) for column in columns), default=0)
-    lines = (tuple(_cell(each, index) for each in cells) for index in range(min(count, MOST_LINES)))
+    width, height = (round(PIXELS * length) for length in size(figure)) if figure else (None, None)
+    return Chart(
+        name=declaration.name,
+        title=figure.title if figure else declaration.title,
+        subtitle=figure.subtitle if figure else declaration.source,
+        image=address(declaration.name, "svg"),
+        dark="" if theme else address(declaration.name, "svg", theme="dark"),
+        width=width,
+        height=height,
+        values=address(declaration.name, "json"),
+    )
+
+
+def embedded(name: str, figure: Figure, theme: ThemeName | None) -> Chart:
+    """A figure that is a part of the page with its values; dark on dark pages unless the page has a theme."""
+    from app.figures.drawing.image import size  # noqa: PLC0415  only workers draw
+
+    width, height = (round(PIXELS * length) for length in size(figure))
+    header, lines, more = _table(figure)
     return Chart(
         name=name,
         title=figure.title,
         subtitle=figure.subtitle,
-        image=embedded(written(figure, "svg", theme)),
-        width=round(100 * WIDTH),
-        height=round(100 * height),
-        series=json.dumps([_panel(slot, height) for slot in slots if slot.panel.lines or slot.panel.bars]),
-        header=tuple(column.header for column in columns),
-        lines=tuple(lines),
-        more=max(count - MOST_LINES, 0),
+        image=data_address(written(figure, "svg", theme or "light")),
+        dark="" if theme else data_address(written(figure, "svg", "dark")),
+        width=width,
+        height=height,
+        content=json.dumps({"panels": _panels(figure)}),
+        header=header,
+        lines=lines,
+        more=more,
     )
 
 
-def embedded(image: bytes) -> str:
+def data_address(image: bytes) -> str:
     """An image as an address that holds it."""
     return "data:image/svg+xml;base64," + base64.b64encode(image).decode()
+
+
+def values_of(figure: Figure) -> bytes:
+    """JSON of where the panels lie in the image, their curves, and the table of values."""
+    header, lines, more = _table(figure)
+    return json.dumps({"panels": _panels(figure), "header": header, "lines": lines, "more": more}).encode()
+
+
+def _table(figure: Figure) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...], int]:
+    """The header of a table of the figure's numbers, its first lines, and how many more there are."""
+    columns = columns_of(figure)
+    cells = [column.cells(MOST_LINES) for column in columns]
+    count = max((len(column.content) for column in columns), default=0)
+    lines = (tuple(_cell(each, index) for each in cells) for index in range(min(count, MOST_LINES)))
+    return tuple(column.header for column in columns), tuple(lines), max(count - MOST_LINES, 0)
 
 
 def _cell(cells: list[str], index: int) -> str:
@@ -112,25 +153,30 @@ def _cell(cells: list[str], index: int) -> str:
         return cells[index]
 
 
-def _panel(slot: Any, height: float) -> dict[str, Any]:
-    """Where a panel lies, as fractions of the image, and its curves."""
-    from app.figures.drawing.canvas import ranges  # noqa: PLC0415  only workers draw
+def _panels(figure: Figure) -> list[dict[str, Any]]:
+    """Where each panel with curves lies, as fractions of the image, and its curves."""
+    from app.figures.drawing.image import places  # noqa: PLC0415  only workers draw
 
-    panel: Panel = slot.panel
-    x, _ = ranges(panel, slot.width, slot.height)
-    return {
-        "box": [slot.left / WIDTH, slot.top / height, slot.width / WIDTH, slot.height / height],
-        "range": [x.low, x.high, x.log],
-        "name": panel.x.title,
-        "unit": panel.x.unit or "",
-        "curves": [*(_curve(panel, line) for line in panel.lines), *(_curve(panel, bars) for bars in panel.bars)],
-    }
+    return [
+        {
+            "box": place.box,
+            "range": place.x,
+            "name": place.panel.x.title,
+            "unit": place.panel.x.unit or "",
+            "curves": [
+                *(_curve(place.panel.y.unit or "", line) for line in place.panel.lines),
+                *(_curve(place.panel.y.unit or "", bars) for bars in place.panel.bars),
+            ],
+        }
+        for place in places(figure)
+        if place.panel.lines or place.panel.bars
+    ]
 
 
-def _curve(panel: Panel, series: Line | Bars) -> dict[str, Any]:
+def _curve(unit: str, series: Line | Bars) -> dict[str, Any]:
     ordinate = series.height if isinstance(series, Bars) else series.y
     name = f"{series.title} ({VARIANT})" if series.role is Role.VARIANT else series.title
-    return {"name": name, "unit": panel.y.unit or "", "x": _numbers(series.x), "y": _numbers(ordinate)}
+    return {"name": name, "unit": unit, "x": _numbers(series.x), "y": _numbers(ordinate)}
 
 
 def _numbers(values: Values) -> list[float | None]:

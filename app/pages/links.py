@@ -17,12 +17,18 @@ IMAGE_FORMATS = ("svg", "png", "pdf", "csv")
 
 @dataclass(frozen=True, slots=True)
 class Links:
-    """Where each view of a case is; a case too long for a link has to be posted."""
+    """Where each view of a case is.
+
+    A case too long for a link has to be posted; its figures are addressed by `case`, the hash in its answer, and by
+    `ref_case`, that of the variant, while both answers are kept.
+    """
 
     path: str
     pairs: Pairs
     ref: str
     theme: str
+    case: str = ""
+    ref_case: str = ""
 
     @property
     def query(self) -> str:
@@ -67,9 +73,12 @@ class Links:
         """A study of the case that has a page of its own."""
         return self.view(name, theme=self.theme)
 
-    def image(self, figure: str, image_format: str) -> str:
+    def image(self, figure: str, image_format: str, theme: str = "") -> str:
         """One figure as a file."""
-        return self.view(f"figures/{figure}.{image_format}", ref=self.ref, theme=self.theme)
+        name, theme = f"figures/{figure}.{image_format}", theme or self.theme
+        if self.too_long:
+            return link(f"{self.path}/{name}", [], case=self.case, ref_case=self.ref_case, theme=theme)
+        return self.view(name, ref=self.ref, theme=theme)
 
 
 def examples_of(calculation: Calculation) -> list[Example]:

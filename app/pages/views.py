@@ -1,10 +1,12 @@
 """One view of one case, from its fields to bytes; runs in a worker."""
 
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
+from app.answers import key_of
 from app.calculations import CALCULATIONS, Calculation
-from app.figures.data import NoFigure, ThemeName
+from app.figures.data import Figure, NoFigure, ThemeName
+from app.figures.declaration import Declaration
 from app.figures.registry import figures_of
 from app.figures.rendering import Format, written
 from app.formats import csv
@@ -12,7 +14,7 @@ from app.formats.json import written as json_written
 from app.pages import report as reports
 from app.pages.cards import cards
 from app.pages.cases import Case, Fault, faults_of, solved
-from app.pages.charts import charts, figure_of
+from app.pages.charts import Chart, charts, data_address, figure_of, linked, values_of
 from app.pages.fields import State, anchor
 from app.pages.form import form
 from app.pages.links import IMAGE_FORMATS, Links, example_link, examples_of
@@ -47,9 +49,9 @@ class Asked:
         return BY_PAGE[self.path]
 
     @property
-    def theme(self) -> ThemeName:
-        """The theme asked for."""
-        return "dark" if self.views.get("theme") == "dark" else "light"
+    def theme(self) -> ThemeName | None:
+        """The theme asked for; a page without one follows the reader's system."""
+        return next((theme for theme in get_args(ThemeName) if theme == self.views.get("theme")), None)
 
     @property
     def outdated(self) -> list[str]:
@@ -64,12 +66,11 @@ class Asked:
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """A view; `fresh` and `fresh_ref` are answers to be kept."""
+    """A view; `keep` are answers to be kept, by their keys."""
 
     content: bytes
     status: int = 200
-    fresh: bytes | None = None
-    fresh_ref: bytes | None = None
+    keep: dict[str, bytes] = field(default_factory=dict)
 
 
 def ref_pairs(calculation: Calculation, views: dict[str, str]) -> Pairs:
@@ -88,13 +89,17 @@ def page(asked: Asked) -> Shown:
         state = State(dict(asked.pairs), _by_field(faults))
         return _page(asked, state, 400 if isinstance(error, Unreadable) else 422, faults=faults)
     variant, trouble = _variant(asked)
-    figures, missing = charts(case, variant, asked.theme)
+    links = replace(asked.links, case=case.response.case, ref_case=variant.response.case if variant else "")
+    figures, missing = charts(
+        case, variant, lambda declaration, data: linked(declaration, data, links.image, asked.theme)
+    )
     before = variant.response if variant else None
     resolved = _resolved(case)
     state = State(dict(asked.pairs), {}, resolved, _assumed(case))
     shown = _page(
         asked,
         state,
+        links=links,
         response=case.response,
         cards=cards(case.response, resolved, before),
         groups=groups(case.response, before),
@@ -105,7 +110,7 @@ def page(asked: Asked) -> Shown:
         trouble=trouble,
         curves=_curves(case),
     )
-    return replace(shown, fresh=case.fresh, fresh_ref=variant.fresh if variant else None)
+    return replace(shown, keep=_keep(asked, case, variant, by_case=links.too_long))
 
 
 def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
@@ -122,11 +127,11 @@ def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
         if found is None:
             raise Unprocessable("unknown_curve", f"There are {', '.join(_curves(case))}", "curve")
         content = found
-    return Shown(content, fresh=case.fresh)
+    return Shown(content, keep=_keep(asked, case))
 
 
-def figure(asked: Asked, name: str, image_format: Format) -> Shown:
-    """One figure as a file."""
+def figure(asked: Asked, name: str, image_format: Format | Literal["json"]) -> Shown:
+    """One figure as a file; as JSON what the script of the pages needs of it."""
     case = solved(asked.calculation, asked.pairs, asked.kept)
     variant, _ = _variant(asked)
     declaration = next(each for each in figures_of(asked.calculation.path) if each.name == name)
@@ -134,7 +139,8 @@ def figure(asked: Asked, name: str, image_format: Format) -> Shown:
         data = figure_of(declaration, case, variant)
     except NoFigure as reason:
         raise Unprocessable(reason.code, reason.message, reason.field) from reason
-    return Shown(written(data, image_format, asked.theme), fresh=case.fresh)
+    content = values_of(data) if image_format == "json" else written(data, image_format, asked.theme or "light")
+    return Shown(content, keep=_keep(asked, case, variant))
 
 
 def report(asked: Asked, address: str) -> Shown:
@@ -143,7 +149,7 @@ def report(asked: Asked, address: str) -> Shown:
         case = solved(asked.calculation, asked.pairs, asked.kept)
     except REFUSED:
         return page(asked)
-    figures, missing = charts(case, None, "light")
+    figures, missing = charts(case, None, _printed, compute=True)
     place = "" if asked.links.too_long else address + asked.links.alone
     context = reports.context(case, asked.views, address, place)
     content = rendered(
@@ -158,12 +164,33 @@ def report(asked: Asked, address: str) -> Shown:
         outdated=asked.outdated,
         **context,
     )
-    return Shown(content.encode(), fresh=case.fresh)
+    return Shown(content.encode(), keep=_keep(asked, case))
+
+
+def _printed(declaration: Declaration, data: Figure | None) -> Chart:
+    """A figure as a part of the report."""
+    assert data is not None
+    return Chart(declaration.name, data.title, data.subtitle, data_address(written(data, "svg", "light")))
+
+
+def case_key(path: str, case: str) -> str:
+    """What an answer of a page's calculation is kept under that is asked for by its hash."""
+    return key_of(path, [("case", case)])
+
+
+def _keep(asked: Asked, case: Case, variant: Case | None = None, *, by_case: bool = False) -> dict[str, bytes]:
+    """Answers that were not kept yet, by the keys of their fields; all of them by their hash too if asked for."""
+    keep = {key_of(asked.path, asked.pairs): case.kept} if case.fresh else {}
+    if variant is not None and variant.fresh:
+        keep[key_of(asked.path, ref_pairs(asked.calculation, asked.views))] = variant.kept
+    if by_case:
+        keep |= {case_key(asked.path, each.response.case): each.kept for each in (case, variant) if each is not None}
+    return keep
 
 
 def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
     calculation = asked.calculation
-    context = {"faults": [], "response": None, "compared": False, "trouble": "", **found}
+    context = {"faults": [], "response": None, "compared": False, "trouble": "", "links": asked.links, **found}
     sections = form(calculation.request, state)
     content = rendered(
         "calculation.html",
@@ -171,7 +198,6 @@ def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
         path=asked.path,
         model=model_of(calculation),
         sections=sections,
-        links=asked.links,
         outdated=asked.outdated,
         theme=asked.views.get("theme", ""),
         ref=asked.views.get("ref", ""),
@@ -188,7 +214,7 @@ def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
 
 def _variant(asked: Asked) -> tuple[Case | None, str]:
     """The case to compare with, or why it cannot be computed."""
-    if not asked.views.get("ref"):
+    if not asked.views.get("ref") and asked.kept_ref is None:
         return None, ""
     try:
         return solved(asked.calculation, ref_pairs(asked.calculation, asked.views), asked.kept_ref), ""

@@ -83,9 +83,13 @@ def _add(calculation: Calculation) -> None:
         return await _answer(http, calculation, place, DOCUMENT_POLICY, types[media], views.result, media)
 
     async def figure(http: Request, name: str, image_format: str) -> Response:
-        if name not in names or image_format not in MEDIA_TYPES:
+        kinds = {str(each): kind for each, kind in MEDIA_TYPES.items()} | {"json": "application/json"}
+        if name not in names or image_format not in kinds:
             raise HTTPException(404, f"There are {', '.join(names)}, each as {', '.join(MEDIA_TYPES)}")
-        media = {str(name): kind for name, kind in MEDIA_TYPES.items()}[image_format]
+        media = kinds[image_format]
+        if "case" in http.query_params:
+            shown = await _shown(http, _kept(http, path), views.figure, (name, image_format))
+            return Response(shown.content, media_type=media, headers={"Content-Security-Policy": DOCUMENT_POLICY})
         place = f"{path}/figures/{name}.{image_format}"
         return await _answer(http, calculation, place, DOCUMENT_POLICY, media, views.figure, name, image_format)
 
@@ -152,16 +156,26 @@ async def asked_of(http: Request, calculation: Calculation) -> tuple[views.Asked
     return asked, pairs == sent and given == looks
 
 
+def _kept(http: Request, path: str) -> views.Asked:
+    """The case whose hash is asked for, and its variant; 410 where an answer is not kept any more."""
+    answers: Answers = http.app.state.answers
+    query = http.query_params
+    kept, kept_ref = (
+        answers.get(views.case_key(path, query[name])) if query.get(name) else None for name in ("case", "ref_case")
+    )
+    if kept is None or (query.get("ref_case") and kept_ref is None):
+        raise HTTPException(410, "The answer of this case is no longer kept; calculate the case again")
+    return views.Asked(path, [], {"theme": query.get("theme", "")}, kept, kept_ref)
+
+
 async def _shown(
     http: Request, asked: views.Asked, view: Callable[..., views.Shown], arguments: tuple[Any, ...]
 ) -> views.Shown:
     runner: Runner = http.app.state.runner
     answers: Answers = http.app.state.answers
     shown: views.Shown = await runner.run(http, view, asked, *arguments)
-    if shown.fresh is not None:
-        answers.keep(key_of(asked.path, asked.pairs), shown.fresh)
-    if shown.fresh_ref is not None:
-        answers.keep(key_of(asked.path, views.ref_pairs(asked.calculation, asked.views)), shown.fresh_ref)
+    for key, answer in shown.keep.items():
+        answers.keep(key, answer)
     return shown
 
 

@@ -125,7 +125,13 @@ def test_figures_and_links_of_the_page(name: str) -> None:
     calculation = CALCULATION[examples()[name].endpoint]
     shown = html.count('<figure class="chart"') + html.count('<p class="missing">')
     assert shown == len(figures_of(calculation.path))
-    assert html.count("data:image/svg+xml;base64,") == html.count('<figure class="chart"') > 0
+    assert "data:image" not in html
+    names = re.findall(r'<figure class="chart" id="figure-([^"]+)"', html)
+    assert names
+    for drawn in names:
+        address = f'{page_path(calculation)}/figures/{drawn}.svg?[^"]*'
+        assert re.search(f'<img src="{address}" loading="lazy"[^>]* alt="[^"]+"', html)
+        assert re.search(f'<source srcset="{address}theme=dark" media="\\(prefers-color-scheme: dark\\)"', html)
     for view in ("result.csv?", "result.json?", "report?"):
         assert f'href="{page_path(calculation)}/{view}' in html
 
@@ -232,13 +238,78 @@ def test_compare_shows_both_cases() -> None:
     changed = examples()["xue-pair-1-scuffing"].request | {"modifications": {"profile_crowning_um": 10}}
     shown = views.page(views.Asked("/scuffing", pairs_of(changed), {"ref": ref}))
     html = shown.content.decode()
-    assert shown.fresh_ref is not None
+    assert len(shown.keep) == 2
     assert "variant A" in html
     assert "End comparison" in html
     assert re.search(r"→ <strong>[+−][\d.]+ %</strong>", html)
-    same = views.page(views.Asked("/scuffing", pairs_of(changed), {"ref": ref}, shown.fresh, shown.fresh_ref))
+    same = views.page(views.Asked("/scuffing", pairs_of(changed), {"ref": ref}, *shown.keep.values()))
     assert same.content == shown.content
-    assert same.fresh is None
+    assert same.keep == {}
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_a_page_with_a_theme_has_figures_of_that_theme_alone(theme: str) -> None:
+    html = views.page(asked("pahl-axial-displacement", theme=theme)).content.decode()
+    images = re.findall(r'<img src="([^"]+)"', html)
+    assert images
+    assert all(image.endswith(f"&amp;theme={theme}") for image in images)
+    assert "<source" not in html
+
+
+def test_figures_of_a_page_are_drawn_from_the_kept_answer() -> None:
+    case = asked("xue-pair-1-scuffing")
+    (kept,) = views.page(case).keep.values()
+    again = views.Asked(case.path, case.pairs, {}, kept)
+    for declaration in figures_of("/v1/scuffing"):
+        if declaration.name == "friction":  # of the thermal solution only
+            continue
+        svg = views.figure(again, declaration.name, "svg")
+        assert svg.content == views.figure(case, declaration.name, "svg").content
+        assert svg.keep == {}
+        found = json.loads(views.figure(again, declaration.name, "json").content)
+        assert len(found["header"]) == len(found["lines"][0])
+        for panel in found["panels"]:
+            left, top, width, height = panel["box"]
+            assert 0.0 < left < left + width <= 1.0
+            assert 0.0 < top < top + height <= 1.0
+
+
+def long_case(torque: str) -> dict[str, str]:
+    """A coupling whose pitch errors make its link too long."""
+    errors = ",".join(f"{0.123456789 * (index % 7):.12f}" for index in range(400))
+    fields = dict(pairs_of(examples()["pahl-axial-displacement"].request))
+    return fields | {"coupling.teeth": "400", "coupling.pitch_errors_um": errors, "operation.torque_n_m": torque}
+
+
+def test_figures_of_a_posted_case_are_addressed_by_its_hash(client: httpx.Client) -> None:
+    fields = long_case("3000")
+    html = client.post("/coupling", data=fields).text
+    case = client.post("/coupling/result.json", data=fields).json()["case"]
+    images = [unescape(each) for each in re.findall(r'<img src="([^"]+)"', html)]
+    assert len(images) == len(figures_of("/v1/coupling"))
+    for image in images:
+        assert f"case={case}" in image
+        answer = client.get(image)
+        assert answer.status_code == 200
+        assert answer.headers["content-type"] == "image/svg+xml"
+    assert client.get(f"/coupling/figures/losses.csv?case={case}").status_code == 200
+    compared = client.post("/coupling", data=fields | {"ref": link("", list(long_case("2000").items()))[1:]}).text
+    image = unescape(re.findall(r'<img src="([^"]+)"', compared)[0])
+    assert "ref_case=" in image
+    assert "dashed: variant A" in client.get(image).text
+
+
+def test_a_case_that_is_not_kept_any_more_is_gone(client: httpx.Client) -> None:
+    case = client.post("/coupling/result.json", data=long_case("3000")).json()["case"]
+    client.post("/coupling", data=long_case("3000"))
+    for address in (
+        "/coupling/figures/losses.svg?case=" + 64 * "0",
+        f"/coupling/figures/losses.svg?case={case}&ref_case={64 * '0'}",
+        f"/pumping/figures/stroke.svg?case={case}",
+    ):
+        answer = client.get(address)
+        assert answer.status_code == 410
+        assert "no longer kept" in answer.json()["detail"]
 
 
 def test_missing_headline_says_what_it_needs() -> None:

@@ -1,1 +1,1 @@
-"""How a figure is drawn: style -> labels, scales -> canvas -> curves, annotations -> panels, maps, rows -> image."""
+"""Draws the data of a figure with matplotlib: `style` its look, `panels` what stands in axes, `image` the sheet."""

@@ -1,12 +1,9 @@
-"""From a figure's data to the bytes of an image: layout, house style, formats.
+"""From the data of a figure to the bytes of an image: sheet, layout and formats. Equal figures give equal bytes."""
 
-Margins are computed, not searched for: nothing is measured by drawing it. Equal figures give equal bytes.
-"""
-
-from dataclasses import dataclass
 from io import BytesIO
-from itertools import accumulate, pairwise
-from typing import Any
+from itertools import pairwise
+from textwrap import fill
+from typing import Any, NamedTuple
 
 from matplotlib import rc_context
 from matplotlib.axes import Axes
@@ -14,25 +11,21 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure as Sheet
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-from app.figures.data import Figure, Map, Panel, ThemeName
-from app.figures.drawing.annotations import end_width, legend_rows
-from app.figures.drawing.canvas import Canvas, ranges
-from app.figures.drawing.labels import Placer
-from app.figures.drawing.maps import BAR_GAP, BAR_WIDTH, color_bar_width, draw_color_bar, draw_map
-from app.figures.drawing.panels import LEGEND_SPACING, draw_panel
-from app.figures.drawing.rows import draw_rows, names_width, rows_height, rows_range
-from app.figures.drawing.style import DPI, SMALL, TEXT, THEMES, TITLE, WIDTH, Theme, settings, wrapped
+from app.figures.data import Figure, Panel, ThemeName
+from app.figures.drawing.panels import draw_panel, place_texts
+from app.figures.drawing.style import DPI, TEXT, THEMES, TITLE, WIDTH, Theme, settings
 
-EDGE, TICKS = 0.18, 0.46  # left and right of everything; room for the ordinate's numbers
-TITLE_LINE, SUBTITLE_LINE, HEAD_GAP = 0.24, 0.165, 0.1
-LABEL_LINE = 0.25  # with the ordinate's name, above the panel
-TICK_LINE, AXIS_LINE, FOOT = 0.22, 0.2, 0.1
-HEIGHTS = {1: 2.9, 2: 1.75, 3: 1.3}  # of panels above each other
-MAP_HEIGHT, PLANE_HEIGHT = 2.9, 3.4
-DPIS = {"svg": 100, "png": DPI, "pdf": DPI}  # of the images inside the vectors too
+EDGE = 0.1  # inches around everything
+TITLE_LINE, FINDING_LINE = 1.3 * TITLE / 72.0, 1.3 * TEXT / 72.0
+TITLE_LENGTH, FINDING_LENGTH = 58, 84  # characters of a line
+HEIGHTS = {1: 2.6, 2: 1.65, 3: 1.3}  # inches, of panels above each other
+PLANE_HEIGHT = 3.3
+ROW_HEIGHT = 0.26
+ABSCISSA = 0.45  # inches, ticks and name
 CANVASES = {"svg": FigureCanvasSVG, "png": FigureCanvasAgg, "pdf": FigureCanvasPdf}
-# No date and no version in any of them.
+# Neither date nor version, so that equal figures give equal bytes.
 METADATA: dict[str, dict[str, str | None]] = {
     "svg": {"Date": None, "Creator": None},
     "png": {"Software": None},
@@ -40,200 +33,103 @@ METADATA: dict[str, dict[str, str | None]] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Slot:
-    """Place of a panel on the sheet in inches, from its top left corner; whether it shows its abscissa.
-
-    Lying bars share the range of their `peers`; a panel whose left neighbour has its `ordinate` does not name it again.
-    """
-
-    panel: Panel
-    left: float
-    top: float
-    width: float
-    height: float
-    abscissa: bool
-    peers: tuple[Panel, ...] = ()
-    ordinate: bool = True
-
-
-class BareAxes(Axes):
-    """Axes whose ticks are never made: the canvas draws its own, and making matplotlib's takes longer than the rest."""
-
-    def grid(self, *_: Any, **__: Any) -> None:
-        """No grid of its own."""
-
-
 def draw(figure: Figure, image_format: str, theme_name: ThemeName = "light") -> bytes:
-    """The image in one of the formats svg, png and pdf."""
+    """The image as svg, png or pdf."""
     theme = THEMES[theme_name]
-    with rc_context(settings(theme)):
-        sheet = drawn(figure, theme)
-        image = BytesIO()
-        CANVASES[image_format](sheet)
-        metadata = METADATA[image_format] | {"Title": figure.title}
-        sheet.savefig(image, format=image_format, metadata=metadata, dpi=DPIS[image_format])
+    with rc_context(settings(theme_name)):
+        sheet, _ = laid_out(figure, theme)
+        sheet.set_dpi(DPI[image_format])
+        image, metadata = BytesIO(), METADATA[image_format] | {"Title": figure.title}
+        canvas: Any = CANVASES[image_format](sheet)
+        getattr(canvas, f"print_{image_format}")(image, metadata=metadata)  # `savefig` draws everything twice
         return image.getvalue()
 
 
-def drawn(figure: Figure, theme: Theme) -> Sheet:
-    """The sheet with everything on it; inside the theme's settings."""
-    title, subtitle = _wrapped_head(figure)
-    slots, height = arranged(figure)
-    sheet = Sheet(figsize=(WIDTH, height), dpi=DPI)
-    _draw_head(sheet, title, subtitle, height, theme)
-    for slot in slots:
-        _draw_slot(sheet, slot, height, theme)
-    return sheet
+class Place(NamedTuple):
+    """Where the axes of a panel lie: left, top, width and height as fractions of the image; their ends, and if log."""
+
+    panel: Panel
+    box: tuple[float, float, float, float]
+    x: tuple[float, float, bool]
+    y: tuple[float, float, bool]
 
 
-def arranged(figure: Figure) -> tuple[list[Slot], float]:
-    """The places of the panels, and the height of the sheet."""
-    title, subtitle = _wrapped_head(figure)
-    head = EDGE + TITLE_LINE * (1 + title.count("\n")) + SUBTITLE_LINE * (1 + subtitle.count("\n")) + HEAD_GAP
-    slots = _beside(figure, head) if figure.beside else _stacked(figure, head)
-    return slots, max(slot.top + slot.height + _foot(slot) for slot in slots) + FOOT
+def places(figure: Figure) -> list[Place]:
+    """The places of the panels."""
+    with rc_context(settings("light")):
+        _, axes = laid_out(figure, THEMES["light"])
+    found = []
+    for panel, each in zip(figure.panels, axes, strict=True):
+        box = each.get_position()
+        x, y = (*each.get_xlim(), panel.x.log), (*each.get_ylim(), panel.y.log)
+        found.append(Place(panel, (box.x0, 1.0 - box.y1, box.width, box.height), x, y))
+    return found
 
 
-def _wrapped_head(figure: Figure) -> tuple[str, str]:
-    width = WIDTH - 2 * EDGE
-    return wrapped(figure.title, TITLE, width, bold=True), wrapped(figure.subtitle, TEXT, width)
+def size(figure: Figure) -> tuple[float, float]:
+    """Width and height of the image in inches."""
+    title, finding = _head(figure)
+    lines = TITLE_LINE * (1 + title.count("\n")) + FINDING_LINE * (1 + finding.count("\n"))
+    return WIDTH, 2 * EDGE + lines + _body_height(figure)
 
 
-def _draw_head(sheet: Sheet, title: str, subtitle: str, height: float, theme: Theme) -> None:
-    top = height - EDGE
-    sheet.text(EDGE / WIDTH, top / height, title, fontsize=TITLE, fontweight="bold", color=theme.ink, va="top")
-    below = top - TITLE_LINE * (1 + title.count("\n"))
-    sheet.text(EDGE / WIDTH, below / height, subtitle, fontsize=TEXT, color=theme.muted, va="top", linespacing=1.25)
+def _head(figure: Figure) -> tuple[str, str]:
+    return fill(figure.title, TITLE_LENGTH), fill(figure.subtitle, FINDING_LENGTH)
 
 
-def _stacked(figure: Figure, top: float) -> list[Slot]:
-    """Panels above each other with common edges; only the lowest of those with the same abscissa shows it."""
-    panels = figure.panels
-    left = EDGE + max(names_width(panel) if panel.rows else TICKS for panel in panels)
-    right = EDGE + max(_right(panel) for panel in panels)
-    slots: list[Slot] = []
-    for index, panel in enumerate(panels):
-        shared = index + 1 < len(panels) and not panel.rows and panels[index + 1].x == panel.x
-        width = WIDTH - left - right
-        top += _above(panel, width)
-        peers = tuple(each for each in panels if each.rows and each.x == panel.x)
-        slot = Slot(panel, left, top, width, _height(panel, len(panels), width), not shared, peers)
-        slots.append(slot)
-        top += slot.height + (_foot(slot) if slot.abscissa else 0.06)
-    return slots
+def laid_out(figure: Figure, theme: Theme) -> tuple[Sheet, list[Axes]]:
+    """The sheet with everything on it at its place, and the axes of the panels; inside the theme's settings."""
+    (title, finding), (width, height) = _head(figure), size(figure)
+    engine = ConstrainedLayoutEngine(rect=(0, 0, 1, _body_height(figure) / height), w_pad=EDGE, h_pad=EDGE / 2)
+    sheet = Sheet(figsize=(width, height), dpi=DPI["svg"], layout=engine)
+    canvas: Any = FigureCanvasAgg(sheet)
+    left, top = EDGE / WIDTH, 1.0 - EDGE / height
+    sheet.text(left, top, title, fontsize=TITLE, fontweight="bold", va="top", linespacing=1.2)
+    below = top - TITLE_LINE * (1 + title.count("\n")) / height
+    sheet.text(left, below, finding, fontsize=TEXT, color=theme.muted, va="top", linespacing=1.2)
+    axes = _axes(sheet, figure)
+    for each, panel in zip(axes, figure.panels, strict=True):
+        draw_panel(each, panel, theme, _height(panel, figure))
+    sheet.align_ylabels(axes)
+    engine.execute(sheet)
+    sheet.set_layout_engine("none")
+    for each, panel in zip(axes, figure.panels, strict=True):
+        place_texts(each, panel, canvas.get_renderer())
+    return sheet, axes
 
 
-def _beside(figure: Figure, top: float) -> list[Slot]:
-    """Panels of one height in a row."""
-    panels = figure.panels
-    margins = [(TICKS, _right(panel)) for panel in panels]
-    free = WIDTH - 2 * EDGE - sum(left + right for left, right in margins) - 0.12 * (len(panels) - 1)
-    width = free / len(panels)
-    top += max(_above(panel, width) for panel in panels)
-    edges = list(accumulate((left + width + right + 0.12 for left, right in margins), initial=EDGE))
-    named = [True, *(panel.y.label != left.y.label for left, panel in pairwise(panels))]
-    return [
-        Slot(
-            panel,
-            edge + left,
-            top,
-            width,
-            min(_height(panel, 1, width), 1.35 * width + 0.4),
-            abscissa=True,
-            ordinate=name,
-        )
-        for panel, edge, (left, _), name in zip(panels, edges[:-1], margins, named, strict=True)
-    ]
+def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
+    """Axes above or beside each other; of those above each other with one abscissa only the lowest names it."""
+    count = len(figure.panels)
+    if figure.beside:
+        axes = [sheet.add_subplot(1, count, index + 1) for index in range(count)]
+        for each, (left, panel) in zip(axes[1:], pairwise(figure.panels), strict=True):
+            each.yaxis.label.set_visible(panel.y.label != left.y.label)
+        return axes
+    heights = [_height(panel, figure) for panel in figure.panels]
+    grid = sheet.add_gridspec(max(count, 1), 1, height_ratios=heights or None)
+    axes = []
+    for index, panel in enumerate(figure.panels):
+        above = axes[-1] if index and figure.panels[index - 1].x == panel.x else None
+        axes.append(sheet.add_subplot(grid[index], sharex=above))
+        if above is not None and not panel.rows:
+            above.tick_params(labelbottom=False)
+            above.xaxis.label.set_visible(False)
+    return axes
 
 
-def _above(panel: Panel, width: float) -> float:
-    title = 0.2 if panel.title else 0.0
-    return (
-        title
-        + LABEL_LINE
-        + LEGEND_SPACING * len(legend_rows(panel, width))
-        - (LABEL_LINE - 0.08 if panel.rows else 0.0)
-    )
+def _body_height(figure: Figure) -> float:
+    heights = [_height(panel, figure) for panel in figure.panels]
+    if figure.beside:
+        return max(heights) + ABSCISSA
+    named = [panel.rows or panel.x != below.x for panel, below in pairwise(figure.panels)]
+    return sum(heights) + ABSCISSA * (1 + sum(map(bool, named)))
 
 
-def _right(panel: Panel) -> float:
-    """Room beside a panel."""
-    if panel.map is not None:
-        return color_bar_width(panel.map) if panel.map.bar else 0.08
-    return max(end_width(panel), 0.08)
-
-
-def _height(panel: Panel, count: int, width: float) -> float:
+def _height(panel: Panel, figure: Figure) -> float:
+    """Height of a panel without what stands below it, in inches."""
     if panel.rows:
-        return rows_height(panel)
-    if panel.equal:
-        return min(width, PLANE_HEIGHT)
-    if panel.areas:
+        return ROW_HEIGHT * (len({row.name for row in panel.rows}) + (1 if panel.levels or panel.title else 0.3))
+    if panel.equal or panel.areas:
         return PLANE_HEIGHT
-    return MAP_HEIGHT if panel.map is not None else HEIGHTS[min(count, max(HEIGHTS))]
-
-
-def _foot(slot: Slot) -> float:
-    return TICK_LINE + AXIS_LINE if slot.abscissa else 0.0
-
-
-def _draw_slot(sheet: Sheet, slot: Slot, height: float, theme: Theme) -> None:
-    panel, size = slot.panel, (slot.width, slot.height)
-    axes = _axes(sheet, slot.left, slot.top, size, height)
-    if panel.rows:
-        draw_rows(axes, panel, rows_range(slot.peers, slot.width), *size, theme)
-    elif panel.map is not None:
-        draw_map(axes, panel, panel.map, size, theme)
-        if panel.map.bar:
-            bar = (BAR_WIDTH, slot.height)
-            beside = _axes(sheet, slot.left + slot.width + BAR_GAP, slot.top, bar, height)
-            draw_color_bar(beside, panel.map, bar, theme)
-    else:
-        draw_panel(Canvas(axes, *ranges(panel, *size), Placer(*size), theme), panel, tick_names=slot.abscissa)
-    _draw_names(sheet, slot, height, theme)
-
-
-def _axes(sheet: Sheet, left: float, top: float, size: tuple[float, float], height: float) -> Axes:
-    width, tall = size
-    place = (left / WIDTH, 1.0 - (top + tall) / height, width / WIDTH, tall / height)
-    return sheet.add_axes(place, axes_class=BareAxes)
-
-
-def _draw_names(sheet: Sheet, slot: Slot, height: float, theme: Theme) -> None:
-    """The ordinate's name above the panel, the abscissa's below, the panel's own on top."""
-    panel = slot.panel
-    lift = slot.top - 0.07 - LEGEND_SPACING * len(legend_rows(panel, slot.width))
-    name = panel.y.label
-    if panel.map is not None and panel.map.bar:
-        _name_colors(sheet, panel.map, lift, height, theme)
-    start = slot.left if panel.rows else slot.left - TICKS + 0.1
-    if not panel.rows:
-        if slot.ordinate:
-            sheet.text(start / WIDTH, 1.0 - lift / height, name, fontsize=SMALL, color=theme.muted)
-        lift -= LABEL_LINE
-    if panel.title:
-        lift -= 0.01
-        above = slot.top - 0.07 - (0.0 if panel.rows else LABEL_LINE - 0.02)
-        sheet.text(
-            slot.left / WIDTH, 1.0 - above / height, panel.title, fontsize=TEXT, fontweight="bold", color=theme.ink
-        )
-    if slot.abscissa:
-        below = 1.0 - (slot.top + slot.height + TICK_LINE) / height
-        middle = (slot.left + slot.width / 2) / WIDTH
-        sheet.text(
-            middle,
-            below,
-            panel.x.label,
-            fontsize=SMALL,
-            color=theme.muted,
-            ha="center",
-            va="top",
-        )
-
-
-def _name_colors(sheet: Sheet, chart: Map, lift: float, height: float, theme: Theme) -> None:
-    """What the colours mean, flush with the right edge."""
-    name = f"{chart.title}, {chart.unit}" if chart.unit else chart.title
-    place = (WIDTH - EDGE) / WIDTH, 1.0 - lift / height
-    sheet.text(*place, name, fontsize=SMALL, color=theme.muted, ha="right")
+    return HEIGHTS[1 if figure.beside else min(len(figure.panels), max(HEIGHTS))]

@@ -1,48 +1,347 @@
-"""Draws one panel of curves and bars."""
+"""Draws what stands in one pair of axes: lines, bars, rows, maps, areas, their limits, spans, marks and names."""
 
-from app.figures.data import Panel
-from app.figures.drawing.annotations import (
-    draw_legend,
-    draw_level,
-    draw_mark,
-    draw_span,
-    name_level,
-    name_line_ends,
-    name_marks,
-    name_span,
-)
-from app.figures.drawing.canvas import Canvas
-from app.figures.drawing.curves import draw_area, draw_bars, draw_line, draw_ribbon
+from collections.abc import Iterator
+from itertools import pairwise
+from textwrap import fill
+from typing import Any, NamedTuple
 
-LEGEND_SPACING = 0.17
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.backend_bases import RendererBase
+from matplotlib.colors import LogNorm, Normalize
+from matplotlib.lines import Line2D
+from matplotlib.patches import Rectangle
+from matplotlib.path import Path
+from matplotlib.text import Text
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
+from matplotlib.transforms import Bbox, BboxBase
+
+from app.figures.data import Area, Axis, Bars, Level, Line, Map, Panel, Role, Scale
+from app.figures.drawing.style import DASHES, LETTER, LIMIT_DASHES, LINE_HEIGHT, REFERENCE_DASHES, TEXT, Theme
+from app.figures.wording import number
+
+FARTHEST_LEVEL = 4.0  # a limit beyond so many times the values is named at the edge instead of flattening them
+NAME_LENGTH = 17  # characters of a line of a name beside the axes
+BAR_SHARE = 0.8  # of the spacing
+FAINT = 0.6  # of bars beside the extreme one
+RING = 5  # pixels
+# Texts whose place is found when the layout is known; those of points are tried above them first, or below.
+AREA, SIDES = "area", {"above": 1, "below": -1}
+COLOURS = {Scale.MAGNITUDE: "cividis", Scale.RATIO: "RdBu_r", Scale.SIGNED: "RdBu_r"}
+RATIO_TICKS = (0.1, 0.2, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0)
+LINEAR_RATIO = 1.3  # up to which a ratio's ticks are evenly spaced
+CROWDED = 0.05  # of the colour bar: a tick nearer to a critical value gives way
+SHORT = 0.02  # of the longest bar: the value of a shorter one stands at its right, negative or not
+NOISE = 1e-9  # of the values: what varies by less is rounding error
+STEPS = (1, 2, 2.5, 5, 10)
+NUMBERS = FuncFormatter(lambda value, _: number(value, digits=6))
+
+Style = dict[str, Any]  # of matplotlib's artists
 
 
-def draw_panel(canvas: Canvas, panel: Panel, *, tick_names: bool) -> None:
-    """Everything of the panel from the ground up; texts last and in the order of their worth."""
-    canvas.frame(upright=not panel.areas, across=not panel.areas, tick_names=tick_names)
-    for span in panel.spans:
-        draw_span(canvas, span)
-    for bars in panel.bars:
-        beside = [each for each in panel.bars if each.role is bars.role]
-        draw_bars(canvas, bars, beside.index(bars), len(beside))
-    for ribbon in panel.ribbons:
-        draw_ribbon(canvas, ribbon)
-    for line in panel.lines:
-        draw_line(canvas, line)
-    for level in panel.levels:
-        draw_level(canvas, level)
-    for mark in panel.marks:
-        draw_mark(canvas, mark)
-    _write_texts(canvas, panel)
+class Name(NamedTuple):
+    """A name beside the axes: where its line ends, from 0 at the bottom to 1 at the top, and its line in a legend."""
+
+    end: float
+    text: str
+    color: str
+    handle: Artist
 
 
-def _write_texts(canvas: Canvas, panel: Panel) -> None:
+def draw_panel(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
+    """Everything of a panel of a height in inches; the texts inside the axes stay for `place_texts`."""
+    for which, quantity in (("x", panel.x), ("y", panel.y)):
+        _scale(axes, which, quantity)
     for area in panel.areas:
-        draw_area(canvas, area)  # its name can stand in few places, that of a mark in many
-    name_marks(canvas, panel.marks)
-    for level in panel.levels:
-        name_level(canvas, level)
+        _draw_area(axes, area, theme)
+    if panel.rows:
+        _draw_rows(axes, panel, theme)
+    if panel.map is not None:
+        _draw_map(axes, panel.map, theme)
+    for bars in panel.bars:
+        _draw_bars(axes, bars, [each for each in panel.bars if each.role is bars.role], theme)
+    for ribbon in panel.ribbons:
+        color = theme.drawing[ribbon.hue]
+        axes.fill_between(ribbon.x, ribbon.low, ribbon.high, facecolor=color, alpha=0.22, linewidth=0)
+        axes.plot(ribbon.x, np.column_stack([ribbon.low, ribbon.high]), color=color, linewidth=0.8)
+    for line in panel.lines:
+        _draw_line(axes, line, theme)
+    _draw_marks(axes, panel, theme)
+    levels = _draw_levels(axes, panel, theme)
     for span in panel.spans:
-        name_span(canvas, span)
-    name_line_ends(canvas, panel)
-    draw_legend(canvas, panel, LEGEND_SPACING)
+        axes.axvspan(span.start, span.stop, facecolor=theme.shade, edgecolor="none", zorder=2 if panel.map else 0)
+        _name(axes, span.name, ((span.start + span.stop) / 2, 1.0), theme.muted, theme, axes.get_xaxis_transform())
+    _end(axes, panel)
+    axes.set(xlabel=panel.x.label, title=panel.title or "")
+    if not panel.rows:
+        axes.set_ylabel(fill(panel.y.label, max(round(height / LETTER), 10)))
+    _name_beside(axes, panel, levels, theme, height)
+
+
+def _scale(axes: Axes, which: str, quantity: Axis) -> None:
+    """Linear or logarithmic, with the numbers at the ticks."""
+    axis = axes.xaxis if which == "x" else axes.yaxis
+    if quantity.log:
+        axes.set(**{f"{which}scale": "log"})
+        axis.set_major_locator(LogLocator(numticks=7))
+        axis.set_minor_locator(NullLocator())
+    elif quantity.ticks is None:
+        axis.set_major_locator(MaxNLocator(nbins=6, steps=STEPS))
+    if quantity.ticks is not None:
+        axis.set_ticks(quantity.ticks)
+    axis.set_major_formatter(NUMBERS)
+
+
+def _end(axes: Axes, panel: Panel) -> None:
+    """The ends of the axes where they are asked for; no axis shows rounding errors."""
+    if panel.equal:
+        axes.set_aspect("equal", adjustable="datalim")
+        axes.margins(0.08)
+        return
+    if panel.rows:
+        drawn = [each.dataLim for each in axes.get_shared_x_axes().get_siblings(axes)]
+        low, high = Bbox.union([box for box in drawn if np.isfinite(box.intervalx).all()]).intervalx
+        reach = high - low
+        axes.set_xlim(low - 0.35 * reach if low < -SHORT * reach else low, high + 0.04 * reach)
+        return
+    axes.margins(y=0.0 if panel.map else 0.16 if panel.marks else 0.08)
+    axes.set_xlim(panel.x.limits)
+    low, high = panel.y.limits or axes.get_ylim()
+    widest = max(abs(low), abs(high))
+    noise = 0.5 * widest if high - low <= NOISE * widest else 0.0
+    axes.set_ylim(low - noise, high + noise)
+
+
+def _draw_line(axes: Axes, line: Line, theme: Theme) -> None:
+    """A curve; a point whose neighbours have no value, which a line would not show, as a dot."""
+    color, width = theme.drawing[line.hue], 1.6 if line.role is Role.RESULT else 1.4
+    axes.plot(line.x, line.y, color=color, linestyle=DASHES[line.role], linewidth=width)
+    known = np.concatenate([[False], np.isfinite(line.y), [False]])
+    alone = known[1:-1] & ~known[:-2] & ~known[2:]
+    if alone.any():
+        axes.plot(line.x[alone], line.y[alone], "o", color=color, markersize=2.6)
+
+
+def _draw_bars(axes: Axes, bars: Bars, beside: list[Bars], theme: Theme) -> None:
+    """Bars of one of the series that stand beside each other; those of a variant are dashed outlines."""
+    pitch = float(np.diff(bars.x).min()) if len(bars.x) > 1 else 1.0
+    width, color = BAR_SHARE * pitch / len(beside), theme.drawing[bars.hue]
+    left = bars.x - BAR_SHARE * pitch / 2 + beside.index(bars) * width
+    style: Style = {"facecolor": color, "alpha": 1.0 if bars.strong is None else FAINT}
+    if bars.role is Role.VARIANT:
+        style = {"facecolor": "none", "edgecolor": color, "linestyle": DASHES[bars.role]}
+    drawn = axes.bar(left, np.nan_to_num(bars.height), width, align="edge", **style)
+    if bars.strong is not None:
+        drawn.patches[bars.strong].set_alpha(1.0)
+
+
+def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
+    """Lying bars from zero with names and values; a thin line from bound to bound, a dashed outline for a variant."""
+    own = {row.name: row for row in panel.rows if row.role is not Role.VARIANT}
+    names, scale = list(own), max(abs(row.value) for row in panel.rows)
+    axes.grid(visible=False, axis="y")
+    axes.spines["left"].set_visible(False)
+    axes.axvline(0.0, color=theme.frame, linewidth=0.9)
+    for row in (row for row in panel.rows if row.name in own):
+        color, place = theme.drawing[row.hue], names.index(row.name)
+        outline: Style = {"facecolor": "none", "edgecolor": color, "linestyle": DASHES[row.role]}
+        axes.barh(place, row.value, 0.52, **(outline if row.role is Role.VARIANT else {"color": color}))
+        if row.bounds is not None and row.bounds[0] < row.bounds[1]:
+            axes.plot(row.bounds, [place, place], color=theme.ink, linewidth=1.2, marker="|", markersize=7)
+    for place, (name, row) in enumerate(own.items()):
+        ends = [0.0, *(end for each in panel.rows if each.name == name for end in (each.value, *(each.bounds or ())))]
+        tip, offset, side = (max(ends), 4, "left") if row.value >= -SHORT * scale else (min(ends), -4, "right")
+        text = number(0.0 if abs(row.value) <= NOISE * scale else row.value, panel.x.unit or "")
+        style: Style = {"fontsize": TEXT, "fontweight": "bold", "bbox": _patch(theme), "textcoords": "offset points"}
+        axes.annotate(text, (tip, place), (offset, 0), ha=side, va="center_baseline", **style)
+    axes.set_yticks(range(len(own)), names)
+    axes.set_ylim(len(own) - 0.5, -1.2 if panel.levels else -0.5)
+    for label, row in zip(axes.get_yticklabels(), own.values(), strict=True):
+        label.set_color(theme.writing[row.hue])
+
+
+def _draw_area(axes: Axes, area: Area, theme: Theme) -> None:
+    """A tinted rectangle and its text."""
+    axes.grid(visible=False)
+    style: Style = {"facecolor": theme.drawing[area.hue], "edgecolor": theme.background, "linewidth": 2.0, "alpha": 0.2}
+    axes.add_patch(Rectangle((area.left, area.bottom), area.right - area.left, area.top - area.bottom, **style))
+    axes.text(0.5, 0.5, area.text, color=theme.muted, ha="center", va="center", gid=AREA, in_layout=False)
+
+
+def _draw_map(axes: Axes, chart: Map, theme: Theme) -> None:
+    """Colours with their bar, thin contours at the bar's values, a dashed one at each critical value."""
+    low, high = chart.ends
+    norm = LogNorm(low, high) if chart.scale is Scale.RATIO else Normalize(low, high)
+    smooth = min(chart.values.shape) > 1
+    shown = np.ma.masked_invalid(chart.values)
+    style: Style = {"norm": norm, "shading": "gouraud" if smooth else "nearest", "rasterized": True}
+    colors = axes.pcolormesh(chart.x, chart.y, shown, cmap=COLOURS[chart.scale], **style)
+    axes.grid(visible=False)
+    critical = {each.value: each.name for each in chart.critical if low <= each.value <= high}
+    linear = chart.scale is not Scale.RATIO or high <= LINEAR_RATIO
+    ticks = MaxNLocator(nbins=6, steps=STEPS).tick_values(low, high) if linear else RATIO_TICKS
+    ticks = [tick for tick in ticks if low <= tick <= high]
+    still = {Scale.RATIO: 1.0, Scale.SIGNED: 0.0}.get(chart.scale)  # beside it there is only noise
+    thin: Style = {"colors": "#FFFFFF" if still is None else "#1F2937", "linewidths": 0.6, "alpha": 0.55}
+    strong: Style = {"colors": theme.limit if still is None else "#111827", "linewidths": 1.5, "linestyles": "dashed"}
+    for levels, line in (({*ticks} - {*critical, still}, thin), ({*critical}, strong)):
+        inside = sorted(level for level in levels if shown.min() < level < shown.max())
+        if inside and smooth:
+            axes.contour(chart.x, chart.y, chart.values, inside, negative_linestyles="solid", **line)
+    if not chart.bar:
+        return
+    bar = axes.figure.colorbar(colors, ax=axes, pad=0.03, aspect=22, format=NUMBERS)
+    bar.outline.set_visible(False)
+    bar.set_ticks([tick for tick in ticks if all(abs(norm(tick) - norm(each)) > CROWDED for each in critical)])
+    bar.set_label(f"{chart.title}, {chart.unit}" if chart.unit else chart.title)
+    bar.ax.yaxis.set_ticks(list(critical), list(critical.values()), minor=True)
+    bar.ax.tick_params(which="minor", labelcolor=theme.limit)
+    for value in critical:
+        bar.ax.axhline(value, color=theme.limit, linewidth=1.6, linestyle=(0, (2, 1)))
+
+
+def _draw_marks(axes: Axes, panel: Panel, theme: Theme) -> None:
+    """Rings with texts, the lowest first; in the hues of their curves where there are several."""
+    several = len({mark.hue for mark in panel.marks}) > 1
+    highest = max(panel.marks, key=lambda mark: mark.y, default=None)
+    for mark in sorted(panel.marks, key=lambda mark: mark.y):
+        style: Style = {"markersize": 5.5, "color": theme.background, "mec": theme.drawing[mark.hue], "mew": 1.6}
+        axes.plot(mark.x, mark.y, "o", clip_on=False, zorder=5, **style)
+        color = theme.writing[mark.hue] if several else theme.ink
+        side = "above" if mark is highest else "below"
+        _name(axes, mark.text, (mark.x, mark.y), color, theme, gid=side, fontsize=TEXT, fontweight="bold")
+
+
+def _draw_levels(axes: Axes, panel: Panel, theme: Theme) -> list[tuple[Level, Line2D]]:
+    """Limits dashed in red and references dotted in grey, those near the values; zero where it is crossed."""
+    if panel.map is None and not panel.rows and not panel.y.log and panel.y.limits is None:
+        low, high = axes.dataLim.intervaly
+        if panel.y.magnitude or low < 0.0 < high:
+            zero = axes.axhline(0.0, color=theme.frame, linewidth=0.8, zorder=1)
+            zero.sticky_edges.y.append(0.0)
+    drawn = []
+    ends = {True: axes.dataLim.intervalx.copy(), False: axes.dataLim.intervaly.copy()}
+    for level in panel.levels:
+        low, high = ends[level.vertical]
+        reach = FARTHEST_LEVEL * (high - low)
+        color, dashes = (theme.limit, LIMIT_DASHES) if level.limit else (theme.muted, REFERENCE_DASHES)
+        line = Line2D([], [], color=color, linestyle=dashes, linewidth=1.3 if level.limit else 1.0)
+        log = panel.x.log if level.vertical else panel.y.log
+        if log or low - reach <= level.value <= high + reach:
+            draw = axes.axvline if level.vertical else axes.axhline
+            draw(level.value, color=color, linestyle=dashes, linewidth=line.get_linewidth())
+        drawn.append((level, line))
+        if level.vertical:
+            _name(axes, level.name, (level.value, 1.0), color, theme, axes.get_xaxis_transform())
+    return drawn
+
+
+def _name(
+    axes: Axes, text: str, xy: tuple[float, float], color: str, theme: Theme, xycoords: Any = "data", **style: Any
+) -> None:
+    """A text for a point, on a patch of background; `place_texts` finds its place."""
+    style = {"gid": "below", "textcoords": "offset points", "in_layout": False, "zorder": 6, **style}
+    if text:
+        axes.annotate(text, xy, (0, 0), xycoords, color=color, bbox=_patch(theme), annotation_clip=False, **style)
+
+
+def _patch(theme: Theme) -> dict[str, Any]:
+    return {"facecolor": theme.background, "alpha": 0.78, "linewidth": 0, "pad": 0.8}
+
+
+def _name_beside(axes: Axes, panel: Panel, levels: list[tuple[Level, Line2D]], theme: Theme, height: float) -> None:
+    """Names at the right of the axes: where lines and levels end if these ends are apart, else in a legend."""
+    names = sorted(_names(axes, panel, levels, theme), key=lambda each: -each.end)
+    halves = [(1 + each.text.count("\n")) * LINE_HEIGHT / 2 / height for each in names]
+    ends = [min(max(each.end, half), 1.0 - half) for each, half in zip(names, halves, strict=True)]
+    collide = any(
+        upper - one < lower + other for (upper, one), (lower, other) in pairwise(zip(ends, halves, strict=True))
+    )
+    if panel.equal or collide:
+        entries = [each.handle for each in names], [each.text for each in names]
+        legend = axes.legend(*entries, loc="upper left", bbox_to_anchor=(1.02, 1.0))
+        for text, name in zip(legend.get_texts(), names, strict=True):
+            text.set_color(name.color)
+        return
+    style: Style = {"xycoords": "axes fraction", "textcoords": "offset points", "va": "center"}
+    for name, end in zip(names, ends, strict=True):
+        axes.annotate(name.text, (1.0, end), (5, 0), color=name.color, **style)
+
+
+def _names(axes: Axes, panel: Panel, levels: list[tuple[Level, Line2D]], theme: Theme) -> Iterator[Name]:
+    """Horizontal levels, lines, and bars that stand beside others."""
+
+    def end(value: float) -> float:
+        point = axes.transData.transform((axes.get_xlim()[0], value))
+        return float(axes.transAxes.inverted().transform(point)[1])
+
+    for level, handle in levels:
+        if level.name and not level.vertical:
+            at = end(level.value)
+            text = level.name + (" ↑" if at > 1.0 else " ↓" if at < 0.0 else "")
+            yield Name(at, fill(text, NAME_LENGTH), str(handle.get_color()), handle)
+    for line in panel.lines:
+        if line.named and line.role is not Role.VARIANT and np.isfinite(line.y).any():
+            handle = Line2D([], [], color=theme.drawing[line.hue], linestyle=DASHES[line.role])
+            at = end(line.y[np.isfinite(line.y)][-1])
+            yield Name(at, fill(line.title, NAME_LENGTH), theme.writing[line.hue], handle)
+    bars = [each for each in panel.bars if each.role is not Role.VARIANT]
+    for each in bars if len(bars) > 1 else []:
+        patch = Rectangle((0, 0), 1, 1, facecolor=theme.drawing[each.hue])
+        yield Name(0.0, fill(each.title, NAME_LENGTH), theme.writing[each.hue], patch)
+
+
+def place_texts(axes: Axes, panel: Panel, renderer: RendererBase) -> None:
+    """Put the texts of areas into them, and those of points beside them, off other texts and off curves."""
+    for text, area in zip((text for text in axes.texts if text.get_gid() == AREA), panel.areas, strict=True):
+        _fit(axes, text, area, renderer)
+    fixed = [text for text in axes.texts if text.get_visible() and text.get_gid() not in SIDES]
+    taken: list[BboxBase] = [text.get_window_extent(renderer) for text in fixed]
+    rings = (axes.transData.transform((mark.x, mark.y)) for mark in panel.marks)
+    taken += [Bbox([ring - RING, ring + RING]) for ring in rings]
+    shapes = [line for line in axes.lines if line.get_linestyle() != "None"]
+    shapes += [bar for each in axes.containers for bar in each]
+    curves = [shape.get_path().transformed(shape.get_transform()) for shape in shapes]
+    for text in axes.texts:
+        if text.get_gid() in SIDES:
+            taken.append(_place(axes.bbox, text, taken, curves, renderer))
+
+
+def _fit(axes: Axes, text: Text, area: Area, renderer: RendererBase) -> None:
+    """Centre the text in what the axes show of the area, with as many of its lines as fit."""
+    (left, bottom), (right, top) = axes.transData.transform([(area.left, area.bottom), (area.right, area.top)])
+    left, right = max(left, axes.bbox.x0), min(right, axes.bbox.x1)
+    bottom, top = max(bottom, axes.bbox.y0), min(top, axes.bbox.y1)
+    x, y = axes.transAxes.inverted().transform(((left + right) / 2, (bottom + top) / 2))
+    text.set(transform=axes.transAxes, position=(x, y))
+    lines = area.text.split("\n")
+    while lines:
+        text.set_text("\n".join(lines))
+        extent = text.get_window_extent(renderer)
+        if extent.width < right - left and extent.height < top - bottom:
+            return
+        lines.pop()
+    text.set_visible(False)
+
+
+def _place(axes: BboxBase, text: Text, taken: list[BboxBase], curves: list[Path], renderer: RendererBase) -> BboxBase:
+    """Move the text to the first of the places around its point that cover least; the box it fills there."""
+    text.set(ha="center", va="center")
+    side = SIDES[str(text.get_gid())]
+    size, point = text.get_window_extent(renderer), float(np.asarray(renderer.points_to_pixels(1.0)))
+
+    def cost(place: tuple[float, float]) -> float:
+        box = size.translated(*place)
+        outside = max(axes.x0 - box.x0, box.x1 - axes.x1, 0.0) + max(axes.y0 - box.y0, box.y1 - axes.y1, 0.0)
+        crossed = sum(curve.intersects_bbox(box, filled=False) for curve in curves)
+        return float(crossed + 10.0 * sum(box.overlaps(other) for other in taken) + outside)
+
+    places = [
+        (across * (reach * point + size.width / 2), up * (reach * point + size.height / 2))
+        for reach in (7, 12, 20, 32, 48, 64)
+        for across, up in ((0, side), (0, -side), (1, 0), (-1, 0), (1, 0.7), (-1, 0.7), (1, -0.7), (-1, -0.7))
+    ]
+    best = min(places, key=cost)
+    text.set_position((best[0] / point, best[1] / point))
+    return size.translated(*best)

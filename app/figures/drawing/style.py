@@ -1,21 +1,21 @@
-"""The house style: what every figure looks like on white and on black."""
+"""The style of all figures: sizes, colours on a light and on a dark background, matplotlib's settings."""
 
 from dataclasses import dataclass
 from functools import cache
+from importlib.resources import as_file, files
 from typing import Any
 
-from matplotlib.font_manager import FontProperties, findfont, get_font
-from matplotlib.ft2font import LoadFlags
+from matplotlib import rc_params_from_file
 
-from app.figures.data import Hue, ThemeName
+from app.figures.data import Hue, Role, ThemeName
 
-WIDTH = 6.4  # inches, as all lengths of a figure
-DPI = 160
-TITLE, TEXT, SMALL = 12.0, 8.8, 8.0  # points
-POINT = 1.0 / 72.0
-UNIT_SIZE = 100.0  # at which characters are measured
-# Measured in the widest of them, which comes with matplotlib, so that no reader's substitute is cut.
-FONTS = ("DejaVu Sans", "Verdana", "Segoe UI", "Helvetica Neue", "Arial", "sans-serif")
+WIDTH = 5.6  # inches
+DPI = {"svg": 100, "png": 180, "pdf": 180}  # of the maps inside the vector formats too
+TITLE, TEXT, SMALL = 11.0, 8.5, 8.0  # points; the texts of axes, as the style sheet has it, are small
+LETTER = 0.58 * SMALL / 72.0  # mean width of a character, in inches
+LINE_HEIGHT = 1.3 * SMALL / 72.0  # inches
+DASHES: dict[Role, Any] = {Role.RESULT: "solid", Role.REFERENCE: (0, (1.2, 1.8)), Role.VARIANT: (0, (4.5, 2.2))}
+LIMIT_DASHES, REFERENCE_DASHES = (0, (5.0, 2.5)), (0, (1.0, 2.0))
 
 OKABE_ITO = {
     Hue.BLUE: "#0072B2",
@@ -30,7 +30,7 @@ OKABE_ITO = {
 
 @dataclass(frozen=True, slots=True)
 class Theme:
-    """Colours; `writing` of a hue keeps a contrast of 4.5 on the background where its `drawing` does not."""
+    """Colours; `writing` of a hue has a contrast of at least 4.5 on the background where its `drawing` has not."""
 
     background: str
     ink: str
@@ -85,57 +85,13 @@ THEMES: dict[ThemeName, Theme] = {
 }
 
 
-def settings(theme: Theme) -> Any:
-    """Settings of matplotlib under which a figure is drawn and written."""
-    return {
-        "font.family": "sans-serif",
-        "font.sans-serif": list(FONTS),
-        "font.size": SMALL,
-        "lines.linewidth": 1.7,
-        "lines.solid_capstyle": "round",
-        "lines.dash_capstyle": "butt",
-        "text.parse_math": False,
-        "text.color": theme.ink,
-        "savefig.facecolor": theme.background,
-        "savefig.edgecolor": "none",
-        "svg.fonttype": "none",
-        "svg.hashsalt": "tribodrive",
-        "pdf.fonttype": 42,
-        "image.composite_image": False,
-    }
-
-
-def text_width(text: str, size: float, *, bold: bool = False) -> float:
-    """Width of the widest line of a text of `size` points, in inches."""
-    widths = (sum(_advance(character, bold=bold) for character in line) for line in text.split("\n"))
-    return max(widths) * size * POINT
-
-
 @cache
-def _advance(character: str, *, bold: bool) -> float:
-    """Width of a character over the size of the font."""
-    font = get_font(_font_file(bold=bold))
-    font.set_size(UNIT_SIZE, 72.0)
-    return float(font.load_char(ord(character), flags=LoadFlags.NO_HINTING).linearHoriAdvance) / 65536.0 / UNIT_SIZE
-
-
-@cache
-def _font_file(*, bold: bool) -> str:
-    return str(findfont(FontProperties(family="DejaVu Sans", weight="bold" if bold else "normal")))
-
-
-def text_height(text: str, size: float) -> float:
-    """Height of a text of `size` points with its leading, in inches."""
-    return (text.count("\n") + 1) * 1.2 * size * POINT
-
-
-def wrapped(text: str, size: float, width: float, *, bold: bool = False) -> str:
-    """The text broken between words, so that no line is wider than `width` inches where words allow."""
-    lines = [""]
-    for word in text.split(" "):
-        longer = f"{lines[-1]} {word}".strip()
-        if lines[-1] and text_width(longer, size, bold=bold) > width:
-            lines.append(word)
-        else:
-            lines[-1] = longer
-    return "\n".join(line.removesuffix(" ·") for line in lines)
+def settings(theme_name: ThemeName) -> dict[Any, Any]:
+    """The settings of matplotlib under which a figure is drawn and written."""
+    theme = THEMES[theme_name]
+    with as_file(files("app.figures.drawing") / "figures.mplstyle") as path:
+        found = dict(rc_params_from_file(path, use_default_template=False))
+    found |= dict.fromkeys(("axes.edgecolor", "xtick.color", "ytick.color"), theme.frame)
+    found |= dict.fromkeys(("axes.labelcolor", "xtick.labelcolor", "ytick.labelcolor"), theme.muted)
+    found |= dict.fromkeys(("figure.facecolor", "savefig.facecolor"), theme.background)
+    return found | {"text.color": theme.ink, "grid.color": theme.grid}

@@ -15,10 +15,44 @@ function prepareCopy(say) {
   });
 }
 
-// Values of a figure under pointer and arrow keys.
+// Values of a figure under pointer and arrow keys, and as a table. They are part of the page, or asked for when needed.
 function prepareChart(plot) {
-  const panels = JSON.parse(plot.dataset.series);
-  if (!panels.length) return;
+  let asked = null;
+  const values = () => { asked ??= valuesOf(plot); return asked; };
+  const details = plot.parentElement.querySelector(".values");
+  if (plot.dataset.values) details?.addEventListener("toggle", async () => { if (details.open) fillTable(details, await values()); });
+  const wake = async (event) => {
+    plot.removeEventListener("pointerenter", wake);
+    plot.removeEventListener("focus", wake);
+    const { panels } = await values();
+    if (panels.length) follow(plot, panels);
+    plot.dispatchEvent(new PointerEvent("pointermove", event));
+  };
+  plot.addEventListener("pointerenter", wake);
+  plot.addEventListener("focus", wake);
+}
+
+async function valuesOf(plot) {
+  if (!plot.dataset.values) return JSON.parse(plot.dataset.content);
+  const answer = await fetch(plot.dataset.values);
+  return answer.ok ? answer.json() : { panels: [], header: [], lines: [], more: 0 };
+}
+
+function fillTable(details, { header, lines, more }) {
+  const table = document.createElement("table");
+  const row = (kind, cells) => {
+    const line = document.createElement("tr");
+    line.append(...cells.map((text) => { const cell = document.createElement(kind); cell.textContent = text; return cell; }));
+    return line;
+  };
+  table.createTHead().append(row("th", header));
+  table.createTBody().append(...lines.map((line) => row("td", line)));
+  const note = document.createElement("p");
+  note.textContent = more ? `and ${more} lines more in the CSV file` : "";
+  details.querySelector(".scroll").replaceChildren(table, note);
+}
+
+function follow(plot, panels) {
   const reading = plot.parentElement.querySelector(".reading");
   const cursor = document.createElement("span");
   cursor.className = "cursor";

@@ -29,7 +29,7 @@ function finish() {
   loading = false;
   if (stop()) stop().hidden = true;
   prepareCopy((text) => { document.getElementById("state").textContent = text; });
-  document.querySelectorAll(".plot").forEach((plot) => (plot.dataset.study ? prepareStudy(plot) : plot.dataset.series && prepareChart(plot)));
+  document.querySelectorAll(".plot").forEach((plot) => (plot.dataset.study ? prepareStudy(plot) : plot.dataset.content && prepareChart(plot)));
 }
 
 // The point under the pointer or the arrow keys; a click or the Enter key opens its case.

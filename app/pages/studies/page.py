@@ -7,7 +7,7 @@ from app.calculations import Calculation
 from app.figures.rendering import Format, written
 from app.figures.tables import table
 from app.pages.cases import Fault, faults_of
-from app.pages.charts import chart_of
+from app.pages.charts import embedded
 from app.pages.growing import FRAMES, Opened, StudyLinks, around
 from app.pages.links import IMAGE_FORMATS, examples_of
 from app.pages.query import link, pairs_of
@@ -82,7 +82,7 @@ def whole(study: Asking, lines: list[Line]) -> bytes:
     if lines[-1]["type"] == "error":
         return rendered("study_result.html", broke=lines[-1]["message"]).encode()
     found = study.page.result(study, lines)
-    charts = [chart_of(name, figure, study.asked.theme) for name, figure in found.figures.items()]
+    charts = [embedded(name, figure, study.asked.theme) for name, figure in found.figures.items()]
     return rendered(
         "study_result.html", broke=None, found=found, charts=charts, links=links, formats=IMAGE_FORMATS
     ).encode()
@@ -96,4 +96,4 @@ def file(study: Asking, lines: list[Line], name: str, image_format: Format) -> b
     if name not in found.figures:
         raise StudyBroke("; ".join(found.remarks))
     figure = found.figures[name]
-    return table(figure) if image_format == "csv" else written(figure, image_format, study.asked.theme)
+    return table(figure) if image_format == "csv" else written(figure, image_format, study.asked.theme or "light")

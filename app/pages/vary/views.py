@@ -9,7 +9,7 @@ from app.figures.rendering import Format, written
 from app.figures.sweep import figures_of
 from app.figures.tables import table
 from app.pages.cases import Fault, faults_of
-from app.pages.charts import chart_of, embedded
+from app.pages.charts import embedded
 from app.pages.growing import FRAMES, Opened, StudyLinks, around
 from app.pages.links import IMAGE_FORMATS
 from app.pages.points import address_at
@@ -109,14 +109,13 @@ def _page(asked: Asked, study: Study | None, faults: list[Fault]) -> str:
 def frame(study: Study, gathered: Gathered) -> bytes:
     """The first figure with the points that have come."""
     figure = next(iter(_figures(study, gathered).values()))
-    image = embedded(written(figure, "svg", study.asked.theme))
-    return rendered("frame.html", figure=figure, image=image, gathered=gathered).encode()
+    return rendered("frame.html", chart=embedded("", figure, study.asked.theme), gathered=gathered).encode()
 
 
 def whole(study: Study, gathered: Gathered) -> bytes:
     """Every figure, every point with a link to its case, and what was said of them."""
     figures = _figures(study, gathered)
-    charts = [chart_of(name, figure, study.asked.theme) for name, figure in figures.items()]
+    charts = [embedded(name, figure, study.asked.theme) for name, figure in figures.items()]
     charts[0] = replace(charts[0], study=_points(study, gathered, next(iter(figures.values()))))
     return rendered(
         "whole.html",
@@ -133,7 +132,7 @@ def whole(study: Study, gathered: Gathered) -> bytes:
 def file(study: Study, gathered: Gathered, name: str, image_format: Format) -> bytes:
     """One figure as a file; the study has it."""
     figure = _figures(study, gathered)[name]
-    return table(figure) if image_format == "csv" else written(figure, image_format, study.asked.theme)
+    return table(figure) if image_format == "csv" else written(figure, image_format, study.asked.theme or "light")
 
 
 def _figures(study: Study, gathered: Gathered) -> dict[str, Figure]:
@@ -155,14 +154,9 @@ def _points(study: Study, gathered: Gathered, figure: Figure) -> str:
     """What the script needs to tell the point under the pointer and to open its case."""
     if not all(is_leaf(study.asked.calculation, each.path) for each in study.wish.fields):
         return ""
-    from app.figures.drawing.canvas import ranges  # noqa: PLC0415  only workers draw
-    from app.figures.drawing.image import arranged  # noqa: PLC0415
-    from app.figures.drawing.maps import map_ranges  # noqa: PLC0415
-    from app.figures.drawing.style import WIDTH  # noqa: PLC0415
+    from app.figures.drawing.image import places  # noqa: PLC0415  only workers draw
 
-    slots, height = arranged(figure)
-    slot, panel = slots[0], figure.panels[0]
-    x, y = map_ranges(panel, panel.map) if panel.map else ranges(panel, slot.width, slot.height)
+    place = places(figure)[0]
     axes = [
         {"path": each.path, "name": each.leaf.title, "unit": each.leaf.unit or "", "at": axis.values}
         for each, axis in zip(study.wish.fields, study.sweep.plan.axes, strict=True)
@@ -173,8 +167,8 @@ def _points(study: Study, gathered: Gathered, figure: Figure) -> str:
         "out": gathered.out,
         "title": study.wish.output.title,
         "unit": study.wish.output.unit or "",
-        "map": panel.map is not None,
-        "box": [slot.left / WIDTH, slot.top / height, slot.width / WIDTH, slot.height / height],
-        "ranges": [[each.low, each.high, each.log] for each in (x, y)],
+        "map": place.panel.map is not None,
+        "box": place.box,
+        "ranges": [place.x, place.y],
     }
     return json.dumps(said)
