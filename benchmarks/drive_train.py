@@ -4,20 +4,31 @@ Run from the project's root: python -m benchmarks.drive_train. Kernels are warm 
 says otherwise; the best of several repeats counts.
 """
 
+import asyncio
+import json
 from collections.abc import Callable
 from dataclasses import replace
 from time import perf_counter
+from typing import Any
 
+from app.calculations import BY_PATH
+from app.library import examples
+from app.routes.study_examples import DESIGN_EXAMPLES
+from app.studies.design import design_study
+from app.studies.drive_train import usual_corners
+from app.studies.stream import Clock
+from app.studies.study import Study
+from app.studies.sweep import corners_study
 from solvers.drive_train import solve
 from solvers.drive_train.gap.thermal_lead import gas_heat
-from solvers.drive_train.studies.corners import default_ranges, run_corners, single
-from solvers.drive_train.studies.design import Variable, design
-from solvers.drive_train.studies.outcome import outcome
-from tests.support.drive_trains import COUPLING, GROUND, SPEED, turbo_gear
+from solvers.drive_train.outcome import outcome
+from tests.support.drive_trains import GROUND, SPEED, turbo_gear
+from tests.support.pools import InlinePool
 
 REPEATS = 20
-SHAPE = "mesh.distribution.modifications"
 INPUTS = replace(turbo_gear(GROUND), coupling_friction="elastic_plastic")
+REQUEST = {**examples()["starter-turbo-gear-drive-train"].request, "model": {"lubrication": "closed_form"}}
+USUAL = usual_corners(BY_PATH["/v1/drive-train"].request.model_validate(REQUEST))
 
 
 def best(run: Callable[[], object], repeats: int = REPEATS) -> float:
@@ -37,30 +48,29 @@ def pumped() -> None:
     gas_heat(INPUTS.pumping, SPEED)
 
 
-def all_corners() -> None:
-    """256 runs: the default ranges and two heights of tip relief."""
-    ranges = (*default_ranges(INPUTS), single(f"{SHAPE}.tip_relief", (12e-6, 18e-6)))
-    found = run_corners(INPUTS, ranges)
-    assert (found.runs, found.failed) == (256, 0)
+def corners() -> None:
+    """256 runs, one after another: the usual corners and two heights of tip relief."""
+    ranges = [
+        *(axis.model_dump(exclude_none=True) for axis in USUAL),
+        {"path": "modifications.tip_relief_um", "values": [12, 18]},
+    ]
+    run(corners_study, {"request": REQUEST, "ranges": ranges, "outputs": ["safety.blok_flank"]})
 
 
 def search() -> None:
     """The example's design search: 12 corners, 3 variables."""
-    machines = tuple(
-        (replace(COUPLING, friction=replace(COUPLING.friction, coefficient=friction), offset=(0.0, offset)),)
-        for friction, offset in ((0.05, 400e-6), (0.25, 400e-6), (0.25, -400e-6))
-    )
-    torque = INPUTS.mesh.distribution.load.pinion_torque
-    design(
-        INPUTS,
-        [
-            Variable((f"{SHAPE}.helix_slope",), 0.0, 100e-6),
-            Variable((f"{SHAPE}.lead_crowning",), 0.0, 20e-6),
-            Variable((f"{SHAPE}.tip_relief", f"{SHAPE}.root_relief"), 0.0, 30e-6),
-        ],
-        [single("couplings", machines), single("heat.wall_response", (0.3, 0.9))],
-        collective=[{"mesh.distribution.load.pinion_torque": share * torque} for share in (1.0, 0.5)],
-    )
+    run(design_study, {**DESIGN_EXAMPLES["robust"]["value"], "request": REQUEST})
+
+
+def run(study_of: Callable[[bytes, int, float], Study], body: dict[str, Any]) -> None:
+    """Solve a study in this process."""
+
+    async def lines() -> None:
+        study = study_of(json.dumps(body).encode(), 2500, 60.0)
+        async for _ in study.lines(InlinePool(), Clock(study.total)):
+            pass
+
+    asyncio.run(lines())
 
 
 def main() -> None:
@@ -72,7 +82,7 @@ def main() -> None:
         ("answer without thermal film, gas known", lambda: solve(INPUTS), REPEATS, 1e3, "ms"),
         ("figures of a study, cold start", lambda: outcome(INPUTS), REPEATS, 1e3, "ms"),
         ("figures of a study, from a neighbour", lambda: outcome(INPUTS, start), REPEATS, 1e3, "ms"),
-        ("256 corners", all_corners, 1, 1.0, "s"),
+        ("256 corners", corners, 1, 1.0, "s"),
         ("design search over 12 corners", search, 1, 1.0, "s"),
     ]
     targets = {"answer without thermal film, gas known": 60, "256 corners": 10, "design search over 12 corners": 60}

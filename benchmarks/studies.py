@@ -19,7 +19,7 @@ import httpx
 from app.library import examples
 from app.studies.fields import set_value
 from app.studies.points import Question, solve_point
-from app.studies.sweep import plan_sweep
+from app.studies.sweep import sweep_study
 from tests.support.dask_cluster import running_cluster
 from tests.support.server import running_server
 
@@ -63,7 +63,7 @@ MAP = {
 
 def in_process(body: dict[str, Any]) -> float:
     """Seconds of all points one after another in this process."""
-    study = plan_sweep(json.dumps(body).encode(), 10**6, 30.0)
+    study = sweep_study(json.dumps(body).encode(), 10**6, 30.0)
     question = Question(body["endpoint"], body["request"], study.outputs.paths, 30.0)
     solve_point(question, study.plan.overrides(0))
     started = time.perf_counter()
@@ -80,7 +80,7 @@ def in_two_processes(body: dict[str, Any]) -> float:
 
 def single_requests(client: httpx.Client, body: dict[str, Any]) -> float:
     """Seconds of all points as requests of their own, two at a time."""
-    plan = plan_sweep(json.dumps(body).encode(), 10**6, 30.0).plan
+    plan = sweep_study(json.dumps(body).encode(), 10**6, 30.0).plan
     points = [plan.overrides(index) for index in range(plan.total)]
     return asyncio.run(_single_requests(str(client.base_url), body, points))
 

@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from app.calculations import Calculation
-from app.studies.unit_requests import ENDPOINT as UNIT
+from app.studies.requests import DRIVE_TRAIN
 
 
 class Offer(NamedTuple):
@@ -21,4 +21,4 @@ DESIGN = Offer("design", "What to grind", "the correction of the flank that is b
 
 def offers_of(calculation: Calculation) -> tuple[Offer, ...]:
     """The studies that cases of a calculation have."""
-    return (INFLUENCE, CORNERS, DESIGN) if calculation.path == UNIT else (INFLUENCE,)
+    return (INFLUENCE, CORNERS, DESIGN) if calculation.path == DRIVE_TRAIN else (INFLUENCE,)

@@ -3,9 +3,9 @@
 from app.pages.cases import Case, solved
 from app.pages.query import Pairs, body_of, link, pairs_of
 from app.pages.views import Asked
+from app.studies.drive_train import lightened
 from app.studies.points import with_overrides
 from app.studies.requests import Overrides
-from app.studies.unit import lightened
 
 
 def pairs_at(asked: Asked, overrides: Overrides) -> Pairs:

@@ -16,13 +16,11 @@ from app.routes.calculations import require_json
 from app.routes.study_examples import CORNERS_EXAMPLES, DESIGN_EXAMPLES, SENSITIVITY_EXAMPLES, SWEEP_EXAMPLES
 from app.schema.messages import Fault
 from app.settings import Settings
-from app.studies import corners, design_plan, sensitivity, sweep
-from app.studies.lines import encoded, json_line
+from app.studies import design, sensitivity, sweep
 from app.studies.office import Office
-from app.studies.requests import SensitivityRequest, SweepRequest
-from app.studies.stream import Clock, guarded
+from app.studies.requests import CornersRequest, DesignRequest, SensitivityRequest, SweepRequest
+from app.studies.stream import Clock, encoded, guarded, json_line
 from app.studies.study import Study
-from app.studies.unit_requests import CornersRequest, DesignRequest
 from app.workers.admission import Runner
 from app.workers.start_up import StartUp
 
@@ -32,10 +30,10 @@ PATIENCE_S = 10.0  # beyond the study's deadline, for a client that reads slowly
 
 
 PLANNERS: dict[str, Callable[[bytes, int, float], Study]] = {
-    sweep.PATH: sweep.plan_sweep,
-    sensitivity.PATH: sensitivity.plan_sensitivity,
-    corners.PATH: corners.plan_corners,
-    design_plan.PATH: design_plan.plan_design,
+    sweep.PATH: sweep.sweep_study,
+    sensitivity.PATH: sensitivity.sensitivity_study,
+    sweep.CORNERS_PATH: sweep.corners_study,
+    design.PATH: design.design_study,
 }
 
 
@@ -71,7 +69,7 @@ class StudyRoute(APIRoute):
 
         async def handle(http: Request) -> Response:
             require_json(http)
-            written_as: Format = wanted_format(http) if planner is sweep.plan_sweep else "ndjson"
+            written_as: Format = wanted_format(http) if planner is sweep.sweep_study else "ndjson"
             start_up: StartUp = http.app.state.start_up
             start_up.require_any()
             office: Office = http.app.state.office
@@ -160,7 +158,7 @@ async def run_sensitivity(
 
 
 @router.post(
-    corners.PATH,
+    sweep.CORNERS_PATH,
     operation_id="drive_train_corners",
     summary="A gear unit at every corner of what nobody knows better",
     response_class=Response,
@@ -180,7 +178,7 @@ async def run_corners(
 
 
 @router.post(
-    design_plan.PATH,
+    design.PATH,
     operation_id="drive_train_design",
     summary="The correction of a gear unit that is best at its worst corner",
     response_class=Response,

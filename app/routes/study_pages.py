@@ -18,9 +18,8 @@ from app.routes.pages import DOCUMENT_POLICY, METHODS, asked_of
 from app.routes.studies import MEDIA_TYPES
 from app.routes.study_streams import Pieces, drawn, limits_of, runner, start_up, stream, study_page
 from app.studies.engine import twice_if_lost
-from app.studies.lines import encoded, json_line
 from app.studies.office import Office
-from app.studies.stream import Line, Lines
+from app.studies.stream import Line, Lines, encoded, json_line
 from app.studies.study import Study
 
 FRAME_S = 1.0  # between two frames that say how far the study has come

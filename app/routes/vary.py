@@ -16,9 +16,8 @@ from app.routes.pages import DOCUMENT_POLICY, METHODS, asked_of
 from app.routes.studies import MEDIA_TYPES
 from app.routes.study_streams import Pieces, drawn, limits_of, runner, start_up, stream, study_page
 from app.studies.engine import twice_if_lost
-from app.studies.lines import StudyBroke, encoded, json_line
 from app.studies.office import Office
-from app.studies.stream import Lines
+from app.studies.stream import Lines, StudyBroke, encoded, json_line
 from app.studies.sweep import Sweep
 
 FIRST_FRAME_S = 0.3

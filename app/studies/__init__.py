@@ -1,1 +1,16 @@
-"""Studies ask one question many times: request -> plan (which points) -> points (in workers) -> lines -> summary."""
+"""Studies: one request solved at many points.
+
+requests      the bodies
+fields        single values of requests and answers by their dotted paths
+point_sets    which points: a grid, a list of cases, a random sample
+points        the solution of points, in a worker
+engine        chunks of points on a pool of processes, answered in order
+study         what all studies share: checks, header, solving
+sweep, sensitivity, design
+              the kinds of study; corners are a sweep
+summary       extremes, best point, statistics of a sample
+drive_train   uncertain inputs of a gear unit, and requests without results that nobody asked for
+stream        lines with progress between them, as JSON or as a table
+admission     how many studies run at once, and on which processes
+cluster       a Dask cluster instead of the service's own processes
+"""

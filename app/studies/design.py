@@ -1,24 +1,38 @@
-"""Design of a gear unit's flank: a search that is judged by the worst of all corners, trial by trial."""
+"""Design: values of some inputs whose worst case is best, searched trial by trial."""
 
 from collections.abc import Sequence
+from contextlib import aclosing
 from dataclasses import dataclass
+from typing import Any
 
-import numpy as np
-
-from app.schema.base import MODEL_VERSION
+from app.problems import Unprocessable
+from app.reading import read
 from app.schema.fields import Leaf
-from app.sources import SOURCES
-from app.studies.engine import Pool, Work, in_order, twice_if_lost
+from app.studies.drive_train import MOST_CORNERS, lightened
+from app.studies.engine import Pool, twice_if_lost
+from app.studies.fields import value_at
+from app.studies.minimax import next_place
+from app.studies.point_sets import BaseRequest, check_count, check_distinct, check_value, grid, listed
 from app.studies.points import Question
-from app.studies.requests import Overrides
+from app.studies.requests import DesignRequest, Overrides, Variable
+from app.studies.sensitivity import NUMBERS
 from app.studies.stream import Clock, Line, Lines
-from solvers.arrays import FloatArray
-from solvers.drive_train.studies.design import search
+from app.studies.study import (
+    Study,
+    calculation_of,
+    case_of_study,
+    checked_base,
+    output_at,
+    output_header,
+    paths_of,
+)
+
+PATH = "/v1/drive-train/design"
 
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """What the search may choose: fields that take one value, and its range."""
+    """Fields that take one value, and the range of the search."""
 
     leaves: tuple[Leaf, ...]
     low: float
@@ -29,49 +43,41 @@ class Choice:
         return self.low + share * (self.high - self.low)
 
     def header(self) -> Line:
-        """What the first line says of it."""
+        """The choice in the first line."""
         units = {leaf.unit for leaf in self.leaves}
-        return {
-            "path": [leaf.path for leaf in self.leaves],
-            "unit": units.pop() if len(units) == 1 else None,
-            "min": self.low,
-            "max": self.high,
-        }
+        unit = units.pop() if len(units) == 1 else None
+        return {"path": paths_of(self.leaves), "unit": unit, "min": self.low, "max": self.high}
 
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """A correction, its objective at its worst case, and that case; None where a case has no answer.
+    """Chosen values, the objective at their worst case, and that case; None where a case has no solution.
 
-    `figures` are what the search makes small: the objective at every case, with a sign.
+    `figures` are the objectives of all cases with the sign that the search minimises.
     """
 
-    correction: Overrides
+    chosen: Overrides
     objective: float | None
     worst: Overrides
     figures: list[float] | None = None
 
-    def line(self, index: int) -> Line:
-        """The line of the trial."""
-        return {"type": "trial", "index": index, **self.content(), "worst_corner": self.worst}
-
     def content(self) -> Line:
-        """The trial in short."""
-        return {"at": self.correction, "objective": self.objective}
+        """Values and objective."""
+        return {"at": self.chosen, "objective": self.objective}
 
 
-@dataclass(frozen=True, slots=True)
-class Design:
-    """A search that has passed its checks; `start` in shares of the choices' ranges, `sign` -1 where large is good."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Design(Study):
+    """A search over `choices`, each trial solved at all `cases`; its output is the objective.
 
-    question: Question
+    `sign` is -1 where the objective is maximised; `start` holds shares of the ranges of the choices.
+    """
+
     choices: tuple[Choice, ...]
     cases: list[Overrides]
-    objective: Leaf
     sign: float
     start: tuple[float, ...]
     evaluations: int
-    case: str
 
     @property
     def total(self) -> int:
@@ -79,66 +85,57 @@ class Design:
         return self.evaluations * len(self.cases)
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """All lines but those of progress: the variables, a line a trial, the end."""
-        yield [self._header()]
+        """The header, a line for each trial, the end."""
+        yield [
+            self.header(
+                "design",
+                variables=[choice.header() for choice in self.choices],
+                objective=output_header(self.outputs[0]),
+                direction="minimise" if self.sign > 0.0 else "maximise",
+                corners=len(self.cases),
+                evaluations=self.evaluations,
+            )
+        ]
         trials: list[Trial] = []
-        figures: list[list[float] | None] = []
-        while shares := await twice_if_lost(pool, next_trial, self.start, figures, self.evaluations):
-            trial = await self._judged(pool, clock, shares)
+        while place := await twice_if_lost(
+            pool, next_place, self.start, [trial.figures for trial in trials], self.evaluations
+        ):
+            trial = await self._trial(pool, clock, place)
+            yield [{"type": "trial", "index": len(trials), **trial.content(), "worst_corner": trial.worst}]
             trials.append(trial)
-            figures.append(trial.figures)
-            yield [trial.line(len(trials) - 1)]
-            if figures[0] is None:
+            if trials[0].figures is None:
                 message = "the unit that the search starts from has no answer at its worst corner"
                 yield [clock.error("no_start", message)]
                 return
         yield [self._end(trials, clock)]
 
-    async def _judged(self, pool: Pool, clock: Clock, shares: Sequence[float]) -> Trial:
-        """The correction at its worst case, the first one of equals; a case without answer is worse than all."""
-        correction = self._correction(shares)
-        objectives: list[float] = []
-        done = clock.done
-        work = Work(self.question, lambda index: {**correction, **self.cases[index]}, len(self.cases))
-        async for indices, points in in_order(pool, work):
-            clock.done = done + indices.stop
-            for index, point in zip(indices, points, strict=True):
-                (objective,) = point.out
-                if objective is None:
-                    return Trial(correction, None, self.cases[index])
-                objectives.append(objective)
-        figures = [self.sign * objective for objective in objectives]
-        worst = max(range(len(figures)), key=lambda k: figures[k])
-        return Trial(correction, objectives[worst], self.cases[worst], figures)
-
-    def _correction(self, shares: Sequence[float]) -> Overrides:
-        return {
+    async def _trial(self, pool: Pool, clock: Clock, place: Sequence[float]) -> Trial:
+        """The values at a place of the unit cube, solved until a case has no solution."""
+        chosen: Overrides = {
             leaf.path: choice.value(share)
-            for choice, share in zip(self.choices, shares, strict=True)
+            for choice, share in zip(self.choices, place, strict=True)
             for leaf in choice.leaves
         }
-
-    def _header(self) -> Line:
-        return {
-            "type": "design",
-            "endpoint": self.question.endpoint,
-            "variables": [choice.header() for choice in self.choices],
-            "objective": {"path": self.objective.path, "unit": self.objective.unit, "title": self.objective.title},
-            "direction": "minimise" if self.sign > 0.0 else "maximise",
-            "corners": len(self.cases),
-            "evaluations": self.evaluations,
-            "model_version": MODEL_VERSION,
-            "sources": SOURCES,
-            "case": self.case,
-        }
+        objectives: list[float] = []
+        runs = self.solve(pool, clock, lambda index: {**chosen, **self.cases[index]}, len(self.cases))
+        async with aclosing(runs):
+            async for indices, points in runs:
+                for index, point in zip(indices, points, strict=True):
+                    (objective,) = point.out
+                    if objective is None:
+                        return Trial(chosen, None, self.cases[index])
+                    objectives.append(objective)
+        figures = [self.sign * objective for objective in objectives]
+        worst = figures.index(max(figures))
+        return Trial(chosen, objectives[worst], self.cases[worst], figures)
 
     def _end(self, trials: list[Trial], clock: Clock) -> Line:
         solved = [trial for trial in trials if trial.objective is not None]
         best = min(solved, key=lambda trial: self.sign * (trial.objective or 0.0))
         return {
             "type": "end",
-            "start": trials[0].correction,
-            "best": best.correction,
+            "start": trials[0].chosen,
+            "best": best.chosen,
             "objective_start": trials[0].objective,
             "objective_best": best.objective,
             "worst_corner": best.worst,
@@ -149,28 +146,76 @@ class Design:
         }
 
 
-def next_trial(start: Sequence[float], figures: Sequence[list[float] | None], most: int) -> list[float] | None:
-    """Where the search looks next, in shares of the ranges, or None at its end; runs in a worker.
+def design_study(body: bytes, most: int, deadline_s: float) -> Design:
+    """The search in a body, of at most `most` points; runs in a worker.
 
-    The search itself is run again up to there: it takes some milliseconds a trial, and needs no thread that waits.
+    Raises Unreadable, InvalidBody and Unprocessable, with locations in the body.
     """
-    told = iter(figures)
+    request = read(DesignRequest, body)
+    calculation = calculation_of(request)
+    objective = output_at(calculation, request.objective, "objective")
+    if objective.kind not in NUMBERS:
+        raise Unprocessable("unknown_output", f"{request.objective} is no number", "objective")
+    varied = BaseRequest(calculation.request, request.request)
+    choices = tuple(_choice(each, varied, f"variables.{place}") for place, each in enumerate(request.variables))
+    cases = _cases(request, varied)
+    check_count(request.evaluations * len(cases), most, "evaluations")
+    base = checked_base(calculation, request.request, cases[0]).model_dump()
+    return Design(
+        question=Question(calculation.path, lightened(request.request, [objective.path]), [objective.path], deadline_s),
+        outputs=(objective,),
+        case=case_of_study(PATH, request),
+        choices=choices,
+        cases=cases,
+        sign=_sign(request, objective),
+        start=tuple(_share(choice, base) for choice in choices),
+        evaluations=request.evaluations,
+    )
 
-    def judge(shares: FloatArray) -> FloatArray | None:
-        for found in told:
-            return None if found is None else np.array(found)
-        raise _Asked(shares.tolist())
 
-    try:
-        search(judge, np.array(start), most)
-    except _Asked as asked:
-        return asked.shares
-    return None
+def _choice(variable: Variable, base: BaseRequest, place: str) -> Choice:
+    leaves = tuple(base.leaf(path, f"{place}.path") for path in variable.paths)
+    for leaf in leaves:
+        if leaf.kind != "number":
+            raise Unprocessable("not_continuous", f"{leaf.path} takes no numbers between others", f"{place}.path")
+        for value in (variable.min, variable.max):
+            check_value(leaf, value, place)
+    if not variable.min < variable.max:
+        raise Unprocessable("variable_range", "a variable needs a range from min to max", place)
+    return Choice(leaves, variable.min, variable.max)
 
 
-class _Asked(Exception):
-    """The search wants to know the figure at a place."""
+def _cases(request: DesignRequest, base: BaseRequest) -> list[Overrides]:
+    """Every operating point at every corner."""
+    corners: list[Overrides] = [{}]
+    if request.corners is not None:
+        combined = grid(request.corners, base, MOST_CORNERS, "corners")
+        corners = [combined.overrides(index) for index in range(combined.total)]
+    points = [{}] if request.collective is None else request.collective
+    listed(points, base, MOST_CORNERS, "collective")
+    check_count(len(points) * len(corners), MOST_CORNERS, "corners")
+    chosen = [path for variable in request.variables for path in variable.paths]
+    for place, paths in (
+        ("variables", []),
+        ("corners", corners[0]),
+        ("collective", {path for p in points for path in p}),
+    ):
+        chosen += paths
+        check_distinct(chosen, place)
+    return [{**point, **corner} for point in points for corner in corners]
 
-    def __init__(self, shares: list[float]) -> None:
-        super().__init__(shares)
-        self.shares = shares
+
+def _sign(request: DesignRequest, objective: Leaf) -> float:
+    """Factor with which the objective is minimised."""
+    if request.direction is not None:
+        return -1.0 if request.direction == "maximise" else 1.0
+    if objective.bound is None:
+        message = f"{objective.path} has no safe side of its own; say maximise or minimise"
+        raise Unprocessable("direction_missing", message, "direction")
+    return -1.0 if objective.bound == "lower" else 1.0
+
+
+def _share(choice: Choice, case: dict[str, Any]) -> float:
+    """The case's own value as a share of the range; 0 where it has none."""
+    own = value_at(case, choice.leaves[0].path)
+    return 0.0 if own is None else min(max((own - choice.low) / (choice.high - choice.low), 0.0), 1.0)

@@ -3,7 +3,7 @@
 import asyncio
 import time
 from collections import deque
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncGenerator, Callable
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -54,7 +54,7 @@ async def twice_if_lost(pool: Pool, function: Callable[..., Any], *arguments: An
         return await pool.submit(function, *arguments)
 
 
-async def in_order(pool: Pool, work: Work) -> AsyncIterator[tuple[range, list[Point]]]:
+async def in_order(pool: Pool, work: Work) -> AsyncGenerator[tuple[range, list[Point]], None]:
     """Runs of points with their indices, in order; a chunk that loses its process is solved again point by point.
 
     Leaving the iteration takes back the chunks that have not begun and waits for none.

@@ -1,7 +1,7 @@
-"""What a study is asked: the body of POST /v1/sweep and POST /v1/sensitivity, and what other studies share of it."""
+"""The bodies of the studies: sweep, sensitivity, corners and design."""
 
 import re
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema, model_validator
 from pydantic_core import PydanticCustomError
@@ -184,3 +184,69 @@ class SensitivityRequest(StudyRequest):
         Field(min_length=1, max_length=200),
         Input("inputs", text="dotted paths of the numbers to move", default_text="every number of the case"),
     ] = None
+
+
+DRIVE_TRAIN = "/v1/drive-train"
+_RANGES = "what each uncertain field, or several together, may be; every combination is a corner"
+USUAL_RANGES = (
+    "wall response, clearances of a shaft's plain bearings against each other, friction, direction of the offset and "
+    "thrust of the couplings"
+)
+
+
+class DriveTrainStudy(Part):
+    """A study of a gear unit."""
+
+    endpoint: ClassVar[str] = DRIVE_TRAIN
+
+    request: Annotated[dict[str, Any], Input("request", text="the request of /v1/drive-train")]
+
+
+class CornersRequest(DriveTrainStudy):
+    """A gear unit at every combination of its uncertain inputs."""
+
+    ranges: Annotated[
+        list[Axis] | None, Field(max_length=20), Input("ranges", text=_RANGES, default_text=USUAL_RANGES)
+    ] = None
+    outputs: Annotated[
+        list[FieldPath] | None,
+        Field(min_length=1, max_length=100),
+        Input("outputs", text="dotted paths of the single values wanted", default_text="the headline numbers"),
+    ] = None
+
+
+class Variable(Part):
+    """A number that the search varies, and its range."""
+
+    path: Annotated[FieldPaths, Input("field to choose", text="dotted path, or several fields of one value")]
+    min: Annotated[float, Input("lower end")]
+    max: Annotated[float, Input("upper end")]
+
+    @property
+    def paths(self) -> list[str]:
+        """The fields that take the value."""
+        return self.path if isinstance(self.path, list) else [self.path]
+
+
+class DesignRequest(DriveTrainStudy):
+    """The flank correction whose worst corner is best."""
+
+    variables: Annotated[list[Variable], Field(min_length=1, max_length=10), Input("variables")]
+    corners: Annotated[
+        list[Axis] | None, Field(max_length=20), Input("corners", text=_RANGES, default_text="the request's own")
+    ] = None
+    collective: Annotated[
+        list[dict[str, Value]] | None,
+        Field(min_length=1),
+        Input("collective", text="operating points, as what each changes", default_text="the request's own"),
+    ] = None
+    objective: Annotated[
+        FieldPath, Input("objective", text="dotted path of the output that its worst corner judges")
+    ] = "safety.minimum"
+    direction: Annotated[
+        Literal["maximise", "minimise"] | None,
+        Input("direction", text="whether the objective shall be large or small", default_text="towards its safe side"),
+    ] = None
+    evaluations: Annotated[
+        int, Input("evaluations", text="how many corrections may be tried at every corner", ge=1, le=1000)
+    ] = 60

@@ -1,102 +1,195 @@
-"""What moves each output most: differences over every input, sorted by influence."""
+"""Sensitivity: derivatives of each output with respect to each number of a case, by differences.
+
+An input is moved by its tolerance, else by 1 % (1 K for a temperature, 1 for a count); a step of a tolerance is checked
+at half of it.
+"""
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from app.calculations import Calculation
 from app.problems import Unprocessable
 from app.reading import read
-from app.schema.base import MODEL_VERSION
 from app.schema.fields import ITEM, Leaf, leaves
-from app.sources import SOURCES
-from app.studies.differences import Differences, Probe, probe
-from app.studies.engine import Pool, Work, in_order
-from app.studies.fields import scalar_at, value_at
-from app.studies.outputs import Outputs, chosen
-from app.studies.plan import check_count
+from app.studies.engine import Pool
+from app.studies.fields import fault, scalar_at, value_at
+from app.studies.point_sets import check_count
 from app.studies.points import Point, Question
-from app.studies.reading import calculation_of, case_of_study, checked_base
 from app.studies.requests import Overrides, SensitivityRequest
 from app.studies.stream import Clock, Line, Lines
+from app.studies.study import Study, calculation_of, case_of_study, checked_base, chosen, output_header, paths_of
 
 PATH = "/v1/sensitivity"
-NUMBERS = {"number", "integer"}
+NUMBERS = frozenset({"number", "integer"})
+RELATIVE_STEP = 0.01
+KELVIN_STEP = 1.0
+DISAGREEMENT = 0.1  # relative difference of two slopes
+NOISE = 1e-7  # relative change of an output that an iteration may leave
 
 
 @dataclass(frozen=True, slots=True)
-class Sensitivity:
-    """A study of sensitivity that has passed its checks; its first point is the case itself."""
+class Probe:
+    """One input, its value and the values it is moved to; None where its range ends.
 
-    question: Question
-    outputs: Outputs
+    `half` moves it by half the step, where the step is a tolerance: that need not be small.
+    """
+
+    leaf: Leaf
+    value: float
+    step: float
+    below: float | None
+    above: float | None
+    half: "Probe | None" = None
+
+    def overrides(self) -> Iterator[dict[str, Any]]:
+        """The points to solve: below, above, then those of half the step."""
+        yield from ({self.leaf.path: place} for place in (self.below, self.above) if place is not None)
+        if self.half is not None:
+            yield from self.half.overrides()
+
+
+def probe(leaf: Leaf, value: float) -> Probe | None:
+    """How an input is moved: by its tolerance, else by 1 %, 1 K for a temperature, 1 for a count."""
+    if leaf.kind == "integer":
+        return _moved(leaf, value, 1.0)
+    if leaf.tolerance is not None:
+        step = max(leaf.tolerance, (leaf.relative_tolerance or 0.0) * abs(value))
+        found = _moved(leaf, value, step)
+        return None if found is None else replace(found, half=_moved(leaf, value, step / 2.0))
+    return _moved(leaf, value, KELVIN_STEP if leaf.unit == "°C" else RELATIVE_STEP * abs(value))
+
+
+def _moved(leaf: Leaf, value: float, step: float) -> Probe | None:
+    """The input moved by a step; None where it has no other value."""
+    below, above = (_inside(leaf, value + sign * step) for sign in (-1.0, 1.0))
+    return None if step == 0.0 or below is above is None else Probe(leaf, value, step, below, above)
+
+
+def _inside(leaf: Leaf, value: float) -> float | None:
+    moved = int(value) if leaf.kind == "integer" else value
+    return moved if fault(leaf, moved) is None else None
+
+
+@dataclass(frozen=True, slots=True)
+class Differences:
+    """Values of an output at an input's value and on both sides; None where there is none."""
+
+    probe: Probe
+    base: float | None
+    below: float | None
+    above: float | None
+    half: "Differences | None" = None
+
+    @property
+    def derivative(self) -> float | None:
+        """Central where both sides have answers, else one-sided [output per input]."""
+        left, right = self._slopes()
+        if left is None or right is None:
+            return right if left is None else left
+        return _slope(self.below, self.above, self.probe.below, self.probe.above)
+
+    @property
+    def elasticity(self) -> float | None:
+        """Per cent of the output for a per cent of the input; none at zero and for a temperature in degrees."""
+        derivative, probe = self.derivative, self.probe
+        if derivative is None or not self.base or not probe.value or probe.leaf.unit == "°C":
+            return None
+        return derivative * probe.value / self.base
+
+    @property
+    def change(self) -> float | None:
+        """Change of the output by one step upwards, from the side where it is larger."""
+        steps = [slope * self.probe.step for slope in self._slopes() if slope is not None]
+        return max(steps, key=abs, default=None)
+
+    @property
+    def kink(self) -> bool | None:
+        """Whether the slopes to either side disagree by more than a tenth; None where one is missing."""
+        return self._disagree(*self._slopes())
+
+    @property
+    def curved(self) -> bool | None:
+        """Whether the derivative differs by more than a tenth from that of half the step; None without half a step."""
+        return None if self.half is None else self._disagree(self.derivative, self.half.derivative)
+
+    def _disagree(self, one: float | None, other: float | None) -> bool | None:
+        if one is None or other is None or self.base is None:
+            return None
+        largest = max(abs(one), abs(other))
+        if largest * self.probe.step <= NOISE * abs(self.base):
+            return False
+        return abs(one - other) > DISAGREEMENT * largest
+
+    def _slopes(self) -> tuple[float | None, float | None]:
+        at, probe = self.probe.value, self.probe
+        return _slope(self.base, self.below, at, probe.below), _slope(self.base, self.above, at, probe.above)
+
+
+def _slope(one: float | None, other: float | None, at: float | None, there: float | None) -> float | None:
+    """Difference quotient; None where a value or a place is missing."""
+    if one is None or other is None or at is None or there is None:
+        return None
+    return (other - one) / (there - at)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sensitivity(Study):
+    """A case and its moved inputs; the first point is the case itself."""
+
     probes: list[Probe]
-    case: str
 
     @property
     def total(self) -> int:
         """How many points it has."""
-        return len(self._overrides())
+        return len(self._points())
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """All lines but those of progress: of each output the most influential input first, then the end."""
-        points: list[Point] = []
-        overrides = self._overrides()
-        async for indices, answers in in_order(pool, Work(self.question, overrides.__getitem__, len(overrides))):
-            points += answers
-            clock.done = indices.stop
-        yield list(self._ranked(points))
+        """A line for each output and input, the most influential input of an output first; then the end."""
+        overrides, points = self._points(), list[Point]()
+        async for _, found in self.solve(pool, clock, overrides.__getitem__, len(overrides)):
+            points += found
+        yield [line for column in range(len(self.outputs)) for line in self._ranked(column, points)]
         yield [self._end(points, clock)]
 
-    def _overrides(self) -> list[Overrides]:
+    def _points(self) -> list[Overrides]:
         return [{}, *(override for each in self.probes for override in each.overrides())]
 
-    def _ranked(self, points: list[Point]) -> Iterator[Line]:
-        for column, path in enumerate(self.outputs.paths):
-            found = self._differences([_number(point.out[column]) for point in points])
-            for each in sorted(found, key=lambda differences: -abs(differences.change or 0.0)):
-                yield {
-                    "type": "sensitivity",
-                    "output": path,
-                    "path": each.probe.leaf.path,
-                    "derivative": each.derivative,
-                    "elasticity": each.elasticity,
-                    "step": each.probe.step,
-                    "change": each.change,
-                    "kink": each.kink,
-                    "curved": each.curved,
-                }
-
-    def _differences(self, values: list[float | None]) -> Iterator[Differences]:
-        """Every input's differences from the values of one output in the order of the points."""
-        base, *moved = values
+    def _ranked(self, column: int, points: list[Point]) -> Iterator[Line]:
+        """The lines of one output."""
+        base, *moved = (_number(point.out[column]) for point in points)
         rest = iter(moved)
-        yield from (_differences(each, base, rest) for each in self.probes)
+        found = [_differences(each, base, rest) for each in self.probes]
+        for each in sorted(found, key=lambda differences: -abs(differences.change or 0.0)):
+            yield {
+                "type": "sensitivity",
+                "output": self.outputs[column].path,
+                "path": each.probe.leaf.path,
+                "derivative": each.derivative,
+                "elasticity": each.elasticity,
+                "step": each.probe.step,
+                "change": each.change,
+                "kink": each.kink,
+                "curved": each.curved,
+            }
 
     def _end(self, points: list[Point], clock: Clock) -> Line:
         base = points[0]
-        return {
-            "type": "end",
-            "endpoint": self.question.endpoint,
-            "inputs": [
-                {"path": each.leaf.path, "unit": each.leaf.unit, "title": each.leaf.title, "value": each.value}
-                for each in self.probes
+        line = self.header(
+            "end",
+            inputs=[{**output_header(each.leaf), "value": each.value} for each in self.probes],
+            outputs=[
+                {**output_header(leaf), "value": value} for leaf, value in zip(self.outputs, base.out, strict=True)
             ],
-            "outputs": [
-                {**output, "value": value} for output, value in zip(self.outputs.header(), base.out, strict=True)
-            ],
-            "points": len(points),
-            "counts": dict(sorted(Counter(point.status for point in points).items())),
-            "status": base.status,
-            "warnings": base.warnings,
-            "error": base.error,
-            "assumptions": base.assumptions,
-            "model_version": MODEL_VERSION,
-            "sources": SOURCES,
-            "case": self.case,
-            "elapsed_s": clock.elapsed_s,
-        }
+            points=len(points),
+            counts=dict(sorted(Counter(point.status for point in points).items())),
+            status=base.status,
+            warnings=base.warnings,
+            error=base.error,
+            assumptions=base.assumptions,
+        )
+        return {**line, "elapsed_s": clock.elapsed_s}
 
 
 def _differences(probe: Probe, base: float | None, moved: Iterator[float | None]) -> Differences:
@@ -111,22 +204,26 @@ def _number(value: Any) -> float | None:
     return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
 
 
-def plan_sensitivity(body: bytes, most: int, deadline_s: float) -> Sensitivity:
-    """The study that a body asks for; runs in a worker.
+def sensitivity_study(body: bytes, most: int, deadline_s: float) -> Sensitivity:
+    """The sensitivity in a body, of at most `most` points; runs in a worker.
 
-    Raises Unreadable, InvalidBody and Unprocessable, with locations in the study.
+    Raises Unreadable, InvalidBody and Unprocessable, with locations in the body.
     """
     request = read(SensitivityRequest, body)
     calculation = calculation_of(request)
     outputs = chosen(calculation, request.outputs)
     case = checked_base(calculation, request.request, {}).model_dump()
-    question = Question(calculation.path, request.request, outputs.paths, deadline_s)
     if request.inputs is None:
         inputs = _every_number(calculation, case)
     else:
         inputs = [_named(calculation, case, request.inputs, place) for place in range(len(request.inputs))]
     probes = [each for leaf in inputs if (each := probe(leaf, value_at(case, leaf.path)))]
-    study = Sensitivity(question, outputs, probes, case_of_study(PATH, request))
+    study = Sensitivity(
+        question=Question(calculation.path, request.request, paths_of(outputs), deadline_s),
+        outputs=outputs,
+        case=case_of_study(PATH, request),
+        probes=probes,
+    )
     check_count(study.total, most, "inputs")
     return study
 

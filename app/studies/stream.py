@@ -1,17 +1,24 @@
-"""A study as a stream of lines: progress while nothing else comes, and an error line where it ends before its time."""
+"""A study as a stream of lines: progress between them, an error line at an early end; written as JSON or as a table."""
 
 import asyncio
+import csv
+import io
+import json
 import logging
 import time
-from collections.abc import AsyncGenerator
+from collections.abc import AsyncGenerator, Callable
 from contextlib import aclosing
 from typing import Any
 
+from app.schema.fields import Leaf
 from app.studies.engine import PoolLost
+from app.studies.point_sets import PointSet
+from app.studies.points import Point
 
 Line = dict[str, Any]
 Lines = AsyncGenerator[list[Line], None]
 PROGRESS_SECONDS = 2.0
+FORMULA_SIGNS = ("=", "+", "-", "@", "\t", "\r")
 
 logger = logging.getLogger("tribodrive")
 
@@ -74,3 +81,80 @@ def _outcome(upcoming: asyncio.Future[list[Line] | None], clock: Clock) -> tuple
         logger.exception("a study failed")
         return [clock.error("internal_error", "something went wrong in the service; the log has the cause")], True
     return group or [], group is None
+
+
+class StudyBroke(Exception):
+    """The study ended early; a table cannot say so, therefore its connection is cut."""
+
+
+def json_line(line: Line) -> bytes:
+    """One line of newline-delimited JSON."""
+    return json.dumps(line, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode() + b"\n"
+
+
+def point_line(index: int, at: Any, point: Point) -> Line:
+    """The line of a point."""
+    line = {
+        "type": "point",
+        "index": index,
+        "at": at,
+        "status": point.status,
+        "out": point.out,
+        "warnings": point.warnings,
+    }
+    return line if point.error is None else {**line, "error": point.error}
+
+
+async def encoded(lines: Lines, encode: Callable[[Line], bytes]) -> AsyncGenerator[bytes, None]:
+    """The lines as bytes, those that come together in one piece."""
+    async with aclosing(lines):
+        async for group in lines:
+            if piece := b"".join(map(encode, group)):
+                yield piece
+
+
+class Table:
+    """A sweep as comma-separated values: a header with units, then a row a point."""
+
+    def __init__(self, points: PointSet, outputs: tuple[Leaf, ...]) -> None:
+        self._points = points
+        inputs, results = ([_column(leaf) for leaf in leaves] for leaves in (points.varied, outputs))
+        self._heading = ["index", *inputs, "status", *results, "warnings", "error"]
+
+    def encode(self, line: Line) -> bytes:
+        """The row or rows of a line; those of progress and end have none."""
+        match line["type"]:
+            case "sweep":
+                return _row(self._heading)
+            case "point":
+                return _row(self._cells(line))
+            case "error":
+                raise StudyBroke(line["message"])
+            case _:
+                return b""
+
+    def _cells(self, line: Line) -> list[Any]:
+        overrides = self._points.overrides(line["index"])
+        at = [overrides.get(leaf.path) for leaf in self._points.varied]
+        error = line.get("error")
+        message = f"{error['code']}: {error['message']}" if error else None
+        return [line["index"], *at, line["status"], *line["out"], " ".join(line["warnings"]), message]
+
+
+def _column(leaf: Leaf) -> str:
+    return f"{leaf.path} [{leaf.unit}]" if leaf.unit else leaf.path
+
+
+def _row(cells: list[Any]) -> bytes:
+    text = io.StringIO()
+    csv.writer(text).writerow([_cell(cell) for cell in cells])
+    return text.getvalue().encode()
+
+
+def _cell(value: Any) -> Any:
+    """A cell that no spreadsheet takes for a formula."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str) and value.startswith(FORMULA_SIGNS):
+        return f"'{value}"
+    return value

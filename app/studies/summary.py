@@ -1,18 +1,20 @@
-"""What a sweep says at its end: counts, ranges, the best point, and for random samples their statistics."""
+"""The end of a sweep: counts, extremes, the best point, and statistics of a random sample."""
 
 import operator
 from array import array
 from collections import Counter
+from math import isnan, nan
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from app.studies.plan import Plan
+from app.studies.point_sets import PointSet
 from app.studies.points import Point
 from app.studies.requests import Best
 
 LEAST_CORRELATED = 3
-NOTHING = float("nan")
+QUANTILES = (0.05, 0.5, 0.95)
+CONFIDENCE = 0.9
 
 
 class Extreme(NamedTuple):
@@ -25,8 +27,8 @@ class Extreme(NamedTuple):
 class Summary:
     """Gathers points as they pass; of a grid it keeps the extremes only, of a sample every number."""
 
-    def __init__(self, plan: Plan, outputs: list[str], best: Best | None) -> None:
-        self._plan = plan
+    def __init__(self, points: PointSet, outputs: list[str], best: Best | None) -> None:
+        self._points = points
         self._outputs = outputs
         self._best = best
         self._counts: Counter[str] = Counter()
@@ -45,8 +47,8 @@ class Summary:
                 self._widen(path, Extreme(value, index))
         if self._best is not None:
             self._choose(self._best, index, point.out)
-        if self._plan.sample is not None:
-            self._values.extend(value if _is_number(value) else NOTHING for value in point.out)
+        if self._points.sample is not None:
+            self._values.extend(value if _is_number(value) else nan for value in point.out)
         for each in point.assumptions:
             self._assume(each)
 
@@ -63,7 +65,7 @@ class Summary:
     @property
     def values(self) -> np.ndarray[Any, Any] | None:
         """The outputs of a random sample, a row a point, NaN where there is none."""
-        if self._plan.sample is None:
+        if self._points.sample is None:
             return None
         return np.array(self._values).reshape(self._count, len(self._outputs))
 
@@ -105,7 +107,7 @@ class Summary:
         if self._chosen is None:
             return None
         (_, index), out = self._chosen
-        return {"index": index, "at": self._plan.at(index), "out": out}
+        return {"index": index, "at": self._points.at(index), "out": out}
 
     def _assume(self, assumption: dict[str, Any]) -> None:
         """Each assumption once; a value that differs between points is null."""
@@ -129,14 +131,11 @@ def statistics(
 
     Bounds hold a quantile with 90 % confidence, whatever the distribution; null where the sample is too small for one.
     """
-    from solvers.drive_train.studies.tolerances import QUANTILES, quantile  # noqa: PLC0415  as spearmanr below
-
     there = {path: ~np.isnan(outputs[:, place]) for place, path in enumerate(output_paths)}
     columns = {path: outputs[there[path], place] for place, path in enumerate(output_paths) if there[path].any()}
-    found = {path: [quantile(np.sort(values), share) for share in QUANTILES] for path, values in columns.items()}
     return {
-        "quantiles": {path: [each.value for each in own] for path, own in found.items()},
-        "quantile_bounds": {path: [[each.low, each.high] for each in own] for path, own in found.items()},
+        "quantiles": {path: np.quantile(values, QUANTILES).tolist() for path, values in columns.items()},
+        "quantile_bounds": {path: [_bounds(values, share) for share in QUANTILES] for path, values in columns.items()},
         "rank_correlation": {
             path: {
                 name: _rank_correlation(inputs[there[path], place], values) for place, name in enumerate(input_paths)
@@ -144,6 +143,14 @@ def statistics(
             for path, values in columns.items()
         },
     }
+
+
+def _bounds(values: np.ndarray[Any, Any], share: float) -> list[float | None]:
+    """The order statistics that hold a quantile with 90 % confidence."""
+    from scipy.stats import quantile_test  # noqa: PLC0415  half a second that only random samples need
+
+    interval: Any = quantile_test(values, p=share).confidence_interval(CONFIDENCE)
+    return [None if isnan(end) else float(end) for end in interval]
 
 
 def _rank_correlation(x: np.ndarray[Any, Any], y: np.ndarray[Any, Any]) -> float | None:

@@ -1,111 +1,147 @@
-"""A sweep: its header, a line a point, its end."""
+"""Sweeps: a line a point, then extremes and statistics. Corners are a sweep over uncertain inputs."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from app.problems import Unprocessable
 from app.reading import read
-from app.schema.base import MODEL_VERSION
 from app.schema.fields import Leaf
-from app.sources import SOURCES
-from app.studies.engine import Pool, Work, in_order, twice_if_lost
-from app.studies.fields import did_you_mean, scalar_at
-from app.studies.lines import Table, point_line
-from app.studies.outputs import Outputs, chosen
-from app.studies.plan import Plan, planned
+from app.studies.drive_train import MOST_CORNERS, lightened, unsolved_corners, usual_corners
+from app.studies.engine import Pool, twice_if_lost
+from app.studies.fields import did_you_mean
+from app.studies.point_sets import BaseRequest, PointSet, grid, points_of
 from app.studies.points import Question
-from app.studies.reading import calculation_of, case_of_study, checked_base
-from app.studies.requests import Best, SweepRequest
-from app.studies.stream import Clock, Line, Lines
-from app.studies.summary import NO_STATISTICS, Summary, statistics
+from app.studies.requests import Best, CornersRequest, SweepRequest
+from app.studies.stream import Clock, Line, Lines, Table, point_line
+from app.studies.study import (
+    Study,
+    calculation_of,
+    case_of_study,
+    checked_base,
+    chosen,
+    output_header,
+    paths_of,
+)
+from app.studies.summary import NO_STATISTICS, Extreme, Summary, statistics
 
 PATH = "/v1/sweep"
+CORNERS_PATH = "/v1/drive-train/corners"
 
 
-@dataclass(frozen=True, slots=True)
-class Sweep:
-    """A sweep that has passed its checks."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sweep(Study):
+    """A request solved at every point of a set."""
 
-    question: Question
-    plan: Plan
-    varied: tuple[Leaf, ...]
-    outputs: Outputs
-    best: Best | None
-    case: str
+    kind: ClassVar[str] = "sweep"
+    points: PointSet
+    best: Best | None = None
 
     @property
     def total(self) -> int:
         """How many points it has."""
-        return self.plan.total
-
-    async def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """All lines but those of progress."""
-        yield [self._header()]
-        summary = Summary(self.plan, self.outputs.paths, self.best)
-        async for indices, points in in_order(pool, Work(self.question, self.plan.overrides, self.total)):
-            for point in points:
-                summary.add(point)
-            clock.done = indices.stop
-            yield [point_line(index, self.plan.at(index), point) for index, point in zip(indices, points, strict=True)]
-        yield [summary.line(await self._statistics(pool, summary), clock.elapsed_s)]
+        return self.points.total
 
     def table(self) -> Table:
-        """The same as rows of a table."""
-        return Table(self.plan, self.varied, self.outputs.leaves)
+        """The lines as rows of a table."""
+        return Table(self.points, self.outputs)
 
-    def _header(self) -> Line:
-        return {
-            "type": "sweep",
-            "endpoint": self.question.endpoint,
-            "axes": [axis.header() for axis in self.plan.axes],
-            "outputs": self.outputs.header(),
-            "total": self.total,
-            "model_version": MODEL_VERSION,
-            "sources": SOURCES,
-            "case": self.case,
-        }
+    async def lines(self, pool: Pool, clock: Clock) -> Lines:
+        """The header, each point, the closing lines."""
+        yield [
+            self.header(
+                self.kind,
+                axes=[axis.header() for axis in self.points.axes],
+                outputs=[output_header(leaf) for leaf in self.outputs],
+                total=self.total,
+            )
+        ]
+        summary = Summary(self.points, paths_of(self.outputs), self.best)
+        async for indices, points in self.solve(pool, clock, self.points.overrides, self.total):
+            for point in points:
+                summary.add(point)
+            yield [point_line(index, self.points.at(index), each) for index, each in zip(indices, points, strict=True)]
+        yield await self.closing(summary, pool, clock)
 
-    async def _statistics(self, pool: Pool, summary: Summary) -> dict[str, Any]:
-        if self.plan.sample is None:
-            return NO_STATISTICS
-        inputs = [axis.leaves[0].path for axis in self.plan.axes]
-        arguments = (self.plan.sample, summary.values, inputs, self.outputs.paths)
-        found: dict[str, Any] = await twice_if_lost(pool, statistics, *arguments)
-        return found
+    async def closing(self, summary: Summary, pool: Pool, clock: Clock) -> list[Line]:
+        """The last lines."""
+        found = NO_STATISTICS
+        if self.points.sample is not None:
+            inputs, outputs = paths_of(self.points.varied), paths_of(self.outputs)
+            found = await twice_if_lost(pool, statistics, self.points.sample, summary.values, inputs, outputs)
+        return [summary.line(found, clock.elapsed_s)]
 
 
-def plan_sweep(body: bytes, most: int, deadline_s: float) -> Sweep:
-    """The sweep that a body asks for; runs in a worker.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Corners(Sweep):
+    """A sweep over the combinations of uncertain inputs, which names the points of the extremes."""
 
-    Raises Unreadable, InvalidBody and Unprocessable, with locations in the sweep.
+    kind: ClassVar[str] = "corners"
+
+    async def closing(self, summary: Summary, pool: Pool, clock: Clock) -> list[Line]:  # noqa: ARG002
+        """The extremes of every output, and a warning where corners have no solution."""
+        warnings = unsolved_corners(self.total - summary.answered)
+        return [*self._extremes(summary), {**summary.line(NO_STATISTICS, clock.elapsed_s), "warnings": warnings}]
+
+    def _extremes(self, summary: Summary) -> Iterator[Line]:
+        for path, found in summary.extremes.items():
+            yield {"type": "extremes", "output": path, **{end: self._corner(each) for end, each in found.items()}}
+
+    def _corner(self, extreme: Extreme) -> Line:
+        return {"value": extreme.value, "at": self.points.overrides(extreme.point)}
+
+
+def sweep_study(body: bytes, most: int, deadline_s: float) -> Sweep:
+    """The sweep in a body, of at most `most` points; runs in a worker.
+
+    Raises Unreadable, InvalidBody and Unprocessable, with locations in the body.
     """
     request = read(SweepRequest, body)
     calculation = calculation_of(request)
     outputs = chosen(calculation, request.outputs)
     if request.best is not None:
         _check_best(request.best, outputs)
-    plan = planned(request, calculation.request, most)
-    checked_base(calculation, request.request, plan.overrides(0))
-    paths = dict.fromkeys(path for case in plan.cases or () for path in case)
-    listed = (scalar_at(calculation.request, path, "cases", "unknown_path") for path in paths)
+    points = points_of(request, BaseRequest(calculation.request, request.request), most)
+    checked_base(calculation, request.request, points.overrides(0))
     return Sweep(
-        question=Question(calculation.path, request.request, outputs.paths, deadline_s),
-        plan=plan,
-        varied=(*(leaf for axis in plan.axes for leaf in axis.leaves), *listed),
+        question=Question(calculation.path, request.request, paths_of(outputs), deadline_s),
         outputs=outputs,
-        best=request.best,
         case=case_of_study(PATH, request),
+        points=points,
+        best=request.best,
     )
 
 
-def _check_best(best: Best, outputs: Outputs) -> None:
-    """Refuse a best point that is judged by what the sweep does not tell, or by words."""
+def corners_study(body: bytes, most: int, deadline_s: float) -> Corners:
+    """The corners of a gear unit in a body; arguments and errors as of `sweep_study`."""
+    request = read(CornersRequest, body)
+    calculation = calculation_of(request)
+    outputs = chosen(calculation, request.outputs)
+    ranges = request.ranges
+    if ranges is None:
+        ranges = usual_corners(checked_base(calculation, request.request, {}))
+    if not ranges:
+        raise Unprocessable("no_corners", "nothing is uncertain here; name what is", "ranges")
+    points = grid(ranges, BaseRequest(calculation.request, request.request), min(most, MOST_CORNERS), "ranges")
+    checked_base(calculation, request.request, points.overrides(0))
+    base = lightened(request.request, paths_of(outputs))
+    return Corners(
+        question=Question(calculation.path, base, paths_of(outputs), deadline_s),
+        outputs=outputs,
+        case=case_of_study(CORNERS_PATH, request),
+        points=points,
+    )
+
+
+def _check_best(best: Best, outputs: tuple[Leaf, ...]) -> None:
+    """Refuse a best point by what is no output of the sweep, or no number."""
+    known = {leaf.path: leaf for leaf in outputs}
     goal = "minimise" if best.minimise else "maximise"
-    judged = [(f"best.{goal}", best.output)]
+    judged: list[tuple[str, Any]] = [(f"best.{goal}", best.output)]
     judged += [(f"best.where.{place}.output", bound.output) for place, bound in enumerate(best.where)]
     for place, path in judged:
-        if path not in outputs.paths:
-            message = f"{path} is not among the outputs of the sweep{did_you_mean(path, outputs.paths)}"
+        if path not in known:
+            message = f"{path} is not among the outputs of the sweep{did_you_mean(path, known)}"
             raise Unprocessable("unknown_output", message, place)
-        if outputs.leaves[outputs.paths.index(path)].kind == "text":
+        if known[path].kind == "text":
             raise Unprocessable("unknown_output", f"{path} is no number", place)

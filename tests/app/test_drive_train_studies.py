@@ -11,9 +11,9 @@ import pytest
 from app.calculations import BY_PATH
 from app.library import examples
 from app.routes.study_examples import CORNERS_EXAMPLES, DESIGN_EXAMPLES
-from app.studies.corners import plan_corners
-from app.studies.design_plan import plan_design
+from app.studies.design import design_study
 from app.studies.fields import set_value, value_at
+from app.studies.sweep import corners_study
 
 Post = Callable[[str, object], httpx.Response]
 
@@ -54,12 +54,12 @@ def test_a_design_on_the_workers(post: Post) -> None:
 
 @pytest.mark.parametrize("example", CORNERS_EXAMPLES.values(), ids=list(CORNERS_EXAMPLES))
 def test_examples_of_corners_are_accepted(example: dict[str, Any]) -> None:
-    assert plan_corners(json.dumps(example["value"]).encode(), 2500, 30.0).total in {12, 128}
+    assert corners_study(json.dumps(example["value"]).encode(), 2500, 30.0).total in {12, 128}
 
 
 @pytest.mark.parametrize("example", DESIGN_EXAMPLES.values(), ids=list(DESIGN_EXAMPLES))
 def test_examples_of_designs_are_accepted(example: dict[str, Any]) -> None:
-    assert plan_design(json.dumps(example["value"]).encode(), 2500, 30.0).total == 720
+    assert design_study(json.dumps(example["value"]).encode(), 2500, 30.0).total == 720
 
 
 @pytest.mark.parametrize(

@@ -32,8 +32,8 @@ from app.problems import Unprocessable
 from app.reading import InvalidBody
 from app.schema.fields import leaf_at, leaves
 from app.sources import SHORT_SOURCES
-from app.studies.lines import point_line
 from app.studies.points import solve_point
+from app.studies.stream import point_line
 
 MOST, DEADLINE_S = 2500, 30.0
 CALCULATION = {each.path: each for each in CALCULATIONS}
@@ -54,9 +54,9 @@ def solved(found: Asked) -> tuple[views.Study, Gathered]:
     study = views.planned(found, MOST, DEADLINE_S)
     gathered = Gathered(study.sweep.total)
     for index in range(study.sweep.total):
-        overrides = study.sweep.plan.overrides(index)
+        overrides = study.sweep.points.overrides(index)
         point = solve_point(study.sweep.question, overrides)
-        gathered.add(json.loads(json.dumps(point_line(index, study.sweep.plan.at(index), point))))
+        gathered.add(json.loads(json.dumps(point_line(index, study.sweep.points.at(index), point))))
     gathered.add({"type": "end", "elapsed_s": 1.0})
     return study, gathered
 
@@ -86,8 +86,8 @@ def test_every_endpoint_has_a_study_to_start_from() -> None:
 
 def test_the_crowning_that_forgives_is_a_map_of_17_by_11() -> None:
     study = views.planned(study_of(STUDIES[0]), MOST, DEADLINE_S)
-    assert [len(axis.values or ()) for axis in study.sweep.plan.axes] == [17, 11]
-    slopes = study.sweep.plan.axes[0].values
+    assert [len(axis.values or ()) for axis in study.sweep.points.axes] == [17, 11]
+    slopes = study.sweep.points.axes[0].values
     assert slopes is not None
     assert (slopes[0], slopes[-1]) == (-20.0, 20.0)
 
@@ -282,7 +282,7 @@ def test_what_is_refused_stands_at_its_control(said: dict[str, str], control: st
 
 def test_a_decimal_comma_is_read() -> None:
     study = views.planned(asked(COUPLING, x="operation.misalignment_deg", **{"x.to": "0,1"}), MOST, DEADLINE_S)
-    axis = study.sweep.plan.axes[0].values
+    axis = study.sweep.points.axes[0].values
     assert axis is not None
     assert axis[-1] == 0.1
 
@@ -290,7 +290,7 @@ def test_a_decimal_comma_is_read() -> None:
 def test_whole_numbers_are_varied_in_whole_steps() -> None:
     said = {"x": "coupling.teeth", "x.from": "40", "x.to": "50"}
     for count, values_wanted in (("3", [40, 45, 50]), ("21", list(range(40, 51)))):
-        axis = views.planned(asked(COUPLING, **said, **{"x.count": count}), MOST, DEADLINE_S).sweep.plan.axes[0]
+        axis = views.planned(asked(COUPLING, **said, **{"x.count": count}), MOST, DEADLINE_S).sweep.points.axes[0]
         assert axis.values == values_wanted
 
 
@@ -298,7 +298,7 @@ def test_words_make_a_family() -> None:
     study = views.planned(
         asked(COUPLING, x="operation.misalignment_deg", **{"x.count": "3"}, y="operation.arrangement"), MOST, DEADLINE_S
     )
-    words = study.sweep.plan.axes[1].values
+    words = study.sweep.points.axes[1].values
     assert words is not None
     assert set(words) == set(leaf_options("operation.arrangement"))
 

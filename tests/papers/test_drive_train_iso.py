@@ -13,8 +13,8 @@ import pytest
 from solvers.drive_train.gap.balance import uniform_force
 from solvers.drive_train.inputs import Arrangement, DriveTrainInputs, Effects, RigidBearing, Shaft, ShaftSection
 from solvers.drive_train.model import prepare
+from solvers.drive_train.outcome import outcome
 from solvers.drive_train.shafts.shaft import second_moment, shaft_model
-from solvers.drive_train.studies.outcome import outcome
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.path_of_contact import meshing_path
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, Modifications

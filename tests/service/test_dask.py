@@ -13,7 +13,7 @@ import pytest
 
 from app.library import examples
 from app.studies.stream import Clock
-from app.studies.sweep import plan_sweep
+from app.studies.sweep import sweep_study
 from tests.support.dask_cluster import DaskProcesses, running_cluster
 from tests.support.pools import InlinePool
 from tests.support.server import free_port, running_server
@@ -65,7 +65,7 @@ def local(body: dict[str, Any]) -> list[dict[str, Any]]:
     """The lines of a sweep calculated in this process."""
 
     async def run() -> list[Any]:
-        study = plan_sweep(json.dumps(body).encode(), 2500, 30.0)
+        study = sweep_study(json.dumps(body).encode(), 2500, 30.0)
         groups = [group async for group in study.lines(InlinePool(), Clock(study.total))]
         return [line for group in groups for line in group]
 

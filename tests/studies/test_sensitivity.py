@@ -10,12 +10,10 @@ import pytest
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.library import examples
 from app.schema.fields import Leaf, leaf_at, leaves
-from app.studies.differences import Differences, probe
 from app.studies.fields import fault
-from app.studies.lines import encoded, json_line
-from app.studies.sensitivity import plan_sensitivity
-from app.studies.stream import Clock, guarded
-from app.studies.sweep import plan_sweep
+from app.studies.sensitivity import Differences, probe, sensitivity_study
+from app.studies.stream import Clock, encoded, guarded, json_line
+from app.studies.sweep import sweep_study
 from tests.support.pools import InlinePool
 
 COUPLING = examples()["pahl-axial-displacement"]
@@ -24,7 +22,7 @@ UNIT = examples()["starter-turbo-gear-drive-train"]
 
 def sensitivities(endpoint: str, request: dict[str, Any], **parts: Any) -> list[dict[str, Any]]:
     body = {"endpoint": endpoint, "request": request, **parts}
-    study = plan_sensitivity(json.dumps(body).encode(), 2500, 30.0)
+    study = sensitivity_study(json.dumps(body).encode(), 2500, 30.0)
 
     async def run() -> bytes:
         clock = Clock(study.total)
@@ -107,7 +105,7 @@ def test_every_number_is_moved_sorted_by_influence() -> None:
 def test_places_of_lists_are_moved() -> None:
     example = examples()["milian-case-1-groove"]
     body = {"endpoint": example.endpoint, "request": example.request}
-    study = plan_sensitivity(json.dumps(body).encode(), 2500, 30.0)
+    study = sensitivity_study(json.dumps(body).encode(), 2500, 30.0)
     paths = [each.leaf.path for each in study.probes]
     count = len(example.request["grooves"])
     assert [path for path in paths if path.startswith("grooves")] == [
@@ -297,7 +295,7 @@ def test_a_step_that_is_too_large_says_so() -> None:
 
 def points_of(sweep: dict[str, Any]) -> list[dict[str, Any]]:
     """The points of a sweep: a list that the request leaves to its default is reachable here too."""
-    study = plan_sweep(json.dumps(sweep).encode(), 2500, 30.0)
+    study = sweep_study(json.dumps(sweep).encode(), 2500, 30.0)
 
     async def run() -> list[dict[str, Any]]:
         found = study.lines(InlinePool(), Clock(study.total))

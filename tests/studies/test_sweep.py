@@ -13,13 +13,12 @@ from scipy.stats import spearmanr
 
 from app.library import examples
 from app.schema.fields import Leaf
-from app.studies.lines import StudyBroke, Table, encoded, json_line
-from app.studies.plan import Plan, PlannedAxis
+from app.studies.point_sets import CheckedAxis, PointSet
 from app.studies.points import Point
 from app.studies.requests import Best
-from app.studies.stream import Clock, guarded
+from app.studies.stream import Clock, StudyBroke, Table, encoded, guarded, json_line
 from app.studies.summary import Summary, statistics
-from app.studies.sweep import plan_sweep
+from app.studies.sweep import sweep_study
 from tests.support.pools import InlinePool
 
 COUPLING = examples()["pahl-axial-displacement"]
@@ -29,7 +28,7 @@ FILM = "lubrication.load_capacity_coefficient"
 
 def swept(slots: int = 1, **parts: Any) -> list[dict[str, Any]]:
     """The lines of a sweep over a coupling."""
-    study = plan_sweep(
+    study = sweep_study(
         json.dumps({"endpoint": COUPLING.endpoint, "request": COUPLING.request, **parts}).encode(), 2500, 30.0
     )
 
@@ -112,8 +111,8 @@ def test_an_assumed_value_that_differs_between_points_is_null() -> None:
 
 def summary(rows: list[list[Any]], **best: Any) -> dict[str, Any]:
     """The end of a sweep along one axis with these outputs x, y, z."""
-    plan = Plan([PlannedAxis("a", (), [10 * index for index in range(len(rows))])], len(rows))
-    gathered = Summary(plan, ["x", "y", "z"], Best.model_validate(best) if best else None)
+    points = PointSet([CheckedAxis("a", (), [10 * index for index in range(len(rows))])], len(rows), ())
+    gathered = Summary(points, ["x", "y", "z"], Best.model_validate(best) if best else None)
     for row in rows:
         gathered.add(Point("ok", row, []))
     line: dict[str, Any] = json.loads(json_line(gathered.line({}, 0.0)))
@@ -189,10 +188,8 @@ def test_statistics_by_hand() -> None:
     assert set(found["quantiles"]) == {"rises", "two", "constant"}
 
 
-def table_of(
-    lines: list[dict[str, Any]], plan: Plan, varied: tuple[Leaf, ...], outputs: tuple[Leaf, ...]
-) -> list[list[str]]:
-    table = Table(plan, varied, outputs)
+def table_of(lines: list[dict[str, Any]], points: PointSet, outputs: tuple[Leaf, ...]) -> list[list[str]]:
+    table = Table(points, outputs)
     text = b"".join(map(table.encode, lines)).decode()
     return list(csv.reader(io.StringIO(text)))
 
@@ -203,13 +200,13 @@ def test_table() -> None:
         {"operation.torque_n_m": 4500},
         {"model.sleeve": "floating", "operation.torque_n_m": None},
     ]
-    study = plan_sweep(json.dumps({**body, "cases": cases[:1]}).encode(), 10, 30.0)
-    plan = Plan([], 2, cases=cases)
+    study = sweep_study(json.dumps({**body, "cases": cases[:1]}).encode(), 10, 30.0)
+    points = PointSet([], 2, study.points.varied, cases=cases)
     _, point, end = swept(cases=cases[:1], outputs=body["outputs"])
     refused = {**point, "index": 1, "status": "refused", "out": [None, "=1+1"], "warnings": ["a", "b"]}
     refused["error"] = {"pointer": "/x", "code": "some_code", "message": 'says "no", twice'}
     lines = [{"type": "sweep"}, point, {"type": "progress"}, refused, end]
-    assert table_of(lines, plan, study.varied, study.outputs.leaves) == [
+    assert table_of(lines, points, study.outputs) == [
         [
             "index",
             "operation.torque_n_m [N m]",
@@ -226,7 +223,7 @@ def test_table() -> None:
 
 @pytest.mark.parametrize("text", ["=cmd()", "+1", "-1", "@sum", "\tx", "\rx"])
 def test_words_that_a_spreadsheet_would_compute_are_quoted(text: str) -> None:
-    table = Table(Plan([], 1, cases=[{}]), (), ())
+    table = Table(PointSet([], 1, (), cases=[{}]), ())
     line = {"type": "point", "index": 0, "status": "ok", "out": [text, -1.5, True, None], "warnings": []}
     (cells,) = csv.reader(io.StringIO(table.encode(line).decode(), newline=""))
     assert cells[2:6] == [f"'{text}", "-1.5", "true", ""]
@@ -234,4 +231,4 @@ def test_words_that_a_spreadsheet_would_compute_are_quoted(text: str) -> None:
 
 def test_a_broken_table_is_cut_off() -> None:
     with pytest.raises(StudyBroke):
-        Table(Plan([], 1, cases=[{}]), (), ()).encode({"type": "error", "message": "gone"})
+        Table(PointSet([], 1, (), cases=[{}]), ()).encode({"type": "error", "message": "gone"})

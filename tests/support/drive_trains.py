@@ -1,7 +1,9 @@
 """The worked example of a turbo gear unit: 12 MW, 10,000 1/min, 39/130, with a gear coupling on its pinion."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from math import pi, radians
+from typing import Any
 
 from solvers.coupling.inputs import Coupling, Friction
 from solvers.drive_train.inputs import (
@@ -101,3 +103,27 @@ def cold(inputs: DriveTrainInputs) -> DriveTrainInputs:
     """Every tooth at its reference temperature, nothing pumped warm."""
     reference = inputs.heat.reference
     return replace(inputs, heat=replace(inputs.heat, wall_response=0.0, pinion_bulk=reference, wheel_bulk=reference))
+
+
+def varied(inputs: DriveTrainInputs, values: Mapping[str, Any]) -> DriveTrainInputs:
+    """The inputs with other values at dotted names ("couplings.0.friction.coefficient")."""
+    for name, value in values.items():
+        inputs = _replaced(inputs, name.split("."), value)
+    return inputs
+
+
+def value_at(thing: Any, name: str) -> Any:
+    """The value at a dotted name."""
+    for step in name.split("."):
+        thing = thing[int(step)] if isinstance(thing, tuple) else getattr(thing, step)
+    return thing
+
+
+def _replaced(thing: Any, steps: list[str], value: Any) -> Any:
+    if not steps:
+        return value
+    below = _replaced(value_at(thing, steps[0]), steps[1:], value)
+    if isinstance(thing, tuple):
+        place = int(steps[0])
+        return (*thing[:place], below, *thing[place + 1 :])
+    return replace(thing, **{steps[0]: below})

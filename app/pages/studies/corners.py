@@ -16,12 +16,11 @@ from app.pages.studies.declaration import Asking, Cell, Lead, Result, StudyPage,
 from app.pages.typesetting import shown
 from app.pages.views import Asked
 from app.schema.fields import Leaf, headlines
-from app.studies.corners import plan_corners
+from app.studies.drive_train import needs_film_or_state
 from app.studies.fields import scalar_at, value_at
-from app.studies.requests import Overrides
+from app.studies.requests import USUAL_RANGES, Overrides
 from app.studies.stream import Line
-from app.studies.unit import needs_film_or_state
-from app.studies.unit_requests import USUAL_RANGES
+from app.studies.sweep import corners_study
 
 OUTPUT = "safety.blok_flank"
 
@@ -159,7 +158,7 @@ CORNERS = StudyPage(
     about=f"Every combination of what nobody knows better: {USUAL_RANGES}.",
     figures=("corners", LOAD_ALONE.name),
     body=_body,
-    plan=plan_corners,
+    plan=corners_study,
     result=_result,
     output=OUTPUT,
 )

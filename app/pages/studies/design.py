@@ -18,11 +18,11 @@ from app.pages.studies.declaration import Asking, Cell, Lead, Result, StudyPage,
 from app.pages.typesetting import shown, symbol
 from app.pages.views import Asked
 from app.schema.fields import Leaf
-from app.studies.design_plan import plan_design
+from app.studies.design import design_study
+from app.studies.drive_train import usual_corners
 from app.studies.fields import scalar_at, value_at
-from app.studies.reading import checked_base
 from app.studies.stream import Line
-from app.studies.unit import usual_corners
+from app.studies.study import checked_base
 
 EVALUATIONS = 40
 LEFT_ALONE = ("radial_clearance_um", "thrust_fraction")  # of the usual corners, for they say least
@@ -175,7 +175,7 @@ DESIGN = StudyPage(
     "and direction of the couplings' offset. It starts from the correction of the case.",
     figures=("search", "face-load", GAP.name),
     body=_body,
-    plan=plan_design,
+    plan=design_study,
     result=_result,
     output=OUTPUT,
     fields=_fields,

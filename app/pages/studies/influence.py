@@ -11,7 +11,7 @@ from app.pages.typesetting import shown
 from app.pages.views import Asked
 from app.requests.practice import GIVEN_BULK
 from app.schema.fields import Leaf
-from app.studies.sensitivity import plan_sensitivity
+from app.studies.sensitivity import sensitivity_study
 from app.studies.stream import Line
 
 MOST_ROWS = 40
@@ -103,6 +103,6 @@ INFLUENCE = StudyPage(
     about="Every number of the case is moved by its usual tolerance, else by 1 % (1 K, 1).",
     figures=("influence",),
     body=_body,
-    plan=plan_sensitivity,
+    plan=sensitivity_study,
     result=_result,
 )

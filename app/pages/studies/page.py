@@ -21,8 +21,7 @@ from app.pages.vary.wish import field_at_fault, shown_output
 from app.pages.views import REFUSED, Asked
 from app.reading import Unreadable
 from app.schema.fields import Leaf
-from app.studies.lines import StudyBroke
-from app.studies.stream import Line
+from app.studies.stream import Line, StudyBroke
 
 PAGES = {each.offer: each for each in (INFLUENCE, CORNERS, DESIGN)}
 

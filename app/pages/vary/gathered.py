@@ -61,9 +61,9 @@ class Gathered:
 
 def grid_of(wish: Wish, sweep: Sweep, gathered: Gathered, limit: float | None) -> Grid:
     """The data of the figures; a point that has not come yet is a gap."""
-    axes = [each.values or [] for each in sweep.plan.axes]
+    axes = [each.values or [] for each in sweep.points.axes]
     sizes = [len(each) for each in axes]
-    found = np.full(sweep.plan.total, nan)
+    found = np.full(sweep.points.total, nan)
     found[: gathered.done] = [nan if each is None else float(each) for each in gathered.out]
     known = found.reshape(sizes)
     coordinates, orders = [], []

@@ -24,7 +24,7 @@ from app.pages.views import REFUSED, Asked
 from app.reading import Unreadable
 from app.schema.fields import Leaf
 from app.studies.fields import value_at
-from app.studies.sweep import Sweep, plan_sweep
+from app.studies.sweep import Sweep, sweep_study
 
 NAME = "vary"
 MOST_ROWS = 200
@@ -51,7 +51,7 @@ class Study:
 
     def opened(self, index: int) -> str:
         """The page of the case at a point."""
-        return address_at(self.asked, self.sweep.plan.overrides(index))
+        return address_at(self.asked, self.sweep.points.overrides(index))
 
 
 def opened(asked: Asked, most: int, deadline_s: float) -> Opened[Study]:
@@ -69,7 +69,7 @@ def planned(asked: Asked, most: int, deadline_s: float) -> Study:
     calculation = asked.calculation
     case = case_of(calculation, asked.pairs)
     wish = wish_of(calculation, case, asked.views)
-    sweep = plan_sweep(sweep_of(calculation, asked.pairs, wish), most, deadline_s)
+    sweep = sweep_study(sweep_of(calculation, asked.pairs, wish), most, deadline_s)
     return Study(asked, wish, sweep, _limit(wish.output, case))
 
 
@@ -140,7 +140,7 @@ def _figures(study: Study, gathered: Gathered) -> dict[str, Figure]:
 
 
 def _row(study: Study, gathered: Gathered, index: int) -> dict[str, Any]:
-    at = study.sweep.plan.overrides(index).values()
+    at = study.sweep.points.overrides(index).values()
     return {
         "at": [shown(each, 6) for each in at],
         "value": shown(gathered.out[index]),
@@ -159,7 +159,7 @@ def _points(study: Study, gathered: Gathered, figure: Figure) -> str:
     place = places(figure)[0]
     axes = [
         {"path": each.path, "name": each.leaf.title, "unit": each.leaf.unit or "", "at": axis.values}
-        for each, axis in zip(study.wish.fields, study.sweep.plan.axes, strict=True)
+        for each, axis in zip(study.wish.fields, study.sweep.points.axes, strict=True)
     ]
     said = {
         "address": study.opened(0),

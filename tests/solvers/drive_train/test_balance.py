@@ -26,7 +26,7 @@ from solvers.drive_train.inputs import (
     UnitCoupling,
 )
 from solvers.drive_train.model import prepare, settle
-from solvers.drive_train.studies.outcome import outcome
+from solvers.drive_train.outcome import outcome
 from solvers.errors import NoSolution
 from solvers.gears.inputs import GearTeeth
 from solvers.scuffing import solve_load_distribution

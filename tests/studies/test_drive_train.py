@@ -14,19 +14,16 @@ from app.evaluate import evaluate
 from app.library import examples
 from app.problems import Unprocessable, faults_of
 from app.reading import InvalidBody
-from app.studies.corners import plan_corners
-from app.studies.design import next_trial
-from app.studies.design_plan import plan_design
+from app.studies.design import design_study
+from app.studies.drive_train import lightened
 from app.studies.engine import Pool
 from app.studies.fields import value_at
-from app.studies.lines import encoded, json_line
+from app.studies.minimax import next_place, search
 from app.studies.points import with_overrides
-from app.studies.stream import Clock, guarded
-from app.studies.sweep import plan_sweep
-from app.studies.unit import lightened
+from app.studies.stream import Clock, encoded, guarded, json_line
+from app.studies.sweep import corners_study, sweep_study
 from solvers.arrays import FloatArray
-from solvers.drive_train.studies.corners import run_corners, single
-from solvers.drive_train.studies.design import Variable, design, search
+from solvers.errors import NoSolution
 from tests.support.pools import InlinePool
 
 UNIT = BY_PATH["/v1/drive-train"]
@@ -65,7 +62,7 @@ def answered(overrides: dict[str, Any], outputs: list[str], base: dict[str, Any]
 
 def test_corners_are_the_units_own_answers() -> None:
     ranges = [{"path": OFFSETS, "values": [[0, 400], [0, -400]]}, RESPONSE]
-    header, *points, of_factor, of_safety, end = lines_of(plan_corners, ranges=ranges, outputs=[K, SAFETY])
+    header, *points, of_factor, of_safety, end = lines_of(corners_study, ranges=ranges, outputs=[K, SAFETY])
     assert header["type"] == "corners"
     assert header["total"] == len(points) == end["points"] == 4
     assert [axis["path"] for axis in header["axes"]] == [OFFSETS, RESPONSE["path"]]
@@ -83,40 +80,19 @@ def test_corners_are_the_units_own_answers() -> None:
     assert (end["counts"], end["warnings"]) == ({"ok_with_warnings": 4}, [])
 
 
-def test_corners_are_the_solvers() -> None:
-    ranges = [FRICTION, RESPONSE, {"path": "couplings.0.thrust_fraction", "values": [0, 1]}]
-    found = {
-        line["output"]: line
-        for line in lines_of(plan_corners, ranges=ranges, outputs=[K, SAFETY])
-        if line["type"] == "extremes"
-    }
-    own = run_corners(
-        UNIT.request.model_validate(CLOSED).inputs(),
-        [
-            single("couplings.0.friction.coefficient", (0.05, 0.25)),
-            single("heat.wall_response", (0.3, 1.0)),
-            single("couplings.0.thrust_fraction", (0.0, 1.0)),
-        ],
-    )
-    for path, name in ((K, "face_load_factor"), (SAFETY, "safety")):
-        for end, extremes in (("min", own.smallest), ("max", own.largest)):
-            assert found[path][end]["value"] == extremes[name].value
-            assert list(found[path][end]["at"].values()) == list(extremes[name].corner.values())
-
-
 def test_studies_say_the_same_on_any_number_of_processes() -> None:
     for planner, body in (
-        (plan_corners, {"ranges": [FRICTION, RESPONSE], "outputs": [K]}),
-        (plan_design, {"variables": [HELIX], "corners": [FRICTION], "objective": SAFETY, "evaluations": 3}),
+        (corners_study, {"ranges": [FRICTION, RESPONSE], "outputs": [K]}),
+        (design_study, {"variables": [HELIX], "corners": [FRICTION], "objective": SAFETY, "evaluations": 3}),
     ):
         first, *others = (timeless(lines_of(planner, InlinePool(slots), **body)) for slots in (1, 3))
         assert all(other == first for other in others)
 
 
 def test_the_usual_corners() -> None:
-    plan = plan_corners(json.dumps({"request": TURBO}).encode(), 2500, 30.0).plan
-    assert plan.total == 128
-    assert [(axis.path, axis.values) for axis in plan.axes] == [
+    points = corners_study(json.dumps({"request": TURBO}).encode(), 2500, 30.0).points
+    assert points.total == 128
+    assert [(axis.path, axis.values) for axis in points.axes] == [
         ("thermal.wall_response", [0.3, 1.0]),
         ([f"pinion_shaft.bearings.{k}.radial_clearance_um" for k in (0, 1)], [[143.0, 117.0], [117.0, 143.0]]),
         ([f"wheel_shaft.bearings.{k}.radial_clearance_um" for k in (0, 1)], [[165.0, 135.0], [135.0, 165.0]]),
@@ -125,7 +101,7 @@ def test_the_usual_corners() -> None:
         ("couplings.0.thrust_fraction", [0.0, 1.0]),
     ]
     generator = examples()["starter-generator-gear-drive-train"].request
-    named = [axis.path for axis in plan_corners(json.dumps({"request": generator}).encode(), 2500, 30.0).plan.axes]
+    named = [axis.path for axis in corners_study(json.dumps({"request": generator}).encode(), 2500, 30.0).points.axes]
     assert not [path for path in named if "clearance" in str(path)], "springs have no clearance"
 
 
@@ -133,7 +109,7 @@ def test_corners_without_answer_are_told_and_left_out() -> None:
     """A film too thin for its load, and two bearings at one place."""
     far = {"path": "pinion_shaft.bearings.1.position_mm", "values": [620, 220]}
     thin = {"path": FILM, "values": [CARRIES, TOO_THIN]}
-    header, *points, extremes, end = lines_of(plan_corners, ranges=[far, thin], outputs=[K])
+    header, *points, extremes, end = lines_of(corners_study, ranges=[far, thin], outputs=[K])
     assert [point["status"] for point in points] == ["ok_with_warnings", "no_solution", "refused", "refused"]
     assert points[1]["warnings"] == ["journal"]
     assert points[2]["error"]["code"] == "bearing_order"
@@ -164,7 +140,7 @@ def test_only_what_is_asked_is_calculated() -> None:
 def test_a_design_is_judged_at_its_worst_corner() -> None:
     powers: list[dict[str, Any]] = [{"operation.power_kw": 12000}, {"operation.power_kw": 6000}]
     header, *trials, end = lines_of(
-        plan_design, variables=[HELIX], corners=[FRICTION], collective=powers, objective=SAFETY, evaluations=3
+        design_study, variables=[HELIX], corners=[FRICTION], collective=powers, objective=SAFETY, evaluations=3
     )
     assert (header["type"], header["direction"], header["corners"]) == ("design", "maximise", 4)
     assert header["objective"] == {"path": SAFETY, "unit": None, "title": "scuffing safety on the flank"}
@@ -183,29 +159,6 @@ def test_a_design_is_judged_at_its_worst_corner() -> None:
     assert [each["objective"] for each in end["history"]] == [trial["objective"] for trial in trials]
 
 
-def test_the_search_is_the_solvers() -> None:
-    variable = {"path": RESPONSE["path"], "min": 0.2, "max": 1.4}
-    _, *trials, end = lines_of(
-        plan_design,
-        variables=[variable],
-        corners=[FRICTION],
-        objective=K,
-        direction="minimise",
-        evaluations=5,
-    )
-    own = design(
-        UNIT.request.model_validate(CLOSED).inputs(),
-        [Variable(("heat.wall_response",), 0.2, 1.4)],
-        [single("couplings.0.friction.coefficient", (0.05, 0.25))],
-        objective="face_load_factor",
-        evaluations=5,
-    )
-    assert [(*trial["at"].values(), trial["objective"]) for trial in trials] == [
-        (*trial.values, trial.objective) for trial in own.history
-    ]
-    assert end["objective_best"] == own.objective_best
-
-
 def test_trials_told_one_by_one_are_those_of_one_search() -> None:
     """A ridge, and a corner of the square without solution."""
 
@@ -222,18 +175,18 @@ def test_trials_told_one_by_one_are_those_of_one_search() -> None:
     search(judge, np.array([0.2, 0.9]), 30)
     told: list[list[float] | None] = []
     for expected in whole:
-        shares = next_trial([0.2, 0.9], told, 30)
+        shares = next_place([0.2, 0.9], told, 30)
         assert shares == expected
         found = figures(np.array(shares))
         told.append(None if found is None else found.tolist())
-    assert next_trial([0.2, 0.9], told, 30) is None
+    assert next_place([0.2, 0.9], told, 30) is None
     assert len(whole) <= 30
 
 
 def test_a_design_without_start_ends_with_an_error() -> None:
     body = copy.deepcopy(CLOSED)
     body["pinion_shaft"]["bearings"][0] |= {"viscosity_pa_s": 1e-5, "radial_clearance_um": 1000, "width_mm": 20}
-    _, trial, error = lines_of(plan_design, request=body, variables=[HELIX], objective=SAFETY)
+    _, trial, error = lines_of(design_study, request=body, variables=[HELIX], objective=SAFETY)
     assert (trial["objective"], trial["worst_corner"]) == (None, {})
     assert (error["type"], error["code"]) == ("error", "no_start")
 
@@ -244,7 +197,7 @@ def test_a_trial_without_answer_is_worse_than_all() -> None:
     body["pinion_shaft"]["bearings"][0] |= {"width_mm": 20, "radial_clearance_um": 1000}
     viscosity = {"path": FILM[0], "min": 1e-5, "max": 0.02}
     _, *trials, end = lines_of(
-        plan_design,
+        design_study,
         request=body,
         variables=[viscosity],
         objective="shafts.0.bearings.0.eccentricity_ratio",
@@ -256,13 +209,35 @@ def test_a_trial_without_answer_is_worse_than_all() -> None:
     assert end["objective_best"] == max(trial["objective"] or 0.0 for trial in trials)
 
 
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e9])
+def test_a_search_keeps_away_from_where_there_is_no_solution(scale: float) -> None:
+    """Whatever the size of the figure: its best is at 0.6, beyond 0.7 there is nothing."""
+    tried: list[tuple[float, float | None]] = []
+
+    def judge(unit: FloatArray) -> FloatArray | None:
+        x = float(unit[0])
+        figures = None if x > 0.7 else scale * (1.0 + np.array([x - 0.6, 0.6 - x]))
+        tried.append((x, None if figures is None else float(figures.max())))
+        return figures
+
+    search(judge, np.array([0.2]), 40)
+    assert any(figure is None for _, figure in tried)
+    assert min((figure, place) for place, figure in tried if figure is not None)[1] == pytest.approx(0.6, abs=0.01)
+
+
+def test_a_search_needs_a_start() -> None:
+    with pytest.raises(NoSolution) as failure:
+        search(lambda _: None, np.array([0.5]), 10)
+    assert failure.value.code == "design"
+
+
 def test_a_map_over_speed_and_load_is_a_sweep() -> None:
     axes = [
         {"path": "operation.pinion_speed_rpm", "values": [8000, 10000]},
         {"path": "operation.power_kw", "values": [6000, 12000]},
     ]
     outputs = [K, SAFETY, "shafts.0.thrust.upper_n", "losses.total_w"]
-    header, *points, end = lines_of(plan_sweep, endpoint="/v1/drive-train", vary=axes, outputs=outputs)
+    header, *points, end = lines_of(sweep_study, endpoint="/v1/drive-train", vary=axes, outputs=outputs)
     assert [each["unit"] for each in header["outputs"]] == [None, None, "N", "W"]
     assert len(points) == 4
     assert not [point for point in points if None in point["out"]]
@@ -273,11 +248,11 @@ def test_a_map_over_speed_and_load_is_a_sweep() -> None:
 
 
 def corners(**parts: Any) -> tuple[Planner, dict[str, Any]]:
-    return plan_corners, parts
+    return corners_study, parts
 
 
 def search_of(**parts: Any) -> tuple[Planner, dict[str, Any]]:
-    return plan_design, {"variables": [HELIX], "objective": SAFETY, **parts}
+    return design_study, {"variables": [HELIX], "objective": SAFETY, **parts}
 
 
 def axis(path: Any, *values: Any) -> dict[str, Any]:
@@ -356,3 +331,71 @@ def test_refused_with_place_and_code(case: str) -> None:
         planner(json.dumps({"request": CLOSED, **parts}).encode(), 1999, 30.0)
     fault = faults_of(caught.value)[0]
     assert (fault["pointer"], fault["code"]) == (pointer, code)
+
+
+SLIDING = {**CLOSED, "model": {**CLOSED["model"], "coupling_friction": "sliding"}}
+
+
+@pytest.mark.slow
+def test_tolerances_of_the_example() -> None:
+    """LHS 128: K 5/50/95 % 1.036 / 1.111 / 1.306; S 1.678 / 1.792 / 1.844; total slope -54 / -43 / -30 um.
+
+    Another hypercube of the same size: both scatter, so their quantiles agree within 1.5 half intervals of one.
+    """
+    clearances = {"pinion": 130, "wheel": 150}
+    scatter = {
+        "couplings.0.friction.coefficient": (0.05, 0.25),
+        OFFSETS[0]: (-500, 500),
+        OFFSETS[1]: (-500, 500),
+        "thermal.wall_response": (0.3, 0.9),
+        "modifications.helix_slope_um": (45, 55),
+        "modifications.lead_crowning_um": (2, 7),
+        **{
+            f"{shaft}_shaft.bearings.{k}.radial_clearance_um": (0.9 * own, 1.1 * own)
+            for shaft, own in clearances.items()
+            for k in (0, 1)
+        },
+    }
+    ranges = [{"path": path, "min": low, "max": high} for path, (low, high) in scatter.items()]
+    expected = {
+        K: (1.036, 1.111, 1.306),
+        SAFETY: (1.678, 1.792, 1.844),
+        "misalignment.total_slope_um": (-54, -43, -30),
+    }
+    *_, end = lines_of(
+        sweep_study,
+        endpoint="/v1/drive-train",
+        request=SLIDING,
+        sample={"count": 128, "seed": 0, "ranges": ranges},
+        outputs=list(expected),
+    )
+    for output, values in expected.items():
+        found = zip(values, end["quantiles"][output], end["quantile_bounds"][output], strict=True)
+        for value, quantile, (low, high) in found:
+            assert abs(value - quantile) < 1.5 * (quantile - low if value < quantile else high - quantile), output
+
+
+@pytest.mark.slow
+def test_the_robust_design() -> None:
+    """Worst S over 12 corners: nominal correction 50/4/15: 1.609, found 43.1/7.8/12.9: 1.741.
+
+    Friction with offset 3, response 2, power 2; the second response is between 0.9 and 1 by these figures.
+    """
+    variables = [
+        HELIX,
+        {"path": "modifications.lead_crowning_um", "min": 0, "max": 20},
+        {"path": ["modifications.tip_relief_um", "modifications.root_relief_um"], "min": 0, "max": 30},
+    ]
+    corners = [
+        axis([FRICTION["path"], OFFSETS[1]], [0.05, 400], [0.25, 400], [0.25, -400]),
+        axis(RESPONSE["path"], 0.3, 0.9),
+    ]
+    powers = [{"operation.power_kw": power} for power in (12000, 6000)]
+    *_, end = lines_of(
+        design_study, request=SLIDING, variables=variables, corners=corners, collective=powers, objective=SAFETY
+    )
+    assert end["objective_start"] == pytest.approx(1.609, abs=0.0015)
+    assert end["objective_best"] == pytest.approx(1.741, abs=0.004)
+    helix, crowning, relief, _ = end["best"].values()
+    assert [helix, crowning, relief] == pytest.approx([43.1, 7.8, 12.9], abs=1.5)
+    assert end["evaluations"] <= 60

@@ -1,4 +1,4 @@
-"""Which points a sweep has: the field paths checked against the schema, the overrides of every point."""
+"""Which points a study has: a grid, a list of cases or a random sample, checked against the schema."""
 
 from dataclasses import dataclass
 from math import prod
@@ -14,25 +14,29 @@ from app.studies.requests import Axis, Overrides, Sample, Scalar, SweepRequest
 
 
 @dataclass(frozen=True, slots=True)
-class PlannedAxis:
-    """One axis: its fields, and its values where they are the same at every point."""
+class CheckedAxis:
+    """One axis: its fields, and its values unless they are random."""
 
     path: str | list[str]
     leaves: tuple[Leaf, ...]
     values: list[Scalar | list[Scalar]] | None
 
     def header(self) -> dict[str, Any]:
-        """What the first line says of it; fields that move together in different units have none in common."""
+        """The axis in the first line of a study; fields of different units have no common one."""
         units = {leaf.unit for leaf in self.leaves}
         return {"path": self.path, "unit": units.pop() if len(units) == 1 else None, "values": self.values}
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
-    """The points of a sweep in order: `at` says where each is, `overrides` what it changes."""
+class PointSet:
+    """Points in order: the product of `axes`, first axis slowest, or the rows of `cases` or `sample`.
 
-    axes: list[PlannedAxis]
+    `varied` are the fields that differ between points.
+    """
+
+    axes: list[CheckedAxis]
     total: int
+    varied: tuple[Leaf, ...]
     cases: list[Overrides] | None = None
     sample: np.ndarray[Any, Any] | None = None
 
@@ -67,44 +71,43 @@ def _each(value: Scalar | list[Scalar], leaves: tuple[Leaf, ...]) -> list[Scalar
     return value if isinstance(value, list) else [value] * len(leaves)
 
 
-class Varied(NamedTuple):
-    """The request that a study varies."""
+class BaseRequest(NamedTuple):
+    """The request that a study varies, and its model."""
 
     model: type[Documented]
     base: dict[str, Any]
 
     def leaf(self, path: str, place: str) -> Leaf:
-        """The single value that a path names, if it can be set."""
+        """The single value at a path; Unprocessable at `place` of the study where it cannot be set."""
         leaf = scalar_at(self.model, path, place, "unknown_path")
         if not is_reachable(self.model, self.base, path):
             raise Unprocessable("unknown_path", f"the request has no {path}: its list is shorter", place)
         return leaf
 
 
-def planned(sweep: SweepRequest, model: type[Documented], most: int) -> Plan:
-    """The points of a sweep over requests of this model; at most `most`.
+def points_of(sweep: SweepRequest, base: BaseRequest, most: int) -> PointSet:
+    """The points of a sweep; at most `most`.
 
-    Raises Unprocessable with a path into the sweep for whatever the schema already tells to be impossible.
+    Raises Unprocessable with a path into the sweep for what the schema refuses.
     """
-    request = Varied(model, sweep.request)
     if sweep.cases is not None:
-        return listed(sweep.cases, request, most, "cases")
+        return listed(sweep.cases, base, most, "cases")
     if sweep.sample is not None:
-        check_count(sweep.sample.count, most, "sample.count")
-        return _sampled(sweep.sample, request)
+        return sampled(sweep.sample, base, most)
     assert sweep.vary is not None
-    return grid(sweep.vary, request, "vary", most)
+    return grid(sweep.vary, base, most, "vary")
 
 
-def grid(axes: list[Axis], request: Varied, place: str, most: int) -> Plan:
-    """The product of axes that stand at `place` of a study; at most `most` points.
-
-    Raises Unprocessable as `planned` does.
-    """
+def grid(axes: list[Axis], base: BaseRequest, most: int, place: str) -> PointSet:
+    """The product of the axes at `place` of a study; raises Unprocessable."""
     check_count(prod(_length(axis, f"{place}.{number}") for number, axis in enumerate(axes)), most, place)
     check_distinct([path for axis in axes for path in axis.paths], place)
-    found = [_axis(axis, request, f"{place}.{number}") for number, axis in enumerate(axes)]
-    return Plan(found, prod(len(axis.values or ()) for axis in found))
+    found = [_axis(axis, base, f"{place}.{number}") for number, axis in enumerate(axes)]
+    return PointSet(found, prod(len(axis.values or ()) for axis in found), _fields(found))
+
+
+def _fields(axes: list[CheckedAxis]) -> tuple[Leaf, ...]:
+    return tuple(leaf for axis in axes for leaf in axis.leaves)
 
 
 def check_count(count: int, most: int, place: str) -> None:
@@ -128,19 +131,16 @@ def check_value(leaf: Leaf, value: Scalar, place: str) -> None:
         raise Unprocessable(code, f"{leaf.path}: {message}", place)
 
 
-def listed(cases: list[Overrides], request: Varied, most: int, place: str) -> Plan:
-    """The points of a list of cases that stands at `place` of a study.
-
-    Raises Unprocessable as `planned` does.
-    """
+def listed(cases: list[Overrides], base: BaseRequest, most: int, place: str) -> PointSet:
+    """The points of the list of cases at `place` of a study; raises Unprocessable."""
     check_count(len(cases), most, place)
     leaves: dict[str, Leaf] = {}
     for number, case in enumerate(cases):
         for path, value in case.items():
             if path not in leaves:
-                leaves[path] = request.leaf(path, f"{place}.{number}")
+                leaves[path] = base.leaf(path, f"{place}.{number}")
             check_value(leaves[path], value, f"{place}.{number}")
-    return Plan([], len(cases), cases=cases)
+    return PointSet([], len(cases), tuple(leaves.values()), cases=cases)
 
 
 def _length(axis: Axis, place: str) -> int:
@@ -153,8 +153,8 @@ def _length(axis: Axis, place: str) -> int:
     raise Unprocessable("values_or_range", "give either values, or start, stop and count", place)
 
 
-def _axis(axis: Axis, request: Varied, place: str) -> PlannedAxis:
-    leaves = tuple(request.leaf(path, f"{place}.path") for path in axis.paths)
+def _axis(axis: Axis, base: BaseRequest, place: str) -> CheckedAxis:
+    leaves = tuple(base.leaf(path, f"{place}.path") for path in axis.paths)
     values = axis.values if axis.values is not None else _spread(axis, place)
     for number, value in enumerate(values):
         if isinstance(value, list) and (isinstance(axis.path, str) or len(value) != len(leaves)):
@@ -164,7 +164,7 @@ def _axis(axis: Axis, request: Varied, place: str) -> PlannedAxis:
             check_value(leaf, own, place)
     if all(leaf.kind == "integer" for leaf in leaves):
         values = [int(value) if isinstance(value, float) else value for value in values]
-    return PlannedAxis(axis.path, leaves, values)
+    return CheckedAxis(axis.path, leaves, values)
 
 
 def _spread(axis: Axis, place: str) -> list[Scalar | list[Scalar]]:
@@ -179,13 +179,14 @@ def _spread(axis: Axis, place: str) -> list[Scalar | list[Scalar]]:
     return list(np.geomspace(axis.start, axis.stop, axis.count).tolist())
 
 
-def _sampled(sample: Sample, request: Varied) -> Plan:
-    """The random points, the same for the same seed."""
+def sampled(sample: Sample, base: BaseRequest, most: int) -> PointSet:
+    """Random points, the same for the same seed; raises Unprocessable."""
+    check_count(sample.count, most, "sample.count")
     check_distinct([each.path for each in sample.ranges], "sample.ranges")
     leaves = []
     for number, each in enumerate(sample.ranges):
         place = f"sample.ranges.{number}"
-        leaf = request.leaf(each.path, f"{place}.path")
+        leaf = base.leaf(each.path, f"{place}.path")
         if leaf.kind == "integer":
             raise Unprocessable("not_integer", f"{each.path} takes whole numbers; vary it or list cases", place)
         for value in (each.min, each.max):
@@ -193,9 +194,9 @@ def _sampled(sample: Sample, request: Varied) -> Plan:
         if each.min > each.max:
             raise Unprocessable("out_of_range", f"{each.path}: min is above max", place)
         leaves.append(leaf)
-    axes = [PlannedAxis(leaf.path, (leaf,), None) for leaf in leaves]
+    axes = [CheckedAxis(leaf.path, (leaf,), None) for leaf in leaves]
     low, high = (np.array([getattr(each, end) for each in sample.ranges]) for end in ("min", "max"))
-    return Plan(axes, sample.count, sample=low + (high - low) * _unit_cube(sample, len(leaves)))
+    return PointSet(axes, sample.count, tuple(leaves), sample=low + (high - low) * _unit_cube(sample, len(leaves)))
 
 
 def _unit_cube(sample: Sample, dimensions: int) -> np.ndarray[Any, Any]:

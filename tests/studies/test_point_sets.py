@@ -9,8 +9,8 @@ import pytest
 from app.library import examples
 from app.problems import Unprocessable, faults_of
 from app.reading import InvalidBody
-from app.studies.sensitivity import plan_sensitivity
-from app.studies.sweep import Sweep, plan_sweep
+from app.studies.sensitivity import sensitivity_study
+from app.studies.sweep import Sweep, sweep_study
 
 COUPLING = examples()["pahl-axial-displacement"]
 LOADS = examples()["xue-pair-1-modified"]
@@ -27,13 +27,13 @@ def loads(**parts: Any) -> dict[str, Any]:
     return {"endpoint": LOADS.endpoint, "request": LOADS.request, **parts}
 
 
-def planned(body: object, most: int = 2500) -> Sweep:
-    return plan_sweep(json.dumps(body).encode(), most, 30.0)
+def study_of(body: object, most: int = 2500) -> Sweep:
+    return sweep_study(json.dumps(body).encode(), most, 30.0)
 
 
 def fault_of(body: object, most: int = 2500) -> tuple[str, str, str]:
     with pytest.raises((Unprocessable, InvalidBody)) as caught:
-        planned(body, most)
+        study_of(body, most)
     (fault, *_) = faults_of(caught.value)
     return fault["pointer"], fault["code"], fault["message"]
 
@@ -195,7 +195,7 @@ def test_too_many_points_names_limit_and_count(body: dict[str, Any], pointer: st
     assert found[:2] == (pointer, "too_many_points")
     assert "11" in found[2]
     assert "10" in found[2]
-    assert planned(body, most=11).total == 11
+    assert study_of(body, most=11).total == 11
 
 
 def test_a_huge_grid_is_counted_not_built() -> None:
@@ -212,46 +212,46 @@ def test_nonsense_behind_a_varied_field_is_refused(endless: object) -> None:
 
 
 def test_first_axis_is_slowest() -> None:
-    plan = planned(vary(axis("operation.speed_rpm", 1, 2), axis("coupling.teeth", 40, 50, 60))).plan
-    assert [plan.at(index) for index in range(plan.total)] == [[s, z] for s in (1, 2) for z in (40, 50, 60)]
-    assert plan.overrides(4) == {"operation.speed_rpm": 2, "coupling.teeth": 50}
+    points = study_of(vary(axis("operation.speed_rpm", 1, 2), axis("coupling.teeth", 40, 50, 60))).points
+    assert [points.at(index) for index in range(points.total)] == [[s, z] for s in (1, 2) for z in (40, 50, 60)]
+    assert points.overrides(4) == {"operation.speed_rpm": 2, "coupling.teeth": 50}
 
 
 def test_spreads() -> None:
     speeds = {"path": "operation.speed_rpm", "start": 10, "stop": 1000, "count": 3}
-    assert planned(vary(speeds)).plan.axes[0].values == [10.0, 505.0, 1000.0]
-    assert planned(vary({**speeds, "scale": "log"})).plan.axes[0].values == pytest.approx([10, 100, 1000], rel=1e-14)
-    teeth = planned(vary({"path": "coupling.teeth", "start": 50, "stop": 52, "count": 3})).plan.axes[0].values
+    assert study_of(vary(speeds)).points.axes[0].values == [10.0, 505.0, 1000.0]
+    assert study_of(vary({**speeds, "scale": "log"})).points.axes[0].values == pytest.approx([10, 100, 1000], rel=1e-14)
+    teeth = study_of(vary({"path": "coupling.teeth", "start": 50, "stop": 52, "count": 3})).points.axes[0].values
     assert teeth == [50, 51, 52]
     assert all(isinstance(value, int) for value in teeth or ())
 
 
 def test_fields_that_move_together() -> None:
     together = axis("", 5, 6) | {"path": ["materials.pinion.roughness_um", "materials.wheel.roughness_um"]}
-    study = planned(loads(vary=[together]))
-    assert study.plan.overrides(1) == {"materials.pinion.roughness_um": 6, "materials.wheel.roughness_um": 6}
-    assert study.plan.axes[0].header() == {"path": together["path"], "unit": "µm", "values": [5, 6]}
+    study = study_of(loads(vary=[together]))
+    assert study.points.overrides(1) == {"materials.pinion.roughness_um": 6, "materials.wheel.roughness_um": 6}
+    assert study.points.axes[0].header() == {"path": together["path"], "unit": "µm", "values": [5, 6]}
 
 
 def test_fields_that_move_together_each_to_its_own() -> None:
     together = axis("", [5, 1], [6, 2], 3) | {"path": ["materials.pinion.roughness_um", "materials.wheel.roughness_um"]}
-    plan = planned(loads(vary=[together])).plan
-    assert [list(plan.overrides(k).values()) for k in range(3)] == [[5, 1], [6, 2], [3, 3]]
-    assert plan.at(1) == [[6, 2]]
+    points = study_of(loads(vary=[together])).points
+    assert [list(points.overrides(k).values()) for k in range(3)] == [[5, 1], [6, 2], [3, 3]]
+    assert points.at(1) == [[6, 2]]
 
 
 def test_place_of_a_list_and_words_and_null() -> None:
     grooves = {"endpoint": GROOVE.endpoint, "request": GROOVE.request}
-    found = planned({**grooves, "vary": [axis("grooves.0.width_mm", 4, 8), axis("model.slices", None, 50)]})
-    assert found.plan.axes[0].header()["unit"] == "mm"
-    assert found.plan.at(0) == [4, None]
+    found = study_of({**grooves, "vary": [axis("grooves.0.width_mm", 4, 8), axis("model.slices", None, 50)]})
+    assert found.points.axes[0].header()["unit"] == "mm"
+    assert found.points.at(0) == [4, None]
     assert fault_of({**grooves, "vary": [axis("grooves.7.width_mm", 4)]})[:2] == ("/vary/0/path", "unknown_path")
 
 
 def test_required_field_may_be_left_to_the_sweep() -> None:
     base = {**COUPLING.request, "operation": {**COUPLING.request["operation"]}}
     del base["operation"]["speed_rpm"]
-    assert planned({**vary(SPEED), "request": base}).total == 2
+    assert study_of({**vary(SPEED), "request": base}).total == 2
     found = fault_of({**vary(axis("coupling.teeth", 40)), "request": base})
     assert found[:2] == ("/request/operation/speed_rpm", "missing")
 
@@ -260,8 +260,8 @@ def test_required_field_may_be_left_to_the_sweep() -> None:
 def test_samples_fill_their_ranges_and_repeat_with_their_seed(method: str) -> None:
     ranges = (("operation.speed_rpm", 1000.0, 2000.0), ("operation.misalignment_deg", 0.01, 0.05))
     body = sample(64, method, *ranges)
-    first, second = (planned(sweep(sample=body)).plan.sample for _ in range(2))
-    other = planned(sweep(sample={**body, "seed": 2})).plan.sample
+    first, second = (study_of(sweep(sample=body)).points.sample for _ in range(2))
+    other = study_of(sweep(sample={**body, "seed": 2})).points.sample
     assert first is not None
     assert np.array_equal(first, second)
     assert not np.array_equal(first, other)
@@ -272,8 +272,8 @@ def test_samples_fill_their_ranges_and_repeat_with_their_seed(method: str) -> No
 
 def test_equal_sweeps_are_one_case_and_others_are_not() -> None:
     body = vary(SPEED)
-    assert planned(body).case == planned(json.loads(json.dumps(body))).case
-    assert planned(body).case != planned(vary({**SPEED, "values": [1000, 2001]})).case
+    assert study_of(body).case == study_of(json.loads(json.dumps(body))).case
+    assert study_of(body).case != study_of(vary({**SPEED, "values": [1000, 2001]})).case
 
 
 @pytest.mark.parametrize(
@@ -289,10 +289,10 @@ def test_equal_sweeps_are_one_case_and_others_are_not() -> None:
 )
 def test_inputs_of_a_sensitivity(inputs: list[str], pointer: str, code: str) -> None:
     with pytest.raises((Unprocessable, InvalidBody)) as caught:
-        plan_sensitivity(json.dumps(sweep(inputs=inputs)).encode(), 2500, 30.0)
+        sensitivity_study(json.dumps(sweep(inputs=inputs)).encode(), 2500, 30.0)
     assert tuple(faults_of(caught.value)[0].values())[:2] == (pointer, code)
 
 
 def test_a_sensitivity_counts_its_points_too() -> None:
     with pytest.raises(Unprocessable, match="too_many_points"):
-        plan_sensitivity(json.dumps(sweep()).encode(), 10, 30.0)
+        sensitivity_study(json.dumps(sweep()).encode(), 10, 30.0)

@@ -1,1 +1,0 @@
-"""Many units instead of one: variation, outcome -> corners -> design; sensitivity; tolerances."""

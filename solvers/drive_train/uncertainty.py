@@ -1,0 +1,79 @@
+"""Uncertain inputs of a gear unit and the values between which they are expected.
+
+The combinations of these values are the corners of the unit.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft
+from solvers.notices import Notice
+
+MOST_CORNERS = 256
+FRICTION = (0.05, 0.25)
+THRUST = (0.0, 1.0)
+RESPONSE = (0.3, 1.0)
+CLEARANCE = 0.1
+QUARTERS: tuple[Callable[[float, float], tuple[float, float]], ...] = (
+    lambda x, y: (x, y),
+    lambda x, y: (-y, x),
+    lambda x, y: (-x, -y),
+    lambda x, y: (y, -x),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """Values that inputs at dotted names take together, a row for each choice."""
+
+    names: tuple[str, ...]
+    values: tuple[tuple[float, ...], ...]
+
+
+def uncertain_inputs(inputs: DriveTrainInputs) -> tuple[Range, ...]:
+    """Wall response, tilt of each shaft by clearance; friction, direction of the offset and thrust of the couplings.
+
+    The clearances of a shaft's two bearings move 10 % in opposite senses, for what they share does not tilt. Couplings
+    move together: in all combinations of their own, two would need 2,048 runs.
+    """
+    ranges = [Range(("heat.wall_response",), tuple((value,) for value in RESPONSE))] if inputs.effects.thermal else []
+    if inputs.effects.shafts:
+        named = (("pinion_shaft", inputs.pinion_shaft), ("wheel_shaft", inputs.wheel_shaft))
+        ranges += [_clearances(name, shaft) for name, shaft in named]
+    if inputs.acting_couplings:
+        ranges += [
+            _together(inputs, "friction.coefficient", FRICTION),
+            _offsets(inputs),
+            _together(inputs, "thrust_fraction", THRUST),
+        ]
+    return tuple(one for one in ranges if one.names)
+
+
+def _clearances(name: str, shaft: Shaft) -> Range:
+    """Clearances of plain bearings up by a share at the first, down at the second, and the reverse."""
+    plain = [(k, bearing.clearance) for k, bearing in enumerate(shaft.bearings) if isinstance(bearing, JournalBearing)]
+    return Range(
+        tuple(f"{name}.bearings.{k}.radial_clearance" for k, _ in plain),
+        tuple(tuple(own * (1 + sign * (1 - 2 * k) * CLEARANCE) for k, own in plain) for sign in (1, -1)),
+    )
+
+
+def _together(inputs: DriveTrainInputs, name: str, values: tuple[float, ...]) -> Range:
+    """The same values of all couplings."""
+    names = tuple(f"couplings.{k}.{name}" for k in range(len(inputs.acting_couplings)))
+    return Range(names, tuple((value,) * len(names) for value in values))
+
+
+def _offsets(inputs: DriveTrainInputs) -> Range:
+    """The offsets of all couplings that have one, turned by quarters."""
+    given = [(k, one.offset) for k, one in enumerate(inputs.acting_couplings) if any(one.offset)]
+    names = tuple(f"couplings.{k}.offset.{axis}" for k, _ in given for axis in range(2))
+    turned = ([pair for _, (x, y) in given for pair in turn(x, y)] for turn in QUARTERS)
+    return Range(names, tuple(map(tuple, turned)))
+
+
+def no_convergence(failed: int) -> Notice:
+    """The warning about corners without solution."""
+    return Notice(
+        "no_convergence_of_corner", f"{failed} corners have no solution; the extremes are of the rest", "ranges"
+    )

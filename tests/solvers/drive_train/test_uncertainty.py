@@ -1,0 +1,159 @@
+"""Main results and uncertain inputs of the worked example: derivatives by differences, the values of its corners."""
+
+from dataclasses import replace
+from math import prod
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from solvers.drive_train import solve
+from solvers.drive_train.gap.balance import uniform_force
+from solvers.drive_train.inputs import DriveTrainInputs, Effects, RigidBearing
+from solvers.drive_train.model import prepare, settle
+from solvers.drive_train.outcome import Outcome, outcome, outcome_of
+from solvers.drive_train.uncertainty import uncertain_inputs
+from solvers.scuffing.inputs import LeadCurve, Resolution
+from solvers.scuffing.safety import safety_factor
+from tests.support.drive_trains import COUPLING, GROUND, turbo_gear, value_at, varied
+
+SHAPE = "mesh.distribution.modifications"
+STEP = 1e-3  # of a tolerance
+
+
+def coarse(inputs: DriveTrainInputs) -> DriveTrainInputs:
+    resolution = Resolution(roll_positions=48, slices=40, profile_points=61, face_points=61, feature_points=5)
+    return varied(inputs, {"mesh.distribution.resolution": resolution})
+
+
+class Derivative(NamedTuple):
+    """Changes of K_H_beta and of the safety over the flank by one tolerance, and whether the maximum of K moves."""
+
+    face_load_factor: float
+    safety: float
+    kink: bool
+
+
+def derivative(inputs: DriveTrainInputs, name: str, tolerance: float) -> Derivative:
+    """Central differences at the places of the maxima of the unchanged unit (envelope theorem).
+
+    There they are free of the jumps of a maximum between points of the face; `kink` compares those of the free maxima.
+    """
+    base = outcome(inputs)
+    value = float(value_at(inputs, name))
+    units = [varied(inputs, {name: value + sign * STEP * tolerance}) for sign in (1.0, -1.0)]
+    sides = [outcome(unit, base.gap) for unit in units]
+    place = int(np.argmax(base.shares))
+    factors = [float(side.shares[place]) for side in sides]
+    safeties = [safety_at(unit, side, base) for unit, side in zip(units, sides, strict=True)]
+    up, down = (abs(float(side.shares.max() - base.shares.max())) for side in sides)
+    return Derivative(
+        (factors[0] - factors[1]) / (2 * STEP),
+        (safeties[0] - safeties[1]) / (2 * STEP),
+        abs(up - down) > 0.1 * max(up, down) + 1e-8,
+    )
+
+
+def safety_at(inputs: DriveTrainInputs, side: Outcome, base: Outcome) -> float:
+    """Safety by the contact temperature where the unchanged unit is hottest."""
+    assert side.limit is not None
+    place = np.unravel_index(int(np.argmax(base.temperature)), base.temperature.shape)
+    found = safety_factor(side.limit, inputs.mesh.temperatures.oil, float(side.temperature[place]))
+    assert found is not None
+    return found
+
+
+# input, tolerance, change of K_Hb and of the safety over the flank
+LOCAL = [
+    ("couplings.0.friction.coefficient", 0.05, 0.008, -0.016),
+    ("heat.wall_response", 0.1, 0.012, -0.009),
+    ("heat.pinion_bulk", 5.0, 0.007, 0.005),
+    ("heat.wheel_bulk", 5.0, -0.007, -0.005),
+    (f"{SHAPE}.helix_slope", 5e-6, -0.014, 0.026),
+    (f"{SHAPE}.lead_crowning", 2e-6, 0.026, -0.007),
+    ("pinion_shaft.bearings.1.radial_clearance", 15e-6, 0.017, -0.030),
+    ("pinion_shaft.bearings.0.radial_clearance", 15e-6, -0.008, 0.015),
+    ("wheel_shaft.bearings.0.radial_clearance", 15e-6, -0.011, 0.020),
+    ("mesh.distribution.friction_coefficient", 0.005, 0.0, -0.118),
+    ("mesh.temperatures.bulk", 5.0, 0.0, -0.099),
+    ("mesh.temperatures.scuffing", 10.0, 0.0, 0.108),
+]
+
+
+@pytest.mark.parametrize(("name", "tolerance", "factor", "safety"), LOCAL)
+def test_derivatives_of_the_corrected_unit(name: str, tolerance: float, factor: float, safety: float) -> None:
+    found = derivative(turbo_gear(GROUND), name, tolerance)
+    assert found.face_load_factor == pytest.approx(factor, abs=0.0012)
+    assert found.safety == pytest.approx(safety, abs=0.0011)
+    assert not found.kink
+
+
+def test_viscosity_of_all_films_and_the_offset() -> None:
+    """+2 mPa s: -0.0035, +0.0061; the machine 100 um higher: +0.001, -0.001 to -0.002."""
+    inputs = turbo_gear(GROUND)
+    names = [f"{shaft}.bearings.{k}.viscosity" for shaft in ("pinion_shaft", "wheel_shaft") for k in (0, 1)]
+    found = [derivative(inputs, name, 2e-3) for name in names]
+    assert sum(one.face_load_factor for one in found) == pytest.approx(-0.0035, abs=3e-4)
+    assert sum(one.safety for one in found) == pytest.approx(0.0061, abs=3e-4)
+    assert derivative(inputs, "couplings.0.offset.1", 100e-6).face_load_factor == pytest.approx(0.001, abs=5e-4)
+
+
+def test_an_edge_maximum_is_smooth() -> None:
+    """Row 5: the same dK/dmu with steps of a thousandth from 1e-2 to 1e-6, and that of the free maximum."""
+    name = "couplings.0.friction.coefficient"
+    slopes = [derivative(turbo_gear(), name, change).face_load_factor / change for change in (1.0, 1e-2, 1e-4)]
+    assert slopes == pytest.approx([slopes[0]] * 3, rel=1e-4)
+    factors = [outcome(varied(turbo_gear(), {name: 0.15 + step})).face_load_factor or 0.0 for step in (1e-4, -1e-4)]
+    assert slopes[0] == pytest.approx((factors[0] - factors[1]) / 2e-4, rel=1e-3)
+
+
+def test_gap_at_a_station_moves_the_load_as_the_derivative_says() -> None:
+    """Change of the load at the end of the face, over its mean, by a gap at one of eleven stations."""
+    inputs = replace(coarse(turbo_gear()), face_stations=11)
+    prepared = prepare(inputs)
+    found = settle(inputs, prepared)
+    assert int(np.argmax(outcome_of(inputs, prepared, found).shares)) == 60
+    by_gap = found.by_gap[-1] / uniform_force(prepared.mesh.transmitted, 11)[-1]
+    step, place = 1e-8, 4
+    position = tuple(float(y) for y in prepared.unit.stations)
+    hat = tuple(step * (k == place) for k in range(11))
+    changed = varied(inputs, {f"{SHAPE}.lead_curve": LeadCurve(position, hat)})
+    forces = [solve(unit).misalignment.curves.line_force for unit in (inputs, changed)]
+    share = [force[-1] / np.trapezoid(force, dx=0.1) for force in forces]
+    assert (share[1] - share[0]) / step == pytest.approx(by_gap[place], rel=1e-4)
+    assert by_gap.sum() == pytest.approx(0.0, abs=1e-9 * np.abs(by_gap).max())
+
+
+def test_uncertain_inputs() -> None:
+    inputs = turbo_gear()
+    response, pinion, wheel, friction, offset, thrust = uncertain_inputs(inputs)
+    assert (response.names, response.values) == (("heat.wall_response",), ((0.3,), (1.0,)))
+    for shaft, clearances, own in (("pinion", pinion, 130e-6), ("wheel", wheel, 150e-6)):
+        assert clearances.names == tuple(f"{shaft}_shaft.bearings.{k}.radial_clearance" for k in (0, 1))
+        assert np.array(clearances.values) == pytest.approx(own * np.array([[1.1, 0.9], [0.9, 1.1]]))
+    assert (friction.names, friction.values) == (("couplings.0.friction.coefficient",), ((0.05,), (0.25,)))
+    assert offset.names == ("couplings.0.offset.0", "couplings.0.offset.1")
+    assert offset.values == ((0.0, 400e-6), (-400e-6, 0.0), (0.0, -400e-6), (400e-6, 0.0))
+    assert (thrust.names, thrust.values) == (("couplings.0.thrust_fraction",), ((0.0,), (1.0,)))
+    assert prod(len(each.values) for each in uncertain_inputs(inputs)) == 128
+
+
+def test_uncertain_inputs_leave_out_what_moves_nothing() -> None:
+    inputs = turbo_gear()
+    assert uncertain_inputs(replace(inputs, effects=Effects(False, False, False))) == ()
+    aligned = replace(inputs, couplings=(replace(COUPLING, offset=(0.0, 0.0)),))
+    assert not [name for one in uncertain_inputs(aligned) for name in one.names if "offset" in name]
+    rigid = replace(
+        inputs, pinion_shaft=replace(inputs.pinion_shaft, bearings=(RigidBearing(0.22), RigidBearing(0.62)))
+    )
+    assert not [name for one in uncertain_inputs(rigid) for name in one.names if name.startswith("pinion_shaft")]
+
+
+def test_two_couplings_move_together() -> None:
+    inputs = turbo_gear()
+    both = replace(inputs, couplings=(COUPLING, replace(COUPLING, shaft="wheel", offset=(1e-4, 0.0))))
+    *_, friction, offset, thrust = uncertain_inputs(both)
+    assert friction.values == ((0.05, 0.05), (0.25, 0.25))
+    assert offset.values[1] == (-400e-6, 0.0, 0.0, 1e-4)
+    assert thrust.names == ("couplings.0.thrust_fraction", "couplings.1.thrust_fraction")
+    assert prod(len(each.values) for each in uncertain_inputs(both)) == 128
