@@ -57,7 +57,7 @@ def test_case_is_the_hash_that_the_contract_describes() -> None:
 
 def test_case_depends_on_inputs_only() -> None:
     calculation, request = case("pahl-z-arrangement")
-    same = case("pahl-z-arrangement", detail="curves", lubricant={"viscosity_pa_s": request.lubricant.viscosity_pa_s})  # type: ignore[attr-defined]
+    same = case("pahl-z-arrangement", detail="curves", lubricant={"viscosity_pa_s": request.lubricant.viscosity_pa_s})
     other = case("pahl-z-arrangement", lubricant={"viscosity_pa_s": 0.03})
     found = [evaluate(*each).case for each in ((calculation, request), same, other)]
     assert found[0] == found[1]
@@ -67,7 +67,7 @@ def test_case_depends_on_inputs_only() -> None:
 def test_derived_says_what_the_request_left_open() -> None:
     calculation, request = case("pahl-z-arrangement")
     derived = evaluate(calculation, request).model_dump()["derived"]
-    module = request.coupling.module_mm  # type: ignore[attr-defined]
+    module = request.coupling.module_mm
     assert derived == {"face_width_mm": pytest.approx(8 * module), "tooth_height_mm": pytest.approx(2 * module)}
 
 
@@ -86,7 +86,7 @@ def test_assumed_lengths_are_those_derived() -> None:
         length = answer["derived"][f"{relief}_length_mm"]
         assert assumed[f"modifications.{relief}_length_mm"] == length
         assert length > 0
-    assert answer["derived"]["end_relief_length_mm"] == pytest.approx(request.gears.face_width_mm / 10)  # type: ignore[attr-defined]
+    assert answer["derived"]["end_relief_length_mm"] == pytest.approx(request.gears.face_width_mm / 10)
     assert "modifications.root_relief_length_mm" not in assumed
 
 

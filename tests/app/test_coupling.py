@@ -322,7 +322,7 @@ def test_assumptions_of_an_arrangement(post: Post, arrangement: str, more: set[s
     assert set(assumed(post, "/v1/coupling", body)) == OF_CONTACT | OF_SPRINGS | AT_REST | more
     # The recommendation shows the thrust on the shafts, not the one-pair model of it, and no breakaway.
     del operation["misalignment_deg"]
-    operation["misalignment_range_deg"] = [0.1, 0.3]  # type: ignore[assignment]
+    operation["misalignment_range_deg"] = [0.1, 0.3]
     expected = (OF_CONTACT | OF_SPRINGS | more) - {"model.simple_thrust_factor"}
     assert set(assumed(post, "/v1/coupling/recommendation", body)) == expected
 

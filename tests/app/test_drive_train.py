@@ -436,7 +436,11 @@ def test_the_softest_bearing_of_all_is_answered(post: Post) -> None:
 @pytest.mark.parametrize("method", ["given", "estimated"])
 def test_the_limit_may_come_from_a_scuffing_test_and_the_bulk_from_the_supply(post: Post, method: str) -> None:
     """As of /v1/scuffing for rigid shafts without heat; on the flank the unit is judged at the same numbers."""
-    words = {"bulk_method": method, "oil_supply": "dip", "scuffing_test": {"fzg_stage": 9, "lubricant_factor": 0.9}}
+    words: dict[str, Any] = {
+        "bulk_method": method,
+        "oil_supply": "dip",
+        "scuffing_test": {"fzg_stage": 9, "lubricant_factor": 0.9},
+    }
     words |= {"bulk_c": 80} if method == "given" else {}
     body = request(effects={"shafts": False, "thermal": False})
     body["temperatures"] = {"oil_c": 50, **words}

@@ -350,7 +350,7 @@ def test_equal_figures_give_equal_bytes_without_a_date(name: str, which: str, im
 
 
 def test_svg_keeps_its_text_and_themes_differ() -> None:
-    light, dark = (draw(figure("pahl-heavily-crowned", "losses"), "svg", theme) for theme in ("light", "dark"))  # type: ignore[arg-type]
+    light, dark = (draw(figure("pahl-heavily-crowned", "losses"), "svg", theme) for theme in ("light", "dark"))
     assert b"friction power of one mesh" in light
     assert b"#ffffff" in light.lower()
     assert b"#ffffff" not in dark.lower()
@@ -382,14 +382,13 @@ def test_comparison_draws_the_variant_dashed_in_the_same_hue() -> None:
         assert variant.hue is result.hue
         assert np.array_equal(variant.y, second.lines[0].y)
     assert draw(both, "svg") != draw(own, "svg")
-    maps = compared(
-        *(figure(name, "flank-pressure") for name in ("xue-pair-4-helix-slope-40", "xue-pair-4-modified")), "A"
-    )
+    sloped, modified = (figure(name, "flank-pressure") for name in ("xue-pair-4-helix-slope-40", "xue-pair-4-modified"))
+    maps = compared(sloped, modified, "A")
     assert len(maps.panels) == 2
-    first, second = (panel.map for panel in maps.panels)
-    assert first is not None
-    assert second is not None
-    assert first.range == second.range
+    left, right = (panel.map for panel in maps.panels)
+    assert left is not None
+    assert right is not None
+    assert left.range == right.range
 
 
 @pytest.mark.parametrize("name", CASES.values())
@@ -418,7 +417,7 @@ def test_load_along_the_face_is_another_unit_s_without_the_effect() -> None:
         ("mesh alone", {"shafts": False, "coupling": False, "thermal": False}),
     ):
         body = {**examples()[name].request, "effects": effects}
-        other = evaluate(calculation, calculation.request.model_validate(body)).misalignment.curves  # type: ignore[attr-defined]
+        other = evaluate(calculation, calculation.request.model_validate(body)).misalignment.curves
         assert np.allclose(lines[title], other.line_force_n_per_mm, rtol=1e-12)
     assert lines["mesh alone"][0] > 2 * lines["as asked"][0], "ground for the tilt of shafts that do not tilt"
 

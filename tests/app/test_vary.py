@@ -18,6 +18,7 @@ from app.figures.drawing.image import draw, places
 from app.figures.rendering import MEDIA_TYPES
 from app.figures.sweep import MOST_CURVES, Coordinate, Grid, figures_of
 from app.library import examples
+from app.pages.growing import StudyLinks
 from app.pages.query import STUDY_NAMES, VIEW_NAMES, body_of, pairs_of, pairs_of_query, split_views
 from app.pages.studies import page as pages
 from app.pages.studies.design import DESIGN
@@ -358,7 +359,7 @@ def test_empty_fields_are_dropped_by_a_redirect(client: httpx.Client) -> None:
 
 def test_figures_are_files(client: httpx.Client) -> None:
     said = {"x": "operation.misalignment_deg", "y": "operation.axial_velocity_mm_per_s", "y.count": "7"}
-    links = views.StudyLinks(views.NAME, asked(COUPLING, **said))
+    links = StudyLinks(views.NAME, asked(COUPLING, **said))
     for image_format, kind in MEDIA_TYPES.items():
         answer = client.get(links.image("map", image_format))
         assert answer.headers["content-type"] == kind
@@ -369,7 +370,7 @@ def test_figures_are_files(client: httpx.Client) -> None:
 
 
 def test_a_posted_study_is_the_same(client: httpx.Client) -> None:
-    links = views.StudyLinks(views.NAME, asked(COUPLING, x="operation.torque_n_m", **{"x.count": "3"}))
+    links = StudyLinks(views.NAME, asked(COUPLING, x="operation.torque_n_m", **{"x.count": "3"}))
     path, _, query = links.view(".csv").partition("?")
     form = {"Content-Type": "application/x-www-form-urlencoded"}
     assert client.post(path, content=query, headers=form).content == client.get(links.view(".csv")).content
@@ -377,8 +378,8 @@ def test_a_posted_study_is_the_same(client: httpx.Client) -> None:
 
 def test_the_names_of_a_study_are_those_of_its_form() -> None:
     varied_one, unit = asked(COUPLING, x="operation.torque_n_m"), asked("starter-generator-gear-drive-train")
-    forms = [views.opened(varied_one, MOST, DEADLINE_S), pages.opened(DESIGN, unit, MOST, DEADLINE_S)]
-    found = [set(re.findall(r'<(?:input|select)\b[^>]*?\bname="([^"]+)"', form.head.decode())) for form in forms]
+    heads = (views.opened(varied_one, MOST, DEADLINE_S).head, pages.opened(DESIGN, unit, MOST, DEADLINE_S).head)
+    found = [set(re.findall(r'<(?:input|select)\b[^>]*?\bname="([^"]+)"', head.decode())) for head in heads]
     assert set.union(*found) >= STUDY_NAMES
     for names, case in zip(found, (varied_one, unit), strict=True):
         assert names - STUDY_NAMES == set(dict(case.pairs))

@@ -22,7 +22,7 @@ def thrust(inputs: CouplingInputs) -> AxialThrust:
 
 
 def parallel_offset(misalignment: float, **options: object) -> float:
-    return thrust(pahl_coupling(misalignment, arrangement="parallel_offset", **options)).force  # type: ignore[arg-type]
+    return thrust(pahl_coupling(misalignment, arrangement="parallel_offset", **options)).force
 
 
 @pytest.mark.parametrize(("torque", "force"), [(1000.0, 2728.7), (3000.0, 8186.0), (5000.0, 13643.3)])
@@ -39,7 +39,7 @@ def test_figure_14a_thrust_keeps_its_value_while_axial_exceeds_sliding_velocity(
         assert thrust(pahl_coupling(misalignment, axial_velocity=CREEP)).fraction_of_limit == pytest.approx(
             1.0, rel=1e-9
         )
-    assert thrust(pahl_coupling(1.2 * limit, axial_velocity=CREEP)).fraction_of_limit < 0.9  # type: ignore[operator]
+    assert thrust(pahl_coupling(1.2 * limit, axial_velocity=CREEP)).fraction_of_limit < 0.9
 
 
 @pytest.mark.parametrize(("speed", "closed", "teeth"), [(200.0, 0.0939, 0.0924), (50.0, 0.400, 0.395)])

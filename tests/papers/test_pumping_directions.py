@@ -7,13 +7,14 @@ import numpy as np
 import pytest
 
 from app.published.milian import CASE_1, CASE_2, CHAIN, PRINTED, SPEED_1, SPEED_2, TABLE_1, pinion, run
+from solvers.gears.inputs import GearPairInputs
 from solvers.pumping import Ambient, PumpingInputs, PumpingModel, PumpingSetup, solve
 
 
 @pytest.mark.parametrize(("gears", "speed"), [(CASE_1, SPEED_1), (CASE_2, SPEED_2), (TABLE_1, 9000.0)])
-def test_pressure_on_the_approach_side_suction_on_the_recess_side(gears: object, speed: float) -> None:
-    result = pinion(run(gears, speed))  # type: ignore[arg-type]
-    lag = np.tan(gears.helix_angle) / (gears.pinion.teeth * gears.normal_module / np.cos(gears.helix_angle) / 2)  # type: ignore[attr-defined]
+def test_pressure_on_the_approach_side_suction_on_the_recess_side(gears: GearPairInputs, speed: float) -> None:
+    result = pinion(run(gears, speed))
+    lag = np.tan(gears.helix_angle) / (gears.pinion.teeth * gears.normal_module / np.cos(gears.helix_angle) / 2)
     field = result.field
     for column, position in zip(field.pressure_ratio.T[10:-10:10], field.position[10:-10:10], strict=True):
         phase = field.angle - lag * position
@@ -25,8 +26,8 @@ def test_pressure_on_the_approach_side_suction_on_the_recess_side(gears: object,
 
 
 @pytest.mark.parametrize(("gears", "speed"), [(CASE_1, SPEED_1), (CASE_2, SPEED_2)])
-def test_the_medium_is_driven_from_the_end_that_meshes_first_to_the_other(gears: object, speed: float) -> None:
-    result = pinion(run(gears, speed))  # type: ignore[arg-type]
+def test_the_medium_is_driven_from_the_end_that_meshes_first_to_the_other(gears: GearPairInputs, speed: float) -> None:
+    result = pinion(run(gears, speed))
     peaks = result.field.angle[np.argmax(result.field.pressure_ratio, axis=0)]
     assert np.all(np.diff(peaks[5:-5]) >= 0)
     assert np.argmax(result.profile.peak_pressure_ratio) > 50

@@ -374,7 +374,7 @@ def test_half_space_contact_against_the_mesh_stiffness_of_iso_6336_1(
     # Reference, transverse with the contact term undivided: -2.5, +9.3, +31 %; divided, the contact yields more by
     # 1/cos(beta_b). Reference, normal: -6, -6, -5 %. All gears 20 mm wide.
     for helix, deviation in zip((9.8, 20.2, 30.0), deviations, strict=True):
-        inputs = paper_pair(1, model=Model(section=section))  # type: ignore[arg-type]
+        inputs = paper_pair(1, model=Model(section=section))
         result = solve_load_distribution(
             replace(inputs, gears=replace(inputs.gears, helix_angle=radians(helix)))
         ).stiffness

@@ -25,7 +25,7 @@ def visit(browser: Browser, server: str) -> Iterator[Callable[..., Page]]:
     complaints: list[str] = []
 
     def open_page(address: str, **options: object) -> Page:
-        context = browser.new_context(base_url=server, **options)  # type: ignore[arg-type]
+        context = browser.new_context(base_url=server, **options)
         context.set_default_timeout(SLOW_MS)
         context.grant_permissions(["clipboard-read", "clipboard-write"], origin=server)
         page = context.new_page()

@@ -21,7 +21,15 @@ def package(server: str, tmp_path_factory: pytest.TempPathFactory) -> ModuleType
     generator = Path(sys.executable).with_name("openapi-python-client")
     config = folder / "config.yml"
     config.write_text("content_type_overrides:\n  application/x-ndjson: text/plain\n")  # lines are text to it
-    command = [generator, "generate", "--url", f"{server}/openapi.json", "--meta", "none", "--fail-on-warning"]
+    command: list[str | Path] = [
+        generator,
+        "generate",
+        "--url",
+        f"{server}/openapi.json",
+        "--meta",
+        "none",
+        "--fail-on-warning",
+    ]
     command += ["--config", config]
     path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"  # the generator formats with ruff
     subprocess.run(

@@ -18,7 +18,7 @@ def test_every_operation() -> None:
 
     Studies end after a second here: a thousand of a minute each would say nothing more.
     """
-    command = [
+    command: list[str | Path] = [
         Path(sys.executable).with_name("schemathesis"),
         "run",
         "--checks",

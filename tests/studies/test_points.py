@@ -133,7 +133,7 @@ def test_assumptions_are_sent_where_they_change() -> None:
 
 def test_a_chunk_ends_after_its_time(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = iter(range(1000))
-    monkeypatch.setattr(points.time, "perf_counter", lambda: 0.1 * next(clock))
+    monkeypatch.setattr("app.studies.points.time.perf_counter", lambda: 0.1 * next(clock))
     question = Question("/v1/coupling", examples()["pahl-axial-displacement"].request, ["axial_thrust.force_n"], 30.0)
     speeds = [{"operation.speed_rpm": 1000 + index} for index in range(10)]
     assert len(solve_chunk(question, speeds).points) == 3

@@ -40,7 +40,7 @@ def swept(slots: int = 1, **parts: Any) -> list[dict[str, Any]]:
     return [json.loads(line) for line in asyncio.run(run()).splitlines()]
 
 
-GRID = [
+GRID: list[dict[str, Any]] = [
     {"path": "operation.misalignment_deg", "values": [0.02, 0.05, 0.08]},
     {"path": "friction.coefficient", "start": 0.1, "stop": 0.2, "count": 3},
 ]

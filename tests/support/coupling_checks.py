@@ -194,7 +194,7 @@ def check_no_jump(random: Generator) -> None:
         values = np.array([point[0].get(key, (np.nan, 0.0))[0] for point in scan])
         change = np.abs(np.diff(values))
         rounding = 1e-8 * np.abs(values).max() + 1e-6 * scan[0][0][key][1]
-        for place in np.flatnonzero(change > 1e-3 * np.ptp(values) + rounding):
+        for place in map(int, np.flatnonzero(change > 1e-3 * np.ptp(values) + rounding)):
             around = np.delete(change[max(0, place - 3) : place + 4], min(place, 3))
             if change[place] <= 10.0 * around.max():
                 continue

@@ -4,6 +4,7 @@ import os
 import signal
 import time
 from collections.abc import Sequence
+from unittest.mock import patch
 
 import numpy as np
 from fastapi import FastAPI, Request
@@ -51,7 +52,7 @@ def solve_chunk_that_may_hang(question: Question, overrides: Sequence[Overrides]
 
 def create_faulty_app() -> FastAPI:
     app = create_app()
-    engine.solve_chunk = solve_chunk_that_may_hang
+    patch.object(engine, "solve_chunk", solve_chunk_that_may_hang).start()
 
     @app.post("/sleep/{seconds}")
     async def _(http: Request, seconds: float) -> float:

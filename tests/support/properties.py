@@ -9,10 +9,12 @@ from hypothesis.strategies import SearchStrategy
 Test = Callable[[int], None]
 
 
-def examples(few: int, many: int, *drawn: SearchStrategy, **named: SearchStrategy) -> Callable[[Callable], Test]:
+def examples(
+    few: int, many: int, *drawn: SearchStrategy, **named: SearchStrategy
+) -> Callable[[Callable[..., None]], Test]:
     """Turn a property into a test over what the strategies draw, as `given` does."""
 
-    def decorate(holds: Callable) -> Test:
+    def decorate(holds: Callable[..., None]) -> Test:
         @pytest.mark.parametrize(
             "count", [pytest.param(few, id="few"), pytest.param(many, id="many", marks=pytest.mark.slow)]
         )

@@ -173,7 +173,7 @@ Change = Callable[[PumpingInputs, float], PumpingInputs]
 
 
 def _gears(case: PumpingInputs, **changes: object) -> PumpingInputs:
-    return replace(case, setup=replace(case.setup, gears=replace(case.setup.gears, **changes)))  # type: ignore[arg-type]
+    return replace(case, setup=replace(case.setup, gears=replace(case.setup.gears, **changes)))
 
 
 def _centre_distance(case: PumpingInputs, by: float) -> PumpingInputs:

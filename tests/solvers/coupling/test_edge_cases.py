@@ -82,7 +82,7 @@ def test_aligned_shafts_that_separate_have_no_self_induced_thrust_of_their_own()
 @pytest.mark.parametrize("arrangement", ["single", "parallel_offset", "angular"])
 @pytest.mark.parametrize("sleeve", ["centred", "floating"])
 def test_no_torque_no_forces(arrangement: Arrangement, sleeve: str) -> None:
-    options = ModelOptions(sleeve=sleeve)  # type: ignore[arg-type]
+    options = ModelOptions(sleeve=sleeve)
     result = solve(pahl_coupling(0.1, torque=0.0, arrangement=arrangement, model=options, axial_velocity=1e-3))
     assert_finite(result)
     assert result.load_distribution.max_tangential_force == result.axial_thrust.force == 0.0
@@ -117,7 +117,7 @@ def test_standing_coupling() -> None:
 
 def test_everything_zero_at_once() -> None:
     for arrangement in ("single", "parallel_offset", "angular"):
-        result = solve(pahl_coupling(0.0, torque=0.0, speed=0.0, friction=0.0, arrangement=arrangement))  # type: ignore[arg-type]
+        result = solve(pahl_coupling(0.0, torque=0.0, speed=0.0, friction=0.0, arrangement=arrangement))
         assert_finite(result)
         assert result.axial_thrust.force == 0.0
         assert {"no_misalignment", "no_load", "not_turning"} <= codes(result)

@@ -18,7 +18,7 @@ DESIGN = pahl_coupling(0.1, friction=None)
 
 
 def misalignments(low: float, high: float, **changes: object) -> RecommendationInputs:
-    design = pahl_coupling(0.1, **{"friction": None, **changes})  # type: ignore[arg-type]
+    design = pahl_coupling(0.1, **{"friction": None, **changes})
     return RecommendationInputs(design, radians(low), radians(high))
 
 
@@ -118,7 +118,7 @@ def test_warnings_are_those_of_the_solution_at_both_ends() -> None:
 @pytest.mark.parametrize(("low", "high"), [(0.05, 0.1), (0.05, 0.2), (0.1, 0.3), (0.03, 0.06), (0.3, 0.35)])
 def test_a_recommended_contact_never_leaves_the_face(low: float, high: float) -> None:
     for kinematics in ("tangential", "spatial"):
-        inputs = misalignments(low, high, model=ModelOptions(kinematics=kinematics, inlet="infinite"))  # type: ignore[arg-type]
+        inputs = misalignments(low, high, model=ModelOptions(kinematics=kinematics, inlet="infinite"))
         recommendation = recommend(inputs)
         assert recommendation.feasible
         assert "edge_contact" not in [notice.code for notice in recommendation.warnings]

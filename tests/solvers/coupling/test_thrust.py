@@ -148,7 +148,7 @@ def test_self_induced_thrust_of_concentrated_loads_tends_to_sin_alpha() -> None:
 def test_closed_forms_of_the_angular_arrangement_are_zero() -> None:
     # One tooth pair a mesh, or equal loads: friction's moments are opposite in both meshes.
     for model in ("tangential", "spatial"):
-        options = ModelOptions(kinematics=model)  # type: ignore[arg-type]
+        options = ModelOptions(kinematics=model)
         induced = solve(pahl_coupling(0.3, arrangement="angular", model=options)).axial_thrust.self_induced
         assert induced is not None
         assert induced.simple_model_force == induced.uniform_load_force == 0.0
@@ -176,7 +176,7 @@ def test_one_pair_model_is_proportional_to_its_factor(factor: float) -> None:
 def test_coaxial_shafts_that_separate_are_pulled_with_the_whole_limit() -> None:
     for arrangement in ("parallel_offset", "angular"):
         for sign in (1, -1):
-            result = solve(pahl_coupling(0.0, axial_velocity=sign * 1e-3, arrangement=arrangement)).axial_thrust  # type: ignore[arg-type]
+            result = solve(pahl_coupling(0.0, axial_velocity=sign * 1e-3, arrangement=arrangement)).axial_thrust
             assert result.force == pytest.approx(sign * result.coaxial_limit, rel=1e-9)
 
 

@@ -120,8 +120,8 @@ def test_sleeve_on_two_teeth_finds_the_next_one_however_light_the_force(directio
 
 def test_a_sleeve_on_two_of_six_teeth_finds_the_balance_it_has() -> None:
     # No balance was found for this one: two opposite teeth carry, nothing holds the sleeve across them.
-    errors = (0.10531157544867582, 0.17764913038169928, -0.2553291838457013)
-    errors += (-0.013796506137840807, 0.10137194090532766, 0.13521418253819913)
+    first = (0.10531157544867582, 0.17764913038169928, -0.2553291838457013)
+    errors = (*first, -0.013796506137840807, 0.10137194090532766, 0.13521418253819913)
     coupling = Coupling(
         teeth=6,
         module=4.086771438464067e-3,

@@ -1,5 +1,6 @@
 """The coupled balance: limits in which it is today's load distribution, invariances of random units, convergence."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from math import pi, radians
 
@@ -8,6 +9,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from solvers.arrays import FloatArray
 from solvers.coupling.inputs import Friction
 from solvers.drive_train import solve
 from solvers.drive_train.gap.face_curves import face_mean
@@ -24,13 +26,14 @@ from solvers.drive_train.inputs import (
     Shaft,
     ShaftSection,
     UnitCoupling,
+    Vector2,
 )
 from solvers.drive_train.model import prepare, settle
 from solvers.drive_train.outcome import outcome
 from solvers.errors import NoSolution
 from solvers.gears.inputs import GearTeeth
 from solvers.scuffing import solve_load_distribution
-from solvers.scuffing.balance.face_response import face_response
+from solvers.scuffing.balance.face_response import FaceResponse, face_response
 from solvers.scuffing.balance.load_balance import balance_load
 from solvers.scuffing.inputs import LeadCurve, LoadDistributionInputs, Resolution
 from solvers.scuffing.model import mesh_of
@@ -107,26 +110,26 @@ def test_face_response_is_the_balances_own(contact: str, helix: float) -> None:
     """Force over the face adds up; its derivative is the difference quotient; a start changes nothing."""
     plain = turbo_gear(GROUND).mesh.distribution
     gears = replace(plain.gears, helix_angle=radians(helix))
-    plain = replace(plain, gears=gears, model=replace(plain.model, contact=contact))  # type: ignore[arg-type]
+    plain = replace(plain, gears=gears, model=replace(plain.model, contact=contact))
     given_mesh = mesh_of(plain)
     lead = np.random.default_rng(3).normal(size=11) * 3e-6
     change = np.random.default_rng(4).normal(size=11)
 
-    def under(gap: np.ndarray, start: object = None) -> object:
+    def under(gap: np.ndarray, start: FaceResponse | None = None) -> FaceResponse:
         fine = np.interp(np.linspace(0, 1, 401), np.linspace(0, 1, 11), gap)
         mesh = given_mesh.mesh._replace(gap=given_mesh.mesh.gap._replace(lead=fine))
-        return face_response(mesh, given_mesh.rolls, given_mesh.force, 100, 11, start)  # type: ignore[arg-type]
+        return face_response(mesh, given_mesh.rolls, given_mesh.force, 100, 11, start)
 
     found, step = under(lead), 1e-9
-    assert found.force.sum() == pytest.approx(given_mesh.tangential_force, rel=1e-12)  # type: ignore[attr-defined]
-    scale = np.abs(found.derivative).max()  # type: ignore[attr-defined]
-    assert found.derivative.sum(axis=0) == pytest.approx(np.zeros(11), abs=1e-12 * scale)  # type: ignore[attr-defined]
-    assert found.derivative == pytest.approx(found.derivative.T, abs=1e-12 * scale)  # type: ignore[attr-defined]
-    quotient = (under(lead + step * change).force - under(lead - step * change).force) / (2 * step)  # type: ignore[attr-defined]
-    assert found.derivative @ change == pytest.approx(quotient, abs=1e-4 * np.abs(quotient).max())  # type: ignore[attr-defined]
+    assert found.force.sum() == pytest.approx(given_mesh.tangential_force, rel=1e-12)
+    scale = np.abs(found.derivative).max()
+    assert found.derivative.sum(axis=0) == pytest.approx(np.zeros(11), abs=1e-12 * scale)
+    assert found.derivative == pytest.approx(found.derivative.T, abs=1e-12 * scale)
+    quotient = (under(lead + step * change).force - under(lead - step * change).force) / (2 * step)
+    assert found.derivative @ change == pytest.approx(quotient, abs=1e-4 * np.abs(quotient).max())
     far = under(lead + 20e-6 * change)
     again = under(lead, far)
-    assert again.force == pytest.approx(found.force, rel=1e-10, abs=1e-10 * found.force.max())  # type: ignore[attr-defined]
+    assert again.force == pytest.approx(found.force, rel=1e-10, abs=1e-10 * found.force.max())
     fine = np.interp(np.linspace(0, 1, 401), np.linspace(0, 1, 11), lead)
     mesh = given_mesh.mesh._replace(gap=given_mesh.mesh.gap._replace(lead=fine))
     balance = balance_load(mesh, given_mesh.rolls, given_mesh.force, 100)
@@ -134,7 +137,7 @@ def test_face_response_is_the_balances_own(contact: str, helix: float) -> None:
         return  # the error jumps where a spur gear's pairs come and go, and both stand for either side
     # The balance cuts lines that are loaded in part finer than the response does.
     error = np.interp(given_mesh.rolls.phase, balance.rolls.phase, balance.transmission_error)
-    assert again.error == pytest.approx(error, rel=5e-4)  # type: ignore[attr-defined]
+    assert again.error == pytest.approx(error, rel=5e-4)
 
 
 # Heat
@@ -318,17 +321,22 @@ def reversed_ends(inputs: DriveTrainInputs) -> DriveTrainInputs:
             )
             for one in inputs.couplings
         ),
-        arrangement=replace(inputs.arrangement, hand=hand),  # type: ignore[arg-type]
+        arrangement=replace(inputs.arrangement, hand=hand),
     )
     return spur_face_reversed(image)
 
 
-def _mapped(inputs, vector, matrix, arrangement):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN202
+def _mapped(
+    inputs: DriveTrainInputs,
+    vector: Callable[[Vector2], Vector2],
+    matrix: Callable[[FloatArray], FloatArray],
+    arrangement: Arrangement,
+) -> DriveTrainInputs:
     def bearing(one: Bearing) -> Bearing:
         moved = replace(one, offset=vector(one.offset))
         if isinstance(moved, LinearBearing):
             stiffness = matrix(np.array(moved.stiffness))
-            return replace(moved, stiffness=tuple(map(tuple, stiffness.tolist())))  # type: ignore[arg-type]
+            return replace(moved, stiffness=tuple(map(tuple, stiffness.tolist())))
         return moved
 
     shafts = [replace(shaft, bearings=tuple(bearing(one) for one in shaft.bearings)) for shaft in inputs.shafts]

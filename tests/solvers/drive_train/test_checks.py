@@ -23,11 +23,11 @@ from tests.support.drive_trains import COUPLING, GROUND, PINION_SHAFT, turbo_gea
 
 
 def pinion_shaft(**changes: object) -> DriveTrainInputs:
-    return replace(turbo_gear(), pinion_shaft=replace(PINION_SHAFT, **changes))  # type: ignore[arg-type]
+    return replace(turbo_gear(), pinion_shaft=replace(PINION_SHAFT, **changes))
 
 
 def coupling(**changes: object) -> DriveTrainInputs:
-    return replace(turbo_gear(), couplings=(replace(COUPLING, **changes),))  # type: ignore[arg-type]
+    return replace(turbo_gear(), couplings=(replace(COUPLING, **changes),))
 
 
 def section(index: int, **changes: float) -> DriveTrainInputs:

@@ -27,7 +27,7 @@ TILTS = np.array([-3.5e-4, 8.4e-4, -1.8e-4, 10.1e-4])
 
 
 def port(coupling: UnitCoupling = COUPLING, law: str = "elastic_plastic", rotation: float = 1.0) -> CouplingPort:
-    return coupling_port(coupling, 0, law, TORQUE, SPEED, rotation, DOWN, 9.80665)  # type: ignore[arg-type]
+    return coupling_port(coupling, 0, law, TORQUE, SPEED, rotation, DOWN, 9.80665)
 
 
 def vector(conjugate: FloatArray) -> FloatArray:
@@ -39,7 +39,7 @@ def vector(conjugate: FloatArray) -> FloatArray:
 @pytest.mark.parametrize("shaft", ["pinion", "wheel"])
 @pytest.mark.parametrize("scale", [1.0, 0.01, 0.003])
 def test_derivative_of_the_loads(law: str, shaft: str, scale: float) -> None:
-    own = port(replace(COUPLING, shaft=shaft, friction=Friction(), thrust_fraction=0.3), law)  # type: ignore[arg-type]
+    own = port(replace(COUPLING, shaft=shaft, friction=Friction(), thrust_fraction=0.3), law)
     tilts, step = scale * TILTS, 1e-6 * scale * 1e-3
     _, exact = coupling_loads(own, tilts)
     columns = [
@@ -57,7 +57,7 @@ def test_derivative_of_the_loads(law: str, shaft: str, scale: float) -> None:
 @pytest.mark.parametrize("machine_side", ["minus", "plus"])
 def test_sleeve_is_in_balance_and_friction_dissipates(law: str, rotation: float, shaft: str, machine_side: str) -> None:
     """Forces of both hubs on the sleeve hold the moments there; M_f turns against the sliding, M_s straightens."""
-    own = port(replace(COUPLING, shaft=shaft, machine_side=machine_side), law, rotation)  # type: ignore[arg-type]
+    own = port(replace(COUPLING, shaft=shaft, machine_side=machine_side), law, rotation)
     loads, _ = coupling_loads(own, TILTS)
     force_on_sleeve = -np.array([loads[0], loads[1], 0.0])
     moments = np.zeros(3)

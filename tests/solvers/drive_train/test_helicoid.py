@@ -24,7 +24,7 @@ UNIT = turbo_gear()
 PATH: PathOfContact = mesh_of(UNIT.mesh.distribution).path
 Surface = Callable[[float, float], FloatArray]
 STANDINGS = [
-    Arrangement(hand=hand, rotation=rotation, wheel_angle=angle)  # type: ignore[arg-type]
+    Arrangement(hand=hand, rotation=rotation, wheel_angle=angle)
     for hand in ("right", "left")
     for rotation in ("counterclockwise", "clockwise")
     for angle in (0.0, 2.2)

@@ -164,7 +164,7 @@ def test_twist_under_a_uniform_load() -> None:
 @pytest.mark.parametrize("hand", ["right", "left"])
 def test_influence_is_symmetric_and_twice_the_strain_energy(hand: str) -> None:
     inputs = turbo_gear()
-    system = unit_of(replace(inputs, arrangement=replace(inputs.arrangement, hand=hand)))  # type: ignore[arg-type]
+    system = unit_of(replace(inputs, arrangement=replace(inputs.arrangement, hand=hand)))
     own = system.elastic[:41, :41]
     assert own == pytest.approx(own.T, abs=1e-10 * np.abs(own).max())
     assert np.linalg.eigvalsh((own + own.T) / 2).min() >= -1e-10 * np.abs(own).max()
@@ -201,8 +201,7 @@ def _strain_energy(system: Unit, force: FloatArray) -> float:
 def test_reversing_the_hand_reverses_the_tilting_moment_alone() -> None:
     inputs = replace(turbo_gear(), effects=Effects(coupling=False, thermal=False))
     right, left = (
-        unit_of(replace(inputs, arrangement=replace(inputs.arrangement, hand=hand)))  # type: ignore[arg-type]
-        for hand in ("right", "left")
+        unit_of(replace(inputs, arrangement=replace(inputs.arrangement, hand=hand))) for hand in ("right", "left")
     )
     assert left.frame.force[2] == -right.frame.force[2]
     assert left.frame.face_direction == -right.frame.face_direction

@@ -53,7 +53,7 @@ def mate_flank(space: ToothSpace, points: int) -> tuple[FloatArray, FloatArray]:
 
 def closest(own: FloatArray, mate: FloatArray) -> tuple[float, int, int]:
     """Distance of the closest pair of points, and its indices."""
-    distance, nearest = cKDTree(own).query(mate)
+    distance, nearest = map(np.asarray, cKDTree(own).query(mate))
     k = int(np.argmin(distance))
     return float(distance[k]), int(nearest[k]), k
 
@@ -130,7 +130,8 @@ def test_contact_gap_has_one_minimum_and_continuous_sections(setup: PumpingSetup
 
 def shortened_paths(count: int) -> list[PathOfContact]:
     """Pairs whose tips reach into a fillet or past a base circle."""
-    draw, paths = np.random.default_rng(3), []
+    draw = np.random.default_rng(3)
+    paths: list[PathOfContact] = []
     while len(paths) < count:
         try:
             path = meshing_path(rough_gears(draw))

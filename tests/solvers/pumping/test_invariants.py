@@ -210,8 +210,8 @@ def test_one_pair_one_verdict() -> None:
     for k in range(300):
         gears = rough_gears(draw) if k % 2 else random_gears(draw)
         setup = PumpingSetup(gears, 0.1e-3)
-        verdict, notices = verdict_of(lambda gears=gears: pair_notices(meshing_path(gears)))
-        pumping, said = verdict_of(lambda setup=setup: prepare(setup).notices)
+        verdict, notices = verdict_of(lambda setup: pair_notices(meshing_path(setup.gears)), setup)
+        pumping, said = verdict_of(lambda setup: prepare(setup).notices, setup)
         assert pumping == verdict, gears
         assert notices <= said, gears
         seen.update([verdict, *notices])
@@ -219,10 +219,10 @@ def test_one_pair_one_verdict() -> None:
     assert seen["path_shortened"] > 20
 
 
-def verdict_of(attempt: Callable[[], Iterable[Notice]]) -> tuple[str | None, set[str]]:
+def verdict_of(attempt: Callable[[PumpingSetup], Iterable[Notice]], setup: PumpingSetup) -> tuple[str | None, set[str]]:
     """The code of a refusal, and those of the notices without one."""
     try:
-        return None, {notice.code for notice in attempt()}
+        return None, {notice.code for notice in attempt(setup)}
     except InvalidInput as error:
         return error.code, set()
 

@@ -34,7 +34,7 @@ AMPLITUDES = (
 COARSE = Resolution(roll_positions=40, slices=25, profile_points=21, face_points=11, feature_points=11)
 MODELS = st.sampled_from(
     [
-        Model(contact=contact, section=section)  # type: ignore[arg-type]
+        Model(contact=contact, section=section)
         for contact in ("linear", "hertzian")
         for section in ("normal", "transverse")
     ]

@@ -33,7 +33,7 @@ STEEL = Solid()
 @pytest.mark.parametrize("section", ["normal", "transverse"])
 def test_bending_and_shear_are_the_beams_integrals(place: float, section: str) -> None:
     pair = gear_pair(paper_gears(3))
-    gear = section_gear(pair, pair.pinion, pair.inputs.pinion, section)  # type: ignore[arg-type]
+    gear = section_gear(pair, pair.pinion, pair.inputs.pinion, section)
     shape = tooth_shape(gear)
     radius = gear.form_radius + place * (gear.tip_radius - gear.form_radius)
     points = load_points(gear, np.array([radius]))
@@ -94,7 +94,7 @@ def half_space_approach(load: float, x: float, section: str) -> float:
         (pair.wheel, pair.inputs.wheel, pair.line_of_action - path.start - x),
     ):
         radius = np.array([np.hypot(gear.base_radius, roll)])
-        cut = section_gear(pair, gear, teeth, section)  # type: ignore[arg-type]
+        cut = section_gear(pair, gear, teeth, section)
         points = load_points(cut, cut.reference_radius + radius - gear.reference_radius)
         bending = float(bending_compliance(tooth_shape(cut), points, STEEL)[0]) * load
         depth = float(load_points(gear, radius).depth[0])
@@ -107,7 +107,7 @@ def half_space_approach(load: float, x: float, section: str) -> float:
 @pytest.mark.parametrize("section", ["normal", "transverse"])
 def test_line_load_inverts_the_half_space(load: float, section: str) -> None:
     path = path_of_contact(gear_pair(paper_gears(3)))
-    model = Model(section=section)  # type: ignore[arg-type]
+    model = Model(section=section)
     table = pair_compliance(path, STEEL, STEEL, model)
     node = 300
     approach = half_space_approach(load, node / table.points_per_metre, section)

@@ -18,10 +18,10 @@ from solvers.scuffing.inputs import (
     Temperatures,
 )
 from solvers.scuffing.safety_results import Scuffing
+from solvers.scuffing.thermal.thermal_path import contact_at
 from tests.support.modified_pairs import (
     PATH_POINTS,
     check_path,
-    contact_at,
     points_of,
     random_pair,
     relieved_pair,

@@ -170,7 +170,8 @@ def test_viscosity_beyond_every_number_is_refused() -> None:
 def test_load_from_heavy_to_none(thermal: bool) -> None:
     """Solved down to the film 10^4 times b^2/R thick, refused from there on; the film thickens all the way."""
     given_ = replace(POINT, model=replace(COARSE, thermal=thermal))
-    films, codes = [], []
+    films: list[float] = []
+    codes: list[str | None] = []
     for load in 2.73e5 * 10.0 ** np.linspace(0.0, -8.0, 33):
         inputs = replace(given_, contact=replace(given_.contact, line_load=float(load)))
         if expected_gap(inputs) <= THICKEST_FILM:

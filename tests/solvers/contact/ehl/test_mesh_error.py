@@ -134,7 +134,7 @@ def check_doubled_film_nodes(inputs: LineContactInputs) -> None:
 @pytest.mark.parametrize("check", [check_doubled_nodes, check_doubled_film_nodes])
 def test_resolution_does_not_decide(check: object) -> None:
     for inputs in random_contacts(AS_GIVEN, 8, seed=21):
-        check(inputs)  # type: ignore[operator]
+        check(inputs)
 
 
 # Newtonian contacts of which half the nodes once said too little, by what it was.

@@ -9,6 +9,7 @@ import pytest
 from solvers.contact.ehl import Contact, LineContactInputs, Model, Temperatures, path, solve, solve_path
 from solvers.contact.ehl.grid.mesh import Grid
 from solvers.contact.ehl.problem import Problem
+from solvers.contact.ehl.solution import continuation
 from solvers.contact.ehl.solution.budget import STEPS_IN_ALL, Budget, Resolution
 from solvers.contact.ehl.solution.continuation import TIGHT, Attempt
 from solvers.contact.ehl.solution.state import State
@@ -79,7 +80,8 @@ def test_guesses_take_only_as_many_states_as_told_the_last() -> None:
 
 def test_what_a_path_leaves_is_converged(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whether or not the Jacobian was kept: one more Newton step moves a tenth of the tolerance at most."""
-    warm, moved = path.polish, []
+    moved: list[Any] = []
+    warm = continuation.polish
 
     def again(problem: Problem, resolution: Resolution, grid: Grid, guess: State, *rest: Any) -> Attempt:
         attempt: Attempt = warm(problem, resolution, grid, guess, *rest)
@@ -101,7 +103,7 @@ def test_failed_point_neither_stops_nor_fills(monkeypatch: pytest.MonkeyPatch) -
     def failing(attempt: Attempt) -> Attempt:
         return replace(attempt, converged=False)
 
-    warm, cold = path.polish, path.solve_cold
+    warm, cold = continuation.polish, continuation.solve_cold
     third = contacts()[2].contact.speed_1
 
     monkeypatch.setattr(
@@ -110,9 +112,9 @@ def test_failed_point_neither_stops_nor_fills(monkeypatch: pytest.MonkeyPatch) -
         lambda p, *rest: failing(warm(p, *rest)) if p.speed_1 == pytest.approx(third) else warm(p, *rest),
     )
 
-    def counted(p: object, *rest: object) -> Attempt:
-        attempt: Attempt = cold(p, *rest)  # type: ignore[arg-type]
-        seen.append(p.speed_1)  # type: ignore[attr-defined]
+    def counted(p: Problem, resolution: Resolution, steps: Budget) -> Attempt:
+        attempt = cold(p, resolution, steps)
+        seen.append(p.speed_1)
         return failing(attempt) if seen[-1] == pytest.approx(third) else attempt
 
     monkeypatch.setattr(path, "solve_cold", counted)
@@ -148,7 +150,7 @@ def test_hard_points_are_solved_as_they_are_alone() -> None:
 
 
 def test_a_point_that_its_neighbours_do_not_lead_to_is_the_contact_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    warm = path.polish
+    warm = continuation.polish
     monkeypatch.setattr(path, "polish", lambda *given: replace(warm(*given), converged=False))
     for inputs, along in zip(contacts(3), solve_path(contacts(3)), strict=True):
         assert along.film == solve(inputs).film
@@ -158,7 +160,7 @@ def test_many_failures_in_a_row_take_the_steps_but_not_the_chance_of_those_behin
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     given: list[float] = []
-    cold = path.solve_cold
+    cold = continuation.solve_cold
 
     def counted(p: Problem, resolution: Resolution, steps: Budget) -> Attempt:
         given.append(steps.remaining)
