@@ -19,7 +19,7 @@ def solved(result: LineContactResult) -> tuple[float, float, float, float, float
 
 
 def test_maximum_pressure_is_151_gpa_in_the_centre() -> None:
-    """Fig. 20; Eq. 14's pi/4 would give the mean Hertz pressure, 1.23 GPa."""
+    """Fig. 20; Xue Eq. 14's pi/4 would give the mean Hertz pressure, 1.23 GPa."""
     result = point_a()
     assert result.pressure is not None
     assert result.pressure.maximum == pytest.approx(1.51e9, rel=0.04)
@@ -164,7 +164,7 @@ def test_heat_of_compression_is_small() -> None:
 
 
 def test_printed_hertz_pressure_is_the_mean_one() -> None:
-    """Eq. 14 as printed, with pi/4, is the mean pressure: 1.23 GPa."""
+    """Xue Eq. 14 as printed, with pi/4, is the mean pressure: 1.23 GPa."""
     hertz = point_a().hertz
     assert np.pi / 4 * hertz.max_pressure == pytest.approx(1.23e9, rel=0.002)
 

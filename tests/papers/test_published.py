@@ -1,8 +1,15 @@
 """Every published statement of the pages' comparison table holds."""
 
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
 import pytest
 
 from app.published import STATEMENTS, Statement
+
+ROOT = Path(__file__).parents[2]
+CITED = re.compile(r"(\w*)[ ,\"]*Eqs?\. (\d+)(?:( and |, |-)(\d+))?")
 
 NAMED = [
     pytest.param(statement, id=f"{model}-{number}")
@@ -31,3 +38,18 @@ def test_a_statement_that_is_not_reproduced_says_why() -> None:
     ]
     assert missed
     assert all(statement.remark for statement in missed)
+
+
+def equations(folder: str) -> Iterator[tuple[str, int]]:
+    """Paper and number of the equations that docstrings and comments name; the solvers need not name the paper."""
+    for path in (ROOT / folder).rglob("*.py"):
+        paper = "Milian" if "pumping" in path.parts else "Xue"
+        for word, first, joint, last in CITED.findall(path.read_text("utf-8")):
+            numbers = range(int(first), int(last) + 1) if joint == "-" else {int(first), int(last or first)}
+            yield from ((paper if folder == "solvers" else word, number) for number in numbers)
+
+
+def test_every_equation_that_the_solvers_cite_is_named_by_a_test() -> None:
+    cited, tested = set(equations("solvers")), set(equations("tests"))
+    assert len(cited) > 25
+    assert sorted(cited - tested) == []

@@ -83,6 +83,7 @@ def pinion_contact_ratio() -> float:
 @pytest.mark.parametrize("gears", [TABLE_1, CASE_1, CASE_2])
 @pytest.mark.parametrize("of_pinion", [True, False])
 def test_displacement_law_of_gear_pumps(gears: GearPairInputs, *, of_pinion: bool) -> None:
+    """Milian Eq. 5."""
     # S = S_0 + K phi^2 with K = r_b [(z1/z2)(N - s) - s] while both flanks seal: exact, without backlash
     pair = gear_pair(replace(gears, centre_distance=None))
     space = tooth_space(pair, 0.0, Gap.CONTACT, of_pinion=of_pinion)

@@ -58,6 +58,7 @@ def blok(contact: dict[str, float], friction: float = 0.06) -> float:
 
 
 def test_contact_at_the_start_of_mesh_of_pair_1() -> None:
+    """Xue Eqs. 13 and 18."""
     contact = at_start_of_mesh(273e3)
     assert contact["radius"] * 1e3 == pytest.approx(4.0666, abs=1e-4)
     assert contact["speed_1"] == pytest.approx(1.018, abs=1e-3)
@@ -79,6 +80,7 @@ def test_fig_22_the_dedendum_is_hottest_and_the_pitch_point_cold_in_every_pair(p
 
 
 def test_fig_22_flash_temperature_at_the_printed_line_load() -> None:
+    """Xue Eq. 25."""
     assert blok(at_start_of_mesh(273e3)) == pytest.approx(85.7, abs=0.05)
 
 
@@ -91,6 +93,7 @@ def test_fig_23_film_is_thinnest_in_the_dedendum_of_the_pinion() -> None:
 
 
 def test_fig_23_film_at_the_printed_line_load() -> None:
+    """Xue Eq. 27."""
     contact, oil = at_start_of_mesh(273e3), Lubricant()
     film = dowson_higginson_minimum(
         viscosity=oil.viscosity,
@@ -105,11 +108,13 @@ def test_fig_23_film_at_the_printed_line_load() -> None:
 
 @pytest.mark.parametrize(("ratio", "regime"), [(0.9, "boundary"), (1.0, "mixed"), (4.0, "mixed"), (4.1, "full_film")])
 def test_equation_28_regimes(ratio: float, regime: str) -> None:
+    """Xue Eq. 28."""
     assert thickness_regime(ratio) == regime
     assert thickness_ratio(ratio * 0.5e-6, 0.3e-6, 0.4e-6) == pytest.approx(ratio, rel=1e-12)
 
 
 def test_equation_26_safety_in_either_unit() -> None:
+    """Xue Eq. 26."""
     assert safety_factor(433.15, 333.15, 383.15) == pytest.approx(2.0, rel=1e-12)
     assert safety_factor(160.0, 60.0, 110.0) == pytest.approx(2.0, rel=1e-12)
     result = scuffing(1)

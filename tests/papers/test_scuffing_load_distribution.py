@@ -68,6 +68,7 @@ def test_table_1_transverse_contact_ratio(pair: int, printed: float, reference: 
     ("pair", "printed", "reference"), [(1, 0.36, 0.3612), (2, 0.72, 0.7224), (3, 0.73, 0.7327), (4, 1.47, 1.4655)]
 )
 def test_table_1_overlap_ratio(pair: int, printed: float, reference: float) -> None:
+    """Xue Eq. 3."""
     ratio = unmodified(pair).geometry.overlap_ratio
     assert ratio == pytest.approx(printed, abs=0.005)
     assert ratio == pytest.approx(reference, abs=6e-5)
@@ -83,6 +84,7 @@ def test_table_1_total_contact_ratio(pair: int, printed: float, reference: float
 
 
 def test_equation_2_needs_the_base_pitch_not_the_circular_pitch() -> None:
+    """Xue Eq. 2."""
     path = unmodified(1).path_of_contact
     assert path.length / (np.pi * path.pair.transverse_module) == pytest.approx(1.493, abs=5e-4)
 
@@ -113,6 +115,7 @@ def test_the_ratio_below_2_is_one_half_only_while_the_overlap_is_below_the_fract
 
 @pytest.mark.parametrize(("narrow", "wide", "lengths"), [(1, 2, (32.24, 64.49)), (3, 4, (31.54, 63.07))])
 def test_fig_5_twice_the_width_is_twice_the_mean_length(narrow: int, wide: int, lengths: tuple[float, float]) -> None:
+    """Xue Eq. 4."""
     means = [unmodified(pair).contact_lines.mean_length * 1e3 for pair in (narrow, wide)]
     assert means == pytest.approx(lengths, abs=6e-3)
 
@@ -131,6 +134,7 @@ def test_fig_5_the_spread_of_the_length_has_an_upper_limit_whatever_the_width(pa
 
 @pytest.mark.parametrize(("pair", "gamma", "stiffness"), [(1, -0.020, 15.49), (3, -0.018, 17.42)])
 def test_fig_8_stiffness_is_largest_close_to_the_pitch_point(pair: int, gamma: float, stiffness: float) -> None:
+    """Xue Eq. 7."""
     result = unmodified(pair).stiffness
     assert abs(result.max_at_gamma) < 0.05
     assert result.max_at_gamma == pytest.approx(gamma, abs=2e-3)
@@ -139,6 +143,7 @@ def test_fig_8_stiffness_is_largest_close_to_the_pitch_point(pair: int, gamma: f
 
 @pytest.mark.parametrize(("pair", "reference"), [(1, 20.5), (4, 21.8)])
 def test_mean_mesh_stiffness_of_the_printed_contact_term_is_far_above_the_standard(pair: int, reference: float) -> None:
+    """Xue Eq. 6."""
     result = unmodified(pair).stiffness
     assert result.mean_mesh is not None
     assert result.mean_mesh * 1e-9 == pytest.approx(reference, rel=STIFF)
@@ -302,6 +307,7 @@ def test_fig_18_the_feature_line_holds_the_maxima_within_6_percent(pair: int, li
 def test_fig_19_the_standards_load_sharing_resembles_pair_1_but_not_pair_2(
     pair: int, own: tuple[float, ...], standard: tuple[float, ...]
 ) -> None:
+    """Xue Eq. 15."""
     line = unmodified(pair).feature_line
     assert line.load_sharing is not None
     assert line.iso_load_sharing is not None
@@ -314,7 +320,8 @@ def test_fig_19_the_standards_load_sharing_resembles_pair_1_but_not_pair_2(
 
 
 def test_fig_20_the_peak_pressure_of_1_51_gpa_is_the_hertz_pressure_less_3_percent() -> None:
-    # Eq. 14 prints pi/4 of it, the mean pressure.
+    """Xue Eq. 14."""
+    # Xue Eq. 14 prints pi/4 of it, the mean pressure.
     path = unmodified(1).path_of_contact
     steel = Solid()
     radius = float(reduced_radius(path.plane, 0.0))
@@ -328,6 +335,7 @@ def test_fig_20_the_peak_pressure_of_1_51_gpa_is_the_hertz_pressure_less_3_perce
 
 
 def test_equation_1_with_the_tangential_force_lowers_every_load_by_the_base_helix() -> None:
+    """Xue Eq. 1."""
     for pair, drop in ((1, 0.013), (3, 0.054)):
         printed = solve_load_distribution(
             paper_pair(pair, model=Model("ishikawa", 0.757, "linear", "transverse", "paper"))

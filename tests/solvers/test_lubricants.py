@@ -12,7 +12,7 @@ PAPER = Lubricant()
 
 
 def test_constants_of_the_paper() -> None:
-    """A1 = 7.144, Z = 0.6011, S0 = 1.305; as printed, S0 = beta/(A1 (t0 - 138)) would be 2.6e-5."""
+    """Xue Eq. 20. A1 = 7.144, Z = 0.6011, S0 = 1.305; as printed, S0 = beta/(A1 (t0 - 138)) would be 2.6e-5."""
     laws = PAPER.laws
     assert laws.a1 == pytest.approx(7.144, abs=5e-4)
     assert laws.pressure_exponent == pytest.approx(0.6011, abs=5e-5)
@@ -34,7 +34,7 @@ def test_viscosity_at_the_heart_of_the_contact() -> None:
 
 
 def test_density() -> None:
-    """Dowson and Higginson: 1 + 0.6/(1 + 1.7) at 1 GPa, less 0.00065 a kelvin."""
+    """Xue Eq. 19. Dowson and Higginson: 1 + 0.6/(1 + 1.7) at 1 GPa, less 0.00065 a kelvin."""
     assert PAPER.density_at(1e9, 360.0) == pytest.approx(870.0 * (1 + 0.6 / 2.7), rel=1e-12)
     assert PAPER.density_at(0.0, 460.0) == pytest.approx(870.0 * (1 - 0.065), rel=1e-12)
     assert Lubricant(compressible=False).density_at(1e9, 460.0) == 870.0

@@ -304,7 +304,7 @@ def test_scuffing_at_rest_has_neither_flash_nor_film() -> None:
 
 
 def test_negative_transmission_error_is_legal() -> None:
-    # Helix slope is centred: at little load one end meets ahead of the nominal position. The paper's Eq. 10 never
+    # Helix slope is centred: at little load one end meets ahead of the nominal position. Xue Eq. 10 never
     # converges here.
     tenth = PAPER_LOAD.pinion_torque / 10
     result = solve_load_distribution(with_torque(paper_pair(4, Modifications(helix_slope=40e-6)), tenth))

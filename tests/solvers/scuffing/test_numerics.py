@@ -32,6 +32,7 @@ STEEL = Solid()
 @pytest.mark.parametrize("place", [0.0, 0.3, 0.7, 1.0])
 @pytest.mark.parametrize("section", ["normal", "transverse"])
 def test_bending_and_shear_are_the_beams_integrals(place: float, section: str) -> None:
+    """Xue Eq. 5."""
     pair = gear_pair(paper_gears(3))
     gear = section_gear(pair, pair.pinion, pair.inputs.pinion, section)
     shape = tooth_shape(gear)
@@ -141,7 +142,7 @@ def test_half_space_contact_is_several_times_softer_than_the_printed_term() -> N
 
 @pytest.mark.parametrize("pair", [1, 4])
 def test_the_linear_balance_is_the_exact_root_by_sorting(pair: int) -> None:
-    """Sort the gaps, accumulate stiffness and moment; the first TE below the next gap is the root."""
+    """Xue Eqs. 8 and 9. Sort the gaps, accumulate stiffness and moment; the first TE below the next gap is the root."""
     shape = replace(PAPER_MODIFICATIONS, helix_slope=40e-6)
     result = solve_load_distribution(paper_pair(pair, shape))
     plane, mesh = result.path_of_contact.plane, result.balance.mesh

@@ -79,6 +79,7 @@ def test_the_slower_flank_is_the_hotter_one(pair_1: Scuffing) -> None:
 
 
 def test_maxima_and_safety_follow_from_the_path() -> None:
+    """Xue Eq. 16."""
     temperatures = Temperatures(scuffing=433.15)
     result = solve_scuffing(inputs(temperatures=temperatures))
     assert result.path.thermal is not None

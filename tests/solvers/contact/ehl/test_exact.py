@@ -61,7 +61,7 @@ def couette_errors(sliding: float, nodes: int) -> tuple[float, float]:
 
 
 def test_thermal_couette_flow() -> None:
-    """Na = 1.5, 21 nodes: within 5e-4."""
+    """Xue Eq. 23. Na = 1.5, 21 nodes: within 5e-4."""
     assert max(map(abs, couette_errors(0.5, 21))) < 5e-4
 
 
@@ -74,7 +74,7 @@ def test_thermal_couette_flow_converges_with_second_order(sliding: float) -> Non
 
 
 def test_uniform_strip_source() -> None:
-    """A strip of 2 b under uniform heat ends 2 q sqrt(2 b/(pi rho c u lambda)) warmer, to 0.1 %."""
+    """Xue Eq. 24. A strip of 2 b under uniform heat ends 2 q sqrt(2 b/(pi rho c u lambda)) warmer, to 0.1 %."""
     grid = grid_for(0.2, 121)
     inside = (np.abs(grid.x) <= 1.0).astype(float)
     end = int(np.flatnonzero(inside)[-1])
@@ -97,7 +97,7 @@ def test_square_root_of_distance_heats_linearly() -> None:
 
 
 def test_hertz_pressure_flattens_the_parabola() -> None:
-    """X^2/2 + K P is constant inside the contact; the error is that of a linear pressure between nodes."""
+    """Xue Eq. 21. X^2/2 + K P is constant inside the contact; the error is that of a linear pressure between nodes."""
     defects = []
     for nodes in (241, 481):
         x = np.cos(np.linspace(np.pi, 0.0, nodes))
@@ -113,7 +113,7 @@ def test_hertz_pressure_flattens_the_parabola() -> None:
     ("p", "g", "h"), [(0.9e9, 3e7, 0.5e-6), (0.2e9, -4e7, 0.3e-6), (1.5e9, 1e6, 0.5e-6), (1e7, 1e4, 3e-6)]
 )
 def test_column_at_one_temperature_is_the_closed_form(rheology: str, p: float, g: float, h: float) -> None:
-    """Flow and mid-film stress of 200 intervals against sinh's integrals; A and B differ, their flux does not."""
+    """Xue Eq. 17. Flow and mid-film stress of 200 intervals against sinh's; A and B differ, their flux does not."""
     given_ = constants(Lubricant(), rheology)
     film, coefficients = film_arrays(1, 201), flow_coefficients(1)
     evaluate_column(given_, 0, np.full((1, 201), 360.0), p, g, h, film, coefficients)
