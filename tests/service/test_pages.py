@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
+from app.figures.registry import figures_of
 from app.library import examples
 from app.pages.query import link, pairs_of
 from tests.support.browsing import PHONE, address_of, overflow, serious
@@ -112,6 +113,38 @@ def test_values_under_pointer_and_keys(visit: Callable[..., Page]) -> None:
     expect(reading).not_to_have_text(before)
 
 
+LOADED = """async images => {
+  for (const image of images) { image.loading = "eager"; await image.decode(); }
+  return images.map(image => [image.naturalWidth, new URL(image.currentSrc).search.includes("theme=dark")]);
+}"""
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_figures_are_images_in_the_theme_of_the_system(visit: Callable[..., Page], scheme: str) -> None:
+    page = visit(address_of(SCUFFING), color_scheme=scheme)
+    loaded = page.locator(".chart img").evaluate_all(LOADED)
+    assert len(loaded) > 5
+    for width, dark in loaded:
+        assert width > 400
+        assert dark == (scheme == "dark")
+
+
+def test_the_theme_in_the_address_counts_before_that_of_the_system(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(COUPLING) + "&theme=light", color_scheme="dark")
+    loaded = page.locator(".chart img").evaluate_all(LOADED)
+    assert loaded
+    assert not any(dark for _, dark in loaded)
+
+
+def test_values_of_a_figure_as_a_table(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(COUPLING))
+    values = page.locator("#figure-tooth-loads .values")
+    values.locator("summary").click()
+    expect(values.locator("th").first).to_contain_text("tooth position")
+    assert values.locator("tbody tr").count() == 52
+    assert serious(page) == []
+
+
 def test_an_example_is_loaded_from_the_menu(visit: Callable[..., Page]) -> None:
     page = visit("/pumping")
     page.locator("#example").select_option("milian-table-1")
@@ -139,6 +172,9 @@ def test_a_long_case_is_posted(visit: Callable[..., Page]) -> None:
     page.locator('[name="coupling.pitch_errors_um"]').fill(errors)
     expect(page.locator('[id="f.coupling.pitch_errors_um-count"]')).to_have_text("400 values")
     expect(page.locator(".tools")).to_contain_text("Too long for a link")
+    loaded = page.locator(".chart img").evaluate_all(LOADED)
+    assert len(loaded) == len(figures_of("/v1/coupling"))
+    assert all(width > 400 for width, _ in loaded)
     page.get_by_role("button", name="Report").click()
     expect(page.locator("h2").first).to_contain_text("Verdict")
 
