@@ -2,9 +2,7 @@
 
 from app.figures.declaration import Declaration
 from app.figures.models import (
-    choking,
     coupling,
-    coupling_companions,
     drive_train,
     line_contact,
     load_distribution,
@@ -14,10 +12,10 @@ from app.figures.models import (
 
 FIGURES: dict[str, tuple[Declaration, ...]] = {
     "/v1/coupling": coupling.FIGURES,
-    "/v1/coupling/sleeve-orbit": coupling_companions.ORBIT_FIGURES,
-    "/v1/coupling/recommendation": coupling_companions.RECOMMENDATION_FIGURES,
+    "/v1/coupling/sleeve-orbit": coupling.ORBIT_FIGURES,
+    "/v1/coupling/recommendation": coupling.RECOMMENDATION_FIGURES,
     "/v1/pumping": pumping.FIGURES,
-    "/v1/pumping/choking-speed": choking.FIGURES,
+    "/v1/pumping/choking-speed": pumping.CHOKING_FIGURES,
     "/v1/scuffing/load-distribution": load_distribution.FIGURES,
     "/v1/scuffing": (*scuffing.FIGURES, *load_distribution.FIGURES),
     "/v1/scuffing/line-contact": line_contact.FIGURES,

@@ -1,9 +1,9 @@
 """What people look at: every page is a view of a case, generated from the schema.
 
 query      the query string is the case
-form       fields with what was typed, what they mean and what is wrong with them, in blocks
-results    verdicts, warnings, tables
-charts     figures as images and as numbers
+form       fields with what was typed, what they mean and what is wrong with them
+results    headline numbers with verdicts, tables of results
+charts     figures as images at addresses of their own, and their values
 about      what a model answers, and where the paper is wrong
 views      one view of one case, made in a worker
 growing    pages of studies, whose figures grow: vary and studies

@@ -8,7 +8,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from app.calculations import CALCULATIONS, Calculation
-from app.pages.fields import anchor
+from app.pages.form import anchor
 from app.pages.typesetting import shown, symbol, typeset, words
 from app.schema.base import MODEL_VERSION
 

@@ -12,15 +12,13 @@ from app.figures.rendering import Format, written
 from app.formats import csv
 from app.formats.json import written as json_written
 from app.pages import report as reports
-from app.pages.cards import cards
 from app.pages.cases import Case, Fault, faults_of, solved
 from app.pages.charts import Chart, charts, data_address, figure_of, linked, values_of
-from app.pages.fields import State, anchor
-from app.pages.form import form
+from app.pages.form import State, anchor, form
 from app.pages.links import IMAGE_FORMATS, Links, example_link, examples_of
 from app.pages.offers import offers_of
 from app.pages.query import Pairs, normalised, pairs_of_query, split_views
-from app.pages.results import entries, flattened, groups
+from app.pages.results import cards, entries, flattened, groups
 from app.pages.templating import model_of, page_path, rendered
 from app.pages.typesetting import NO_VALUE
 from app.problems import Unprocessable

@@ -16,7 +16,7 @@ from app.calculations import CALCULATIONS, Calculation
 from app.figures.data import Axis, values
 from app.figures.drawing.image import draw, places
 from app.figures.rendering import MEDIA_TYPES
-from app.figures.sweep import MOST_CURVES, Coordinate, Grid, figures_of
+from app.figures.studies import MOST_CURVES, Coordinate, Grid, figures_of
 from app.library import examples
 from app.pages.growing import StudyLinks
 from app.pages.query import STUDY_NAMES, VIEW_NAMES, body_of, pairs_of, pairs_of_query, split_views

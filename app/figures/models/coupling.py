@@ -1,10 +1,11 @@
-"""Figures of a gear coupling at one operating point."""
+"""Figures of the couplings: friction map, loads, motion, thrust and losses; sleeve orbit; recommended crowning."""
 
-from math import degrees
+from math import degrees, exp, inf, log
 
 import numpy as np
 
 from app.figures.data import (
+    Area,
     Axis,
     Bars,
     Figure,
@@ -12,17 +13,271 @@ from app.figures.data import (
     Level,
     Line,
     Mark,
+    NoFigure,
     Panel,
     Ribbon,
+    Role,
     Row,
     Span,
     Values,
     values,
 )
 from app.figures.declaration import Declaration, present
-from app.figures.models.friction_map import friction_map
 from app.figures.wording import number, percent
-from app.schema.coupling import CouplingRequest, CouplingResponse
+from app.schema.coupling import (
+    CouplingRequest,
+    CouplingResponse,
+    RecommendationRequest,
+    RecommendationResponse,
+    SleeveOrbitRequest,
+    SleeveOrbitResponse,
+)
+from solvers.coupling.friction.regimes import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES, friction_regime
+
+MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}
+
+
+def friction_map(_: CouplingRequest, answer: CouplingResponse) -> Figure:
+    """Supply of oil against strength of film, with the nine areas and the distance to the next."""
+    lubrication = present(answer.lubrication)
+    regime = lubrication.regime
+    overlap, capacity = _shown(lubrication.contact_overlap), _shown(lubrication.load_capacity_coefficient)
+    x = Axis(
+        "contact surface overlap Pu (right: worse supply of oil)",
+        log=True,
+        limits=_around("overlap", overlap),
+        ticks=_ticks(*OVERLAP_BOUNDARIES),
+    )
+    y = Axis(
+        "load capacity coefficient Tr (up: stronger film)",
+        log=True,
+        limits=_around("capacity", capacity),
+        ticks=_ticks(*CAPACITY_BOUNDARIES),
+    )
+    assert x.limits is not None
+    assert y.limits is not None
+    at = min(max(overlap, x.limits[0]), x.limits[1]), min(max(capacity, y.limits[0]), y.limits[1])
+    distance = regime.distance_to_boundary
+    away = "" if distance is None else f", a factor {number(exp(distance))} from the next area"
+    return Figure(
+        finding=f"area {regime.area}, {regime.name}{away}; μ = {number(lubrication.friction_coefficient)}",
+        panels=(
+            Panel(
+                x=x,
+                y=y,
+                areas=_areas(x.limits, y.limits),
+                lines=() if distance is None else (_way_out(*at, distance),),
+                marks=(Mark(*at, _at(lubrication.contact_overlap, lubrication.load_capacity_coefficient)),),
+            ),
+        ),
+    )
+
+
+def _shown(coordinate: float | None) -> float:
+    """A coordinate without an end stands at the edge of the map."""
+    return inf if coordinate is None else coordinate
+
+
+def _around(which: str, value: float) -> tuple[float, float]:
+    """Ends of the map that hold the point, if a map can."""
+    low, high = MAP_ENDS[which]
+    if not 0.0 < value < inf:
+        return low, high
+    return min(low, 10.0 ** np.floor(np.log10(value / 1.2))), max(high, 10.0 ** np.ceil(np.log10(value * 1.2)))
+
+
+def _ticks(low: float, high: float) -> tuple[float, ...]:
+    """The boundaries and the decades that do not crowd them."""
+    decades = (10.0**exponent for exponent in range(-12, 13))
+    far = (decade for decade in decades if decade <= low / 1.9 or decade >= high * 1.9)
+    return tuple(sorted({low, high, *far}))
+
+
+def _at(overlap: float | None, capacity: float | None) -> str:
+    texts = ("∞" if value is None else number(value) for value in (overlap, capacity))
+    return "Pu = {}\nTr = {}".format(*texts)
+
+
+def _areas(x: tuple[float, float], y: tuple[float, float]) -> tuple[Area, ...]:
+    """The nine areas with what the model itself says of each."""
+    columns = list(zip((x[0], *OVERLAP_BOUNDARIES), (*OVERLAP_BOUNDARIES, x[1]), strict=True))
+    rows = list(zip((y[0], *CAPACITY_BOUNDARIES), (*CAPACITY_BOUNDARIES, y[1]), strict=True))
+    return tuple(_one_area(column, row) for row in rows for column in columns)
+
+
+def _one_area(x: tuple[float, float], y: tuple[float, float]) -> Area:
+    regime = friction_regime((x[0] * x[1]) ** 0.5, (y[0] * y[1]) ** 0.5)
+    band = _band(regime.friction_min, regime.friction_max)
+    words = {"transition from mixed to boundary lubrication": "transition", "mixed lubrication, unstable": "unstable"}
+    name = words.get(regime.name, regime.name.replace(" lubrication", "").replace("predominantly ", ""))
+    return Area(*x, *y, "\n".join([regime.area, *name.split(" or ", 1)[:1], band]).strip(), _tint(regime.name))
+
+
+def _band(low: float | None, high: float | None) -> str:
+    if low is None and high is None:
+        return ""
+    if low is None or high is None:
+        return f"μ < {high:g}" if high is not None else f"μ > {low:g}"
+    return f"μ ≈ {low:g}" if low == high else f"μ {low:g} to {high:g}"
+
+
+def _tint(name: str) -> Hue:
+    for word, hue in (
+        ("full", Hue.GREEN),
+        ("unstable", Hue.PURPLE),
+        ("transition", Hue.ORANGE),
+        ("boundary", Hue.VERMILLION),
+    ):
+        if word in name:
+            return hue
+    return Hue.SKY
+
+
+def _way_out(overlap: float, capacity: float, distance: float) -> Line:
+    """From the point to the nearest boundary, along an axis."""
+    for boundary in OVERLAP_BOUNDARIES:
+        if 0.0 < overlap < inf and abs(abs(log(overlap / boundary)) - distance) < 1e-9:
+            return _reference([overlap, boundary], [capacity, capacity])
+    nearest = min(CAPACITY_BOUNDARIES, key=lambda boundary: abs(abs(log(capacity / boundary)) - distance))
+    return _reference([overlap, overlap], [capacity, nearest])
+
+
+def _reference(x: list[float], y: list[float]) -> Line:
+    return Line("to the next area", values(x), values(y), Hue.GREY, Role.REFERENCE, named=False)
+
+
+ROTOR = Axis(
+    "rotor angle θ", "°", limits=(0.0, 360.0), ticks=(0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0, 360.0)
+)
+ORBIT_SOURCE = "Pahl 1978, Fig. 5"
+CONSTRAINTS = {
+    "contact_overlap": "the overlap cannot fall below 1",
+    "edge_contact": "the contact leaves the face",
+    "hertz_pressure": "the Hertz pressure is too high",
+    "contact_width": "the contact is too wide",
+    "sliding_velocity": "the teeth slide too fast",
+}
+
+
+def orbit(_: SleeveOrbitRequest, answer: SleeveOrbitResponse) -> Figure:
+    """Path of the sleeve centre in equal axes."""
+    path = present(answer.orbit)
+    x, y = values([*path.x_um, path.x_um[0]]), values([*path.y_um, path.y_um[0]])
+    farthest = int(np.argmax(np.hypot(x, y)))
+    largest = present(answer.max_displacement_um)
+    panel = Panel(
+        x=Axis("displacement in the pivot direction at θ = 0", "µm", magnitude=False),
+        y=Axis("displacement along the tilt axis", "µm", magnitude=False),
+        lines=(Line("path", x, y, named=False),),
+        marks=(Mark(float(x[farthest]), float(y[farthest]), number(largest, "µm")),),
+        levels=(Level(0.0, ""), Level(0.0, "", vertical=True)),
+        equal=True,
+    )
+    finding = f"the centre strays up to {number(largest, 'µm')} from the axis"
+    return Figure(finding, (panel,))
+
+
+def inertia_force(_: SleeveOrbitRequest, answer: SleeveOrbitResponse) -> Figure:
+    """Inertia force of the sleeve in both directions over the revolution."""
+    path, force = present(answer.orbit), present(answer.inertia_force)
+    angle = values([*path.rotor_angle_deg, path.rotor_angle_deg[0] + 360.0])
+    lines = []
+    for title, items, hue in (("along x", force.x_n, Hue.BLUE), ("along y", force.y_n, Hue.VERMILLION)):
+        curve = present(items)
+        lines.append(Line(title, angle, values([*curve, curve[0]]), hue))
+    strongest = max(lines, key=lambda line: float(np.abs(line.y).max()))
+    at = int(np.argmax(np.abs(strongest.y)))
+    value = float(strongest.y[at])
+    panel = Panel(
+        x=ROTOR,
+        y=Axis("inertia force of the sleeve mass of one mesh", "N", magnitude=False),
+        lines=tuple(lines),
+        marks=(Mark(float(angle[at]), value, number(value, "N"), strongest.hue),),
+    )
+    return Figure(f"up to {number(abs(value), 'N')} {strongest.title}", (panel,))
+
+
+def orders(_: SleeveOrbitRequest, answer: SleeveOrbitResponse) -> Figure:
+    """Harmonics of the inertia force."""
+    force = present(answer.inertia_force)
+    order = values([float(order) for order in range(len(force.harmonics_x_n))])
+    series = (
+        Bars("along x", order, values(force.harmonics_x_n), Hue.BLUE),
+        Bars("along y", order, values(force.harmonics_y_n), Hue.VERMILLION),
+    )
+    panel = Panel(
+        x=Axis("order of the revolution (0: the mean)", magnitude=False, ticks=tuple(order.tolist())),
+        y=Axis("amplitude of the inertia force", "N"),
+        bars=series,
+    )
+    both = np.hypot(series[0].height, series[1].height)[1:]
+    finding = f"strongest at order {int(np.argmax(both)) + 1}" if both.any() else "no force"
+    return Figure(finding, (panel,))
+
+
+def crowning_scan(request: RecommendationRequest, answer: RecommendationResponse) -> Figure:
+    """Least load capacity and largest overlap over the crowning ratio, the feasible window and the choice."""
+    scan = present(answer.scan)
+    if not scan.crowning_ratio:
+        raise NoFigure("no_contact_to_scan", "No crowning ratio gives a contact that can be computed")
+    ratio, feasible = values(scan.crowning_ratio), values([float(each) for each in scan.feasible])
+    x = Axis("crowning ratio ε (left: heavily, right: slightly crowned)", log=True)
+    best = answer.crowning_ratio
+    capacity, overlap = values(scan.min_load_capacity_coefficient), values(scan.max_contact_overlap)
+    window = _window(ratio, feasible, best)
+    choice = () if best is None else (Level(best, "", vertical=True),)
+    chosen = present(answer.min_load_capacity_coefficient) if best is not None else np.nan
+    boundaries = tuple(Level(each, f"Tr = {each:g}") for each in CAPACITY_BOUNDARIES)
+    panels = (
+        Panel(
+            x=x,
+            y=Axis("least load capacity coefficient Tr over the range", log=True, limits=_decades_shown(capacity)),
+            lines=(Line("least Tr", ratio, capacity, named=False),),
+            levels=(*boundaries, *choice),
+            spans=window,
+            marks=() if best is None else (Mark(best, chosen, f"ε = {number(best)}, Tr = {number(chosen)}"),),
+        ),
+        Panel(
+            x=x,
+            y=Axis("largest overlap Pu over the range", log=True),
+            lines=(Line("largest Pu", ratio, overlap, Hue.GREEN, named=False),),
+            levels=(Level(OVERLAP_BOUNDARIES[0], "Pu = 1: supply of oil ends", limit=True), *choice),
+            spans=tuple(Span(span.start, span.stop, "") for span in window),
+        ),
+    )
+    low, high = request.operation.misalignment_range_deg
+    return Figure(_choice(answer), panels, title=f"Crowning for {number(low)}° to {number(high)}°")
+
+
+def _window(ratio: Values, feasible: Values, best: float | None) -> tuple[Span, ...]:
+    inside = [*ratio[feasible > 0.0].tolist(), *([] if best is None else [best])]
+    return (Span(min(inside), max(inside), "feasible"),) if inside else ()
+
+
+def _decades_shown(capacity: Values) -> tuple[float, float]:
+    """Down to a thousandth of the best: where the film tears off, its capacity falls to nothing."""
+    top = 10.0 ** np.ceil(np.log10(max(float(np.nanmax(capacity)), CAPACITY_BOUNDARIES[1])))
+    return top / 1e4, top
+
+
+def _choice(answer: RecommendationResponse) -> str:
+    if answer.crowning_ratio is None:
+        failed = answer.failed_constraint or ""
+        return f"no crowning serves this range: {CONSTRAINTS.get(failed, failed.replace('_', ' '))}"
+    capacity = present(answer.min_load_capacity_coefficient)
+    overlap = max(present(answer.at_min).contact_overlap, present(answer.at_max).contact_overlap)
+    return f"ε = {number(answer.crowning_ratio)}: least Tr = {number(capacity)} with Pu up to {number(overlap)}"
+
+
+ORBIT_FIGURES = (
+    Declaration("orbit", "Path of the sleeve centre over one revolution", ORBIT_SOURCE, orbit),
+    Declaration("inertia-force", "Inertia force of the sleeve", ORBIT_SOURCE, inertia_force),
+    Declaration("orders", "Orders of the sleeve's inertia force", ORBIT_SOURCE, orders),
+)
+RECOMMENDATION_FIGURES = (
+    Declaration("crowning-scan", "Crowning for a range of misalignment", "Pahl 1978, conclusion", crowning_scan),
+)
+
 
 QUARTERS = (0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0, 360.0)
 TOOTH = Axis("tooth position φ (tilt at 90° and 270°)", "°", limits=(0.0, 360.0), ticks=QUARTERS, magnitude=False)

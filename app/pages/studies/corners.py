@@ -4,9 +4,9 @@ from dataclasses import replace
 from typing import Any
 
 from app.figures.comparison import compared
-from app.figures.corners import Uncertain, corners
 from app.figures.data import Axis, Figure, NoFigure
 from app.figures.models.drive_train import LOAD_ALONE
+from app.figures.studies import Uncertain, corners
 from app.figures.wording import listed, number
 from app.pages import offers
 from app.pages.cases import Case

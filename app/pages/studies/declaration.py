@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from app.figures.data import Figure
-from app.pages.fields import FieldView
+from app.pages.form import FieldView
 from app.pages.offers import Offer
 from app.pages.views import Asked
 from app.schema.fields import Leaf

@@ -6,11 +6,11 @@ from typing import Any
 
 from app.figures.comparison import compared
 from app.figures.data import Axis, Figure, NoFigure
-from app.figures.design import Tried, search
 from app.figures.models.drive_train import GAP
+from app.figures.studies import Tried, search
 from app.pages import offers
 from app.pages.cases import Case
-from app.pages.fields import FieldView
+from app.pages.form import FieldView
 from app.pages.points import address_at, case_at
 from app.pages.query import LOWER, TRIALS, UPPER, body_of, number_of, text_of
 from app.pages.studies.corners import OUTPUT, corner_table, load_figure, worst_end

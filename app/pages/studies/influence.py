@@ -3,7 +3,7 @@
 from typing import Any
 
 from app.figures.data import Axis
-from app.figures.influence import Influence, influence
+from app.figures.studies import Influence, influence
 from app.pages import offers
 from app.pages.query import body_of, link
 from app.pages.studies.declaration import Asking, Cell, Result, StudyPage, Table

@@ -5,7 +5,7 @@ from itertools import groupby
 from typing import Any
 
 from app.calculations import Calculation
-from app.pages.fields import FieldView
+from app.pages.form import FieldView
 from app.pages.query import text_of
 from app.pages.typesetting import symbol
 from app.pages.vary.choices import Choice, shown_outputs, varied

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from app.figures.data import Axis, values
-from app.figures.sweep import Coordinate, Grid
+from app.figures.studies import Coordinate, Grid
 from app.pages.typesetting import words
 from app.pages.vary.wish import Varied, Wish
 from app.schema.fields import Leaf

@@ -6,7 +6,7 @@ from typing import Any
 
 from app.figures.data import Figure
 from app.figures.rendering import Format, written
-from app.figures.sweep import figures_of
+from app.figures.studies import figures_of
 from app.figures.tables import table
 from app.pages.cases import Fault, faults_of
 from app.pages.charts import embedded

@@ -1,12 +1,29 @@
-"""Figures of a sweep: an output along one field, along two as a family of curves or a map, and what forgives what."""
+"""Figures of studies: sweeps as curves and maps, influences, worst corners, and the course of a search."""
 
 from dataclasses import dataclass, replace
 from itertools import groupby
+from typing import NamedTuple
 
 import numpy as np
 
-from app.figures.data import ORDER, Axis, Critical, Figure, Level, Line, Map, Mark, Panel, Span, Values, values
-from app.figures.wording import number
+from app.figures.data import (
+    ORDER,
+    Axis,
+    Critical,
+    Figure,
+    Hue,
+    Level,
+    Line,
+    Map,
+    Mark,
+    Panel,
+    Role,
+    Row,
+    Span,
+    Values,
+    values,
+)
+from app.figures.wording import listed, number
 
 MOST_CURVES = 6  # beyond it two fields make a map
 FLAT = 0.5  # of the largest value: an output that stays above it is not drawn from zero
@@ -199,3 +216,81 @@ def _best_of_curve(grid: Grid) -> tuple[Mark, ...]:
         return ()
     value = float(grid.values[grid.best])
     return (Mark(float(grid.x.values[grid.best[0]]), value, number(value, grid.output.unit or "")),)
+
+
+MOST_ROWS = 12
+NAMED = 3  # in the finding
+
+
+@dataclass(frozen=True, slots=True)
+class Influence:
+    """What one step of an input changes, and whether the two sides disagree."""
+
+    name: str
+    step: str
+    change: float
+    kink: bool
+
+
+def influence(output: Axis, value: float, found: list[Influence]) -> Figure:
+    """Lying bars, the most influential input first; in a second hue where the slope depends on the side."""
+    moving = [each for each in found if each.change][:MOST_ROWS]
+    rows = tuple(
+        Row(f"{each.name}, {each.step}", each.change, Hue.VERMILLION if each.kink else Hue.BLUE) for each in moving
+    )
+    title = f"What moves the {output.title} most"
+    if not rows:
+        return Figure("nothing does", (), title=title)
+    kinks = "; where the bar is red, up and down differ" if any(each.kink for each in moving) else ""
+    finding = f"{number(value, output.unit or '')} now; {listed([each.name for each in moving[:NAMED]])} first{kinks}"
+    axis = Axis(f"change of the {output.title} by one step up, from the steeper side", output.unit)
+    return Figure(finding, (Panel(x=axis, y=axis, rows=rows),), title=title)
+
+
+@dataclass(frozen=True, slots=True)
+class Uncertain:
+    """An uncertain input at one of its values: the worst output with it, and whether the worst corner of all has it."""
+
+    name: str
+    choice: str
+    worst: float
+    decides: bool
+
+
+def corners(output: Axis, found: list[Uncertain]) -> Figure:
+    """Lying bars, input by input; those that meet in the worst corner in a second hue."""
+    rows = tuple(
+        Row(f"{each.name} {each.choice}", each.worst, Hue.VERMILLION if each.decides else Hue.BLUE) for each in found
+    )
+    worst = next(each.worst for each in found if each.decides)
+    finding = f"worst {number(worst, output.unit or '')}, where the red values meet"
+    panel = Panel(x=output, y=Axis("uncertain input"), rows=rows)
+    return Figure(finding, (panel,), title="The worst that each value of an uncertain input can lead to")
+
+
+class Tried(NamedTuple):
+    """What a correction reached at its worst corner, and whether it has a solution there."""
+
+    reached: float
+    solved: bool
+
+
+def search(output: Axis, tried: list[Tried], *, greatest: bool) -> Figure:
+    """The corrections in the order in which they were tried."""
+    reached = np.array([each.reached if each.solved else np.nan for each in tried])
+    so_far = np.fmax.accumulate(reached) if greatest else np.fmin.accumulate(reached)
+    order = values(np.arange(1, reached.size + 1, dtype=np.float64))
+    best = int(np.nanargmax(reached) if greatest else np.nanargmin(reached))
+    unit = output.unit or ""
+    panel = Panel(
+        x=Axis("correction tried", magnitude=False),
+        y=Axis(f"{output.title} at the worst corner", output.unit, magnitude=False),
+        lines=(
+            Line("tried", order, values(reached), Hue.GREY, Role.REFERENCE),
+            Line("best so far", order, values(so_far), Hue.BLUE),
+        ),
+        marks=(Mark(best + 1.0, float(reached[best]), number(float(reached[best]), unit)),),
+    )
+    finding = f"from {number(float(reached[0]), unit)} to {number(float(reached[best]), unit, digits=4)}"
+    unsolved = sum(not each.solved for each in tried)
+    return Figure(finding, (panel,), title="What the search reached at the worst corner", unsolved=unsolved)
