@@ -42,7 +42,7 @@ def serve(application: str) -> None:
     gc.disable()  # `run` enables it: imports leave no garbage, and looking for it takes a third of their time
     template = Template()
     try:
-        from app.server import run  # noqa: PLC0415  seconds of imports, for which port and template need not wait
+        from app.http.server import run  # noqa: PLC0415  seconds of imports, for which port and template need not wait
 
         run(application, listener, template)
     except KeyboardInterrupt:

@@ -1,84 +1,85 @@
-"""The log, written by a thread of its own: a reader that stalls costs lines, which are counted, never a request."""
+"""The log, written by a thread of its own: a reader that stalls costs lines, which are counted, never a request.
+
+Lines of answered requests go to the standard output, everything else to the standard error.
+"""
 
 import logging
 import os
 import queue
 import sys
-import threading
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from logging.handlers import QueueHandler, QueueListener
 
 from app.metrics import LINES_DROPPED
 
 LINES_KEPT = 10_000
 LAST_LINES_S = 1.0
-GATHERING_S = 0.02
-MOST_AT_ONCE = 1000
+REQUESTS = "tribodrive.requests"
 
 
-class LogWriter:
-    """A bounded queue of lines and the thread that writes them, some at a time, so that it seldom interrupts."""
+class _Handler(QueueHandler):
+    """Puts records into the queue while there is room."""
 
-    def __init__(self) -> None:
-        self._lines: queue.SimpleQueue[tuple[int, str] | None] = queue.SimpleQueue()
-        self._thread = threading.Thread(target=self._write_lines, daemon=True)
+    queue: "queue.SimpleQueue[logging.LogRecord | None]"
 
-    def start(self) -> None:
-        """Begin to write."""
-        self._thread.start()
-
-    def close(self) -> None:
-        """Write what is left, as far as it goes within a second."""
-        self._lines.put(None)
-        if self._thread.is_alive():
-            self._thread.join(LAST_LINES_S)
-
-    def write(self, descriptor: int, text: str) -> None:
-        """Hand over some text, or count it as lost."""
-        if self._lines.qsize() < LINES_KEPT:
-            self._lines.put((descriptor, text))
+    def enqueue(self, record: logging.LogRecord) -> None:
+        """Hand a record over, or count it as lost."""
+        if self.queue.qsize() < LINES_KEPT:
+            self.queue.put(record)
         else:
             LINES_DROPPED.inc()
 
-    def _write_lines(self) -> None:
-        while (first := self._lines.get()) is not None:
-            time.sleep(GATHERING_S)
-            if self._write_batch(first):
-                return
-
-    def _write_batch(self, line: tuple[int, str] | None) -> bool:
-        """Write the line and those that wait behind it; whether the end is reached."""
-        texts: dict[int, list[str]] = {}
-        for room in range(MOST_AT_ONCE, 0, -1):
-            if line is None:
-                break
-            texts.setdefault(line[0], []).append(line[1])
-            if room == 1 or self._lines.empty():
-                break
-            line = self._lines.get()
-        for descriptor, waiting in texts.items():
-            _write_all(descriptor, "".join(waiting).encode(errors="replace"))
-        return line is None
+    def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  logging's name
+        """What cannot be formatted must not harm the caller."""
+        del record
+        LINES_DROPPED.inc()
 
 
-class QueuedHandler(logging.Handler):
-    """Sends log records the same way."""
+class _Output:
+    """Writes records; not one of logging's handlers, which the end of the process waits for."""
 
-    def emit(self, record: logging.LogRecord) -> None:
-        """Format and hand over; what cannot be formatted must not harm the caller."""
+    level = logging.NOTSET
+
+    def handle(self, record: logging.LogRecord) -> None:
+        """Write one record; no failure ends the thread."""
         try:
-            WRITER.write(sys.stderr.fileno(), self.format(record) + "\n")
+            stream = sys.stdout if record.name == REQUESTS else sys.stderr
+            _write_all(stream.fileno(), f"{record.getMessage()}\n".encode(errors="replace"))
         except Exception:  # noqa: BLE001
             LINES_DROPPED.inc()
 
 
-WRITER = LogWriter()
+class _Listener(QueueListener):
+    """The thread that writes; at the end it has a second for what is left."""
+
+    def stop(self) -> None:
+        """Let the thread end, if anybody reads what it writes."""
+        self.enqueue_sentinel()
+        if self._thread is not None:
+            self._thread.join(LAST_LINES_S)
 
 
-def install(level: str) -> None:
-    """Send everything that is logged through the writer's queue."""
-    logging.basicConfig(level=level.upper(), format="%(message)s", handlers=[QueuedHandler()], force=True)
-    logging.getLogger("uvicorn").setLevel(logging.WARNING)
-    WRITER.start()
+@contextmanager
+def running(level: str) -> Iterator[None]:
+    """Send what is logged through the queue while the context is open, unless the server of another has a log."""
+    lines: queue.SimpleQueue[logging.LogRecord | None] = queue.SimpleQueue()
+    handler = _Handler(lines)
+    listener = _Listener(lines, _Output())  # type: ignore[arg-type]  # anything that handles records
+    logger = logging.getLogger("tribodrive")
+    logger.setLevel(level.upper())
+    logger.propagate = False
+    loggers = [logger, *([logging.root] if not logging.root.handlers else [])]
+    for each in loggers:
+        each.addHandler(handler)
+    listener.start()
+    try:
+        yield
+    finally:
+        for each in loggers:
+            each.removeHandler(handler)
+        listener.stop()
 
 
 def _write_all(descriptor: int, content: bytes) -> None:

@@ -1,15 +1,16 @@
 """Wires the application together."""
 
+import logging
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
 from fastapi import FastAPI
 from fastapi_offline import FastAPIOffline
+from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 
-from app import problems
+from app import log, problems
 from app.answers import Answers
-from app.compression import Compression
-from app.protection import Protection
+from app.http.middleware import Protection
 from app.routes import calculations, figures, pages, service, studies, study_pages, vary
 from app.schema.base import MODEL_VERSION
 from app.settings import MEBIBYTE, settings
@@ -23,6 +24,12 @@ DESCRIPTION = """Tribology of high-speed drive trains: gear couplings (Pahl), ai
 (Milian, Distretti, Leoni, Velex), load distribution and scuffing of helical gears (Xue, Zhang, Wang).
 Units are in the field names; every example below runs as it stands."""
 
+COMPRESSED_FROM = 4096  # bytes
+# What is compressed already, and studies, whose lines are to arrive one by one.
+NOT_COMPRESSED = (*DEFAULT_EXCLUDED_CONTENT_TYPES, "application/pdf", "application/x-ndjson", "text/csv")
+
+logger = logging.getLogger("tribodrive")
+
 
 def create_app() -> FastAPI:
     """The service; settings come from the environment."""
@@ -30,7 +37,8 @@ def create_app() -> FastAPI:
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        template = getattr(app.state, "template", None) or Template()
+        served_by_another = not hasattr(app.state, "template")
+        template = Template() if served_by_another else app.state.template
         app.state.pool = Pool(limits.workers, limits.queue, limits.worker_memory_mb, template)
         app.state.start_up = StartUp(app.state.pool)
         app.state.settings = limits
@@ -38,8 +46,13 @@ def create_app() -> FastAPI:
         app.state.office = Office(limits, app.state.pool)
         app.state.answers = Answers(limits.answers_mb * MEBIBYTE)
         app.state.published = {}
-        async with app.state.pool.running(), app.state.start_up.running(), app.state.office.open():
-            yield
+        with log.running(limits.log_level):
+            if served_by_another:
+                logger.warning(
+                    "served by another server: limits of headers, connections and unread answers are its own"
+                )
+            async with app.state.pool.running(), app.state.start_up.running(), app.state.office.open():
+                yield
 
     app = FastAPIOffline(
         title="tribodrive",
@@ -51,7 +64,9 @@ def create_app() -> FastAPI:
     for routes in (calculations, figures, studies, pages, vary, study_pages, service):
         app.include_router(routes.router)
     problems.install(app)
-    app.add_middleware(Compression)
+    app.add_middleware(
+        GZipMiddleware, minimum_size=COMPRESSED_FROM, compresslevel=4, exclude_content_types=NOT_COMPRESSED
+    )
     app.add_middleware(Protection, settings=limits)
     return app
 

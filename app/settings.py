@@ -32,12 +32,14 @@ class Settings(BaseSettings):
     studies: int = Field(2, ge=0, description="studies at once; one more is answered 503")
     scheduler: str | None = Field(None, description="Dask scheduler that solves the studies, `tcp://host:port`")
     worker_memory_mb: int = Field(2048, ge=512, description="memory a worker may allocate, MiB")
-    max_body_bytes: int = Field(MEBIBYTE, ge=1024, description="largest request body; beyond it 413")
+    max_body_bytes: int = Field(384 * 1024, ge=1024, description="largest request body; beyond it 413")
     body_deadline_s: float = Field(10.0, gt=0, description="longest time for a request body to arrive; then 408")
-    body_memory_mb: int = Field(64, ge=1, description="memory for request bodies that still arrive, MiB; then 503")
     answers_mb: int = Field(64, ge=0, description="memory for answers just computed, for other views of them, MiB")
     max_header_bytes: int = Field(16384, ge=1024, description="largest sum of request headers; beyond it 431")
     header_deadline_s: float = Field(10.0, gt=0, description="longest time for request headers to arrive; then 408")
+    send_deadline_s: float = Field(
+        60.0, gt=0, description="longest time in which a client reads nothing of an answer that waits for it"
+    )
     max_connections: int = Field(
         default_factory=lambda: max(
             16, min(10_000, resource.getrlimit(resource.RLIMIT_NOFILE)[0] - RESERVED_DESCRIPTORS)

@@ -38,6 +38,7 @@ MIX = (
     "milian-case-1",
 )
 CLIENTS = 3
+LEAVING = "127.0.0.9"  # where clients that leave come from
 JSON = {"Content-Type": "application/json"}
 
 
@@ -84,9 +85,9 @@ def outcome(connection: http.client.HTTPConnection, case: Case) -> str:
 
 
 def load(netloc: str, mix: list[Case], seed: int, watch: Watch, done: threading.Event) -> None:
-    """One client that asks and checks."""
+    """One client, with an address of its own, that asks and checks."""
     choice = random.Random(seed)
-    connection = http.client.HTTPConnection(netloc, timeout=60)
+    connection = http.client.HTTPConnection(netloc, timeout=60, source_address=(f"127.0.0.{2 + seed}", 0))
     while not done.is_set():
         try:
             watch.outcomes[outcome(connection, choice.choice(mix))] += 1
@@ -99,7 +100,7 @@ def load(netloc: str, mix: list[Case], seed: int, watch: Watch, done: threading.
 def leave(netloc: str, case: Case) -> None:
     """A client that asks for something long and leaves."""
     host, port = netloc.split(":")
-    with socket.create_connection((host, int(port)), timeout=10) as connection:
+    with socket.create_connection((host, int(port)), timeout=10, source_address=(LEAVING, 0)) as connection:
         head = f"POST {case.path} HTTP/1.1\r\nHost: {netloc}\r\nContent-Type: application/json\r\n"
         connection.sendall(f"{head}Content-Length: {len(case.body)}\r\n\r\n".encode() + case.body)
         time.sleep(0.02)
@@ -158,7 +159,9 @@ def under_load(seconds: int, faults: int) -> Iterator[tuple[str, str]]:
     )
     yield "answers equal to those at rest, bit for bit", str(watch.outcomes["right"])
     yield "wrong answers", str(watch.outcomes["wrong"])
-    yield "requests lost with their worker (503)", str(watch.outcomes["worker_lost"])
+    signals = watch.faults["killed"] + watch.faults["stopped"]
+    yield "requests lost with their worker (503), signals sent", f"{watch.outcomes['worker_lost']}, {signals}"
+    yield "losses beyond the signals", str(max(0, watch.outcomes["worker_lost"] - signals))
     yield "any other failure", ", ".join(f"{count} {name}" for name, count in other.items()) or "0"
     yield (
         "/healthz: median, 99th percentile",

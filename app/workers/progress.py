@@ -3,8 +3,6 @@
 import logging
 import sys
 
-from app.log import WRITER
-
 WIDTH = 30
 
 logger = logging.getLogger("tribodrive")
@@ -26,23 +24,19 @@ class Progress:
         else:
             for part in self._parts:
                 if shares[part] >= 1 and part not in self._done:
-                    self._write(f"tribodrive: {part} is warm\n")
+                    logger.info("tribodrive: %s is warm", part)
         self._done |= {part for part in self._parts if shares[part] >= 1}
 
     def finish(self, message: str) -> None:
         """Say that all is done."""
-        self._write(message + "\n")
+        logger.info(message)
 
     def _draw(self, shares: dict[str, float]) -> None:
         up = f"\x1b[{len(self._parts)}A" if self._drawn else ""
         self._drawn = True
         width = max(map(len, self._parts))
         lines = (
-            f"\x1b[2K  {part:<{width}} {'█' * round(WIDTH * shares[part]):░<{WIDTH}} {shares[part]:>4.0%}\n"
+            f"\x1b[2K  {part:<{width}} {'█' * round(WIDTH * shares[part]):░<{WIDTH}} {shares[part]:>4.0%}"
             for part in self._parts
         )
-        self._write(up + "".join(lines))
-
-    def _write(self, text: str) -> None:
-        if logger.isEnabledFor(logging.INFO):
-            WRITER.write(sys.stderr.fileno(), text)
+        logger.info("%s", up + "\n".join(lines))

@@ -19,6 +19,7 @@ from tests.support.server import (
     ROOT,
     children,
     descendants,
+    free_port,
     is_alive,
     running_server,
     started_server,
@@ -145,3 +146,21 @@ def test_read_only_cache_is_used(tmp_path: Path) -> None:
         assert children(process.pid) == [template(process)]  # nothing else compiles
         assert len(workers(process)) == 2
     assert sorted(path.relative_to(cache) for path in cache.rglob("*")) == files_before
+
+
+@pytest.mark.parametrize("options", [[], ["--workers", "2"]])
+def test_uvicorn_serves_the_application_like_any_other(options: list[str], tmp_path: Path) -> None:
+    port, log = free_port(), tmp_path / "log"
+    command = [sys.executable, "-m", "uvicorn", "app.main:app", "--port", str(port), *options]
+    with started_server(command, log=log) as (process, _):
+        address = f"http://127.0.0.1:{port}"
+        wait_until_warm(process, address, 120)
+        assert httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=60).status_code == 200
+        family = descendants(process.pid)
+        process.terminate()
+        process.wait(20)
+        time.sleep(0.5)
+        assert not any(map(is_alive, family))
+    text = log.read_text("utf-8")
+    assert "served by another server" in text
+    assert "Traceback" not in text

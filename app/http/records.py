@@ -2,14 +2,13 @@
 
 import logging
 import re
-import sys
 import time
 from functools import lru_cache
 from secrets import token_hex
 
 from prometheus_client import Counter, Histogram
 
-from app.log import WRITER
+from app import log
 from app.metrics import DURATION, REQUESTS
 
 ACCEPTABLE_ID = re.compile(rb"[A-Za-z0-9._-]{1,128}")
@@ -25,10 +24,10 @@ SECURITY_HEADERS = (
     (b"content-security-policy", CONTENT_POLICY),
 )
 
-# Written by hand: nothing in it needs escaping, and a JSON encoder and a log record would double the cost.
-LOG_LINE = '{"time": %.3f, "request_id": "%s", "method": "%s", "endpoint": "%s", "status": %d, "duration_ms": %.3f}\n'
+# Written by hand: nothing in it needs escaping.
+LOG_LINE = '{"time": %.3f, "request_id": "%s", "method": "%s", "endpoint": "%s", "status": %d, "duration_ms": %.3f}'
 
-logger = logging.getLogger("tribodrive")
+logger = logging.getLogger(log.REQUESTS)
 
 
 def request_id(sent: bytes = b"") -> str:
@@ -48,7 +47,7 @@ def record(identifier: str, method: str, endpoint: str, status: int, seconds: fl
     requests.inc()
     duration.observe(seconds)
     if logger.isEnabledFor(logging.INFO):
-        WRITER.write(sys.stdout.fileno(), LOG_LINE % (time.time(), identifier, method, endpoint, status, seconds * 1e3))
+        logger.info(LOG_LINE, time.time(), identifier, method, endpoint, status, seconds * 1e3)
 
 
 @lru_cache(maxsize=1024)

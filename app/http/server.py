@@ -1,20 +1,22 @@
 """uvicorn as this service runs it: own protocol, own log, an end that does not keep anybody waiting."""
 
 import gc
+import logging
 import signal
 import socket
-import sys
 from types import FrameType
 
 import uvicorn
 from uvicorn.importer import import_from_string
 
-from app import log
-from app.connection import LimitedProtocol
+from app.http.connection import LimitedProtocol
+from app.log import REQUESTS
 from app.settings import settings
 from app.workers.control import Template
 
 INTERRUPT_S = 0.5
+
+log = logging.getLogger(REQUESTS)  # which goes to the standard output
 
 
 class Server(uvicorn.Server):
@@ -24,7 +26,7 @@ class Server(uvicorn.Server):
         """Begin to answer."""
         await super().startup(sockets)
         host = f"[{self.config.host}]" if ":" in self.config.host else self.config.host
-        log.WRITER.write(sys.stdout.fileno(), f"tribodrive: docs at http://{host}:{self.config.port}/docs\n")
+        log.info("tribodrive: docs at http://%s:%d/docs", host, self.config.port)
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
         """SIGTERM lets requests in flight finish; Ctrl-C gives them half a second, a second Ctrl-C no less."""
@@ -42,7 +44,7 @@ def run(address: str, listener: socket.socket, template: Template) -> None:
     application.state.template = template
     gc.freeze()  # what was imported stays: looking through it for garbage would hold up requests for 0.1 s each time
     gc.enable()
-    log.install(limits.log_level)
+    logging.getLogger("uvicorn").setLevel(logging.WARNING)
     config = uvicorn.Config(
         application,
         host=limits.host,
@@ -54,7 +56,4 @@ def run(address: str, listener: socket.socket, template: Template) -> None:
         log_config=None,
         timeout_graceful_shutdown=limits.shutdown_s,
     )
-    try:
-        Server(config).run([listener])
-    finally:
-        log.WRITER.close()
+    Server(config).run([listener])

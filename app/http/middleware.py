@@ -8,9 +8,9 @@ from starlette.requests import ClientDisconnect
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from app.books import own_headers, record, request_id
+from app.http.records import own_headers, record, request_id
 from app.problems import internal_error, problem
-from app.settings import MEBIBYTE, Settings
+from app.settings import Settings
 
 CLIENT_GONE = 499
 
@@ -21,22 +21,20 @@ class Protection:
     def __init__(self, app: ASGIApp, settings: Settings) -> None:
         self._app = app
         self._settings = settings
-        self._arriving = 0  # bytes of bodies that are not complete
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one request."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
-        await _Request(self, scope, receive, send).serve(self._app)
+        await _Request(self._settings, scope, receive, send).serve(self._app)
 
 
 class _Request:
     """One request on its way through the layer."""
 
-    def __init__(self, layer: Protection, scope: Scope, receive: Receive, send: Send) -> None:
-        self._layer = layer
-        self._limits = layer._settings  # noqa: SLF001
+    def __init__(self, limits: Settings, scope: Scope, receive: Receive, send: Send) -> None:
+        self._limits = limits
         self._started = time.perf_counter()
         self._headers: dict[bytes, bytes] = dict(scope["headers"])
         self._identifier = request_id(self._headers.get(b"x-request-id", b""))
@@ -53,7 +51,7 @@ class _Request:
         self._complete = False
 
     async def serve(self, application: ASGIApp) -> None:
-        """Answer, whatever happens, and write the books."""
+        """Answer, whatever happens, and log and count it."""
         try:
             await (self._refusal() or application)(self._scope, self._receive_within_limits, self._send_decorated)
         except ClientDisconnect:
@@ -66,7 +64,6 @@ class _Request:
                 raise  # too late for another answer: the connection is cut
             await answer(self._scope, self._receive, self._send_decorated)
         finally:
-            self._forget_body()
             endpoint = getattr(self._scope.get("route"), "path", "unmatched")
             status = self._state.get("answered", self._status)  # by the protocol, in our place
             record(self._identifier, self._method, endpoint, status, time.perf_counter() - self._started)
@@ -101,23 +98,11 @@ class _Request:
                 message = await self._receive()
         except TimeoutError as error:
             raise HTTPException(408, "The request body took too long to arrive") from error
-        self._count(len(message.get("body", b"")))
-        self._complete = not message.get("more_body", False)
-        if self._complete:
-            self._forget_body()
-        return message
-
-    def _count(self, size: int) -> None:
-        self._received += size
-        self._layer._arriving += size  # noqa: SLF001
+        self._received += len(message.get("body", b""))
         if self._received > self._limits.max_body_bytes:
             raise HTTPException(413, self._too_large())
-        if self._layer._arriving > self._limits.body_memory_mb * MEBIBYTE:  # noqa: SLF001
-            raise HTTPException(503, "Too many request bodies are arriving at once", {"Retry-After": "1"})
-
-    def _forget_body(self) -> None:
-        self._layer._arriving -= self._received  # noqa: SLF001
-        self._received = 0
+        self._complete = not message.get("more_body", False)
+        return message
 
     def _too_large(self) -> str:
         return f"The request body is larger than {self._limits.max_body_bytes} bytes"

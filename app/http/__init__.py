@@ -1,0 +1,7 @@
+"""What stands between the network and the routes.
+
+server      uvicorn as `python -m app` runs it
+connection  limits where bytes arrive: headers, connections, time
+middleware  request id, limits on bodies, security headers, timing, the answer to what nobody expected
+records     what every answer carries and leaves behind: headers, a log line, metrics
+"""

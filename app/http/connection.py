@@ -1,0 +1,194 @@
+"""Limits where bytes arrive: sum and time of headers, number of connections, time of answers that nobody reads.
+
+uvicorn's protocol hands a request over when its headers are complete, so these limits have to sit in it. What it
+refuses, and what its parser cannot read, is answered with a problem document and logged like every other answer.
+Anything beyond (rates, bodies that arrive byte by byte) is left to a reverse proxy.
+"""
+
+import asyncio
+import http
+import time
+from typing import Any
+
+from uvicorn.protocols.http.httptools_impl import STATUS_LINE, HttpToolsProtocol
+
+from app.http.records import own_headers, record, request_id
+from app.problems import problem
+from app.settings import settings
+
+
+MOST_PIPELINED = 16  # thousands arrive at once, and each that waits takes 4 kB
+
+
+class Refused(Exception):
+    """Ends the parsing of a request that goes beyond a limit."""
+
+
+class LimitedProtocol(HttpToolsProtocol):
+    """uvicorn's protocol with limits."""
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        super().__init__(*arguments, **options)
+        self._limits = settings()
+        self._began = time.perf_counter()
+        self._refusal = http.HTTPStatus.BAD_REQUEST
+        self._in_headers = False
+        self._in_body = False
+        self._header_bytes = 0  # as far as the parser has said
+        self._unparsed = 0  # bytes since the parser last said anything
+        self._unsent = 0  # bytes of answers when the client was last seen to read
+        self._header_timer: asyncio.TimerHandle | None = None
+        self._send_timer: asyncio.TimerHandle | None = None
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        """A client connected."""
+        super().connection_made(transport)
+        if len(self.connections) > self._limits.max_connections:
+            self._answer(http.HTTPStatus.SERVICE_UNAVAILABLE)
+        else:
+            self._expect_request()
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """The connection is gone."""
+        for timer in (self._header_timer, self._send_timer):
+            if timer is not None:
+                timer.cancel()
+        super().connection_lost(exc)
+
+    def data_received(self, data: bytes) -> None:
+        """Some bytes arrived."""
+        if self.transport.is_closing():
+            return
+        if self._header_timer is None and not self._in_body and self._answered:
+            self._expect_request()
+        self._unparsed += len(data)
+        super().data_received(data)
+        if self._unparsed and self._header_bytes + self._unparsed > self._limits.max_header_bytes:
+            self._answer(http.HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE)
+
+    def on_message_begin(self) -> None:
+        """The first byte of a request."""
+        self._began = time.perf_counter()
+        self._in_headers = True
+        self._header_bytes = 0
+        super().on_message_begin()
+
+    def on_url(self, url: bytes) -> None:
+        """A piece of the address."""
+        self._count(len(url))
+        super().on_url(url)
+
+    def on_header(self, name: bytes, value: bytes) -> None:
+        """One header, or a trailer, which nobody asked for."""
+        self._count(len(name) + len(value))
+        if self._in_headers:
+            super().on_header(name, value)
+
+    def on_headers_complete(self) -> None:
+        """The body follows."""
+        if sum(name == b"host" for name, _ in self.headers) > 1:
+            raise Refused
+        if len(self.pipeline) >= MOST_PIPELINED:
+            self._refusal = http.HTTPStatus.SERVICE_UNAVAILABLE
+            raise Refused
+        self._stop_expecting()
+        self._in_headers, self._in_body = False, True
+        self._unparsed = 0
+        super().on_headers_complete()
+
+    def on_body(self, body: bytes) -> None:
+        """A piece of the body; its own limit is the application's."""
+        self._unparsed = 0
+        super().on_body(body)
+
+    def on_message_complete(self) -> None:
+        """The last byte of a request."""
+        self._in_body = False
+        self._unparsed = 0
+        super().on_message_complete()
+
+    def on_response_complete(self) -> None:
+        """The answer is on its way; what has begun to arrive meanwhile, or still arrives, has to come to an end."""
+        super().on_response_complete()
+        if (self._in_headers or self._in_body) and self._answered and not self.transport.is_closing():
+            self._expect_request()
+
+    def send_400_response(self, msg: str) -> None:
+        """Answer what the parser gave up on."""
+        del msg
+        self._answer(self._refusal)
+
+    def pause_writing(self) -> None:
+        """The client reads more slowly than it is answered."""
+        super().pause_writing()
+        self._unsent = self.transport.get_write_buffer_size()
+        self._send_timer = self.loop.call_later(self._limits.send_deadline_s, self._check_reading)
+
+    def resume_writing(self) -> None:
+        """The client has read."""
+        super().resume_writing()
+        if self._send_timer is not None:
+            self._send_timer.cancel()
+
+    def _check_reading(self) -> None:
+        """Give up on a client that has read nothing for a while, and free the memory of its answer."""
+        unsent = self.transport.get_write_buffer_size()
+        if unsent >= self._unsent:
+            self.transport.abort()
+        else:
+            self._unsent = unsent
+            self._send_timer = self.loop.call_later(self._limits.send_deadline_s, self._check_reading)
+
+    @property
+    def _answered(self) -> bool:
+        """Whether no answer to what has arrived is outstanding."""
+        return self.cycle is None or self.cycle.response_complete
+
+    def _count(self, size: int) -> None:
+        self._header_bytes += size
+        self._unparsed = 0
+        if self._header_bytes > self._limits.max_header_bytes:
+            self._refusal = http.HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE
+            raise Refused
+
+    def _expect_request(self) -> None:
+        self._stop_expecting()
+        self._header_timer = self.loop.call_later(self._limits.header_deadline_s, self._request_is_late)
+
+    def _stop_expecting(self) -> None:
+        if self._header_timer is not None:
+            self._header_timer.cancel()
+            self._header_timer = None
+
+    def _request_is_late(self) -> None:
+        if self._in_headers:
+            self._answer(http.HTTPStatus.REQUEST_TIMEOUT)
+        else:
+            self.transport.close()  # it never sent a byte, or has its answer and still sends a body
+
+    def _answer(self, status: http.HTTPStatus) -> None:
+        """A problem document and the end of the connection."""
+        if self.transport.is_closing():
+            return
+        self._stop_expecting()
+        cycle = self.cycle
+        seconds = time.perf_counter() - self._began
+        identifier = request_id()
+        if self._answered:
+            record(identifier, "-", "unparsed", int(status), seconds)
+        else:  # the application waits for the rest of this request and will log it
+            identifier = cycle.scope.get("state", {}).get("request_id", identifier)
+            cycle.scope.setdefault("state", {})["answered"] = int(status)
+        if self._answered or not cycle.response_started:
+            self.transport.write(_response(status, identifier, seconds))
+        self.transport.close()
+
+
+def _response(status: http.HTTPStatus, identifier: str, seconds: float) -> bytes:
+    code = status.phrase.lower().replace(" ", "_").replace("-", "_")
+    document = problem(identifier, status, code, status.phrase, detail=status.description or status.phrase)
+    headers = [*document.raw_headers, *own_headers(identifier, seconds), (b"connection", b"close")]
+    if status == http.HTTPStatus.SERVICE_UNAVAILABLE:
+        headers.append((b"retry-after", b"1"))
+    lines = b"".join(b"%s: %s\r\n" % header for header in headers)
+    return STATUS_LINE[status] + lines + b"\r\n" + bytes(document.body)
