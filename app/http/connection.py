@@ -8,14 +8,14 @@ Anything beyond (rates, bodies that arrive byte by byte) is left to a reverse pr
 import asyncio
 import http
 import time
+from collections import deque
 from typing import Any
 
-from uvicorn.protocols.http.httptools_impl import STATUS_LINE, HttpToolsProtocol
+from uvicorn.protocols.http.httptools_impl import STATUS_LINE, HttpToolsProtocol, RequestResponseCycle
 
 from app.http.records import own_headers, record, request_id
 from app.problems import problem
 from app.settings import settings
-
 
 MOST_PIPELINED = 16  # thousands arrive at once, and each that waits takes 4 kB
 
@@ -32,6 +32,7 @@ class LimitedProtocol(HttpToolsProtocol):
         self._limits = settings()
         self._began = time.perf_counter()
         self._refusal = http.HTTPStatus.BAD_REQUEST
+        self._cycles: deque[RequestResponseCycle] = deque(maxlen=MOST_PIPELINED + 2)  # of these some are not answered
         self._in_headers = False
         self._in_body = False
         self._header_bytes = 0  # as far as the parser has said
@@ -53,6 +54,8 @@ class LimitedProtocol(HttpToolsProtocol):
         for timer in (self._header_timer, self._send_timer):
             if timer is not None:
                 timer.cancel()
+        for cycle in self._cycles:  # uvicorn tells the last one only
+            cycle.disconnected = True
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
@@ -95,6 +98,7 @@ class LimitedProtocol(HttpToolsProtocol):
         self._in_headers, self._in_body = False, True
         self._unparsed = 0
         super().on_headers_complete()
+        self._cycles.append(self.cycle)
 
     def on_body(self, body: bytes) -> None:
         """A piece of the body; its own limit is the application's."""
@@ -132,6 +136,8 @@ class LimitedProtocol(HttpToolsProtocol):
 
     def _check_reading(self) -> None:
         """Give up on a client that has read nothing for a while, and free the memory of its answer."""
+        if self.transport.is_closing():
+            return
         unsent = self.transport.get_write_buffer_size()
         if unsent >= self._unsent:
             self.transport.abort()
