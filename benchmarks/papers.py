@@ -1,6 +1,6 @@
 """python -m benchmarks.papers: what papers, books and standards say beside what is computed."""
 
-from app.published import STATEMENTS, Row
+from solvers.published import STATEMENTS, Row
 
 COLUMNS = ("statement", "source", "printed", "computed", "unit", "deviation", "remark")
 

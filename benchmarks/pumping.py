@@ -9,11 +9,11 @@ from math import pi
 
 import numpy as np
 
-from app.published.milian import CASE_1, CASE_2
 from benchmarks.pumping_numpy import numpy_step
 from benchmarks.timing import Figure, print_times
 from solvers.gears.inputs import GearPairInputs
 from solvers.gears.pair import gear_pair
+from solvers.published.milian import CASE_1, CASE_2
 from solvers.pumping import (
     ChokingInputs,
     Flow,

@@ -8,7 +8,7 @@ from app.pages.about import ABOUT
 from app.pages.links import example_link, examples_of
 from app.pages.templating import model_of, page_path, rendered
 from app.pages.vary.examples import studies_of
-from app.published import STATEMENTS, Row
+from solvers.published import STATEMENTS, Row
 
 
 @cache

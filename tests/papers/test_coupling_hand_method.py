@@ -11,9 +11,9 @@ from math import cos, radians
 import numpy as np
 import pytest
 
-from app.published.bloch import DIAMETER, END_CONTACT, FACE, TORQUE, bloch
 from solvers.coupling.friction.regimes import mixed_friction, regime_friction
 from solvers.coupling.inputs import MixedFrictionCurve
+from solvers.published.bloch import DIAMETER, END_CONTACT, FACE, TORQUE, bloch
 
 COSINE = cos(radians(20.0))
 SOFT, STIFF = 1e5, 1e14  # tooth stiffness [N/m]: equal loads, load on the worst teeth alone

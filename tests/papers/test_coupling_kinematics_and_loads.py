@@ -8,7 +8,6 @@ from math import atan2, cos, degrees, pi, radians, sin, sqrt, tan
 import numpy as np
 import pytest
 
-from app.published.pahl import PITCH_RADIUS, TEETH, harmonic_pitch_errors, pahl_coupling
 from solvers.coupling import solve, solve_orbit
 from solvers.coupling.friction.lubrication import max_normal_force
 from solvers.coupling.inputs import KinematicModel, ModelOptions, SleeveSupport
@@ -17,6 +16,7 @@ from solvers.coupling.results import KinematicCurves
 from solvers.coupling.teeth.geometry import tooth_geometry
 from solvers.coupling.teeth.kinematics import displacement_peak, mesh_motion, tooth_positions
 from solvers.coupling.teeth.loads import centred_loads
+from solvers.published.pahl import PITCH_RADIUS, TEETH, harmonic_pitch_errors, pahl_coupling
 from tests.support.couplings import random_pitch_errors
 
 ALPHA = radians(20.0)

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize_scalar
 
-from app.published.pahl import pahl_coupling
 from solvers.coupling import solve
 from solvers.coupling.friction.lubrication import UNBOUNDED_LOAD
 from solvers.coupling.friction.regimes import friction_regime, regime_friction
 from solvers.coupling.inputs import Friction, MixedFrictionTable
 from solvers.coupling.results import Lubrication
+from solvers.published.pahl import pahl_coupling
 
 HEAVY_CROWN, SLIGHT_CROWN = 1.0, 11.0
 

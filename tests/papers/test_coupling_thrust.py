@@ -9,10 +9,10 @@ from math import asin, cos, log, pi, radians
 import numpy as np
 import pytest
 
-from app.published.pahl import PITCH_RADIUS, pahl_coupling
 from solvers.coupling import recommend, solve
 from solvers.coupling.inputs import CouplingInputs, KinematicModel, ModelOptions, RecommendationInputs
 from solvers.coupling.results import AxialThrust
+from solvers.published.pahl import PITCH_RADIUS, pahl_coupling
 
 CREEP = 2e-3  # axial velocity of the fourth curve [m/s]
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from app.published import STATEMENTS, Statement
+from solvers.published import STATEMENTS, Statement
 
 ROOT = Path(__file__).parents[2]
 CITED = re.compile(r"(\w*)[ ,\"]*Eqs?\. (\d+)(?:( and |, |-)(\d+))?")

@@ -4,8 +4,8 @@ from math import pi
 
 import pytest
 
-from app.published.milian import CASE_1, CASE_2, PRINTED, SPEED_1, SPEED_2, TIP
 from solvers.gears.inputs import GearPairInputs
+from solvers.published.milian import CASE_1, CASE_2, PRINTED, SPEED_1, SPEED_2, TIP
 from solvers.pumping import ChokingInputs, ChokingSpeeds, PumpingModel, PumpingSetup, choking_speeds
 
 

@@ -6,8 +6,8 @@ from math import log, pi
 import numpy as np
 import pytest
 
-from app.published.milian import CASE_1, CASE_2, CHAIN, PRINTED, SPEED_1, SPEED_2, TABLE_1, pinion, run
 from solvers.gears.inputs import GearPairInputs
+from solvers.published.milian import CASE_1, CASE_2, CHAIN, PRINTED, SPEED_1, SPEED_2, TABLE_1, pinion, run
 from solvers.pumping import Ambient, PumpingInputs, PumpingModel, PumpingSetup, solve
 
 

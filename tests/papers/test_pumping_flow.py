@@ -10,7 +10,9 @@ from math import log2, pi, sqrt
 import numpy as np
 import pytest
 
-from app.published.milian import (
+from solvers.gears.inputs import GearPairInputs
+from solvers.materials import Solid
+from solvers.published.milian import (
     CASE_1,
     CASE_2,
     CHAIN,
@@ -25,8 +27,6 @@ from app.published.milian import (
     pinion,
     run,
 )
-from solvers.gears.inputs import GearPairInputs
-from solvers.materials import Solid
 from solvers.pumping import Ambient, PumpingInputs, PumpingModel, PumpingSetup, solve
 from solvers.pumping.flow.nozzle import choked_mass_flux, gas, mass_flux
 

@@ -10,7 +10,6 @@ from math import cos
 import numpy as np
 import pytest
 
-from app.published.xue import PAPER_SPEED, paper_gears, paper_pair
 from solvers.contact import hertz
 from solvers.contact.film import dowson_higginson_minimum, thickness_ratio, thickness_regime
 from solvers.contact.flash import blok_flash_temperature
@@ -19,6 +18,7 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.path_of_contact import reduced_radius
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
+from solvers.published.xue import PAPER_SPEED, paper_gears, paper_pair
 from solvers.scuffing import solve_load_distribution, solve_scuffing
 from solvers.scuffing.inputs import ScuffingInputs, Temperatures
 from solvers.scuffing.safety import safety_factor

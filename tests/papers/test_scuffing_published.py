@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from app.published.xue import PAPER_LOAD, paper_pair
 from solvers.contact import hertz
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
 from solvers.gears.path_of_contact import path_of_contact, reduced_radius
 from solvers.materials import Solid
+from solvers.published.xue import PAPER_LOAD, paper_pair
 from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.balance.load_balance import line_loads
 from solvers.scuffing.distribution.mesh_stiffness import standard_stiffness

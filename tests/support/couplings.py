@@ -5,8 +5,8 @@ from math import pi, radians
 import numpy as np
 from numpy.random import Generator
 
-from app.published.pahl import TEETH
 from solvers.coupling.inputs import Coupling, CouplingInputs, Friction, Lubricant, ModelOptions, Operation
+from solvers.published.pahl import TEETH
 
 
 def random_pitch_errors(seed: int, rms: float = 2e-6) -> tuple[float, ...]:

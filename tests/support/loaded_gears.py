@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.published.xue import PAPER_LOAD, paper_gears
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs
+from solvers.published.xue import PAPER_LOAD, paper_gears
 from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.inputs import (
     LoadDistributionInputs,

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
-from app.published.pahl import pahl_coupling
 from solvers.coupling import recommend, solve, solve_orbit
 from solvers.coupling.crowning.results import Recommendation
 from solvers.coupling.inputs import (
@@ -26,6 +25,7 @@ from solvers.coupling.inputs import (
 )
 from solvers.coupling.results import CouplingResult
 from solvers.errors import InvalidInput, NoSolution, SolverError
+from solvers.published.pahl import pahl_coupling
 from tests.support.properties import examples
 
 

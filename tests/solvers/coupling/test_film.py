@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from app.published.pahl import pahl_coupling
 from solvers.coupling import solve
 from solvers.coupling.friction.lubrication import UNBOUNDED_LOAD, inlet_factor
 from solvers.coupling.friction.regimes import friction_coefficient, friction_regime, mixed_friction, regime_friction
 from solvers.coupling.inputs import Friction, InletModel, MixedFrictionCurve, MixedFrictionTable, ModelOptions
+from solvers.published.pahl import pahl_coupling
 
 INLETS: tuple[InletModel, ...] = ("face", "travel", "infinite")
 LOWEST = 0.05  # of the default curve of mixed friction

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import assume
 from hypothesis import strategies as st
 
-from app.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from solvers.coupling import solve
 from solvers.coupling.inputs import CouplingInputs, ModelOptions
+from solvers.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from tests.support.couplings import random_pitch_errors
 from tests.support.plain_coupling import PlainMesh, midpoints
 from tests.support.properties import examples

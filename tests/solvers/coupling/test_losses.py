@@ -5,10 +5,10 @@ from math import asin, cos, hypot, pi, radians, sin, sqrt
 
 import pytest
 
-from app.published.pahl import PITCH_RADIUS, pahl_coupling
 from solvers.coupling import solve
 from solvers.coupling.inputs import CouplingInputs, KinematicModel, ModelOptions
 from solvers.coupling.results import CouplingResult
+from solvers.published.pahl import PITCH_RADIUS, pahl_coupling
 from tests.support.couplings import random_pitch_errors
 
 LIMIT = 0.2 * 3000.0 / (PITCH_RADIUS * cos(radians(20.0)))

@@ -8,7 +8,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.published.pahl import TEETH, harmonic_pitch_errors, pahl_coupling
 from solvers.coupling import orbit, solve, solve_orbit
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.teeth import kinematics
@@ -16,6 +15,7 @@ from solvers.coupling.teeth.geometry import tooth_geometry
 from solvers.coupling.teeth.kinematics import flank_normals, mesh_motion, tooth_positions
 from solvers.coupling.teeth.loads import ToothLoads, floating_loads
 from solvers.errors import InvalidInput, NoSolution
+from solvers.published.pahl import TEETH, harmonic_pitch_errors, pahl_coupling
 from tests.support.coupling_checks import check_orbit_resolution_of
 from tests.support.couplings import random_pitch_errors
 from tests.support.stored import stored

@@ -7,11 +7,11 @@ from math import radians
 import numpy as np
 import pytest
 
-from app.published.pahl import pahl_coupling
 from solvers.coupling import recommend, solve
 from solvers.coupling.crowning.window import at_misalignment, crowning_state, crowning_window
 from solvers.coupling.inputs import ModelOptions, RecommendationInputs
 from solvers.errors import InvalidInput
+from solvers.published.pahl import pahl_coupling
 from tests.support.couplings import random_pitch_errors
 
 DESIGN = pahl_coupling(0.1, friction=None)

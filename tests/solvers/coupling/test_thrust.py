@@ -9,13 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import root
 
-from app.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from solvers.coupling import solve
 from solvers.coupling.friction.averaging import rotor_samples
 from solvers.coupling.inputs import Arrangement, CouplingInputs, KinematicModel, ModelOptions, OperatingPoint
 from solvers.coupling.sleeve.equilibrium import sleeve_equilibrium, two_meshes
 from solvers.coupling.teeth.geometry import tooth_geometry
 from solvers.errors import NoSolution
+from solvers.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from tests.support.couplings import random_pitch_errors
 from tests.support.plain_coupling import PlainMesh, midpoints
 

@@ -5,13 +5,13 @@ from math import radians
 
 import pytest
 
-from app.published.xue import paper_gears
 from solvers.errors import InvalidInput
 from solvers.gears.gear import rack_tip_radius
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.notices import pair_notices
 from solvers.gears.pair import gear_pair
 from solvers.gears.path_of_contact import meshing_path
+from solvers.published.xue import paper_gears
 from tests.support.gear_pairs import FZG_A, INCH_PAIR, UNDERCUT_PAIR
 
 

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from app.published.milian import CASE_1, SPEED_1, pinion
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.notices import pair_notices
 from solvers.gears.pair import gear_pair
 from solvers.gears.path_of_contact import meshing_path
 from solvers.notices import Notice
+from solvers.published.milian import CASE_1, SPEED_1, pinion
 from solvers.pumping import Ambient, Gap, Groove, PumpingInputs, PumpingModel, PumpingSetup, Spaces, solve
 from solvers.pumping.lead_correction import EXPANSION, lead_correction
 from solvers.pumping.results import SpacesResult

@@ -8,10 +8,10 @@ from math import pi
 import numpy as np
 import pytest
 
-from app.published.milian import CASE_1, TABLE_1
 from solvers.errors import InvalidInput, NoSolution
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.path_of_contact import meshing_path
+from solvers.published.milian import CASE_1, TABLE_1
 from solvers.pumping import (
     Ambient,
     ChokingInputs,

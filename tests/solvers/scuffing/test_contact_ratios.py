@@ -6,8 +6,8 @@ from math import radians
 import numpy as np
 import pytest
 
-from app.published.xue import paper_gears
 from solvers.gears.inputs import GearTeeth
+from solvers.published.xue import paper_gears
 from solvers.scuffing.inputs import (
     Model,
 )

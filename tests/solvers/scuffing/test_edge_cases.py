@@ -6,9 +6,9 @@ from math import radians
 import numpy as np
 import pytest
 
-from app.published.xue import PAPER_LOAD, paper_gears, paper_pair
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.published.xue import PAPER_LOAD, paper_gears, paper_pair
 from solvers.scuffing import solve_load_distribution, solve_scuffing
 from solvers.scuffing.inputs import (
     Load,

@@ -9,13 +9,13 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from app.published.xue import PAPER_MODIFICATIONS, paper_gears, paper_pair
 from solvers.contact.hertz import half_width, reduced_modulus
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
 from solvers.gears.path_of_contact import path_of_contact, reduced_radius
 from solvers.materials import Solid
+from solvers.published.xue import PAPER_MODIFICATIONS, paper_gears, paper_pair
 from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.balance.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, gather, slice_table
 from solvers.scuffing.flank.modification import gap, gaps_at, lead_table, misalignment_slope

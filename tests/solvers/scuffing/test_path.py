@@ -6,11 +6,11 @@ from math import radians
 import numpy as np
 import pytest
 
-from app.published.xue import PAPER_LOAD, paper_pair
 from solvers.contact import ehl
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
+from solvers.published.xue import PAPER_LOAD, paper_pair
 from solvers.scuffing import solve_scuffing
 from solvers.scuffing.inputs import (
     LoadDistributionInputs,

@@ -6,9 +6,9 @@ from math import radians
 import numpy as np
 import pytest
 
-from app.published.xue import paper_gears, paper_pair
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.path_of_contact import meshing_path
+from solvers.published.xue import paper_gears, paper_pair
 from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.flank.modification import gap
 from solvers.scuffing.inputs import LoadDistributionInputs, Model, Modifications, Resolution

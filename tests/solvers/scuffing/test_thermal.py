@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.published.xue import paper_pair
 from solvers.contact import ehl
 from solvers.contact.ehl import path
 from solvers.contact.ehl.solution import budget, continuation
@@ -13,6 +12,7 @@ from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
+from solvers.published.xue import paper_pair
 from solvers.scuffing import solve_scuffing
 from solvers.scuffing.inputs import (
     Load,

@@ -1,7 +1,7 @@
 """What papers, books and standards say in numbers, beside what the solvers compute: one table for pages and tests."""
 
-from app.published import coupling, pumping, scuffing
-from app.published.statement import Row, Statement
+from solvers.published import coupling, pumping, scuffing
+from solvers.published.statement import Row, Statement
 
 STATEMENTS: dict[str, tuple[Statement, ...]] = {
     "coupling": coupling.STATEMENTS,

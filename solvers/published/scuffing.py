@@ -1,8 +1,8 @@
 """Load distribution, thermal contact and scuffing: Xue, Zhang and Wang 2020, and gear examples of standards."""
 
-from app.published import xue
-from app.published.standard_gears import example_stiffness, example_stress, fzg_pressure
-from app.published.statement import Statement, above, below, between, equals, not_reproduced
+from solvers.published import xue
+from solvers.published.standard_gears import example_stiffness, example_stress, fzg_pressure
+from solvers.published.statement import Statement, above, below, between, equals, not_reproduced
 from solvers.scuffing.inputs import Model
 
 XUE = "Xue 2020"

@@ -2,9 +2,9 @@
 
 from math import asin, pi, radians
 
-from app.published import pahl
-from app.published.bloch import END_CONTACT, bloch
-from app.published.statement import INDEPENDENT, Statement, above, below, between, equals
+from solvers.published import pahl
+from solvers.published.bloch import END_CONTACT, bloch
+from solvers.published.statement import INDEPENDENT, Statement, above, below, between, equals
 
 PAHL = "Pahl 1978"
 BLOCH = "Bloch, Improving Machinery Reliability, pp. 208-210"
