@@ -8,7 +8,7 @@ from app.requests.drive_train import DriveTrainRequest
 from app.requests.scuffing import ScuffingRequest
 from app.schema.base import Request
 from app.schema.pumping import ChokingSpeedRequest
-from solvers.contact.ehl.solution.budget import Resolution, price
+from solvers.contact.ehl.continuation import Resolution, price
 
 
 class Cost(NamedTuple):

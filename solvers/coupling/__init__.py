@@ -1,8 +1,8 @@
 """Gear couplings after Pahl.
 
-Data flows inputs, checks -> teeth (geometry, motion, shares of the load) -> friction (film, regimes, losses) -> sleeve
-(balance of two meshes, axial thrust), all gathered with load_distribution and notices by `model.solve`. The sleeve's
-orbit needs the teeth alone; on top of the model stands crowning, which recommends.
+Data flows inputs, checks -> teeth (geometry, motion, shares of the load) -> lubrication, losses -> sleeve, thrust ->
+load_distribution, notices; `model.solve` calls them all. The sleeve's orbit needs the teeth alone; crowning calls the
+model to recommend a crowning ratio.
 """
 
 from solvers.coupling.crowning.recommendation import recommend

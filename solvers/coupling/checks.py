@@ -3,8 +3,8 @@
 from itertools import pairwise
 from math import inf, isfinite, pi, radians
 
-from solvers.coupling.friction.lubrication import FilmState
 from solvers.coupling.inputs import CouplingInputs, MixedFrictionCurve, MixedFrictionTable
+from solvers.coupling.lubrication import FilmState
 from solvers.coupling.results import Geometry
 from solvers.errors import InvalidInput
 

@@ -5,8 +5,8 @@ from math import cos, pi
 import numpy as np
 
 from solvers.arrays import frozen
-from solvers.coupling.friction.sums import ROUNDING
 from solvers.coupling.inputs import CouplingInputs
+from solvers.coupling.losses import ROUNDING
 from solvers.coupling.results import Geometry, LoadCurves, LoadDistribution
 from solvers.coupling.teeth.kinematics import MeshMotion, tooth_positions
 from solvers.coupling.teeth.limits import unloading_misalignment

@@ -3,18 +3,16 @@
 from math import isfinite
 
 from solvers.coupling.checks import check_contact, check_inputs
-from solvers.coupling.friction.averaging import loaded_mesh
-from solvers.coupling.friction.losses import losses
-from solvers.coupling.friction.lubrication import FilmState, film_state
-from solvers.coupling.friction.regimes import friction_coefficient, friction_regime
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.load_distribution import load_distribution
+from solvers.coupling.losses import loaded_mesh, losses
+from solvers.coupling.lubrication import FilmState, film_state, friction_coefficient, friction_regime
 from solvers.coupling.notices import contact_notices, load_notices, motion_notices
 from solvers.coupling.results import CouplingResult, Lubrication
-from solvers.coupling.sleeve.thrust import axial_thrust
 from solvers.coupling.teeth.geometry import tooth_geometry
 from solvers.coupling.teeth.kinematics import kinematics, mesh_motion
 from solvers.coupling.teeth.limits import limits
+from solvers.coupling.thrust import axial_thrust
 
 
 def solve(inputs: CouplingInputs) -> CouplingResult:

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 from math import degrees
 
 from solvers.coupling.checks import MAX_MISALIGNMENT
-from solvers.coupling.friction.losses import equal_loads_friction_moment
-from solvers.coupling.friction.regimes import UNSTABLE_AREA
 from solvers.coupling.inputs import CouplingInputs
+from solvers.coupling.losses import equal_loads_friction_moment
+from solvers.coupling.lubrication import UNSTABLE_AREA
 from solvers.coupling.results import AxialThrust, Geometry, Kinematics, Limits, LoadDistribution, Lubrication
 from solvers.coupling.teeth.limits import SLIDING_VELOCITY_LIMIT
 from solvers.lubricants import thick_oil

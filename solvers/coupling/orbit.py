@@ -15,8 +15,7 @@ from solvers.coupling.orbit_results import InertiaForce, Orbit, OrbitResult
 from solvers.coupling.results import Geometry
 from solvers.coupling.teeth.geometry import pitch_radius, tooth_geometry
 from solvers.coupling.teeth.kinematics import MeshMotion, mesh_motion, revolution, tooth_positions
-from solvers.coupling.teeth.loads import floating_loads
-from solvers.coupling.teeth.peaks import largest_value
+from solvers.coupling.teeth.loads import floating_loads, largest_value
 from solvers.errors import InvalidInput, NoSolution
 
 MAX_SWEEPS = 50

@@ -5,7 +5,7 @@ import numpy as np
 from solvers.drive_train.inputs import DriveTrainInputs, LinearBearing, Shaft
 from solvers.drive_train.shafts.shaft import COINCIDENT
 from solvers.errors import InvalidInput
-from solvers.gears.path_of_contact import PathOfContact
+from solvers.gears.pair import PathOfContact
 
 NAMES = ("pinion_shaft", "wheel_shaft")
 COLLAR_BEYOND_TEETH = 3.0  # normal modules

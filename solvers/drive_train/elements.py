@@ -12,7 +12,7 @@ from solvers.drive_train.shafts.bearings import BearingState
 from solvers.drive_train.shafts.coupling_loads import LEAST_TILT, LOADS, TILTS, HubMoments, hub_moments, hub_warnings
 from solvers.drive_train.shafts.influence import ShaftPorts, Unit
 from solvers.drive_train.shafts.thrust_budget import mesh_thrust, thrust_budget
-from solvers.gears.path_of_contact import PathOfContact
+from solvers.gears.pair import PathOfContact
 from solvers.notices import Notice
 
 

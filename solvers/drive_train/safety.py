@@ -10,9 +10,9 @@ from solvers.drive_train.gap.thermal_lead import ThermalLead
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import FlashPlaces, TrainSafety
 from solvers.notices import Notice
-from solvers.scuffing.balance.load_balance import line_loads
-from solvers.scuffing.distribution.feature_line import contact_points
+from solvers.scuffing.flank_results import contact_points
 from solvers.scuffing.inputs import ScuffingInputs
+from solvers.scuffing.load_balance import line_loads
 from solvers.scuffing.results import ContactPoints, LoadDistribution, Place
 from solvers.scuffing.safety import SURVEY_POINTS, safety_factor
 from solvers.scuffing.thermal.blok import blok_flash

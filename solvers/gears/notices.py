@@ -1,7 +1,7 @@
 """What is said about a pair that meshes, by every model that computes on it."""
 
 from solvers.gears.gear import Gear, rack_tip_radius
-from solvers.gears.path_of_contact import PathOfContact
+from solvers.gears.pair import PathOfContact
 from solvers.notices import Notice
 
 THIN_TIP = 0.2  # normal modules

@@ -1,19 +1,33 @@
-"""Transverse geometry of an involute pair: centre distance, working pressure angle, line of action (ISO 21771)."""
+"""An involute pair in the transverse plane (ISO 21771) and the path of contact A-E on its line of action."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import acos, asin, atan, cos, pi, sin, tan
+from typing import NamedTuple, TypeVar
 
 from scipy.optimize import brentq
 
+from solvers.arrays import FloatArray
+from solvers.compiled import kernel
 from solvers.gears.checks import (
     centre_distance_in_use,
+    check_path,
     check_rack,
     check_teeth,
     check_tips,
+    check_usable_flank,
     check_working_involute,
 )
 from solvers.gears.gear import Gear, involute, transverse_gear
 from solvers.gears.inputs import GearPairInputs, GearTeeth
+
+Real = TypeVar("Real", float, FloatArray)
+
+# A helix whose overlap is below this is a spur gear: its contact line would enter within rounding of one roll position.
+LEAST_OVERLAP = 1e-9
+# Reduced radius over normal module below which neither Hertz nor Blok has a limit to offer.
+LEAST_RADIUS = 0.02
+ROUNDING = 1e-9  # of the line of action
 
 
 def inverse_involute(value: float) -> float:
@@ -94,3 +108,125 @@ def _backlash_free_centre_distance(
     working_involute = involute(transverse_pressure_angle) + 2 * tan(inputs.normal_pressure_angle) * shifts / teeth
     check_working_involute(working_involute)
     return (pinion.base_radius + wheel.base_radius) / cos(inverse_involute(working_involute))
+
+
+class ContactPlane(NamedTuple):
+    """Rectangle of the plane of action: x from A to E, y from the end that meshes first [m].
+
+    Contact lines are x + y tan_base_helix = phase + j base_pitch. The pinion rolls on start + x of line_of_action;
+    where the reduced radius is below least_radius, near a base circle, pressure and flash temperature have no meaning.
+    """
+
+    path_length: float
+    face_width: float
+    base_pitch: float
+    tan_base_helix: float
+    cos_base_helix: float
+    start: float
+    pitch_point: float
+    line_of_action: float
+    least_radius: float
+
+
+@kernel
+def reduced_radius(plane: ContactPlane, x: Real) -> Real:
+    """R_n = s (N - s) / (N cos beta_b) [m] at distance x [m] from A.
+
+    The curvature of an involute helicoid across its straight generator is r_K / cos beta_b. Eq. 13 prints
+    r_K cos^3 beta_b / (1 - 2 sin^2 beta_b), equal to second order in beta_b and singular at 45 degrees.
+    """
+    s = plane.start + x
+    return s * (plane.line_of_action - s) / (plane.line_of_action * plane.cos_base_helix)
+
+
+@dataclass(frozen=True)
+class PathOfContact:
+    """Path of contact by the pinion's roll lengths [m]: start at A, end at E, pitch_point at C.
+
+    `shortened_by` names the members whose fillet cuts the path short of the mate's tip.
+    """
+
+    pair: GearPair
+    start: float
+    end: float
+    shortened_by: tuple[str, ...]
+
+    @property
+    def length(self) -> float:
+        """Length g_alpha of the path A-E [m]."""
+        return self.end - self.start
+
+    @cached_property
+    def pitch_point(self) -> float:
+        """Pinion roll length at the pitch point C [m]."""
+        return self.pair.pinion.base_radius * tan(self.pair.working_pressure_angle)
+
+    @property
+    def transverse_contact_ratio(self) -> float:
+        """eps_alpha = g_alpha / p_bt; Eq. 2, which prints the circular pitch pi m_t as the base pitch p_bt."""
+        return self.length / self.pair.transverse_base_pitch
+
+    @property
+    def overlap_ratio(self) -> float:
+        """eps_beta = b tan beta_b / p_bt (Eq. 3)."""
+        return self.plane.face_width * self.plane.tan_base_helix / self.plane.base_pitch
+
+    @property
+    def total_contact_ratio(self) -> float:
+        """eps_gamma = eps_alpha + eps_beta."""
+        return self.transverse_contact_ratio + self.overlap_ratio
+
+    @cached_property
+    def plane(self) -> ContactPlane:
+        """The rectangle of the plane of action in which contact lines move."""
+        pair, face_width = self.pair, self.pair.inputs.face_width
+        helix = tan(pair.base_helix_angle)
+        if face_width * helix < LEAST_OVERLAP * pair.transverse_base_pitch:
+            helix = 0.0
+        return ContactPlane(
+            path_length=self.length,
+            face_width=face_width,
+            base_pitch=pair.transverse_base_pitch,
+            tan_base_helix=helix,
+            cos_base_helix=cos(pair.base_helix_angle) if helix else 1.0,
+            start=self.start,
+            pitch_point=self.pitch_point,
+            line_of_action=pair.line_of_action,
+            least_radius=LEAST_RADIUS * pair.inputs.normal_module,
+        )
+
+    def profile_parameter(self, x: Real) -> Real:
+        """Gamma = (N1K - N1C) / N1C at distance x [m] from A."""
+        return (self.start + x) / self.pitch_point - 1.0
+
+    def surface_speeds(self, x: Real, pinion_speed: float) -> tuple[Real, Real]:
+        """Rolling speeds u_1, u_2 [m/s] at x [m] for a pinion speed [rad/s].
+
+        The flank velocity across the contact line is omega times the transverse radius exactly; Eq. 18 takes the
+        radius of Eq. 13, too large by 1 / cos beta_b.
+        """
+        s = self.start + x
+        wheel_speed = pinion_speed * self.pair.pinion.teeth / self.pair.wheel.teeth
+        return pinion_speed * s, wheel_speed * (self.pair.line_of_action - s)
+
+
+def meshing_path(gears: GearPairInputs) -> PathOfContact:
+    """The path of contact of a pair; raises what `gear_pair` and `path_of_contact` raise."""
+    return path_of_contact(gear_pair(gears))
+
+
+def path_of_contact(pair: GearPair) -> PathOfContact:
+    """The path between the tip circles, cut short where an involute begins only after it.
+
+    Raises InvalidInput: form_diameter (a fillet reaches the gear's own tip), no_contact (the tips do not reach the
+    line of action), involute_interference (the fillets leave nothing of the path).
+    """
+    whole = pair.line_of_action
+    check_usable_flank(pair.pinion, "pinion")
+    check_usable_flank(pair.wheel, "wheel")
+    tip_start, tip_end = whole - pair.wheel.tip_roll_length, pair.pinion.tip_roll_length
+    start = max(tip_start, pair.pinion.usable_roll_length)
+    end = min(tip_end, whole - pair.wheel.usable_roll_length)
+    check_path(tip_start, tip_end, start, end)
+    lost = {"pinion": start - tip_start, "wheel": tip_end - end}
+    return PathOfContact(pair, start, end, tuple(name for name, length in lost.items() if length > ROUNDING * whole))

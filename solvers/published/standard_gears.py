@@ -4,9 +4,9 @@ from math import radians
 
 from solvers.contact import hertz
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.gears.path_of_contact import meshing_path, reduced_radius
+from solvers.gears.pair import meshing_path, reduced_radius
 from solvers.materials import Solid
-from solvers.scuffing.distribution.mesh_stiffness import standard_stiffness
+from solvers.scuffing.mesh_results import standard_stiffness
 
 FZG_A = GearPairInputs(
     GearTeeth(16, 0.8532, addendum=88.8 / 9 - 8 - 0.8532),

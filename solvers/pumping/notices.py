@@ -4,8 +4,7 @@ from collections.abc import Sequence
 from math import degrees, expm1, inf, pi
 
 from solvers.gears.notices import pair_notices
-from solvers.gears.pair import GearPair
-from solvers.gears.path_of_contact import PathOfContact
+from solvers.gears.pair import GearPair, PathOfContact
 from solvers.notices import Notice
 from solvers.pumping.flow.nozzle import Gas
 from solvers.pumping.inputs import Flow, PumpingSetup

@@ -7,8 +7,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.gears.gear import rack_tip_radius
-from solvers.gears.pair import GearPair
-from solvers.gears.path_of_contact import PathOfContact, meshing_path
+from solvers.gears.pair import GearPair, PathOfContact, meshing_path
 from solvers.notices import Notice
 from solvers.pumping.chain.pocket_chain import STEPS, pocket_chain
 from solvers.pumping.checks import check_setup, refuse_cost

@@ -7,19 +7,14 @@ import numpy as np
 from solvers.arrays import frozen
 from solvers.contact.hertz import reduced_modulus
 from solvers.gears.gear import rack_tip_radius
-from solvers.gears.path_of_contact import PathOfContact, meshing_path
-from solvers.scuffing.balance.contact_slices import Mesh
-from solvers.scuffing.balance.line_survey import Peak, largest, reaches_base_circle
-from solvers.scuffing.balance.load_balance import LoadBalance, balance_load
-from solvers.scuffing.distribution.face_load import face_load_factor
-from solvers.scuffing.distribution.feature_line import feature_line
-from solvers.scuffing.distribution.flank_maps import flank
-from solvers.scuffing.distribution.friction_loss import friction_loss
-from solvers.scuffing.distribution.mesh_stiffness import stiffness
-from solvers.scuffing.distribution.transmission_error import transmission_error
-from solvers.scuffing.flank.contact_lines import ContactLengths, RollPositions, contact_lengths, roll_positions
-from solvers.scuffing.flank.modification import Gap, gap, kinks_along_face, kinks_along_path
+from solvers.gears.pair import PathOfContact, meshing_path
+from solvers.scuffing.contact_lines import ContactLengths, RollPositions, contact_lengths, roll_positions
+from solvers.scuffing.contact_slices import Mesh, Peak, largest, reaches_base_circle
+from solvers.scuffing.flank_results import face_load_factor, feature_line, flank
 from solvers.scuffing.inputs import Load, LoadDistributionInputs
+from solvers.scuffing.load_balance import LoadBalance, balance_load
+from solvers.scuffing.mesh_results import friction_loss, stiffness, transmission_error
+from solvers.scuffing.modification import Gap, gap, kinks_along_face, kinks_along_path
 from solvers.scuffing.notices import geometry_notices, load_notices, model_notices, relief_notices
 from solvers.scuffing.results import (
     ContactLines,
@@ -31,7 +26,7 @@ from solvers.scuffing.results import (
     Place,
     Pressure,
 )
-from solvers.scuffing.teeth.stiffness import pair_compliance
+from solvers.scuffing.tooth_stiffness import pair_compliance
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,12 +6,12 @@ import numpy as np
 
 from solvers.gears.inputs import GearPairInputs
 from solvers.gears.notices import pair_notices
-from solvers.gears.path_of_contact import PathOfContact
+from solvers.gears.pair import PathOfContact
 from solvers.notices import Notice
-from solvers.scuffing.balance.line_survey import reaches_base_circle
-from solvers.scuffing.balance.load_balance import LoadBalance
-from solvers.scuffing.flank.contact_lines import ContactLengths
+from solvers.scuffing.contact_lines import ContactLengths
+from solvers.scuffing.contact_slices import reaches_base_circle
 from solvers.scuffing.inputs import Model, Modifications
+from solvers.scuffing.load_balance import LoadBalance
 
 LEAST_TEETH = 8
 PRESSURE_ANGLES = (14.5, 30.0)  # degrees

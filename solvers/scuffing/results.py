@@ -6,9 +6,9 @@ x runs along the path from A to E, y along the face from the end that meshes fir
 from dataclasses import dataclass
 
 from solvers.arrays import BoolArray, FloatArray, frozen
-from solvers.gears.path_of_contact import PathOfContact
+from solvers.gears.pair import PathOfContact
 from solvers.notices import Notice
-from solvers.scuffing.balance.load_balance import LoadBalance
+from solvers.scuffing.load_balance import LoadBalance
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,8 +13,8 @@ from solvers.contact.film import dowson_higginson_minimum, thickness_ratio
 from solvers.contact.hertz import reduced_modulus
 from solvers.lubricants import OilInUse, oil_in_use
 from solvers.oils import OilSheet
-from solvers.scuffing.balance.line_survey import reaches_base_circle
-from solvers.scuffing.distribution.feature_line import feature_line
+from solvers.scuffing.contact_slices import reaches_base_circle
+from solvers.scuffing.flank_results import feature_line
 from solvers.scuffing.inputs import ScuffingInputs, Temperatures
 from solvers.scuffing.model import solve
 from solvers.scuffing.results import Derived, FeatureLine, LoadDistribution

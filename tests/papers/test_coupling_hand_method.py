@@ -11,8 +11,8 @@ from math import cos, radians
 import numpy as np
 import pytest
 
-from solvers.coupling.friction.regimes import mixed_friction, regime_friction
 from solvers.coupling.inputs import MixedFrictionCurve
+from solvers.coupling.lubrication import mixed_friction, regime_friction
 from solvers.published.bloch import DIAMETER, END_CONTACT, FACE, TORQUE, bloch
 
 COSINE = cos(radians(20.0))

@@ -12,9 +12,8 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 from solvers.coupling import solve
-from solvers.coupling.friction.lubrication import UNBOUNDED_LOAD
-from solvers.coupling.friction.regimes import friction_regime, regime_friction
 from solvers.coupling.inputs import Friction, MixedFrictionTable
+from solvers.coupling.lubrication import UNBOUNDED_LOAD, friction_regime, regime_friction
 from solvers.coupling.results import Lubrication
 from solvers.published.pahl import pahl_coupling
 

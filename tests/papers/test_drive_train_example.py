@@ -19,7 +19,7 @@ from solvers.drive_train import solve
 from solvers.drive_train.inputs import DriveTrainInputs, Effects, RigidBearing, Shaft
 from solvers.drive_train.results import DriveTrainResult
 from solvers.pumping.inputs import Groove
-from solvers.scuffing.distribution.feature_line import feature_line
+from solvers.scuffing.flank_results import feature_line
 from solvers.scuffing.thermal.blok import blok_flash
 from tests.support.drive_trains import COUPLING, GROUND, HEAT, NO_EFFECTS, cold, turbo_gear
 

@@ -16,7 +16,7 @@ from solvers.drive_train.model import prepare
 from solvers.drive_train.outcome import outcome
 from solvers.drive_train.shafts.shaft import second_moment, shaft_model
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.gears.path_of_contact import meshing_path
+from solvers.gears.pair import meshing_path
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, Modifications
 from tests.support.drive_trains import turbo_gear
 

@@ -6,7 +6,7 @@ import pytest
 
 from solvers.contact import hertz
 from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, solve
-from solvers.contact.ehl.dimensionless import moes_central_film, moes_minimum_film
+from solvers.contact.ehl.problem import moes_central_film, moes_minimum_film
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from solvers.gears.path_of_contact import meshing_path
+from solvers.gears.pair import meshing_path
 from solvers.materials import Solid
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, OilSupply, angular_speed
 from solvers.scuffing.thermal.practice import (

@@ -15,7 +15,7 @@ from solvers.contact.film import dowson_higginson_minimum, thickness_ratio, thic
 from solvers.contact.flash import blok_flash_temperature
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.gears.path_of_contact import reduced_radius
+from solvers.gears.pair import reduced_radius
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 from solvers.published.xue import PAPER_SPEED, paper_gears, paper_pair

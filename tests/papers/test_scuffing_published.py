@@ -11,15 +11,14 @@ from scipy.optimize import brentq
 from solvers.contact import hertz
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.gears.pair import gear_pair
-from solvers.gears.path_of_contact import path_of_contact, reduced_radius
+from solvers.gears.pair import gear_pair, path_of_contact, reduced_radius
 from solvers.materials import Solid
 from solvers.published.xue import PAPER_LOAD, paper_pair
 from solvers.scuffing import solve_load_distribution
-from solvers.scuffing.balance.load_balance import line_loads
-from solvers.scuffing.distribution.mesh_stiffness import standard_stiffness
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, Resolution, angular_speed
-from solvers.scuffing.teeth.stiffness import linear_contact_compliance
+from solvers.scuffing.load_balance import line_loads
+from solvers.scuffing.mesh_results import standard_stiffness
+from solvers.scuffing.tooth_stiffness import linear_contact_compliance
 from tests.support.gear_pairs import FZG_A, FZG_TORQUES, with_torque
 
 STEEL = Solid()

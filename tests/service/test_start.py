@@ -114,7 +114,7 @@ def test_port_in_use_is_said_at_once() -> None:
 def damaged(folder: Path, target: Path, size: int) -> int:
     """A copy of the cache in which every file of one model is cut to `size` bytes; how many."""
     shutil.copytree(folder, target)
-    files = [path for pattern in ("*.nbi", "*.nbc") for path in target.glob(f"torque_balance-*/{pattern}")]
+    files = [path for pattern in ("*.nbi", "*.nbc") for path in target.glob(f"balance-*/{pattern}")]
     for path in files:
         path.write_bytes(path.read_bytes()[:size])
     return len(files)
@@ -129,7 +129,7 @@ def test_broken_cache_files_are_compiled_again(tmp_path: Path, size: int) -> Non
         assert httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=20).status_code == 200
     lines = [line for line in log.read_text("utf-8").splitlines() if "broken kernel cache" in line]
     assert lines
-    assert all("torque_balance-" in line for line in lines)
+    assert all("balance-" in line for line in lines)
     with started_server(environment={"NUMBA_CACHE_DIR": str(tmp_path / "cache")}, log=log) as (process, address):
         wait_until_warm(process, address, 60)
     assert "broken" not in log.read_text("utf-8")

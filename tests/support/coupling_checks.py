@@ -12,9 +12,8 @@ from unittest.mock import patch
 import numpy as np
 from numpy.random import Generator
 
-from solvers.coupling import recommend, solve, solve_orbit
+from solvers.coupling import losses, recommend, solve, solve_orbit
 from solvers.coupling.crowning import recommendation
-from solvers.coupling.friction import averaging
 from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
 from solvers.coupling.results import CouplingResult
 from solvers.coupling.teeth import kinematics
@@ -77,7 +76,7 @@ def check_power_and_moments(random: Generator) -> None:
 def finer() -> ExitStack:
     """Every internal resolution of one operating point doubled."""
     stack = ExitStack()
-    stack.enter_context(patch.object(averaging, "_PITCH_NODES", 2 * averaging._PITCH_NODES))
+    stack.enter_context(patch.object(losses, "_PITCH_NODES", 2 * losses._PITCH_NODES))
     stack.enter_context(patch.object(kinematics, "_LEAST_ROTOR_POSITIONS", 2 * kinematics._LEAST_ROTOR_POSITIONS))
     return stack
 

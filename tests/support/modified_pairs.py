@@ -14,8 +14,7 @@ from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.scuffing import solve_scuffing
-from solvers.scuffing.balance.load_balance import line_loads
-from solvers.scuffing.distribution.feature_line import contact_points
+from solvers.scuffing.flank_results import contact_points
 from solvers.scuffing.inputs import (
     Load,
     LoadDistributionInputs,
@@ -25,6 +24,7 @@ from solvers.scuffing.inputs import (
     angular_speed,
     torque_from_power,
 )
+from solvers.scuffing.load_balance import line_loads
 from solvers.scuffing.results import ContactPoints
 from solvers.scuffing.safety_results import Scuffing
 from solvers.scuffing.thermal.thermal_path import contact_at

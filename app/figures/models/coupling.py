@@ -32,7 +32,7 @@ from app.schema.coupling import (
     SleeveOrbitRequest,
     SleeveOrbitResponse,
 )
-from solvers.coupling.friction.regimes import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES, friction_regime
+from solvers.coupling.lubrication import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES, friction_regime
 
 MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}
 

@@ -1,7 +1,8 @@
 """The lubricated line contact: pressure, film, temperature and friction, isothermal or thermal.
 
-Data flows inputs, checks -> dimensionless -> problem -> grid -> film -> heat -> solution -> measures, verification,
-refinement -> results, notices (all gathered by `model.solve` for one contact, by `path.solve_path` for many).
+Data flows inputs, checks -> problem, grid, linear_algebra -> shear -> reynolds, heat -> state -> temperature ->
+newton -> continuation -> measures, refinement -> results, notices. `model.solve` solves one contact, `path.solve_path`
+many.
 """
 
 from solvers.contact.ehl.checks import check, lightest

@@ -5,8 +5,8 @@ from math import exp, log
 
 from scipy.optimize import brentq
 
-from solvers.contact.ehl.dimensionless import expected_gap, groups
 from solvers.contact.ehl.inputs import LineContactInputs
+from solvers.contact.ehl.problem import expected_gap, groups
 from solvers.errors import InvalidInput
 from solvers.lubricants import HIGHEST_VISCOSITY, ROELANDS_POLE_TEMPERATURE, log_viscosity, pressure_part
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
+from solvers.contact.ehl.continuation import Attempt
 from solvers.contact.ehl.inputs import LineContactInputs
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.results import (
@@ -13,7 +14,6 @@ from solvers.contact.ehl.results import (
     ContactPressure,
     ContactTemperature,
 )
-from solvers.contact.ehl.solution.continuation import Attempt
 
 PEAK_ZONE = 0.1  # half widths behind the centre: what lies before is the Hertz maximum
 

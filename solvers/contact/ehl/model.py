@@ -3,18 +3,21 @@
 from dataclasses import replace
 from math import isfinite
 
-from solvers.contact.ehl import measures, verification
+from solvers.contact.ehl import measures, refinement
 from solvers.contact.ehl.checks import check
-from solvers.contact.ehl.dimensionless import (
+from solvers.contact.ehl.continuation import STEPS_TO_REFINE, TIGHT, Attempt, Budget, Resolution, budget_for, solve_cold
+from solvers.contact.ehl.inputs import Contact, LineContactInputs, Model
+from solvers.contact.ehl.notices import failure_notice, input_notices, mesh_notices, result_notices
+from solvers.contact.ehl.problem import (
     Groups,
+    Problem,
     dowson_higginson_film,
     entry_temperature,
     expected_gap,
     groups,
+    peclet_number,
+    problem,
 )
-from solvers.contact.ehl.inputs import Contact, LineContactInputs, Model
-from solvers.contact.ehl.notices import failure_notice, input_notices, mesh_notices, result_notices
-from solvers.contact.ehl.problem import Problem, peclet_number, problem
 from solvers.contact.ehl.refinement import refined
 from solvers.contact.ehl.results import (
     Convergence,
@@ -25,8 +28,6 @@ from solvers.contact.ehl.results import (
     LineContactResult,
     Stage,
 )
-from solvers.contact.ehl.solution.budget import STEPS_TO_REFINE, Budget, Resolution, budget_for
-from solvers.contact.ehl.solution.continuation import TIGHT, Attempt, solve_cold
 from solvers.lubricants import Lubricant, oil_in_use
 
 WORST_BALANCE = 1e-3
@@ -116,7 +117,7 @@ def _read(
     thermal = inputs.model.thermal
     curves = measures.curves(constants, attempt, thermal)
     field = measures.field(constants, attempt) if thermal else None
-    departure = verification.departure(inputs, curves, field) if field is not None else None
+    departure = refinement.departure(inputs, curves, field) if field is not None else None
     return replace(
         unsolved,
         film=_film(inputs, constants, attempt),

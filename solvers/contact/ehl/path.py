@@ -8,15 +8,23 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.contact.ehl.checks import check
-from solvers.contact.ehl.dimensionless import groups
-from solvers.contact.ehl.grid.mesh import Grid, grid_for
+from solvers.contact.ehl.continuation import (
+    TIGHT,
+    Attempt,
+    Budget,
+    Resolution,
+    budget_for,
+    interpolate,
+    polish,
+    price,
+    solve_cold,
+)
+from solvers.contact.ehl.grid import Grid, grid_for
 from solvers.contact.ehl.inputs import LineContactInputs
 from solvers.contact.ehl.model import conclude, resolution_for
-from solvers.contact.ehl.problem import Problem, problem
+from solvers.contact.ehl.problem import Problem, groups, problem
 from solvers.contact.ehl.results import LineContactResult
-from solvers.contact.ehl.solution.budget import Budget, Resolution, budget_for, price
-from solvers.contact.ehl.solution.continuation import TIGHT, Attempt, interpolate, polish, solve_cold
-from solvers.contact.ehl.solution.state import State, no_steps
+from solvers.contact.ehl.state import State, no_steps
 from solvers.errors import InvalidInput
 
 # For a guess to lead to its contact. Where pressure falls steeply between two nodes, the discrete film has a solution

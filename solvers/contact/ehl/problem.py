@@ -1,12 +1,124 @@
-"""The numbers of one contact as the compiled functions take them."""
+"""One contact in numbers: dimensionless groups, published film formulas, and the parameters the kernels take."""
 
-from math import pi, sqrt
+from dataclasses import dataclass
+from functools import lru_cache
+from math import exp, inf, pi, sqrt
 from typing import NamedTuple
 
-from solvers.contact.ehl.dimensionless import Groups
+from solvers.contact import hertz
 from solvers.contact.ehl.inputs import LineContactInputs
+from solvers.contact.film import dowson_higginson_minimum
 from solvers.lubricants import FluidLaws
 from solvers.materials import Solid
+
+NO_LOAD = 1e-9  # of Moes' M; its films are 10^18 times b^2/R
+
+
+@dataclass(frozen=True, slots=True)
+class Groups:
+    """Hertz contact and similarity parameters; viscosity is that of the oil at the inlet, at zero pressure.
+
+    Units: reduced_modulus, maximum_pressure [Pa], half_width, gap_scale (b^2/R) [m], viscosity [Pa s]; moes_m
+    (load), moes_l (lubricant), speed_parameter U = eta (u1 + u2)/(E' R) [-].
+    """
+
+    reduced_modulus: float
+    half_width: float
+    maximum_pressure: float
+    gap_scale: float
+    viscosity: float
+    speed_parameter: float
+    moes_m: float
+    moes_l: float
+
+
+@lru_cache(maxsize=256)
+def groups(inputs: LineContactInputs, temperature: float | None = None) -> Groups:
+    """Hertz contact and Moes parameters M = W U^-1/2, L = alpha E' U^1/4.
+
+    The viscosity is that at the inlet temperature unless another `temperature` [K] is given.
+    """
+    contact, lubricant = inputs.contact, inputs.lubricant
+    modulus = hertz.reduced_modulus(inputs.surface_1, inputs.surface_2)
+    half_width = hertz.half_width(contact.line_load, contact.radius, modulus)
+    viscosity = lubricant.viscosity_at(0.0, inputs.temperatures.inlet if temperature is None else temperature)
+    speed_parameter = viscosity * 2.0 * contact.entrainment_speed / (modulus * contact.radius)
+    load_parameter = contact.line_load / (modulus * contact.radius)
+    return Groups(
+        reduced_modulus=modulus,
+        half_width=float(half_width),
+        maximum_pressure=float(hertz.maximum_pressure(contact.line_load, contact.radius, modulus)),
+        gap_scale=float(half_width**2 / contact.radius),
+        viscosity=viscosity,
+        speed_parameter=speed_parameter,
+        moes_m=load_parameter / sqrt(speed_parameter),
+        moes_l=lubricant.pressure_viscosity * modulus * speed_parameter**0.25,
+    )
+
+
+def entry_temperature(inputs: LineContactInputs) -> float:
+    """Temperature [K] that the oil can be expected to have where the film forms.
+
+    Between that of the surfaces and that of the inlet, by the Peclet number rho c um h^2/(lambda b) of the film.
+    """
+    temperatures, oil = inputs.temperatures, inputs.lubricant
+    if not inputs.model.thermal:
+        return temperatures.inlet
+    surfaces = 0.5 * (temperatures.surface_1 + temperatures.surface_2)
+    scales = groups(inputs, surfaces)
+    gap = moes_gap(scales)
+    if gap == inf:
+        return temperatures.inlet
+    height = gap * scales.gap_scale
+    diffusivity = oil.thermal_conductivity / (oil.density * oil.specific_heat)
+    peclet = inputs.contact.entrainment_speed * height**2 / (diffusivity * scales.half_width)
+    return surfaces + (temperatures.inlet - surfaces) * peclet / (1.0 + peclet)
+
+
+def moes_central_film(m: float, l: float) -> float:
+    """Central film thickness (h/R) U^-1/2 of the isothermal, incompressible line contact (Nijenbanning and others)."""
+    return _moes_film(l, (3.0 / m, 2.621 * m**-0.2, 1.287 * l ** (2 / 3), 1.311 * m**-0.125 * l**0.75))
+
+
+def moes_minimum_film(m: float, l: float) -> float:
+    """Minimum film thickness (h/R) U^-1/2 of the isothermal, incompressible line contact (Nijenbanning and others)."""
+    return _moes_film(l, (2.45 / m, 2.05 * m**-0.2, 1.05 * l ** (2 / 3), 0.96 * m**-0.125 * l**0.75))
+
+
+def _moes_film(l: float, asymptotes: tuple[float, float, float, float]) -> float:
+    """Blend of the rigid and elastic, isoviscous and piezoviscous asymptotes (RI, EI, RP, EP)."""
+    rigid_isoviscous, elastic_isoviscous, rigid_piezoviscous, elastic_piezoviscous = asymptotes
+    s = (7.0 + 8.0 * exp(-2.0 * elastic_isoviscous / rigid_isoviscous)) / 5.0
+    isoviscous = rigid_isoviscous ** (7 / 3) + elastic_isoviscous ** (7 / 3)
+    if l <= 0.0:
+        return float(isoviscous ** (3 / 7))
+    piezoviscous = rigid_piezoviscous**-3.5 + elastic_piezoviscous**-3.5
+    return float((isoviscous ** (3 * s / 7) + piezoviscous ** (-2 * s / 7)) ** (1.0 / s))
+
+
+def moes_gap(contact: Groups) -> float:
+    """The Moes central film thickness in units of b^2/R: what the mesh is graded by; without load infinite."""
+    if contact.moes_m < NO_LOAD:
+        return inf
+    return moes_central_film(contact.moes_m, contact.moes_l) * pi / (8.0 * contact.moes_m)
+
+
+def expected_gap(inputs: LineContactInputs) -> float:
+    """Central film to expect at the temperature where it forms, in b^2/R."""
+    return moes_gap(groups(inputs, entry_temperature(inputs)))
+
+
+def dowson_higginson_film(inputs: LineContactInputs) -> float:
+    """Minimum film thickness [m] of Dowson and Higginson, the viscosity taken at the inlet temperature."""
+    contact, scales = inputs.contact, groups(inputs)
+    return dowson_higginson_minimum(
+        viscosity=scales.viscosity,
+        pressure_viscosity=inputs.lubricant.pressure_viscosity,
+        mean_speed=contact.entrainment_speed,
+        radius=contact.radius,
+        line_load=contact.line_load,
+        modulus=scales.reduced_modulus,
+    )
 
 
 class Problem(NamedTuple):

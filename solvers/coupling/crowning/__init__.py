@@ -1,1 +1,1 @@
-"""Which crowning suits a range of misalignment: window -> recommendation -> results."""
+"""Which crowning suits a range of misalignment: recommendation -> results."""

@@ -1,1 +1,1 @@
-"""The teeth of one mesh: geometry -> kinematics -> limits; torque_balance -> floating_balance -> loads; peaks."""
+"""The teeth of one mesh: geometry -> kinematics -> limits; balance -> loads."""

@@ -4,17 +4,37 @@ Tooth i carries F_t = c_t max(0, psi + f_t + pitch error - e . n/cos(alpha)) wit
 at the pitch radius and e the sleeve's displacement against the hub.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from solvers.arrays import FloatArray, IntArray
 from solvers.coupling.inputs import Coupling
-from solvers.coupling.teeth.floating_balance import ROTATION, SHIFT_X, floating_rows
+from solvers.coupling.teeth.balance import ROTATION, SHIFT_X, centred_rows, floating_rows
 from solvers.coupling.teeth.geometry import pitch_radius
 from solvers.coupling.teeth.kinematics import MeshMotion, ToothPositions, flank_normals, tangential_displacement
-from solvers.coupling.teeth.torque_balance import centred_rows
 from solvers.errors import NoSolution
+
+_PEAKS = 8
+_FINER = np.arange(-1.0, 1.125, 0.125)
+
+
+def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArray]) -> float:
+    """Largest value over evenly spaced rotor angles [rad], searched again in steps eight times as fine.
+
+    The second search is around the local maxima that may hide the largest value, were they to rise for half a step as
+    they did before: between few loaded teeth a peak lasts but a fraction of a pitch, and each tooth has its own.
+    `values_at` takes rotor angles (rows) and returns one value each.
+    """
+    coarse = values_at(angles)
+    before, after = np.roll(coarse, 1), np.roll(coarse, -1)
+    local = np.flatnonzero((coarse >= before) & (coarse >= after))
+    reach = 1.5 * coarse - 0.5 * np.minimum(before, after)
+    peaks = local[np.argsort(reach[local])[-_PEAKS:]]
+    around = (angles[1] - angles[0]) * _FINER
+    fine = values_at((angles[peaks, None] + around).ravel())
+    return float(max(coarse.max(), fine.max()))
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,12 +16,12 @@ from solvers.drive_train.gap.face_curves import face_mean
 from solvers.drive_train.gap.hub_balance import HubLoads, Yielding, free_hubs, respond
 from solvers.drive_train.shafts.influence import Unit
 from solvers.errors import NoSolution
-from solvers.scuffing.balance.contact_slices import Mesh
-from solvers.scuffing.balance.face_response import FaceResponse, face_response
-from solvers.scuffing.balance.load_balance import LoadBalance, balance_load
-from solvers.scuffing.flank.contact_lines import roll_positions
-from solvers.scuffing.flank.modification import kinks_along_face, kinks_along_path
+from solvers.scuffing.contact_lines import roll_positions
+from solvers.scuffing.contact_slices import Mesh
+from solvers.scuffing.face_response import FaceResponse, face_response
+from solvers.scuffing.load_balance import LoadBalance, balance_load
 from solvers.scuffing.model import PreparedMesh
+from solvers.scuffing.modification import kinks_along_face, kinks_along_path
 
 TOLERANCE = 1e-12  # m
 ITERATIONS = 40

@@ -11,7 +11,7 @@ from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import GapCurves, Misalignment, Parts
 from solvers.drive_train.shafts.coupling_loads import LOADS
 from solvers.drive_train.shafts.influence import Unit
-from solvers.scuffing.flank.modification import gaps_at
+from solvers.scuffing.modification import gaps_at
 
 
 def misalignment(

@@ -15,7 +15,7 @@ from solvers import pumping
 from solvers.arrays import FloatArray
 from solvers.drive_train.gap.face_curves import face_mean
 from solvers.drive_train.inputs import DriveTrainInputs
-from solvers.gears.path_of_contact import PathOfContact
+from solvers.gears.pair import PathOfContact
 from solvers.notices import Notice
 from solvers.pumping.inputs import PumpingSetup
 from solvers.pumping.results import SpacesResult

@@ -20,11 +20,9 @@ import numpy as np
 from solvers import coupling as gear_coupling
 from solvers.arrays import FloatArray
 from solvers.coupling.checks import check_contact, check_inputs
-from solvers.coupling.friction.averaging import loaded_mesh
-from solvers.coupling.friction.losses import losses
-from solvers.coupling.friction.lubrication import film_state
-from solvers.coupling.friction.regimes import friction_coefficient
 from solvers.coupling.inputs import CouplingInputs, Operation
+from solvers.coupling.losses import loaded_mesh, losses
+from solvers.coupling.lubrication import film_state, friction_coefficient
 from solvers.coupling.teeth.geometry import pitch_radius, tooth_geometry
 from solvers.coupling.teeth.kinematics import mesh_motion
 from solvers.coupling.teeth.limits import coaxial_limit

@@ -7,7 +7,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.drive_train.inputs import Arrangement
-from solvers.gears.path_of_contact import PathOfContact
+from solvers.gears.pair import PathOfContact
 
 Z_AXIS = np.array([0.0, 0.0, 1.0])
 

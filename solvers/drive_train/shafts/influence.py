@@ -17,7 +17,7 @@ from solvers.drive_train.shafts.coupling_loads import LOADS, CouplingPort, coupl
 from solvers.drive_train.shafts.frame import Frame, frame
 from solvers.drive_train.shafts.shaft import GRAVITY, ShaftModel, shaft_model
 from solvers.drive_train.shafts.thrust_budget import mesh_thrust
-from solvers.gears.path_of_contact import PathOfContact
+from solvers.gears.pair import PathOfContact
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.shafts.frame import Frame
-from solvers.gears.path_of_contact import PathOfContact
+from solvers.gears.pair import PathOfContact
 
 USABLE = 0.5  # of the ultimate rating
 

@@ -7,7 +7,7 @@ under involutes and circular arcs are elementary. Only a foot on the root fillet
 import numpy as np
 
 from solvers.compiled import kernel
-from solvers.gears.fillet import RackFillet, fillet_point, fillet_sector_area
+from solvers.gears.gear import RackFillet, fillet_point, fillet_sector_area
 from solvers.pumping.space.tooth_space import ToothSpace
 
 _SCAN = 17  # fillet points that bracket the nearest one

@@ -10,9 +10,8 @@ from math import acos, cos, pi, sin
 from typing import NamedTuple
 
 from solvers.errors import InvalidInput
-from solvers.gears.fillet import RootProfile, root_profile
-from solvers.gears.pair import GearPair
-from solvers.gears.path_of_contact import path_of_contact
+from solvers.gears.gear import RootProfile, root_profile
+from solvers.gears.pair import GearPair, path_of_contact
 from solvers.pumping.inputs import Gap
 
 

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.gears.path_of_contact import PathOfContact
+from solvers.gears.pair import PathOfContact
 from solvers.lubricants import OilKind
 from solvers.scuffing.inputs import LoadDistributionInputs, OilSupply
 

@@ -10,13 +10,13 @@ import numpy as np
 
 from solvers.contact.hertz import reduced_modulus
 from solvers.errors import InvalidInput
-from solvers.gears.path_of_contact import PathOfContact
+from solvers.gears.pair import PathOfContact
 from solvers.lubricants import Lubricant
 from solvers.notices import Notice
 from solvers.oils import OilSheet, lubricant_at
-from solvers.scuffing.distribution.feature_line import feature_line
-from solvers.scuffing.distribution.friction_loss import friction_loss
+from solvers.scuffing.flank_results import feature_line
 from solvers.scuffing.inputs import ScuffingInputs
+from solvers.scuffing.mesh_results import friction_loss
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.thermal.blok import blok_flash
 from solvers.scuffing.thermal.practice import (

@@ -11,9 +11,15 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from solvers.coupling import solve
-from solvers.coupling.friction.lubrication import UNBOUNDED_LOAD, inlet_factor
-from solvers.coupling.friction.regimes import friction_coefficient, friction_regime, mixed_friction, regime_friction
 from solvers.coupling.inputs import Friction, InletModel, MixedFrictionCurve, MixedFrictionTable, ModelOptions
+from solvers.coupling.lubrication import (
+    UNBOUNDED_LOAD,
+    friction_coefficient,
+    friction_regime,
+    inlet_factor,
+    mixed_friction,
+    regime_friction,
+)
 from solvers.published.pahl import pahl_coupling
 
 INLETS: tuple[InletModel, ...] = ("face", "travel", "infinite")

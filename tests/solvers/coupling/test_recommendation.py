@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from solvers.coupling import recommend, solve
-from solvers.coupling.crowning.window import at_misalignment, crowning_state, crowning_window
+from solvers.coupling.crowning.recommendation import at_misalignment, crowning_state, crowning_window
 from solvers.coupling.inputs import ModelOptions, RecommendationInputs
 from solvers.errors import InvalidInput
 from solvers.published.pahl import pahl_coupling

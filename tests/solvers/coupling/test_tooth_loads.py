@@ -13,10 +13,10 @@ from scipy.optimize import brentq, minimize
 from app.schema.coupling import CouplingLubrication
 from solvers.coupling import solve
 from solvers.coupling.inputs import Coupling, CouplingInputs, ModelOptions, Operation
+from solvers.coupling.teeth.balance import turn_to_torque
 from solvers.coupling.teeth.geometry import tooth_geometry
 from solvers.coupling.teeth.kinematics import MeshMotion, flank_normals, mesh_motion, tooth_positions
 from solvers.coupling.teeth.loads import ToothLoads, floating_loads
-from solvers.coupling.teeth.torque_balance import turn_to_torque
 from solvers.published.pahl import PITCH_RADIUS, TEETH, harmonic_pitch_errors, pahl_coupling
 from tests.support.couplings import random_pitch_errors
 from tests.support.properties import examples

@@ -33,9 +33,9 @@ from solvers.drive_train.outcome import outcome
 from solvers.errors import NoSolution
 from solvers.gears.inputs import GearTeeth
 from solvers.scuffing import solve_load_distribution
-from solvers.scuffing.balance.face_response import FaceResponse, face_response
-from solvers.scuffing.balance.load_balance import balance_load
+from solvers.scuffing.face_response import FaceResponse, face_response
 from solvers.scuffing.inputs import LeadCurve, LoadDistributionInputs, Resolution
+from solvers.scuffing.load_balance import balance_load
 from solvers.scuffing.model import mesh_of
 from tests.support.drive_trains import COUPLING, GROUND, NO_EFFECTS, SPEED, turbo_gear
 from tests.support.properties import examples

@@ -10,7 +10,7 @@ from solvers.coupling.inputs import Friction
 from solvers.drive_train import solve
 from solvers.drive_train.inputs import Arrangement, DriveTrainInputs, Shaft
 from solvers.drive_train.results import DriveTrainResult
-from solvers.gears.path_of_contact import meshing_path
+from solvers.gears.pair import meshing_path
 from tests.support.drive_trains import COUPLING, GROUND, turbo_gear
 
 GRAVITY = 9.80665

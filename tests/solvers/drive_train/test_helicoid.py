@@ -16,7 +16,7 @@ from solvers.arrays import FloatArray
 from solvers.drive_train.gap.thermal_lead import EXPANSION, thermal_lead
 from solvers.drive_train.inputs import Arrangement, Heat
 from solvers.drive_train.shafts.frame import Z_AXIS, frame
-from solvers.gears.path_of_contact import PathOfContact
+from solvers.gears.pair import PathOfContact
 from solvers.scuffing.model import mesh_of
 from tests.support.drive_trains import turbo_gear
 

@@ -9,8 +9,7 @@ from solvers.errors import InvalidInput
 from solvers.gears.gear import rack_tip_radius
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.notices import pair_notices
-from solvers.gears.pair import gear_pair
-from solvers.gears.path_of_contact import meshing_path
+from solvers.gears.pair import gear_pair, meshing_path
 from solvers.published.xue import paper_gears
 from tests.support.gear_pairs import FZG_A, INCH_PAIR, UNDERCUT_PAIR
 

@@ -11,10 +11,9 @@ from shapely import Polygon
 
 from solvers.arrays import FloatArray
 from solvers.errors import InvalidInput
-from solvers.gears.fillet import fillet_point, fillet_sector_area, root_profile
+from solvers.gears.gear import fillet_point, fillet_sector_area, root_profile
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.gears.pair import gear_pair
-from solvers.gears.path_of_contact import PathOfContact, meshing_path
+from solvers.gears.pair import PathOfContact, gear_pair, meshing_path
 from solvers.published.milian import CASE_1, CASE_2, TABLE_1
 from solvers.pumping.inputs import Gap, PumpingSetup
 from solvers.pumping.space.section import section

@@ -13,8 +13,7 @@ from scipy.optimize import brentq
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.notices import pair_notices
-from solvers.gears.pair import gear_pair
-from solvers.gears.path_of_contact import meshing_path
+from solvers.gears.pair import gear_pair, meshing_path
 from solvers.notices import Notice
 from solvers.published.milian import CASE_1, SPEED_1, pinion
 from solvers.pumping import Ambient, Gap, Groove, PumpingInputs, PumpingModel, PumpingSetup, Spaces, solve

@@ -10,7 +10,7 @@ import pytest
 
 from solvers.errors import InvalidInput, NoSolution
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.gears.path_of_contact import meshing_path
+from solvers.gears.pair import meshing_path
 from solvers.published.milian import CASE_1, TABLE_1
 from solvers.pumping import (
     Ambient,

@@ -12,16 +12,23 @@ from scipy.optimize import brentq
 from solvers.contact.hertz import half_width, reduced_modulus
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.gears.pair import gear_pair
-from solvers.gears.path_of_contact import path_of_contact, reduced_radius
+from solvers.gears.pair import gear_pair, path_of_contact, reduced_radius
 from solvers.materials import Solid
 from solvers.published.xue import PAPER_MODIFICATIONS, paper_gears, paper_pair
 from solvers.scuffing import solve_load_distribution
-from solvers.scuffing.balance.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, gather, slice_table
-from solvers.scuffing.flank.modification import gap, gaps_at, lead_table, misalignment_slope
+from solvers.scuffing.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, gather, slice_table
 from solvers.scuffing.inputs import LeadCurve, Model, Modifications, Resolution
-from solvers.scuffing.teeth.compliance import bending_compliance, load_points, root_rotation, section_gear, tooth_shape
-from solvers.scuffing.teeth.stiffness import line_load, pair_compliance, single_stiffness
+from solvers.scuffing.modification import gap, gaps_at, lead_table, misalignment_slope
+from solvers.scuffing.tooth_stiffness import (
+    bending_compliance,
+    line_load,
+    load_points,
+    pair_compliance,
+    root_rotation,
+    section_gear,
+    single_stiffness,
+    tooth_shape,
+)
 
 STEEL = Solid()
 

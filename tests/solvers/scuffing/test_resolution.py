@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.gears.path_of_contact import meshing_path
+from solvers.gears.pair import meshing_path
 from solvers.published.xue import paper_gears, paper_pair
 from solvers.scuffing import solve_load_distribution
-from solvers.scuffing.flank.modification import gap
 from solvers.scuffing.inputs import LoadDistributionInputs, Model, Modifications, Resolution
+from solvers.scuffing.modification import gap
 from tests.support import flanks
 from tests.support.gear_pairs import with_torque
 from tests.support.stored import stored

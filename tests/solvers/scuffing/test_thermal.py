@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from solvers.contact import ehl
-from solvers.contact.ehl import path
-from solvers.contact.ehl.solution import budget, continuation
+from solvers.contact.ehl import continuation, path
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
@@ -218,15 +217,15 @@ def test_a_path_that_nowhere_converges_ends_with_its_steps(monkeypatch: pytest.M
     monkeypatch.setattr(continuation, "TIGHT", (0.0, 0.0))
     monkeypatch.setattr(continuation, "LOOSE", (0.0, 0.0))
     taken: list[float] = []
-    charge = budget.Budget.charge
+    charge = continuation.Budget.charge
 
-    def counted(given: budget.Budget, resolution: budget.Resolution, nodes: int, steps: int) -> None:
-        taken.append(steps * budget.price(resolution, nodes))
+    def counted(given: continuation.Budget, resolution: continuation.Resolution, nodes: int, steps: int) -> None:
+        taken.append(steps * continuation.price(resolution, nodes))
         charge(given, resolution, nodes, steps)
 
-    monkeypatch.setattr(budget.Budget, "charge", counted)
+    monkeypatch.setattr(continuation.Budget, "charge", counted)
     result = solve_scuffing(inputs(points=40))
     assert set(result.path.status) == {"no_solution"}
     assert result.unsolved_points == 40
-    assert sum(taken) < (path.HOPELESS + 28 * path.SHARE_WITHOUT_HOPE) * budget.STEPS_IN_ALL
+    assert sum(taken) < (path.HOPELESS + 28 * path.SHARE_WITHOUT_HOPE) * continuation.STEPS_IN_ALL
     assert "not_converged" in {warning.code for warning in result.warnings}

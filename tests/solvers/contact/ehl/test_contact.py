@@ -10,10 +10,10 @@ from solvers.contact.ehl import (
     LineContactResult,
     Model,
     Temperatures,
+    continuation,
     solve,
 )
-from solvers.contact.ehl.film.shear import STRESS_LIMIT
-from solvers.contact.ehl.solution import budget, continuation
+from solvers.contact.ehl.shear import STRESS_LIMIT
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
@@ -247,7 +247,7 @@ def test_thin_film_and_high_traction_are_flagged() -> None:
 
 def test_no_solution_carries_residuals_and_no_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     """With three steps a mesh nothing converges; the budget ends it."""
-    monkeypatch.setattr(budget, "STEPS_A_SOLVE", 3)
+    monkeypatch.setattr(continuation, "STEPS_A_SOLVE", 3)
     result = solve(LineContactInputs(POINT, model=Model(rheology="newtonian")))
     assert result.status == "no_solution"
     assert result.convergence.stage == "coupling"
@@ -262,4 +262,4 @@ def test_steps_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(continuation, "LOOSE", (0.0, 0.0))
     result = solve(LineContactInputs(POINT))
     assert result.status == "no_solution"
-    assert result.convergence.iterations < 4 * budget.STEPS_IN_ALL  # coarse meshes are cheaper
+    assert result.convergence.iterations < 4 * continuation.STEPS_IN_ALL  # coarse meshes are cheaper

@@ -8,18 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solvers.contact.ehl import Contact, LineContactInputs, Model
-from solvers.contact.ehl.dimensionless import groups
-from solvers.contact.ehl.film.column import evaluate_column
-from solvers.contact.ehl.film.fluxes import VALUE, flow_coefficients
-from solvers.contact.ehl.film.shear import film_arrays
-from solvers.contact.ehl.grid.deflection import deflection_matrix
-from solvers.contact.ehl.grid.dense import factor, substitute
-from solvers.contact.ehl.grid.heat_matrix import heat_matrix
-from solvers.contact.ehl.grid.mesh import grid_for
-from solvers.contact.ehl.heat.balance import column_balance, heat_arrays
-from solvers.contact.ehl.heat.elimination import factor_column, solve_column
-from solvers.contact.ehl.problem import Problem, problem
-from solvers.contact.ehl.solution.isothermal import uniform_film
+from solvers.contact.ehl.grid import deflection_matrix, grid_for, heat_matrix
+from solvers.contact.ehl.heat import column_balance, factor_column, heat_arrays, solve_column
+from solvers.contact.ehl.linear_algebra import factor, substitute
+from solvers.contact.ehl.newton import uniform_film
+from solvers.contact.ehl.problem import Problem, groups, problem
+from solvers.contact.ehl.reynolds import VALUE, evaluate_column, flow_coefficients
+from solvers.contact.ehl.shear import film_arrays
 from solvers.lubricants import Lubricant
 
 POINT = Contact(2.73e5, 4.015e-3, 1.0, 3.5)

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 from solvers.contact import hertz
 from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, Temperatures, check, solve
 from solvers.contact.ehl.checks import THICKEST_FILM
-from solvers.contact.ehl.dimensionless import expected_gap
+from solvers.contact.ehl.problem import expected_gap
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid

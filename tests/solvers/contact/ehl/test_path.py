@@ -6,13 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from solvers.contact.ehl import Contact, LineContactInputs, Model, Temperatures, path, solve, solve_path
-from solvers.contact.ehl.grid.mesh import Grid
+from solvers.contact.ehl import Contact, LineContactInputs, Model, Temperatures, continuation, path, solve, solve_path
+from solvers.contact.ehl.continuation import STEPS_IN_ALL, TIGHT, Attempt, Budget, Resolution
+from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.solution import continuation
-from solvers.contact.ehl.solution.budget import STEPS_IN_ALL, Budget, Resolution
-from solvers.contact.ehl.solution.continuation import TIGHT, Attempt
-from solvers.contact.ehl.solution.state import State
+from solvers.contact.ehl.state import State
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant
 

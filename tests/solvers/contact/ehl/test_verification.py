@@ -6,9 +6,9 @@ from time import process_time
 import numpy as np
 import pytest
 
-from solvers.contact.ehl import LineContactInputs, LineContactResult, Model, Temperatures, solve, verification
+from solvers.contact.ehl import LineContactInputs, LineContactResult, Model, Temperatures, refinement, solve
+from solvers.contact.ehl.refinement import departure, strip_integral
 from solvers.contact.ehl.results import ContactCurves, ContactField
-from solvers.contact.ehl.verification import departure, strip_integral
 from tests.support.line_contacts import POINT, random_contacts
 
 INPUTS = LineContactInputs(POINT)
@@ -83,12 +83,12 @@ def test_oil_colder_than_everything_around_it_is_found(point_a: LineContactResul
 
 
 def test_what_fails_is_no_solution(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(verification, "departure", lambda *_: 0.11)
+    monkeypatch.setattr(refinement, "departure", lambda *_: 0.11)
     result = solve(INPUTS)
     assert result.status == "no_solution"
     assert result.convergence.stage == "verification"
     assert (result.friction, result.curves, result.film.minimum) == (None, None, None)
-    monkeypatch.setattr(verification, "departure", lambda *_: float("nan"))
+    monkeypatch.setattr(refinement, "departure", lambda *_: float("nan"))
     assert solve(INPUTS).status == "no_solution"
 
 

@@ -1,0 +1,264 @@
+"""From nothing to a converged contact: resolution and step budget, nested meshes, and retries when a step fails."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import inf, sqrt
+from typing import Literal
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.contact.ehl.grid import Grid, grid_for
+from solvers.contact.ehl.newton import solve_coupled, solve_isothermal
+from solvers.contact.ehl.problem import Problem
+from solvers.contact.ehl.state import State, Work, no_steps, work_arrays
+from solvers.contact.ehl.temperature import march_temperatures
+
+STEPS_A_SOLVE = 60
+STEPS_IN_ALL = 500.0  # in Newton steps at 121 x 21 nodes, about a quarter of a second
+STEPS_ON_FINEST = 25  # that even a very fine mesh is given
+STEPS_TO_REFINE = 100.0  # in the same units, for each contact on finer meshes
+Stage = Literal["isothermal", "coupling"]
+
+COARSEST = 61
+TIGHT = (1e-5, 0.01)  # of P and of temperature [K]
+LOOSE = (1e-3, 1.0)
+MARCH = 5  # steps that a march of temperatures lasts at most
+SPEED_STEPS = (1 / 27, 1 / 9, 1 / 3)
+SOFT_STRESSES = tuple(5e6 * 2.0**k for k in range(10))  # Pa
+
+
+@dataclass(frozen=True, slots=True)
+class Resolution:
+    """What meshes to use: graded for a film of `gap` (in b^2/R), `nodes` along, `film_nodes` across it.
+
+    The isothermal film that a thermal one starts from is at `entry_temperature` [K].
+    """
+
+    gap: float
+    entry_temperature: float
+    nodes: int
+    film_nodes: int
+    thermal: bool
+
+
+@dataclass(slots=True)
+class Budget:
+    """Newton steps left, in units of a step at 121 x 21 nodes; it bounds every solve.
+
+    What is spent of a part is spent of the whole it is a part `of`.
+    """
+
+    remaining: float
+    spent: int = 0
+    of: "Budget | None" = None
+
+    def part(self, most: float = inf) -> "Budget":
+        """A budget within this one, of at most so many units."""
+        return Budget(min(most, self.remaining), of=self)
+
+    def steps(self, resolution: Resolution, nodes: int) -> int:
+        """Steps affordable at `nodes` nodes, at most those of one solve."""
+        return min(STEPS_A_SOLVE, int(self.remaining / price(resolution, nodes)))
+
+    def charge(self, resolution: Resolution, nodes: int, steps: int) -> None:
+        """Pay for Newton steps taken."""
+        self.pay(steps * price(resolution, nodes), steps)
+
+    def pay(self, units: float, steps: int = 0) -> None:
+        """Pay for work, and count the Newton steps in it."""
+        self.remaining -= units
+        self.spent += steps
+        if self.of is not None:
+            self.of.pay(units, steps)
+
+
+def budget_for(resolution: Resolution) -> Budget:
+    """What one contact may take."""
+    return Budget(max(STEPS_IN_ALL, STEPS_ON_FINEST * price(resolution, resolution.nodes)))
+
+
+def price(resolution: Resolution, nodes: int) -> float:
+    """Time of a step over that of one at 121 x 21 nodes: columns, dense products, dense factors (fitted)."""
+    relative = nodes / 121
+    if resolution.thermal:
+        return relative**2 * (0.4 + 0.4 * resolution.film_nodes / 21 + 0.2 * relative)
+    return relative**2 * (0.1 + 0.1 * relative)
+
+
+@dataclass(slots=True)
+class Attempt:
+    """A state on its mesh and how far it got; `eyring_stress` [Pa] is None unless continuation stopped there."""
+
+    grid: Grid
+    state: State
+    work: Work
+    converged: bool
+    stage: Stage
+    eyring_stress: float | None = None
+
+
+def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
+    """Solve from the Hertz pressure, by several attempts in turn; if all fail, the one that came nearest."""
+    nearest: Attempt | None = None
+    for attempt in _attempts(problem, resolution, budget):
+        if attempt.converged:
+            return attempt
+        if nearest is None or _distance(attempt) < _distance(nearest):
+            nearest = attempt
+        if budget.steps(resolution, resolution.nodes) < 1:
+            break
+    assert nearest is not None
+    return nearest
+
+
+def _distance(attempt: Attempt) -> tuple[int, float]:
+    """How far from a solution: by the mesh reached, then by the last change of pressure."""
+    change = float(attempt.state.history[1])
+    return -attempt.grid.x.size, change if np.isfinite(change) else np.inf
+
+
+def _attempts(problem: Problem, resolution: Resolution, budget: Budget) -> Iterator[Attempt]:
+    """Ways to a solution, cheapest first."""
+    coarse = _start(problem, resolution, budget)
+    yield _climb(problem, resolution, coarse, _levels(resolution.nodes, 2.0), budget)
+    yield _climb(problem, resolution, _start(problem, resolution, budget), _levels(resolution.nodes, 1.25), budget)
+    if resolution.thermal:
+        yield _from_soft_film(problem, resolution, budget)
+    yield _from_slow_film(problem, resolution, budget)
+    yield _climb(problem, resolution, _start(problem, resolution, budget), _levels(resolution.nodes, 1.1), budget)
+
+
+def _levels(nodes: int, ratio: float) -> list[int]:
+    """Numbers of nodes from the coarsest mesh up, each at most `ratio` (about) finer than the last."""
+    levels = [min(COARSEST, nodes)]
+    while levels[-1] < nodes:
+        finer = round((levels[-1] - 1) * ratio / 2) * 2 + 1
+        levels.append(nodes if finer > 0.85 * nodes else finer)
+    return levels
+
+
+def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
+    """Isothermal solution on the coarsest mesh and one march of temperatures at it."""
+    grid = grid_for(resolution.gap, min(COARSEST, resolution.nodes))
+    work = work_arrays(grid.x.size, resolution.film_nodes)
+    state = _dry_state(grid, resolution)
+    steps = budget.steps(resolution, grid.x.size)
+    isothermal = problem._replace(inlet=resolution.entry_temperature)
+    final = not resolution.thermal and resolution.nodes <= COARSEST
+    tolerance = TIGHT[0] * 1e-2 if final else LOOSE[0]
+    converged = bool(solve_isothermal(isothermal, grid, state, work, steps, tolerance))
+    budget.charge(resolution, grid.x.size, int(state.history[0]))
+    if resolution.thermal:
+        march_temperatures(problem, grid, state, work)
+        budget.pay(MARCH * price(resolution, grid.x.size))
+    return Attempt(grid, state, work, converged=converged, stage="isothermal")
+
+
+def _dry_state(grid: Grid, resolution: Resolution) -> State:
+    """Hertz pressure, scaled to carry the load on this mesh, over a film of the expected thickness.
+
+    A thick film spreads it over (2 R h)^1/2.
+    """
+    width = max(1.0, sqrt(2.0 * resolution.gap))
+    pressure = np.sqrt(np.maximum(1.0 - (grid.x / width) ** 2, 0.0))
+    pressure *= 0.5 * np.pi / float(grid.weights @ pressure)
+    centre = int(np.abs(grid.x).argmin())
+    return State(
+        pressure=pressure,
+        separation=np.array([resolution.gap - float(grid.deflection[centre] @ pressure)]),
+        temperature=np.zeros((grid.x.size, resolution.film_nodes)),
+        cavitated=grid.x > width,
+        history=no_steps(),
+    )
+
+
+def _climb(problem: Problem, resolution: Resolution, start: Attempt, levels: Sequence[int], budget: Budget) -> Attempt:
+    """Solve on each mesh from the one before; coarse meshes need not converge, only get near."""
+    attempt = start
+    if not resolution.thermal and len(levels) == 1:
+        return attempt
+    for nodes in levels:
+        grid = grid_for(resolution.gap, nodes)
+        same = nodes == attempt.grid.x.size
+        if same and not resolution.thermal:
+            continue
+        state = attempt.state if same else interpolate(attempt.state, attempt.grid.x, grid.x)
+        tolerances = TIGHT if nodes == levels[-1] else LOOSE
+        attempt = polish(problem, resolution, grid, state, tolerances, budget)
+        if not np.all(np.isfinite(attempt.state.pressure)):
+            break
+    return attempt
+
+
+def polish(
+    problem: Problem,
+    resolution: Resolution,
+    grid: Grid,
+    state: State,
+    tolerances: tuple[float, float],
+    budget: Budget,
+) -> Attempt:
+    """Newton on one mesh, from the state given, which is changed."""
+    work = work_arrays(grid.x.size, resolution.film_nodes)
+    steps = budget.steps(resolution, grid.x.size)
+    state.history[:] = no_steps()
+    if resolution.thermal:
+        converged = bool(solve_coupled(problem, grid, state, work, steps, tolerances[0], tolerances[1]))
+    else:
+        converged = bool(solve_isothermal(problem, grid, state, work, steps, tolerances[0] * 1e-2))
+    budget.charge(resolution, grid.x.size, int(state.history[0]))
+    stage: Stage = "coupling" if resolution.thermal else "isothermal"
+    return Attempt(grid, state, work, converged=converged, stage=stage)
+
+
+def interpolate(state: State, x: FloatArray, onto: FloatArray) -> State:
+    """The state on another mesh, linear between nodes."""
+    right = np.searchsorted(x, onto).clip(1, x.size - 1)
+    share = ((onto - x[right - 1]) / (x[right] - x[right - 1])).clip(0.0, 1.0)[:, None]
+    pressure = np.interp(onto, x, state.pressure)
+    return State(
+        pressure=pressure,
+        separation=state.separation.copy(),
+        temperature=state.temperature[right - 1] * (1.0 - share) + state.temperature[right] * share,
+        cavitated=(pressure <= 0.0) & (onto > 0.0),
+        history=no_steps(),
+    )
+
+
+def _from_slow_film(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
+    """Both speeds raised in steps on the coarsest mesh: thin films settle easily."""
+    attempt: Attempt | None = None
+    for factor in (*SPEED_STEPS, 1.0):
+        slower = problem._replace(
+            speed_1=problem.speed_1 * factor,
+            speed_2=problem.speed_2 * factor,
+            flux_scale=problem.flux_scale * factor,
+            surface_heating_1=problem.surface_heating_1 / sqrt(factor),
+            surface_heating_2=problem.surface_heating_2 / sqrt(factor),
+        )
+        if attempt is None:
+            attempt = _start(slower, resolution, budget)
+        attempt = polish(slower, resolution, attempt.grid, attempt.state, LOOSE, budget)
+    assert attempt is not None
+    return _climb(problem, resolution, attempt, _levels(resolution.nodes, 1.25), budget)
+
+
+def _from_soft_film(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
+    """Shear stiffened in steps on the coarsest mesh, from a small Eyring stress to the one asked for."""
+    attempt: Attempt | None = None
+    reached = 0.0
+    for stress in SOFT_STRESSES:
+        if problem.newtonian == 0 and stress >= problem.eyring_stress:
+            break
+        softer = problem._replace(newtonian=0, eyring_stress=stress)
+        if attempt is None:
+            attempt = _start(softer, resolution, budget)
+        attempt = polish(softer, resolution, attempt.grid, attempt.state, LOOSE, budget)
+        if not attempt.converged:
+            attempt.eyring_stress = reached
+            return attempt
+        reached = stress
+    if attempt is None:
+        attempt = _start(problem, resolution, budget)
+    return _climb(problem, resolution, attempt, _levels(resolution.nodes, 1.25), budget)

@@ -1,1 +1,0 @@
-"""The film of one contact: shear across it and fluxes along it -> column -> reynolds."""

@@ -1,1 +1,0 @@
-"""The heat in a film, column by column: balance -> elimination."""

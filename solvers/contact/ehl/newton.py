@@ -1,0 +1,347 @@
+"""Newton's method for the isothermal contact with an active set, and for all unknowns of a thermal contact."""
+
+import numpy as np
+
+from solvers.arrays import BoolArray, FloatArray, IntArray
+from solvers.compiled import kernel
+from solvers.contact.ehl.grid import Grid
+from solvers.contact.ehl.heat import factor_column
+from solvers.contact.ehl.linear_algebra import combine_basis, dot, extend_basis, factor, solved, substitute
+from solvers.contact.ehl.problem import Problem
+from solvers.contact.ehl.reynolds import (
+    BY_G,
+    BY_H,
+    BY_P,
+    PATIENCE,
+    RUPTURE_TOLERANCE,
+    VALUE,
+    add_flux_changes,
+    apply_pressure_step,
+    assemble_faces,
+    assemble_jacobian,
+    balance_of_mass,
+    film_shape,
+    pressure_gradients,
+    release_cavitated,
+)
+from solvers.contact.ehl.shear import STRESS_LIMIT
+from solvers.contact.ehl.state import State, Work, evaluate_state, fluid_fractions
+from solvers.contact.ehl.temperature import inlet_step, temperature_step
+from solvers.lubricants import density, log_viscosity, pressure_part
+
+EARLY = 5  # iterations with a tighter clip
+KRYLOV = 10
+KRYLOV_TOLERANCE = 0.01
+LARGEST_PRESSURE_STEP = 0.3
+LARGEST_TEMPERATURE_STEP = 40.0  # K
+LOWEST_TEMPERATURE = 200.0  # K, of iterates
+FIRST_DAMPING = 30.0  # of the temperatures, in units of their conduction across the film
+FROZEN = 1e4
+SHORT_STEP = 3e-3  # of P, behind which the Jacobian still holds
+SHRINKING = 0.1  # what the next step is of such a one, if it does
+
+
+@kernel
+def uniform_film(problem: Problem, p: float, g: float, h: float, log_a: FloatArray, b: FloatArray) -> float:
+    """Coefficients of one column at the inlet temperature, into log_a and b (5,); returns the mid-film stress [Pa].
+
+    `g` is h dp/dx. Newtonian: A = rho/(12 eta). Ree-Eyring with s = g/(2 tau0): sinh a = eta du s/(tau0 h sinh s) and
+    A = rho/(12 eta) cosh a 3 (s cosh s - sinh s)/s^3, the mid-film stress being tau0 a.
+    """
+    laws = problem.laws
+    term, term_slope = pressure_part(laws, p)
+    log_eta, eta_slope, _ = log_viscosity(laws, term, problem.inlet)
+    by_p = eta_slope * term_slope
+    rho, rho_slope, _ = density(laws, p, problem.inlet)
+    um, du = 0.5 * (problem.speed_1 + problem.speed_2), problem.speed_2 - problem.speed_1
+    log_a[:] = 0.0
+    b[:] = 0.0
+    b[VALUE], b[BY_P] = rho * um, rho_slope * um
+    log_a[VALUE], log_a[BY_P] = np.log(rho / 12.0) - log_eta, rho_slope / rho - by_p
+    if problem.newtonian == 1:
+        return float(np.exp(log_eta) * du / h)
+    tau0 = problem.eyring_stress
+    s = min(abs(g) / (2.0 * tau0), STRESS_LIMIT)
+    if s < 1e-2:
+        log_sigma, sigma_slope = -s * s / 6.0, -s / 3.0
+        log_phi, phi_slope = s * s / 10.0, s / 5.0
+    else:
+        sinh, cosh = np.sinh(s), np.cosh(s)
+        log_sigma, sigma_slope = np.log(s / sinh), 1.0 / s - cosh / sinh
+        moment = s * cosh - sinh
+        log_phi, phi_slope = np.log(3.0 * moment / s**3), s * sinh / moment - 3.0 / s
+    sinh_a = np.exp(log_eta + log_sigma) * du / (tau0 * h)
+    share = sinh_a * sinh_a / (1.0 + sinh_a * sinh_a)
+    log_a[VALUE] += 0.5 * np.log1p(sinh_a * sinh_a) + log_phi
+    log_a[BY_P] += share * by_p
+    log_a[BY_H] = -share / h
+    log_a[BY_G] = (share * sigma_slope + phi_slope) * np.sign(g) / (2.0 * tau0)
+    return float(tau0 * np.arcsinh(sinh_a))
+
+
+@kernel
+def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) -> None:
+    """Film, stress and flow of every column at the inlet temperature. Film that is broken reaches the end."""
+    state.cavitated[-1] = state.cavitated[-2]
+    film_shape(grid, state.pressure, state.separation[0], work.height)
+    pressure_gradients(grid.x, state.pressure, state.cavitated, work.gradient)
+    slope = problem.maximum_pressure / problem.half_width
+    for i in range(grid.x.size):
+        h = work.height[i] * problem.gap_scale
+        p, g = state.pressure[i] * problem.maximum_pressure, h * work.gradient[i] * slope
+        coefficients = work.coefficients
+        work.film.mid.stress[i] = uniform_film(problem, p, g, h, coefficients.log_a[i], coefficients.b[i])
+    assemble_faces(
+        problem, grid.x, state.pressure, work.height, work.gradient, state.cavitated, work.coefficients, work.faces
+    )
+
+
+@kernel
+def solve_isothermal(
+    problem: Problem, grid: Grid, state: State, work: Work, max_iterations: int, tolerance: float
+) -> bool:
+    """Newton for (P, H0) from the pressures given, in place; whether it converged. It is evaluated into `work`.
+
+    Pressure changes are first clipped node by node, later scaled as a whole; a node behind the centre whose pressure
+    falls below zero joins the broken film, and leaves it when more oil flows in than out.
+    """
+    n = grid.x.size
+    jacobian, residual, step = np.empty((n + 1, n + 1)), np.empty(n + 1), np.empty(n + 1)
+    for iteration in range(max_iterations):
+        state.history[0] += 1.0
+        evaluate_isothermal(problem, grid, state, work)
+        rupture_tolerance = 0.0 if iteration < PATIENCE else RUPTURE_TOLERANCE
+        changed = release_cavitated(work.faces, state.cavitated, rupture_tolerance)
+        balance_of_mass(grid, state.pressure, state.cavitated, work.faces, residual)
+        assemble_jacobian(grid, state.cavitated, work.faces, jacobian)
+        if not solved(jacobian, residual, step):
+            return False
+        largest = np.abs(step[:n]).max()
+        state.history[1] = largest
+        scale = 1.0
+        if iteration < PATIENCE:
+            clip = 0.3 if iteration < EARLY else 0.5
+            for i in range(n):
+                step[i] = min(max(step[i], -clip), clip)
+        else:
+            scale = min(1.0, 0.5 / max(largest, 0.5))
+        taken, joined = apply_pressure_step(grid, state.pressure, state.separation, state.cavitated, step, scale)
+        if largest < tolerance and taken == 1.0 and not (changed or joined):
+            evaluate_isothermal(problem, grid, state, work)
+            fluid_fractions(problem, state, work)
+            return True
+    return False
+
+
+@kernel
+def include_temperature(work: Work) -> None:
+    """Make the derivatives of A and B total: with the response of temperature."""
+    log_a, b, responses = work.coefficients.log_a, work.coefficients.b, work.heat.column.responses
+    a_slopes, b_slopes = work.film.flow.log_a_by_temperature, work.film.flow.b_by_temperature
+    n, nodes = a_slopes.shape
+    for i in range(1, n):
+        a_by_p, a_by_g, a_by_h = log_a[i, BY_P], log_a[i, BY_G], log_a[i, BY_H]
+        b_by_p, b_by_g, b_by_h = b[i, BY_P], b[i, BY_G], b[i, BY_H]
+        for k in range(nodes):
+            p, g, h = responses[i, k, BY_P], responses[i, k, BY_G], responses[i, k, BY_H]
+            a_by_p, a_by_g, a_by_h = (
+                a_by_p + a_slopes[i, k] * p,
+                a_by_g + a_slopes[i, k] * g,
+                a_by_h + a_slopes[i, k] * h,
+            )
+            b_by_p, b_by_g, b_by_h = (
+                b_by_p + b_slopes[i, k] * p,
+                b_by_g + b_slopes[i, k] * g,
+                b_by_h + b_slopes[i, k] * h,
+            )
+        log_a[i, BY_P], log_a[i, BY_G], log_a[i, BY_H] = a_by_p, a_by_g, a_by_h
+        b[i, BY_P], b[i, BY_G], b[i, BY_H] = b_by_p, b_by_g, b_by_h
+
+
+@kernel
+def add_temperature_changes(
+    work: Work, cavitated: BoolArray, step: FloatArray, given: FloatArray, residual: FloatArray
+) -> None:
+    """Add to `residual` what a temperature step does to the balance of mass, beyond the responses `given`."""
+    n, nodes = step.shape
+    log_a, b = np.zeros(n), np.zeros(n)
+    a_slopes, b_slopes = work.film.flow.log_a_by_temperature, work.film.flow.b_by_temperature
+    for i in range(1, n):
+        by_a, by_b = 0.0, 0.0
+        for k in range(nodes):
+            change = step[i, k] - given[i, k]
+            by_a += a_slopes[i, k] * change
+            by_b += b_slopes[i, k] * change
+        log_a[i], b[i] = by_a, by_b
+    add_flux_changes(work.faces, cavitated, log_a, b, residual)
+
+
+@kernel
+def pressure_responses(
+    problem: Problem, grid: Grid, work: Work, cavitated: BoolArray, step: FloatArray, given: FloatArray
+) -> None:
+    """Temperature change (n, k) that a step (n + 1,) in (P, H0) implies at fixed upstream temperatures."""
+    n = grid.x.size
+    change, slopes = np.empty(n), np.empty(n)
+    film_shape(grid, step[:n], step[n], change)
+    pressure_gradients(grid.x, step[:n], cavitated, slopes)
+    slope, responses = problem.maximum_pressure / problem.half_width, work.heat.column.responses
+    for i in range(n):
+        dp = step[i] * problem.maximum_pressure
+        dh = (change[i] - 0.5 * grid.x[i] ** 2) * problem.gap_scale
+        dg = slope * (slopes[i] * work.height[i] * problem.gap_scale + work.gradient[i] * dh)
+        for k in range(given.shape[1]):
+            given[i, k] = responses[i, k, BY_P] * dp + responses[i, k, BY_G] * dg + responses[i, k, BY_H] * dh
+
+
+@kernel
+def transport_response(
+    problem: Problem,
+    grid: Grid,
+    work: Work,
+    cavitated: BoolArray,
+    factors: FloatArray,
+    pivots: IntArray,
+    step: FloatArray,
+    given: FloatArray,
+    step_t: FloatArray,
+    change: FloatArray,
+) -> None:
+    """What the factored Jacobian leaves out of a step (n + 1,) in (P, H0), solved with it into `change` (n + 1,).
+
+    It knows how each column responds to its own pressure, not what that passes on downstream, as heat in oil and
+    surfaces. `given` and `step_t` (n, k) are room for temperatures.
+    """
+    pressure_responses(problem, grid, work, cavitated, step, given)
+    temperature_step(problem, grid, work.film, work.heat, given, 0.0, step_t)
+    change[:] = 0.0
+    add_temperature_changes(work, cavitated, step_t, given, change)
+    substitute(factors, pivots, change)
+
+
+@kernel
+def newton_step(
+    problem: Problem,
+    grid: Grid,
+    work: Work,
+    cavitated: BoolArray,
+    factors: FloatArray,
+    pivots: IntArray,
+    residual: FloatArray,
+    step: FloatArray,
+    step_t: FloatArray,
+) -> None:
+    """Step (n + 1,) in (P, H0) and (n, k) in T from the linearised equations.
+
+    What the factored Jacobian leaves out enters through GMRES, preconditioned with it. It corrects the step of the
+    Jacobian alone, so that the load is met whenever it stops; where the first correction is so small that its square
+    is within tolerance, that is all.
+    """
+    n, nodes = step_t.shape
+    given, change = np.zeros((n, nodes)), np.zeros(n + 1)
+    temperature_step(problem, grid, work.film, work.heat, given, 1.0, step_t)
+    add_temperature_changes(work, cavitated, step_t, given, residual)
+    step[:] = -residual
+    substitute(factors, pivots, step)
+    norm = np.sqrt(dot(step, step))
+    if not (np.isfinite(norm) and norm > 0.0):
+        return
+    transport_response(problem, grid, work, cavitated, factors, pivots, step, given, step_t, change)
+    rest = np.sqrt(dot(change, change))
+    if rest * rest <= KRYLOV_TOLERANCE * norm * norm:
+        step -= change
+    else:
+        basis, hessenberg = np.zeros((KRYLOV + 1, n + 1)), np.zeros((KRYLOV, KRYLOV))
+        rotations, rhs = np.zeros((KRYLOV, 2)), np.zeros(KRYLOV + 1)
+        basis[0], rhs[0], count = -change / rest, rest, 0
+        while count < KRYLOV and rest > KRYLOV_TOLERANCE * norm:
+            transport_response(problem, grid, work, cavitated, factors, pivots, basis[count], given, step_t, change)
+            basis[count + 1] = basis[count] + change
+            rest = extend_basis(basis, hessenberg, rotations, rhs, count)
+            count += 1
+        combine_basis(basis, hessenberg, rhs, count, step)
+    pressure_responses(problem, grid, work, cavitated, step, given)
+    temperature_step(problem, grid, work.film, work.heat, given, 1.0, step_t)
+
+
+@kernel
+def factor_jacobian(
+    problem: Problem, grid: Grid, state: State, work: Work, jacobian: FloatArray, pivots: IntArray
+) -> None:
+    """The factored system for (P, H0), with the responses of the columns."""
+    include_temperature(work)
+    assemble_faces(
+        problem, grid.x, state.pressure, work.height, work.gradient, state.cavitated, work.coefficients, work.faces
+    )
+    assemble_jacobian(grid, state.cavitated, work.faces, jacobian)
+    factor(jacobian, pivots)
+
+
+@kernel
+def take_step(grid: Grid, state: State, step: FloatArray, step_t: FloatArray, scale: float) -> tuple[float, bool]:
+    """Move all unknowns by `scale` times the step, less where the film would close; see `apply_pressure_step`."""
+    taken, joined = apply_pressure_step(grid, state.pressure, state.separation, state.cavitated, step, scale)
+    n, nodes = step_t.shape
+    for i in range(n):
+        for k in range(nodes):
+            state.temperature[i, k] = max(state.temperature[i, k] + taken * step_t[i, k], LOWEST_TEMPERATURE)
+    return taken, joined
+
+
+@kernel
+def solve_coupled(
+    problem: Problem,
+    grid: Grid,
+    state: State,
+    work: Work,
+    max_iterations: int,
+    pressure_tolerance: float,
+    temperature_tolerance: float,
+) -> bool:
+    """Simultaneous Newton for (T, P, H0), in place; whether it converged. What it found is evaluated into `work`.
+
+    It has when both steps are within tolerance and taken whole, the broken film unchanged and no guard in action. A
+    step that is too long to trust is not taken but repeated with temperatures damped (implicit pseudo-time); the
+    damping fades as the steps shrink. Steps that stop shrinking are relaxed. Behind a short step that was taken whole
+    the Jacobian is that of before, as long as each step is far shorter than the last.
+    """
+    n, nodes = state.temperature.shape
+    jacobian, residual = np.empty((n + 1, n + 1)), np.empty(n + 1)
+    pivots, step, step_t = np.empty(n + 1, np.int64), np.zeros(n + 1), np.zeros((n, nodes))
+    damping, before, before_t, relaxation, near = 0.0, np.inf, np.inf, 1.0, False
+    for iteration in range(max_iterations):
+        state.history[0] += 1.0
+        limited = evaluate_state(problem, grid, state, work, damping)
+        tolerance = 0.0 if iteration < PATIENCE else RUPTURE_TOLERANCE
+        changed = release_cavitated(work.faces, state.cavitated, tolerance)
+        for i in range(1, n):
+            factor_column(i, work.film, work.heat)
+        fresh = changed or limited or not near
+        if fresh:
+            factor_jacobian(problem, grid, state, work, jacobian, pivots)
+        balance_of_mass(grid, state.pressure, state.cavitated, work.faces, residual)
+        newton_step(problem, grid, work, state.cavitated, jacobian, pivots, residual, step, step_t)
+        inlet_step(problem, work, state.temperature, step_t)
+        last_p, last_t = np.abs(step[:n]).max(), np.abs(step_t).max()
+        if not (np.isfinite(last_p) and np.isfinite(last_t) and np.isfinite(step[n])):
+            return False
+        state.history[1], state.history[2] = last_p, last_t
+        scale = min(1.0, LARGEST_PRESSURE_STEP / max(last_p, 1e-9), LARGEST_TEMPERATURE_STEP / max(last_t, 1e-9))
+        if scale < 0.2 and damping < FROZEN:
+            damping, near = max(10.0 * damping, FIRST_DAMPING), False
+            continue
+        within = last_p < pressure_tolerance and last_t < temperature_tolerance
+        shrinking = last_p < SHRINKING * before and last_t < SHRINKING * before_t
+        undamped = damping == 0.0
+        converged = within and undamped and not changed and not limited and (fresh or shrinking)
+        if scale == 1.0 and last_p < 0.1:
+            damping = 0.2 * damping if damping > 0.15 else 0.0
+        if iteration > PATIENCE:
+            relaxation = max(0.7 * relaxation, 0.3) if last_p > 0.7 * before else min(1.5 * relaxation, 1.0)
+        before, before_t = last_p, last_t
+        taken, joined = take_step(grid, state, step, step_t, scale if within else scale * relaxation)
+        if converged and not joined and taken == 1.0:
+            evaluate_state(problem, grid, state, work, 0.0)
+            return True
+        near = last_p < SHORT_STEP and shrinking and undamped and not joined and taken == 1.0
+    return False

@@ -1,0 +1,140 @@
+"""Temperatures marched along the flow: the first guess, and the linear step inside Newton's method."""
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.compiled import inlined_kernel, kernel
+from solvers.contact.ehl.grid import Grid
+from solvers.contact.ehl.heat import (
+    Convection,
+    Heat,
+    column_balance,
+    face_edges,
+    factor_column,
+    solve_column,
+    surface_history,
+)
+from solvers.contact.ehl.linear_algebra import row_product
+from solvers.contact.ehl.problem import Problem
+from solvers.contact.ehl.reynolds import evaluate_column, film_shape
+from solvers.contact.ehl.shear import Film
+from solvers.contact.ehl.state import State, Work
+
+LARGEST_STEP = 40.0  # K
+COLUMN_ITERATIONS = 60
+REVERSE_SWEEPS = 3
+
+
+@kernel
+def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -> None:
+    """First temperatures at given pressures: columns without pressure gradient in one Couette flow, solved in turn.
+
+    Each starts from the one before it, so that they stay on the branch that the inlet is on.
+    """
+    film, heat, temperature = work.film, work.heat, state.temperature
+    n, nodes = temperature.shape
+    step = np.zeros((n, nodes))
+    film_shape(grid, state.pressure, state.separation[0], work.height)
+    u1, u2 = problem.speed_1, problem.speed_2
+    flux = problem.laws.density * 0.5 * (u1 + u2) * work.height[np.abs(grid.x).argmin()] * problem.gap_scale
+    for k in range(nodes):
+        zeta = k / (nodes - 1)
+        film.flow.stream[:, k] = flux * (u1 * zeta + 0.5 * (u2 - u1) * zeta * zeta) / (0.5 * (u1 + u2))
+    face_edges(film.flow.stream, heat.convection.edges)
+    temperature[0] = problem.inlet
+    temperature[0, 0], temperature[0, nodes - 1] = problem.bulk_1, problem.bulk_2
+    heat.surfaces.flux_1[0], heat.surfaces.flux_2[0] = 0.0, 0.0
+    heat.fluid_fraction[:] = 1.0
+    for i in range(1, n):
+        h = work.height[i] * problem.gap_scale
+        p = max(state.pressure[i], 0.0) * problem.maximum_pressure
+        temperature[i] = temperature[i - 1]
+        surface_history(problem, i, grid.heat, heat.surfaces)
+        for _ in range(COLUMN_ITERATIONS):
+            evaluate_column(problem, i, temperature, p, 0.0, h, film, work.coefficients)
+            width = grid.weights[i] * problem.half_width
+            column_balance(problem, i, width, temperature, 0.0, h, 0.0, film, heat)
+            factor_column(i, film, heat)
+            step[i] = -heat.column.residual[i]
+            solve_column(i, film, heat, step)
+            largest = np.abs(step[i]).max()
+            temperature[i] += min(1.0, LARGEST_STEP / max(largest, LARGEST_STEP)) * step[i]
+            if largest < 0.1:
+                break
+
+
+@kernel
+def last_reverse(convection: Convection) -> int:
+    """The last column into which oil flows from the right; 0: none."""
+    n, nodes = convection.from_right.shape
+    for i in range(n - 2, 0, -1):
+        for k in range(nodes):
+            if convection.from_right[i, k] > 0.0:
+                return i
+    return 0
+
+
+@inlined_kernel
+def _relax_column(i: int, film: Film, heat: Heat, given: FloatArray, weight: float, step: FloatArray) -> None:
+    """Temperature step of column i from those of its neighbours and of the surfaces upstream; `given` is added."""
+    from_left, from_right, residual = heat.convection.from_left, heat.convection.from_right, heat.column.residual
+    n, m = step.shape[0], step.shape[1] - 1
+    for k in range(m + 1):
+        inflow = from_left[i, k] * step[i - 1, k]
+        if i + 1 < n:
+            inflow += from_right[i, k] * step[i + 1, k]
+        step[i, k] = inflow - weight * residual[i, k]
+    step[i, 0] += heat.surfaces.change_1[i]
+    step[i, m] += heat.surfaces.change_2[i]
+    solve_column(i, film, heat, step)
+    for k in range(m + 1):
+        step[i, k] += given[i, k]
+
+
+@kernel
+def temperature_step(
+    problem: Problem, grid: Grid, film: Film, heat: Heat, given: FloatArray, weight: float, step: FloatArray
+) -> None:
+    """Solve the linearised heat balance of all columns for `step` (n, k), with the responses `given` to pressure.
+
+    A march along the flow; columns with reverse flow are swept backward in between, their right neighbours lagging.
+    The residual counts with `weight`: 1 for a Newton step, 0 for the derivative alone.
+    """
+    n, last = step.shape[0], step.shape[1] - 1
+    surfaces, residual = heat.surfaces, heat.column.residual
+    flux_1, flux_2 = np.zeros(n), np.zeros(n)
+    reverse = last_reverse(heat.convection)
+    step[:, :] = 0.0
+    for sweep in range(REVERSE_SWEEPS if reverse > 0 else 1):
+        final = sweep == REVERSE_SWEEPS - 1 or reverse == 0
+        for i in range(1, n if final else reverse + 1):
+            surfaces.change_1[i] = problem.surface_heating_1 * row_product(grid.heat, i, 0, i, flux_1)
+            surfaces.change_2[i] = problem.surface_heating_2 * row_product(grid.heat, i, 0, i, flux_2)
+            _relax_column(i, film, heat, given, weight, step)
+            own_1 = step[i, 0] - surfaces.change_1[i] + weight * residual[i, 0]
+            own_2 = step[i, last] - surfaces.change_2[i] + weight * residual[i, last]
+            flux_1[i], flux_2[i] = own_1 / surfaces.gain_1[i], own_2 / surfaces.gain_2[i]
+        if not final:
+            for i in range(reverse - 1, 0, -1):
+                _relax_column(i, film, heat, given, weight, step)
+
+
+@kernel
+def inlet_step(problem: Problem, work: Work, temperature: FloatArray, step: FloatArray) -> None:
+    """First column of `step`: walls at bulk temperature, oil that enters at that of the inlet.
+
+    Oil that leaves has the temperature of the column behind. Which does what follows from the flux and a uniform
+    viscosity, so that it cannot change with the temperatures it decides on.
+    """
+    nodes = step.shape[1]
+    u1, u2 = problem.speed_1, problem.speed_2
+    mean = work.film.flow.stream[0, nodes - 1] / (problem.laws.density * work.height[0] * problem.gap_scale)
+    step[0, 0] = problem.bulk_1 - temperature[0, 0]
+    step[0, nodes - 1] = problem.bulk_2 - temperature[0, nodes - 1]
+    for k in range(1, nodes - 1):
+        zeta = k / (nodes - 1)
+        speed = u1 * (1.0 - zeta) + u2 * zeta + 6.0 * (mean - 0.5 * (u1 + u2)) * zeta * (1.0 - zeta)
+        if speed < 0.0:
+            step[0, k] = temperature[1, k] + step[1, k] - temperature[0, k]
+        else:
+            step[0, k] = problem.inlet - temperature[0, k]

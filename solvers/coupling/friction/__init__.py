@@ -1,1 +1,0 @@
-"""Friction on the teeth: lubrication -> regimes; sums -> averaging -> losses."""

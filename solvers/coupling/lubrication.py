@@ -1,0 +1,298 @@
+"""Lubrication of the highest loaded tooth (Figs 7 and 8), and the friction regimes that follow (Figs 9, 10 and 11)."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import atan, cos, exp, inf, log, sin, sqrt, tan
+
+import numpy as np
+
+from solvers.arrays import FloatArray, frozen
+from solvers.compiled import kernel
+from solvers.contact.hertz import half_width, maximum_pressure
+from solvers.coupling.inputs import (
+    Coupling,
+    CouplingInputs,
+    Friction,
+    MixedFrictionCurve,
+    MixedFrictionTable,
+    ModelOptions,
+)
+from solvers.coupling.results import Geometry, Regime
+from solvers.coupling.teeth.kinematics import (
+    MeshMotion,
+    ToothPositions,
+    displacement_peak,
+    hydrodynamic_velocity,
+    max_contact_travel,
+    max_hydrodynamic_velocity,
+    revolution,
+    tooth_positions,
+)
+from solvers.coupling.teeth.loads import largest_value, mesh_loads
+from solvers.materials import Solid
+
+UNBOUNDED_LOAD = 0.20395702057972376
+"""W of an infinitely long inlet, whose exit lies at tan g = 0.47513; 12 of it is Pahl's 2.447."""
+OVERLAP_BOUNDARIES = (1.0, 2.0)
+CAPACITY_BOUNDARIES = (0.2, 0.8)
+UNSTABLE_AREA = "3.3"
+
+# Fig. 9: area -> name and the paper's band of friction, None where it states no end.
+_AREAS: dict[str, tuple[str, float | None, float | None]] = {
+    "1.1": ("mixed lubrication", 0.05, 0.1),
+    "1.2": ("transition from mixed to boundary lubrication", 0.1, 0.1),
+    "1.3": ("boundary lubrication", 0.1, None),
+    "2.1": ("mixed lubrication", 0.01, 0.05),
+    "2.2": ("mixed lubrication", 0.01, 0.1),
+    "2.3": ("boundary or mixed lubrication", 0.1, 0.1),
+    "3.1": ("predominantly full film", None, 0.01),
+    "3.2": ("mixed lubrication", 0.01, 0.1),
+    "3.3": ("mixed lubrication, unstable", None, None),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class FilmState:
+    """The two coordinates of the map of friction conditions and what they come from.
+
+    `overlap` is inf where the contact does not travel, `load_capacity_coefficient` inf where a film carries no load.
+    """
+
+    max_normal_force: float
+    contact_half_width: float
+    contact_pressure: float
+    overlap: float
+    inlet_ratio: float
+    inlet_factor: float
+    capacity: float
+    load_capacity_coefficient: float
+
+
+def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
+    """Largest normal tooth force of a revolution [N]; with pitch errors it is searched for.
+
+    Without, a tooth meets it where f_t peaks: in the tilt position at 90 degrees with `tangential`, at 90 degrees +
+    side (alpha - chi) with `spatial` kinematics. A rotor angle that puts a tooth of the spatial coupling at 90 degrees
+    puts no tooth at the peak; its largest force depends on the tooth pitch, and vanishing pitch errors would raise it.
+    """
+    peak = displacement_peak(mesh)
+    if inputs.coupling.pitch_errors is None:
+        return float(_largest_forces(inputs, mesh, _positions_at(peak, inputs.coupling.teeth)).max())
+
+    def largest_forces(angles: FloatArray) -> FloatArray:
+        return _largest_forces(inputs, mesh, tooth_positions(angles, inputs.coupling.teeth))
+
+    return largest_value(peak + revolution(inputs.coupling.teeth), largest_forces)
+
+
+@lru_cache(maxsize=4)
+def _positions_at(angle: float, teeth: int) -> ToothPositions:
+    """Tooth positions at one rotor angle [rad]: f_t peaks at the same one whatever misalignment and crowning."""
+    found = tooth_positions(np.array([angle]), teeth)
+    return ToothPositions(frozen(found.sine), frozen(found.cosine))
+
+
+def _largest_forces(inputs: CouplingInputs, mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
+    """Largest normal tooth force [N] at each rotor angle."""
+    coupling = inputs.coupling
+    loads = mesh_loads(coupling, mesh, teeth, inputs.operation.torque, floating=inputs.model.sleeve == "floating")
+    largest: FloatArray = loads.tangential_force.max(axis=1) / cos(coupling.pressure_angle)
+    return largest
+
+
+def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -> tuple[float, float]:
+    """Half width a_HZ [m] and pressure [Pa] of a cylinder R_e on a plane over the tooth height."""
+    steel = Solid(youngs_modulus=coupling.youngs_modulus, poisson_ratio=coupling.poisson_ratio)
+    modulus = 1.0 / steel.plane_strain_compliance
+    line_load, radius = normal_force / coupling.tooth_height, geometry.normal_flank_radius
+    return float(half_width(line_load, radius, modulus)), float(maximum_pressure(line_load, radius, modulus))
+
+
+def inlet_length(model: ModelOptions, face_width: float, max_travel: float) -> float:
+    """Length b_I of converging gap ahead of the contact [m]; the paper does not define it.
+
+    `face` is the face left ahead of the contact at its reversal, where the paper finds the thickest film. A contact
+    that has left the tooth has none, whatever limits it before.
+    """
+    if max_travel >= face_width / 2.0:
+        return 0.0
+    if model.inlet_length is not None:
+        return model.inlet_length
+    if model.inlet == "face":
+        return face_width / 2.0 - max_travel
+    return max_travel if model.inlet == "travel" else inf
+
+
+@kernel
+def starved_load(inlet_ratio: float) -> float:
+    """W(B), load of the parabolic gap in 12 h_trag eta v_H R_e/h_0 with its pressure starting at x = -B sqrt(2 R h_0).
+
+    Rigid, isoviscous Reynolds with its exit condition (zero pressure and gradient) at tan g, solved in closed form:
+    [A2(g) + A2(g_B)] cos^2 g = A4(g) + A4(g_B), W = (1 - H_m/H_B)^2/(4 H_m), bisected for g in (0, g_B).
+    """
+    inlet = atan(inlet_ratio)
+    a2 = inlet / 2.0 + sin(2.0 * inlet) / 4.0
+    a4 = 3.0 * inlet / 8.0 + sin(2.0 * inlet) / 4.0 + sin(4.0 * inlet) / 32.0
+    low, high = 0.0, inlet
+    while high - low > 4e-16 * inlet:
+        g = 0.5 * (low + high)
+        if g in (low, high):
+            break
+        left = (g / 2.0 + sin(2.0 * g) / 4.0 + a2) * cos(g) ** 2
+        right = 3.0 * g / 8.0 + sin(2.0 * g) / 4.0 + sin(4.0 * g) / 32.0 + a4
+        if left > right:
+            low = g
+        else:
+            high = g
+    film_at_exit = 1.0 + tan(low) ** 2
+    return (1.0 - film_at_exit / (1.0 + inlet_ratio**2)) ** 2 / (4.0 * film_at_exit)
+
+
+def inlet_factor(inlet_ratio: float) -> float:
+    """f(B) in [0, 1]: load capacity with the inlet starting at B over that of an infinite inlet (Fig. 8)."""
+    if inlet_ratio < 0.02:
+        # Series; the closed form loses its digits to cancellation here.
+        return 0.68948 * inlet_ratio**4
+    return 1.0 if inlet_ratio == inf else min(1.0, starved_load(inlet_ratio) / UNBOUNDED_LOAD)
+
+
+def hydrodynamic_capacity(
+    tooth_height: float, viscosity: float, velocity: float, radius: float, film: float, factor: float
+) -> float:
+    """F_HD = 2.447 h_trag eta v_H R_e/h_0 f(b_I) [N].
+
+    Printed in Fig. 8 with "h" above and "trag" below the bar, the index of h_trag having slipped.
+    """
+    return 12.0 * UNBOUNDED_LOAD * tooth_height * viscosity * velocity * radius / film * factor
+
+
+def film_velocity(mesh: MeshMotion, angle: float | None) -> float:
+    """Hydrodynamic velocity that builds the film [m/s]: the largest, or that at a tooth angle [rad]."""
+    if angle is None:
+        return max_hydrodynamic_velocity(mesh)
+    position = ToothPositions(sine=np.array(sin(angle)), cosine=np.array(cos(angle)))
+    return float(hydrodynamic_velocity(mesh, position))
+
+
+def film_state(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMotion) -> FilmState:
+    """Overlap Pu = a_HZ/s_1max and load capacity coefficient Tr = F_HD/F_n,max of one mesh."""
+    coupling, lubricant = inputs.coupling, inputs.lubricant
+    travel, radius = max_contact_travel(mesh), geometry.normal_flank_radius
+    force = max_normal_force(inputs, mesh)
+    contact_half_width, contact_pressure = hertz_contact(coupling, geometry, force)
+    inlet_ratio = inlet_length(inputs.model, coupling.face_width, travel) / sqrt(
+        2.0 * radius * lubricant.reference_film
+    )
+    factor = inlet_factor(inlet_ratio)
+    velocity = film_velocity(mesh, inputs.model.film_angle)
+    capacity = hydrodynamic_capacity(
+        coupling.tooth_height, lubricant.viscosity, velocity, radius, lubricant.reference_film, factor
+    )
+    return FilmState(
+        max_normal_force=force,
+        contact_half_width=contact_half_width,
+        contact_pressure=contact_pressure,
+        overlap=contact_half_width / travel if travel > 0.0 else inf,
+        inlet_ratio=inlet_ratio,
+        inlet_factor=factor,
+        capacity=capacity,
+        load_capacity_coefficient=_capacity_ratio(capacity, force),
+    )
+
+
+def _capacity_ratio(capacity: float, force: float) -> float:
+    """Tr, zero without a film, inf without a load on it."""
+    if capacity == 0.0:
+        return 0.0
+    return capacity / force if force > 0.0 else inf
+
+
+def friction_regime(overlap: float, load_capacity_coefficient: float) -> Regime:
+    """The area of Fig. 9. A load capacity on a boundary belongs to the higher row, an overlap to the middle column."""
+    row = 1 + sum(load_capacity_coefficient >= boundary for boundary in CAPACITY_BOUNDARIES)
+    column = 1 + (overlap >= OVERLAP_BOUNDARIES[0]) + (overlap > OVERLAP_BOUNDARIES[1])
+    area = f"{row}.{column}"
+    name, friction_min, friction_max = _AREAS[area]
+    return Regime(
+        area=area,
+        name=name,
+        friction_min=friction_min,
+        friction_max=friction_max,
+        distance_to_boundary=_distance_to_boundary(overlap, load_capacity_coefficient),
+    )
+
+
+def _distance_to_boundary(overlap: float, load_capacity_coefficient: float) -> float | None:
+    """Smallest |ln| of both coordinates against their boundaries; None if they lie infinitely far."""
+    ratios = [overlap / boundary for boundary in OVERLAP_BOUNDARIES]
+    ratios += [load_capacity_coefficient / boundary for boundary in CAPACITY_BOUNDARIES]
+    return min((abs(log(ratio)) for ratio in ratios if 0.0 < ratio < inf), default=None)
+
+
+def mixed_friction(law: MixedFrictionCurve | MixedFrictionTable, sliding_velocity: float) -> float:
+    """Friction of area 1.1 at the largest sliding velocity [m/s] (Fig. 10, whose points the paper does not print)."""
+    if isinstance(law, MixedFrictionTable):
+        return float(np.interp(sliding_velocity, law.sliding_velocity, law.coefficient))
+    ratio = sliding_velocity / law.velocity
+    if ratio <= 1.0:
+        return law.lowest + (law.highest - law.lowest) * (1.0 - ratio) ** 2
+    return min(law.highest, law.lowest + 0.02 * log(ratio) ** 2)
+
+
+def lowest_mixed_friction(law: MixedFrictionCurve | MixedFrictionTable) -> float:
+    """The least that mixed friction comes to at any sliding velocity."""
+    return min(law.coefficient) if isinstance(law, MixedFrictionTable) else law.lowest
+
+
+def _interpolate_logarithm(x: float, points: tuple[tuple[float, float], ...]) -> float:
+    """Linear interpolation of ln(y) in x, constant outside."""
+    return exp(float(np.interp(x, [p[0] for p in points], [log(p[1]) for p in points])))
+
+
+def _well_supplied(load_capacity_coefficient: float, mixed: float, lowest: float) -> float:
+    """Friction at an overlap below 1: from the mixed friction in use through its least to that of a full film."""
+    full_film = min(0.01, lowest)
+    if load_capacity_coefficient > 0.8:
+        return min(full_film, max(0.003, 0.008 / load_capacity_coefficient))
+    return _interpolate_logarithm(load_capacity_coefficient, ((0.0, mixed), (0.2, lowest), (0.8, full_film)))
+
+
+def _poorly_supplied(overlap: float, load_capacity_coefficient: float) -> float:
+    """Friction at an overlap above 2; at no film it rises to 0.16, the largest that Calistrat measured (1981)."""
+    dry = 0.1 + 0.06 * min(1.0, (overlap - 2.0) / 2.0)
+    points = ((0.0, dry), (0.2, 0.1), (0.8, 0.1), (1.6, 0.05))
+    return _interpolate_logarithm(load_capacity_coefficient, points)
+
+
+def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: float, lowest: float) -> float:
+    """Coefficient of friction anywhere on the map, continuous, given that of mixed friction and its `lowest` value.
+
+    The paper states bands; this law keeps to their end values and lies inside those of areas 1.1, 1.3, 2.1, 2.2, 2.3
+    and 3.1. Across 1.2 it blends, and it may leave 3.2 near overlap 1: the paper calls the boundaries fluid. It never
+    rises with the load capacity coefficient.
+    """
+    if overlap > 2.0:
+        return _poorly_supplied(overlap, load_capacity_coefficient)
+    well = _well_supplied(load_capacity_coefficient, mixed, lowest)
+    if overlap < 1.0:
+        return well
+    poor = _poorly_supplied(2.0, load_capacity_coefficient)
+    return exp((2.0 - overlap) * log(well) + (overlap - 1.0) * log(poor))
+
+
+def friction_coefficient(
+    friction: Friction, overlap: float, load_capacity_coefficient: float, sliding_velocity: float
+) -> float:
+    """The user's coefficient, or that of the regime at the largest sliding velocity [m/s]."""
+    if friction.coefficient is not None:
+        return friction.coefficient
+    law = friction.law
+    mixed = mixed_friction(law, sliding_velocity)
+    return regime_friction(overlap, load_capacity_coefficient, mixed, lowest_mixed_friction(law))
+
+
+def static_friction(friction: Friction) -> float:
+    """The user's coefficient at rest, else the user's coefficient, else that of the regime at rest without film."""
+    if friction.static_coefficient is not None:
+        return friction.static_coefficient
+    return friction_coefficient(friction, overlap=inf, load_capacity_coefficient=0.0, sliding_velocity=0.0)

@@ -1,1 +1,0 @@
-"""The sleeve between two meshes under friction: balance -> equilibrium -> thrust."""

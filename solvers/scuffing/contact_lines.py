@@ -1,0 +1,226 @@
+"""Contact lines in the plane of action: their total length, and the parts of them that are loaded."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+from math import ceil, floor
+from typing import NamedTuple
+
+import numpy as np
+
+from solvers.arrays import BoolArray, FloatArray
+from solvers.compiled import kernel
+from solvers.errors import InvalidInput
+from solvers.gears.pair import ContactPlane, PathOfContact
+from solvers.scuffing.modification import Gap, gap_at
+
+COINCIDENT = 1e-9  # base pitches; breakpoints nearer than this are one
+LEAST_STEPS = 8  # between two breakpoints, however close
+MOST_LINES = 100  # at once; no gear has a tenth of it
+LOW, HIGH = range(2)  # columns of zones
+MOST_ZONES = 12  # of one line; what more there were joins the last
+LEAST_SAMPLES = 8  # of a smooth part
+BISECTIONS = 45
+GOLDEN_STEPS = 30
+GOLDEN = 0.6180339887498949
+
+
+@dataclass(frozen=True, slots=True)
+class ContactLengths:
+    """Smallest, largest and mean total length of the contact lines [m]."""
+
+    minimum: float
+    maximum: float
+    mean: float
+
+    @property
+    def ratio(self) -> float:
+        """L_min / L_max."""
+        return self.minimum / self.maximum
+
+
+def contact_lengths(path: PathOfContact) -> ContactLengths:
+    """Total contact length in closed form; stands for the paper's lost Eq. 4 (its case L = eps_alpha b / cos beta_b).
+
+    The length over the roll position is the periodised convolution of two rectangles of lengths eps_alpha = n_a + f_a
+    and eps_beta = n_b + f_b, so with the unit u = b / (eps_beta cos beta_b)
+        L_min = u [n_a eps_beta + n_b f_a + max(0, f_a + f_b - 1)],  L_max = u [n_a eps_beta + n_b f_a + min(f_a, f_b)].
+    Raises InvalidInput: no_contact where L_min = 0 (no pair carries at some roll positions), overlap_range beyond 100
+    lines at once.
+    """
+    length = path.plane.face_width / path.plane.cos_base_helix
+    transverse, overlap = path.transverse_contact_ratio, path.overlap_ratio
+    whole, part = floor(transverse), transverse - floor(transverse)
+    if overlap == 0.0:
+        least, most = float(whole), float(ceil(transverse))
+    else:
+        wide, narrow = floor(overlap), overlap - floor(overlap)
+        common = whole + wide * part / overlap
+        least = common + max(0.0, part + narrow - 1.0) / overlap
+        most = common + min(part, narrow) / overlap
+    if least <= 0.0:
+        raise InvalidInput(
+            "no_contact",
+            f"no pair of teeth is in contact at some roll positions (transverse contact ratio {transverse:.3f}, "
+            f"overlap ratio {overlap:.3f})",
+            "addendum",
+        )
+    if path.total_contact_ratio > MOST_LINES:
+        raise InvalidInput(
+            "overlap_range", f"the face is too wide for its helix: more than {MOST_LINES} lines at once", "face_width"
+        )
+    return ContactLengths(least * length, most * length, transverse * length)
+
+
+class RollPositions(NamedTuple):
+    """Roll positions in one base pitch [m], ascending, among them those whose line meets a corner of the plane.
+
+    `corner` tells these, where loads may turn sharply. `side` is 0, except for spur gears, where the contact length
+    jumps: each corner then appears twice, as the limit from below (-1) and from above (+1).
+    """
+
+    phase: FloatArray
+    side: FloatArray
+    corner: BoolArray
+
+
+def roll_positions(
+    plane: ContactPlane, count: int, along_path: tuple[float, ...] = (), along_face: tuple[float, ...] = ()
+) -> RollPositions:
+    """At least `count` roll positions, equidistant between the corners (x + y tan beta_b) mod p_bt.
+
+    Corners are those of the plane, {0, g, b tan, g + b tan} mod p_bt, and of the kinks of its gap along path and face.
+    """
+    pitch = plane.base_pitch
+    x = np.array([0.0, plane.path_length, *along_path])
+    y = np.array([0.0, plane.face_width, *along_face])
+    corners = np.unique(np.append(np.add.outer(x, y * plane.tan_base_helix).ravel() % pitch, pitch))
+    corners = corners[np.append(np.diff(corners) > COINCIDENT * pitch, True)]
+    corners[0] = 0.0
+    phases, sides = [], []
+    for start, end in pairwise(corners):
+        steps = max(LEAST_STEPS, ceil(count * (end - start) / pitch))
+        phases.append(np.linspace(start, end, steps + 1))
+        sides.append(np.concatenate(([1.0], np.zeros(steps - 1), [-1.0])))
+    if plane.tan_base_helix > 0.0:
+        phases, sides = ([part[:-1] for part in parts[:-1]] + parts[-1:] for parts in (phases, sides))
+    phase, side = np.concatenate(phases), np.concatenate(sides)
+    return RollPositions(phase, side if plane.tan_base_helix == 0.0 else np.zeros(side.size), side != 0.0)
+
+
+@kernel
+def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, float]:
+    """First and last y [m] of the contact line x = phase - y tan beta_b; equal where there is none.
+
+    A spur line at the end of the path counts as in contact on the `side` that lies inside.
+    """
+    if plane.tan_base_helix == 0.0:
+        nudged = phase + side * COINCIDENT * plane.base_pitch
+        if 0.0 <= nudged <= plane.path_length:
+            return 0.0, plane.face_width
+        return 0.0, 0.0
+    low = max(0.0, (phase - plane.path_length) / plane.tan_base_helix)
+    high = min(plane.face_width, phase / plane.tan_base_helix)
+    return low, max(low, high)
+
+
+@kernel
+def line_count(plane: ContactPlane) -> int:
+    """Most lines that can touch the rectangle at once."""
+    return int((plane.path_length + plane.face_width * plane.tan_base_helix) / plane.base_pitch) + 2
+
+
+@kernel
+def _total_lengths(plane: ContactPlane, phase: FloatArray, side: FloatArray) -> FloatArray:
+    lengths = np.zeros(phase.size)
+    for i in range(phase.size):
+        for j in range(line_count(plane)):
+            low, high = line_ends(plane, phase[i] + j * plane.base_pitch, side[i])
+            lengths[i] += (high - low) / plane.cos_base_helix
+    return lengths
+
+
+def total_lengths(plane: ContactPlane, rolls: RollPositions) -> FloatArray:
+    """Total contact length [m] at each roll position."""
+    return _total_lengths(plane, rolls.phase, rolls.side)
+
+
+@kernel
+def gap_on_line(form: Gap, plane: ContactPlane, line: float, y: float) -> float:
+    """Delta [m] on the contact line x = line - y tan beta_b."""
+    return gap_at(form, line - y * plane.tan_base_helix, y)
+
+
+@kernel
+def valley(form: Gap, plane: ContactPlane, line: float, low: float, high: float) -> float:
+    """The y [m] of the least gap between two points of a line that hold one valley, by golden section."""
+    inner, outer = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+    at_inner, at_outer = gap_on_line(form, plane, line, inner), gap_on_line(form, plane, line, outer)
+    for _ in range(GOLDEN_STEPS):
+        if at_inner <= at_outer:
+            high, outer, at_outer = outer, inner, at_inner
+            inner = high - GOLDEN * (high - low)
+            at_inner = gap_on_line(form, plane, line, inner)
+        else:
+            low, inner, at_inner = inner, outer, at_outer
+            outer = low + GOLDEN * (high - low)
+            at_outer = gap_on_line(form, plane, line, outer)
+    return 0.5 * (low + high)
+
+
+@kernel
+def _edge(form: Gap, plane: ContactPlane, line: float, inside: float, outside: float, reach: float) -> float:
+    """The y [m] between a loaded and an unloaded point of a line at which the gap reaches the approach."""
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (inside + outside)
+        if gap_on_line(form, plane, line, middle) < reach:
+            inside = middle
+        else:
+            outside = middle
+    return inside
+
+
+@kernel
+def _note(zones: FloatArray, count: int, low: float, high: float) -> int:
+    if high <= low:
+        return count
+    if count == MOST_ZONES:
+        zones[count - 1, HIGH] = high
+        return count
+    zones[count, LOW], zones[count, HIGH] = low, high
+    return count + 1
+
+
+@kernel
+def loaded_zones(
+    form: Gap,
+    plane: ContactPlane,
+    line: float,
+    part: tuple[float, float],
+    samples: int,
+    reach: float,
+    zones: FloatArray,
+) -> int:
+    """Write the loaded stretches of a smooth part of a line, rows of first and last y [m], and return their number."""
+    low, high = part
+    step, count = (high - low) / samples, 0
+    before, least_gap, least_at = low, gap_on_line(form, plane, line, low), low
+    loaded, start = least_gap < reach, low
+    for i in range(1, samples + 1):
+        y = high if i == samples else low + i * step
+        gap = gap_on_line(form, plane, line, y)
+        if gap < least_gap:
+            least_gap, least_at = gap, y
+        if gap < reach and not loaded:
+            start = _edge(form, plane, line, y, before, reach)
+        elif loaded and gap >= reach:
+            count = _note(zones, count, start, _edge(form, plane, line, before, y, reach))
+        loaded, before = gap < reach, y
+    if loaded:
+        return _note(zones, count, start, high)
+    if count == 0:
+        left, right = max(least_at - step, low), min(least_at + step, high)
+        bottom = valley(form, plane, line, left, right)
+        if gap_on_line(form, plane, line, bottom) < reach:
+            start = _edge(form, plane, line, bottom, left, reach)
+            count = _note(zones, count, start, _edge(form, plane, line, bottom, right, reach))
+    return count

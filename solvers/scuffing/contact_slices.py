@@ -1,0 +1,262 @@
+"""Slices of all contact lines at one roll position, and what they amount to: friction, forces, the worst points."""
+
+from dataclasses import dataclass
+from math import ceil
+from typing import NamedTuple
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.compiled import inlined_kernel, kernel
+from solvers.gears.pair import ContactPlane, reduced_radius
+from solvers.scuffing.contact_lines import (
+    COINCIDENT,
+    HIGH,
+    LEAST_SAMPLES,
+    LOW,
+    MOST_ZONES,
+    gap_on_line,
+    line_count,
+    line_ends,
+    loaded_zones,
+    valley,
+)
+from solvers.scuffing.modification import MOST_EDGES, Gap, gap_at, smooth_parts
+from solvers.scuffing.tooth_stiffness import PairCompliance, compliance_at, line_load
+
+# Rows of the slice table
+X, Y, LENGTH, GAP, CONSTANT, LIMIT, LOG_LOAD, LOAD, STIFFNESS, LINE = range(10)
+ROWS = 10
+NUDGE = 1e-3  # of a slice
+VALUE, AT_X, AT_Y = range(3)  # columns of peaks
+EQUAL = 1e-9  # peaks nearer than this, relatively, are the same; a spur gear's single pair has the same load all along
+
+
+class Mesh(NamedTuple):
+    """Unloaded mesh: the plane of action, a pair's compliance, the gap."""
+
+    plane: ContactPlane
+    compliance: PairCompliance
+    gap: Gap
+
+
+class Cover(NamedTuple):
+    """The slices that cover the lines: their number and length [m], least and largest gap on them [m]."""
+
+    slices: int
+    length: float
+    least: float
+    most: float
+
+
+@kernel
+def slice_table(mesh: Mesh, slices: int) -> FloatArray:
+    """A table with room for the slices of every line."""
+    return np.zeros((ROWS, line_count(mesh.plane) * (slices + MOST_EDGES * MOST_ZONES)))
+
+
+@inlined_kernel
+def _cut(mesh: Mesh, line: float, j: int, zone: FloatArray, slices: int, table: FloatArray, count: int) -> int:
+    """Add equal slices of a stretch of line j, given by its first and last y [m], to the table's columns."""
+    low, high = zone
+    step = (high - low) / slices
+    for i in range(slices):
+        y = low + (i + 0.5) * step
+        x = line - y * mesh.plane.tan_base_helix
+        table[X, count], table[Y, count], table[LINE, count] = x, y, j
+        table[LENGTH, count] = step / mesh.plane.cos_base_helix
+        table[GAP, count] = gap_at(mesh.gap, x, y)
+        table[CONSTANT, count], table[LIMIT, count] = compliance_at(mesh.compliance, x)
+        count += 1
+    return count
+
+
+@inlined_kernel
+def _parts(
+    mesh: Mesh, line: float, ends: tuple[float, float], slices: int, reach: float, zones: FloatArray
+) -> tuple[int, float]:
+    """Write the loaded stretches of a line, of which none holds a kink; their number and length in y [m]."""
+    edges, (first_y, last_y) = np.empty(MOST_EDGES), ends
+    last = smooth_parts(mesh.gap, line, mesh.plane.tan_base_helix, ends, edges) - 1
+    count, length = 0, 0.0
+    for k in range(last):
+        low, high = edges[k], edges[k + 1]
+        if high <= low:
+            continue
+        if reach == np.inf:
+            zones[count, LOW], zones[count, HIGH] = low, high
+            found = 1
+        else:
+            samples = max(LEAST_SAMPLES, ceil(slices * (high - low) / (last_y - first_y)))
+            found = loaded_zones(mesh.gap, mesh.plane, line, (low, high), samples, reach, zones[count:])
+        for zone in zones[count : count + found]:
+            length += zone[HIGH] - zone[LOW]
+        count += found
+    return count, length
+
+
+@kernel
+def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, table: FloatArray) -> Cover:
+    """Fill the columns of the slice table, one a slice (their middles), where the gap lies below `reach` [m].
+
+    Every line has `slices` of them, and more only for stretches shorter than one; no slice holds a kink of the gap.
+    """
+    plane, zones = mesh.plane, np.empty((MOST_EDGES * MOST_ZONES, 2))
+    count, length, least, most = 0, 0.0, np.inf, -np.inf
+    for j in range(line_count(plane)):
+        line = phase + j * plane.base_pitch
+        low, high = line_ends(plane, line, side)
+        if high <= low:
+            continue
+        stretches, loaded = _parts(mesh, line, (low, high), slices, reach, zones)
+        length += loaded / plane.cos_base_helix
+        for zone in zones[:stretches]:
+            pieces = ceil(slices * (zone[HIGH] - zone[LOW]) / loaded - 1e-9)
+            first, count = count, _cut(mesh, line, j, zone, max(pieces, 1), table, count)
+            lowest, highest = _range(mesh, line, zone, table, first, count)
+            least, most = min(least, lowest), max(most, highest)
+    return Cover(count, length, least, most)
+
+
+@inlined_kernel
+def _range(mesh: Mesh, line: float, zone: FloatArray, table: FloatArray, first: int, last: int) -> tuple[float, float]:
+    """Least and largest gap [m] on a stretch that the columns from `first` to `last` cover."""
+    low, high = zone
+    at_low, at_high = gap_on_line(mesh.gap, mesh.plane, line, low), gap_on_line(mesh.gap, mesh.plane, line, high)
+    least, most = min(at_low, at_high), max(at_low, at_high)
+    lowest, step = first, (high - low) / (last - first)
+    for n in range(first, last):
+        most = max(most, table[GAP, n])
+        if table[GAP, n] < table[GAP, lowest]:
+            lowest = n
+    if table[GAP, lowest] < least:
+        y = valley(mesh.gap, mesh.plane, line, table[Y, lowest] - step, table[Y, lowest] + step)
+        least = min(table[GAP, lowest], gap_on_line(mesh.gap, mesh.plane, line, min(max(y, low), high)))
+        return least, most
+    least = min(least, _beside(mesh, line, table, (low, step), at_low, first, min(first + 1, last - 1)))
+    least = min(least, _beside(mesh, line, table, (high, -step), at_high, last - 1, max(last - 2, first)))
+    return least, most
+
+
+@kernel
+def _beside(
+    mesh: Mesh, line: float, table: FloatArray, end: tuple[float, float], at_end: float, middle: int, following: int
+) -> float:
+    """Least gap [m] between the end of a stretch (y, step inwards) and the middle of its slice."""
+    y, step = end
+    if table[GAP, middle] > table[GAP, following]:
+        return at_end
+    if gap_on_line(mesh.gap, mesh.plane, line, y + NUDGE * step) >= at_end:
+        return at_end
+    bottom = valley(mesh.gap, mesh.plane, line, min(y, y + step), max(y, y + step))
+    return min(at_end, gap_on_line(mesh.gap, mesh.plane, line, bottom))
+
+
+@inlined_kernel
+def load_under(compliance: PairCompliance, approach: float, x: float, log_load: float) -> tuple[float, float]:
+    """Line load w [N/m] of a pair pressed together by `approach` [m] at x [m], and ln w, guessed by `log_load`."""
+    constant, limit = compliance_at(compliance, x)
+    load, _, log_load = line_load(approach, constant, compliance.logarithmic, limit, log_load)
+    return load, log_load
+
+
+class Survey(NamedTuple):
+    """Over the roll positions: friction_moment int w |s - s_C| dl [N m], loaded_length and length [m].
+
+    held: slices pressed beyond the half-space; undefined: loaded points too near a base circle for a pressure.
+    peak_load rows (w [N/m], x, y [m]); peak_pressure rows (w / R_n [N/m^2], x, y); line_forces, by line [N].
+    """
+
+    friction_moment: FloatArray
+    loaded_length: FloatArray
+    length: FloatArray
+    held: FloatArray
+    undefined: FloatArray
+    peak_load: FloatArray
+    peak_pressure: FloatArray
+    line_forces: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Peak:
+    """A largest value and its place, x from A and y from the end that meshes first [m]."""
+
+    value: float
+    x: float
+    y: float
+
+
+@kernel
+def empty_survey(mesh: Mesh, positions: int) -> Survey:
+    """A survey of nothing."""
+    return Survey(
+        friction_moment=np.zeros(positions),
+        loaded_length=np.zeros(positions),
+        length=np.zeros(positions),
+        held=np.zeros(positions),
+        undefined=np.zeros(positions),
+        peak_load=np.zeros((positions, 3)),
+        peak_pressure=np.zeros((positions, 3)),
+        line_forces=np.zeros((positions, line_count(mesh.plane))),
+    )
+
+
+@kernel
+def _put(peaks: FloatArray, i: int, value: float, x: float, y: float) -> None:
+    peaks[i, VALUE], peaks[i, AT_X], peaks[i, AT_Y] = value, x, y
+
+
+@kernel
+def _note_peaks(mesh: Mesh, survey: Survey, i: int, load: float, at: tuple[float, float]) -> None:
+    x, y = at
+    if load > survey.peak_load[i, VALUE] * (1.0 + EQUAL):
+        _put(survey.peak_load, i, load, x, y)
+    radius = reduced_radius(mesh.plane, x)
+    if radius < mesh.plane.least_radius:
+        survey.undefined[i] += load > 0.0
+    elif load > survey.peak_pressure[i, VALUE] * radius * (1.0 + EQUAL):
+        _put(survey.peak_pressure, i, load / radius, x, y)
+
+
+@kernel
+def survey_slices(mesh: Mesh, table: FloatArray, count: int, error: float, survey: Survey, i: int) -> None:
+    """Sum up the slices of roll position i."""
+    arm = mesh.plane.pitch_point - mesh.plane.start
+    for n in range(count):
+        load, length = table[LOAD, n], table[LENGTH, n]
+        if load > 0.0:
+            survey.friction_moment[i] += load * abs(table[X, n] - arm) * length
+            survey.held[i] += error - table[GAP, n] > table[LIMIT, n]
+            survey.line_forces[i, int(table[LINE, n])] += load * length
+            _note_peaks(mesh, survey, i, load, (table[X, n], table[Y, n]))
+
+
+@kernel
+def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Survey, i: int) -> None:
+    """Look for peaks at the ends of the lines, where edges are, and at their kinks; a corner is a line of no length."""
+    plane, edges, log_load = mesh.plane, np.empty(MOST_EDGES), 0.0
+    overlap = plane.face_width * plane.tan_base_helix
+    for j in range(line_count(plane)):
+        line = phase + j * plane.base_pitch
+        low, high = line_ends(plane, line, side)
+        at_corner = overlap > 0.0 and line <= (plane.path_length + overlap) * (1.0 + COINCIDENT)
+        if high > low or at_corner:
+            for edge in edges[: smooth_parts(mesh.gap, line, plane.tan_base_helix, (low, high), edges)]:
+                y = min(edge, plane.face_width)
+                x = min(max(line - y * plane.tan_base_helix, 0.0), plane.path_length)
+                load, log_load = load_under(mesh.compliance, error - gap_at(mesh.gap, x, y), x, log_load)
+                _note_peaks(mesh, survey, i, load, (x, y))
+
+
+def reaches_base_circle(survey: Survey) -> bool:
+    """Whether a load presses where reduced radius, and with it every local maximum, has no limit."""
+    return bool(np.any(survey.undefined > 0.0))
+
+
+def largest(peaks: FloatArray) -> Peak | None:
+    """The largest of the peaks of all roll positions, the first of equals; None where nothing is loaded."""
+    values = peaks[:, VALUE]
+    first = int(np.argmax(values >= values.max() * (1.0 - EQUAL)))
+    if values[first] <= 0.0:
+        return None
+    return Peak(float(values[first]), float(peaks[first, AT_X]), float(peaks[first, AT_Y]))

@@ -1,0 +1,120 @@
+"""How the load over the face answers to a gap over the face: what shafts and mesh have to agree on.
+
+Both are counted at equidistant stations over the face, between which gaps are linear: a station's share of a force
+is weighed by its hat, the linear function that is 1 there and 0 at its neighbours.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.compiled import kernel
+from solvers.errors import NoSolution
+from solvers.scuffing.contact_lines import RollPositions
+from solvers.scuffing.contact_slices import LENGTH, LOAD, LOG_LOAD, STIFFNESS, Mesh, Y, gather, slice_table
+from solvers.scuffing.load_balance import TOLERANCE, solve_near
+
+
+@dataclass(frozen=True, slots=True)
+class FaceResponse:
+    """Transverse `force` [N] at the stations, mean over a base pitch, and its derivative [N/m] by the gap there.
+
+    At every roll position the force over the whole face stays what it is, so rows and columns of the derivative add up
+    to 0. `error` and `log_load`, approach of the flanks and ln w of the slices by roll position, start the next
+    response of the same mesh under a gap that is little different.
+    """
+
+    force: FloatArray
+    derivative: FloatArray
+    error: FloatArray
+    log_load: FloatArray
+
+
+def face_response(
+    mesh: Mesh, rolls: RollPositions, force: float, slices: int, stations: int, start: FaceResponse | None = None
+) -> FaceResponse:
+    """Force at `stations` equidistant points from y = 0 to b, both included, and its derivative by the gap there.
+
+    Raises NoSolution load_balance as `balance_load` does.
+    """
+    share = np.zeros(rolls.phase.size)
+    share[:-1] += np.diff(rolls.phase) / 2
+    share[1:] += np.diff(rolls.phase) / 2
+    share *= mesh.plane.cos_base_helix / rolls.phase[-1]
+    if start is None:
+        error = np.full(share.size, np.nan)
+        log_load = np.zeros((share.size, slice_table(mesh, slices).shape[1]))
+    else:
+        error, log_load = start.error.copy(), start.log_load.copy()
+    spread, derivative = np.zeros(stations), np.zeros((stations, stations))
+    if force > 0.0:
+        worst = _respond(mesh, rolls.phase, rolls.side, share, force, slices, error, log_load, spread, derivative)
+        if not worst <= TOLERANCE:
+            raise NoSolution("load_balance", "the load balance did not converge", {"relative_force": worst})
+    return FaceResponse(spread, derivative, error, log_load)
+
+
+@kernel
+def _respond(
+    mesh: Mesh,
+    phase: FloatArray,
+    side: FloatArray,
+    share: FloatArray,
+    force: float,
+    slices: int,
+    error: FloatArray,
+    log_load: FloatArray,
+    spread: FloatArray,
+    derivative: FloatArray,
+) -> float:
+    """Sums of w dl hat and, with P_ab = sum (dw/ddelta) dl hat_a hat_b and k = P 1, of k k^T / (1^T k) - P.
+
+    Returns the largest relative residual of the balance.
+    """
+    table, worst = slice_table(mesh, slices), 0.0
+    springs = np.zeros(spread.size)
+    for i in range(phase.size):
+        count = gather(mesh, phase[i], side[i], slices, np.inf, table).slices
+        near = i if error[i] == error[i] else max(i - 1, 0)
+        table[LOG_LOAD, :count] = log_load[near, :count]
+        error[i], residual, _ = solve_near(table, count, mesh.compliance.logarithmic, force, error[near])
+        log_load[i, :count] = table[LOG_LOAD, :count]
+        worst = max(worst, residual)
+        springs[:] = 0.0
+        _spread(mesh, table, count, share[i], spread, derivative, springs)
+        total = springs.sum()
+        for a in range(springs.size):
+            if springs[a] > 0.0:
+                for b in range(springs.size):
+                    derivative[a, b] += springs[a] * springs[b] / total
+    return worst
+
+
+@kernel
+def _spread(
+    mesh: Mesh,
+    table: FloatArray,
+    count: int,
+    share: float,
+    spread: FloatArray,
+    derivative: FloatArray,
+    springs: FloatArray,
+) -> None:
+    """Add a roll position's loads and stiffness, as its balance left them, to the stations."""
+    steps_per_metre = (spread.size - 1) / mesh.plane.face_width
+    for n in range(count):
+        if table[LOAD, n] <= 0.0:
+            continue
+        position = table[Y, n] * steps_per_metre
+        low = min(int(position), spread.size - 2)
+        high = position - low
+        load, spring = table[LOAD, n] * table[LENGTH, n] * share, table[STIFFNESS, n] * table[LENGTH, n] * share
+        spread[low] += load * (1.0 - high)
+        spread[low + 1] += load * high
+        springs[low] += spring * (1.0 - high)
+        springs[low + 1] += spring * high
+        derivative[low, low] -= spring * (1.0 - high) ** 2
+        derivative[low + 1, low + 1] -= spring * high**2
+        derivative[low, low + 1] -= spring * high * (1.0 - high)
+        derivative[low + 1, low] -= spring * high * (1.0 - high)

@@ -1,1 +1,0 @@
-"""The unloaded flanks in the plane of action: contact_lines; tables -> modification -> loaded_zones."""

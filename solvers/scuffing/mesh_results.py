@@ -1,0 +1,183 @@
+"""What the balanced load says of the mesh: load sharing, stiffness, transmission error, friction loss.
+
+Eq. 15 is in the paper; the forms of X_Gamma and of the buttressing factor X_but are quoted from general knowledge of
+the standard and were not read again.
+"""
+
+from dataclasses import dataclass
+from math import cos, degrees
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solvers.arrays import FloatArray, frozen
+from solvers.gears.pair import GearPair, PathOfContact
+from solvers.scuffing.inputs import Load
+from solvers.scuffing.load_balance import LoadBalance
+from solvers.scuffing.results import ErrorCurves, FrictionLoss, Stiffness, StiffnessCurves, TransmissionError
+from solvers.scuffing.tooth_stiffness import single_stiffness
+
+CURVE_POINTS = 101
+REFERENCE_LOAD = 100e3  # N/m, for which ISO 6336-1 states c'; stands in where there is no load
+DISC_FACTOR = 1.0  # C_R: solid discs
+MEASURED_FRACTION = 0.8  # C_M
+HARMONICS = 5
+
+
+def iso_load_sharing(path: PathOfContact, x: FloatArray) -> FloatArray | None:
+    """X_Gamma X_but at distances x [m] from A; None where the standard draws no diagram.
+
+    Narrow gears (eps_gamma < 2) share as spur gears of quality 7 or better do, wide gears by 1 / eps_alpha. Not
+    defined below eps_alpha = 1, nor for spur gears from eps_alpha = 2.
+    """
+    ratio = path.transverse_contact_ratio
+    if ratio < 1.0 or (path.overlap_ratio == 0.0 and ratio >= 2.0):
+        return None
+    if path.total_contact_ratio < 2.0:
+        shared = _narrow(x, path.length, path.length - path.plane.base_pitch)
+    else:
+        shared = np.full_like(x, 1.0 / ratio)
+    return shared * _buttressing(path, x)
+
+
+def _narrow(x: FloatArray, length: float, double: float) -> FloatArray:
+    """1/3 to 2/3 over the double contact A-B, 1 between B and D, mirrored to E."""
+    from_end = np.minimum(x, length - x)
+    with_mate = 1 / 3 + from_end / (3 * double) if double > 0.0 else np.ones_like(x)
+    return np.where(from_end < double, with_mate, 1.0)
+
+
+def _buttressing(path: PathOfContact, x: FloatArray) -> FloatArray:
+    """1 + 0.3 min(eps_beta, 1) at A and E, falling to 1 over 0.2 sin beta_b of Gamma (Eq. 15); 1 for spur gears."""
+    plane = path.plane
+    ramp = 0.2 * plane.tan_base_helix * plane.cos_base_helix * path.pitch_point
+    if ramp == 0.0:
+        return np.ones_like(x)
+    from_end = np.minimum(x, path.length - x)
+    return 1.0 + 0.3 * min(path.overlap_ratio, 1.0) * np.maximum(1.0 - from_end / ramp, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class StandardStiffness:
+    """ISO 6336-1 method B: theoretical c'_th, single c', mesh c_gamma_alpha and c_gamma_beta [Pa]."""
+
+    theoretical: float
+    single: float
+    mesh: float
+    mesh_bending: float
+
+
+def standard_stiffness(path: PathOfContact, line_load: float = REFERENCE_LOAD) -> StandardStiffness:
+    """Stiffness by ISO 6336-1: c' = c'_th C_M C_R C_B cos beta, c_ga = c' (0.75 eps_alpha + 0.25), c_gb = 0.85 c_ga.
+
+    1/c'_th = 0.04723 + 0.15551/z_n1 + 0.25791/z_n2 - 0.00635 x1 - 0.11654 x1/z_n1 - 0.00193 x2 - 0.24188 x2/z_n2
+              + 0.00529 x1^2 + 0.00182 x2^2 [mm um/N]; C_B for the basic rack.
+
+    Below a line load F_t K_A/b [N/m] of 100 N/mm c' falls with its fourth root.
+    """
+    inputs = path.pair.inputs
+    virtual = cos(path.pair.base_helix_angle) ** 2 * cos(inputs.helix_angle)
+    z1, z2 = inputs.pinion.teeth / virtual, inputs.wheel.teeth / virtual
+    x1, x2 = inputs.pinion.profile_shift, inputs.wheel.profile_shift
+    flexibility = 0.04723 + 0.15551 / z1 + 0.25791 / z2 - 0.00635 * x1 - 0.11654 * x1 / z1
+    flexibility += -0.00193 * x2 - 0.24188 * x2 / z2 + 0.00529 * x1**2 + 0.00182 * x2**2
+    theoretical = 1e9 / flexibility
+    rack = _rack_factor(path.pair)
+    light = min(line_load / REFERENCE_LOAD, 1.0) ** 0.25
+    single = theoretical * MEASURED_FRACTION * DISC_FACTOR * rack * cos(inputs.helix_angle) * light
+    mesh = single * (0.75 * path.transverse_contact_ratio + 0.25)
+    return StandardStiffness(theoretical, single, mesh, 0.85 * mesh)
+
+
+def _standard_line_load(path: PathOfContact, load: Load) -> float:
+    """F_t K_A/b [N/m] with F_t at the reference circle; without load the one c' is stated for."""
+    tangential = load.application_factor * load.pinion_torque / path.pair.pinion.reference_radius
+    return tangential / path.plane.face_width if tangential > 0.0 else REFERENCE_LOAD
+
+
+def _rack_factor(pair: GearPair) -> float:
+    """C_B = [1 + 0.5 (1.2 - h_fP)][1 - 0.02 (20 - alpha_n)], the mean of the two gears'."""
+    dedendum = (pair.inputs.pinion.dedendum + pair.inputs.wheel.dedendum) / 2
+    return (1 + 0.5 * (1.2 - dedendum)) * (1 - 0.02 * (20 - degrees(pair.inputs.normal_pressure_angle)))
+
+
+def mesh_stiffness(balance: LoadBalance, tangential_force: float) -> FloatArray | None:
+    """c_gamma(phase) = F_bt / [b (TE - TE_unloaded)] [Pa]; None without load."""
+    if balance.force == 0.0:
+        return None
+    approach = balance.transmission_error - balance.unloaded_error
+    return np.asarray(tangential_force / (balance.mesh.plane.face_width * approach))
+
+
+def stiffness(
+    path: PathOfContact, balance: LoadBalance, load: Load, mean_load: float, tangential_force: float
+) -> Stiffness:
+    """Stiffness of one pair along the path, secant at the mean line load [N/m] if any, and of the mesh."""
+    secant_load = mean_load if mean_load > 0.0 else REFERENCE_LOAD
+    single = single_stiffness(balance.mesh.compliance, secant_load)
+    x = np.linspace(0.0, path.length, single.size)
+    pitch_x = path.pitch_point - path.start
+    curve = np.linspace(0.0, path.length, CURVE_POINTS)
+    mesh = mesh_stiffness(balance, tangential_force)
+    standard = standard_stiffness(path, _standard_line_load(path, load))
+    return Stiffness(
+        max=float(single.max()),
+        max_at_gamma=float(path.profile_parameter(x[np.argmax(single)])),
+        approach=float(single[0]),
+        pitch=float(np.interp(pitch_x, x, single)) if 0.0 <= pitch_x <= path.length else None,
+        recess=float(single[-1]),
+        mean_mesh=None if mesh is None else period_mean(mesh, balance.rolls.phase),
+        standard_single=standard.single,
+        standard_mesh=standard.mesh,
+        secant_load=secant_load,
+        curves=StiffnessCurves(frozen(path.profile_parameter(curve)), frozen(np.interp(curve, x, single))),
+    )
+
+
+def transmission_error(balance: LoadBalance) -> TransmissionError:
+    """TE along the transverse line of action [m]; means and harmonics by trapezia over the roll positions.
+
+    The trapezia honour the jumps of spur gears, which stand twice in the grid.
+    """
+    error, phase = balance.transmission_error, balance.rolls.phase
+    return TransmissionError(
+        peak_to_peak=float(np.ptp(error)),
+        mean=period_mean(error, phase),
+        min=float(error.min()),
+        max=float(error.max()),
+        harmonics=frozen(2 * np.abs(_fourier(error, phase))),
+        curves=ErrorCurves(frozen(phase / phase[-1]), frozen(error)),
+    )
+
+
+def period_mean(values: FloatArray, phase: FloatArray) -> float:
+    """Mean over one base pitch."""
+    return float(np.trapezoid(values, phase) / phase[-1])
+
+
+def _fourier(values: FloatArray, phase: FloatArray) -> NDArray[np.complex128]:
+    """Complex Fourier coefficients c_1, c_2, ... of a function of the roll position; wave k is the first to the k."""
+    waves = np.cumprod(np.tile(np.exp(-2j * np.pi * phase / phase[-1]), (HARMONICS, 1)), axis=0)
+    return np.asarray(np.trapezoid((values - values.mean()) * waves, phase) / phase[-1])
+
+
+def friction_loss(
+    path: PathOfContact, balance: LoadBalance, load: Load, friction_coefficient: float | None
+) -> FrictionLoss:
+    """P_V = f/p_bt int sum_j int w |u1 - u2| dl dphase, u1 - u2 = (omega_1 + omega_2)(s - s_C); H_V = P_V / (f P).
+
+    Power and efficiency are those of the transmitted power; load factors raise the load of the contacts only.
+    """
+    if balance.force == 0.0:
+        return FrictionLoss(friction_coefficient, loss_factor=None, power=0.0, efficiency=None)
+    speed_ratio = path.pair.pinion.teeth / path.pair.wheel.teeth
+    moment = period_mean(balance.survey.friction_moment, balance.rolls.phase) / load.contact_factor
+    loss_factor = moment * (1 + speed_ratio) / load.pinion_torque
+    if friction_coefficient is None:
+        return FrictionLoss(None, loss_factor=loss_factor, power=None, efficiency=None)
+    return FrictionLoss(
+        friction_coefficient,
+        loss_factor=loss_factor,
+        power=friction_coefficient * moment * load.pinion_speed * (1 + speed_ratio),
+        efficiency=1.0 - friction_coefficient * loss_factor,
+    )

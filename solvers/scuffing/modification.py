@@ -1,0 +1,208 @@
+"""Modification and misalignment as one gap over the plane of action."""
+
+from math import cos, sin
+from typing import NamedTuple
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.compiled import kernel
+from solvers.errors import InvalidInput
+from solvers.gears.pair import PathOfContact
+from solvers.scuffing.inputs import LeadCurve, Modifications
+
+LEAD_POINTS = 401
+MOST_EDGES = 6
+
+
+@kernel
+def place_of(x: float, points_per_metre: float, points: int) -> tuple[int, float]:
+    """Where x lies among equidistant points from 0 on: the last one before it, and the share of the step beyond."""
+    position = x * points_per_metre
+    index = min(max(int(position), 0), points - 2)
+    return index, position - index
+
+
+@kernel
+def interpolated(table: FloatArray, place: tuple[int, float]) -> float:
+    """Linear interpolation at a place of the table's points."""
+    index, share = place
+    low, high = float(table[index]), float(table[index + 1])
+    return low + share * (high - low)
+
+
+class Gap(NamedTuple):
+    """Gap Delta(x, y) along the transverse line of action; amplitudes and lengths [m], all lengths resolved.
+
+    `lead` is a gap [m] at equidistant points of the face, both ends among them.
+    """
+
+    path_length: float
+    face_width: float
+    profile_crowning: float
+    lead_crowning: float
+    profile_slope: float
+    helix_slope: float
+    tip_relief: float
+    tip_relief_length: float
+    root_relief: float
+    root_relief_length: float
+    end_relief: float
+    end_relief_length: float
+    exponent: float
+    lead: FloatArray
+
+
+def gap(modifications: Modifications, path: PathOfContact) -> Gap:
+    """The gap with its relief lengths.
+
+    The paper gives none. Defaults: tip and root relief reach g_alpha - p_bt, the long relief to D and B, but at least a
+    tenth of the path and at most half of it; end relief a tenth of the face.
+    """
+    width = path.pair.inputs.face_width
+    long_relief = min(max(path.length - path.pair.transverse_base_pitch, 0.1 * path.length), 0.5 * path.length)
+    m = modifications
+    shafts = misalignment_slope(m.in_plane_deviation, m.out_of_plane_deviation, path.pair.working_pressure_angle)
+    return Gap(
+        path.length,
+        width,
+        m.profile_crowning,
+        m.lead_crowning,
+        m.profile_slope,
+        m.helix_slope + shafts,
+        m.tip_relief,
+        long_relief if m.tip_relief_length is None else m.tip_relief_length,
+        m.root_relief,
+        long_relief if m.root_relief_length is None else m.root_relief_length,
+        m.end_relief,
+        0.1 * width if m.end_relief_length is None else m.end_relief_length,
+        float(m.relief_exponent),
+        np.zeros(2) if m.lead_curve is None else lead_table(m.lead_curve, width),
+    )
+
+
+def lead_table(curve: LeadCurve, face_width: float) -> FloatArray:
+    """The curve at equidistant points of the face.
+
+    Raises InvalidInput lead_curve where it has fewer than two points, or they do not rise within the face.
+    """
+    position, value = np.asarray(curve.position), np.asarray(curve.gap)
+    rising = position.size >= 2 and bool(np.all(np.diff(position) > 0.0))
+    if not rising or position.size != value.size or position[0] < 0.0 or position[-1] > face_width * (1 + 1e-9):
+        raise InvalidInput(
+            "lead_curve", "give two points or more, rising from 0 to the face width, and one gap each", "lead_curve"
+        )
+    return np.asarray(np.interp(np.linspace(0.0, face_width, LEAD_POINTS), position, value))
+
+
+def kinks_along_path(form: Gap) -> tuple[float, ...]:
+    """Distances from A [m] at which reliefs begin."""
+    starts = (
+        (form.root_relief, form.root_relief_length),
+        (form.tip_relief, form.path_length - form.tip_relief_length),
+    )
+    return tuple(x for amplitude, x in starts if amplitude != 0.0 and 0.0 < x < form.path_length)
+
+
+def kinks_along_face(form: Gap) -> tuple[float, ...]:
+    """Distances from the end that meshes first [m] at which end relief begins, or meets that of the other end."""
+    if form.end_relief == 0.0:
+        return ()
+    length = min(form.end_relief_length, form.face_width / 2)
+    return (length, form.face_width - length)
+
+
+def misalignment_slope(in_plane: float, out_of_plane: float, working_pressure_angle: float) -> float:
+    """Helix slope [m] of shaft deviations [m] over the face (ISO/TR 10064-3).
+
+    f_Sigma_delta in the plane of the shafts counts by sin alpha_wt, f_Sigma_beta out of it by cos alpha_wt.
+    """
+    return in_plane * sin(working_pressure_angle) + out_of_plane * cos(working_pressure_angle)
+
+
+@kernel
+def _relief(amplitude: float, length: float, distance: float, exponent: float) -> float:
+    """Amplitude (1 - distance / length)_+^exponent."""
+    if amplitude == 0.0 or distance >= length:
+        return 0.0
+    rest = 1.0 - distance / length
+    return amplitude * rest if exponent == 1.0 else amplitude * rest**exponent
+
+
+@kernel
+def profile_gap(form: Gap, x: float) -> float:
+    """The part of Delta [m] that changes along the path, at distance x [m] from A."""
+    xi = x / form.path_length - 0.5
+    value = 4.0 * form.profile_crowning * xi * xi + form.profile_slope * xi
+    value += _relief(form.tip_relief, form.tip_relief_length, form.path_length - x, form.exponent)
+    return value + _relief(form.root_relief, form.root_relief_length, x, form.exponent)
+
+
+@kernel
+def lead_gap(form: Gap, y: float) -> float:
+    """The part of Delta [m] that changes over the face, at y [m] from the end that meshes first."""
+    eta = y / form.face_width - 0.5
+    value = 4.0 * form.lead_crowning * eta * eta + form.helix_slope * eta
+    value += interpolated(form.lead, place_of(y, (form.lead.size - 1) / form.face_width, form.lead.size))
+    return value + _relief(form.end_relief, form.end_relief_length, min(y, form.face_width - y), form.exponent)
+
+
+@kernel
+def lead_gaps(form: Gap, y: FloatArray) -> FloatArray:
+    """The part of Delta [m] that changes over the face, at distances y [m] from the end that meshes first."""
+    gaps = np.empty(y.size)
+    for i in range(y.size):
+        gaps[i] = lead_gap(form, y[i])
+    return gaps
+
+
+@kernel
+def gap_at(form: Gap, x: float, y: float) -> float:
+    """Delta [m] at distance x [m] from A and y [m] from the end that meshes first; positive: material missing."""
+    return profile_gap(form, x) + lead_gap(form, y)
+
+
+@kernel
+def _insert(edges: FloatArray, count: int, y: float) -> int:
+    """Put y among so many edges that rise, if it lies within them; their number then."""
+    if not edges[0] < y < edges[count - 1]:
+        return count
+    place = count
+    while edges[place - 1] > y:
+        edges[place] = edges[place - 1]
+        place -= 1
+    edges[place] = y
+    return count + 1
+
+
+@kernel
+def smooth_parts(form: Gap, line: float, tan_base_helix: float, ends: tuple[float, float], edges: FloatArray) -> int:
+    """Write the ends of the contact line x = line - y tan_base_helix and its kinks between into `edges`, by rising y.
+
+    Returns their number, at most `MOST_EDGES`. What a lead curve does between its stations counts as smooth.
+    """
+    length = min(form.end_relief_length, 0.5 * form.face_width)
+    edges[0], edges[1] = ends
+    count = 2
+    if form.end_relief != 0.0:
+        count = _insert(edges, count, length)
+        count = _insert(edges, count, form.face_width - length)
+    if tan_base_helix > 0.0:
+        if form.root_relief != 0.0:
+            count = _insert(edges, count, (line - form.root_relief_length) / tan_base_helix)
+        if form.tip_relief != 0.0:
+            count = _insert(edges, count, (line - form.path_length + form.tip_relief_length) / tan_base_helix)
+    return count
+
+
+@kernel
+def _gaps(form: Gap, x: FloatArray, y: FloatArray) -> FloatArray:
+    gaps = np.empty(x.size)
+    for i in range(x.size):
+        gaps[i] = gap_at(form, x[i], y[i])
+    return gaps
+
+
+def gaps_at(form: Gap, x: FloatArray, y: FloatArray) -> FloatArray:
+    """Delta [m] at points of one shape."""
+    return _gaps(form, np.ravel(x), np.ravel(y)).reshape(np.shape(x))

@@ -1,1 +1,0 @@
-"""How a pair of teeth yields: compliance of one tooth -> stiffness of two in contact."""

@@ -1,0 +1,326 @@
+"""Stiffness of a pair of teeth: bending of each tooth (Ishikawa, Eqs. 5-6) and the flattening of their contact.
+
+A slice of contact line approaches by delta along the transverse line of action and carries w per length of line:
+    linear contact      delta = C w
+    half-space contact  delta = a w omega,  omega = A/a - ln w      (w in N/m)
+The second has the closed form w = delta / (a omega) with omega - ln omega = A/a + ln(a / delta), a branch of
+Lambert's function. `PairCompliance` holds C or A over the path of contact, and a.
+"""
+
+from dataclasses import dataclass
+from math import cos, log, pi, sin, sqrt
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.compiled import inlined_kernel, kernel
+from solvers.contact.hertz import reduced_modulus
+from solvers.errors import InvalidInput
+from solvers.gears.gear import Gear, virtual_gear
+from solvers.gears.inputs import GearTeeth
+from solvers.gears.pair import GearPair, PathOfContact, reduced_radius
+from solvers.materials import Solid
+from solvers.scuffing.inputs import Model
+from solvers.scuffing.modification import interpolated, place_of
+
+TABLE_POINTS = 801
+LEAST_RADIUS = 1e-6  # normal modules; on a base circle it vanishes, and the half width with it
+SHALLOWEST = 2.0  # half-space depth over contact half width
+OMEGA_STEPS = 12
+LEAST_OMEGA = 2.0  # of a guess; omega is larger wherever the law is not held, and has no meaning below 1
+LAST_STEP = 1e-3  # of omega; it leaves less than a tenth of its fourth power, so the next step would be rounding
+
+
+@dataclass(frozen=True, slots=True)
+class LoadPoints:
+    """Where and how a tooth is loaded, over the load points.
+
+    height above the root chord [m], angle of the load against the normal of the centre line [rad], depth from the
+    flank to the centre line along the load [m].
+    """
+
+    height: FloatArray
+    angle: FloatArray
+    depth: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class ToothShape:
+    """Rectangle (root_width, rectangle_height) below a trapezium that narrows to tip_width at `height` [m]."""
+
+    root_width: float
+    tip_width: float
+    rectangle_height: float
+    height: float
+
+
+def section_gear(pair: GearPair, gear: Gear, teeth: GearTeeth, section: Literal["normal", "transverse"]) -> Gear:
+    """The gear whose teeth are bent: itself, or the virtual spur gear of z / (cos^2 beta_b cos beta) teeth."""
+    return gear if section == "transverse" else virtual_gear(pair.inputs, teeth, pair.base_helix_angle)
+
+
+def tooth_shape(gear: Gear) -> ToothShape:
+    """The rectangle and trapezium of a tooth.
+
+    Heights run along the centre line from the chord of width S_F that lies on the root circle. A tooth no narrower
+    at the tip than at the root counts as one rectangle. Raises InvalidInput pointed_tooth: the virtual tooth of a
+    normal section may end in a point where the tooth itself does not.
+    """
+    root_angle, tip_angle = gear.half_tooth_angle(gear.form_radius), gear.half_tooth_angle(gear.tip_radius)
+    root_width = 2 * gear.form_radius * sin(root_angle)
+    tip_width = 2 * gear.tip_radius * sin(tip_angle)
+    if tip_width <= 0.0:
+        raise InvalidInput(
+            "pointed_tooth",
+            "a tooth is pointed in its normal section; choose transverse, or reduce addendum or profile shift",
+            "section",
+        )
+    height = gear.tip_radius * cos(tip_angle) - _chord_height(gear, root_width)
+    if root_width <= tip_width:
+        return ToothShape(root_width, root_width, height, height)
+    return ToothShape(
+        root_width, tip_width, gear.form_radius * cos(root_angle) - _chord_height(gear, root_width), height
+    )
+
+
+def load_points(gear: Gear, radius: FloatArray) -> LoadPoints:
+    """Load points at radii [m].
+
+    The load angle is alpha_x - g_x, flank pressure angle less half tooth angle (the paper calls it pressure angle; the
+    static bending arm needs the load angle).
+    """
+    pressure_angle = np.arccos(np.minimum(gear.base_radius / radius, 1.0))
+    half_angle = gear.reference_half_angle + gear.reference_involute - np.tan(pressure_angle) + pressure_angle
+    angle = pressure_angle - half_angle
+    root_width = 2 * gear.form_radius * sin(gear.half_tooth_angle(gear.form_radius))
+    return LoadPoints(
+        height=radius * np.cos(half_angle) - _chord_height(gear, root_width),
+        angle=angle,
+        depth=radius * np.sin(half_angle) / np.cos(angle),
+    )
+
+
+def _chord_height(gear: Gear, root_width: float) -> float:
+    """Distance of the root chord from the gear's axis [m].
+
+    Raises InvalidInput root_circle where the chord does not fit into the root circle.
+    """
+    if gear.root_radius <= root_width / 2:
+        message = "a gear's root circle is narrower than the root of its teeth; reduce the dedendum or take more teeth"
+        raise InvalidInput("root_circle", message, "gears")
+    return sqrt(gear.root_radius**2 - root_width**2 / 4)
+
+
+def bending_rectangle(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
+    """delta_Br / w [1/Pa], for load heights above or inside the rectangle."""
+    h_x, s_f = points.height, shape.root_width
+    h_r = np.minimum(shape.rectangle_height, h_x)
+    factor = 12 * np.cos(points.angle) ** 2 / (material.youngs_modulus * s_f**3)
+    return np.asarray(factor * (h_x * h_r * (h_x - h_r) + h_r**3 / 3))
+
+
+def bending_trapezium(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
+    """delta_Bt / w [1/Pa]: 6 cos^2 w / (E S_F^3) [q (4 - q) - 2 ln q - 3] (h_i - h_r)^3, q = (h_i - h_x)/(h_i - h_r).
+
+    The logarithm is right as printed (with its sign turned the compliance is negative); E is that of the member, not
+    E_1 as printed.
+    """
+    if shape.tip_width == shape.root_width:
+        return np.zeros_like(points.height)
+    q = _apex_fraction(shape, points)
+    factor = 6 * np.cos(points.angle) ** 2 / (material.youngs_modulus * shape.root_width**3)
+    return np.asarray(factor * (q * (4 - q) - 2 * np.log(q) - 3) * (_apex_height(shape) - shape.rectangle_height) ** 3)
+
+
+def shear(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
+    """delta_S / w [1/Pa], shear factor 1: 2 (1 + nu) cos^2 w / (E S_F) [h_r + (h_i - h_r) ln(1/q)]."""
+    length = np.minimum(shape.rectangle_height, points.height)
+    if shape.tip_width < shape.root_width:
+        slope_height = _apex_height(shape) - shape.rectangle_height
+        length = length - slope_height * np.log(_apex_fraction(shape, points))
+    factor = 2 * (1 + material.poisson_ratio) * np.cos(points.angle) ** 2
+    return np.asarray(factor / (material.youngs_modulus * shape.root_width) * length)
+
+
+def root_rotation(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
+    """delta_G / w = 24 h_x^2 cos^2 w / (pi E S_F^2) [1/Pa].
+
+    Printed with h_x in place of h_x^2; a rotation M/(E S_F^2) times the arm h_x, and the unit, ask for the square.
+    """
+    arm = points.height * np.cos(points.angle)
+    return np.asarray(24 * arm**2 / (pi * material.youngs_modulus * shape.root_width**2))
+
+
+def bending_compliance(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
+    """Deflection of one tooth along the load per line load [1/Pa] (Eq. 5)."""
+    parts = (bending_rectangle, bending_trapezium, shear, root_rotation)
+    return np.asarray(sum(part(shape, points, material) for part in parts))
+
+
+def _apex_height(shape: ToothShape) -> float:
+    """h_i = (h S_F - h_r S_a) / (S_F - S_a): where the trapezium's sides meet."""
+    h, h_r, s_f, s_a = shape.height, shape.rectangle_height, shape.root_width, shape.tip_width
+    return (h * s_f - h_r * s_a) / (s_f - s_a)
+
+
+def _apex_fraction(shape: ToothShape, points: LoadPoints) -> FloatArray:
+    """Q = (h_i - h_x) / (h_i - h_r), 1 within the rectangle."""
+    apex = _apex_height(shape)
+    return np.minimum((apex - points.height) / (apex - shape.rectangle_height), 1.0)
+
+
+class PairCompliance(NamedTuple):
+    """Compliance over equidistant points from A to E; `constant` [1/Pa] is C or A, `logarithmic` [1/Pa] is 0 or a.
+
+    Beyond the approach `limit` [m], where the half width reaches half the depth of the half-space, the compliance
+    reached there is kept.
+    """
+
+    constant: FloatArray
+    limit: FloatArray
+    logarithmic: float
+    points_per_metre: float
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """One gear's part in the pair, over the table points: radii at which it is loaded [m], bending [1/Pa]."""
+
+    gear: Gear
+    material: Solid
+    radius: FloatArray
+    bending: FloatArray
+
+
+def pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Model) -> PairCompliance:
+    """Compliance of a pair of teeth along the path.
+
+    Raises InvalidInput contact_law: the parabola is scaled to linear contact and refuses the half-space.
+    """
+    if model.tooth_stiffness == "parabola" and model.contact != "linear":
+        raise InvalidInput(
+            "contact_law", "the parabola is scaled to Ishikawa's maximum with linear contact; choose linear", "contact"
+        )
+    x = np.linspace(0.0, path.length, TABLE_POINTS)
+    roll_lengths = (path.start + x, path.pair.line_of_action - path.start - x)
+    gears, teeth = (path.pair.pinion, path.pair.wheel), (path.pair.inputs.pinion, path.pair.inputs.wheel)
+    members = [
+        _member(gear, section_gear(path.pair, gear, one, model.section), roll, material)
+        for gear, one, roll, material in zip(gears, teeth, roll_lengths, (pinion, wheel), strict=True)
+    ]
+    # A slice dy carries w dl cos(beta_b) = w dy in the transverse plane, so a tooth bent there yields to w itself; the
+    # contact, and a tooth bent in its normal section, yield along the normal, which the transverse line sees longer.
+    inclination = cos(path.pair.base_helix_angle)
+    bending = (members[0].bending + members[1].bending) / (inclination if model.section == "normal" else 1.0)
+    points_per_metre = (TABLE_POINTS - 1) / path.length
+    if model.contact == "linear":
+        constant = bending + linear_contact_compliance(pinion, wheel) / inclination
+        if model.tooth_stiffness == "parabola":
+            constant = constant.min() / _parabola(x / path.length, model.parabola_end_ratio)
+        return PairCompliance(constant, np.full_like(x, np.inf), 0.0, points_per_metre)
+    offset, slope, least = _half_space(path, x, members)
+    constant, logarithmic = bending + offset / inclination, slope / inclination
+    least_omega = bending / logarithmic + least
+    limit = logarithmic * least_omega * np.exp(constant / logarithmic - least_omega)
+    return PairCompliance(constant, limit, logarithmic, points_per_metre)
+
+
+def linear_contact_compliance(pinion: Solid, wheel: Solid) -> float:
+    """c_PV = (2/pi) [(1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2] [1/Pa]; printed with one E (Eq. 6)."""
+    return 2 / pi * (pinion.plane_strain_compliance + wheel.plane_strain_compliance)
+
+
+def _member(gear: Gear, section: Gear, roll_length: FloatArray, material: Solid) -> Member:
+    """A member's bending in its section, at the same height above the reference circle."""
+    radius = np.hypot(gear.base_radius, roll_length)
+    points = load_points(section, section.reference_radius + radius - gear.reference_radius)
+    return Member(gear, material, radius, bending_compliance(tooth_shape(section), points, material))
+
+
+def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tuple[FloatArray, float, float]:
+    """Offset [1/Pa], slope [1/Pa] and least contact part of omega of the half-space contact (Johnson 1985; Weber).
+
+    delta_H / w = sum_i (1 - nu_i^2)/(pi E_i) [2 ln(2 d_i / b_H) - nu_i/(1 - nu_i)],  b_H^2 = 8 w R_n/(pi E').
+    """
+    modulus = reduced_modulus(members[0].material, members[1].material)
+    radius = np.maximum(reduced_radius(path.plane, x), LEAST_RADIUS * path.pair.inputs.normal_module)
+    log_square = np.log(8 * radius / (pi * modulus))  # of b_H at 1 N/m
+    slope = sum(member.material.plane_strain_compliance for member in members) / pi
+    offset, least = np.zeros_like(x), 0.0
+    for member in members:
+        own = member.material.plane_strain_compliance / pi
+        poisson = member.material.poisson_ratio / (1 - member.material.poisson_ratio)
+        depth = load_points(member.gear, member.radius).depth  # in the transverse section
+        offset += own * (2 * np.log(2 * depth) - log_square - poisson)
+        least += own * (2 * log(2 * SHALLOWEST) - poisson)
+    return offset, slope, least / slope
+
+
+def _parabola(fraction: FloatArray, end_ratio: float) -> FloatArray:
+    """1 - (1 - r)(2 xi - 1)^2, calibrated to the paper's load maxima with r = 0.757."""
+    return np.asarray(1 - (1 - end_ratio) * (2 * fraction - 1) ** 2)
+
+
+@inlined_kernel
+def compliance_at(compliance: PairCompliance, x: float) -> tuple[float, float]:
+    """`constant` [1/Pa] and `limit` [m] at x [m] from A; linear contact has no limit."""
+    place = place_of(x, compliance.points_per_metre, compliance.constant.size)
+    constant = interpolated(compliance.constant, place)
+    return constant, np.inf if compliance.logarithmic == 0.0 else interpolated(compliance.limit, place)
+
+
+@inlined_kernel
+def line_load(
+    approach: float, constant: float, logarithmic: float, limit: float, log_load: float
+) -> tuple[float, float, float]:
+    """Line load w [N/m], its derivative [Pa] by the approach [m], and ln w, a next guess as `log_load` is."""
+    load = stiffness = 0.0
+    for _ in range(OMEGA_STEPS):
+        load, stiffness, log_load, step = line_load_near(approach, constant, logarithmic, limit, log_load)
+        if abs(step) <= LAST_STEP:
+            break
+    return load, stiffness, log_load
+
+
+@inlined_kernel
+def line_load_near(
+    approach: float, constant: float, logarithmic: float, limit: float, log_load: float
+) -> tuple[float, float, float, float]:
+    """The same after one step of omega from the guess, and that step, relative; it leaves its fourth power.
+
+    omega - ln omega = A/a + ln(a / delta) by the iteration of Fritsch, Shafer and Crowley (1973) for Lambert's
+    function, which takes one logarithm a step and settles from any guess; dw/d(delta) = 1 / (a (omega - 1)). The guess
+    is carried as ln w, at most that of the limit, which changes less from place to place than omega does.
+    """
+    if approach <= 0.0:
+        return 0.0, 0.0, log_load, 0.0
+    if logarithmic == 0.0:
+        return approach / constant, 1.0 / constant, log_load, 0.0
+    per_slope = 1.0 / logarithmic
+    offset = constant * per_slope
+    omega = max(offset - log_load, LEAST_OMEGA)
+    excess, slope = omega - offset + np.log(min(approach, limit) * per_slope / omega), omega - 1.0
+    scale = 2.0 * slope * (slope - excess * (2.0 / 3.0))
+    step = -excess * (scale - excess) / (slope * (scale - 2.0 * excess))
+    omega *= 1.0 + step
+    common = per_slope / (omega * (omega - 1.0))  # of the load and its derivative
+    rising = omega - 1.0 if approach > limit else omega
+    return approach * (omega - 1.0) * common, rising * common, offset - omega, step
+
+
+@kernel
+def _secants(constant: FloatArray, limit: FloatArray, logarithmic: float, load: float) -> FloatArray:
+    """1 / (a omega) at a line load [N/m], omega that of the load or of the limit."""
+    stiffness = np.empty(constant.size)
+    for i in range(constant.size):
+        _, _, log_limit = line_load(limit[i], constant[i], logarithmic, limit[i], np.log(load))
+        stiffness[i] = 1.0 / (constant[i] - logarithmic * min(np.log(load), log_limit))
+    return stiffness
+
+
+def single_stiffness(compliance: PairCompliance, load: float) -> FloatArray:
+    """Secant stiffness w / delta [Pa] of one pair at the table points under the line load [N/m]."""
+    if compliance.logarithmic == 0.0:
+        return np.asarray(1 / compliance.constant)
+    return _secants(compliance.constant, compliance.limit, compliance.logarithmic, load)
