@@ -10,7 +10,7 @@ from app.library import examples
 from app.problems import Unprocessable
 from app.requests.scuffing import ScuffingRequest
 from app.responses.scuffing import ScuffingResponse
-from tests.app.test_practice import CONTACT, refused, solved
+from tests.support.requests import CONTACT, refused, solved
 
 SCUFFING, TRAIN = "/v1/scuffing", "/v1/drive-train"
 STAGE: dict[str, Any] = {

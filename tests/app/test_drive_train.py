@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from app.library import examples
+from tests.support.requests import changed
 
 Post = Callable[[str, object], httpx.Response]
 PATH = "/v1/drive-train"
@@ -558,17 +559,6 @@ def test_the_feature_line_s_maximum_is_that_of_any_number_of_points(post: Post) 
 # Guards
 
 
-def changed(path: str, value: Any) -> dict[str, Any]:
-    """The example with a field at a dotted path."""
-    body = request()
-    *sections, name = path.split(".")
-    place: Any = body
-    for section in sections:
-        place = place[int(section)] if section.isdecimal() else place.setdefault(section, {})
-    place[name] = value
-    return body
-
-
 THICK = "Pa s at operating temperature is very thick; mPa s?"
 
 
@@ -603,7 +593,9 @@ THICK = "Pa s at operating temperature is very thick; mPa s?"
     ],
 )
 def test_slips_are_named(post: Post, path: str, value: float, message: str) -> None:
-    said = [one for one in answered(post, changed(path, value))["warnings"] if one["code"] == "unusual_value"]
+    said = [
+        one for one in answered(post, changed(request(), {path: value}))["warnings"] if one["code"] == "unusual_value"
+    ]
     assert {"code": "unusual_value", "message": message, "field": path} in said
 
 
@@ -616,7 +608,7 @@ def test_the_example_has_no_slip(post: Post) -> None:
 def test_losses_beyond_the_power_leave_no_efficiency(post: Post) -> None:
     """100 kW through the unit of 12 MW was an efficiency of -0.19, 1 kW one of -118."""
     for power, losses in ((100, 119.5), (1, 119.2)):
-        found = answered(post, changed("operation.power_kw", power))
+        found = answered(post, changed(request(), {"operation.power_kw": power}))
         assert found["losses"]["efficiency"] is None
         (said,) = [one for one in found["warnings"] if one["code"] == "losses_exceed_power"]
         assert said["field"] == "operation.power_kw"

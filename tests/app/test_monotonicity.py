@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.app.test_practice import solved
+from tests.support.requests import solved
 
 SCUFFING = "/v1/scuffing"
 GRADES = (68, 100, 150, 220, 320, 460)

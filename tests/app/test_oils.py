@@ -1,6 +1,5 @@
 """Oils that none can be, and oils used where no law describes them, are refused by name wherever an oil is taken."""
 
-import copy
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ from app.formats.json import answer
 from app.library import examples
 from app.problems import Unprocessable
 from solvers.oils import TYPICAL_VISCOSITY_100
-from tests.app.test_practice import CONTACT, COUPLING, PAIR, solved
+from tests.support.requests import CONTACT, COUPLING, PAIR, changed, solved
 
 OPERATION = {"torque_n_m": 3000, "speed_rpm": 1910}
 RECOMMENDED = {**COUPLING, "operation": {**OPERATION, "misalignment_range_deg": [0.05, 0.1]}}
@@ -30,25 +29,13 @@ USES: dict[str, tuple[str, dict[str, Any], str, tuple[str, ...]]] = {
 }
 
 
-def with_oil(body: dict[str, Any], path: str, oil: dict[str, Any], temperatures: dict[str, float]) -> dict[str, Any]:
-    """A request with another oil at a dotted path, used at other temperatures."""
-    result = copy.deepcopy(body)
-    for name, value in {path: oil, **temperatures}.items():
-        *way, last = name.split(".")
-        place: Any = result
-        for part in way:
-            place = place[int(part)] if part.isdecimal() else place.setdefault(part, {})
-        place[last] = copy.copy(value)
-    return result
-
-
 def outcome(use: str, oil: dict[str, Any], temperatures: list[float]) -> Unprocessable | None:
     """How the request was refused, or None where it was answered."""
     endpoint, body, path, places = USES[use]
     calculation = BY_PATH[endpoint]
-    request = with_oil(body, path, oil, dict(zip(places, temperatures, strict=True)))
+    request = changed(body, {path: dict(oil), **dict(zip(places, temperatures, strict=True)), "detail": "summary"})
     try:
-        answer(calculation, calculation.request.model_validate({**request, "detail": "summary"}))
+        answer(calculation, calculation.request.model_validate(request))
     except Unprocessable as refusal:
         return refusal
     return None

@@ -1,0 +1,63 @@
+"""Requests as users send them, changed at dotted paths, and their answers without a server."""
+
+import copy
+import json
+from typing import Any
+
+import pytest
+from pydantic import ValidationError
+
+from app.calculations import BY_PATH
+from app.formats.json import answer
+from app.schema.messages import faults
+
+PAIR: dict[str, Any] = {
+    "gears": {
+        "pinion": {"teeth": 23},
+        "wheel": {"teeth": 30},
+        "module_mm": 3,
+        "helix_angle_deg": 9.8,
+        "face_width_mm": 20,
+    },
+    "load": {"power_kw": 50, "pinion_speed_rpm": 2000},
+    "model": {"lubrication": "closed_form"},
+}
+COUPLING: dict[str, Any] = {
+    "coupling": {"teeth": 52, "module_mm": 3},
+    "operation": {"torque_n_m": 3000, "speed_rpm": 1910, "misalignment_deg": 0.05},
+}
+MIST: dict[str, Any] = {
+    "gears": {"pinion": {"teeth": 47}, "wheel": {"teeth": 117}, "module_mm": 7, "face_width_mm": 200},
+    "operation": {"pinion_speed_rpm": 3000},
+}
+CONTACT: dict[str, Any] = {
+    "contact": {"line_load_n_per_mm": 273, "radius_mm": 4.015, "speed_1_m_per_s": 1.018, "speed_2_m_per_s": 3.708},
+    "model": {"thermal": False},
+}
+
+
+def solved(endpoint: str, body: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    """The summary of the answer to a changed request."""
+    calculation = BY_PATH[endpoint]
+    request = calculation.request.model_validate(changed(body, {"detail": "summary", **changes}))
+    return json.loads(answer(calculation, request))
+
+
+def changed(body: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    """A copy with values at dotted paths set; a number in a path is the place in a list."""
+    result = copy.deepcopy(body)
+    for path, value in changes.items():
+        *way, last = path.split(".")
+        place: Any = result
+        for part in way:
+            place = place[int(part)] if part.isdecimal() else place.setdefault(part, {})
+        place[last] = value
+    return result
+
+
+def refused(endpoint: str, body: dict[str, Any], changes: dict[str, Any]) -> str:
+    """What a changed request is told is wrong with it."""
+    model = BY_PATH[endpoint].request
+    with pytest.raises(ValidationError) as refusal:
+        model.model_validate(changed(body, changes))
+    return faults(model, refusal.value.errors())[0].message
