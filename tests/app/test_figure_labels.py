@@ -4,6 +4,7 @@ import random
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from importlib.resources import files
 from itertools import combinations
 from unittest.mock import patch
 
@@ -19,7 +20,7 @@ from app.calculations import BY_PATH
 from app.evaluate import evaluate
 from app.figures.data import Axis, Figure, Hue, Line, Map, Mark, NoFigure, Panel, ThemeName, values
 from app.figures.drawing.image import draw, laid_out
-from app.figures.drawing.style import THEMES, settings
+from app.figures.drawing.style import THEMES, WIDTH, settings
 from app.figures.registry import figures_of
 from app.library import Example, examples
 
@@ -77,6 +78,16 @@ def figures(example: Example) -> Iterator[Figure]:
             yield declaration.figure(request, answer)
         except NoFigure:
             continue
+
+
+def test_texts_of_a_printed_report_are_seven_points_high() -> None:
+    style = files("app.pages").joinpath("templates", "report.css").read_text("utf-8")
+    width = re.search(r"figure img\{width:(\d+)mm", style)
+    assert width
+    scale = float(width[1]) / 25.4 / WIDTH
+    with rc_context(settings("light")):
+        sheet, _ = laid_out(Figure("a finding", (PANEL,), title="two peaks"), THEMES["light"])
+        assert min(text.get_fontsize() for text in sheet.findobj(Text)) * scale >= 7.0
 
 
 @pytest.mark.slow

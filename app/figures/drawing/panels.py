@@ -17,7 +17,7 @@ from matplotlib.text import Text
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.transforms import Bbox, BboxBase
 
-from app.figures.data import Area, Axis, Bars, Level, Line, Map, Panel, Role, Scale
+from app.figures.data import Area, Axis, Bars, Level, Line, Map, Panel, Role, Scale, Values
 from app.figures.drawing.style import DASHES, LETTER, LIMIT_DASHES, LINE_HEIGHT, REFERENCE_DASHES, TEXT, Theme
 from app.figures.wording import number
 
@@ -58,7 +58,7 @@ def draw_panel(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
     if panel.rows:
         _draw_rows(axes, panel, theme)
     if panel.map is not None:
-        _draw_map(axes, panel.map, theme)
+        _draw_map(axes, panel, panel.map, theme)
     for bars in panel.bars:
         _draw_bars(axes, bars, [each for each in panel.bars if each.role is bars.role], theme)
     for ribbon in panel.ribbons:
@@ -169,14 +169,14 @@ def _draw_area(axes: Axes, area: Area, theme: Theme) -> None:
     axes.text(0.5, 0.5, area.text, color=theme.muted, ha="center", va="center", gid=AREA, in_layout=False)
 
 
-def _draw_map(axes: Axes, chart: Map, theme: Theme) -> None:
+def _draw_map(axes: Axes, panel: Panel, chart: Map, theme: Theme) -> None:
     """Colours with their bar, thin contours at the bar's values, a dashed one at each critical value."""
     low, high = chart.ends
     norm = LogNorm(low, high) if chart.scale is Scale.RATIO else Normalize(low, high)
-    smooth = min(chart.values.shape) > 1
-    shown = np.ma.masked_invalid(chart.values)
-    style: Style = {"norm": norm, "shading": "gouraud" if smooth else "nearest", "rasterized": True}
-    colors = axes.pcolormesh(chart.x, chart.y, shown, cmap=COLOURS[chart.scale], **style)
+    x, y = _stretched(chart.x, panel.x), _stretched(chart.y, panel.y)
+    shown = np.ma.masked_invalid(np.broadcast_to(chart.values, (y.size, x.size)))
+    style: Style = {"norm": norm, "shading": "gouraud", "rasterized": True}
+    colors = axes.pcolormesh(x, y, shown, cmap=COLOURS[chart.scale], **style)
     axes.grid(visible=False)
     critical = {each.value: each.name for each in chart.critical if low <= each.value <= high}
     linear = chart.scale is not Scale.RATIO or high <= LINEAR_RATIO
@@ -187,8 +187,8 @@ def _draw_map(axes: Axes, chart: Map, theme: Theme) -> None:
     strong: Style = {"colors": theme.limit if still is None else "#111827", "linewidths": 1.5, "linestyles": "dashed"}
     for levels, line in (({*ticks} - {*critical, still}, thin), ({*critical}, strong)):
         inside = sorted(level for level in levels if shown.min() < level < shown.max())
-        if inside and smooth:
-            axes.contour(chart.x, chart.y, chart.values, inside, negative_linestyles="solid", **line)
+        if inside:
+            axes.contour(x, y, shown, inside, negative_linestyles="solid", **line)
     if not chart.bar:
         return
     bar = axes.figure.colorbar(colors, ax=axes, pad=0.03, aspect=22, format=NUMBERS)
@@ -199,6 +199,12 @@ def _draw_map(axes: Axes, chart: Map, theme: Theme) -> None:
     bar.ax.tick_params(which="minor", labelcolor=theme.limit)
     for value in critical:
         bar.ax.axhline(value, color=theme.limit, linewidth=1.6, linestyle=(0, (2, 1)))
+
+
+def _stretched(coordinate: Values, axis: Axis) -> Values:
+    """The values of a coordinate; where there is only one, which stands for all, the ends of its axis."""
+    middle = float(coordinate[0])
+    return coordinate if coordinate.size > 1 else np.array(axis.limits or (middle - 0.5, middle + 0.5))
 
 
 def _draw_marks(axes: Axes, panel: Panel, theme: Theme) -> None:
