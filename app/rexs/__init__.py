@@ -1,0 +1,1 @@
+"""Gear units from REXS files: read, turned into requests, and given their results back."""
