@@ -46,7 +46,7 @@ class Document(Protocol):
 
 def read(content: bytes, most_bytes: int) -> Document:
     """Read a REXS file of at most `most_bytes` (unpacked), whichever of the formats it has."""
-    if content.startswith(b"PK\x03\x04"):
+    if content.startswith(b"PK"):
         content = _unpacked(content, most_bytes)
     if len(content) > most_bytes:
         raise NotRexs(f"the model has more than {most_bytes // 1_000_000} MB")
@@ -60,7 +60,9 @@ def _unpacked(content: bytes, most_bytes: int) -> bytes:
     """The one model in a zip archive, read no further than allowed whatever the archive says of its size."""
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            models = [each for each in archive.infolist() if each.filename.lower().endswith((".rexs", ".rexsj", ".xml"))]
+            models = [
+                each for each in archive.infolist() if each.filename.lower().endswith((".rexs", ".rexsj", ".xml"))
+            ]
             if len(models) != 1:
                 raise NotRexs(f"the archive holds {len(models)} models (.rexs or .rexsj); it must hold one")
             with archive.open(models[0]) as packed:
@@ -291,6 +293,7 @@ def _decoded(code: object, text: object) -> list[Any] | None:
     """The numbers of an array in base64 (little-endian), or None where it is damaged."""
     try:
         raw = base64.b64decode(str(text).strip(), validate=True)
-        return np.frombuffer(raw, dtype=CODES[str(code)]).tolist()
+        numbers: list[Any] = np.frombuffer(raw, dtype=CODES[str(code)]).tolist()
     except (ValueError, KeyError):
         return None
+    return numbers

@@ -42,9 +42,7 @@ class Draft:
         """Note that the file does not tell a field that has no default."""
         self.missing.setdefault(path, Missing(path, component.id if component else None, attribute, message))
 
-    def take(
-        self, row: Row, component: Component, prefix: str = "", case: LoadCase | None = None
-    ) -> float | None:
+    def take(self, row: Row, component: Component, prefix: str = "", case: LoadCase | None = None) -> float | None:
         """Take a number over as it stands."""
         found = self.reading.number(component, row.attributes, row.unit, case=case)
         if found is not None:
@@ -65,13 +63,15 @@ def validated(endpoint: str, draft: Draft, paths: dict[str, str]) -> dict[str, A
         try:
             model.model_validate(request)
         except ValidationError as error:
-            found = faults(model, error.errors())
+            found = faults(model, map(dict, error.errors()))
         else:
             return request
         refused = False
         for fault in found:
             at = fault.pointer.strip("/").replace("/", ".")
-            ours = next((each for each, theirs in own.items() if at == theirs or at.startswith(theirs + ".")), None)
+            if any(_within(field, at) or _within(at, field) for field in map(str, draft.missing)):
+                continue  # known to be missing
+            ours = next((each for each, theirs in own.items() if _within(at, theirs)), None)
             if ours is None:
                 back = next((each for each, theirs in paths.items() if theirs == at), at)
                 draft.lacks(back, None, None, fault.message)
@@ -83,6 +83,10 @@ def validated(endpoint: str, draft: Draft, paths: dict[str, str]) -> dict[str, A
             del own[ours]
         if not refused:
             return request
+
+
+def _within(path: str, section: str) -> bool:
+    return path == section or path.startswith(section + ".")
 
 
 def nested(fields: dict[str, Any]) -> dict[str, Any]:

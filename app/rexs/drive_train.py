@@ -5,6 +5,7 @@ casing. Z is the u axis of the pinion's shaft, X and Y are its v and w axes.
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 from math import atan2, degrees
 from typing import Any
 
@@ -101,7 +102,7 @@ class _Unit:
         axis = shaft_axis(self._reading, shaft)
         z = axis.direction if axis else (1.0, 0.0, 0.0)
         y = self._reading.vector(shaft, "w_axis_vector")
-        if y is None or abs(_dot(y, z)) > 1e-6 or _dot(y, y) <= 0.0:  # noqa: PLR2004  not at right angles
+        if y is None or abs(_dot(y, z)) > 1e-6 or _dot(y, y) <= 0.0:
             y = min(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), key=lambda each: abs(_dot(each, z)))
             y = _cross(_cross(z, y), z)
         size = _dot(y, y) ** 0.5
@@ -226,7 +227,7 @@ class _Unit:
         changed, found = False, []
         for begin, end, outer, inner in sections:
             cuts = sorted({begin, end, *(each for each in ends if begin < each < end)})
-            for low, high in zip(cuts, cuts[1:], strict=False):
+            for low, high in pairwise(cuts):
                 covered = low >= ends[0] - SHORTEST_SECTION and high <= ends[1] + SHORTEST_SECTION
                 grown = covered and outer < gear.reference_diameter
                 changed |= grown
@@ -242,7 +243,9 @@ class _Unit:
         made: dict[str, Any] = {}
         position = self._stage.position(bearing, shaft)
         if position is None:
-            self._draft.lacks(f"{path}.position_mm", bearing, "u_coordinate_on_shaft_inner_side", "where the bearing sits")
+            self._draft.lacks(
+                f"{path}.position_mm", bearing, "u_coordinate_on_shaft_inner_side", "where the bearing sits"
+            )
         else:
             made["position_mm"] = position
         offsets = [reading.number(bearing, f"misalignment_in_{axis}_direction", "um") for axis in "vw"]

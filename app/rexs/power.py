@@ -54,18 +54,20 @@ def power_flow(
     reading: Reading,
     meshes: list[Mesh],
     joined: list[tuple[int, int]],
+    opened: set[int],
     senses: dict[int, float],
     case: LoadCase | None = None,
 ) -> Flow:
     """Speeds and torques of the base model or of a load case.
 
-    `joined`: pairs of shafts that turn as one. `senses`: +1 or -1, the sense of each shaft's u axis in the unit.
+    `joined`: pairs of shafts that turn as one. `opened`: shafts from which power flows through stages that are not
+    modelled. `senses`: +1 or -1, the sense of each shaft's u axis in the unit.
     """
     shafts = [each for each in reading.model.components.values() if each.type == "shaft"]
     if len(shafts) > MOST_SHAFTS:
         reading.find("too_many_shafts", None, None, f"speeds and torques of {len(shafts)} shafts are not looked for")
         return Flow()
-    return _Solution(reading, shafts, meshes, joined, senses, case).flow()
+    return _Solution(reading, shafts, meshes, joined, opened, senses, case).flow()
 
 
 class _Solution:
@@ -77,12 +79,14 @@ class _Solution:
         shafts: list[Component],
         meshes: list[Mesh],
         joined: list[tuple[int, int]],
+        opened: set[int],
         senses: dict[int, float],
         case: LoadCase | None,
     ) -> None:
         self._reading, self._meshes, self._case, self._senses = reading, meshes, case, senses
         self._group = _groups((each.id for each in shafts), joined)
         self._shafts = shafts
+        self._elsewhere = {self._group[shaft] for shaft in opened if shaft in self._group}
         self._at: dict[int, list[tuple[int, int]]] = defaultdict(list)
         for index, mesh in enumerate(meshes):
             for place in (0, 1):
@@ -98,9 +102,7 @@ class _Solution:
                 flow.speed[shaft.id] = speeds[group] * self._senses.get(shaft.id, 1.0)
         for index, force in forces.items():
             mesh = self._meshes[index]
-            first, second = (
-                mesh.teeth[place] * force * self._senses.get(mesh.shafts[place], 1.0) for place in (0, 1)
-            )
+            first, second = (mesh.teeth[place] * force * self._senses.get(mesh.shafts[place], 1.0) for place in (0, 1))
             flow.mesh_torque[mesh.stage] = first, second
         return flow
 
@@ -158,7 +160,7 @@ class _Solution:
     def _loads(self, speeds: dict[int, float]) -> tuple[dict[int, float], set[int]]:
         """Stated torques by group [N m], and the groups at which a torque that is not stated enters or leaves."""
         known: dict[int, float] = defaultdict(float)
-        opened, leaving = set(), set()
+        opened, leaving = set(self._elsewhere), set()
         for group, load in self._external_loads():
             torque = self._stated_torque(load, group, speeds)
             if torque is None:

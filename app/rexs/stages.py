@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from math import acos, atan, cos, pi, radians, sin, sqrt, tan
+from math import acos, atan, cos, pi, radians, sqrt, tan
 from typing import Any, NamedTuple
 
 from app.rexs import table
@@ -57,7 +57,7 @@ def _pair(reading: Reading, stage: Component) -> Pair | None:
             reading.find("stage_not_modelled", stage, None, "only two external gears are modelled; left out")
             return None
         teeth = reading.number(gear, "number_of_teeth")
-        if teeth is None or teeth != int(teeth) or not 1 <= teeth <= 10_000:  # noqa: PLR2004  what cannot be a gear
+        if teeth is None or teeth != int(teeth) or not 1 <= teeth <= 10_000:
             reading.find("teeth", gear, "number_of_teeth", "the gear has no possible number of teeth; stage left out")
             return None
     shafts = [model.whole_of(gear.id, "shaft") or _joined_shaft(model, gear) for gear in (first, second)]
@@ -230,9 +230,12 @@ class StageDraft:
 
     def _pressure_angle(self) -> None:
         row = table.PRESSURE_ANGLE
-        found = self._of_flanks(0, row) or self._of_flanks(1, row)
-        if found is None:
+        wheel, pinion = self._of_flanks(1, row), self._of_flanks(0, row)  # the pinion's counts
+        if wheel is None and pinion is None:
             self.draft.assume(row.field, 20.0, "the file has no pressure angle: ISO 53")
+        elif wheel is not None and pinion is not None and abs(wheel - pinion) > SAME:
+            message = "both gears must have one pressure angle; the pinion's is used"
+            self.reading.find("gears_differ", self.gears[1], row.attributes[0], message)
 
     def _profile_shift(self, place: int, role: str) -> None:
         path = f"gears.{role}.profile_shift"
@@ -283,7 +286,9 @@ class StageDraft:
             fault = involute_gear.tip_fault(diameter) if sign > 0.0 else involute_gear.root_fault(diameter)
             if fault is None:
                 self.draft.put(
-                    path, sign * ((diameter - involute_gear.reference_diameter) / (2.0 * module) - shift), gear,
+                    path,
+                    sign * ((diameter - involute_gear.reference_diameter) / (2.0 * module) - shift),
+                    gear,
                     row.attributes[0],
                 )
                 return
@@ -314,7 +319,9 @@ class StageDraft:
                 found.append((value, tool))
         path = "gears.rack_tip_radius"
         if not found:
-            self.draft.assume(path, ISO_53_A["rack_tip_radius"], "the file tells no tip radius of a tool: ISO 53, profile A")
+            self.draft.assume(
+                path, ISO_53_A["rack_tip_radius"], "the file tells no tip radius of a tool: ISO 53, profile A"
+            )
             return
         smallest, tool = min(found, key=lambda each: each[0])
         self.draft.put(path, smallest, tool, table.TOOL_TIP_RADIUS.attributes[-1])
@@ -331,10 +338,10 @@ class StageDraft:
     def involute(self, place: int) -> "Involute | None":
         """The transverse geometry of a gear, where the file tells enough."""
         module, angle = self._normal_module, self.draft.fields.get(table.PRESSURE_ANGLE.field)
-        if not module or module < 0.0 or angle is None or not 0.0 < angle < 45.0:  # noqa: PLR2004
+        if not module or module < 0.0 or angle is None or not 0.0 < angle < 45.0:
             return None
         helix = self.draft.fields.get(table.HELIX_ANGLE.field, 0.0)
-        if not helix < 80.0:  # noqa: PLR2004  beyond it is no cylindrical gear
+        if not helix < 80.0:
             return None
         shift = self.draft.fields.get(f"gears.{ROLES[place]}.profile_shift", 0.0)
         return Involute(self.teeth[place], module, radians(angle), radians(helix), shift)
@@ -430,7 +437,9 @@ class StageDraft:
         if None in [draft.take(row, oil, "lubricant.") for row in table.OIL[:2]]:
             for row in table.OIL[:2]:
                 draft.fields.pop(f"lubricant.{row.field}", None)
-            draft.lacks("lubricant", oil, table.OIL[0].attributes[0], "the oil's viscosities at 40 and 100 C are needed")
+            draft.lacks(
+                "lubricant", oil, table.OIL[0].attributes[0], "the oil's viscosities at 40 and 100 C are needed"
+            )
             return
         draft.take(table.OIL[2], oil, "lubricant.")
         words = " ".join(filter(None, (kind, self.reading.text(oil, "basis"), self.reading.text(oil, "name"))))
@@ -557,9 +566,13 @@ class Modifications:
         carried = {place: self._carried(place) for place in (0, 1)}
         self._relief("tip_relief", (("tip_relief", carried[0], 0), ("root_relief", carried[1], 1)))
         self._relief("root_relief", (("root_relief", carried[0], 0), ("tip_relief", carried[1], 1)))
-        self._sum("profile_crowning_um", carried, "profile_crowning", ("profile_crowning_at_tip", "profile_crowning_at_root"))
         self._sum(
-            "lead_crowning_um", carried, "helix_crowning",
+            "profile_crowning_um", carried, "profile_crowning", ("profile_crowning_at_tip", "profile_crowning_at_root")
+        )
+        self._sum(
+            "lead_crowning_um",
+            carried,
+            "helix_crowning",
             ("helix_crowning_amount_datum_face", "helix_crowning_amount_non_datum_face"),
         )
         self._slopes(carried)
@@ -607,8 +620,10 @@ class Modifications:
         known = [each for each in values if each is not None]
         if not known:
             return None
-        if len(known) > 1 and abs(known[0] - known[1]) > 0.01:  # noqa: PLR2004  um
-            self._reading.find("ends_differ", component, names[1], "the amounts at both ends differ; their mean is used")
+        if len(known) > 1 and abs(known[0] - known[1]) > 0.01:
+            self._reading.find(
+                "ends_differ", component, names[1], "the amounts at both ends differ; their mean is used"
+            )
         return sum(known) / len(known)
 
     def _sum(self, name: str, carried: dict[int, list[Component]], kind: str, ends: tuple[str, str]) -> None:
@@ -659,7 +674,10 @@ class Modifications:
         if kind == "tip_relief":
             return self._tip_roll(place, gear) - begin
         base = (gear.base_diameter + mate.base_diameter) / 2.0
-        distance = self._draft.fields.get("gears.centre_distance_mm") or (gear.reference_diameter + mate.reference_diameter) / 2
+        distance = (
+            self._draft.fields.get("gears.centre_distance_mm")
+            or (gear.reference_diameter + mate.reference_diameter) / 2
+        )
         line = sqrt(max(distance**2 - base**2, 0.0))
         return begin - (line - self._tip_roll(1 - place, mate))
 
@@ -721,7 +739,7 @@ class Modifications:
         if not parts:
             return
         mean = sum(amounts) / 2.0
-        if abs(amounts[0] - amounts[1]) > 0.01:  # noqa: PLR2004  um
+        if abs(amounts[0] - amounts[1]) > 0.01:
             self._reading.find("ends_differ", parts[0][2], None, "end reliefs differ; their mean is used at both ends")
         self._draft.put("modifications.end_relief_um", mean, parts[0][2], f"end_relief_depth_{next(iter(ends))}")
         lengths = [length for _, length, _ in parts if length]

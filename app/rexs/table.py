@@ -15,9 +15,7 @@ class Row(NamedTuple):
     unit: str = ""
 
 
-GEAR = (
-    Row("teeth", ("number_of_teeth",)),
-)
+GEAR = (Row("teeth", ("number_of_teeth",)),)
 STAGE = (
     Row("gears.centre_distance_mm", ("center_distance",), "mm"),
     Row(

@@ -24,7 +24,9 @@ def gear_unit(document: Document) -> dict[str, Any]:
     _check_relations(reading)
     found = list(pairs(reading))
     if len(found) > MOST_STAGES:
-        reading.find("too_many_stages", None, None, f"the unit has {len(found)} stages; the first {MOST_STAGES} are read")
+        reading.find(
+            "too_many_stages", None, None, f"the unit has {len(found)} stages; the first {MOST_STAGES} are read"
+        )
         del found[MOST_STAGES:]
     unit = _Unit(reading, found)
     stages = [unit.stage(pair) for pair in found]
@@ -47,6 +49,7 @@ class _Unit:
         self._meshes = [pair.mesh for pair in found]
         self._senses = _senses(reading)
         self._joined = list(_joined(reading.model))
+        self._opened = set(_opened(reading.model, {mesh.stage for mesh in self._meshes}))
         cases = reading.model.load_cases[:MOST_CASES]
         if len(cases) < len(reading.model.load_cases):
             reading.find("too_many_cases", None, None, f"the first {MOST_CASES} load cases are read")
@@ -54,7 +57,7 @@ class _Unit:
         self._flows = [(case, self._flow(case)) for case in cases]
 
     def _flow(self, case: LoadCase | None) -> Flow:
-        return power_flow(self._reading, self._meshes, self._joined, self._senses, case)
+        return power_flow(self._reading, self._meshes, self._joined, self._opened, self._senses, case)
 
     def stage(self, pair: Pair) -> dict[str, Any]:
         """One stage of the answer."""
@@ -120,7 +123,9 @@ def _shares(reading: Reading, cases: list[LoadCase]) -> tuple[list[float], str |
         return [], None
     unit = next((each for each in reading.model.components.values() if each.type == "gear_unit"), None)
     names = [*SHARES]
-    own = sorted({name for case in cases for each in case.attributes.values() for name in each if name.endswith("_fraction")})
+    own = sorted(
+        {name for case in cases for each in case.attributes.values() for name in each if name.endswith("_fraction")}
+    )
     names += [(name, "") for name in own if (name, "") not in SHARES]
     for name, size in names:
         values = [reading.number(unit, name, size, case=case) for case in cases] if unit else []
@@ -152,6 +157,16 @@ def _joined(model: Model) -> Iterable[tuple[int, int]]:
             ends = [model.components.get(parts.get(role, -1)) for role in ("inner_part", "outer_part")]
             if ends[0] is not None and ends[1] is not None and ends[0].type == ends[1].type == "shaft":
                 yield ends[0].id, ends[1].id
+
+
+def _opened(model: Model, modelled: set[int]) -> Iterable[int]:
+    """Shafts whose gears mesh in stages that are not modelled: what passes there is not known."""
+    for relation in model.relations:
+        if relation.type == "stage" and relation.part("stage") not in modelled:
+            for role, part in relation.parts:
+                shaft = model.whole_of(part, "shaft") if role != "stage" else None
+                if shaft is not None:
+                    yield shaft.id
 
 
 def _check_relations(reading: Reading) -> None:

@@ -1,0 +1,251 @@
+"""Gear units as REXS files, written by the tests: a description in Python, rendered as XML or JSON."""
+
+import io
+import json
+import zipfile
+from dataclasses import dataclass, field
+from typing import Any
+from xml.sax.saxutils import quoteattr
+
+Value = float | int | str | bool | list[Any]
+
+
+@dataclass
+class Unit:
+    """A gear unit under construction."""
+
+    version: str = "1.4"
+    components: list[dict[str, Any]] = field(default_factory=list)
+    relations: list[dict[str, Any]] = field(default_factory=list)
+    cases: list[dict[int, dict[str, tuple[Value, str]]]] = field(default_factory=list)
+
+    def add(self, type_: str, name: str = "", **attributes: tuple[Value, str]) -> int:
+        """A component with attributes as (value, unit); its id."""
+        self.components.append({"id": len(self.components) + 1, "type": type_, "name": name, "attributes": attributes})
+        return len(self.components)
+
+    def relate(self, type_: str, order: int | None = None, **roles: int) -> None:
+        """A relation between components by role."""
+        self.relations.append({"id": len(self.relations) + 1, "type": type_, "order": order, "roles": roles})
+
+    def of(self, component: int) -> dict[str, tuple[Value, str]]:
+        """The attributes of a component, to be changed."""
+        found: dict[str, tuple[Value, str]] = self.components[component - 1]["attributes"]
+        return found
+
+    def xml(self) -> bytes:
+        """The file as .rexs."""
+        lines = [
+            '<?xml version="1.0" encoding="UTF-8"?>',
+            f'<model applicationId="tests" applicationVersion="1" date="2026-01-01" version="{self.version}">',
+            " <!-- kept -->",
+            " <relations>",
+        ]
+        for each in self.relations:
+            order = "" if each["order"] is None else f' order="{each["order"]}"'
+            lines.append(f'  <relation id="{each["id"]}" type="{each["type"]}"{order}>')
+            lines += [f'   <ref id="{part}" role="{role}" hint="x"/>' for role, part in each["roles"].items()]
+            lines.append("  </relation>")
+        lines += [" </relations>", " <components>"]
+        for each in self.components:
+            lines += _component(
+                each["id"], each["attributes"], f' type="{each["type"]}" name={quoteattr(each["name"])}'
+            )
+        lines.append(" </components>")
+        if self.cases:
+            lines.append(' <load_spectrum id="1">')
+            for index, case in enumerate(self.cases, 1):
+                lines.append(f'  <load_case id="{index}">')
+                for component, attributes in case.items():
+                    lines += _component(component, attributes, ' type="x"')
+                lines.append("  </load_case>")
+            lines.append(" </load_spectrum>")
+        return "\n".join([*lines, "</model>", ""]).encode()
+
+    def json(self) -> bytes:
+        """The file as .rexsj."""
+        model: dict[str, Any] = {
+            "version": self.version,
+            "applicationId": "tests",
+            "applicationVersion": "1",
+            "date": "2026-01-01T00:00:00+00:00",
+            "relations": [
+                {
+                    "id": each["id"],
+                    "type": each["type"],
+                    **({} if each["order"] is None else {"order": each["order"]}),
+                    "refs": [{"id": part, "role": role} for role, part in each["roles"].items()],
+                }
+                for each in self.relations
+            ],
+            "components": [
+                {"id": each["id"], "type": each["type"], "name": each["name"], "attributes": _json(each["attributes"])}
+                for each in self.components
+            ],
+        }
+        if self.cases:
+            model["load_spectrum"] = {
+                "id": 1,
+                "load_cases": [
+                    {
+                        "id": index,
+                        "components": [{"id": id_, "attributes": _json(own)} for id_, own in case.items()],
+                    }
+                    for index, case in enumerate(self.cases, 1)
+                ],
+            }
+        return json.dumps({"model": model}).encode()
+
+    def zipped(self) -> bytes:
+        """The file as .rexsz."""
+        buffer = io.BytesIO()
+        with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+            archive.writestr("model.rexs", self.xml())
+        return buffer.getvalue()
+
+
+def _component(id_: int, attributes: dict[str, tuple[Value, str]], more: str) -> list[str]:
+    lines = [f'  <component id="{id_}"{more}>']
+    for name, (value, unit) in attributes.items():
+        inner = "".join(f"<c>{each}</c>" for each in value) if isinstance(value, list) else None
+        text = f"<array>{inner}</array>" if inner is not None else _text(value)
+        if name == "coded":
+            text = f'<array code="float64">{value}</array>'
+        lines.append(f'   <attribute id="{name}" unit={quoteattr(unit)}>{text}</attribute>')
+    return [*lines, "  </component>"]
+
+
+def _text(value: Value) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _json(attributes: dict[str, tuple[Value, str]]) -> list[dict[str, Any]]:
+    kinds = {bool: "boolean", int: "integer", float: "floating_point", str: "string", list: "floating_point_array"}
+    return [{"id": name, "unit": unit, kinds[type(value)]: value} for name, (value, unit) in attributes.items()]
+
+
+def three_stages(version: str = "1.0") -> Unit:
+    """A helical unit of three stages, driven at 1,400 1/min with 4.724562 N m: 23/67, 13/76, 14/87."""
+    old = version == "1.0"
+    degree = "°" if version < "1.4" else "deg"
+    flank_type = "flank_geometry" if old else "cylindrical_gear_flank"
+    unit = Unit(version)
+    gear_unit = unit.add("gear_unit", "Unit")
+    casing = unit.add("gear_casing")
+    shafts = [unit.add("shaft", f"shaft {number}") for number in range(4)]
+    unit.of(shafts[0]).update(rotational_speed=(1400.0, "1 / min"), defines_speed=(True, "none"))
+    for part in (casing, *shafts):
+        unit.relate("assembly", assembly=gear_unit, part=part)
+    rows = [
+        (53.0, 1.0, 30.0, (23, 16.0, 0.581), (67, 11.0, 0.5131)),
+        (57.0, 1.25, -10.0, (13, 23.0, 0.521), (76, 15.0, -0.094)),
+        (77.0, 1.5, 10.0, (14, 41.0, 0.536), (87, 36.0, -0.4815)),
+    ]
+    for index, (distance, module, angle, *gears) in enumerate(rows):
+        stage = unit.add("cylindrical_stage", f"stage {index}", center_distance=(distance, "mm"))
+        unit.relate("assembly", assembly=gear_unit, part=stage)
+        ids = []
+        for place, (teeth, width, shift) in enumerate(gears):
+            gear = unit.add(
+                "cylindrical_gear",
+                normal_module=(module, "mm"),
+                number_of_teeth=(teeth, "none"),
+                face_width=(width, "mm"),
+                helix_angle_reference_diameter=(angle if place == 0 else -angle, degree),
+            )
+            ids.append(gear)
+            unit.relate("assembly", assembly=shafts[index + place], part=gear)
+            flanks = [
+                unit.add(
+                    flank_type,
+                    normal_pressure_angle=(20.0, degree),
+                    addendum_modification_coefficient=(shift, "none"),
+                )
+                for _ in range(2)
+            ]
+            unit.relate("flank", gear=gear, left=flanks[0], right=flanks[1])
+        unit.relate("stage", stage=stage, gear_1=ids[0], gear_2=ids[1])
+    for shaft, attributes in (
+        (shafts[0], {"torque_around_u_axis": (4.724562306435156, "N m"), "defines_torque": (True, "none")}),
+        (shafts[3], {}),
+    ):
+        load = unit.add("external_load", transmits_torque=(True, "none"), **attributes)
+        unit.relate("assembly", assembly=shaft, part=load)
+    return unit
+
+
+def turbo_unit(version: str = "2.0") -> Unit:
+    """The turbo gear unit of the starter example: 12 MW at 10,000 1/min, 39/130, in journal bearings."""
+    unit = Unit(version)
+    gear_unit = unit.add("gear_unit", "Turbo unit")
+    casing = unit.add("gear_casing", temperature_lubricant=(50.0, "C"))
+    stage = unit.add(
+        "cylindrical_stage",
+        "stage",
+        minimum_normal_backlash=(0.25, "mm"),
+        maximum_normal_backlash=(0.35, "mm"),
+        application_factor_iso_6336_2006=(1.1, "none"),
+    )
+    oil = unit.add(
+        "lubricant",
+        viscosity_at_40_degree_celsius=(32.0, "mm^2 / s"),
+        viscosity_at_100_degree_celsius=(5.4, "mm^2 / s"),
+        density_at_15_degree_celsius=(0.87, "kg / dm^3"),
+        basis=("mineral", "none"),
+    )
+    unit.relate("reference", origin=casing, referenced=oil)
+    steel = unit.add(
+        "material", elastic_modulus=(206000.0, "MPa"), poisson_ratio=(0.3, "none"), density=(7.85, "kg / dm^3")
+    )
+    axes = {"u_axis_vector": ([1.0, 0.0, 0.0], "mm"), "w_axis_vector": ([0.0, 0.0, 1.0], "mm")}
+    gears = []
+    rows = (
+        (39, 11.5, [0.0, 0.0, 0.0], 160.0, 110.0, 260.0, 240.0),
+        (130, -11.5, [0.0, 517.387, 0.0], 200.0, 140.0, 300.0, 800.0),
+    )
+    for place, (teeth, helix, origin, bore, width, clearance, outer) in enumerate(rows):
+        shaft = unit.add("shaft", f"shaft {place}", support_vector=(origin, "mm"), **axes)
+        unit.relate("reference", origin=shaft, referenced=steel)
+        gear = unit.add(
+            "cylindrical_gear",
+            number_of_teeth=(teeth, "none"),
+            normal_module=(6.0, "mm"),
+            face_width=(200.0, "mm"),
+            helix_angle_reference_diameter=(helix, "deg"),
+            u_coordinate_on_shaft=(420.0, "mm"),
+            arithmetic_mean_roughness_flank_iso_4287_1997=(0.3, "mum"),
+        )
+        gears.append(gear)
+        unit.relate("assembly", assembly=shaft, part=gear)
+        flanks = [unit.add("cylindrical_gear_flank", normal_pressure_angle=(20.0, "deg")) for _ in range(2)]
+        unit.relate("flank", gear=gear, left=flanks[0], right=flanks[1])
+        sections = ((0.0, 320.0, bore), (320.0, 200.0, outer), (520.0, 240.0, bore))
+        for begin, length, diameter in sections:
+            section = unit.add(
+                "shaft_section",
+                u_coordinate_on_shaft=(begin, "mm"),
+                length=(length, "mm"),
+                outer_diameter_begin=(diameter, "mm"),
+                outer_diameter_end=(diameter, "mm"),
+            )
+            unit.relate("assembly", assembly=shaft, part=section)
+        for position in (220.0, 620.0):
+            bearing = unit.add(
+                "hydrodynamic_radial_plain_bearing",
+                inner_diameter=(bore, "mm"),
+                width=(width, "mm"),
+                diameter_clearance_plain_bearing=(clearance, "mum"),
+                lubricant_feed_temperature=(65.0, "C"),
+                u_coordinate_on_shaft_inner_side=(position, "mm"),
+            )
+            unit.relate("side", assembly=bearing, inner_part=shaft, outer_part=casing)
+        loads: dict[str, tuple[Value, str]] = {"u_coordinate_on_shaft": (20.0, "mm")}
+        if place == 0:
+            unit.of(shaft).update(rotational_speed=(10000.0, "1 / min"), defines_speed=(True, "none"))
+            loads.update(power=(12000.0, "kW"), defines_torque=(True, "none"))
+        load = unit.add("external_load", transmits_torque=(True, "none"), **loads)
+        unit.relate("assembly", assembly=shaft, part=load)
+    unit.of(stage)["center_distance"] = (517.387, "mm")
+    unit.relate("stage", stage=stage, gear_1=gears[0], gear_2=gears[1])
+    unit.relate("assembly", assembly=gear_unit, part=stage)
+    return unit
