@@ -6,7 +6,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from app.calculations import BY_PATH
-from app.contract.messages import faults
+from app.schema.messages import faults
 from app.rexs.model import Component, LoadCase
 from app.rexs.reading import Assumed, Missing, Reading
 from app.rexs.table import Row

@@ -325,7 +325,9 @@ def test_what_the_models_cannot_use_is_listed() -> None:
     assert [(each["component"], each["attribute"]) for each in ignored] == [(gear_of(unit, 0), "chamfer_at_tooth_end")]
 
 
-numbers = st.one_of(st.floats(allow_nan=True), st.integers(-(10**20), 10**20), st.text(max_size=5), st.booleans())
+numbers = st.one_of(
+    st.floats(allow_nan=False, allow_infinity=False), st.integers(-(10**20), 10**20), st.text(max_size=5), st.booleans()
+)
 
 
 @given(st.data())
