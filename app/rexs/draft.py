@@ -6,10 +6,10 @@ from typing import Any
 from pydantic import ValidationError
 
 from app.calculations import BY_PATH
-from app.schema.messages import faults
 from app.rexs.model import Component, LoadCase
 from app.rexs.reading import Assumed, Missing, Reading
 from app.rexs.table import Row
+from app.schema.messages import faults
 
 Origin = tuple[Component, str | None]
 
