@@ -2,14 +2,16 @@
 
 import argparse
 import gc
+import json
 import os
 import socket
 import sys
 from io import TextIOWrapper
+from pathlib import Path
 
 from pydantic.fields import FieldInfo
 
-from app.settings import Settings, settings
+from app.settings import MEBIBYTE, Settings, settings
 from app.workers.control import Template
 
 INTERRUPTED = 130
@@ -17,13 +19,34 @@ INTERRUPTED = 130
 
 def main() -> None:
     """Serve until told to stop."""
-    argparse.ArgumentParser(
+    parser = argparse.ArgumentParser(
         prog="python -m app",
         description="Serve the tribodrive calculations.",
         epilog=_documentation(),
         formatter_class=argparse.RawDescriptionHelpFormatter,
-    ).parse_args()
+    )
+    commands = parser.add_subparsers(dest="command", metavar="command", required=False)
+    rexs = commands.add_parser("rexs", help="print the requests of a gear unit's file (REXS) instead of serving")
+    rexs.add_argument("file", type=Path, help="a .rexs, .rexsj or .rexsz file")
+    asked = parser.parse_args()
+    if asked.command == "rexs":
+        sys.exit(print_unit(asked.file))
     serve("app.main:app")
+
+
+def print_unit(file: Path) -> int:
+    """Print what /v1/rexs answers to a file; the exit status is 1 where the file cannot be read."""
+    from app.problems import Unprocessable  # noqa: PLC0415  the service starts without this
+    from app.rexs.answer import unit_of  # noqa: PLC0415
+
+    try:
+        found = unit_of(file.read_bytes(), settings().rexs_mb * MEBIBYTE)
+    except (OSError, Unprocessable) as error:
+        reason = error.message if isinstance(error, Unprocessable) else error.strerror
+        print(f"tribodrive: {file}: {reason}", file=sys.stderr)  # noqa: T201  a command's output
+        return 1
+    print(json.dumps(found, indent=1, ensure_ascii=False))  # noqa: T201
+    return 0
 
 
 def serve(application: str) -> None:

@@ -11,7 +11,7 @@ from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddle
 from app import log, problems
 from app.answers import Answers
 from app.http.middleware import Protection
-from app.routes import calculations, figures, pages, service, studies, study_pages, vary
+from app.routes import calculations, figures, pages, rexs, service, studies, study_pages, vary
 from app.schema.base import MODEL_VERSION
 from app.settings import MEBIBYTE, settings
 from app.studies.office import Office
@@ -61,8 +61,9 @@ def create_app() -> FastAPI:
         lifespan=lifespan,
         redoc_url=None,
     )
-    for routes in (calculations, figures, studies, pages, vary, study_pages, service):
+    for routes in (calculations, figures, studies, rexs, pages, vary, study_pages, service):
         app.include_router(routes.router)
+    app.include_router(rexs.pages)
     problems.install(app)
     app.add_middleware(
         GZipMiddleware, minimum_size=COMPRESSED_FROM, compresslevel=4, exclude_content_types=NOT_COMPRESSED

@@ -9,6 +9,7 @@ from pydantic_settings import BaseSettings, SettingsConfigDict
 
 MEBIBYTE = 2**20
 CLUSTER_POINTS = 100_000
+REXS_PATHS = frozenset({"/v1/rexs", "/v1/rexs/results", "/rexs"})
 RESERVED_DESCRIPTORS = 96  # for workers, files and sockets of the service itself
 
 
@@ -33,6 +34,7 @@ class Settings(BaseSettings):
     scheduler: str | None = Field(None, description="Dask scheduler that solves the studies, `tcp://host:port`")
     worker_memory_mb: int = Field(2048, ge=512, description="memory a worker may allocate, MiB")
     max_body_bytes: int = Field(384 * 1024, ge=1024, description="largest request body; beyond it 413")
+    rexs_mb: int = Field(20, ge=1, le=100, description="largest gear unit from a file, unpacked, MiB; beyond it 413")
     body_deadline_s: float = Field(10.0, gt=0, description="longest time for a request body to arrive; then 408")
     answers_mb: int = Field(64, ge=0, description="memory for answers just computed, for other views of them, MiB")
     max_header_bytes: int = Field(16384, ge=1024, description="largest sum of request headers; beyond it 431")
@@ -49,6 +51,10 @@ class Settings(BaseSettings):
     )
     shutdown_s: int = Field(30, ge=0, description="time for requests in flight to finish at shutdown")
     log_level: str = Field("info", pattern="^(debug|info|warning|error)$", description="least level that is logged")
+
+    def most_body_bytes(self, path: str) -> int:
+        """The largest request body at an address; files of gear units are larger than requests."""
+        return (self.rexs_mb + 1) * MEBIBYTE if path in REXS_PATHS else self.max_body_bytes
 
     @property
     def most_study_points(self) -> int:

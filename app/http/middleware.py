@@ -35,6 +35,7 @@ class _Request:
 
     def __init__(self, limits: Settings, scope: Scope, receive: Receive, send: Send) -> None:
         self._limits = limits
+        self._most_bytes = limits.most_body_bytes(scope["path"])
         self._started = time.perf_counter()
         self._headers: dict[bytes, bytes] = dict(scope["headers"])
         self._identifier = request_id(self._headers.get(b"x-request-id", b""))
@@ -85,7 +86,7 @@ class _Request:
     def _refusal(self) -> JSONResponse | None:
         """The answer to a request that announces too much."""
         announced = self._headers.get(b"content-length", b"")
-        if announced.isdigit() and int(announced) > self._limits.max_body_bytes:
+        if announced.isdigit() and int(announced) > self._most_bytes:
             return problem(self._identifier, 413, "content_too_large", self._too_large())
         return None
 
@@ -99,10 +100,10 @@ class _Request:
         except TimeoutError as error:
             raise HTTPException(408, "The request body took too long to arrive") from error
         self._received += len(message.get("body", b""))
-        if self._received > self._limits.max_body_bytes:
+        if self._received > self._most_bytes:
             raise HTTPException(413, self._too_large())
         self._complete = not message.get("more_body", False)
         return message
 
     def _too_large(self) -> str:
-        return f"The request body is larger than {self._limits.max_body_bytes} bytes"
+        return f"The request body is larger than {self._most_bytes} bytes"

@@ -1,0 +1,152 @@
+"""What a worker does with a gear unit's file: the answer of /v1/rexs, its page, and the file with results in it."""
+
+import json
+from typing import Annotated, Any, NamedTuple
+
+from pydantic import BaseModel
+
+from app.calculations import BY_PATH
+from app.cost import refuse_endless
+from app.evaluate import evaluate
+from app.pages.rexs import unit_page
+from app.problems import Unprocessable
+from app.reading import read as read_request
+from app.rexs import document
+from app.rexs.results import TABLES, write_results
+from app.rexs.unit import gear_unit
+from app.schema.quantities import Output
+
+PATH = "/v1/rexs"
+
+
+class Shaft(BaseModel):
+    """A shaft of the unit."""
+
+    id: Annotated[int, Output("component in the file")]
+    name: Annotated[str, Output("its name there")]
+
+
+class Case(BaseModel):
+    """A case of the load spectrum."""
+
+    name: Annotated[str, Output("name in the file")]
+    share: Annotated[float, Output("share of the operating time")]
+    overrides: Annotated[dict[str, float], Output("what it changes in the request of /v1/scuffing, by dotted path")]
+
+
+class Gap(BaseModel):
+    """What a calculation needs and the file does not tell."""
+
+    field: Annotated[str, Output("dotted path of the field, or the endpoint that cannot be asked")]
+    component: Annotated[int | None, Output("component in the file that could tell it")]
+    attribute: Annotated[str | None, Output("attribute that could tell it")]
+    message: Annotated[str, Output("what is missing")]
+
+
+class Assumption(BaseModel):
+    """What stands in place of something that the file does not tell."""
+
+    field: Annotated[str, Output("dotted path of the field")]
+    value: Annotated[Any, Output("value used")]
+    reason: Annotated[str, Output("why")]
+
+
+class Unused(BaseModel):
+    """What the file says and the models cannot use."""
+
+    component: Annotated[int, Output("component in the file")]
+    attribute: Annotated[str | None, Output("attribute, or the whole component")]
+    reason: Annotated[str, Output("why")]
+
+
+class Stage(BaseModel):
+    """A cylindrical stage with ready requests."""
+
+    id: Annotated[int, Output("component in the file")]
+    name: Annotated[str, Output("its name there")]
+    pinion: Annotated[
+        int, Output("driving gear, the pinion of the requests; the smaller one where none is known to drive")
+    ]
+    wheel: Annotated[int, Output("the other gear")]
+    driver: Annotated[int | None, Output("driving gear; null where power and speed do not follow from the file")]
+    hand: Annotated[str | None, Output("hand of the pinion's helix")]
+    requests: Annotated[dict[str, dict[str, Any]], Output("a request for each endpoint that can be asked")]
+    cases: Annotated[list[Case], Output("load spectrum of the file")]
+    missing: Annotated[list[Gap], Output("what has to be filled in")]
+    assumed: Annotated[list[Assumption], Output("what was put in its place")]
+    ignored: Annotated[list[Unused], Output("what could not be used")]
+
+
+class Fault(BaseModel):
+    """Something wrong in the file."""
+
+    code: Annotated[str, Output("stable name, meant for programs")]
+    component: Annotated[int | None, Output("component in the file")]
+    attribute: Annotated[str | None, Output("attribute")]
+    message: Annotated[str, Output("what is wrong, and what was done about it")]
+
+
+class GearUnit(BaseModel):
+    """A gear unit read from a file; nothing is solved."""
+
+    version: Annotated[str, Output("version of REXS that the file states")]
+    application: Annotated[str, Output("program that wrote it")]
+    name: Annotated[str, Output("name of the unit")]
+    shafts: Annotated[list[Shaft], Output("shafts")]
+    stages: Annotated[list[Stage], Output("stages")]
+    findings: Annotated[list[Fault], Output("what is wrong in the file")]
+
+
+class File(NamedTuple):
+    """A file to be sent back."""
+
+    content: bytes
+    media_type: str
+    suffix: str
+
+
+def unit_of(content: bytes, most_bytes: int) -> dict[str, Any]:
+    """The answer of /v1/rexs; raises Unprocessable where the file is no REXS that can be read."""
+    return gear_unit(_read(content, most_bytes))
+
+
+def unit_json(content: bytes, most_bytes: int) -> bytes:
+    """The answer as JSON."""
+    return json.dumps(unit_of(content, most_bytes), allow_nan=False, ensure_ascii=False).encode()
+
+
+def unit_html(content: bytes, most_bytes: int) -> bytes:
+    """The answer as a page."""
+    return unit_page(unit_of(content, most_bytes)).encode()
+
+
+def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | None, deadline_s: float) -> File:
+    """The file with the answer of a stage written into it.
+
+    `request` is the stage's request as edited, else the one of the file is solved: of the drive train where it can be
+    formed, else of /v1/scuffing. Raises Unprocessable, and what reading a request raises.
+    """
+    file = _read(content, most_bytes)
+    found = next((each for each in gear_unit(file)["stages"] if each["id"] == stage), None)
+    if found is None:
+        raise Unprocessable("unknown_stage", f"the file has no stage {stage} that can be calculated", None)
+    endpoints = [path for path in reversed(found["requests"]) if path in TABLES]
+    if request is None:
+        endpoint = endpoints[0]
+        body = json.dumps(found["requests"][endpoint]).encode()
+    else:
+        body = request
+        endpoint = "/v1/drive-train" if b'"pinion_shaft"' in request else "/v1/scuffing"
+    calculation = BY_PATH[endpoint]
+    asked = read_request(calculation.request, body)
+    refuse_endless(asked, deadline_s)
+    answer = evaluate(calculation, asked).model_dump(mode="json", exclude_unset=True)
+    write_results(file, stage, endpoint, answer)
+    return File(file.content(), file.media_type, file.suffix)
+
+
+def _read(content: bytes, most_bytes: int) -> document.Document:
+    try:
+        return document.read(content, most_bytes)
+    except document.NotRexs as error:
+        raise Unprocessable("not_rexs", str(error), None) from error

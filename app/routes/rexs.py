@@ -1,0 +1,110 @@
+"""Gear units from REXS files: read, shown as a page, and sent back with results."""
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, HTTPException, Query, Request, Response
+
+from app.problems import Unprocessable, documented
+from app.rexs import answer
+from app.routes.pages import TROUBLES, html, problem_page, trouble_page
+from app.settings import MEBIBYTE, Settings
+from app.workers.admission import Runner
+
+TYPES = ("application/xml", "text/xml", "application/json", "application/zip", "application/octet-stream")
+FORM = "multipart/form-data"
+FILE = {"type": "string", "format": "binary"}
+UPLOAD: dict[str, Any] = {
+    "requestBody": {
+        "required": True,
+        "content": {
+            **{each: {"schema": FILE} for each in TYPES[:1] + TYPES[2:4]},
+            FORM: {"schema": {"type": "object", "required": ["file"], "properties": {"file": FILE}}},
+        },
+    }
+}
+UPLOAD_WITH_REQUEST: dict[str, Any] = {
+    "requestBody": {
+        "required": True,
+        "content": {
+            FORM: {
+                "schema": {
+                    "type": "object",
+                    "required": ["file"],
+                    "properties": {
+                        "file": FILE,
+                        "request": {"type": "string", "description": "the stage's request as edited, JSON"},
+                    },
+                }
+            }
+        },
+    }
+}
+
+router = APIRouter(tags=["files"], responses=documented(400, 408, 413, 415, 422, 431, 500, 503, 504))
+pages = APIRouter(include_in_schema=False)
+
+
+@router.post(answer.PATH, response_model=answer.GearUnit, openapi_extra=UPLOAD, operation_id="rexs")
+async def read_unit(http: Request) -> Response:
+    """The stages of a gear unit as ready requests, and what is missing, assumed, not used or wrong in the file."""
+    content, _ = await _upload(http)
+    found = await _runner(http).run(http, answer.unit_json, content, _most_bytes(http))
+    return Response(found, media_type="application/json")
+
+
+@router.post(
+    f"{answer.PATH}/results",
+    response_class=Response,
+    openapi_extra=UPLOAD_WITH_REQUEST,
+    operation_id="rexs_results",
+    responses={200: {"description": "the file with results", "content": {"application/xml": {"schema": FILE}}}},
+)
+async def write_results(
+    http: Request, stage: Annotated[int, Query(description="id of the stage's component")]
+) -> Response:
+    """The file with the numbers of a stage written to its component.
+
+    Attributes of the standard where the quantity is the same, `custom_tribodrive_*` otherwise; all else is kept.
+    """
+    content, request = await _upload(http)
+    limits: Settings = http.app.state.settings
+    arguments = (content, _most_bytes(http), stage, request, limits.deadline_s)
+    file: answer.File = await _runner(http).run(http, answer.with_results, *arguments)
+    headers = {"Content-Disposition": f'attachment; filename="results{file.suffix}"'}
+    return Response(file.content, media_type=file.media_type, headers=headers)
+
+
+@pages.post("/rexs")
+async def show_unit(http: Request) -> Response:
+    """The unit as a page: stages, findings, and a link to every calculation."""
+    try:
+        content, _ = await _upload(http)
+        return html(await _runner(http).run(http, answer.unit_html, content, _most_bytes(http)))
+    except Unprocessable as error:
+        return html(problem_page(422, "The file cannot be read", error.message), 422)
+    except TROUBLES as error:
+        return trouble_page(error)
+
+
+async def _upload(http: Request) -> tuple[bytes, bytes | None]:
+    """The file, and beside it the request where the form has one."""
+    media_type = http.headers.get("content-type", "").partition(";")[0].strip().lower()
+    if media_type in TYPES:
+        return await http.body(), None
+    if media_type != FORM:
+        raise HTTPException(415, f"send the file as {', '.join(TYPES[:1] + TYPES[2:4])} or as {FORM}")
+    async with http.form(max_files=2, max_fields=2, max_part_size=_most_bytes(http)) as form:
+        parts = {name: await part.read() if not isinstance(part, str) else part.encode() for name, part in form.items()}
+    if "file" not in parts:
+        raise Unprocessable("missing", "the form needs a part named file", "file")
+    return parts["file"], parts.get("request") or None
+
+
+def _runner(http: Request) -> Runner:
+    runner: Runner = http.app.state.runner
+    return runner
+
+
+def _most_bytes(http: Request) -> int:
+    limits: Settings = http.app.state.settings
+    return limits.rexs_mb * MEBIBYTE

@@ -1,0 +1,101 @@
+"""Gear units sent to the service."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from tests.rexs.units import three_stages, turbo_unit
+from tests.support.server import ROOT
+
+XML = {"Content-Type": "application/xml"}
+
+
+@pytest.mark.parametrize(
+    ("kind", "media_type"), [("xml", "application/xml"), ("json", "application/json"), ("zipped", "application/zip")]
+)
+def test_a_file_as_the_body(client: httpx.Client, kind: str, media_type: str) -> None:
+    content = getattr(three_stages(), kind)()
+    answer = client.post("/v1/rexs", content=content, headers={"Content-Type": media_type})
+    assert answer.status_code == 200
+    assert len(answer.json()["stages"]) == 3
+
+
+def test_a_file_from_a_form(client: httpx.Client) -> None:
+    files = {"file": ("unit.rexs", three_stages().xml())}
+    assert (
+        client.post("/v1/rexs", files=files).json()
+        == client.post("/v1/rexs", content=three_stages().xml(), headers=XML).json()
+    )
+
+
+def test_every_request_is_answered_or_says_what_it_lacks(client: httpx.Client) -> None:
+    (stage,) = client.post("/v1/rexs", content=turbo_unit().xml(), headers=XML).json()["stages"]
+    assert len(stage["requests"]) == 4
+    for path, body in stage["requests"].items():
+        assert client.post(path, json={**body, "detail": "summary"}).json()["status"].startswith("ok")
+
+
+@pytest.mark.parametrize(
+    ("content", "status", "code"),
+    [(b"<a", 422, "not_rexs"), (b"", 422, "not_rexs"), (b"<model version='7'/>", 422, "not_rexs")],
+)
+def test_what_cannot_be_read_says_why(client: httpx.Client, content: bytes, status: int, code: str) -> None:
+    answer = client.post("/v1/rexs", content=content, headers=XML)
+    assert (answer.status_code, answer.json()["errors"][0]["code"]) == (status, code)
+
+
+def test_other_types_and_sizes_are_refused(client: httpx.Client) -> None:
+    assert client.post("/v1/rexs", content=b"x", headers={"Content-Type": "text/plain"}).status_code == 415
+    assert client.post("/v1/rexs", files={"other": b"x"}).status_code == 422
+    assert client.post("/v1/rexs", content=b" " * 22 * 2**20, headers=XML).status_code == 413
+    page = client.post("/rexs", files={"file": ("a.rexs", b"<a")})
+    assert (page.status_code, "cannot be read" in page.text) == (422, True)
+
+
+def results(client: httpx.Client, stage: int, request: dict[str, Any] | None = None) -> httpx.Response:
+    files: dict[str, Any] = {"file": ("unit.rexs", turbo_unit().xml())}
+    if request is not None:
+        files["request"] = (None, json.dumps(request))
+    return client.post(f"/v1/rexs/results?stage={stage}", files=files)
+
+
+def test_results_come_back_in_the_file(client: httpx.Client) -> None:
+    (stage,) = client.post("/v1/rexs", content=turbo_unit().xml(), headers=XML).json()["stages"]
+    answer = results(client, stage["id"])
+    assert answer.headers["content-type"] == "application/xml"
+    assert b"face_load_factor_contact_stress" in answer.content
+    edited = {**stage["requests"]["/v1/scuffing"], "temperatures": {"oil_c": 50, "scuffing_c": 300}}
+    edited["model"] = {"lubrication": "closed_form"}
+    answer = results(client, stage["id"], edited)
+    assert b"custom_tribodrive_scuffing_safety_blok" in answer.content
+    assert len(client.post("/v1/rexs", content=answer.content, headers=XML).json()["stages"]) == 1
+    assert results(client, 999).status_code == 422
+    assert results(client, stage["id"], {"gears": {}}).status_code == 422
+
+
+def test_the_page_leads_to_every_calculation(client: httpx.Client) -> None:
+    page = client.post("/rexs", files={"file": ("unit.rexs", turbo_unit().xml())})
+    assert page.status_code == 200
+    addresses = [part.split('"')[0] for part in page.text.split('href="')[1:]]
+    cases = [each.replace("&amp;", "&") for each in addresses if "gears.pinion.teeth=" in each]
+    assert len(cases) == 4
+    for address in cases:
+        assert client.get(address, follow_redirects=True).status_code == 200
+
+
+def test_the_command_prints_the_answer(tmp_path: Path, client: httpx.Client) -> None:
+    file = tmp_path / "unit.rexs"
+    file.write_bytes(three_stages().xml())
+    done = subprocess.run(
+        [sys.executable, "-m", "app", "rexs", str(file)], capture_output=True, check=True, cwd=ROOT, text=True
+    )
+    assert json.loads(done.stdout) == client.post("/v1/rexs", content=file.read_bytes(), headers=XML).json()
+    missing = subprocess.run(
+        [sys.executable, "-m", "app", "rexs", "nothing.rexs"], capture_output=True, check=False, cwd=ROOT, text=True
+    )
+    assert (missing.returncode, missing.stdout) == (1, "")
