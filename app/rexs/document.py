@@ -92,10 +92,9 @@ class _Xml:
         tags = ("component", "relation", "load_case")
         steps = etree.iterparse(io.BytesIO(self._content), events=("end",), tag=tags, **SAFE)
         found: dict[str, list[Any]] = {tag: [] for tag in tags}
-        in_load_case = etree.XPath("boolean(ancestor::load_spectrum)")
         for _, element in steps:
-            if element.tag == "component" and in_load_case(element):
-                continue
+            if element.tag == "component" and element.getparent().tag != "components":
+                continue  # of a load case, which is read as a whole
             found[element.tag].append(PARTS[element.tag](element))
             element.clear(keep_tail=False)
         root = steps.root

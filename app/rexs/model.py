@@ -72,6 +72,11 @@ class Model:
                 found[relation.type, role, component].append(relation)
         return found
 
+    @cached_property
+    def casing(self) -> Component | None:
+        """The casing of the unit."""
+        return next((each for each in self.components.values() if each.type == "gear_casing"), None)
+
     def relations_of(self, type_: str, role: str, component: int) -> tuple[Relation, ...]:
         """The relations of a type in which the component has the role, by their order where they state one."""
         found = self._by_part.get((type_, role, component), ())

@@ -411,19 +411,14 @@ class StageDraft:
         return next((m for each in origins for m in self.reading.model.references_of(each.id, "material")), None)
 
     @cached_property
-    def casing(self) -> Component | None:
-        """The casing of the unit."""
-        return next((each for each in self.reading.model.components.values() if each.type == "gear_casing"), None)
-
-    @cached_property
     def lubricant(self) -> Component | None:
         """The stage's lubricant, else the casing's."""
-        origins = [each for each in (self.pair.stage, self.casing) if each is not None]
+        origins = [each for each in (self.pair.stage, self.reading.model.casing) if each is not None]
         return next((oil for each in origins for oil in self.reading.model.references_of(each.id, "lubricant")), None)
 
     def _oil(self) -> None:
         draft, oil = self.draft, self.lubricant
-        for origin in (self.pair.stage, self.casing):
+        for origin in (self.pair.stage, self.reading.model.casing):
             if origin is not None and draft.take(table.OIL_TEMPERATURE, origin, case=self.case) is not None:
                 break
         if oil is None:

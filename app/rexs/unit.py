@@ -1,6 +1,7 @@
 """A gear unit from its file: every stage with ready requests, its load cases, and what is missing, assumed, ignored."""
 
 from collections.abc import Iterable
+from itertools import islice
 from typing import Any
 
 from app.rexs import drive_train, table
@@ -22,10 +23,10 @@ def gear_unit(document: Document) -> dict[str, Any]:
     model = document.model
     reading = Reading(model)
     _check_relations(reading)
-    found = list(pairs(reading))
+    found = list(islice(pairs(reading), MOST_STAGES + 1))
     if len(found) > MOST_STAGES:
         reading.find(
-            "too_many_stages", None, None, f"the unit has {len(found)} stages; the first {MOST_STAGES} are read"
+            "too_many_stages", None, None, f"the unit has more than {MOST_STAGES} stages; the first ones are read"
         )
         del found[MOST_STAGES:]
     unit = _Unit(reading, found)
@@ -106,7 +107,7 @@ class _Unit:
                 overrides["load.pinion_torque_n_m"] = abs(torques[stage.order[0]])
             if speed is not None:
                 overrides["load.pinion_speed_rpm"] = abs(speed)
-            for origin in (stage.pair.stage, stage.casing):
+            for origin in (stage.pair.stage, self._reading.model.casing):
                 row = table.OIL_TEMPERATURE
                 value = self._reading.number(origin, row.attributes, row.unit, case=case) if origin else None
                 if value is not None:

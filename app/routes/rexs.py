@@ -4,9 +4,10 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, HTTPException, Query, Request, Response
 
+from app.pages.overview import problem_page
 from app.problems import Unprocessable, documented
 from app.rexs import answer
-from app.routes.pages import TROUBLES, html, problem_page, trouble_page
+from app.routes.pages import TROUBLES, html, trouble_page
 from app.settings import MEBIBYTE, Settings
 from app.workers.admission import Runner
 
