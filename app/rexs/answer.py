@@ -43,7 +43,7 @@ class Gap(BaseModel):
     message: Annotated[str, Output("what is missing")]
 
 
-class Assumption(BaseModel):
+class AssumedValue(BaseModel):
     """What stands in place of something that the file does not tell."""
 
     field: Annotated[str, Output("dotted path of the field")]
@@ -73,7 +73,7 @@ class Stage(BaseModel):
     requests: Annotated[dict[str, dict[str, Any]], Output("a request for each endpoint that can be asked")]
     cases: Annotated[list[Case], Output("load spectrum of the file")]
     missing: Annotated[list[Gap], Output("what has to be filled in")]
-    assumed: Annotated[list[Assumption], Output("what was put in its place")]
+    assumed: Annotated[list[AssumedValue], Output("what was put in its place")]
     ignored: Annotated[list[Unused], Output("what could not be used")]
 
 
