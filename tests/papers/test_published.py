@@ -43,7 +43,7 @@ def test_a_statement_that_is_not_reproduced_says_why() -> None:
 def equations(folder: str) -> Iterator[tuple[str, int]]:
     """Paper and number of the equations that docstrings and comments name; the solvers need not name the paper."""
     for path in (ROOT / folder).rglob("*.py"):
-        paper = "Milian" if "pumping" in path.parts else "Xue"
+        paper = "Milian" if "pumping" in str(path.relative_to(ROOT)) else "Xue"
         for word, first, joint, last in CITED.findall(path.read_text("utf-8")):
             numbers = range(int(first), int(last) + 1) if joint == "-" else {int(first), int(last or first)}
             yield from ((paper if folder == "solvers" else word, number) for number in numbers)

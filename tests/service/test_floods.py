@@ -13,7 +13,7 @@ from urllib.parse import urlsplit
 import httpx
 import pytest
 
-from tests.support.server import descriptors, memory_mb, running_server
+from tests.support.server import answer_to, connected, descriptors, memory_mb, running_server
 
 pytestmark = pytest.mark.service
 
@@ -31,20 +31,6 @@ SMALL_LIMITS = {
 def small() -> Iterator[tuple[subprocess.Popen[str], str]]:
     with running_server(**SMALL_LIMITS) as server:
         yield server
-
-
-def connected(address: str) -> socket.socket:
-    target = urlsplit(address)
-    return socket.create_connection((target.hostname, target.port), timeout=10)
-
-
-def answer_to(connection: socket.socket) -> bytes:
-    """Everything the service sends until it closes the connection."""
-    received = b""
-    with suppress(OSError):
-        while piece := connection.recv(65536):
-            received += piece
-    return received
 
 
 def flood(address: str, opening: bytes, piece: bytes) -> tuple[int, bytes]:

@@ -11,8 +11,7 @@ from urllib.parse import urlsplit
 import httpx
 import pytest
 
-from tests.service.test_floods import answer_to, connected
-from tests.support.server import running_server, started_server, wait_until_warm
+from tests.support.server import answer_to, connected, running_server, started_server, wait_until_warm
 
 pytestmark = pytest.mark.service
 

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlsplit
 
 import httpx
 
@@ -139,3 +140,18 @@ def send_signal(pid: int, number: signal.Signals) -> None:
     """Signal a process that may have gone meanwhile."""
     with suppress(ProcessLookupError):
         os.kill(pid, number)
+
+
+def connected(address: str) -> socket.socket:
+    """A connection of one's own to the server."""
+    target = urlsplit(address)
+    return socket.create_connection((target.hostname, target.port), timeout=10)
+
+
+def answer_to(connection: socket.socket) -> bytes:
+    """Everything the service sends until it closes the connection."""
+    received = b""
+    with suppress(OSError):
+        while piece := connection.recv(65536):
+            received += piece
+    return received
