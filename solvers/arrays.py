@@ -8,6 +8,11 @@ from numpy.typing import ArrayLike, NDArray
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.int64]
+RecordArray = np.recarray[Any, np.dtype[np.record]]
+"""An array whose elements have named fields: `array[i].pressure` in kernels, `array.pressure` for all of them."""
+
+Fields = list[tuple[str, Any]]
+"""Names and types of the fields of a record."""
 
 
 def frozen(values: ArrayLike) -> NDArray[Any]:
@@ -15,3 +20,17 @@ def frozen(values: ArrayLike) -> NDArray[Any]:
     array = np.asarray(values).view()
     array.flags.writeable = False
     return array
+
+
+def records(shape: int | tuple[int, ...], fields: Fields) -> RecordArray:
+    """A record array of zeros.
+
+    Kernels share their arrays as records because numba counts references to every array in a group that is handed
+    over: with one array a field instead, a march of the pocket chain took 3.3 times as long, one of gas dynamics 1.4.
+    """
+    return np.zeros(shape, fields).view(np.recarray)
+
+
+def floats(*names: str) -> Fields:
+    """Fields that are all numbers."""
+    return [(name, np.float64) for name in names]

@@ -11,7 +11,7 @@ from solvers.gears.pair import GearPair, PathOfContact, meshing_path
 from solvers.notices import Notice
 from solvers.pumping.chain.pocket_chain import STEPS, pocket_chain
 from solvers.pumping.checks import check_setup, refuse_cost
-from solvers.pumping.flow.duct import Duct
+from solvers.pumping.flow.duct import Duct, wall_table
 from solvers.pumping.flow.nozzle import Gas, gas
 from solvers.pumping.flow.space_flow import SpaceFlow
 from solvers.pumping.gas.gas_dynamics import LEAST_SLICES, cell_steps, gas_dynamics
@@ -163,6 +163,8 @@ def _check_cost(mesh: Mesh, pinion_speed: float, parts: list[Stretch], limit: in
 def space_duct(mesh: Mesh, space: Space, pinion_speed: float, part: Stretch, *, transport: bool) -> Duct:
     """A stretch of the spaces of one gear as a duct, at a pinion speed [rad/s]; `transport` by flanks or none."""
     table = space.table
+    carried = table.carried if transport else np.zeros_like(table.carried)
+    clearance = table.clearance_left + table.clearance_right
     return Duct(
         start=part.start,
         width=part.width,
@@ -171,7 +173,7 @@ def space_duct(mesh: Mesh, space: Space, pinion_speed: float, part: Stretch, *, 
         speed=pinion_speed * space.speed_ratio,
         first_angle=table.limits.start,
         angle_step=(table.limits.end - table.limits.start) / (table.angle.size - 1),
-        table=table.columns(wall_transport=transport),
+        table=wall_table(table.area, clearance, carried),
         discharge=mesh.setup.model.discharge_coefficient,
     )
 

@@ -1,1 +1,1 @@
-"""The paper's chain of pockets: passages, pockets -> step -> march -> pocket_chain."""
+"""The paper's chain of pockets: step -> pocket_chain."""

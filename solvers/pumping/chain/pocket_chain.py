@@ -1,15 +1,30 @@
-"""The paper's chain of pockets (Eqs. 2-7). Its pressures depend on the number of pockets, which is a model constant."""
+"""The paper's chain of pockets (Eqs. 2-7), marched through the strokes of its pockets.
+
+Its pressures depend on the number of pockets, which is a constant of the model.
+"""
 
 from math import ceil
 
-from solvers.arrays import FloatArray
+import numpy as np
+
+from solvers.arrays import FloatArray, RecordArray
+from solvers.compiled import kernel
 from solvers.errors import NoSolution
-from solvers.pumping.chain.march import march_chain
-from solvers.pumping.chain.pockets import empty_pockets
-from solvers.pumping.flow.duct import Duct
-from solvers.pumping.flow.nozzle import Gas
-from solvers.pumping.flow.record import empty_record
-from solvers.pumping.flow.space_flow import March, SpaceFlow, space_flow
+from solvers.pumping.chain.step import advance, empty_pockets
+from solvers.pumping.flow.duct import Duct, active_range, wall_at
+from solvers.pumping.flow.nozzle import Gas, throat_mach
+from solvers.pumping.flow.space_flow import (
+    March,
+    Record,
+    SpaceFlow,
+    add_means,
+    add_outflow,
+    empty_record,
+    include_demand,
+    include_pressure,
+    include_speed,
+    space_flow,
+)
 from solvers.pumping.inputs import Closure
 from solvers.pumping.space.face import Stretch
 
@@ -43,3 +58,152 @@ def _march(gas: Gas, stretch: Stretch, duct: Duct, angle: FloatArray, closure: C
         "a time step of the pocket chain did not converge; try a higher speed, fewer slices or gas dynamics",
         {"content_error": error},
     )
+
+
+@kernel
+def march_chain(
+    gas: Gas, duct: Duct, pockets: RecordArray, angles: FloatArray, substeps: int, record: Record, isentropic: bool
+) -> tuple[int, float]:
+    """March over all `angles` [rad] in equal steps; their number, or -1 if one did not converge, and its residual."""
+    turn = (angles[-1] - angles[0]) / ((angles.size - 1) * substeps)
+    dt = turn / duct.speed
+    low, high, taken = 0, 0, 0
+    for k in range(1, angles.size):
+        for _ in range(substeps):
+            angle = angles[0] + taken * turn
+            new_low, new_high = active_range(duct, angle + 0.5 * turn)
+            _renew(gas, duct, pockets, record, low, high, new_low, new_high, angle)
+            low, high = new_low, new_high
+            _set_walls(duct, pockets, low, high, angle, turn)
+            record.ends[taken].time = (taken + 0.5) * dt
+            if high > low:
+                converged, error = advance(gas, duct.width, duct.discharge, pockets, low, high, dt, isentropic)
+                if not converged:
+                    return -1, error
+                _record_ends(gas, duct, pockets, record, low, high, dt, taken)
+                _record_jets(gas, pockets, record, low, high)
+                _record_pockets(gas, duct, pockets, record, low, high, dt)
+            taken += 1
+        _record_field(gas, pockets, record, low, high, k)
+    _renew(gas, duct, pockets, record, low, high, 0, 0, angles[-1])
+    return taken, 0.0
+
+
+@kernel
+def _renew(
+    gas: Gas,
+    duct: Duct,
+    pockets: RecordArray,
+    record: Record,
+    low: int,
+    high: int,
+    new_low: int,
+    new_high: int,
+    angle: float,
+) -> None:
+    """Add the content of pockets whose stroke ends to the balances, fill those whose stroke begins with ambient gas."""
+    per_energy = gas.exponent - 1.0
+    for i in range(low, high):
+        if i < new_low or i >= new_high:
+            record.mass[0].ended += pockets[i].old.mass * duct.width
+            record.energy[0].ended += pockets[i].old.pressure * pockets[i].area / per_energy * duct.width
+    for i in range(new_low, new_high):
+        if i < low or i >= high:
+            area = wall_at(duct, duct.start + (i + 0.5) * duct.width, angle).area
+            pockets[i].old.pressure, pockets[i].old.mass = gas.pressure, gas.density * area
+            record.mass[0].begun += pockets[i].old.mass * duct.width
+            record.energy[0].begun += gas.pressure * area / per_energy * duct.width
+
+
+@kernel
+def _set_walls(duct: Duct, pockets: RecordArray, low: int, high: int, angle: float, turn: float) -> None:
+    for i in range(low, high):
+        z = duct.start + (i + 0.5) * duct.width
+        after = wall_at(duct, z, angle + turn)
+        pockets[i].start_area = wall_at(duct, z, angle).area
+        pockets[i].area, pockets[i].gap = after.area, after.clearance
+    for face in range(low, high + 1):
+        pockets[face].opening = wall_at(duct, duct.start + face * duct.width, angle + turn).area
+
+
+@kernel
+def _temperature(gas: Gas, pressure: float, area: float, content: float) -> float:
+    """Temperature of a pocket [K]."""
+    return pressure * area / (content * gas.constant)
+
+
+@kernel
+def _mach(gas: Gas, left: float, right: float) -> float:
+    """Mach number in the narrowest section of the jet between two pressures [Pa]."""
+    return throat_mach(gas, max(left, right), min(left, right))
+
+
+@kernel
+def _record_field(gas: Gas, pockets: RecordArray, record: Record, low: int, high: int, k: int) -> None:
+    """Record the gas in the active pockets at recorded angle k."""
+    field = record.field
+    mach = 0.0
+    for i in range(low, high):
+        p = pockets[i].new.pressure
+        before = mach if i > low else _mach(gas, gas.pressure, p)
+        mach = _mach(gas, p, pockets[i + 1].new.pressure if i + 1 < high else gas.pressure)
+        field[k, i].pressure, field[k, i].mach = p, max(before, mach)
+        field[k, i].temperature = _temperature(gas, p, pockets[i].area, pockets[i].new.mass)
+
+
+@kernel
+def _record_ends(
+    gas: Gas, duct: Duct, pockets: RecordArray, record: Record, low: int, high: int, dt: float, taken: int
+) -> None:
+    """Record the flow out of both ends of the active pockets: ends of the duct, or borders to idle pockets."""
+    for end in range(2):
+        face, outward = (low, -1.0) if end == 0 else (high, 1.0)
+        open_end = (low == 0) if end == 0 else (high == duct.cells)
+        mass, energy = outward * pockets[face].mass_balance.flow * dt, outward * pockets[face].heat_balance.flow * dt
+        if open_end:
+            add_outflow(record, end, taken, mass, energy)
+            inside = pockets[low if end == 0 else high - 1].new.pressure
+            asked = (gas.pressure / inside) ** ((1.0 - gas.exponent) / gas.exponent) - 1.0
+            include_demand(record.extremes, np.sqrt(max(2.0 / (gas.exponent - 1.0) * asked, 0.0)))
+        else:
+            record.mass[0].idle += mass
+            record.energy[0].idle += energy
+
+
+@kernel
+def _record_jets(gas: Gas, pockets: RecordArray, record: Record, low: int, high: int) -> None:
+    """Record the largest Mach number and velocity of the jets through the faces."""
+    largest, fastest = 0.0, 0.0
+    right = gas.pressure
+    for face in range(low, high + 1):
+        left, right = right, pockets[face].new.pressure if face < high else gas.pressure
+        source = face - 1 if pockets[face].mass_balance.flow > 0.0 else face
+        stagnation = gas.temperature
+        if low <= source < high:
+            stagnation = _temperature(gas, pockets[source].new.pressure, pockets[source].area, pockets[source].new.mass)
+        mach = _mach(gas, left, right)
+        static = stagnation / (1.0 + 0.5 * (gas.exponent - 1.0) * mach * mach)
+        largest = max(largest, mach)
+        fastest = max(fastest, mach * np.sqrt(gas.exponent * gas.constant * static))
+    include_speed(record.extremes, largest, fastest)
+
+
+@kernel
+def _record_pockets(gas: Gas, duct: Duct, pockets: RecordArray, record: Record, low: int, high: int, dt: float) -> None:
+    """Record losses to the walls, means and extremes; the new state becomes the old one of the next step."""
+    mass = energy = work = 0.0
+    for i in range(low, high):
+        growth = pockets[i].area - pockets[i].start_area
+        mean = 0.5 * (pockets[i].old.pressure + pockets[i].new.pressure)
+        mass += pockets[i].mass_balance.leak * dt
+        energy += pockets[i].heat_balance.leak * dt + mean * growth
+        work -= (mean - gas.pressure) * growth
+        before = _temperature(gas, pockets[i].old.pressure, pockets[i].start_area, pockets[i].old.mass)
+        after = _temperature(gas, pockets[i].new.pressure, pockets[i].area, pockets[i].new.mass)
+        temperature = 0.5 * (before + after)
+        pockets[i].old = pockets[i].new
+        add_means(record.profile, i, temperature, temperature, dt, 1.0)
+        include_pressure(record.profile, i, pockets[i].new.pressure)
+    record.mass[0].walls += mass * duct.width
+    record.energy[0].walls += energy * duct.width
+    record.energy[0].work += work * duct.width

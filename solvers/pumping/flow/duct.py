@@ -1,19 +1,20 @@
-"""A stretch of tooth space as a duct: its grid and its moving walls."""
+"""A stretch of tooth space as a duct: its cells along the face and its walls, which move with the gears."""
 
 from typing import NamedTuple
 
-from solvers.arrays import FloatArray
+from solvers.arrays import FloatArray, RecordArray, floats, records
 from solvers.compiled import kernel
 
-AREA, CLEARANCE, CARRIED = range(3)  # columns of tables of walls
+WALL = floats("area", "clearance", "carried")
+"""Walls of a cell: see `Wall`."""
 
 
 class Duct(NamedTuple):
     """A stretch of a tooth space cut into equal cells.
 
     `start` [m] from the end that meshes first, `width` of a cell [m], `cells`; `lag` of the stroke per metre of face
-    [rad/m]; `speed` of the owner [rad/s]; `table` of area, total clearance and carried gas at `first_angle` +
-    k `angle_step` [rad]; `discharge` coefficient of the radial gaps.
+    [rad/m]; `speed` of the owner [rad/s]; `table` of walls (`wall_table`) at `first_angle` + k `angle_step` [rad];
+    `discharge` coefficient of the radial gaps.
     """
 
     start: float
@@ -23,16 +24,23 @@ class Duct(NamedTuple):
     speed: float
     first_angle: float
     angle_step: float
-    table: FloatArray
+    table: RecordArray
     discharge: float
 
 
 class Wall(NamedTuple):
-    """Section of a tooth space [m^2], clearance of its two sides [m], gas that the flanks carry off [m^2]."""
+    """Section of a tooth space [m^2], clearance of both sides [m], area of gas that the flanks carried off [m^2]."""
 
     area: float
     clearance: float
     carried: float
+
+
+def wall_table(area: FloatArray, clearance: FloatArray, carried: FloatArray) -> RecordArray:
+    """Walls at equal steps of the owner's angle: arrays of what `Wall` holds at one."""
+    table = records(area.size, WALL)
+    table.area, table.clearance, table.carried = area, clearance, carried
+    return table
 
 
 @kernel
@@ -40,14 +48,14 @@ def wall_at(duct: Duct, z: float, angle: float) -> Wall:
     """The walls at z [m] when the owner stands at `angle` [rad]; end values outside the stroke."""
     position = (angle - duct.lag * z - duct.first_angle) / duct.angle_step
     table = duct.table
-    last = table.shape[0] - 1
+    last = table.size - 1
     position = min(max(position, 0.0), float(last))
     k = min(int(position), last - 1)
     f = position - k
     return Wall(
-        (1.0 - f) * table[k, AREA] + f * table[k + 1, AREA],
-        (1.0 - f) * table[k, CLEARANCE] + f * table[k + 1, CLEARANCE],
-        (1.0 - f) * table[k, CARRIED] + f * table[k + 1, CARRIED],
+        (1.0 - f) * table[k].area + f * table[k + 1].area,
+        (1.0 - f) * table[k].clearance + f * table[k + 1].clearance,
+        (1.0 - f) * table[k].carried + f * table[k + 1].carried,
     )
 
 
@@ -73,7 +81,7 @@ def active_range(duct: Duct, angle: float) -> tuple[int, int]:
 @kernel
 def stroke_end(duct: Duct) -> float:
     """Phase at which the stroke ends [rad]."""
-    end: float = duct.first_angle + duct.angle_step * (duct.table.shape[0] - 1)
+    end: float = duct.first_angle + duct.angle_step * (duct.table.size - 1)
     return end
 
 

@@ -1,19 +1,41 @@
-"""Quasi-one-dimensional gas dynamics of a tooth space: the grid-convergent flow model."""
+"""Quasi-one-dimensional gas dynamics of a tooth space: ducts marched through their strokes, step by step.
+
+Cells take part while they are in their stroke. This model converges with the grid; the chain of pockets does not.
+"""
 
 from math import ceil
 
+import numpy as np
+
 from solvers.arrays import FloatArray
+from solvers.compiled import kernel
 from solvers.errors import NoSolution
-from solvers.pumping.flow.duct import Duct
+from solvers.pumping.flow.duct import Duct, phase_of, stroke_end, stroke_share, wall_at
 from solvers.pumping.flow.nozzle import Gas
-from solvers.pumping.flow.record import TIME, empty_record
-from solvers.pumping.flow.space_flow import March, SpaceFlow, space_flow
-from solvers.pumping.gas.cells import empty_cells
-from solvers.pumping.gas.march import COURANT, march
+from solvers.pumping.flow.space_flow import (
+    March,
+    Record,
+    SpaceFlow,
+    add_means,
+    add_outflow,
+    empty_record,
+    include_demand,
+    include_pressure,
+    include_speed,
+    space_flow,
+)
+from solvers.pumping.gas.riemann import front_face
+from solvers.pumping.gas.step import Cells, empty_cells, set_walls, step
 from solvers.pumping.space.face import Stretch
 
 LEAST_SLICES = 4
 _HASTE = 2.5  # steps may be this much shorter than sound at rest asks for
+COURANT = 0.7
+_ROUNDING = 1e-6  # of a step, by which it may be longer rather than leave so little
+_RETRIES = 12
+_AHEAD = 4.0  # widths by which cells come early where no wave outruns their stroke
+_STEEP = 0.5  # share of a cell's density or pressure below which nothing is extrapolated from it
+_UNSETTLED = 5.0  # steps in which leakage finds its balance with the walls, and the waves of the beginning pass
 
 
 def gas_dynamics(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray) -> SpaceFlow:
@@ -29,7 +51,7 @@ def gas_dynamics(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray)
         if steps < 0:
             reason = "the step limit was reached" if steps == -1 else "no step length gave a physical state"
             duration = float(angle[-1] - angle[0]) / part.speed
-            remaining = {"remaining_share_of_stroke": 1.0 - float(record.ends[:, TIME].max()) / duration}
+            remaining = {"remaining_share_of_stroke": 1.0 - float(record.ends.time.max()) / duration}
             raise NoSolution("unphysical_state", f"the gas dynamics failed: {reason}; try fewer slices", remaining)
         marches.append(March(stretch, record, steps))
     return space_flow(angle, marches, conserves_energy=True)
@@ -42,3 +64,197 @@ def cell_steps(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray) -
 
 def _steps(gas: Gas, part: Duct, angle: FloatArray) -> float:
     return float(angle[-1] - angle[0]) / part.speed * gas.sound_speed / (COURANT * part.width)
+
+
+@kernel
+def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record, order: int) -> int:
+    """March from the first of `angles` [rad] to the last, landing on each; the number of steps, negative if it failed.
+
+    Steps are as long as waves allow, the last before an angle is what remains: where one more is needed it is short at
+    first, and results change steadily with whatever the step length depends on.
+    Fails with -1 where the record has no room for more steps, with -2 where no step length gives a physical state.
+    """
+    angle, taken, low, high = angles[0], 0, 0, 0
+    for k in range(1, angles.size):
+        landed = False
+        while not landed:
+            remaining = angles[k] - angle
+            longest = min(_longest_turn(gas, duct, cells, low, high), angles[k] - angles[k - 1])
+            turn = remaining if remaining <= (1.0 + _ROUNDING) * longest else longest
+            done = False
+            for retry in range(_RETRIES):
+                new_low, new_high = _taking_part(gas, duct, angle, turn)
+                if new_high == new_low:
+                    done = True
+                    break
+                _fill(gas, duct, cells, low, high, new_low, new_high, angle)
+                set_walls(duct, cells, new_low, new_high, angle, turn)
+                done = step(gas, duct, cells, new_low, new_high, turn / duct.speed, order if retry == 0 else 1)
+                if done:
+                    break
+                turn *= 0.5
+            if not done:
+                return -2
+            if taken == record.ends.size:
+                return -1
+            _record_changes(duct, cells, record, low, high, new_low, new_high)
+            low, high = new_low, new_high
+            if high > low:
+                record.ends[taken].time = (angle + 0.5 * turn - angles[0]) / duct.speed
+                _record_ends(duct, cells, record, low, high, angle, turn, taken)
+                _record_cells(gas, duct, cells, record, low, high, angle, turn, longest)
+                _take_over(cells, low, high)
+                taken += 1
+            landed = turn == remaining
+            angle = angles[k] if landed else angle + turn
+        _record_field(gas, duct, cells, record, low, high, k, angle)
+    _record_changes(duct, cells, record, low, high, 0, 0)
+    return taken
+
+
+@kernel
+def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, int]:
+    """First cell that takes part in a step of `turn` from `angle` [rad], and the one after the last.
+
+    A cell does while its centre is in its stroke, the first also while its outer end is, the last likewise: whatever
+    leaves through an end leaves while that end is open. Walls and balances count the share of the step in the stroke.
+    Where the stroke runs along the face faster than sound, cells come some widths early: waves do not reach the border
+    in truth, but on a grid they spread over a few cells. A border among those feeds what it lets pass into the cells
+    that come next, and the flow takes one of two courses by how the steps fall.
+    """
+    low, high, rear = 0, 0, duct.cells - 1
+    early = _AHEAD * duct.lag * duct.width if duct.speed >= duct.lag * gas.sound_speed else 0.0
+    for i in range(duct.cells):
+        centre = (i + 0.5) * duct.width
+        first, last = 0.0 if i == 0 else centre, duct.cells * duct.width if i == rear else centre
+        if angle - duct.lag * (duct.start + last) >= stroke_end(duct):
+            low = i + 1
+        if angle + turn - duct.lag * (duct.start + first) + early > duct.first_angle:
+            high = i + 1
+    return low, max(low, high)
+
+
+@kernel
+def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> float:
+    """Turn of the owner [rad] in which no wave crosses more than the Courant number's share of a cell."""
+    fastest = gas.sound_speed
+    for i in range(low, high):
+        rho, u, p = cells.state[i].density, cells.state[i].velocity, cells.state[i].pressure
+        fastest = max(fastest, abs(u) + np.sqrt(gas.exponent * p / rho))
+    return COURANT * duct.width / fastest * duct.speed
+
+
+@kernel
+def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int, new_high: int, angle: float) -> None:
+    """The gas of the border in the cells whose stroke begins."""
+    rho, u, p = _border(gas, duct, cells, low, high)
+    for i in range(new_low, new_high):
+        if i < low or i >= high:
+            area = wall_at(duct, duct.start + (i + 0.5) * duct.width, angle).area
+            cells.content[i].mass, cells.content[i].momentum = rho * area, rho * u * area
+            cells.content[i].energy = (p / (gas.exponent - 1.0) + 0.5 * rho * u * u) * area
+            cells.state[i].density, cells.state[i].velocity, cells.state[i].pressure = rho, u, p
+
+
+@kernel
+def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> tuple[float, float, float]:
+    """State of the border to the slices that come next, where their centres are: a cell's width ahead of the last.
+
+    Ambient gas at rest where no cell is active yet.
+    """
+    if not low < high < duct.cells:
+        return gas.density, 0.0, gas.pressure
+    last, before = cells.state[high - 1], cells.state[max(high - 2, low)]
+    rho = 2.0 * last.density - before.density
+    u = 2.0 * last.velocity - before.velocity
+    p = 2.0 * last.pressure - before.pressure
+    if rho < _STEEP * last.density or p < _STEEP * last.pressure:
+        rho, u, p = last.density, last.velocity, last.pressure
+    return front_face(gas, duct.speed / duct.lag, rho, u, p)
+
+
+@kernel
+def _record_changes(duct: Duct, cells: Cells, record: Record, low: int, high: int, new_low: int, new_high: int) -> None:
+    """Add the content of cells whose stroke ends or begins between two steps to the balances.
+
+    Active cells were low..high and become new_low..new_high.
+    """
+    for i in range(low, high):
+        if i < new_low or i >= new_high:
+            record.mass[0].ended += cells.content[i].mass * duct.width
+            record.energy[0].ended += cells.content[i].energy * duct.width
+    for i in range(new_low, new_high):
+        if i < low or i >= high:
+            record.mass[0].begun += cells.content[i].mass * duct.width
+            record.energy[0].begun += cells.content[i].energy * duct.width
+
+
+@kernel
+def _record_ends(
+    duct: Duct, cells: Cells, record: Record, low: int, high: int, angle: float, turn: float, taken: int
+) -> None:
+    """Record the flow out of both ends of the active cells: ends of the duct, or borders to idle cells.
+
+    The end of the duct counts as one for the share of the step in which it is in its stroke itself.
+    """
+    dt = turn / duct.speed
+    for end in range(2):
+        face, outward = (low, -1.0) if end == 0 else (high, 1.0)
+        open_end = (low == 0) if end == 0 else (high == duct.cells)
+        share = stroke_share(duct, duct.start + face * duct.width, angle, turn) if open_end else 0.0
+        mass, energy = outward * cells.flux[face].mass * dt, outward * cells.flux[face].energy * dt
+        add_outflow(record, end, taken, share * mass, share * energy)
+        record.mass[0].idle += (1.0 - share) * mass
+        record.energy[0].idle += (1.0 - share) * energy
+        if share > 0.0:
+            include_speed(record.extremes, cells.ends[end].mach, abs(cells.ends[end].velocity))
+            include_demand(record.extremes, cells.ends[end].demand)
+
+
+@kernel
+def _record_cells(
+    gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, angle: float, turn: float, longest: float
+) -> None:
+    """Record losses to the walls, mean temperatures (trapezoidal) and extremes of the active cells.
+
+    `longest` is the turn of a whole step [rad]. Extremes leave out cells whose stroke ends within the step (closed for
+    the rest of it, they collect what flows in) and cells in their first steps: they start from the state of the border,
+    and the leakage through the gaps settles within a fraction of a step, which an implicit scheme of second order
+    overshoots.
+    """
+    old, new, loss, dt = cells.state, cells.next_state, cells.loss, turn / duct.speed
+    for i in range(low, high):
+        record.mass[0].walls += loss[i].mass * duct.width
+        record.energy[0].walls += loss[i].energy * duct.width
+        record.energy[0].work += loss[i].work * duct.width
+        rho, u, p = new[i].density, new[i].velocity, new[i].pressure
+        before, after = old[i].pressure / old[i].density, p / rho
+        static = 0.5 * (before + after) / gas.constant
+        dynamic = 0.25 * (old[i].velocity ** 2 + u**2) / gas.heat_capacity
+        add_means(record.profile, i, static, static + dynamic, dt, cells.share[i])
+        if duct.first_angle + _UNSETTLED * longest <= phase_of(duct, i, angle + turn) <= stroke_end(duct):
+            mach = abs(u) / np.sqrt(gas.exponent * p / rho)
+            include_pressure(record.profile, i, p)
+            include_speed(record.extremes, mach, abs(u))
+            record.profile[i].mach = max(record.profile[i].mach, mach)
+
+
+@kernel
+def _take_over(cells: Cells, low: int, high: int) -> None:
+    """Copy the end of one step to the start of the next."""
+    for i in range(low, high):
+        cells.content[i] = cells.next_content[i]
+        cells.state[i] = cells.next_state[i]
+
+
+@kernel
+def _record_field(
+    gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, k: int, angle: float
+) -> None:
+    """Record the gas at recorded angle k in the active cells whose stroke is not over."""
+    for i in range(low, high):
+        if phase_of(duct, i, angle) <= stroke_end(duct):
+            rho, u, p = cells.state[i].density, cells.state[i].velocity, cells.state[i].pressure
+            record.field[k, i].pressure = p
+            record.field[k, i].mach = abs(u) / np.sqrt(gas.exponent * p / rho)
+            record.field[k, i].temperature = p / (rho * gas.constant) + 0.5 * u * u / gas.heat_capacity

@@ -8,34 +8,106 @@ Second order in space and time: limited linear reconstruction and a half-step pr
 wall work by a two-stage, L-stable, stiffly accurate Runge-Kutta method around the fluxes of the half step.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
-from solvers.arrays import FloatArray
+from solvers.arrays import FloatArray, RecordArray, floats, records
 from solvers.compiled import kernel
-from solvers.pumping.flow.duct import AREA, CARRIED, CLEARANCE, Duct
+from solvers.pumping.flow.duct import WALL, Duct, Wall, stroke_share, wall_at
 from solvers.pumping.flow.nozzle import Gas
-from solvers.pumping.gas.cells import (
-    DEMAND,
-    DENSITY,
-    ENERGY,
-    GIVEN,
-    GROWTH,
-    HALFWAY,
-    LATEST,
-    LEAKED,
-    MACH,
-    MASS,
-    MOMENTUM,
-    OUTWARD,
-    PRESSURE,
-    VELOCITY,
-    WORKED,
-    Cells,
-)
 from solvers.pumping.gas.leakage import Stage, Walls, implicit_stage
 from solvers.pumping.gas.riemann import front_face, hllc, reservoir_face
 
 _DIAGONAL = 1.0 - np.sqrt(0.5)  # of the two-stage method
+
+
+CONSERVED = floats("mass", "momentum", "energy")
+"""Per metre of face: mass [kg/m], momentum [kg/s], energy [J/m]; as a flux through a face: [kg/s, N, W]."""
+
+STATE = floats("density", "velocity", "pressure")
+"""Density [kg/m^3], velocity [m/s] and pressure [Pa], or their changes over a cell."""
+
+LOSS = floats("mass", "energy", "work")
+"""What a cell loses to the walls in a step, per metre of face.
+
+Leaked mass [kg/m]; energy with leaks and wall work [J/m]; work done by the walls on the gas above ambient pressure
+[J/m].
+"""
+
+END = floats("demand", "mach", "velocity")
+"""An end in a step: Mach number that the ambient pressure asks for, Mach number, velocity outwards [m/s]."""
+
+LEAK = floats("latest", "halfway", "growth")
+"""Flux out through the gaps, the first guess for the next step.
+
+At the end of the latest step and halfway through it [kg/(s m)]; its growth over that step [kg/(s^2 m)].
+"""
+
+
+class Cells(NamedTuple):
+    """Arrays of a duct that the kernels of a step share, (cells,), (cells + 1,) for faces, (2,) for ends.
+
+    `content` (of CONSERVED) and `state` (of STATE) at the start of the step, `next_content` and `next_state` at its
+    end; `walls` and `next_walls` (of WALL) likewise; `slope` and `half` (the middle of the step) of the state; `loss`
+    over the step (of LOSS); `face_area` [m^2] and `flux` through the faces (of CONSERVED) in the middle of the step;
+    `ends` (of END); `leak` (of LEAK); `share` of the step in which a cell's centre is in its stroke: outside it the
+    walls stand still and nothing leaks.
+    """
+
+    content: RecordArray
+    state: RecordArray
+    next_content: RecordArray
+    next_state: RecordArray
+    walls: RecordArray
+    next_walls: RecordArray
+    slope: RecordArray
+    half: RecordArray
+    loss: RecordArray
+    face_area: FloatArray
+    flux: RecordArray
+    ends: RecordArray
+    leak: RecordArray
+    share: FloatArray
+
+
+def empty_cells(cells: int) -> Cells:
+    """Arrays for a duct of so many cells."""
+    return Cells(
+        content=records(cells, CONSERVED),
+        state=records(cells, STATE),
+        next_content=records(cells, CONSERVED),
+        next_state=records(cells, STATE),
+        walls=records(cells, WALL),
+        next_walls=records(cells, WALL),
+        slope=records(cells, STATE),
+        half=records(cells, STATE),
+        loss=records(cells, LOSS),
+        face_area=np.zeros(cells + 1),
+        flux=records(cells + 1, CONSERVED),
+        ends=records(2, END),
+        leak=records(cells, LEAK),
+        share=np.zeros(cells),
+    )
+
+
+@kernel
+def set_walls(duct: Duct, cells: Cells, low: int, high: int, angle: float, turn: float) -> None:
+    """Set the walls of the active cells at the start and the end of a step, and the areas of faces in its middle."""
+    for i in range(low, high):
+        z = duct.start + (i + 0.5) * duct.width
+        share = stroke_share(duct, z, angle, turn)
+        cells.share[i] = share
+        _put(cells.walls, i, wall_at(duct, z, angle), share)
+        _put(cells.next_walls, i, wall_at(duct, z, angle + turn), share)
+    for i in range(low, high + 1):
+        cells.face_area[i] = wall_at(duct, duct.start + i * duct.width, angle + 0.5 * turn).area
+
+
+@kernel
+def _put(walls: RecordArray, i: int, wall: Wall, share: float) -> None:
+    """Walls of cell i, whose clearance is open for a share of the step."""
+    walls[i].area, walls[i].clearance, walls[i].carried = wall.area, share * wall.clearance, wall.carried
 
 
 @kernel
@@ -50,22 +122,40 @@ def step(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float, ord
 
 @kernel
 def _set_slopes(cells: Cells, low: int, high: int, order: int) -> None:
-    """Van Leer's limited differences; one-sided ones in the end cells."""
+    """Limited slopes of the state over the cells; 0 in a cell whose density or pressure they would nearly exhaust."""
     state, slope = cells.state, cells.slope
     for i in range(low, high):
-        for k in range(3):
-            if order == 1 or high - low < 3:
-                slope[i, k] = 0.0
-            elif i == low:
-                slope[i, k] = _end_slope(state[i + 1, k] - state[i, k], state[i + 2, k] - state[i + 1, k])
-            elif i == high - 1:
-                slope[i, k] = _end_slope(state[i, k] - state[i - 1, k], state[i - 1, k] - state[i - 2, k])
-            else:
-                back, ahead = state[i, k] - state[i - 1, k], state[i + 1, k] - state[i, k]
-                slope[i, k] = 2.0 * back * ahead / (back + ahead) if back * ahead > 0.0 else 0.0
-        for k in (DENSITY, PRESSURE):
-            if 0.5 * abs(slope[i, k]) >= 0.9 * state[i, k]:
-                slope[i, :] = 0.0
+        if order == 1 or high - low < 3:
+            _put_slope(slope, i, 0.0, 0.0, 0.0)
+            continue
+        inner = low + 1 if i == low else high - 2 if i == high - 1 else i
+        a, b, c = state[inner - 1], state[inner], state[inner + 1]
+        _put_slope(
+            slope,
+            i,
+            _limited(i - inner, b.density - a.density, c.density - b.density),
+            _limited(i - inner, b.velocity - a.velocity, c.velocity - b.velocity),
+            _limited(i - inner, b.pressure - a.pressure, c.pressure - b.pressure),
+        )
+        density = 0.5 * abs(slope[i].density) >= 0.9 * state[i].density
+        pressure = 0.5 * abs(slope[i].pressure) >= 0.9 * state[i].pressure
+        if density or pressure:
+            _put_slope(slope, i, 0.0, 0.0, 0.0)
+
+
+@kernel
+def _put_slope(slope: RecordArray, i: int, density: float, velocity: float, pressure: float) -> None:
+    slope[i].density, slope[i].velocity, slope[i].pressure = density, velocity, pressure
+
+
+@kernel
+def _limited(side: int, back: float, ahead: float) -> float:
+    """Van Leer's limited difference of two neighbouring ones; in an end cell (side -1 or 1) a one-sided slope."""
+    if side < 0:
+        return _end_slope(back, ahead)
+    if side > 0:
+        return _end_slope(ahead, back)
+    return 2.0 * back * ahead / (back + ahead) if back * ahead > 0.0 else 0.0
 
 
 @kernel
@@ -78,13 +168,13 @@ def _end_slope(nearest: float, next_one: float) -> float:
 
 
 @kernel
-def _walls(duct: Duct, now: FloatArray, after: FloatArray, i: int, fraction: float, dt: float) -> Walls:
+def _walls(duct: Duct, now: RecordArray, after: RecordArray, i: int, fraction: float, dt: float) -> Walls:
     """Walls of cell i after a fraction of the step."""
     return Walls(
-        now[i, AREA] + fraction * (after[i, AREA] - now[i, AREA]),
-        (after[i, AREA] - now[i, AREA]) / dt,
-        duct.discharge * (now[i, CLEARANCE] + fraction * (after[i, CLEARANCE] - now[i, CLEARANCE])),
-        (after[i, CARRIED] - now[i, CARRIED]) / dt,
+        now[i].area + fraction * (after[i].area - now[i].area),
+        (after[i].area - now[i].area) / dt,
+        duct.discharge * (now[i].clearance + fraction * (after[i].clearance - now[i].clearance)),
+        (after[i].carried - now[i].carried) / dt,
     )
 
 
@@ -96,34 +186,34 @@ def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
     half, leak = cells.half, cells.leak
     for i in range(low, high):
         left, right = area[i], area[i + 1]
-        rho, u, p = w[i]
-        by_rho, by_u, by_p = s[i]
+        rho, u, p = w[i].density, w[i].velocity, w[i].pressure
+        by_rho, by_u, by_p = s[i].density, s[i].velocity, s[i].pressure
         r_l, u_l, p_l = rho - 0.5 * by_rho, u - 0.5 * by_u, p - 0.5 * by_p
         r_r, u_r, p_r = rho + 0.5 * by_rho, u + 0.5 * by_u, p + 0.5 * by_p
-        mass = c[i, MASS] - share * (right * r_r * u_r - left * r_l * u_l)
+        mass = c[i].mass - share * (right * r_r * u_r - left * r_l * u_l)
         force = p * (right - left)
-        momentum = c[i, MOMENTUM] - share * (right * (r_r * u_r**2 + p_r) - left * (r_l * u_l**2 + p_l) - force)
+        momentum = c[i].momentum - share * (right * (r_r * u_r**2 + p_r) - left * (r_l * u_l**2 + p_l) - force)
         enthalpy_l = g / (g - 1.0) * p_l + 0.5 * r_l * u_l**2
         enthalpy_r = g / (g - 1.0) * p_r + 0.5 * r_r * u_r**2
-        energy = c[i, ENERGY] - share * (right * u_r * enthalpy_r - left * u_l * enthalpy_l)
+        energy = c[i].energy - share * (right * u_r * enthalpy_r - left * u_l * enthalpy_l)
         walls = _walls(duct, cells.walls, cells.next_walls, i, 0.5, dt)
-        guess = leak[i, LATEST] + 0.5 * dt * leak[i, GROWTH]
+        guess = leak[i].latest + 0.5 * dt * leak[i].growth
         stage = implicit_stage(gas, walls, mass, momentum, energy, 0.5 * dt, guess)
         if not stage.fits:
             return False
-        leak[i, HALFWAY] = stage.through_gaps
-        half[i, DENSITY], half[i, VELOCITY] = stage.mass / walls.area, stage.momentum / stage.mass
-        half[i, PRESSURE] = stage.pressure
+        leak[i].halfway = stage.through_gaps
+        half[i].density, half[i].velocity = stage.mass / walls.area, stage.momentum / stage.mass
+        half[i].pressure = stage.pressure
     return True
 
 
 @kernel
-def _edge(w: FloatArray, s: FloatArray, i: int, side: float) -> tuple[float, float, float]:
+def _edge(w: RecordArray, s: RecordArray, i: int, side: float) -> tuple[float, float, float]:
     """State w at a cell's edge by the slope s; that of the cell itself where the slope leads too far."""
-    rho, p = w[i, DENSITY] + side * s[i, DENSITY], w[i, PRESSURE] + side * s[i, PRESSURE]
-    if rho < 0.1 * w[i, DENSITY] or p < 0.1 * w[i, PRESSURE]:
-        return w[i, DENSITY], w[i, VELOCITY], w[i, PRESSURE]
-    return rho, w[i, VELOCITY] + side * s[i, VELOCITY], p
+    rho, p = w[i].density + side * s[i].density, w[i].pressure + side * s[i].pressure
+    if rho < 0.1 * w[i].density or p < 0.1 * w[i].pressure:
+        return w[i].density, w[i].velocity, w[i].pressure
+    return rho, w[i].velocity + side * s[i].velocity, p
 
 
 @kernel
@@ -134,7 +224,7 @@ def _set_fluxes(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> None
         rho_l, u_l, p_l = _edge(half, slope, i - 1, 0.5)
         rho_r, u_r, p_r = _edge(half, slope, i, -0.5)
         mass, momentum, energy = hllc(gas.exponent, rho_l, u_l, p_l, rho_r, u_r, p_r)
-        flux[i, MASS], flux[i, MOMENTUM], flux[i, ENERGY] = area[i] * mass, area[i] * momentum, area[i] * energy
+        flux[i].mass, flux[i].momentum, flux[i].energy = area[i] * mass, area[i] * momentum, area[i] * energy
     _set_end(gas, cells, low, low, 0)
     if high < duct.cells:
         _set_front(gas, duct, cells, high)
@@ -148,10 +238,11 @@ def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
     rho, u, p = _edge(cells.half, cells.slope, cell, 0.5 * outward)
     rho_f, v, p_f, mach = reservoir_face(gas, rho, outward * u, p)
     area, g = cells.face_area[face], gas.exponent
-    cells.flux[face, MASS] = outward * area * rho_f * v
-    cells.flux[face, MOMENTUM] = area * (rho_f * v * v + p_f)
-    cells.flux[face, ENERGY] = outward * area * v * (g / (g - 1.0) * p_f + 0.5 * rho_f * v * v)
-    cells.ends[end, DEMAND], cells.ends[end, MACH], cells.ends[end, OUTWARD] = mach, v / np.sqrt(g * p_f / rho_f), v
+    cells.flux[face].mass = outward * area * rho_f * v
+    cells.flux[face].momentum = area * (rho_f * v * v + p_f)
+    cells.flux[face].energy = outward * area * v * (g / (g - 1.0) * p_f + 0.5 * rho_f * v * v)
+    ends = cells.ends
+    ends[end].demand, ends[end].mach, ends[end].velocity = mach, v / np.sqrt(g * p_f / rho_f), v
 
 
 @kernel
@@ -160,9 +251,9 @@ def _set_front(gas: Gas, duct: Duct, cells: Cells, high: int) -> None:
     rho, u, p = _edge(cells.half, cells.slope, high - 1, 0.5)
     rho_f, v, p_f = front_face(gas, duct.speed / duct.lag, rho, u, p)
     area, g = cells.face_area[high], gas.exponent
-    cells.flux[high, MASS] = area * rho_f * v
-    cells.flux[high, MOMENTUM] = area * (rho_f * v * v + p_f)
-    cells.flux[high, ENERGY] = area * v * (g / (g - 1.0) * p_f + 0.5 * rho_f * v * v)
+    cells.flux[high].mass = area * rho_f * v
+    cells.flux[high].momentum = area * (rho_f * v * v + p_f)
+    cells.flux[high].energy = area * v * (g / (g - 1.0) * p_f + 0.5 * rho_f * v * v)
 
 
 @kernel
@@ -171,14 +262,14 @@ def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
     flux, area, c, h = cells.flux, cells.face_area, cells.content, _DIAGONAL * dt
     loss, leak = cells.loss, cells.leak
     for i in range(low, high):
-        mass = (flux[i, MASS] - flux[i + 1, MASS]) / duct.width
-        force = cells.half[i, PRESSURE] * (area[i + 1] - area[i])
-        momentum = (flux[i, MOMENTUM] - flux[i + 1, MOMENTUM] + force) / duct.width
-        energy = (flux[i, ENERGY] - flux[i + 1, ENERGY]) / duct.width
-        early, late, latest = dt - h, h, leak[i, LATEST]
-        ahead = 2.0 * (leak[i, HALFWAY] - latest)  # growth over the step
+        mass = (flux[i].mass - flux[i + 1].mass) / duct.width
+        force = cells.half[i].pressure * (area[i + 1] - area[i])
+        momentum = (flux[i].momentum - flux[i + 1].momentum + force) / duct.width
+        energy = (flux[i].energy - flux[i + 1].energy) / duct.width
+        early, late, latest = dt - h, h, leak[i].latest
+        ahead = 2.0 * (leak[i].halfway - latest)  # growth over the step
         walls = _walls(duct, cells.walls, cells.next_walls, i, _DIAGONAL, dt)
-        old_mass, old_momentum, old_energy = c[i]
+        old_mass, old_momentum, old_energy = c[i].mass, c[i].momentum, c[i].energy
         first = implicit_stage(
             gas,
             walls,
@@ -205,17 +296,17 @@ def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
             last = implicit_stage(gas, walls, full_mass, full_momentum, full_energy, dt, latest + ahead)
         if not last.fits:
             return False
-        loss[i, LEAKED] = early * first.leak + late * last.leak
-        loss[i, GIVEN] = early * first.energy_rate + late * last.energy_rate
+        loss[i].mass = early * first.leak + late * last.leak
+        loss[i].energy = early * first.energy_rate + late * last.energy_rate
         gauge = early * (gas.pressure - first.pressure) + late * (gas.pressure - last.pressure)
-        loss[i, WORKED] = gauge * walls.growth
-        leak[i, LATEST], leak[i, GROWTH] = last.through_gaps, (last.through_gaps - latest) / dt
+        loss[i].work = gauge * walls.growth
+        leak[i].latest, leak[i].growth = last.through_gaps, (last.through_gaps - latest) / dt
         _store(gas, cells.next_content, cells.next_state, i, last, walls.area)
     return True
 
 
 @kernel
-def _store(gas: Gas, content: FloatArray, state: FloatArray, i: int, stage: Stage, area: float) -> None:
-    content[i, MASS], content[i, MOMENTUM], content[i, ENERGY] = stage.mass, stage.momentum, stage.energy
-    state[i, DENSITY], state[i, VELOCITY] = stage.mass / area, stage.momentum / stage.mass
-    state[i, PRESSURE] = (gas.exponent - 1.0) * (stage.energy - 0.5 * stage.momentum**2 / stage.mass) / area
+def _store(gas: Gas, content: RecordArray, state: RecordArray, i: int, stage: Stage, area: float) -> None:
+    content[i].mass, content[i].momentum, content[i].energy = stage.mass, stage.momentum, stage.energy
+    state[i].density, state[i].velocity = stage.mass / area, stage.momentum / stage.mass
+    state[i].pressure = (gas.exponent - 1.0) * (stage.energy - 0.5 * stage.momentum**2 / stage.mass) / area

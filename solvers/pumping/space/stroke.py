@@ -46,11 +46,6 @@ class StrokeTable:
     )
     carried: FloatArray
 
-    def columns(self, *, wall_transport: bool) -> FloatArray:
-        """Area, total clearance and carried gas (nought unless asked for) for the flow kernels, (positions, 3)."""
-        carried = self.carried if wall_transport else np.zeros_like(self.carried)
-        return np.column_stack([self.area, self.clearance_left + self.clearance_right, carried])
-
     @property
     def jump(self) -> tuple[float, float]:
         """By how much the logarithm of the area jumps between two positions, 0 if nowhere, and the angle [rad] there.

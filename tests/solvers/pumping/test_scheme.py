@@ -13,22 +13,13 @@ from solvers.arrays import FloatArray
 from solvers.pumping import (
     Ambient,
 )
-from solvers.pumping.flow.duct import Duct
+from solvers.pumping.flow.duct import Duct, wall_table
 from solvers.pumping.flow.nozzle import Gas, flux_squared, gas, mass_flux
-from solvers.pumping.flow.record import (
-    ACTIVE,
-    LARGEST_MACH,
-    LARGEST_PRESSURE,
-    PRESSURE,
-    STAGNATION,
-    WORK,
-    Record,
-    empty_record,
-)
-from solvers.pumping.gas.cells import empty_cells
+from solvers.pumping.flow.space_flow import Record, empty_record
+from solvers.pumping.gas.gas_dynamics import march
 from solvers.pumping.gas.leakage import Stage, Walls, implicit_stage
-from solvers.pumping.gas.march import march
 from solvers.pumping.gas.riemann import hllc, reservoir_face
+from solvers.pumping.gas.step import empty_cells
 
 AIR = gas(Ambient())
 RANDOM = settings(max_examples=100, derandomize=True, suppress_health_check=[HealthCheck.filter_too_much])
@@ -38,7 +29,7 @@ def smooth_march(cells: int, *, gap: float = 0.0, order: int = 2) -> tuple[Recor
     """A duct open at both ends whose section shrinks by half and grows again, with smooth start and end."""
     place = np.linspace(0, 1, 20001)
     area = 2e-4 * (1 - 0.5 * np.sin(pi * place) ** 4)
-    table = np.column_stack([area, np.full_like(place, gap), np.zeros_like(place)])
+    table = wall_table(area, np.full_like(place, gap), np.zeros_like(place))
     duct = Duct(0.0, 0.1 / cells, cells, 0.0, 400.0, 0.0, 1 / 20000, table, 1.0)
     record = empty_record(AIR, 3, cells, 20000)
     steps = march(AIR, duct, empty_cells(cells), np.linspace(0, 1, 3), record, order)
@@ -55,33 +46,33 @@ def orders(values: list[FloatArray]) -> list[float]:
 def test_gas_dynamics_is_of_second_order_where_the_flow_is_smooth(gap: float, least: float) -> None:
     # with gaps the square root of the nozzle law at p = p_e costs a little
     records = [smooth_march(cells, gap=gap)[0] for cells in (25, 50, 100, 200, 400)]
-    assert min(orders([record.field[1, :, PRESSURE] for record in records])) > least
-    assert min(orders([record.profile[:, STAGNATION] / record.profile[:, ACTIVE] for record in records])) > least - 0.15
+    assert min(orders([record.field.pressure[1] for record in records])) > least
+    assert min(orders([record.profile.stagnation / record.profile.active for record in records])) > least - 0.15
 
 
 def test_first_order_scheme_is_of_first_order() -> None:
     records = [smooth_march(cells, order=1)[0] for cells in (50, 100, 200, 400)]
-    assert orders([record.field[1, :, PRESSURE] for record in records]) == pytest.approx([1, 1], abs=0.15)
+    assert orders([record.field.pressure[1] for record in records]) == pytest.approx([1, 1], abs=0.15)
 
 
 def test_both_orders_have_one_limit() -> None:
     first, finer, second = smooth_march(200, order=1)[0], smooth_march(400, order=1)[0], smooth_march(200)[0]
-    assert 2 * finer.extremes[LARGEST_PRESSURE] - first.extremes[LARGEST_PRESSURE] == pytest.approx(
-        second.extremes[LARGEST_PRESSURE], rel=5e-4
+    assert 2 * finer.profile.highest.max() - first.profile.highest.max() == pytest.approx(
+        second.profile.highest.max(), rel=5e-4
     )
-    assert 2 * finer.energy[WORK] - first.energy[WORK] == pytest.approx(second.energy[WORK], rel=2e-3)
+    assert 2 * finer.energy[0].work - first.energy[0].work == pytest.approx(second.energy[0].work, rel=2e-3)
 
 
 def test_gas_at_rest_stays_at_rest() -> None:
     # a section that varies along the face but not in time moves nothing, with gaps or without: well balanced
     place = np.linspace(0, 1, 201)
-    table = np.column_stack([2e-4 * (1 - 0.8 * np.sin(3 * place) ** 2), np.full_like(place, 1e-3), 0 * place])
+    table = wall_table(2e-4 * (1 - 0.8 * np.sin(3 * place) ** 2), np.full_like(place, 1e-3), 0 * place)
     still = 1e-9  # rad/s: the table hardly turns while sound crosses the duct many times
     duct = Duct(0.0, 0.01, 20, 4.0, still, 0.0, 1 / 200, table, 1.0)
     record = empty_record(AIR, 2, 20, 4000)
     assert march(AIR, duct, empty_cells(20), np.array([0.85, 0.85 + 10e-3 * still]), record, 2) > 50
-    assert record.extremes[LARGEST_MACH] < 1e-10
-    assert record.extremes[LARGEST_PRESSURE] == pytest.approx(AIR.pressure, rel=1e-10)
+    assert record.extremes[0].mach < 1e-10
+    assert record.profile.highest.max() == pytest.approx(AIR.pressure, rel=1e-10)
 
 
 def test_flux_between_equal_states_is_the_exact_flux() -> None:
