@@ -6,7 +6,7 @@ at half of it.
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from app.calculations import Calculation
@@ -31,64 +31,50 @@ NOISE = 1e-7  # relative change of an output that an iteration may leave
 
 @dataclass(frozen=True, slots=True)
 class Probe:
-    """One input, its value and the values it is moved to; None where its range ends.
+    """An input, its value and the step by which it is moved.
 
-    `half` moves it by half the step, where the step is a tolerance: that need not be small.
+    A step of a tolerance need not be small; it is checked at half of it, which is None for other steps.
     """
 
     leaf: Leaf
     value: float
     step: float
-    below: float | None
-    above: float | None
-    half: "Probe | None" = None
+    half: float | None = None
 
-    def overrides(self) -> Iterator[dict[str, Any]]:
-        """The points to solve: below, above, then those of half the step."""
-        yield from ({self.leaf.path: place} for place in (self.below, self.above) if place is not None)
-        if self.half is not None:
-            yield from self.half.overrides()
+    @property
+    def places(self) -> list[float]:
+        """The values it is moved to: below, above, the same by half the step; those that its range allows."""
+        steps = [self.step] if self.half is None else [self.step, self.half]
+        moved = [self.value + sign * step for step in steps for sign in (-1, 1)]
+        return [place for place in moved if place != self.value and fault(self.leaf, place) is None]
 
 
-def probe(leaf: Leaf, value: float) -> Probe | None:
-    """How an input is moved: by its tolerance, else by 1 %, 1 K for a temperature, 1 for a count."""
+def probe(leaf: Leaf, value: float) -> Probe:
+    """An input moved by its tolerance, else by 1 %, 1 K for a temperature, 1 for a count."""
     if leaf.kind == "integer":
-        return _moved(leaf, value, 1.0)
+        return Probe(leaf, value, 1)
     if leaf.tolerance is not None:
         step = max(leaf.tolerance, (leaf.relative_tolerance or 0.0) * abs(value))
-        found = _moved(leaf, value, step)
-        return None if found is None else replace(found, half=_moved(leaf, value, step / 2.0))
-    return _moved(leaf, value, KELVIN_STEP if leaf.unit == "°C" else RELATIVE_STEP * abs(value))
-
-
-def _moved(leaf: Leaf, value: float, step: float) -> Probe | None:
-    """The input moved by a step; None where it has no other value."""
-    below, above = (_inside(leaf, value + sign * step) for sign in (-1.0, 1.0))
-    return None if step == 0.0 or below is above is None else Probe(leaf, value, step, below, above)
-
-
-def _inside(leaf: Leaf, value: float) -> float | None:
-    moved = int(value) if leaf.kind == "integer" else value
-    return moved if fault(leaf, moved) is None else None
+        return Probe(leaf, value, step, step / 2.0)
+    return Probe(leaf, value, KELVIN_STEP if leaf.unit == "°C" else RELATIVE_STEP * abs(value))
 
 
 @dataclass(frozen=True, slots=True)
 class Differences:
-    """Values of an output at an input's value and on both sides; None where there is none."""
+    """Values of an output by the value of an input; None where there is no answer."""
 
     probe: Probe
-    base: float | None
-    below: float | None
-    above: float | None
-    half: "Differences | None" = None
+    outputs: dict[float, float | None]
+
+    @property
+    def base(self) -> float | None:
+        """The output of the case itself."""
+        return self.outputs[self.probe.value]
 
     @property
     def derivative(self) -> float | None:
         """Central where both sides have answers, else one-sided [output per input]."""
-        left, right = self._slopes()
-        if left is None or right is None:
-            return right if left is None else left
-        return _slope(self.below, self.above, self.probe.below, self.probe.above)
+        return self._slope(-self.probe.step, self.probe.step)
 
     @property
     def elasticity(self) -> float | None:
@@ -101,18 +87,32 @@ class Differences:
     @property
     def change(self) -> float | None:
         """Change of the output by one step upwards, from the side where it is larger."""
-        steps = [slope * self.probe.step for slope in self._slopes() if slope is not None]
+        steps = [slope * self.probe.step for slope in self._sides() if slope is not None]
         return max(steps, key=abs, default=None)
 
     @property
     def kink(self) -> bool | None:
-        """Whether the slopes to either side disagree by more than a tenth; None where one is missing."""
-        return self._disagree(*self._slopes())
+        """Whether the slopes of both sides differ by more than a tenth; None where one is missing."""
+        return self._disagree(*self._sides())
 
     @property
     def curved(self) -> bool | None:
-        """Whether the derivative differs by more than a tenth from that of half the step; None without half a step."""
-        return None if self.half is None else self._disagree(self.derivative, self.half.derivative)
+        """Whether half the step gives a derivative that differs by more than a tenth; None where it is not checked."""
+        half = self.probe.half
+        return None if half is None else self._disagree(self.derivative, self._slope(-half, half))
+
+    def _sides(self) -> tuple[float | None, float | None]:
+        return self._slope(-self.probe.step, 0), self._slope(0, self.probe.step)
+
+    def _slope(self, below: float, above: float) -> float | None:
+        """Difference quotient between two steps; from the base to the other side where one has no answer."""
+        at = self.probe.value
+        known = [
+            (place, value) for step in (below, 0, above) if (value := self.outputs.get(place := at + step)) is not None
+        ]
+        if self.base is None or known[0][0] == known[-1][0]:
+            return None
+        return (known[-1][1] - known[0][1]) / (known[-1][0] - known[0][0])
 
     def _disagree(self, one: float | None, other: float | None) -> bool | None:
         if one is None or other is None or self.base is None:
@@ -121,17 +121,6 @@ class Differences:
         if largest * self.probe.step <= NOISE * abs(self.base):
             return False
         return abs(one - other) > DISAGREEMENT * largest
-
-    def _slopes(self) -> tuple[float | None, float | None]:
-        at, probe = self.probe.value, self.probe
-        return _slope(self.base, self.below, at, probe.below), _slope(self.base, self.above, at, probe.above)
-
-
-def _slope(one: float | None, other: float | None, at: float | None, there: float | None) -> float | None:
-    """Difference quotient; None where a value or a place is missing."""
-    if one is None or other is None or at is None or there is None:
-        return None
-    return (other - one) / (there - at)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -154,13 +143,17 @@ class Sensitivity(Study):
         yield [self._end(points, clock)]
 
     def _points(self) -> list[Overrides]:
-        return [{}, *(override for each in self.probes for override in each.overrides())]
+        moved: list[Overrides] = [{each.leaf.path: place} for each in self.probes for place in each.places]
+        return [{}, *moved]
 
     def _ranked(self, column: int, points: list[Point]) -> Iterator[Line]:
         """The lines of one output."""
         base, *moved = (_number(point.out[column]) for point in points)
         rest = iter(moved)
-        found = [_differences(each, base, rest) for each in self.probes]
+        found = [
+            Differences(each, {each.value: base, **{place: next(rest) for place in each.places}})
+            for each in self.probes
+        ]
         for each in sorted(found, key=lambda differences: -abs(differences.change or 0.0)):
             yield {
                 "type": "sensitivity",
@@ -192,14 +185,6 @@ class Sensitivity(Study):
         return {**line, "elapsed_s": clock.elapsed_s}
 
 
-def _differences(probe: Probe, base: float | None, moved: Iterator[float | None]) -> Differences:
-    """The differences of one input, whose values come next."""
-    below = next(moved) if probe.below is not None else None
-    above = next(moved) if probe.above is not None else None
-    half = None if probe.half is None else _differences(probe.half, base, moved)
-    return Differences(probe, base, below, above, half)
-
-
 def _number(value: Any) -> float | None:
     return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
 
@@ -217,7 +202,7 @@ def sensitivity_study(body: bytes, most: int, deadline_s: float) -> Sensitivity:
         inputs = _every_number(calculation, case)
     else:
         inputs = [_named(calculation, case, request.inputs, place) for place in range(len(request.inputs))]
-    probes = [each for leaf in inputs if (each := probe(leaf, value_at(case, leaf.path)))]
+    probes = [each for leaf in inputs if (each := probe(leaf, value_at(case, leaf.path))).places]
     study = Sensitivity(
         question=Question(calculation.path, request.request, paths_of(outputs), deadline_s),
         outputs=outputs,

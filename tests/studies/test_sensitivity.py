@@ -146,26 +146,19 @@ def leaf(**changes: Any) -> Leaf:
 )
 def test_steps(changes: dict[str, Any], value: float, below: float | None, above: float | None) -> None:
     found = probe(leaf(**changes), value)
-    assert found is not None
-    assert [found.below, found.above] == [
-        pytest.approx(below) if below else below,
-        pytest.approx(above) if above else above,
-    ]
-    assert all(isinstance(place, type(value)) for place in (found.below, found.above) if place is not None)
+    whole = [place for place in (below, above) if place is not None]
+    assert replace(found, half=None).places == pytest.approx(whole)
+    assert all(isinstance(place, type(value)) for place in found.places)
 
 
 def test_a_field_with_one_value_only_is_not_moved() -> None:
-    assert probe(leaf(bounds={"ge": 3.0, "le": 3.0}), 3.0) is None
-    assert probe(leaf(bounds={"ge": 0.0, "le": 0.0}, tolerance=1.0), 0.0) is None
+    assert probe(leaf(bounds={"ge": 3.0, "le": 3.0}), 3.0).places == []
+    assert probe(leaf(bounds={"ge": 0.0, "le": 0.0}, tolerance=1.0), 0.0).places == []
 
 
 def test_a_tolerance_is_checked_at_half_of_it() -> None:
-    found = probe(leaf(tolerance=0.5), 20.0)
-    assert found is not None
-    assert [point["friction.coefficient"] for point in found.overrides()] == [19.5, 20.5, 19.75, 20.25]
-    small = probe(leaf(), 20.0)
-    assert small is not None
-    assert small.half is None
+    assert probe(leaf(tolerance=0.5), 20.0).places == [19.5, 20.5, 19.75, 20.25]
+    assert probe(leaf(), 20.0).half is None
 
 
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
@@ -179,8 +172,7 @@ def differences(
     base: float | None, below: float | None, above: float | None, value: float = 10.0, **changes: Any
 ) -> Differences:
     moved = probe(leaf(**{"tolerance": 1.0, **changes}), value)
-    assert moved is not None
-    return Differences(moved, base, below, above)
+    return Differences(moved, {value - moved.step: below, value: base, value + moved.step: above})
 
 
 @pytest.mark.parametrize(
@@ -197,10 +189,9 @@ def test_a_derivative_that_half_the_step_does_not_confirm_is_curved(
     half: tuple[float | None, float | None], curved: bool | None
 ) -> None:
     whole = differences(100.0, 90.0, 110.0)
-    assert whole.curved is None
-    moved = whole.probe.half
-    assert moved is not None
-    assert replace(whole, half=Differences(moved, 100.0, *half)).curved is curved
+    found = replace(whole, outputs=whole.outputs | dict(zip((9.5, 10.5), half, strict=True)))
+    assert found.curved is curved
+    assert differences(100.0, 90.0, 110.0, tolerance=None).curved is None
 
 
 @pytest.mark.parametrize(
@@ -284,11 +275,8 @@ def test_a_step_that_is_too_large_says_so() -> None:
     path = "pinion_shaft.bearings.0.offset_um.1"
     body = {"endpoint": UNIT.endpoint, "request": {**UNIT.request, "model": {"lubrication": "closed_form"}}}
     sweep = {**body, "vary": [{"path": path, "values": [-100, -50, 0, 50, 100]}], "outputs": ["load.face_load_factor"]}
-    below, half_below, base, half_above, above = [line["out"][0] for line in points_of(sweep)]
-    whole = probe(replace(leaf_of(UNIT.endpoint, path), tolerance=100.0, path=path), 0.0)
-    assert whole is not None
-    assert whole.half is not None
-    found = Differences(whole, base, below, above, Differences(whole.half, base, half_below, half_above))
+    outputs = {line["at"][0]: line["out"][0] for line in points_of(sweep)}
+    found = Differences(probe(replace(leaf_of(UNIT.endpoint, path), tolerance=100.0, path=path), 0.0), outputs)
     assert found.derivative == pytest.approx(-0.000236, rel=0.02)
     assert found.kink is True
 
