@@ -11,10 +11,10 @@ from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddle
 from app import log, problems
 from app.answers import Answers
 from app.http.middleware import Protection
-from app.routes import calculations, figures, pages, rexs, service, studies, study_pages, vary
+from app.routes import calculations, figures, pages, rexs, service, studies, study_pages
 from app.schema.base import MODEL_VERSION
 from app.settings import MEBIBYTE, settings
-from app.studies.office import Office
+from app.studies.admission import StudyAdmission
 from app.workers.admission import Runner
 from app.workers.control import Template
 from app.workers.pool import Pool
@@ -43,7 +43,7 @@ def create_app() -> FastAPI:
         app.state.start_up = StartUp(app.state.pool)
         app.state.settings = limits
         app.state.runner = Runner(limits, app.state.pool)
-        app.state.office = Office(limits, app.state.pool)
+        app.state.studies = StudyAdmission(limits, app.state.pool)
         app.state.answers = Answers(limits.answers_mb * MEBIBYTE)
         app.state.published = {}
         with log.running(limits.log_level):
@@ -51,7 +51,7 @@ def create_app() -> FastAPI:
                 logger.warning(
                     "served by another server: limits of headers, connections and unread answers are its own"
                 )
-            async with app.state.pool.running(), app.state.start_up.running(), app.state.office.open():
+            async with app.state.pool.running(), app.state.start_up.running(), app.state.studies.open():
                 yield
 
     app = FastAPIOffline(
@@ -61,7 +61,7 @@ def create_app() -> FastAPI:
         lifespan=lifespan,
         redoc_url=None,
     )
-    for routes in (calculations, figures, studies, rexs, pages, vary, study_pages, service):
+    for routes in (calculations, figures, studies, rexs, pages, study_pages, service):
         app.include_router(routes.router)
     app.include_router(rexs.pages)
     problems.install(app)

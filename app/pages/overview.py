@@ -6,8 +6,8 @@ from app.calculations import CALCULATIONS, Calculation
 from app.library import Example
 from app.pages.about import ABOUT
 from app.pages.links import example_link, examples_of
+from app.pages.studies.sweep_examples import studies_of
 from app.pages.templating import model_of, page_path, rendered
-from app.pages.vary.examples import studies_of
 from solvers.published import STATEMENTS, Row
 
 

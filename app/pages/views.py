@@ -16,9 +16,9 @@ from app.pages.cases import Case, Fault, faults_of, solved
 from app.pages.charts import Chart, charts, data_address, figure_of, linked, values_of
 from app.pages.form import State, anchor, form
 from app.pages.links import IMAGE_FORMATS, Links, example_link, examples_of
-from app.pages.offers import offers_of
 from app.pages.query import Pairs, normalised, pairs_of_query, split_views
 from app.pages.results import cards, entries, flattened, groups
+from app.pages.study_links import study_links
 from app.pages.templating import model_of, page_path, rendered
 from app.pages.typesetting import NO_VALUE
 from app.problems import Unprocessable
@@ -201,7 +201,7 @@ def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
         ref=asked.views.get("ref", ""),
         examples=[(example, example_link(calculation, example)) for example in examples_of(calculation)],
         formats=IMAGE_FORMATS,
-        offers=offers_of(calculation),
+        studies=study_links(calculation),
         headlines=headlines(calculation.response),
         field_link=lambda path: _place(calculation, path),
         field_title=lambda path: _title(calculation, path),

@@ -17,7 +17,7 @@ from app.routes.study_examples import CORNERS_EXAMPLES, DESIGN_EXAMPLES, SENSITI
 from app.schema.messages import Fault
 from app.settings import Settings
 from app.studies import design, sensitivity, sweep
-from app.studies.office import Office
+from app.studies.admission import StudyAdmission
 from app.studies.requests import CornersRequest, DesignRequest, SensitivityRequest, SweepRequest
 from app.studies.stream import Clock, encoded, guarded, json_line
 from app.studies.study import Study
@@ -72,16 +72,16 @@ class StudyRoute(APIRoute):
             written_as: Format = wanted_format(http) if planner is sweep.sweep_study else "ndjson"
             start_up: StartUp = http.app.state.start_up
             start_up.require_any()
-            office: Office = http.app.state.office
+            admission: StudyAdmission = http.app.state.studies
             runner: Runner = http.app.state.runner
             limits: Settings = http.app.state.settings
             body = await http.body()
             with ExitStack() as stack:
-                stack.enter_context(office.place())
+                stack.enter_context(admission.place())
                 study = await runner.run(http, planner, body, limits.most_study_points, limits.deadline_s)
                 start_up.require(study.question.endpoint)
                 clock = Clock(study.total)
-                lines = guarded(study.lines(await office.pool(), clock), clock, limits.study_deadline_s)
+                lines = guarded(study.lines(await admission.pool(), clock), clock, limits.study_deadline_s)
                 encode = study.table().encode if isinstance(study, sweep.Sweep) and written_as == "csv" else json_line
                 patience = limits.study_deadline_s + PATIENCE_S
                 return StudyStream(encoded(lines, encode), MEDIA_TYPES[written_as], patience, stack.pop_all())

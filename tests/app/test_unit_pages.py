@@ -12,14 +12,13 @@ import pytest
 
 from app.calculations import BY_PATH
 from app.library import examples
-from app.pages.offers import offers_of
-from app.pages.points import case_at
 from app.pages.query import pairs_of, pairs_of_query, split_views
 from app.pages.studies import page as pages
 from app.pages.studies.corners import CORNERS
-from app.pages.studies.declaration import Asking, StudyPage
+from app.pages.studies.declaration import PageStudy, StudyPage, case_at
 from app.pages.studies.design import DESIGN
-from app.pages.studies.influence import INFLUENCE
+from app.pages.studies.sensitivity import SENSITIVITY
+from app.pages.study_links import study_links
 from app.pages.templating import page_path
 from app.pages.typesetting import shown
 from app.pages.views import Asked
@@ -42,7 +41,7 @@ def small(**said: str) -> Asked:
     return Asked(whole.path, [*whole.pairs, ("effects.coupling", "false")], said)
 
 
-def answered(study: Asking) -> list[dict[str, Any]]:
+def answered(study: PageStudy) -> list[dict[str, Any]]:
     async def run() -> list[dict[str, Any]]:
         clock = Clock(study.study.total)
         return [line async for group in study.study.lines(InlinePool(), clock) for line in group]
@@ -52,9 +51,9 @@ def answered(study: Asking) -> list[dict[str, Any]]:
 
 
 @cache
-def studied(page: StudyPage) -> tuple[Asking, list[dict[str, Any]], str]:
+def studied(page: StudyPage) -> tuple[PageStudy, list[dict[str, Any]], str]:
     found = small(trials="5") if page is DESIGN else asked()
-    study = pages.planned(page, found, MOST, DEADLINE_S)
+    study = pages.checked(page, found, MOST, DEADLINE_S)
     lines = answered(study)
     return study, lines, unescape(pages.whole(study, lines).decode())
 
@@ -130,7 +129,7 @@ def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> 
 
 def test_ranges_and_trials_come_from_the_form() -> None:
     said = {"low.0": "-10", "high.0": "20,5", "trials": "7", "show": "load.face_load_factor"}
-    body = DESIGN.body(asked(**said), pages.planned(DESIGN, asked(**said), MOST, DEADLINE_S).output)
+    body = DESIGN.body(asked(**said), pages.checked(DESIGN, asked(**said), MOST, DEADLINE_S).output)
     assert body["variables"][0] == {"path": ["modifications.helix_slope_um"], "min": -10, "max": 20.5}
     assert body["variables"][1]["max"] == 20.0
     assert (body["evaluations"], body["objective"], body["direction"]) == (7, "load.face_load_factor", "minimise")
@@ -151,25 +150,25 @@ def test_what_is_wrong_stands_at_its_control(said: dict[str, str], control: str)
     assert f'<a href="#f.{control}">{control}</a>' in opened.head.decode()
 
 
-@pytest.mark.parametrize("page", [CORNERS, DESIGN], ids=lambda page: page.offer.name)
+@pytest.mark.parametrize("page", [CORNERS, DESIGN], ids=lambda page: page.link.name)
 def test_a_unit_without_the_output_says_which_to_choose(page: StudyPage) -> None:
     bare = small()
     without = Asked(bare.path, [pair for pair in bare.pairs if not pair[0].startswith("temperatures.scuffing")])
-    study = pages.planned(page, without, MOST, DEADLINE_S)
+    study = pages.checked(page, without, MOST, DEADLINE_S)
     text = pages.whole(study, answered(study)).decode()
     assert "choose another output" in text or "has no answer at its worst corner" in text
 
 
-@pytest.mark.parametrize("page", [INFLUENCE, CORNERS, DESIGN], ids=lambda page: page.offer.name)
+@pytest.mark.parametrize("page", [SENSITIVITY, CORNERS, DESIGN], ids=lambda page: page.link.name)
 def test_a_study_that_breaks_off_says_why(page: StudyPage) -> None:
-    study = pages.planned(page, asked(), MOST, DEADLINE_S)
+    study = pages.checked(page, asked(), MOST, DEADLINE_S)
     text = pages.whole(study, [{"type": "error", "code": "study_deadline", "message": "<b>too long</b>", "done": 3}])
     assert "&lt;b&gt;too long&lt;/b&gt;" in text.decode()
 
 
 def test_links_alone_lead_from_a_unit_to_its_worst_corner_and_to_what_to_grind(client: httpx.Client) -> None:
     page = unescape(client.get(small().links.page).text)
-    for offer in offers_of(BY_PATH["/v1/drive-train"]):
+    for offer in study_links(BY_PATH["/v1/drive-train"]):
         assert f'href="{small().links.study(offer.name)}"' in page
     start = unescape(client.get("/drive-train/corners").text)
     assert f'href="{asked().links.study("corners")}"' in start

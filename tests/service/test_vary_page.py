@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
-from app.pages.vary.examples import STUDIES
+from app.pages.studies.sweep_examples import STUDIES
 from tests.support.browsing import PHONE, address_of, overflow, serious
 
 pytestmark = pytest.mark.service

@@ -333,7 +333,13 @@ def test_refused_with_place_and_code(case: str) -> None:
     assert (fault["pointer"], fault["code"]) == (pointer, code)
 
 
-SLIDING = {**CLOSED, "model": {**CLOSED["model"], "coupling_friction": "sliding"}}
+EXAMPLE = {
+    **CLOSED,
+    "model": {**CLOSED["model"], "coupling_friction": "sliding"},
+    "friction_coefficient": 0.04,
+    "temperatures": {"bulk_c": 95, "oil_c": 50, "scuffing_c": 220},
+}
+"""The worked example: the starter with the friction and the bulk temperature that the example states."""
 
 
 @pytest.mark.slow
@@ -365,7 +371,7 @@ def test_tolerances_of_the_example() -> None:
     *_, end = lines_of(
         sweep_study,
         endpoint="/v1/drive-train",
-        request=SLIDING,
+        request=EXAMPLE,
         sample={"count": 128, "seed": 0, "ranges": ranges},
         outputs=list(expected),
     )
@@ -392,7 +398,7 @@ def test_the_robust_design() -> None:
     ]
     powers = [{"operation.power_kw": power} for power in (12000, 6000)]
     *_, end = lines_of(
-        design_study, request=SLIDING, variables=variables, corners=corners, collective=powers, objective=SAFETY
+        design_study, request=EXAMPLE, variables=variables, corners=corners, collective=powers, objective=SAFETY
     )
     assert end["objective_start"] == pytest.approx(1.609, abs=0.0015)
     assert end["objective_best"] == pytest.approx(1.741, abs=0.004)

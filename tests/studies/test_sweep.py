@@ -112,10 +112,10 @@ def test_an_assumed_value_that_differs_between_points_is_null() -> None:
 def summary(rows: list[list[Any]], **best: Any) -> dict[str, Any]:
     """The end of a sweep along one axis with these outputs x, y, z."""
     points = PointSet([CheckedAxis("a", (), [10 * index for index in range(len(rows))])], len(rows), ())
-    gathered = Summary(points, ["x", "y", "z"], Best.model_validate(best) if best else None)
+    received = Summary(points, ["x", "y", "z"], Best.model_validate(best) if best else None)
     for row in rows:
-        gathered.add(Point("ok", row, []))
-    line: dict[str, Any] = json.loads(json_line(gathered.line({}, 0.0)))
+        received.add(Point("ok", row, []))
+    line: dict[str, Any] = json.loads(json_line(received.line({}, 0.0)))
     return line
 
 

@@ -1,8 +1,12 @@
-"""Studies with a page each below that of the case: what is asked, how its lines are shown.
+"""Pages of studies, each below that of the case.
 
-declaration  what such a study is, and what its page shows: figures, tables, links
-influence    which input moves an output most
-corners      where an output is worst, over every combination of what nobody knows better
-design       which correction of the flank is best where it is worst
-page         the page before and after its figures, the figures, files; made in workers
+declaration     what is declared of a study's page, what it shows, the addresses of its views and points
+sensitivity     which input moves an output most
+corners         the worst combination of uncertain inputs
+design          the flank correction whose worst corner is best
+page            the page of these three, before and after its figures; made in workers
+sweep_query     the sweep that a query asks for
+sweep_form      its form
+sweep           its page, whose figures are drawn while the points come
+sweep_examples  sweeps to start from
 """

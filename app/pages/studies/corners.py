@@ -8,11 +8,10 @@ from app.figures.data import Axis, Figure, NoFigure
 from app.figures.models.drive_train import LOAD_ALONE
 from app.figures.studies import Uncertain, corners
 from app.figures.wording import listed, number
-from app.pages import offers
+from app.pages import study_links
 from app.pages.cases import Case
-from app.pages.points import address_at, case_at
 from app.pages.query import body_of
-from app.pages.studies.declaration import Asking, Cell, Lead, Result, StudyPage, Table
+from app.pages.studies.declaration import Cell, Lead, PageStudy, Result, StudyPage, Table, address_at, case_at
 from app.pages.typesetting import shown
 from app.pages.views import Asked
 from app.schema.fields import Leaf, headlines
@@ -34,7 +33,7 @@ def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
     }
 
 
-def _result(study: Asking, lines: list[Line]) -> Result:
+def _result(study: PageStudy, lines: list[Line]) -> Result:
     """What each uncertainty does, the load at the worst corner beside that of the case, both in numbers."""
     header, end = lines[0], lines[-1]
     extremes = {line["output"]: line for line in lines if line["type"] == "extremes"}
@@ -57,7 +56,7 @@ def _result(study: Asking, lines: list[Line]) -> Result:
         (
             Lead("Open the worst corner", address_at(study.asked, worst)),
             Lead("Its report", address_at(study.asked, worst, "/report")),
-            Lead("What to grind", study.asked.links.study(offers.DESIGN.name)),
+            Lead("What to grind", study.asked.links.study(study_links.DESIGN.name)),
         ),
     )
 
@@ -102,7 +101,7 @@ def named(leaf: Leaf) -> str:
     return " ".join([leaf.title, *([".".join(places)] if places else [])])
 
 
-def _uncertain(study: Asking, lines: list[Line], worst: Overrides) -> list[Uncertain]:
+def _uncertain(study: PageStudy, lines: list[Line], worst: Overrides) -> list[Uncertain]:
     """Of each choice of each axis the worst that the output is with it."""
     axes, points = lines[0]["axes"], [line for line in lines if line["type"] == "point"]
     pick = min if worst_end(study.output) == "min" else max
@@ -134,7 +133,7 @@ def _choice(values: list[Any], unit: str | None) -> str:
     )
 
 
-def _extremes(study: Asking, header: Line, extremes: dict[str, Line], case: Case) -> Table:
+def _extremes(study: PageStudy, header: Line, extremes: dict[str, Line], case: Case) -> Table:
     """Every output between its ends, each of which leads to its corner."""
     rows = []
     for each in header["outputs"]:
@@ -153,7 +152,7 @@ def _extremes(study: Asking, header: Line, extremes: dict[str, Line], case: Case
 
 
 CORNERS = StudyPage(
-    offer=offers.CORNERS,
+    link=study_links.CORNERS,
     question="which corner is worst?",
     about=f"Every combination of what nobody knows better: {USUAL_RANGES}.",
     figures=("corners", LOAD_ALONE.name),

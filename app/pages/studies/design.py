@@ -8,13 +8,12 @@ from app.figures.comparison import compared
 from app.figures.data import Axis, Figure, NoFigure
 from app.figures.models.drive_train import GAP
 from app.figures.studies import Tried, search
-from app.pages import offers
+from app.pages import study_links
 from app.pages.cases import Case
 from app.pages.form import FieldView
-from app.pages.points import address_at, case_at
 from app.pages.query import LOWER, TRIALS, UPPER, body_of, number_of, text_of
 from app.pages.studies.corners import OUTPUT, corner_table, load_figure, worst_end
-from app.pages.studies.declaration import Asking, Cell, Lead, Result, StudyPage, Table
+from app.pages.studies.declaration import Cell, Lead, PageStudy, Result, StudyPage, Table, address_at, case_at
 from app.pages.typesetting import shown, symbol
 from app.pages.views import Asked
 from app.schema.fields import Leaf
@@ -94,7 +93,7 @@ def _fields(said: dict[str, str], faults: dict[str, str]) -> tuple[FieldView, ..
     )
 
 
-def _result(study: Asking, lines: list[Line]) -> Result:
+def _result(study: PageStudy, lines: list[Line]) -> Result:
     """The search, the load before and after at the worst corner, the gap that is left, all in numbers."""
     end, output, asked = lines[-1], study.output, study.asked
     trials = [line for line in lines if line["type"] == "trial"]
@@ -120,7 +119,7 @@ def _result(study: Asking, lines: list[Line]) -> Result:
         (
             Lead("Open the unit ground so", address_at(asked, best)),
             Lead("Its report", address_at(asked, best, "/report")),
-            Lead("Its worst corners", address_at(asked, best, f"/{offers.CORNERS.name}")),
+            Lead("Its worst corners", address_at(asked, best, f"/{study_links.CORNERS.name}")),
         ),
     )
 
@@ -140,7 +139,7 @@ def _gap(ground: Case, case: Case) -> dict[str, Figure]:
     return {GAP.name: compared(own, given, "as described")}
 
 
-def _grinding(study: Asking, end: Line, case: Case) -> Table:
+def _grinding(study: PageStudy, end: Line, case: Case) -> Table:
     """What to grind instead of what, and what it brings."""
     request = study.asked.calculation.request
     output, best = study.output, end["best"]
@@ -169,7 +168,7 @@ def _given(case: Case, path: str) -> float | None:
 
 
 DESIGN = StudyPage(
-    offer=offers.DESIGN,
+    link=study_links.DESIGN,
     question="what to grind?",
     about="A search for helix slope, crowning and relief, each judged at its worst corner of wall response, friction "
     "and direction of the couplings' offset. It starts from the correction of the case.",

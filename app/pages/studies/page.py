@@ -8,28 +8,27 @@ from app.figures.rendering import Format, written
 from app.figures.tables import table
 from app.pages.cases import Fault, faults_of
 from app.pages.charts import embedded
-from app.pages.growing import FRAMES, Opened, StudyLinks, around
 from app.pages.links import IMAGE_FORMATS, examples_of
 from app.pages.query import link, pairs_of
 from app.pages.studies.corners import CORNERS
-from app.pages.studies.declaration import Asking, Result, StudyPage
+from app.pages.studies.declaration import FRAMES, Opened, PageStudy, Result, StudyAddresses, StudyPage, around
 from app.pages.studies.design import DESIGN
-from app.pages.studies.influence import INFLUENCE
+from app.pages.studies.sensitivity import SENSITIVITY
+from app.pages.studies.sweep_form import output_menu
+from app.pages.studies.sweep_query import field_at_fault, shown_output
 from app.pages.templating import page_path, rendered
-from app.pages.vary.controls import output_menu
-from app.pages.vary.wish import field_at_fault, shown_output
 from app.pages.views import REFUSED, Asked
 from app.reading import Unreadable
 from app.schema.fields import Leaf
 from app.studies.stream import Line, StudyBroke
 
-PAGES = {each.offer: each for each in (INFLUENCE, CORNERS, DESIGN)}
+PAGES = {each.link: each for each in (SENSITIVITY, CORNERS, DESIGN)}
 
 
-def opened(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Opened[Asking]:
+def opened(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Opened[PageStudy]:
     """The page of a study of a case, and the study if there is a case."""
     try:
-        study = planned(page, asked, most, deadline_s) if asked.pairs else None
+        study = checked(page, asked, most, deadline_s) if asked.pairs else None
     except REFUSED as error:
         faults = [Fault(field_at_fault(each.path), each.message) for each in faults_of(error)]
         status = 400 if isinstance(error, Unreadable) else 422
@@ -37,19 +36,19 @@ def opened(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Opene
     return around(_page(page, asked, study, []), study)
 
 
-def planned(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Asking:
+def checked(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> PageStudy:
     """The study that is asked for; raises what refuses it, with paths into the study."""
     output = _output(page, asked.calculation, asked.views)
     body = json.dumps(page.body(asked, output)).encode()
-    return Asking(page, asked, output, page.plan(body, most, deadline_s))
+    return PageStudy(page, asked, output, page.plan(body, most, deadline_s))
 
 
 def _output(page: StudyPage, calculation: Calculation, said: dict[str, str]) -> Leaf:
     return shown_output(calculation, said if page.output is None else {"show": page.output, **said})
 
 
-def _page(page: StudyPage, asked: Asked, study: Asking | None, faults: list[Fault]) -> str:
-    calculation, offer = asked.calculation, page.offer
+def _page(page: StudyPage, asked: Asked, study: PageStudy | None, faults: list[Fault]) -> str:
+    calculation, offer = asked.calculation, page.link
     known = {fault.path: fault.message for fault in faults}
     menu, fields = output_menu(calculation, asked.views, known), page.fields(asked.views, known)
     return rendered(
@@ -59,7 +58,7 @@ def _page(page: StudyPage, asked: Asked, study: Asking | None, faults: list[Faul
         path=asked.path,
         case_links=asked.links,
         outdated=asked.outdated,
-        links=StudyLinks(offer.name, asked),
+        links=StudyAddresses(offer.name, asked),
         show=replace(menu, empty=_output(page, calculation, {}).title),
         fields=fields,
         anchors={menu.name: menu.id} | {each.name: each.id for each in fields},
@@ -75,9 +74,9 @@ def _page(page: StudyPage, asked: Asked, study: Asking | None, faults: list[Faul
     )
 
 
-def whole(study: Asking, lines: list[Line]) -> bytes:
+def whole(study: PageStudy, lines: list[Line]) -> bytes:
     """Figures, tables and links; a study that broke off says why."""
-    links = StudyLinks(study.page.offer.name, study.asked)
+    links = StudyAddresses(study.page.link.name, study.asked)
     if lines[-1]["type"] == "error":
         return rendered("study_result.html", broke=lines[-1]["message"]).encode()
     found = study.page.result(study, lines)
@@ -87,7 +86,7 @@ def whole(study: Asking, lines: list[Line]) -> bytes:
     ).encode()
 
 
-def file(study: Asking, lines: list[Line], name: str, image_format: Format) -> bytes:
+def file(study: PageStudy, lines: list[Line], name: str, image_format: Format) -> bytes:
     """One figure as a file; raises StudyBroke where the study has none in the end."""
     if lines[-1]["type"] == "error":
         raise StudyBroke(lines[-1]["message"])

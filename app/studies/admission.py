@@ -33,7 +33,7 @@ def connectable(address: str) -> Cluster:
     return DaskCluster(address)
 
 
-class Office:
+class StudyAdmission:
     """Where studies get their place and their pool."""
 
     def __init__(self, settings: Settings, workers: WorkerPool) -> None:

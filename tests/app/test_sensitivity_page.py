@@ -13,11 +13,11 @@ from app.calculations import BY_PATH
 from app.library import examples
 from app.pages.query import pairs_of, pairs_of_query, split_views
 from app.pages.studies import page as pages
-from app.pages.studies.declaration import Asking
-from app.pages.studies.influence import INFLUENCE, MOST_ROWS
+from app.pages.studies import sweep
+from app.pages.studies.declaration import PageStudy
+from app.pages.studies.sensitivity import MOST_ROWS, SENSITIVITY
 from app.pages.templating import page_path
 from app.pages.typesetting import shown
-from app.pages.vary import views
 from app.pages.views import Asked
 from app.studies.stream import Clock
 from tests.support.pools import InlinePool
@@ -31,7 +31,7 @@ def asked(name: str, **said: str) -> Asked:
     return Asked(page_path(BY_PATH[example.endpoint]), pairs_of(example.request), said)
 
 
-def lines_of(study: Asking) -> list[dict[str, Any]]:
+def lines_of(study: PageStudy) -> list[dict[str, Any]]:
     async def run() -> list[dict[str, Any]]:
         clock = Clock(study.study.total)
         return [line async for group in study.study.lines(InlinePool(), clock) for line in group]
@@ -41,7 +41,7 @@ def lines_of(study: Asking) -> list[dict[str, Any]]:
 
 
 def result_of(found: Asked) -> tuple[list[dict[str, Any]], str]:
-    study = pages.opened(INFLUENCE, found, MOST, DEADLINE_S).study
+    study = pages.opened(SENSITIVITY, found, MOST, DEADLINE_S).study
     assert study is not None
     lines = lines_of(study)
     return lines, unescape(pages.whole(study, lines).decode())
@@ -63,22 +63,24 @@ def test_the_table_says_what_the_study_says(name: str) -> None:
         assert pairs == found.pairs
         assert said["x"] == line["path"]
     first = Asked(found.path, *split_views(pairs_of_query(rows[0][0].partition("?")[2])))
-    assert views.planned(first, MOST, DEADLINE_S).sweep.total > 1
+    assert sweep.checked(first, MOST, DEADLINE_S).sweep.total > 1
 
 
 def test_the_figure_shows_the_most_influential_first() -> None:
     lines, page = result_of(asked(COUPLING))
     alt = re.findall(r'alt="([^"]+)"', page)[0]
-    assert alt.startswith("What moves the axial thrust most. 757 N now; misalignment, number of teeth and module first")
+    assert alt.startswith(
+        "What moves the axial thrust most. 757 N now; misalignment, coefficient of friction and axial velocity first"
+    )
     assert [line["path"] for line in lines[:3]] == [
         "operation.misalignment_deg",
-        "coupling.teeth",
-        "coupling.module_mm",
+        "friction.coefficient",
+        "operation.axial_velocity_mm_per_s",
     ]
 
 
 def test_a_case_without_the_output_says_so() -> None:
-    study = pages.opened(INFLUENCE, asked(COUPLING), MOST, DEADLINE_S).study
+    study = pages.opened(SENSITIVITY, asked(COUPLING), MOST, DEADLINE_S).study
     assert study is not None
     *lines, end = lines_of(study)
     nothing = [{**line, "change": None, "derivative": None} for line in lines]
@@ -89,7 +91,7 @@ def test_a_case_without_the_output_says_so() -> None:
 
 
 def test_a_study_that_breaks_off_says_why() -> None:
-    study = pages.opened(INFLUENCE, asked(COUPLING), MOST, DEADLINE_S).study
+    study = pages.opened(SENSITIVITY, asked(COUPLING), MOST, DEADLINE_S).study
     assert study is not None
     page = pages.whole(study, [{"type": "error", "code": "study_deadline", "message": "<b>too long</b>", "done": 3}])
     assert "&lt;b&gt;too long&lt;/b&gt;" in page.decode()
@@ -100,7 +102,7 @@ def test_a_study_that_breaks_off_says_why() -> None:
     [({"show": "axial_thrust"}, "is a section"), ({"show": "<script>"}, "there is no <script>")],
 )
 def test_a_wrong_output_is_refused(said: dict[str, str], message: str) -> None:
-    opened = pages.opened(INFLUENCE, asked(COUPLING, **said), MOST, DEADLINE_S)
+    opened = pages.opened(SENSITIVITY, asked(COUPLING, **said), MOST, DEADLINE_S)
     assert opened.status == 422
     assert b"<script>" not in opened.head.partition(b"<body>")[2]
     assert message in unescape(opened.head.decode())

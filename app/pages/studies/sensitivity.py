@@ -4,9 +4,9 @@ from typing import Any
 
 from app.figures.data import Axis
 from app.figures.studies import Influence, influence
-from app.pages import offers
+from app.pages import study_links
 from app.pages.query import body_of, link
-from app.pages.studies.declaration import Asking, Cell, Result, StudyPage, Table
+from app.pages.studies.declaration import Cell, PageStudy, Result, StudyPage, Table
 from app.pages.typesetting import shown
 from app.pages.views import Asked
 from app.requests.practice import GIVEN_BULK
@@ -26,7 +26,7 @@ def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
     }
 
 
-def _result(study: Asking, lines: list[Line]) -> Result:
+def _result(study: PageStudy, lines: list[Line]) -> Result:
     """Bars and a table, the most influential input first."""
     *found, end = (line for line in lines if line["type"] in {"sensitivity", "end"})
     value, output = end["outputs"][0]["value"], study.output
@@ -52,7 +52,7 @@ def _result(study: Asking, lines: list[Line]) -> Result:
     return Result(progress, figures, tables, tuple(remarks))
 
 
-def _table(study: Asking, moved: list[Line], inputs: dict[str, dict[str, Any]]) -> Table:
+def _table(study: PageStudy, moved: list[Line], inputs: dict[str, dict[str, Any]]) -> Table:
     output, more = study.output, max(len(moved) - MOST_ROWS, 0)
     changes = f"changes the {output.title} by{f', {output.unit}' if output.unit else ''}"
     return Table(
@@ -83,7 +83,7 @@ def _step(line: Line, inputs: dict[str, dict[str, Any]]) -> str:
     return f"+{shown(line['step'], 3)}{f' {unit}' if unit else ''}"
 
 
-def _row(study: Asking, line: Line, inputs: dict[str, dict[str, Any]]) -> tuple[Cell, ...]:
+def _row(study: PageStudy, line: Line, inputs: dict[str, dict[str, Any]]) -> tuple[Cell, ...]:
     entry, asked = inputs[line["path"]], study.asked
     said = {"x": line["path"], "show": study.output.path, "theme": asked.views.get("theme", "")}
     return (
@@ -97,8 +97,8 @@ def _row(study: Asking, line: Line, inputs: dict[str, dict[str, Any]]) -> tuple[
     )
 
 
-INFLUENCE = StudyPage(
-    offer=offers.INFLUENCE,
+SENSITIVITY = StudyPage(
+    link=study_links.SENSITIVITY,
     question="which input matters?",
     about="Every number of the case is moved by its usual tolerance, else by 1 % (1 K, 1).",
     figures=("influence",),

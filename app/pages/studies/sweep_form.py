@@ -7,9 +7,8 @@ from typing import Any
 from app.calculations import Calculation
 from app.pages.form import FieldView
 from app.pages.query import text_of
+from app.pages.studies.sweep_query import AXES, COUNTS, Choice, SweepQuery, Varied, shown_outputs, varied
 from app.pages.typesetting import symbol
-from app.pages.vary.choices import Choice, shown_outputs, varied
-from app.pages.vary.wish import AXES, COUNTS, Varied, Wish
 from app.schema.fields import headlines
 
 
@@ -49,10 +48,14 @@ class Controls:
 
 
 def controls(
-    calculation: Calculation, case: dict[str, Any], said: dict[str, str], faults: dict[str, str], wish: Wish | None
+    calculation: Calculation,
+    case: dict[str, Any],
+    said: dict[str, str],
+    faults: dict[str, str],
+    query: SweepQuery | None,
 ) -> Controls:
     """The form with what was said, what stands for the rest, and what is wrong."""
-    fields = dict(zip(AXES, wish.fields, strict=False)) if wish else {}
+    fields = dict(zip(AXES, query.fields, strict=False)) if query else {}
     titles = {"x": "Vary", "y": "and, as curves or a map"}
     axes = tuple(
         AxisControls(

@@ -18,16 +18,15 @@ from app.figures.drawing.image import draw, places
 from app.figures.rendering import MEDIA_TYPES
 from app.figures.studies import MOST_CURVES, Coordinate, Grid, figures_of
 from app.library import examples
-from app.pages.growing import StudyLinks
 from app.pages.query import STUDY_NAMES, VIEW_NAMES, body_of, pairs_of, pairs_of_query, split_views
 from app.pages.studies import page as pages
+from app.pages.studies import sweep
+from app.pages.studies.declaration import StudyAddresses
 from app.pages.studies.design import DESIGN
+from app.pages.studies.sweep import ReceivedPoints
+from app.pages.studies.sweep_examples import STUDIES, StudyExample
+from app.pages.studies.sweep_query import case_of, shown_outputs, varied
 from app.pages.templating import page_path
-from app.pages.vary import views
-from app.pages.vary.choices import shown_outputs, varied
-from app.pages.vary.examples import STUDIES, StudyExample
-from app.pages.vary.gathered import Gathered
-from app.pages.vary.wish import case_of
 from app.pages.views import Asked
 from app.problems import Unprocessable
 from app.reading import InvalidBody
@@ -51,15 +50,15 @@ def asked(name: str, **said: str) -> Asked:
     return Asked(page_path(CALCULATION[example.endpoint]), pairs_of(example.request), said)
 
 
-def solved(found: Asked) -> tuple[views.Study, Gathered]:
-    study = views.planned(found, MOST, DEADLINE_S)
-    gathered = Gathered(study.sweep.total)
+def solved(found: Asked) -> tuple[sweep.SweepStudy, ReceivedPoints]:
+    study = sweep.checked(found, MOST, DEADLINE_S)
+    received = ReceivedPoints(study.sweep.total)
     for index in range(study.sweep.total):
         overrides = study.sweep.points.overrides(index)
         point = solve_point(study.sweep.question, overrides)
-        gathered.add(json.loads(json.dumps(point_line(index, study.sweep.points.at(index), point))))
-    gathered.add({"type": "end", "elapsed_s": 1.0})
-    return study, gathered
+        received.add(json.loads(json.dumps(point_line(index, study.sweep.points.at(index), point))))
+    received.add({"type": "end", "elapsed_s": 1.0})
+    return study, received
 
 
 def study_of(example: StudyExample) -> Asked:
@@ -75,7 +74,7 @@ def test_what_a_study_says_is_no_field_of_a_request() -> None:
 
 @pytest.mark.parametrize("example", STUDIES, ids=lambda each: each.title)
 def test_every_study_to_start_from_is_one(example: StudyExample) -> None:
-    opened = views.opened(study_of(example), MOST, DEADLINE_S)
+    opened = sweep.opened(study_of(example), MOST, DEADLINE_S)
     assert opened.status == 200
     assert opened.study is not None
     assert opened.tail.endswith(b"</html>\n") or opened.tail.strip().endswith(b"</html>")
@@ -86,7 +85,7 @@ def test_every_endpoint_has_a_study_to_start_from() -> None:
 
 
 def test_the_crowning_that_forgives_is_a_map_of_17_by_11() -> None:
-    study = views.planned(study_of(STUDIES[0]), MOST, DEADLINE_S)
+    study = sweep.checked(study_of(STUDIES[0]), MOST, DEADLINE_S)
     assert [len(axis.values or ()) for axis in study.sweep.points.axes] == [17, 11]
     slopes = study.sweep.points.axes[0].values
     assert slopes is not None
@@ -101,10 +100,10 @@ def test_every_number_of_a_case_is_varied_by_its_name_alone(calculation: Calcula
     for choice in varied(calculation, case, words=False):
         said = Asked(found.path, found.pairs, {"x": choice.path})
         if case_value(case, choice.path):
-            assert views.planned(said, MOST, DEADLINE_S).sweep.total > 1, choice
+            assert sweep.checked(said, MOST, DEADLINE_S).sweep.total > 1, choice
         else:
             with suppress(Unprocessable, InvalidBody):
-                assert views.planned(said, MOST, DEADLINE_S).sweep.total > 1, choice
+                assert sweep.checked(said, MOST, DEADLINE_S).sweep.total > 1, choice
 
 
 def case_value(case: dict[str, Any], path: str) -> Any:
@@ -121,7 +120,7 @@ def test_every_output_that_can_be_shown_is_told_by_a_study(calculation: Calculat
     case = case_of(calculation, found.pairs)
     said = {"x": next(each.path for each in varied(calculation, case, words=False) if case_value(case, each.path))}
     for choice in shown_outputs(calculation):
-        assert views.planned(Asked(found.path, found.pairs, said | {"show": choice.path}), MOST, DEADLINE_S)
+        assert sweep.checked(Asked(found.path, found.pairs, said | {"show": choice.path}), MOST, DEADLINE_S)
 
 
 @pytest.mark.parametrize("name", QUICK)
@@ -133,8 +132,8 @@ def test_a_points_link_opens_the_case_that_was_solved(name: str) -> None:
         for choice in varied(calculation, case_of(calculation, found.pairs), words=False)
         if choice.path.endswith(("torque_n_m", "speed_rpm", "torque_n_m"))
     )
-    study, gathered = solved(Asked(found.path, found.pairs, {"x": field, "x.count": "3"}))
-    for index, value in enumerate(gathered.out):
+    study, received = solved(Asked(found.path, found.pairs, {"x": field, "x.count": "3"}))
+    for index, value in enumerate(received.out):
         _, _, query = study.opened(index).partition("?")
         body = body_of(calculation.request, pairs_of_query(query))
         alone = solve_point(study.sweep.question._replace(base=body), {})
@@ -144,7 +143,7 @@ def test_a_points_link_opens_the_case_that_was_solved(name: str) -> None:
 
 def test_a_link_of_a_field_that_excludes_others_leaves_them_out() -> None:
     found = asked("starter-industrial-scuffing")
-    study = views.planned(
+    study = sweep.checked(
         Asked(found.path, found.pairs, {"x": "load.pinion_torque_n_m", "x.from": "1000", "x.to": "2000"}),
         MOST,
         DEADLINE_S,
@@ -156,20 +155,20 @@ def test_a_link_of_a_field_that_excludes_others_leaves_them_out() -> None:
 
 def test_an_item_of_a_list_is_varied_and_opened() -> None:
     found = asked("starter-coupling-pitch-errors")
-    study, gathered = solved(
+    study, received = solved(
         Asked(
             found.path, found.pairs, {"x": "coupling.pitch_errors_um.3", "x.from": "-20", "x.to": "20", "x.count": "3"}
         )
     )
-    assert gathered.status == ["ok", "ok", "ok"] or "refused" not in gathered.status
+    assert received.status == ["ok", "ok", "ok"] or "refused" not in received.status
     body = body_of(found.calculation.request, pairs_of_query(study.opened(2).partition("?")[2]))
     assert body["coupling"]["pitch_errors_um"][3] == 20
 
 
 def test_the_figures_numbers_are_the_points() -> None:
-    study, gathered = solved(asked(LOADS, **MAP, **{"y.count": "7"}, show="pressure.max_mpa"))
-    found = np.array(gathered.out).reshape(3, 7)
-    drawn = {name: views.file(study, gathered, name, "csv").decode().splitlines() for name in ("map", "worst")}
+    study, received = solved(asked(LOADS, **MAP, **{"y.count": "7"}, show="pressure.max_mpa"))
+    found = np.array(received.out).reshape(3, 7)
+    drawn = {name: sweep.file(study, received, name, "csv").decode().splitlines() for name in ("map", "worst")}
     rows = [list(map(float, line.split(","))) for line in drawn["map"][1:]]
     assert [row[2] for row in rows] == found.T.ravel().tolist()
     assert drawn["map"][0] == "helix crowning [µm],helix slope [µm],largest Hertz pressure [MPa]"
@@ -180,12 +179,12 @@ def test_the_figures_numbers_are_the_points() -> None:
 
 
 def test_the_best_point_is_the_one_of_the_sweeps_end(client: httpx.Client) -> None:
-    study = views.planned(asked(LOADS, **MAP, **{"y.count": "7"}), MOST, DEADLINE_S)
+    study = sweep.checked(asked(LOADS, **MAP, **{"y.count": "7"}), MOST, DEADLINE_S)
     lines = client.get(study.links.view(".ndjson")).text.splitlines()
-    gathered = Gathered(study.sweep.total)
+    received = ReceivedPoints(study.sweep.total)
     for line in lines:
-        gathered.add(json.loads(line))
-    page = views.whole(study, gathered).decode()
+        received.add(json.loads(line))
+    page = sweep.whole(study, received).decode()
     best = json.loads(lines[-1])["best"]
     assert f"at helix slope {best['at'][0]:g} µm, helix crowning {best['at'][1]:g} µm" in page
 
@@ -273,7 +272,7 @@ def test_a_map_over_even_ratios_puts_its_points_where_the_axes_have_them() -> No
     ],
 )
 def test_what_is_refused_stands_at_its_control(said: dict[str, str], control: str, message: str) -> None:
-    opened = views.opened(asked(COUPLING, **said), MOST, DEADLINE_S)
+    opened = sweep.opened(asked(COUPLING, **said), MOST, DEADLINE_S)
     assert opened.status == 422
     page = unescape(opened.head.decode())
     found = re.search(rf'id="f\.{re.escape(control)}-fault">([^<]*)<', page)
@@ -282,7 +281,7 @@ def test_what_is_refused_stands_at_its_control(said: dict[str, str], control: st
 
 
 def test_a_decimal_comma_is_read() -> None:
-    study = views.planned(asked(COUPLING, x="operation.misalignment_deg", **{"x.to": "0,1"}), MOST, DEADLINE_S)
+    study = sweep.checked(asked(COUPLING, x="operation.misalignment_deg", **{"x.to": "0,1"}), MOST, DEADLINE_S)
     axis = study.sweep.points.axes[0].values
     assert axis is not None
     assert axis[-1] == 0.1
@@ -291,12 +290,12 @@ def test_a_decimal_comma_is_read() -> None:
 def test_whole_numbers_are_varied_in_whole_steps() -> None:
     said = {"x": "coupling.teeth", "x.from": "40", "x.to": "50"}
     for count, values_wanted in (("3", [40, 45, 50]), ("21", list(range(40, 51)))):
-        axis = views.planned(asked(COUPLING, **said, **{"x.count": count}), MOST, DEADLINE_S).sweep.points.axes[0]
+        axis = sweep.checked(asked(COUPLING, **said, **{"x.count": count}), MOST, DEADLINE_S).sweep.points.axes[0]
         assert axis.values == values_wanted
 
 
 def test_words_make_a_family() -> None:
-    study = views.planned(
+    study = sweep.checked(
         asked(COUPLING, x="operation.misalignment_deg", **{"x.count": "3"}, y="operation.arrangement"), MOST, DEADLINE_S
     )
     words = study.sweep.points.axes[1].values
@@ -335,7 +334,7 @@ def test_hostile_queries_get_a_clear_page(client: httpx.Client, query: str) -> N
 
 
 def test_a_page_grows_and_ends_with_the_same_points_as_its_files(client: httpx.Client) -> None:
-    study = views.planned(study_of(STUDIES[1]), MOST, DEADLINE_S)
+    study = sweep.checked(study_of(STUDIES[1]), MOST, DEADLINE_S)
     page = client.get(study.links.view(""))
     assert page.status_code == 200
     assert "244 points in" in page.text
@@ -359,7 +358,7 @@ def test_empty_fields_are_dropped_by_a_redirect(client: httpx.Client) -> None:
 
 def test_figures_are_files(client: httpx.Client) -> None:
     said = {"x": "operation.misalignment_deg", "y": "operation.axial_velocity_mm_per_s", "y.count": "7"}
-    links = StudyLinks(views.NAME, asked(COUPLING, **said))
+    links = StudyAddresses(sweep.NAME, asked(COUPLING, **said))
     for image_format, kind in MEDIA_TYPES.items():
         answer = client.get(links.image("map", image_format))
         assert answer.headers["content-type"] == kind
@@ -370,7 +369,7 @@ def test_figures_are_files(client: httpx.Client) -> None:
 
 
 def test_a_posted_study_is_the_same(client: httpx.Client) -> None:
-    links = StudyLinks(views.NAME, asked(COUPLING, x="operation.torque_n_m", **{"x.count": "3"}))
+    links = StudyAddresses(sweep.NAME, asked(COUPLING, x="operation.torque_n_m", **{"x.count": "3"}))
     path, _, query = links.view(".csv").partition("?")
     form = {"Content-Type": "application/x-www-form-urlencoded"}
     assert client.post(path, content=query, headers=form).content == client.get(links.view(".csv")).content
@@ -378,8 +377,8 @@ def test_a_posted_study_is_the_same(client: httpx.Client) -> None:
 
 def test_the_names_of_a_study_are_those_of_its_form() -> None:
     varied_one, unit = asked(COUPLING, x="operation.torque_n_m"), asked("starter-generator-gear-drive-train")
-    heads = (views.opened(varied_one, MOST, DEADLINE_S).head, pages.opened(DESIGN, unit, MOST, DEADLINE_S).head)
-    found = [set(re.findall(r'<(?:input|select)\b[^>]*?\bname="([^"]+)"', head.decode())) for head in heads]
+    forms = [sweep.opened(varied_one, MOST, DEADLINE_S).head, pages.opened(DESIGN, unit, MOST, DEADLINE_S).head]
+    found = [set(re.findall(r'<(?:input|select)\b[^>]*?\bname="([^"]+)"', form.decode())) for form in forms]
     assert set.union(*found) >= STUDY_NAMES
     for names, case in zip(found, (varied_one, unit), strict=True):
         assert names - STUDY_NAMES == set(dict(case.pairs))
