@@ -1,4 +1,4 @@
-"""Names of marked points stand at their own points; no text is cut, none lies over another."""
+"""Names of marked points stand at their own points; no text is cut, none lies over another; awkward data are drawn."""
 
 import random
 import re
@@ -18,8 +18,8 @@ from matplotlib.transforms import Bbox
 
 from app.calculations import BY_PATH
 from app.evaluate import evaluate
-from app.figures.data import Axis, Figure, Hue, Line, Map, Mark, NoFigure, Panel, ThemeName, values
-from app.figures.drawing.image import draw, laid_out
+from app.figures.data import Axis, Figure, Hue, Level, Line, Map, Mark, NoFigure, Panel, Row, ThemeName, values
+from app.figures.drawing.image import draw, laid_out, places
 from app.figures.drawing.style import THEMES, WIDTH, settings
 from app.figures.registry import figures_of
 from app.library import Example, examples
@@ -145,3 +145,48 @@ def test_maps_side_by_side_name_a_common_ordinate_once() -> None:
     for panels, count in (((first, first), 1), ((other, first), 1), ((first, other, first), 2)):
         image = draw(Figure("", panels, title="maps", beside=True), "svg").decode()
         assert image.count(">profile (0: A, 1: E)<") == count
+
+
+ONES = values([1.0, 1.0, 1.0])
+THIRDS = values([0.0, 0.5, 1.0])
+UNSOLVED = values([None, None, None])
+AWKWARD = {
+    "no panel": (),
+    "zeros": (Panel(x=PANEL.x, y=PANEL.y, lines=(Line("a", THIRDS, 0.0 * ONES),)),),
+    "no point": (Panel(x=PANEL.x, y=Axis("load", log=True), lines=(Line("a", THIRDS, UNSOLVED),)),),
+    "rounding errors": (Panel(x=PANEL.x, y=Axis("k", magnitude=False), lines=(Line("a", THIRDS, ONES + 1e-15),)),),
+    "six long names": (
+        replace(
+            PANEL, lines=tuple(Line(f"a line with a rather long name {each}", THIRDS, each * ONES) for each in range(6))
+        ),
+    ),
+    "rows of zero": (Panel(x=Axis("loss", "W"), y=Axis("part"), rows=(Row("mesh", 0.0), Row("bearings", 0.0))),),
+    "negative rows": (
+        Panel(x=Axis("loss", "W"), y=Axis("part"), rows=(Row("mesh", -2e9), Row("fan", -1.0, bounds=(-3.0, 2.0)))),
+    ),
+    "map of one point": (
+        Panel(x=PANEL.x, y=PANEL.y, map=Map("pressure", "MPa", ONES[:1], ONES[:1], values([2.0]).reshape(1, 1))),
+    ),
+    "map without a point": (
+        Panel(x=PANEL.x, y=PANEL.y, map=Map("pressure", "MPa", THIRDS, THIRDS, np.full((3, 3), np.nan))),
+    ),
+    "markup": (replace(PANEL, lines=(Line("$\\alpha$ <b>&", THIRDS, ONES),)),),
+}
+
+
+@pytest.mark.parametrize("name", AWKWARD)
+def test_awkward_data_are_drawn_in_equal_bytes(name: str) -> None:
+    figure = Figure("a finding <&> $x$", AWKWARD[name], title=name)
+    for image_format in ("svg", "png", "pdf"):
+        assert draw(figure, image_format) == draw(figure, image_format)
+    for place in places(figure):
+        assert np.isfinite([*place.box, *place.x, *place.y]).all()
+
+
+def test_limits_far_from_the_values_are_named_at_the_edge() -> None:
+    """They would flatten the curve."""
+    levels = (Level(300.0, "yield point", limit=True), Level(3.0, "endurance limit", limit=True))
+    panel = replace(PANEL, levels=levels, marks=())
+    (place,) = places(Figure("", (panel,), title="two peaks"))
+    assert 3.0 < place.y[1] < 4.0
+    assert {"yield point ↑", "endurance limit"} <= {text.replace("\n", " ") for text in texts(panel)}

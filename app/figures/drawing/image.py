@@ -91,7 +91,8 @@ def laid_out(figure: Figure, theme: Theme) -> tuple[Sheet, list[Axes]]:
     for each, panel in zip(axes, figure.panels, strict=True):
         draw_panel(each, panel, theme, _height(panel, figure))
     sheet.align_ylabels(axes)
-    engine.execute(sheet)
+    if axes:
+        engine.execute(sheet)
     sheet.set_layout_engine("none")
     for each, panel in zip(axes, figure.panels, strict=True):
         place_texts(each, panel, canvas.get_renderer())

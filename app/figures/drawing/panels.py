@@ -102,7 +102,7 @@ def _end(axes: Axes, panel: Panel) -> None:
     if panel.rows:
         drawn = [each.dataLim for each in axes.get_shared_x_axes().get_siblings(axes)]
         low, high = Bbox.union([box for box in drawn if np.isfinite(box.intervalx).all()]).intervalx
-        reach = high - low
+        reach = high - low or 1.0
         axes.set_xlim(low - 0.35 * reach if low < -SHORT * reach else low, high + 0.04 * reach)
         return
     axes.margins(y=0.0 if panel.map else 0.16 if panel.marks else 0.08)
