@@ -208,8 +208,10 @@ def test_notices_name_the_input_of_the_gear_pair(pair_1: Scuffing) -> None:
 
 def test_temperature_out_of_range_names_the_bulk_temperature() -> None:
     with pytest.raises(InvalidInput) as refusal:
-        solve_scuffing(inputs(temperatures=Temperatures(bulk=180.0)))
+        solve_scuffing(inputs(temperatures=Temperatures(bulk=180.0), lubricant=Lubricant(temperature_viscosity=0.0)))
     assert (refusal.value.code, refusal.value.field) == ("temperature_range", "temperatures.bulk")
+    with pytest.raises(InvalidInput, match="10\\^.* Pa s at 180 K"):
+        solve_scuffing(inputs(temperatures=Temperatures(bulk=180.0)))
 
 
 def test_a_path_that_nowhere_converges_ends_with_its_steps(monkeypatch: pytest.MonkeyPatch) -> None:
