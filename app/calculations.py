@@ -4,13 +4,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from app.requests.drive_train import DriveTrainRequest
-from app.requests.line_contact import LineContactRequest
-from app.requests.load_distribution import LoadDistributionRequest
-from app.requests.scuffing import ScuffingRequest
-from app.responses.drive_train import DriveTrainResponse
-from app.responses.load_distribution import LoadDistributionResponse
-from app.responses.scuffing import ScuffingResponse
 from app.schema.base import Request, Response
 from app.schema.coupling import (
     CouplingRequest,
@@ -20,8 +13,11 @@ from app.schema.coupling import (
     SleeveOrbitRequest,
     SleeveOrbitResponse,
 )
-from app.schema.line_contact import LineContactResponse
+from app.schema.drive_train import DriveTrainRequest, DriveTrainResponse
+from app.schema.line_contact import LineContactRequest, LineContactResponse
+from app.schema.load_distribution import LoadDistributionRequest, LoadDistributionResponse
 from app.schema.pumping import ChokingSpeedRequest, ChokingSpeedResponse, PumpingRequest, PumpingResponse
+from app.schema.scuffing import ScuffingRequest, ScuffingResponse
 from solvers import coupling, drive_train, pumping, scuffing
 from solvers.contact import ehl
 

@@ -4,10 +4,10 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from app.problems import Unprocessable
-from app.requests.drive_train import DriveTrainRequest
-from app.requests.scuffing import ScuffingRequest
 from app.schema.base import Request
+from app.schema.drive_train import DriveTrainRequest
 from app.schema.pumping import ChokingSpeedRequest
+from app.schema.scuffing import ScuffingRequest
 from solvers.contact.ehl.continuation import Resolution, price
 
 

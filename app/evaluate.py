@@ -16,7 +16,7 @@ from app.sources import SOURCES
 from solvers import notices
 from solvers.errors import InvalidInput, NoSolution
 
-_COMMON = frozenset(Response.model_fields) - {"derived"}
+_COMMON = frozenset(Response.model_fields)
 
 
 def evaluate(calculation: Calculation, request: Request) -> Response:
@@ -39,7 +39,9 @@ def evaluate(calculation: Calculation, request: Request) -> Response:
         }
     else:
         warnings = [_notice(request, warning) for warning in result.warnings]
-        content = from_si(calculation.response, result, request.detail, skip=_COMMON)
+        content = from_si(
+            calculation.response, result, request.detail, skip=_COMMON.difference(calculation.response.origins)
+        )
         warnings += unusual(request, content)
         content |= {"status": "ok_with_warnings" if warnings else "ok", "warnings": warnings}
         if getattr(result, "status", None) == "no_solution":

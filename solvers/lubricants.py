@@ -9,6 +9,7 @@ import numpy as np
 from solvers.compiled import kernel
 from solvers.errors import InvalidInput
 from solvers.notices import Notice
+from solvers.quantity import quantity
 
 PressureViscosityLaw = Literal["roelands", "barus"]
 OilKind = Literal["mineral", "pao", "ester", "polyglycol"]
@@ -90,13 +91,13 @@ class Lubricant:
 class OilInUse:
     """The properties of a lubricant that a result reports; units as in `Lubricant`."""
 
-    viscosity: float
-    reference_temperature: float
-    pressure_viscosity: float
-    temperature_viscosity: float
-    density: float
-    specific_heat: float
-    thermal_conductivity: float
+    viscosity: float = quantity("oil viscosity used", "η_0", unit="pa_s", text="at the reference temperature")
+    reference_temperature: float = quantity("oil reference temperature used", "θ_0", unit="c")
+    pressure_viscosity: float = quantity("pressure-viscosity coefficient used", "α", unit="per_gpa")
+    temperature_viscosity: float = quantity("temperature-viscosity coefficient used", "β", unit="per_k")
+    density: float = quantity("oil density used", "ρ_0", unit="kg_per_m3")
+    specific_heat: float = quantity("oil specific heat used", "c_oil", unit="j_per_kg_k")
+    thermal_conductivity: float = quantity("oil thermal conductivity used", "λ_oil", unit="w_per_m_k")
 
 
 def thick_oil(viscosity: float) -> Notice | None:

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, fields, is_dataclass
 from functools import cache
 from math import pi
-from typing import Any, Literal, NamedTuple, TypeVar, dataclass_transform, overload
+from typing import Any, Literal, NamedTuple, TypeVar, dataclass_transform, get_type_hints, overload
 
 import numpy as np
 
@@ -170,6 +170,16 @@ def quantity(
     return made
 
 
+def computed(title: str, symbol: str | None = None, source: str | None = None, **known: Any) -> Callable[[T], T]:
+    """Declare a value that a dataclass computes: stands between `property` and the function."""
+
+    def declare(function: T) -> T:
+        setattr(function, _KEY, Quantity(title, symbol, source, **known))
+        return function
+
+    return declare
+
+
 @overload
 def record(cls: type[T], /) -> type[T]: ...
 @overload
@@ -183,8 +193,19 @@ def record(cls: Any = None, /, *, kw_only: bool = False) -> Any:
 
 @cache
 def quantities(kind: Any) -> dict[str, Quantity]:
-    """The declarations of a dataclass by field name, in its order."""
-    return {each.name: each.metadata[_KEY] for each in fields(kind) if _KEY in each.metadata}
+    """The declarations of a dataclass by name: of its fields in their order, then of what it computes."""
+    found = {each.name: each.metadata[_KEY] for each in fields(kind) if _KEY in each.metadata}
+    for base in reversed(kind.__mro__):
+        for name, member in vars(base).items():
+            if isinstance(member, property) and hasattr(member.fget, _KEY):
+                found[name] = getattr(member.fget, _KEY)
+    return found
+
+
+def type_of(kind: Any, name: str) -> Any:
+    """The type of a declared field or computed value."""
+    member = getattr(kind, name, None)
+    return get_type_hints(member.fget)["return"] if isinstance(member, property) else get_type_hints(kind)[name]
 
 
 def checked(inputs: T, prefix: str = "") -> T:
@@ -215,19 +236,17 @@ def _check(declared: Quantity, value: float, name: str) -> None:
     )
     if not inside:
         unit = f" {UNITS[declared.unit].symbol}" if declared.unit else ""
-        message = f"{name} is {declared.from_si(value):.12g}{unit}; allowed {allowed(declared)}"
+        message = f"{name} is {declared.from_si(value):.12g}{unit}; allowed {allowed(declared)}{unit}"
         raise InvalidInput("out_of_range", message, name)
 
 
 def allowed(declared: Quantity) -> str:
-    """The range in words, with its unit."""
-    words = {"ge": "at least", "gt": "above", "le": "at most", "lt": "below"}
+    """The range in words, in the shown unit but without it."""
     ends = declared.bounds
-    if set(ends) == {"ge", "le"}:
-        text = f"{ends['ge']:.12g} to {ends['le']:.12g}"
-    else:
-        text = " and ".join(f"{words[end]} {ends[end]:.12g}" for end in ("gt", "ge", "lt", "le") if end in ends)
-    return f"{text} {UNITS[declared.unit].symbol}" if declared.unit else text
+    if {"ge", "le"} <= set(ends):
+        return f"{ends['ge']:.12g} to {ends['le']:.12g}"
+    words = {"gt": "above", "ge": "at least", "lt": "below", "le": "at most"}
+    return " and ".join(f"{word} {ends[end]:.12g}" for end, word in words.items() if end in ends)
 
 
 def _each(convert: Callable[[Any], Any], value: Any) -> Any:

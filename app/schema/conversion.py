@@ -25,6 +25,7 @@ class _Field:
     unit: Unit | None
     level: int
     group: type[Documented] | None
+    record: type[Any] | None
     holder: str | None
 
     def value(self, result: Any) -> Any:
@@ -41,14 +42,9 @@ def _fields(model: type[Documented]) -> tuple[_Field, ...]:
 def _field(model: type[Documented], name: str, info: FieldInfo) -> _Field:
     output = next((item for item in info.metadata if isinstance(item, Output)), None)
     level = LEVELS.index(output.detail) if output else 0
-    holder = output.of if output and output.of else _holder(model, name)
-    return _Field(name, model.solver_name(name), model.unit_of(name), level, group_of(info.annotation), holder)
-
-
-def _holder(model: type[Documented], name: str) -> str | None:
-    """The member that holds a field inherited from a model that another result fills."""
-    origin = next(each for each in model.__mro__ if name in each.__annotations__)
-    return next((member for extended, member in model.held.items() if issubclass(extended, origin)), None)
+    origin = model.origins.get(name)
+    record, member = (origin.record, origin.member) if origin else (None, None)
+    return _Field(name, model.solver_name(name), model.unit_of(name), level, group_of(info.annotation), record, member)
 
 
 def group_of(annotation: Any) -> type[Documented] | None:
@@ -84,7 +80,7 @@ def _inner(value: Any, kind: type[Any]) -> Any:
 @cache
 def _members(model: type[Documented], kind: Any) -> tuple[tuple[str, _Field, type[Any] | None], ...]:
     """The fields that a dataclass takes from a section, and the dataclass of a section inside it."""
-    known = {field.si_name: field for field in _fields(model)}
+    known = {field.si_name: field for field in _fields(model) if field.record is None or issubclass(kind, field.record)}
     hints = get_type_hints(kind)
     return tuple(
         (each.name, known[each.name], _record_in(hints[each.name]))

@@ -5,8 +5,8 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from app.requests.coupling_lubricant import CouplingLubricant
 from app.schema.base import Derived, Group, Request, Response, Section
+from app.schema.oil import CouplingLubricant
 from app.schema.quantities import Input, View
 from solvers.coupling import inputs as si
 from solvers.coupling import orbit_results, results

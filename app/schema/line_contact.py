@@ -1,11 +1,79 @@
 """One lubricated line contact: request and answer of /v1/scuffing/line-contact."""
 
-from typing import ClassVar
+from typing import Annotated, Any, ClassVar
 
-from app.responses.oil import OilDerived
-from app.schema.base import Group, Response
-from app.schema.quantities import View
+from app.schema.base import Group, Request, Response, Section
+from app.schema.gears import Surface
+from app.schema.oil import Oil, OilDerived
+from app.schema.quantities import Input, View
+from solvers.contact import ehl
 from solvers.contact.ehl import results
+from solvers.errors import InvalidInput
+from solvers.materials import Solid
+from solvers.oils import lubricant_at
+
+
+class LineContact(Section, of=ehl.Contact):
+    """Load, curvature and speeds."""
+
+
+class LineContactTemperatures(Section, of=ehl.Temperatures):
+    """Temperatures far from the contact."""
+
+
+class FilmModel(Section, of=ehl.Model, without=("thermal",)):
+    """Physics and resolution of the film."""
+
+    def unused_film_defaults(self, section: str) -> frozenset[str]:
+        """A Newtonian film has no Eyring stress."""
+        return frozenset({f"{section}.eyring_stress_mpa"} if self.rheology == "newtonian" else ())
+
+
+class LineContactModel(FilmModel, of=ehl.Model):
+    """Physics and resolution of the contact."""
+
+
+class LineContactRequest(Request):
+    """One lubricated line contact."""
+
+    contact: Annotated[LineContact, Input("contact", text="load, curvature and speeds")]
+    surface_1: Annotated[Surface, Input("surface 1", text="material of surface 1")] = Surface()
+    surface_2: Annotated[Surface, Input("surface 2", text="material of surface 2")] = Surface()
+    lubricant: Annotated[Oil, Input("oil")] = Oil()
+    temperatures: Annotated[LineContactTemperatures, Input("temperatures", text="far from the contact")] = (
+        LineContactTemperatures()
+    )
+    model: Annotated[LineContactModel, Input("model", text="physics and resolution", advanced=True)] = (
+        LineContactModel()
+    )
+
+    def options(self) -> dict[str, Any]:
+        """The model section and the laws of the oil."""
+        laws = self.lubricant.model_dump(include={"pressure_viscosity_law", "compressible"})
+        return self.model.model_dump() | laws
+
+    def unused_defaults(self) -> frozenset[str]:
+        """What `FilmModel` leaves out; an isothermal film does not know the temperatures of the surfaces."""
+        unused = self.model.unused_film_defaults("model") | self.lubricant.unused_defaults("lubricant")
+        return unused if self.model.thermal else unused | {"temperatures.surface_1_c", "temperatures.surface_2_c"}
+
+    def inputs(self) -> ehl.LineContactInputs:
+        """The solver's inputs; an oil by its data sheet is what it is at the inlet.
+
+        Raises InvalidInput no_oil without one.
+        """
+        temperatures, oil = self.temperatures.si(ehl.Temperatures), self.lubricant.oil()
+        if oil is None:
+            message = "there is no film without an oil: give iso_vg, two kinematic viscosities or viscosity_pa_s"
+            raise InvalidInput("no_oil", message, "lubricant")
+        return ehl.LineContactInputs(
+            contact=self.contact.si(ehl.Contact),
+            surface_1=self.surface_1.si(Solid),
+            surface_2=self.surface_2.si(Solid),
+            lubricant=lubricant_at(oil, temperatures.inlet),
+            temperatures=temperatures,
+            model=self.model.si(ehl.Model),
+        )
 
 
 class LineContactDerived(OilDerived, of=results.Derived):

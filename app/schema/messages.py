@@ -13,6 +13,7 @@ from pydantic import BaseModel
 from app.schema.conversion import group_of
 from app.schema.model import Documented
 from app.schema.quantities import Input
+from solvers.quantity import allowed
 
 LONGEST_POINTER_PART = 100
 MOST_FAULTS = 100
@@ -133,15 +134,4 @@ def _allowed(section: type[BaseModel] | None, name: str) -> str:
     if given is None or section is None or not issubclass(section, Documented):
         return "is another range"
     unit = section.unit_of(name)
-    return f"{_bounds(given)} {unit.symbol}" if unit else _bounds(given)
-
-
-def _bounds(given: Input) -> str:
-    low, high = given.ge, given.le
-    if low is not None and high is not None:
-        return f"{low:.12g} to {high:.12g}"
-    words = []
-    for bound, word in ((given.gt, "above"), (low, "at least"), (given.lt, "below"), (high, "at most")):
-        if bound is not None:
-            words.append(f"{word} {bound:.12g}")
-    return " and ".join(words)
+    return f"{allowed(given)} {unit.symbol}" if unit else allowed(given)

@@ -11,7 +11,7 @@ itself is an ordinary field of pydantic: under the name of a filled field it cha
 from dataclasses import asdict, fields, is_dataclass
 from inspect import get_annotations
 from types import UnionType
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Union, get_args, get_origin, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 from pydantic import BaseModel, Field, GetJsonSchemaHandler
@@ -20,7 +20,15 @@ from pydantic_core import CoreSchema
 
 from app.schema.quantities import Input, Output, View
 from app.schema.units import split_unit
-from solvers.quantity import UNITS, Quantity, Unit, quantities
+from solvers.quantity import UNITS, Quantity, Unit, quantities, type_of
+
+
+class Origin(NamedTuple):
+    """The field of a solver's dataclass that fills a field of a model; `member` of the result holds that dataclass."""
+
+    record: type
+    name: str
+    member: str | None = None
 
 
 class Documented(BaseModel):
@@ -28,18 +36,16 @@ class Documented(BaseModel):
 
     `exclusive` lists groups of fields of which at most one is given. `member_unit` is the unit of the fields whose own
     names carry none: a group `mass_flow_g_per_s` says it once for its members. `views` are the judgements of outputs,
-    by the solver's names.
-    `solver_names` are the parts of dotted names that the solver spells otherwise, with the fields' spelling. `held`
-    are the members of the solver's result that hold what the models extended here show.
+    by the solver's names. `solver_names` are the parts of dotted names that the solver spells otherwise, with the
+    fields' spelling.
     """
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
     member_unit: ClassVar[Unit | None] = None
     views: ClassVar[dict[str, View]] = {}
     solver_names: ClassVar[dict[str, str]] = {}
-    held: ClassVar[dict[type, str]] = {}
-    in_solver: ClassVar[dict[str, str]] = {}
-    """The solver's name of each filled field."""
+    origins: ClassVar[dict[str, Origin]] = {}
+    """Where filled fields come from."""
     _declares: ClassVar[type[Input] | type[Output]] = Input
     _optional: ClassVar[bool] = False
 
@@ -51,39 +57,59 @@ class Documented(BaseModel):
     def __init_subclass__(
         cls,
         *,
-        of: type | None = None,
+        of: type | tuple[type, ...] = (),
         only: tuple[str, ...] = (),
         without: tuple[str, ...] = (),
-        names: dict[str, str] | None = None,
         **config: Any,
     ) -> None:
-        """Fill the model from the declarations of a dataclass: all, `only` some, or all `without` some.
+        """Fill the model from the declarations of dataclasses: all, `only` some, or all `without` some.
 
-        `names` are the fields' names in the model, without their unit, where they are not the dataclass's.
+        Of several the first is the solver's result, and has a member that is the other. Fields that a base has stay as
+        they are, but for the member of the result that holds them.
         """
         super().__init_subclass__(**config)
-        if of is None:
+        records = of if isinstance(of, tuple) else (of,)
+        inherited = {
+            name: each for base in reversed(cls.__mro__) for name, each in vars(base).get("origins", {}).items()
+        }
+        if not records:
+            cls.origins = inherited
             return
-        chosen = {name: each for name, each in quantities(of).items() if name not in without}
-        if only:
-            chosen = {name: chosen[name] for name in only}
-        shown = {name: cls._shown(each, (names or {}).get(name, name)) for name, each in chosen.items()}
-        own, hints, filled = get_annotations(cls), get_type_hints(of), {}
-        factories = {each.name for each in fields(of) if callable(each.default_factory)}
+        members = _members(records[0])
+        inherited = {name: each._replace(member=members.get(each.record)) for name, each in inherited.items()}
+        cls.origins = {}
+        filled: dict[str, Any] = {}
+        for record in records:
+            chosen = {name: each for name, each in quantities(record).items() if name in (only or {name} - {*without})}
+            ordered = {name: chosen[name] for name in only or chosen}
+            filled |= cls._filled(record, ordered, inherited, members.get(record))
+        cls.origins = inherited | cls.origins
+        own = get_annotations(cls)
+        cls.__annotations__ = filled | {name: kind for name, kind in own.items() if name not in filled}
+        if not only and not without:
+            _MODELS.setdefault((cls._declares, records[0]), cls)
+
+    @classmethod
+    def _filled(
+        cls, record: type[Any], chosen: dict[str, Quantity], inherited: dict[str, Origin], member: str | None
+    ) -> dict[str, Any]:
+        """Annotations for the declared fields of a dataclass; their defaults are set."""
+        shown = {name: cls._shown(each, name) for name, each in chosen.items()}
+        own, filled = get_annotations(cls), {}
+        factories = {each.name for each in fields(record) if callable(each.default_factory)}
         for name, declared in chosen.items():
             api_name = shown[name]
-            known = any(api_name in getattr(base, "in_solver", {}) for base in cls.__mro__[1:])
-            if _declaration(own.get(api_name)) or (known and api_name not in own):
+            if (api_name in inherited and api_name not in own) or api_name in cls.origins:
                 continue
-            kind = own[api_name] if api_name in own else _published(hints[name], declared, cls._declares)
+            cls.origins[api_name] = Origin(record, name, member)
+            if _declaration(own.get(api_name)):
+                continue
+            kind = own[api_name] if api_name in own else _published(type_of(record, name), declared, cls._declares)
             optional = cls._optional or declared.detail != "summary"
-            filled[api_name] = cls._annotated(kind | None if optional else kind, name, declared, shown)
+            filled[api_name] = cls._annotated(kind | None if optional or member else kind, name, declared, shown)
             if api_name not in cls.__dict__:
                 cls._set_default(api_name, kind, declared, optional=optional, factory=name in factories)
-        cls.__annotations__ = filled | {name: kind for name, kind in own.items() if name not in filled}
-        cls.in_solver = cls.in_solver | {api_name: name for name, api_name in shown.items()}
-        if not only and not without:
-            _MODELS.setdefault((cls._declares, of), cls)
+        return filled
 
     @classmethod
     def _shown(cls, declared: Quantity, name: str) -> str:
@@ -118,7 +144,7 @@ class Documented(BaseModel):
     @classmethod
     def solver_name(cls, name: str) -> str:
         """The solver's name of a field."""
-        return cls.in_solver.get(name) or split_unit(name)[0]
+        return cls.origins[name].name if name in cls.origins else split_unit(name)[0]
 
     @classmethod
     def unit_of(cls, name: str) -> Unit | None:
@@ -147,6 +173,17 @@ def declared(kind: type, name: str, **changes: Any) -> Input:
     """The declaration of a dataclass's field, changed for one request."""
     known = quantities(kind)[name]
     return Input(**{each.name: getattr(known, each.name) for each in fields(known)} | changes)
+
+
+def _members(record: type) -> dict[Any, str]:
+    """The members of a dataclass by the dataclass that each holds, alone or optional."""
+    hints = get_type_hints(record)
+    found: dict[Any, str] = {}
+    for each in fields(record):
+        hint = hints[each.name]
+        kinds = get_args(hint) if get_origin(hint) in {Union, UnionType} else (hint,)
+        found |= {kind: each.name for kind in kinds if is_dataclass(kind)}
+    return found
 
 
 def _declaration(annotation: Any) -> bool:

@@ -78,12 +78,7 @@ class View:
 
 @dataclass(frozen=True)
 class Output(View, Quantity):
-    """The declaration of a field of a response.
-
-    `of` is the member of the solver's result that holds the value, where it is not the result itself.
-    """
-
-    of: str | None = None
+    """The declaration of a field of a response."""
 
     @property
     def axes(self) -> tuple[str, ...]:

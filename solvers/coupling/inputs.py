@@ -8,6 +8,7 @@ from math import atan
 from typing import Literal
 
 from solvers.errors import InvalidInput
+from solvers.oil_choice import OilBySheet
 from solvers.quantity import quantity, record
 from solvers.sources import PAHL
 
@@ -245,6 +246,57 @@ class Lubricant:
 
     viscosity: float = 0.025
     reference_film: float = 1e-6
+
+
+@record
+class CouplingOil(OilBySheet):
+    """Oil at the teeth as its user knows it: by its viscosity there, by grade or by data sheet."""
+
+    viscosity: float | None = quantity(
+        "oil viscosity at the teeth",
+        "η",
+        f"{PAHL}, Fig. 8",
+        unit="pa_s",
+        default=0.025,
+        ge=1e-5,
+        le=100,
+        default_text="by grade or data sheet",
+        assumed="ISO VG 46 near 50 °C",
+    )
+    temperature: float = quantity(
+        "oil temperature at the teeth",
+        "θ_oil",
+        unit="c",
+        default=50.0,
+        ge=-50,
+        le=300,
+        tolerance=5,
+        text="at which grade or data sheet tell the viscosity",
+        assumed="50 °C",
+    )
+    reference_film: float = quantity(
+        "reference film thickness",
+        "h_0",
+        f"{PAHL}, Fig. 8",
+        unit="um",
+        default=1.0,
+        ge=1e-3,
+        le=1000,
+        text="film thickness at which the load capacity is stated",
+    )
+
+    def lubricant(self) -> Lubricant:
+        """The oil at the teeth; grade or data sheet count before the viscosity.
+
+        Raises InvalidInput missing_property where neither is given.
+        """
+        sheet = self.sheet()
+        if sheet is not None:
+            return Lubricant(sheet.viscosity(self.temperature), self.reference_film)
+        if self.viscosity is None:
+            message = "give viscosity, or the oil by its grade or data sheet"
+            raise InvalidInput("missing_property", message, "lubricant.viscosity")
+        return Lubricant(self.viscosity, self.reference_film)
 
 
 @record

@@ -1,68 +1,73 @@
 """What follows from the description of a unit before any physics, in groups of the same names."""
 
-from dataclasses import dataclass
-
 from solvers.coupling.inputs import Coupling
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft, ShaftName
+from solvers.quantity import quantity, record
 from solvers.scuffing.results import LoadDistribution
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DerivedBearing:
     """Radial clearance [m] and viscosity [Pa s] in force; None of other than plain bearings."""
 
-    radial_clearance: float | None
-    viscosity: float | None
+    radial_clearance: float | None = quantity("radial clearance used", "c", unit="um")
+    viscosity: float | None = quantity("oil viscosity used in the bearing", "η_B", unit="pa_s")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DerivedShaft:
     """Where torque enters [m], bearings."""
 
-    torque_position: float
-    bearings: tuple[DerivedBearing, ...]
+    torque_position: float = quantity("place of the torque used", "z_T", unit="mm")
+    bearings: tuple[DerivedBearing, ...] = quantity("bearings used")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DerivedCoupling:
     """The coupling with its missing proportions, and the axial stiffness of its teeth [N/m]."""
 
-    coupling: Coupling
-    axial_tooth_stiffness: float
+    coupling: Coupling = quantity("proportions used")
+    axial_tooth_stiffness: float = quantity("axial tooth stiffness used", "c_a", unit="n_per_um")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DerivedHeat:
     """Wall responses."""
 
-    wall_response: float
-    wall_response_wheel: float
+    wall_response: float = quantity("wall response used", "κ_1")
+    wall_response_wheel: float = quantity("wall response of the wheel used", "κ_2")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DerivedTemperatures:
     """Bulk temperature of the contact and scuffing temperature [K]; None where there is none."""
 
-    bulk: float | None
-    scuffing: float | None
+    bulk: float | None = quantity(
+        "bulk temperature used", "θ_M", unit="c", text="given, the teeth's mean, or estimated; null without an oil"
+    )
+    scuffing: float | None = quantity(
+        "scuffing temperature used", "θ_S", unit="c", text="given or by a test; null with neither"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Derived:
     """Torque [N m], power [W], lengths [m], product of the load factors, and what each part fills in."""
 
-    pinion_torque: float
-    power: float
-    centre_distance: float
-    tip_relief_length: float
-    root_relief_length: float
-    end_relief_length: float
-    contact_load_factor: float
-    pinion_shaft: DerivedShaft
-    wheel_shaft: DerivedShaft
-    couplings: tuple[DerivedCoupling, ...]
-    thermal: DerivedHeat
-    temperatures: DerivedTemperatures
+    pinion_torque: float = quantity("pinion torque used", "T_1", unit="n_m")
+    power: float = quantity("power used", "P", unit="kw")
+    centre_distance: float = quantity("centre distance used", "a", unit="mm")
+    tip_relief_length: float = quantity("tip relief length used", "L_Ca", unit="mm")
+    root_relief_length: float = quantity("root relief length used", "L_Cf", unit="mm")
+    end_relief_length: float = quantity("end relief length used", "L_Ce", unit="mm")
+    contact_load_factor: float = quantity(
+        "load factor of the contacts", "K", text="K_A K_v K_γ, on the load of the contacts only"
+    )
+    pinion_shaft: DerivedShaft = quantity("pinion shaft used")
+    wheel_shaft: DerivedShaft = quantity("wheel shaft used")
+    couplings: tuple[DerivedCoupling, ...] = quantity("couplings used")
+    thermal: DerivedHeat = quantity("heat used")
+    temperatures: DerivedTemperatures = quantity("temperatures used")
 
 
 def derived(inputs: DriveTrainInputs, mesh: LoadDistribution) -> Derived:

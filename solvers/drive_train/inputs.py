@@ -5,12 +5,17 @@ The frame: Z along the pinion's axis, X and Y across it; positions along Z are f
 """
 
 from dataclasses import dataclass, field
-from math import pi
 from typing import Literal
 
-from solvers.coupling.inputs import Coupling, Friction, Lubricant, ModelOptions
+from solvers.coupling.inputs import Coupling, Friction, ModelOptions
+from solvers.coupling.inputs import Lubricant as CouplingLubricant
+from solvers.errors import InvalidInput
+from solvers.lubricants import Lubricant
+from solvers.oils import OilSheet, lubricant_at
 from solvers.pumping.inputs import PumpingSetup
+from solvers.quantity import quantity, record
 from solvers.scuffing.inputs import ScuffingInputs
+from solvers.sources import OCVIRK
 
 Vector2 = tuple[float, float]
 CouplingFriction = Literal["elastic_plastic", "sliding"]
@@ -18,15 +23,23 @@ ShaftName = Literal["pinion", "wheel"]
 State = Literal["hot", "cold"]
 STATIONS = 41
 ASSUMED_RESPONSE = 0.5
+FILM_ABOVE_OIL = 15.0  # K
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ShaftSection:
     """A cylinder of a shaft [m]."""
 
-    length: float
-    outer_diameter: float
-    inner_diameter: float = 0.0
+    length: float = quantity("section length", "l", unit="mm", ge=0.1, le=5000)
+    outer_diameter: float = quantity(
+        "section outer diameter",
+        "d_o",
+        unit="mm",
+        ge=5,
+        le=3000,
+        text="under the teeth the reference diameter, as in ISO 6336-1, or the user's own",
+    )
+    inner_diameter: float = quantity("section bore", "d_i", unit="mm", default=0.0, ge=0, le=3000, tolerance=0.1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +82,110 @@ class RigidBearing:
 Bearing = JournalBearing | LinearBearing | RigidBearing
 
 
-@dataclass(frozen=True, slots=True)
+@record
+class ShaftBearing:
+    """A radial bearing as its user knows it: a plain one, one by its stiffness, or a rigid one."""
+
+    position: float = quantity(
+        "bearing position", "z_B", unit="mm", ge=-20000, le=20000, tolerance=0.1, text="along the unit's Z"
+    )
+    type: Literal["journal", "linear", "rigid"] = quantity(
+        "bearing type", default="journal", text="short plain bearing; stiffness given; rigid"
+    )
+    offset: Vector2 = quantity(
+        "bore offset",
+        "e_B",
+        unit="um",
+        default=(0.0, 0.0),
+        ge=-5000,
+        le=5000,
+        tolerance=2,
+        text="[X, Y] of the bore against the datum axis",
+    )
+    diameter: float | None = quantity(
+        "journal diameter",
+        "D",
+        OCVIRK,
+        unit="mm",
+        default=None,
+        ge=5,
+        le=3000,
+        default_text="required of plain bearings",
+    )
+    width: float | None = quantity(
+        "bearing width", "B", OCVIRK, unit="mm", default=None, ge=1, le=3000, default_text="required of plain bearings"
+    )
+    radial_clearance: float | None = quantity(
+        "radial clearance of the bearing",
+        "c",
+        OCVIRK,
+        unit="um",
+        default=None,
+        ge=5,
+        le=1000,
+        tolerance=15,
+        default_text="1.5e-3 of the journal's radius",
+        assumed="1.5e-3 of the journal's radius, usual for high-speed plain bearings",
+    )
+    viscosity: float | None = quantity(
+        "oil viscosity in the bearing",
+        "η_B",
+        OCVIRK,
+        unit="pa_s",
+        default=None,
+        ge=1e-5,
+        le=100,
+        default_text="the gears' oil at the film temperature",
+        assumed=f"the gears' oil at the film temperature, which is {FILM_ABOVE_OIL:.0f} K above the oil's unless given",
+    )
+    film_temperature: float | None = quantity(
+        "film temperature of the bearing",
+        "θ_B",
+        unit="c",
+        default=None,
+        ge=-50,
+        le=300,
+        tolerance=5,
+        text="temperature that tells the viscosity where none is given",
+        default_text=f"oil temperature and {FILM_ABOVE_OIL:.0f} K",
+    )
+    stiffness: tuple[Vector2, Vector2] | None = quantity(
+        "bearing stiffness",
+        "k_B",
+        unit="n_per_um",
+        default=None,
+        ge=-1e5,
+        le=1e5,
+        tolerance=1,
+        relative_tolerance=0.1,
+        text="a number or [[xx, xy], [yx, yy]]",
+        default_text="required of linear bearings",
+    )
+
+    def bearing(self, oil: OilSheet | Lubricant | None, oil_temperature: float) -> Bearing:
+        """The bearing of the model; without a viscosity of its own it runs in the gears' oil, at a temperature [K].
+
+        Raises InvalidInput no_oil where there is none, bearing_data where the type lacks what describes it.
+        """
+        if self.type == "rigid":
+            return RigidBearing(self.position, self.offset)
+        if self.type == "linear":
+            if self.stiffness is None:
+                raise InvalidInput("bearing_data", "A linear bearing needs its stiffness", "stiffness")
+            return LinearBearing(self.position, self.stiffness, self.offset)
+        if self.diameter is None or self.width is None:
+            raise InvalidInput("bearing_data", "A journal bearing needs diameter and width", "diameter")
+        viscosity = self.viscosity
+        if viscosity is None:
+            if oil is None:
+                message = "without an oil of the gears a plain bearing needs its own viscosity; give it, or the oil"
+                raise InvalidInput("no_oil", message, "viscosity")
+            film = oil_temperature + FILM_ABOVE_OIL if self.film_temperature is None else self.film_temperature
+            viscosity = lubricant_at(oil, film).viscosity_at(0.0, film)
+        return JournalBearing(self.position, self.diameter, self.width, viscosity, self.radial_clearance, self.offset)
+
+
+@record
 class Shaft:
     """A shaft in two bearings, its sections in the order of Z from `start` [m].
 
@@ -77,14 +193,43 @@ class Shaft:
     thrust bearing.
     """
 
-    sections: tuple[ShaftSection, ...]
-    bearings: tuple[Bearing, ...]
-    start: float = 0.0
-    torque_position: float | None = None
-    youngs_modulus: float = 206e9
-    poisson_ratio: float = 0.3
-    density: float = 7850.0
-    ultimate_thrust: float | None = None
+    start: float = quantity(
+        "start of the shaft",
+        "z_0",
+        unit="mm",
+        kw_only=True,
+        default=0.0,
+        ge=-20000,
+        le=20000,
+        tolerance=0.1,
+        text="its end of lowest Z",
+    )
+    sections: tuple[ShaftSection, ...] = quantity("sections", length=(1, 40), text="cylinders in order of Z")
+    torque_position: float | None = quantity(
+        "place where torque enters or leaves",
+        "z_T",
+        unit="mm",
+        kw_only=True,
+        default=None,
+        ge=-20000,
+        le=20000,
+        tolerance=0.1,
+        default_text="the coupling's position; required without one",
+    )
+    bearings: tuple[Bearing, ...] = quantity("bearings", length=(0, 40), text="exactly two")
+    youngs_modulus: float = quantity("Young's modulus", "E", unit="gpa", default=206.0, ge=1, le=2000)
+    poisson_ratio: float = quantity("Poisson's ratio", "ν", default=0.3, ge=0, lt=0.5, tolerance=0.01)
+    density: float = quantity("density", "ρ", unit="kg_per_m3", default=7850.0, ge=100, le=30000)
+    ultimate_thrust: float | None = quantity(
+        "ultimate load of the thrust bearing",
+        "F_ult",
+        "API 613",
+        unit="n",
+        default=None,
+        ge=1,
+        le=1e8,
+        default_text="the use of the bearing is not told",
+    )
 
     @property
     def end(self) -> float:
@@ -92,26 +237,77 @@ class Shaft:
         return self.start + sum(section.length for section in self.sections)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Alignment:
     """Heights [m] of the unit's and of the machine's shaft over their feet, and how much these warm up [K].
 
     `expansion` [1/K] of the supports.
     """
 
-    unit_height: float = 0.0
-    unit_rise: float = 0.0
-    machine_height: float = 0.0
-    machine_rise: float = 0.0
-    expansion: float = 11e-6
+    unit_height: float | None = quantity(
+        "height of the unit's shaft",
+        "h_U",
+        unit="mm",
+        default=None,
+        ge=0,
+        le=20000,
+        tolerance=1,
+        text="over its feet",
+        default_text="no growth",
+    )
+    unit_rise: float | None = quantity(
+        "temperature rise of the unit's supports",
+        "ΔT_U",
+        unit="k",
+        default=None,
+        ge=-100,
+        le=300,
+        tolerance=5,
+        default_text="no growth",
+    )
+    machine_height: float | None = quantity(
+        "height of the machine's shaft",
+        "h_M",
+        unit="mm",
+        default=None,
+        ge=0,
+        le=20000,
+        tolerance=1,
+        text="over its feet",
+        default_text="no growth",
+    )
+    machine_rise: float | None = quantity(
+        "temperature rise of the machine's supports",
+        "ΔT_M",
+        unit="k",
+        default=None,
+        ge=-100,
+        le=300,
+        tolerance=5,
+        default_text="no growth",
+    )
+    expansion: float = quantity(
+        "thermal expansion of the supports",
+        "α_S",
+        unit="per_k",
+        default=1.1e-5,
+        ge=0,
+        le=1e-4,
+        tolerance=1e-6,
+        text="of cast iron and steel",
+    )
 
     @property
     def growth(self) -> float:
         """How far the machine's shaft rises over the unit's as both warm up [m]."""
-        return self.expansion * (self.machine_height * self.machine_rise - self.unit_height * self.unit_rise)
+        unit, machine = (
+            (height or 0.0) * (rise or 0.0)
+            for height, rise in ((self.unit_height, self.unit_rise), (self.machine_height, self.machine_rise))
+        )
+        return self.expansion * (machine - unit)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class UnitCoupling:
     """A gear coupling between a shaft of the unit and a machine.
 
@@ -120,21 +316,64 @@ class UnitCoupling:
     given, else running. `thrust_fraction` is the part of the friction limit that acts, towards +Z if positive.
     """
 
-    shaft: ShaftName
-    position: float
-    machine_side: Literal["minus", "plus"]
-    coupling: Coupling
-    lubricant: Lubricant = field(default_factory=Lubricant)
-    friction: Friction = field(default_factory=Friction)
+    shaft: ShaftName = quantity("shaft of the coupling", text="which of the unit's shafts it sits on")
+    position: float = quantity(
+        "hub position", "z_H", unit="mm", ge=-20000, le=20000, tolerance=0.1, text="tooth plane of the unit's hub"
+    )
+    machine_side: Literal["minus", "plus"] = quantity(
+        "side of the machine", text="to which side along Z the machine lies"
+    )
+    coupling: Coupling = quantity("coupling")
+    lubricant: CouplingLubricant = quantity("oil at the coupling's teeth", default_factory=CouplingLubricant)
+    friction: Friction = quantity("friction between the coupling's teeth", default_factory=Friction)
     model: ModelOptions = field(default_factory=ModelOptions)
-    axial_tooth_stiffness: float | None = None
-    offset: Vector2 = (0.0, 0.0)
-    slope: Vector2 = (0.0, 0.0)
-    thrust_fraction: float = 0.0
-    alignment: Alignment | None = None
+    axial_tooth_stiffness: float | None = quantity(
+        "axial tooth stiffness",
+        "c_a",
+        unit="n_per_um",
+        default=None,
+        ge=0.1,
+        le=1e5,
+        text="of one tooth, that lets it yield before it slides",
+        default_text="the tooth pair stiffness",
+        assumed="as stiff as tangentially",
+    )
+    offset: Vector2 = quantity(
+        "offset of the machine's hub",
+        "e_M",
+        unit="um",
+        default=(0.0, 0.0),
+        ge=-5000,
+        le=5000,
+        tolerance=100,
+        text="[X, Y] against the unit's datum axis; running, or cold where an alignment is given",
+    )
+    slope: Vector2 = quantity(
+        "slope of the machine's axis",
+        "φ_M",
+        unit="mrad",
+        default=(0.0, 0.0),
+        ge=-20,
+        le=20,
+        tolerance=0.2,
+        text="[dX/dZ, dY/dZ] against the unit's datum axis",
+    )
+    thrust_fraction: float = quantity(
+        "share of the friction that acts axially",
+        "τ",
+        default=0.0,
+        ge=-1,
+        le=1,
+        tolerance=0.1,
+        text="share of the friction limit that acts along the shaft, towards +Z if positive",
+        assumed="none: all friction resists the tilting, which bends the shaft most",
+    )
+    alignment: Alignment | None = quantity(
+        "alignment", default=None, text="heights and temperature rises of both machines"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Arrangement:
     """How the unit stands and turns.
 
@@ -142,14 +381,31 @@ class Arrangement:
     wheel, `gravity_angle` that of gravity, counter-clockwise from X [rad]; `gravity_factor` in units of g.
     """
 
-    hand: Literal["right", "left"] = "right"
-    rotation: Literal["counterclockwise", "clockwise"] = "counterclockwise"
-    wheel_angle: float = 0.0
-    gravity_angle: float = -pi / 2
-    gravity_factor: float = 1.0
+    hand: Literal["right", "left"] = quantity(
+        "hand of the pinion's helix", default="right", text="without meaning for spur gears"
+    )
+    rotation: Literal["counterclockwise", "clockwise"] = quantity(
+        "rotation of the pinion", default="counterclockwise", text="rotation of the pinion, seen from +Z"
+    )
+    wheel_angle: float = quantity(
+        "direction to the wheel",
+        "γ_W",
+        unit="deg",
+        default=0.0,
+        ge=-360,
+        le=360,
+        tolerance=1,
+        text="from pinion to wheel, from X towards Y",
+    )
+    gravity_angle: float = quantity(
+        "direction of gravity", "γ_g", unit="deg", default=-90.0, ge=-360, le=360, tolerance=1, text="from X towards Y"
+    )
+    gravity_factor: float = quantity(
+        "gravity factor", "g/g_0", default=1.0, ge=0, le=10, tolerance=0.1, text="weight over that on earth"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Heat:
     """Tooth temperatures [K] without the pumping heat, and how much of the gas's rise the metal takes (0 to 1.5).
 
@@ -158,12 +414,64 @@ class Heat:
     of the gas's rise from its mean over the face counts.
     """
 
-    wall_response: float | None = None
-    wall_response_wheel: float | None = None
-    pinion_bulk: float = 363.15
-    wheel_bulk: float = 353.15
-    reference: float = 293.15
-    bulk_includes_pumping: bool = False
+    wall_response: float | None = quantity(
+        "wall response",
+        "κ_1",
+        default=None,
+        ge=0,
+        le=1.5,
+        tolerance=0.1,
+        text="rise of the pinion's metal over the rise of the pumped gas",
+        default_text=f"{ASSUMED_RESPONSE}",
+        assumed="nothing but a measurement tells it; known values lie between 0.2 and 1",
+    )
+    wall_response_wheel: float | None = quantity(
+        "wall response of the wheel",
+        "κ_2",
+        default=None,
+        ge=0,
+        le=1.5,
+        tolerance=0.1,
+        default_text="the pinion's times z1/z2",
+        assumed="a wheel tooth meets the hot gas once a turn of the wheel",
+    )
+    pinion_bulk: float = quantity(
+        "tooth temperature of the pinion",
+        "θ_M1",
+        unit="c",
+        default=90.0,
+        ge=-70,
+        le=500,
+        tolerance=5,
+        text="without the heat of pumping",
+        assumed="usual of high-speed gears; measure it",
+    )
+    wheel_bulk: float = quantity(
+        "tooth temperature of the wheel",
+        "θ_M2",
+        unit="c",
+        default=80.0,
+        ge=-70,
+        le=500,
+        tolerance=5,
+        text="without the heat of pumping",
+        assumed="usual of high-speed gears; measure it",
+    )
+    reference: float = quantity(
+        "temperature of the drawing",
+        "θ_0",
+        unit="c",
+        default=20.0,
+        ge=-70,
+        le=200,
+        tolerance=5,
+        text="at which flanks are as drawn",
+    )
+    bulk_includes_pumping: bool = quantity(
+        "tooth temperatures with pumping",
+        default=False,
+        text="whether tooth temperatures hold the pumping heat; only its variation along the face is added then",
+    )
 
     def responses(self, speed_ratio: float) -> tuple[float, float]:
         """Wall responses of pinion and wheel; `speed_ratio` is z1/z2."""
@@ -171,16 +479,18 @@ class Heat:
         return pinion, pinion * speed_ratio if self.wall_response_wheel is None else self.wall_response_wheel
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Effects:
     """What is taken into account; without shafts, couplings have nothing to bend."""
 
-    shafts: bool = True
-    coupling: bool = True
-    thermal: bool = True
+    shafts: bool = quantity(
+        "shafts", default=True, text="whether shafts and bearings yield; without, couplings neither"
+    )
+    coupling: bool = quantity("couplings", default=True, text="whether couplings load their shafts")
+    thermal: bool = quantity("heat", default=True, text="whether heat deforms the flanks")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DriveTrainInputs:
     """The unit: its mesh, the gas pumped in it, shafts, couplings, heat.
 
@@ -194,19 +504,50 @@ class DriveTrainInputs:
 
     mesh: ScuffingInputs
     pumping: PumpingSetup
-    face_start: float
-    pinion_shaft: Shaft
-    wheel_shaft: Shaft
+    face_start: float = quantity(
+        "start of the face",
+        "z_F",
+        unit="mm",
+        ge=-20000,
+        le=20000,
+        tolerance=0.1,
+        text="end of lowest Z of the common face",
+    )
+    pinion_shaft: Shaft = quantity("pinion shaft", text="shaft of the driving gear")
+    wheel_shaft: Shaft = quantity("wheel shaft", text="shaft of the driven gear")
     arrangement: Arrangement = field(default_factory=Arrangement)
-    couplings: tuple[UnitCoupling, ...] = ()
-    collar_radius: float | None = None
-    heat: Heat = field(default_factory=Heat)
-    effects: Effects = field(default_factory=Effects)
-    coupling_friction: CouplingFriction = "elastic_plastic"
-    face_stations: int = STATIONS
-    local_bulk: bool = False
+    couplings: tuple[UnitCoupling, ...] = quantity(
+        "couplings", default=(), length=(0, 10), text="at most one on each shaft"
+    )
+    collar_radius: float | None = quantity(
+        "radius of the thrust collar",
+        "r_k",
+        unit="mm",
+        default=None,
+        ge=1,
+        le=5000,
+        text="where it touches",
+        default_text="no collar",
+    )
+    heat: Heat = quantity("heat of the teeth", default_factory=Heat)
+    effects: Effects = quantity("effects", default_factory=Effects, text="what is taken into account")
+    coupling_friction: CouplingFriction = quantity(
+        "friction law of the hubs",
+        default="elastic_plastic",
+        text="teeth that yield before they slide, or full sliding at any tilt, for comparison",
+        assumed="own derivation; no measurement of a well aligned hub is known",
+        advanced=True,
+    )
+    face_stations: int = quantity(
+        "stations over the face", "n", default=41, ge=5, le=201, text="at which shafts and mesh meet", advanced=True
+    )
+    local_bulk: bool = quantity(
+        "local bulk temperature", default=False, text="whether the contact's bulk is warmer where more heat is pumped"
+    )
     bulk_given: bool = True
-    states: tuple[State, ...] = ("hot",)
+    states: tuple[State, ...] = quantity(
+        "states", default=("hot",), length=(1, 2), text="the unit as described is hot; with cold the answer tells both"
+    )
 
     @property
     def shafts(self) -> tuple[Shaft, Shaft]:

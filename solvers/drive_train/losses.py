@@ -25,7 +25,7 @@ def train_losses(
     if mesh is None:
         return TrainLosses(coupling, pumping, None, bearings, None, None)
     total = coupling + pumping + mesh + bearings
-    power = inputs.mesh.distribution.load.power
+    power = inputs.mesh.distribution.load.transmitted_power
     return TrainLosses(coupling, pumping, mesh, bearings, total, 1 - total / power if power > total else None)
 
 

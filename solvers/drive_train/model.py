@@ -138,4 +138,4 @@ def face_load(spread: LoadDistribution) -> FaceLoad:
 def _torques(inputs: DriveTrainInputs) -> tuple[float, float]:
     """Torques [N m] at the pinion's and at the wheel's shaft."""
     gears, load = inputs.mesh.distribution.gears, inputs.mesh.distribution.load
-    return load.pinion_torque, load.pinion_torque * gears.wheel.teeth / gears.pinion.teeth
+    return load.torque, load.torque * gears.wheel.teeth / gears.pinion.teeth

@@ -71,7 +71,7 @@ def load_notices(inputs: DriveTrainInputs, load: FaceLoad, safety: TrainSafety |
 
 def loss_notices(inputs: DriveTrainInputs, losses: TrainLosses) -> Iterator[Notice]:
     """Losses that the power does not cover."""
-    power = inputs.mesh.distribution.load.power
+    power = inputs.mesh.distribution.load.transmitted_power
     if losses.total is not None and 0.0 < power <= losses.total:
         message = (
             f"the losses of {losses.total / 1e3:.4g} kW exceed the power of {power / 1e3:.4g} kW: there is no "

@@ -1,16 +1,16 @@
 """What a drive train says; SI units, read-only arrays. Vectors are (X, Y), gaps positive where the flanks part."""
 
-from dataclasses import dataclass
-
 from solvers.arrays import FloatArray
 from solvers.drive_train.derived import Derived
 from solvers.drive_train.inputs import Vector2
 from solvers.drive_train.shafts.thrust_budget import Thrust
 from solvers.notices import Notice
+from solvers.quantity import computed, quantity, record
 from solvers.scuffing.results import LoadDistribution, Place
+from solvers.sources import ISO_6336, OCVIRK
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Parts:
     """Slope of the shafts' gap over the face [m] by its causes, at the load that both agreed on.
 
@@ -18,35 +18,45 @@ class Parts:
     pinion and wheel together and apart; coupling, collar and weight are what these loads bend elastically.
     """
 
-    bending: float
-    torsion: float
-    tilting_moment: float
-    films: float
-    films_pinion: float
-    films_wheel: float
-    bearing_offsets: float
-    coupling: float
-    collar: float
-    weight: float
+    bending: float = quantity("slope by bending", "f_b", unit="um", text="of the mesh's transverse force")
+    torsion: float = quantity("slope by torsion", "f_t", unit="um", text="of both shafts")
+    tilting_moment: float = quantity(
+        "slope by the tilting moment", "f_m", unit="um", text="of the axial force, elastic"
+    )
+    films: float = quantity(
+        "slope by the bearings", "f_f", unit="um", text="by what yields in the bearings of both shafts"
+    )
+    films_pinion: float = quantity("slope by the pinion's bearings", "f_f1", unit="um")
+    films_wheel: float = quantity("slope by the wheel's bearings", "f_f2", unit="um")
+    bearing_offsets: float = quantity("slope by offsets of the bores", "f_o", unit="um")
+    coupling: float = quantity(
+        "slope by the couplings", "f_c", unit="um", text="elastic; what films yield to it is theirs"
+    )
+    collar: float = quantity("slope by the thrust collar", "f_k", unit="um", text="elastic")
+    weight: float = quantity("slope by the weight", "f_w", unit="um", text="elastic")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class GapCurves:
     """Over the face, at stations from the end that meshes first [m]: gaps [m], transverse force per face [N/m].
 
     modification is its lead part; total is the sum of the three.
     """
 
-    position: FloatArray
-    z: FloatArray
-    shaft: FloatArray
-    thermal: FloatArray
-    modification: FloatArray
-    total: FloatArray
-    line_force: FloatArray
+    position: FloatArray = quantity("position on the face", "y", unit="mm", text="from the end that meshes first")
+    z: FloatArray = quantity("position on the unit's axis", "Z", unit="mm", axis="position")
+    shaft: FloatArray = quantity("gap by the shafts", "g", unit="um", axis="position")
+    thermal: FloatArray = quantity("gap by heat", "Δ_th", unit="um", axis="position")
+    modification: FloatArray = quantity(
+        "gap as ground", "Δ_m", unit="um", text="lead part, at the pitch point", axis="position"
+    )
+    total: FloatArray = quantity("gap in all", "Δ", unit="um", axis="position")
+    line_force: FloatArray = quantity(
+        "transverse force per face", "q", unit="n_per_mm", text="mean over the roll positions", axis="position"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Misalignment:
     """Slope, crown and range of the gap [m] by shafts and heat, and what to grind against both.
 
@@ -54,68 +64,84 @@ class Misalignment:
     a load spread evenly over the face, for that is what a corrected flank has.
     """
 
-    shaft_slope: float
-    shaft_crown: float
-    shaft_range: float
-    shaft_mean: float
-    parts: Parts
-    thermal_slope: float
-    thermal_crown: float
-    thermal_range: float
-    thermal_profile_slope: float
-    base_pitch: float
-    total_slope: float
-    recommended_helix_slope: float
-    recommended_lead_crowning: float
-    recommended_profile_slope: float
-    curves: GapCurves
+    shaft_slope: float = quantity("slope by the shafts", "f_sh", unit="um")
+    shaft_crown: float = quantity("crown by the shafts", "C_sh", unit="um")
+    shaft_range: float = quantity("range of the shafts' gap", "R_sh", unit="um")
+    shaft_mean: float = quantity("mean of the shafts' gap", "g_m", unit="um", text="which the transmission error takes")
+    parts: Parts = quantity("slope by parts")
+    thermal_slope: float = quantity("slope by heat", "f_th", unit="um")
+    thermal_crown: float = quantity("crown by heat", "C_th", unit="um")
+    thermal_range: float = quantity("range of the gap by heat", "R_th", unit="um")
+    thermal_profile_slope: float = quantity("profile slope by heat", "f_Hα,th", unit="um")
+    base_pitch: float = quantity(
+        "base pitch error by heat", "Δp_bt", unit="um", text="pinion's growth over the wheel's"
+    )
+    total_slope: float = quantity("slope by shafts and heat", "f_Hβ", unit="um")
+    recommended_helix_slope: float = quantity(
+        "helix slope to grind", "f_Hβ,rec", unit="um", text="in all; sized at a load spread evenly over the face"
+    )
+    recommended_lead_crowning: float = quantity(
+        "helix crowning to grind", "C_β,rec", unit="um", text="in all; it only undoes crowns of shafts and heat"
+    )
+    recommended_profile_slope: float = quantity("profile slope to grind", "f_Hα,rec", unit="um", text="in all")
+    curves: GapCurves = quantity("gap over the face", detail="curves")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FaceLoad:
     """How the face carries: K_H_beta and its place (fraction of the face), line load [N/m], pressure [Pa], PPTE [m]."""
 
-    face_load_factor: float | None
-    face_load_at: float | None
-    max_line_load: float
-    max_pressure: float | None
-    contact_fraction: float
-    transmission_error_pp: float
+    face_load_factor: float | None = quantity(
+        "face load factor", "K_Hβ", ISO_6336, text="largest over mean load across the face"
+    )
+    face_load_at: float | None = quantity(
+        "place of the largest face load", "y/b", text="fraction of the face; null without load"
+    )
+    max_line_load: float = quantity("largest line load", "w_max", unit="n_per_mm")
+    max_pressure: float | None = quantity(
+        "largest Hertz pressure", "p_H", unit="mpa", text="null where the loaded path reaches a base circle"
+    )
+    contact_fraction: float = quantity("contact pattern", text="share of the flank under load")
+    transmission_error_pp: float = quantity("peak-to-peak transmission error", "PPTE", unit="um")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class BearingResult:
     """A bearing: reaction on the shaft [N], displacement without the bore's offset [m]; the rest of plain ones only."""
 
-    reaction: Vector2
-    displacement: Vector2
-    eccentricity_ratio: float | None
-    attitude: float | None
-    min_film: float | None
-    specific_pressure: float | None
-    friction_power: float
+    reaction: Vector2 = quantity("bearing reaction", "F_B", unit="n", text="on the shaft", index="X, Y")
+    displacement: Vector2 = quantity(
+        "displacement in the bearing", "u_B", unit="um", text="of the shaft, without the bore's offset", index="X, Y"
+    )
+    eccentricity_ratio: float | None = quantity("eccentricity ratio", "ε", OCVIRK)
+    attitude: float | None = quantity("attitude angle", "φ_B", OCVIRK, unit="deg", text="of displacement against load")
+    min_film: float | None = quantity("thinnest film of the bearing", "h_min,B", OCVIRK, unit="um")
+    specific_pressure: float | None = quantity(
+        "specific bearing pressure", "p_B", unit="mpa", text="load over the projected area"
+    )
+    friction_power: float = quantity("friction power of the bearing", "P_B", unit="w")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ShaftCurves:
     """Along a shaft at z [m]: displacement x, y [m] and twist [rad] of its axis."""
 
-    z: FloatArray
-    x: FloatArray
-    y: FloatArray
-    twist: FloatArray
+    z: FloatArray = quantity("position along the shaft", "Z", unit="mm")
+    x: FloatArray = quantity("displacement along X", "u", unit="um", axis="z")
+    y: FloatArray = quantity("displacement along Y", "v", unit="um", axis="z")
+    twist: FloatArray = quantity("twist of the shaft", "ϑ_Z", unit="mrad", axis="z")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ShaftResult:
     """A shaft: bearings, thrust, curves."""
 
-    bearings: tuple[BearingResult, BearingResult]
-    thrust: Thrust
-    curves: ShaftCurves
+    bearings: tuple[BearingResult, BearingResult] = quantity("bearings", text="in the order of the request")
+    thrust: Thrust = quantity("thrust")
+    curves: ShaftCurves = quantity("displaced axis", detail="curves")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CouplingResult:
     """A coupling: tilts of the hubs A (unit) and B (machine) [rad], whether they stick; loads on hub A [N m, N].
 
@@ -123,27 +149,42 @@ class CouplingResult:
     the friction moment of each hub over that of full sliding; friction_coefficient the smaller.
     """
 
-    tilt: Vector2
-    stuck: tuple[bool, bool]
-    friction_share: Vector2
-    moment: Vector2
-    force: Vector2
-    friction_coefficient: float
-    thrust: float
-    thrust_limit: float
-    friction_power: float
+    tilt: Vector2 = quantity(
+        "tilt of the hubs", "δ", unit="mrad", text="of hub against sleeve", index="the unit's hub, the machine's"
+    )
+    stuck: tuple[bool, bool] = quantity(
+        "sticking hubs", text="whether no tooth of a hub slides", index="the unit's hub, the machine's"
+    )
+    friction_share: Vector2 = quantity(
+        "share of full sliding",
+        "M_H/M_f",
+        text="friction moment of a hub over that of full sliding",
+        index="the unit's hub, the machine's",
+    )
+    moment: Vector2 = quantity("moment on the unit's hub", "M_H", unit="n_m", index="X, Y")
+    force: Vector2 = quantity(
+        "force on the unit's hub", "F_H", unit="n", text="with half the sleeve's weight", index="X, Y"
+    )
+    friction_coefficient: float = quantity(
+        "coefficient of friction of the coupling", "μ", text="the smaller of both hubs"
+    )
+    thrust: float = quantity(
+        "thrust of the coupling on its shaft", "τ F_max", unit="n", text="the stated share of the limit, along +Z"
+    )
+    thrust_limit: float = quantity("limit of the axial friction", "F_max", unit="n")
+    friction_power: float = quantity("friction power of the coupling", "P_C", unit="w", text="of both hubs")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FlashPlaces:
     """Largest Blok flash temperature [K] on the feature line and on the flank, and where; None at a base circle."""
 
-    feature: float | None
-    flank: float | None
+    feature: float | None = quantity("flash temperature on the feature line", "Δθ_fl,1", unit="k")
+    flank: float | None = quantity("flash temperature on the flank", "Δθ_fl,2", unit="k")
     flank_at: Place | None
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TrainSafety:
     """Safety against scuffing: Blok on the feature line and over the flank, thermal EHL on two lines; None unknown.
 
@@ -151,86 +192,111 @@ class TrainSafety:
     smallest of those asked for, None where one is unknown.
     """
 
-    blok_feature: float | None
-    blok_flank: float | None
-    blok_at: Place | None
-    thermal_ehl_feature: float | None
-    thermal_ehl_profile: float | None
-    minimum: float | None
+    blok_feature: float | None = quantity("scuffing safety on the feature line", "S_B,1")
+    blok_flank: float | None = quantity("scuffing safety on the flank", "S_B,2")
+    blok_at: Place | None = quantity("hottest place by Blok", text="null without load")
+    thermal_ehl_feature: float | None = quantity("scuffing safety by thermal EHL on the feature line", "S_T,1")
+    thermal_ehl_profile: float | None = quantity(
+        "scuffing safety by thermal EHL on the worst profile",
+        "S_T,2",
+        text="on the profile line through the hottest place by Blok",
+    )
+    minimum: float | None = quantity("scuffing safety", "S_B", text="least of all; null where one is unknown")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TrainLosses:
     """Power [W] lost in couplings, to pumping, in mesh and plain bearings; efficiency None where they exceed it.
 
     Where the mesh's coefficient of friction is not known, its loss, the total and the efficiency are None.
     """
 
-    coupling: float
-    pumping: float
-    mesh: float | None
-    bearings: float
-    total: float | None
-    efficiency: float | None
+    coupling: float = quantity("loss of the couplings", "P_C", unit="w")
+    pumping: float = quantity("loss by pumping", "P_P", unit="w", text="of air and mist between the teeth")
+    mesh: float | None = quantity("loss of the mesh", "P_V", unit="w", text="null without a coefficient of friction")
+    bearings: float = quantity("loss of the plain bearings", "P_B", unit="w")
+    total: float | None = quantity("loss in all", "P_L", unit="w", text="null without the loss of the mesh")
+    efficiency: float | None = quantity("efficiency", "η", text="null without power, or where the losses exceed it")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ForceBalance:
     """Largest unbalanced sum on a shaft: forces over F_bt, moments over F_bt b; None without load."""
 
-    force_error: float | None
-    moment_error: float | None
+    force_error: float | None = quantity("unbalanced force", "ΣF/F_bt", text="largest of a shaft, over the tooth force")
+    moment_error: float | None = quantity(
+        "unbalanced moment", "ΣM/(F_bt b)", text="largest of a shaft, over tooth force and face"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Convergence:
     """Iterations on the gap and the last residual [m]."""
 
-    iterations: int
-    residual: float
+    iterations: int = quantity("iterations")
+    residual: float = quantity("residual of the gap", "ΔΔ", unit="um")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FlankMaps:
     """Maps [profile, face]: line load [N/m], pressure [Pa], NaN where R_n vanishes, contact temperature by Blok [K]."""
 
-    profile_fraction: FloatArray
-    face_fraction: FloatArray
-    line_load: FloatArray
-    pressure: FloatArray
-    contact_temperature: FloatArray
+    profile_fraction: FloatArray = quantity("profile position of the map", "ξ", text="fraction of the path from A to E")
+    face_fraction: FloatArray = quantity(
+        "face position of the map", "η", text="fraction of the face from the end that meshes first"
+    )
+    line_load: FloatArray = quantity("line load", "w", unit="n_per_mm", axis=("profile_fraction", "face_fraction"))
+    pressure: FloatArray = quantity(
+        "Hertz pressure",
+        "p_H",
+        unit="mpa",
+        text="null where the reduced radius vanishes",
+        axis=("profile_fraction", "face_fraction"),
+        gaps=True,
+    )
+    contact_temperature: FloatArray = quantity(
+        "contact temperature by Blok",
+        "θ_B",
+        unit="c",
+        text="bulk and flash; null without an oil",
+        axis=("profile_fraction", "face_fraction"),
+        gaps=True,
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class States:
     """The unit in other states than the one asked about; None where that state was not asked for or has no solution."""
 
-    cold: "DriveTrainResult | None"
+    cold: "DriveTrainResult | None" = quantity("cold unit", text="as drawn, at the reference temperature")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DriveTrainResult:
     """The unit's answer; `mesh` is the load distribution under the gap that all agreed on.
 
     `contact_temperature` is the map [profile, face] by Blok [K].
     """
 
-    misalignment: Misalignment
-    load: FaceLoad
-    shafts: tuple[ShaftResult, ShaftResult]
-    couplings: tuple[CouplingResult, ...]
-    flash: FlashPlaces
-    safety: TrainSafety | None
-    losses: TrainLosses
-    balance: ForceBalance
-    convergence: Convergence
+    misalignment: Misalignment = quantity("misalignment", text="gap over the face, by causes")
+    load: FaceLoad = quantity("load", text="how the face carries")
+    shafts: tuple[ShaftResult, ShaftResult] = quantity("shafts", text="the pinion's and the wheel's")
+    couplings: tuple[CouplingResult, ...] = quantity(
+        "couplings", text="in the order of the request; empty without effect"
+    )
+    flash: FlashPlaces = quantity("flash temperature")
+    safety: TrainSafety | None = quantity("safety", text="safety against scuffing; null without a scuffing temperature")
+    losses: TrainLosses = quantity("losses")
+    balance: ForceBalance = quantity("balance", text="forces and moments on the shafts")
+    convergence: Convergence = quantity("convergence")
     mesh: LoadDistribution
     contact_temperature: FloatArray
     warnings: tuple[Notice, ...]
-    derived: Derived
-    states: States | None = None
+    derived: Derived = quantity("what was left open, as used")
+    states: States | None = quantity("states", text="null unless other states were asked for", default=None)
 
     @property
+    @computed("over the flank", detail="fields")
     def flank(self) -> FlankMaps:
         """Over the flank."""
         maps = self.mesh.flank

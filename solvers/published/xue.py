@@ -16,14 +16,13 @@ from solvers.scuffing.inputs import (
     Modifications,
     ScuffingInputs,
     angular_speed,
-    torque_from_power,
 )
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.safety_results import Scuffing
 
 HELIX_AND_WIDTH = {1: (9.8, 20.0), 2: (9.8, 40.0), 3: (20.2, 20.0), 4: (20.2, 40.0)}
 PAPER_SPEED = angular_speed(2000.0)
-PAPER_LOAD = Load(torque_from_power(50e3, PAPER_SPEED), PAPER_SPEED)
+PAPER_LOAD = Load(50e3 / PAPER_SPEED, PAPER_SPEED)
 PAPER_MODEL = Model(contact="linear", section="transverse")
 CALIBRATED_MODEL = replace(PAPER_MODEL, tooth_stiffness="parabola", load_convention="paper")
 PAPER_MODIFICATIONS = Modifications(profile_crowning=10e-6, lead_crowning=10e-6, tip_relief=5e-6)

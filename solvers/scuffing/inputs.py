@@ -1,14 +1,20 @@
 """What a load distribution is computed from."""
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import pi
 from typing import Literal
 
 from solvers.contact import ehl
+from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 from solvers.oils import OilSheet
+from solvers.quantity import quantity, record
+from solvers.sources import ISO_6336, XUE
+
+FZG = "ISO 14635-1"
+TR_13989 = "ISO/TR 13989-1, as read in a public implementation"
 
 FrictionMethod = Literal["given", "iso_tr_13989"]
 BulkMethod = Literal["given", "estimated"]
@@ -21,18 +27,38 @@ LoadConvention = Literal["exact", "paper"]
 Lubrication = Literal["thermal_ehl", "closed_form"]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Load:
-    """Torque [N m] and speed [rad/s] of the driving pinion.
+    """Torque [N m] or power [W], and speed [rad/s] of the driving pinion; a torque given counts.
 
     The factors K_A, K_v and K_gamma multiply the load of the contacts, not the transmitted power.
     """
 
-    pinion_torque: float
-    pinion_speed: float
-    application_factor: float = 1.0
-    dynamic_factor: float = 1.0
-    mesh_load_factor: float = 1.0
+    pinion_torque: float | None = quantity(
+        "pinion torque", "T_1", XUE, unit="n_m", ge=0, le=1e7, tolerance=1, relative_tolerance=0.01
+    )
+    power: float | None = quantity(
+        "transmitted power",
+        "P",
+        f"{XUE}, Eq. 1",
+        unit="kw",
+        kw_only=True,
+        default=None,
+        ge=0,
+        le=1e6,
+        tolerance=0.1,
+        relative_tolerance=0.01,
+    )
+    pinion_speed: float = quantity("pinion speed", "n_1", XUE, unit="rpm", ge=0.1, le=2e5)
+    application_factor: float = quantity(
+        "application factor", "K_A", ISO_6336, default=1.0, ge=0.1, le=10, text="multiplies the load of the contacts"
+    )
+    dynamic_factor: float = quantity(
+        "dynamic factor", "K_v", ISO_6336, default=1.0, ge=0.1, le=10, text="multiplies the load of the contacts"
+    )
+    mesh_load_factor: float = quantity(
+        "mesh load factor", "K_γ", ISO_6336, default=1.0, ge=0.1, le=10, text="multiplies the load of the contacts"
+    )
 
     @property
     def contact_factor(self) -> float:
@@ -42,17 +68,24 @@ class Load:
     @property
     def contact_torque(self) -> float:
         """Pinion torque that loads the contacts [N m]."""
-        return self.contact_factor * self.pinion_torque
+        return self.contact_factor * self.torque
 
     @property
-    def power(self) -> float:
+    def torque(self) -> float:
+        """Transmitted torque of the pinion [N m]; of a power it is the paper's 9549 P/n.
+
+        Raises InvalidInput torque_or_power where neither is given.
+        """
+        if self.pinion_torque is not None:
+            return self.pinion_torque
+        if self.power is None:
+            raise InvalidInput("torque_or_power", "give pinion_torque or power", "pinion_torque")
+        return self.power / self.pinion_speed
+
+    @property
+    def transmitted_power(self) -> float:
         """Transmitted power [W]."""
-        return self.pinion_torque * self.pinion_speed
-
-
-def torque_from_power(power: float, pinion_speed: float) -> float:
-    """Torque [N m] of a power [W] at a speed [rad/s]; the paper's 9549 P/n."""
-    return power / pinion_speed
+        return self.torque * self.pinion_speed
 
 
 def angular_speed(revolutions_per_minute: float) -> float:
@@ -60,18 +93,38 @@ def angular_speed(revolutions_per_minute: float) -> float:
     return revolutions_per_minute * pi / 30
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LeadCurve:
     """Any gap [m] over the face: linear between rising positions [m] from the end that meshes first, constant outside.
 
     Positive where material is missing, along the transverse line of action.
     """
 
-    position: tuple[float, ...]
-    gap: tuple[float, ...]
+    position: tuple[float, ...] = quantity(
+        "positions of the lead curve",
+        "y",
+        unit="mm",
+        default=(),
+        ge=0,
+        le=5000,
+        tolerance=0.1,
+        length=(0, 1000),
+        text="rising, from the end that meshes first",
+    )
+    gap: tuple[float, ...] = quantity(
+        "lead curve",
+        "Δ_β",
+        unit="um",
+        default=(),
+        ge=-1000,
+        le=1000,
+        tolerance=2,
+        length=(0, 1000),
+        text="gap, positive where material is missing",
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Modifications:
     """Gaps [m] along the transverse line of action; positive where material is missing.
 
@@ -82,23 +135,135 @@ class Modifications:
     lead_curve adds whatever else the gap does over the face.
     """
 
-    profile_crowning: float = 0.0
-    lead_crowning: float = 0.0
-    profile_slope: float = 0.0
-    helix_slope: float = 0.0
-    in_plane_deviation: float = 0.0
-    out_of_plane_deviation: float = 0.0
-    tip_relief: float = 0.0
-    tip_relief_length: float | None = None
-    root_relief: float = 0.0
-    root_relief_length: float | None = None
-    end_relief: float = 0.0
-    end_relief_length: float | None = None
-    relief_exponent: float = 1.0
-    lead_curve: LeadCurve | None = None
+    profile_crowning: float = quantity(
+        "profile crowning", "C_α", XUE, unit="um", default=0.0, ge=-1000, le=1000, tolerance=2
+    )
+    lead_crowning: float = quantity(
+        "helix crowning", "C_β", XUE, unit="um", default=0.0, ge=-1000, le=1000, tolerance=3
+    )
+    profile_slope: float = quantity(
+        "profile slope",
+        "f_Hα",
+        XUE,
+        unit="um",
+        default=0.0,
+        ge=-1000,
+        le=1000,
+        tolerance=5,
+        text="pressure-angle slope; positive opens the gap towards the pinion tip",
+    )
+    helix_slope: float = quantity(
+        "helix slope",
+        "f_Hβ",
+        XUE,
+        unit="um",
+        default=0.0,
+        ge=-1000,
+        le=1000,
+        tolerance=8,
+        text="helix slope and misalignment; positive opens the gap towards the end that leaves the mesh last",
+    )
+    in_plane_deviation: float = quantity(
+        "in-plane shaft deviation",
+        "f_Σδ",
+        "ISO/TR 10064-3",
+        unit="um",
+        default=0.0,
+        ge=-1000,
+        le=1000,
+        tolerance=10,
+        text="shaft deviation in their plane over the face; adds to the helix slope",
+    )
+    out_of_plane_deviation: float = quantity(
+        "out-of-plane shaft deviation",
+        "f_Σβ",
+        "ISO/TR 10064-3",
+        unit="um",
+        default=0.0,
+        ge=-1000,
+        le=1000,
+        tolerance=10,
+        text="shaft deviation out of their plane over the face; adds to the helix slope",
+    )
+    tip_relief: float = quantity(
+        "tip relief",
+        "C_a",
+        XUE,
+        unit="um",
+        default=0.0,
+        ge=0,
+        le=1000,
+        tolerance=3,
+        text="relief at E: pinion tip plus wheel root",
+    )
+    tip_relief_length: float | None = quantity(
+        "tip relief length",
+        "L_Ca",
+        unit="mm",
+        default=None,
+        ge=1e-3,
+        le=1000,
+        text="length along the line of action",
+        default_text="to the single contact, a tenth to half of the path",
+        assumed="the paper gives no relief lengths",
+    )
+    root_relief: float = quantity(
+        "root relief",
+        "C_f",
+        XUE,
+        unit="um",
+        default=0.0,
+        ge=0,
+        le=1000,
+        tolerance=3,
+        text="relief at A: pinion root plus wheel tip",
+    )
+    root_relief_length: float | None = quantity(
+        "root relief length",
+        "L_Cf",
+        unit="mm",
+        default=None,
+        ge=1e-3,
+        le=1000,
+        text="length along the line of action",
+        default_text="to the single contact, a tenth to half of the path",
+        assumed="the paper gives no relief lengths",
+    )
+    end_relief: float = quantity(
+        "end relief",
+        "C_e",
+        XUE,
+        unit="um",
+        default=0.0,
+        ge=0,
+        le=1000,
+        tolerance=3,
+        text="relief at both ends of the face",
+    )
+    end_relief_length: float | None = quantity(
+        "end relief length",
+        "L_Ce",
+        unit="mm",
+        default=None,
+        ge=1e-3,
+        le=5000,
+        text="length along the face",
+        default_text="a tenth of the face",
+        assumed="the paper gives no relief lengths",
+    )
+    relief_exponent: float = quantity(
+        "relief exponent",
+        "p",
+        default=1.0,
+        ge=0.5,
+        le=10,
+        text="1: linear reliefs, 2: parabolic",
+        assumed="linear; the paper does not say",
+    )
+    lead_curve: LeadCurve = quantity("lead curve", default_factory=LeadCurve, text="any gap along the face")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Model:
     """Physics in force.
 
@@ -108,14 +273,51 @@ class Model:
     "paper" (Eq. 1) F_bt.
     """
 
-    tooth_stiffness: ToothModel = "ishikawa"
-    parabola_end_ratio: float = 0.757
-    contact: ContactModel = "hertzian"
-    section: ToothSection = "normal"
-    load_convention: LoadConvention = "exact"
+    tooth_stiffness: ToothModel = quantity(
+        "tooth stiffness model",
+        "k",
+        f"{XUE}, Eqs. 5-7",
+        default="ishikawa",
+        text="Ishikawa's tooth, or a parabola calibrated to the paper's load maxima",
+        advanced=True,
+    )
+    parabola_end_ratio: float = quantity(
+        "end ratio of the stiffness parabola",
+        "r",
+        XUE,
+        default=0.757,
+        ge=0.01,
+        le=1,
+        text="stiffness at the ends of the path over its maximum",
+        advanced=True,
+    )
+    contact: ContactModel = quantity(
+        "contact flattening",
+        "δ_PV",
+        f"{XUE}, Eq. 6",
+        default="hertzian",
+        text="flattening of the contact: Weber's half-space, or the paper's linear term",
+        assumed="with the paper's term the mesh is 15 to 31 % stiffer than ISO 6336-1",
+        advanced=True,
+    )
+    section: ToothSection = quantity(
+        "section of the tooth",
+        default="normal",
+        text="where the tooth is cut for its compliance",
+        assumed="the paper does not say; keeps the agreement with ISO 6336-1 at every helix angle",
+        advanced=True,
+    )
+    load_convention: LoadConvention = quantity(
+        "force in the balance",
+        "W_sum",
+        f"{XUE}, Eq. 1",
+        default="exact",
+        text="balance of the normal force, or of the tangential force as printed",
+        advanced=True,
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Resolution:
     """Points of the numerical solution and of its output.
 
@@ -127,10 +329,10 @@ class Resolution:
     slices: int = 100
     profile_points: int = 201
     face_points: int = 101
-    feature_points: int = 51
+    feature_points: int = quantity("points of the feature line", None, XUE, default=51, ge=2, le=1001, advanced=True)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LoadDistributionInputs:
     """A loaded pair of modified, misaligned gears; without a coefficient of friction its loss is not known."""
 
@@ -139,21 +341,47 @@ class LoadDistributionInputs:
     modifications: Modifications = field(default_factory=Modifications)
     pinion_material: Solid = field(default_factory=Solid)
     wheel_material: Solid = field(default_factory=Solid)
-    friction_coefficient: float | None = 0.06
+    friction_coefficient: float | None = quantity(
+        "coefficient of friction",
+        "μ_m",
+        f"{XUE}, Eq. 25",
+        default=0.06,
+        ge=0,
+        le=1,
+        tolerance=0.01,
+        assumed="0.06, the paper's; the scuffing check computes it from the oil, which this check does not know",
+    )
     model: Model = field(default_factory=Model)
     resolution: Resolution = field(default_factory=Resolution)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ScuffingTest:
     """The FZG A/8.3/90 load stage at which the oil fails; X_W of the steel, X_L of the oil (None: that at 90 C)."""
 
-    fzg_stage: int
-    structure_factor: float = 1.0
-    lubricant_factor: float | None = None
+    fzg_stage: int = quantity("failing load stage", "S", FZG, ge=1, le=12)
+    test: Literal["A/8.3/90"] = quantity("scuffing test", None, FZG, kw_only=True, default="A/8.3/90")
+    structure_factor: float = quantity(
+        "structure factor",
+        "X_W",
+        TR_13989,
+        default=1.0,
+        ge=0.1,
+        le=2,
+        assumed="case-hardened steel with normal austenite",
+    )
+    lubricant_factor: float | None = quantity(
+        "lubricant factor",
+        "X_L",
+        TR_13989,
+        default=None,
+        ge=0.1,
+        le=2,
+        default_text="by the oil's kind, and its viscosity at 90 °C",
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Temperatures:
     """Bulk temperature of the teeth and of the oil they draw in, oil temperature, scuffing temperature [K].
 
@@ -162,15 +390,62 @@ class Temperatures:
     number, or what a test says; with neither there is no safety.
     """
 
-    bulk: float | None = 360.0
-    oil: float = 333.15
-    scuffing: float | None = None
-    scuffing_test: ScuffingTest | None = None
-    bulk_method: BulkMethod = "given"
-    oil_supply: OilSupply = "spray"
+    bulk: float | None = quantity(
+        "bulk temperature",
+        "θ_M",
+        f"{XUE}, Eq. 16",
+        unit="c",
+        default=86.85,
+        ge=-70,
+        le=500,
+        tolerance=5,
+        text="bulk temperature of the teeth, at which the oil enters",
+        default_text="estimated",
+    )
+    bulk_method: BulkMethod = quantity(
+        "bulk temperature method",
+        None,
+        TR_13989,
+        default="given",
+        text="given, or estimated from oil, its supply and flash; what is left out follows `bulk_c`",
+        assumed="estimated from the oil, its supply and the mean flash temperature, of flanks flooded with oil",
+    )
+    oil_supply: OilSupply = quantity(
+        "oil supply",
+        "X_S",
+        TR_13989,
+        default="spray",
+        assumed="spray lubrication; it decides the estimated bulk",
+    )
+    oil: float = quantity(
+        "oil temperature",
+        "θ_oil",
+        f"{XUE}, Eq. 26",
+        unit="c",
+        default=60.0,
+        ge=-70,
+        le=500,
+        tolerance=5,
+        assumed="60 °C, as in the paper",
+    )
+    scuffing: float | None = quantity(
+        "scuffing temperature",
+        "θ_S",
+        f"{XUE}, Eq. 26",
+        unit="c",
+        default=None,
+        ge=-70,
+        le=1500,
+        tolerance=20,
+        text="scuffing temperature of oil and material",
+        default_text="by `scuffing_test`; with neither no safety factor",
+    )
+    scuffing_test: ScuffingTest | None = quantity(
+        "scuffing test", default=None, text="instead of the temperature: the stage at which the oil fails"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ScuffingInputs:
     """What scuffing depends on; `path_points` along the feature line.
 
@@ -185,10 +460,33 @@ class ScuffingInputs:
     lubricant: Lubricant | None = field(default_factory=Lubricant)
     oil: OilSheet | Lubricant | None = None
     temperatures: Temperatures = field(default_factory=Temperatures)
-    lubrication: Lubrication = "thermal_ehl"
-    friction: FrictionMethod = "given"
+    friction: FrictionMethod = quantity(
+        "friction law",
+        None,
+        TR_13989,
+        default="given",
+        text="the coefficient given, or the mean one of ISO/TR 13989-1, for Blok and the losses; what is left"
+        " out follows `friction_coefficient`",
+    )
+    lubrication: Lubrication = quantity(
+        "lubrication model",
+        None,
+        XUE,
+        default="thermal_ehl",
+        text="film and flash temperature by the thermal EHL solution, or by formulas alone",
+        advanced=True,
+    )
     film: ehl.Model = field(default_factory=ehl.Model)
-    path_points: int = 50
+    path_points: int = quantity(
+        "points of the scuffing check",
+        None,
+        XUE,
+        default=50,
+        ge=2,
+        le=500,
+        text="points of the check along the feature line",
+        advanced=True,
+    )
 
     @property
     def known_oil(self) -> OilSheet | Lubricant | None:

@@ -91,7 +91,7 @@ def standard_stiffness(path: PathOfContact, line_load: float = REFERENCE_LOAD) -
 
 def _standard_line_load(path: PathOfContact, load: Load) -> float:
     """F_t K_A/b [N/m] with F_t at the reference circle; without load the one c' is stated for."""
-    tangential = load.application_factor * load.pinion_torque / path.pair.pinion.reference_radius
+    tangential = load.application_factor * load.torque / path.pair.pinion.reference_radius
     return tangential / path.plane.face_width if tangential > 0.0 else REFERENCE_LOAD
 
 
@@ -172,7 +172,7 @@ def friction_loss(
         return FrictionLoss(friction_coefficient, loss_factor=None, power=0.0, efficiency=None)
     speed_ratio = path.pair.pinion.teeth / path.pair.wheel.teeth
     moment = period_mean(balance.survey.friction_moment, balance.rolls.phase) / load.contact_factor
-    loss_factor = moment * (1 + speed_ratio) / load.pinion_torque
+    loss_factor = moment * (1 + speed_ratio) / load.torque
     if friction_coefficient is None:
         return FrictionLoss(None, loss_factor=loss_factor, power=None, efficiency=None)
     return FrictionLoss(

@@ -132,8 +132,8 @@ def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
     """What the inputs left open, and what is used of them."""
     pair = path.pair.inputs
     return Derived(
-        pinion_torque=load.pinion_torque,
-        power=load.power,
+        pinion_torque=load.torque,
+        power=load.transmitted_power,
         centre_distance=path.pair.centre_distance,
         tip_relief_length=form.tip_relief_length,
         root_relief_length=form.root_relief_length,
@@ -159,7 +159,7 @@ def _load_on_flank(path: PathOfContact, balance: LoadBalance, load: Load, tangen
     peak = largest(balance.survey.peak_load)
     phase, loaded, length = balance.rolls.phase, balance.survey.loaded_length, balance.survey.length
     return LoadOnFlank(
-        pinion_torque=load.pinion_torque,
+        pinion_torque=load.torque,
         contact_factor=load.contact_factor,
         tangential_force=tangential_force,
         normal_force=balance.force,

@@ -77,7 +77,7 @@ def gap(modifications: Modifications, path: PathOfContact) -> Gap:
         m.end_relief,
         0.1 * width if m.end_relief_length is None else m.end_relief_length,
         float(m.relief_exponent),
-        np.zeros(2) if m.lead_curve is None else lead_table(m.lead_curve, width),
+        np.zeros(2) if m.lead_curve == LeadCurve() else lead_table(m.lead_curve, width),
     )
 
 

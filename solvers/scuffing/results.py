@@ -3,66 +3,74 @@
 x runs along the path from A to E, y along the face from the end that meshes first; gamma is the profile parameter.
 """
 
-from dataclasses import dataclass
-
 from solvers.arrays import BoolArray, FloatArray, frozen
 from solvers.gears.pair import PathOfContact
 from solvers.notices import Notice
+from solvers.quantity import computed, quantity, record
 from solvers.scuffing.load_balance import LoadBalance
+from solvers.sources import ISO_6336, XUE
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Place:
     """A point of the flank: gamma, fraction of the path from A, fraction of the face from the end that meshes first."""
 
-    gamma: float
-    profile_fraction: float
-    face_fraction: float
+    gamma: float = quantity("profile parameter", "Γ", text="profile parameter, 0 at the pitch point")
+    profile_fraction: float = quantity("profile position", "ξ", text="fraction of the path from A to E")
+    face_fraction: float = quantity("face position", "η", text="fraction of the face from the end that meshes first")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Geometry:
     """The mesh: lengths [m], angles [rad]; undercut is true if either gear is."""
 
-    centre_distance: float
-    working_pressure_angle: float
-    base_helix_angle: float
-    transverse_base_pitch: float
-    path_of_contact: float
-    transverse_contact_ratio: float
-    overlap_ratio: float
-    total_contact_ratio: float
-    undercut: bool
+    centre_distance: float = quantity("centre distance", "a", unit="mm", text="centre distance in use")
+    working_pressure_angle: float = quantity(
+        "working pressure angle", "α_wt", unit="deg", text="working transverse pressure angle"
+    )
+    base_helix_angle: float = quantity("base helix angle", "β_b", unit="deg")
+    transverse_base_pitch: float = quantity("transverse base pitch", "p_bt", f"{XUE}, Eq. 2", unit="mm")
+    path_of_contact: float = quantity("length of the path of contact", "g_α", unit="mm")
+    transverse_contact_ratio: float = quantity("transverse contact ratio", "ε_α", f"{XUE}, Eq. 2")
+    overlap_ratio: float = quantity("overlap ratio", "ε_β", f"{XUE}, Eq. 3")
+    total_contact_ratio: float = quantity("total contact ratio", "ε_γ", f"{XUE}, Table 1")
+    undercut: bool = quantity("undercut", text="whether either gear is undercut")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LengthCurves:
     """Total contact length [m] over the roll position, a fraction of the base pitch; spur gears' jumps stand twice."""
 
-    roll_position: FloatArray
-    length: FloatArray
+    roll_position: FloatArray = quantity(
+        "roll position of the contact length", "φ/p_bt", text="roll position over the base pitch"
+    )
+    length: FloatArray = quantity(
+        "total length of the contact lines", "L", f"{XUE}, Fig. 5", unit="mm", axis="roll_position"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ContactLines:
     """Total length of the contact lines [m], extremes and mean in closed form."""
 
-    min_length: float
-    max_length: float
-    mean_length: float
-    length_ratio: float
-    curves: LengthCurves
+    min_length: float = quantity("shortest contact length", "L_min", XUE, unit="mm")
+    max_length: float = quantity("longest contact length", "L_max", XUE, unit="mm")
+    mean_length: float = quantity("mean contact length", "L_m", f"{XUE}, Eq. 4", unit="mm")
+    length_ratio: float = quantity("contact length ratio", "ς", f"{XUE}, Fig. 6", text="shortest over longest")
+    curves: LengthCurves = quantity("contact length over one base pitch", detail="curves")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class StiffnessCurves:
     """Stiffness of one pair over gamma [Pa]."""
 
-    gamma: FloatArray
-    single: FloatArray
+    gamma: FloatArray = quantity(
+        "profile parameter of the stiffness", "Γ", text="profile parameter, 0 at the pitch point"
+    )
+    single: FloatArray = quantity("stiffness of one pair", "k", f"{XUE}, Eq. 7", unit="n_per_mm_um", axis="gamma")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Stiffness:
     """Stiffness per face width [Pa]: of one pair, secant at secant_load [N/m], and of the mesh.
 
@@ -70,39 +78,68 @@ class Stiffness:
     6336-1, method B.
     """
 
-    max: float
-    max_at_gamma: float
-    approach: float
-    pitch: float | None
-    recess: float
-    mean_mesh: float | None
-    standard_single: float
-    standard_mesh: float
-    secant_load: float
-    curves: StiffnessCurves
+    max: float = quantity("largest stiffness of one pair", "k_max", f"{XUE}, Fig. 8", unit="n_per_mm_um")
+    max_at_gamma: float = quantity(
+        "place of the largest stiffness", "Γ_k,max", f"{XUE}, Fig. 8", text="by the profile parameter"
+    )
+    approach: float = quantity("stiffness of one pair at A", "k_A", unit="n_per_mm_um")
+    pitch: float | None = quantity(
+        "stiffness of one pair at C",
+        "k_C",
+        unit="n_per_mm_um",
+        text="at the pitch point; null where the path does not hold it",
+    )
+    recess: float = quantity("stiffness of one pair at E", "k_E", unit="n_per_mm_um")
+    mean_mesh: float | None = quantity(
+        "mean mesh stiffness", "c_γ", unit="n_per_mm_um", text="mean of the loaded mesh; null without load"
+    )
+    standard_single: float = quantity("single stiffness by ISO 6336-1", "c'", ISO_6336, unit="n_per_mm_um")
+    standard_mesh: float = quantity("mesh stiffness by ISO 6336-1", "c_γα", ISO_6336, unit="n_per_mm_um")
+    secant_load: float = quantity(
+        "line load of the stiffnesses",
+        "w_s",
+        unit="n_per_mm",
+        text="line load of the single stiffnesses: the mean, or 100 without load",
+    )
+    curves: StiffnessCurves = quantity("stiffness along the path", detail="curves")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ErrorCurves:
     """Transmission error [m] over the roll position, a fraction of the base pitch; spur gears' jumps stand twice."""
 
-    roll_position: FloatArray
-    error: FloatArray
+    roll_position: FloatArray = quantity(
+        "roll position of the transmission error", "φ/p_bt", text="roll position over the base pitch"
+    )
+    error: FloatArray = quantity(
+        "transmission error",
+        "TE",
+        f"{XUE}, Fig. 12",
+        unit="um",
+        text="along the transverse line of action",
+        axis="roll_position",
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TransmissionError:
     """Transmission error along the transverse line of action [m]; harmonics are amplitudes 2 |c_k| from order 1."""
 
-    peak_to_peak: float
-    mean: float
-    min: float
-    max: float
-    harmonics: FloatArray
-    curves: ErrorCurves
+    peak_to_peak: float = quantity("peak-to-peak transmission error", "PPTE", f"{XUE}, Fig. 12", unit="um")
+    mean: float = quantity("mean transmission error", "TE_m", unit="um", text="mean over the base pitch")
+    min: float = quantity("smallest transmission error", "TE_min", unit="um")
+    max: float = quantity("largest transmission error", "TE_max", unit="um")
+    harmonics: FloatArray = quantity(
+        "harmonics of the transmission error",
+        "TE_k",
+        unit="um",
+        text="amplitudes 2|c_k| of the first five mesh harmonics",
+        index="order from 1",
+    )
+    curves: ErrorCurves = quantity("transmission error over one base pitch", detail="curves")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LoadOnFlank:
     """Forces [N], torque [N m], largest line load [N/m] and its place; contact_fraction of the flank's contact length.
 
@@ -111,30 +148,54 @@ class LoadOnFlank:
     in balance.
     """
 
-    pinion_torque: float
-    contact_factor: float
-    tangential_force: float
-    normal_force: float
-    max_line_load: float
-    max_at: Place | None
-    contact_fraction: float
-    face_load_factor: float | None
-    balance_error: float
-    pair_share: FloatArray | None
+    pinion_torque: float = quantity("pinion torque", "T_1", unit="n_m", text="the transmitted one")
+    contact_factor: float = quantity(
+        "load factor of the contacts", "K", text="K_A K_v K_γ: multiplies the forces below"
+    )
+    tangential_force: float = quantity(
+        "transverse tooth force", "F_bt", f"{XUE}, Eq. 1", unit="n", text="force in the transverse plane"
+    )
+    normal_force: float = quantity("force in the balance", "F_bn", unit="n")
+    max_line_load: float = quantity(
+        "largest line load", "w_max", f"{XUE}, Fig. 11", unit="n_per_mm", text="largest over all roll positions"
+    )
+    max_at: Place | None = quantity("place of the largest line load", text="where; null without load")
+    contact_fraction: float = quantity(
+        "contact pattern", text="share of the flank under load, weighted by contact length"
+    )
+    face_load_factor: float | None = quantity(
+        "face load factor", "K_Hβ", ISO_6336, text="largest over mean load across the face"
+    )
+    balance_error: float = quantity("load balance error", text="force left over, relative")
+    pair_share: FloatArray | None = quantity(
+        "load share of each line",
+        "F_i/F",
+        text="force share of each line over the roll positions",
+        detail="fields",
+        index="line, roll position",
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Pressure:
     """Largest Hertz pressure [Pa] over all roll positions, and its place.
 
     None where the loaded path reaches a base circle, towards which pressure has no limit.
     """
 
-    max: float | None
-    max_at: Place | None
+    max: float | None = quantity(
+        "largest Hertz pressure",
+        "p_H",
+        f"{XUE}, Eq. 14",
+        unit="mpa",
+        text="largest over all roll positions; null where the loaded path reaches a base circle",
+    )
+    max_at: Place | None = quantity(
+        "place of the largest pressure", text="where; null without load or largest pressure"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FrictionLoss:
     """Mean coefficient of friction, loss factor H_V, friction power [W] and efficiency.
 
@@ -142,28 +203,46 @@ class FrictionLoss:
     efficiency are.
     """
 
-    coefficient: float | None
-    loss_factor: float | None
-    power: float | None
-    efficiency: float | None
+    coefficient: float | None = quantity(
+        "mean coefficient of friction", "μ_m", text="the one in force; null if neither it nor an oil is given"
+    )
+    loss_factor: float | None = quantity("tooth loss factor", "H_V", text="loss factor; null without load")
+    power: float | None = quantity("friction power", "P_V", unit="w", text="null without a coefficient of friction")
+    efficiency: float | None = quantity("mesh efficiency", "η_z", text="1 - μ_m H_V; null without load")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ContactPoints:
     """At points of the flank: line load [N/m], Hertz pressure [Pa], half width and reduced radius [m], speeds [m/s].
 
     pressure is NaN where the reduced radius vanishes.
     """
 
-    gamma: FloatArray
-    line_load: FloatArray
-    pressure: FloatArray
-    half_width: FloatArray
-    radius: FloatArray
-    pinion_speed: FloatArray
-    wheel_speed: FloatArray
+    gamma: FloatArray = quantity("profile parameter along the feature line", "Γ", axis="psi")
+    line_load: FloatArray = quantity(
+        "line load along the feature line", "w", f"{XUE}, Fig. 18", unit="n_per_mm", axis="psi"
+    )
+    pressure: FloatArray = quantity(
+        "Hertz pressure along the feature line",
+        "p_H",
+        unit="mpa",
+        text="null where the reduced radius vanishes",
+        axis="psi",
+        gaps=True,
+    )
+    half_width: FloatArray = quantity("half width of the contact", "b_0", unit="mm", axis="psi")
+    radius: FloatArray = quantity(
+        "reduced radius", "R_n", f"{XUE}, Eq. 13", unit="mm", text="reduced radius across the contact line", axis="psi"
+    )
+    pinion_speed: FloatArray = quantity(
+        "surface speed of the pinion", "u_1", f"{XUE}, Eq. 18", unit="m_per_s", axis="psi"
+    )
+    wheel_speed: FloatArray = quantity(
+        "surface speed of the wheel", "u_2", f"{XUE}, Eq. 18", unit="m_per_s", axis="psi"
+    )
 
     @property
+    @computed("sliding speed", "u_1 − u_2", unit="m_per_s", axis="psi")
     def sliding(self) -> FloatArray:
         """Sliding velocity u_1 - u_2 [m/s]."""
         return frozen(self.pinion_speed - self.wheel_speed)
@@ -179,56 +258,87 @@ class ContactPoints:
         return (self.line_load > 0.0) & (self.half_width <= 0.0)
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
+@record(kw_only=True)
 class FeatureLine(ContactPoints):
     """Points along the feature line; load sharing is None without load, the standard's also where it has no diagram."""
 
-    psi: FloatArray
-    load_sharing: FloatArray | None
-    iso_load_sharing: FloatArray | None
+    psi: FloatArray = quantity(
+        "feature line position", "Ψ", f"{XUE}, Fig. 18", text="fraction of the feature line, A1 to E2"
+    )
+    load_sharing: FloatArray | None = quantity(
+        "load sharing", "X_Γ", f"{XUE}, Fig. 19", text="w b / F_bt; null without load", axis="psi"
+    )
+    iso_load_sharing: FloatArray | None = quantity(
+        "load sharing by ISO/TR 13989-1",
+        "X_Γ,ISO",
+        "ISO/TR 13989-1, from memory",
+        text="the standard's diagram; null where it has none",
+        axis="psi",
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Flank:
     """Maps [profile, face]: modification [m], line load [N/m], pressure [Pa] (NaN where R_n vanishes)."""
 
-    profile_fraction: FloatArray
-    face_fraction: FloatArray
-    modification: FloatArray
-    line_load: FloatArray
-    pressure: FloatArray
+    profile_fraction: FloatArray = quantity("profile position of the map", "ξ", text="fraction of the path from A to E")
+    face_fraction: FloatArray = quantity(
+        "face position of the map", "η", text="fraction of the face from the end that meshes first"
+    )
+    modification: FloatArray = quantity(
+        "modification",
+        "Δ",
+        f"{XUE}, Fig. 15",
+        unit="um",
+        text="gap between the unloaded flanks",
+        axis=("profile_fraction", "face_fraction"),
+    )
+    line_load: FloatArray = quantity(
+        "line load", "w", f"{XUE}, Fig. 11", unit="n_per_mm", axis=("profile_fraction", "face_fraction")
+    )
+    pressure: FloatArray = quantity(
+        "Hertz pressure",
+        "p_H",
+        f"{XUE}, Figs. 13-17",
+        unit="mpa",
+        text="null where the reduced radius vanishes",
+        axis=("profile_fraction", "face_fraction"),
+        gaps=True,
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Derived:
     """What follows from the inputs before any physics: torque [N m], power [W], lengths [m].
 
     rack_tip_radius is what both racks have room for, in normal modules.
     """
 
-    pinion_torque: float
-    power: float
-    centre_distance: float
-    tip_relief_length: float
-    root_relief_length: float
-    end_relief_length: float
-    rack_tip_radius: float
+    pinion_torque: float = quantity("pinion torque used", "T_1", unit="n_m")
+    power: float = quantity("power used", "P", unit="kw")
+    centre_distance: float = quantity("centre distance used", "a", unit="mm")
+    tip_relief_length: float = quantity("tip relief length used", "L_Ca", unit="mm")
+    root_relief_length: float = quantity("root relief length used", "L_Cf", unit="mm")
+    end_relief_length: float = quantity("end relief length used", "L_Ce", unit="mm")
+    rack_tip_radius: float = quantity(
+        "rack tip radius used", "ρ_fP*", text="in normal modules, as far as both racks have room for it"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LoadDistribution:
     """How a pair of gears carries its load; path_of_contact and balance are what further checks build on."""
 
     path_of_contact: PathOfContact
     balance: LoadBalance
-    geometry: Geometry
-    contact_lines: ContactLines
-    stiffness: Stiffness
-    transmission_error: TransmissionError
-    load: LoadOnFlank
-    pressure: Pressure
-    friction_loss: FrictionLoss
-    feature_line: FeatureLine
-    flank: Flank
-    derived: Derived
+    geometry: Geometry = quantity("mesh", text="the mesh")
+    contact_lines: ContactLines = quantity("length of the contact lines")
+    stiffness: Stiffness = quantity("stiffness of teeth and mesh")
+    transmission_error: TransmissionError = quantity("transmission error of the mesh")
+    load: LoadOnFlank = quantity("load on the flank")
+    pressure: Pressure = quantity("Hertz pressure of the flank")
+    friction_loss: FrictionLoss = quantity("friction loss")
+    feature_line: FeatureLine = quantity("along the feature line", detail="curves")
+    flank: Flank = quantity("over the flank", detail="fields")
+    derived: Derived = quantity("load and lengths used")
     warnings: tuple[Notice, ...]

@@ -1,65 +1,122 @@
 """What the scuffing check adds to a load distribution; SI units, read-only arrays, temperatures in kelvin."""
 
-from dataclasses import dataclass
 from typing import Literal
 
 from solvers.arrays import FloatArray
 from solvers.contact.film import Regime
 from solvers.lubricants import OilInUse
 from solvers.notices import Notice
+from solvers.quantity import quantity, record
 from solvers.scuffing.results import Derived, LoadDistribution
 from solvers.scuffing.thermal.practice import ScuffingRisk
+from solvers.sources import XUE
 
 PointStatus = Literal["ok", "ok_with_warnings", "no_solution", "refused", "unloaded"]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Flash:
     """Largest flash temperature [K] and where; no place without load, no thermal EHL value in closed form.
 
     Neither is stated where loaded points that may decide have no value.
     """
 
-    blok_max: float | None
-    blok_at_psi: float | None
-    thermal_ehl_max: float | None = None
-    thermal_ehl_at_psi: float | None = None
+    blok_max: float | None = quantity(
+        "largest flash temperature by Blok",
+        "Δθ_fl,B",
+        f"{XUE}, Eq. 25",
+        unit="k",
+        text="by Blok; null where a loaded point has none, as all do without a coefficient of friction",
+    )
+    blok_at_psi: float | None = quantity("place of the largest flash by Blok", "Ψ_B", text="where; null without load")
+    thermal_ehl_max: float | None = quantity(
+        "largest flash temperature by thermal EHL", "Δθ_fl", f"{XUE}, Fig. 22", unit="k", default=None
+    )
+    thermal_ehl_at_psi: float | None = quantity("place of the largest flash by thermal EHL", "Ψ_fl", default=None)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ContactTemperature:
     """Bulk temperature t_M and largest contact temperature t_B = t_M + t_f [K] (Eq. 16); None where t_f is."""
 
-    bulk: float
-    blok_max: float | None
-    thermal_ehl_max: float | None = None
+    bulk: float = quantity("bulk temperature used", "θ_M", f"{XUE}, Eq. 16", unit="c", text="given or estimated")
+    blok_max: float | None = quantity(
+        "contact temperature by Blok",
+        "θ_B,max",
+        f"{XUE}, Eq. 16",
+        unit="c",
+        text="by Blok; null where a loaded point has none",
+    )
+    thermal_ehl_max: float | None = quantity(
+        "contact temperature by thermal EHL",
+        "θ_B,max,EHL",
+        unit="c",
+        text="by the thermal EHL solution; null in closed form",
+        default=None,
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Film:
     """Thinnest film [m], where, and against roughness; None if no point is loaded, or one without a film may decide."""
 
-    dowson_higginson_min: float | None = None
-    min_at_psi: float | None = None
-    thickness_ratio: float | None = None
-    thickness_regime: Regime | None = None
-    thermal_ehl_min: float | None = None
+    dowson_higginson_min: float | None = quantity(
+        "thinnest film by Dowson and Higginson", "h_min,DH", f"{XUE}, Eq. 27", unit="um", default=None
+    )
+    min_at_psi: float | None = quantity("place of the thinnest film", "Ψ_h", default=None)
+    thickness_ratio: float | None = quantity(
+        "specific film thickness",
+        "λ",
+        f"{XUE}, Eq. 28",
+        text="minimum film over the roughness of both flanks",
+        default=None,
+    )
+    thickness_regime: Regime | None = quantity(
+        "lubrication regime",
+        None,
+        XUE,
+        text="below 1 boundary, scuffing probable; to 4 mixed; above full film",
+        default=None,
+    )
+    thermal_ehl_min: float | None = quantity(
+        "thinnest film by thermal EHL",
+        "h_min",
+        unit="um",
+        text="by the thermal EHL solution; null in closed form",
+        default=None,
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Safety:
     """Safety against scuffing (Eq. 26); None where the teeth stay as cool as the oil, or the temperature is unknown.
 
     `scuffing` is the temperature it is against [K]; `verdict` the standard's risk by Blok's factor.
     """
 
-    scuffing: float
-    blok_factor: float | None
-    thermal_ehl_factor: float | None = None
-    verdict: ScuffingRisk | None = None
+    scuffing: float = quantity("scuffing temperature used", "θ_S", unit="c", text="given or by the scuffing test")
+    blok_factor: float | None = quantity(
+        "scuffing safety by Blok",
+        "S_B",
+        f"{XUE}, Eq. 26",
+        text="scuffing safety by Blok; null where the teeth stay as cool as the oil",
+    )
+    thermal_ehl_factor: float | None = quantity(
+        "scuffing safety by thermal EHL",
+        "S_B,EHL",
+        text="by the thermal EHL solution, whose flanks touch nowhere; null in closed form",
+        default=None,
+    )
+    verdict: ScuffingRisk | None = quantity(
+        "risk of scuffing",
+        None,
+        "ISO/TR 13989-1, from memory",
+        text="by Blok's factor: below 1 high, to 2 moderate, above low; null without it",
+        default=None,
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ScuffingDerived:
     """What follows for mesh and oil, if any, as it enters the contact; where a sheet gives it nu at 100 C, rho at 15 C.
 
@@ -68,11 +125,15 @@ class ScuffingDerived:
 
     mesh: Derived
     oil: OilInUse | None
-    kinematic_viscosity_100: float | None
-    density_15: float | None
+    kinematic_viscosity_100: float | None = quantity(
+        "kinematic viscosity used at 100 °C", "ν_100", unit="mm2_per_s", text="null without grade or data sheet"
+    )
+    density_15: float | None = quantity(
+        "oil density used at 15 °C", "ρ_15", unit="kg_per_m3", text="null without grade or data sheet"
+    )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ThermalPath:
     """Point by point: status, flash temperatures of both flanks [K], films [m], pressure [Pa], friction, film [K].
 
@@ -84,16 +145,20 @@ class ThermalPath:
     warnings: tuple[Notice, ...]
     flash_bound: FloatArray
     film_bound: FloatArray
-    pinion_flash: FloatArray
-    wheel_flash: FloatArray
-    minimum_film: FloatArray
-    central_film: FloatArray
-    max_pressure: FloatArray
-    friction_coefficient: FloatArray
-    film_max_temperature: FloatArray
+    pinion_flash: FloatArray = quantity(
+        "flash temperature of the pinion", "Δθ_fl1", f"{XUE}, Fig. 22", unit="k", axis="psi", gaps=True
+    )
+    wheel_flash: FloatArray = quantity(
+        "flash temperature of the wheel", "Δθ_fl2", f"{XUE}, Fig. 22", unit="k", axis="psi", gaps=True
+    )
+    minimum_film: FloatArray = quantity("minimum film", "h_min", f"{XUE}, Fig. 23", unit="um", axis="psi", gaps=True)
+    central_film: FloatArray = quantity("central film", "h_c", unit="um", axis="psi", gaps=True)
+    max_pressure: FloatArray = quantity("largest film pressure", "p_max", unit="mpa", axis="psi", gaps=True)
+    friction_coefficient: FloatArray = quantity("local coefficient of friction", "μ", axis="psi", gaps=True)
+    film_max_temperature: FloatArray = quantity("largest film temperature", "θ_max", unit="c", axis="psi", gaps=True)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ScuffingPath:
     """Along the feature line: Blok's flash temperature [K], film [m] and its ratio to roughness.
 
@@ -104,15 +169,42 @@ class ScuffingPath:
     is that of its film if there is one.
     """
 
-    psi: FloatArray
-    status: tuple[PointStatus, ...]
-    blok_flash: FloatArray
-    dowson_higginson: FloatArray
-    thickness_ratio: FloatArray
+    psi: FloatArray = quantity("position of the check", "Ψ", text="fraction of the feature line, A1 to E2")
+    status: tuple[PointStatus, ...] = quantity(
+        "outcome at the point",
+        text="outcome at the point; refused: outside the range of the thermal EHL solver",
+        axis="psi",
+    )
+    blok_flash: FloatArray = quantity(
+        "flash temperature by Blok",
+        "Δθ_fl,B",
+        f"{XUE}, Fig. 22",
+        unit="k",
+        text="by Blok; null at a base circle",
+        axis="psi",
+        gaps=True,
+    )
+    dowson_higginson: FloatArray = quantity(
+        "film by Dowson and Higginson",
+        "h_min,DH",
+        f"{XUE}, Fig. 23",
+        unit="um",
+        text="film by Dowson and Higginson; null without load",
+        axis="psi",
+        gaps=True,
+    )
+    thickness_ratio: FloatArray = quantity(
+        "local specific film thickness",
+        "λ",
+        f"{XUE}, Eq. 28",
+        text="film over roughness; null without load",
+        axis="psi",
+        gaps=True,
+    )
     thermal: ThermalPath | None = None
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
+@record(kw_only=True)
 class Scuffing:
     """The scuffing check on a load distribution; `safety` is None without a scuffing temperature.
 
@@ -121,11 +213,13 @@ class Scuffing:
     """
 
     distribution: LoadDistribution
-    flash: Flash
-    contact_temperature: ContactTemperature | None
-    film: Film | None
-    safety: Safety | None
-    path: ScuffingPath
-    derived: ScuffingDerived
+    flash: Flash = quantity("flash temperature")
+    contact_temperature: ContactTemperature | None = quantity(
+        "contact temperature", text="null without an oil or a bulk temperature"
+    )
+    film: Film | None = quantity("film", text="film thickness; null without an oil or a bulk temperature")
+    safety: Safety | None = quantity("safety", text="safety factors; null without a scuffing temperature or an oil")
+    path: ScuffingPath = quantity("scuffing check along the feature line", detail="curves")
+    derived: ScuffingDerived = quantity("load, lengths and oil used")
     warnings: tuple[Notice, ...]
-    unsolved_points: int
+    unsolved_points: int = quantity("unsolved points", text="points of the path without a solution or refused")

@@ -8,8 +8,7 @@ from app.figures.data import NoFigure
 from app.figures.models.scuffing import contact_temperature, friction
 from app.library import examples
 from app.problems import Unprocessable
-from app.requests.scuffing import ScuffingRequest
-from app.responses.scuffing import ScuffingResponse
+from app.schema.scuffing import ScuffingRequest, ScuffingResponse
 from tests.support.requests import CONTACT, refused, solved
 
 SCUFFING, TRAIN = "/v1/scuffing", "/v1/drive-train"

@@ -6,9 +6,9 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from app.requests.load_distribution import LoadDistributionRequest
 from app.schema.base import Request
 from app.schema.coupling import CouplingRequest
+from app.schema.load_distribution import LoadDistributionRequest
 from app.schema.messages import Fault, faults
 
 COUPLING: dict[str, Any] = {

@@ -1,73 +1,253 @@
-"""An output costs one declaration in the solver's result and one in the response."""
+"""An input is one declaration and its use, an output one declaration and its value; nothing of `app` is touched."""
 
 import json
-from dataclasses import dataclass, replace
-from types import SimpleNamespace
+from dataclasses import replace
 from typing import Annotated, Any, ClassVar
 
+import numpy as np
 import pytest
+from app.pages.fields import State
 
-from app.calculations import CALCULATIONS
+from app import calculations
+from app.calculations import Calculation
 from app.evaluate import evaluate
-from app.formats.json import written
-from app.library import examples
-from app.schema.base import Group
+from app.formats import csv
+from app.formats.json import answer, written
+from app.pages.form import form
+from app.pages.results import entries
+from app.problems import Unprocessable
+from app.reading import InvalidBody, validated
+from app.schema.base import Group, Request, Response, Section
 from app.schema.conversion import from_si
-from app.schema.coupling import CouplingResponse
 from app.schema.fields import leaf_at
-from app.schema.quantities import Output
-from solvers.coupling.results import CouplingResult
+from app.schema.quantities import Input, View
+from app.studies.points import Question, solve_point
+from solvers.arrays import FloatArray
+from solvers.coupling.inputs import Coupling, CouplingDesign
+from solvers.errors import InvalidInput
+from solvers.notices import Notice
+from solvers.quantity import checked, quantities, quantity, record
 
 
-@dataclass(frozen=True, kw_only=True)
-class WiderResult(CouplingResult):
-    """A result that knows one thing more."""
+@record
+class Spring:
+    """A spring under load; lengths [m], forces [N]."""
 
-    longest_day: float
-
-
-class WiderResponse(CouplingResponse):
-    """And the response that shows it."""
-
-    longest_day_mm: Annotated[float | None, Output("longest day", "d", headline=1)] = None
+    force: float = quantity("force", "F", unit="n", ge=0, le=1e4)
+    stiffness: float = quantity("stiffness", "k", "Hooke 1678", unit="n_per_um", default=2.0, gt=0, le=100)
 
 
-def test_an_output_is_one_line_in_each_layer() -> None:
-    calculation = CALCULATIONS[0]
-    request = calculation.request.model_validate(examples()["pahl-z-arrangement"].request)
+@record
+class Deflection:
+    """What a spring does under load."""
 
-    def solve(inputs: Any) -> WiderResult:
-        result = calculation.solve(inputs)
-        fields = {name: getattr(result, name) for name in CouplingResult.__dataclass_fields__}
-        return WiderResult(**fields, longest_day=0.25)
-
-    wider = replace(calculation, solve=solve, response=WiderResponse)
-    answer = json.loads(written(evaluate(wider, request)))
-    assert answer["longest_day_mm"] == 250.0
-    assert list(answer)[-7:] == ["assumptions", "model_version", "sources", "model", "derived", "inputs", "case"]
-
-    leaf = leaf_at(WiderResponse, "longest_day_mm")
-    assert leaf is not None
-    assert (leaf.title, leaf.unit, leaf.symbol, leaf.headline) == ("longest day", "mm", "d", 1)
-    schema = WiderResponse.model_json_schema(mode="serialization")["properties"]["longest_day_mm"]
-    assert (schema["title"], schema["x-unit"], schema["x-headline"]) == ("longest day", "mm", 1)
+    deflection: float = quantity("deflection", "s", unit="um")
+    warnings: tuple[Notice, ...] = ()
 
 
-class Inner(Group):
+@record
+class LongSpring(Spring):
+    """With one input more: this declaration."""
+
+    preload: float = quantity(
+        "preload", "F_0", unit="n", default=10.0, ge=0, le=100, tolerance=0.5, assumed="order of magnitude"
+    )
+
+
+@record
+class LongDeflection:
+    """With one output and one curve more: these declarations."""
+
+    deflection: float = quantity("deflection", "s", unit="um")
+    energy: float = quantity("stored energy", "W", unit="j", text="of the spring under load")
+    load: FloatArray = quantity("load", "F", unit="n", detail="curves")
+    way: FloatArray = quantity("way", "s", unit="mm", detail="curves", axis="load")
+    warnings: tuple[Notice, ...] = ()
+
+
+def solve(spring: Spring) -> Deflection:
+    return Deflection(spring.force / spring.stiffness)
+
+
+def solve_long(spring: LongSpring) -> LongDeflection:
+    """Uses the preload: without its use the input would move nothing."""
+    total = spring.force + spring.preload
+    load = np.linspace(0.0, total, 3)
+    return LongDeflection(total / spring.stiffness, total**2 / (2 * spring.stiffness), load, load / spring.stiffness)
+
+
+def calculation(inputs: type[Any], result: type[Any], solver: Any) -> Calculation:
+    """What the service makes of a solver: written once, whatever its dataclasses declare."""
+
+    class SpringSection(Section, of=inputs):
+        """The spring."""
+
+    class SpringRequest(Request):
+        """One spring."""
+
+        spring: Annotated[SpringSection, Input("spring")]
+
+        def inputs(self) -> Any:
+            return self.spring.si(inputs)
+
+        def options(self) -> dict[str, Any]:
+            return {}
+
+    class SpringResponse(Response, of=result):
+        """Its deflection."""
+
+        views: ClassVar = {"deflection": View(headline=1)}
+
+    return Calculation("/v1/spring", "Spring", "A spring", "Hooke", SpringRequest, solver, SpringResponse)
+
+
+SHORT = calculation(Spring, Deflection, solve)
+LONG = calculation(LongSpring, LongDeflection, solve_long)
+
+
+def answered(chosen: Calculation, **spring: float) -> dict[str, Any]:
+    request = validated(chosen.request, {"spring": {"force_n": 30, **spring}})
+    found: dict[str, Any] = json.loads(answer(chosen, request))
+    return found
+
+
+def test_the_answer_has_the_new_input_and_the_new_outputs() -> None:
+    before, after = answered(SHORT), answered(LONG)
+    assert before["inputs"] == {"spring": {"force_n": 30.0, "stiffness_n_per_um": 2.0}}
+    assert after["inputs"] == {"spring": {"force_n": 30.0, "stiffness_n_per_um": 2.0, "preload_n": 10.0}}
+    assert before["deflection_um"] == pytest.approx(15.0)
+    assert after["deflection_um"] == pytest.approx(20.0)
+    assert after["energy_j"] == pytest.approx(4e-4)
+    assert after["load_n"] == [0.0, 20.0, 40.0]
+    assert after["way_mm"] == pytest.approx([0.0, 0.01, 0.02])
+    assert after["assumptions"] == [{"field": "spring.preload_n", "value": 10.0, "reason": "order of magnitude"}]
+    assert list(after)[-6:] == [*list(before)[-6:]]
+
+
+def test_the_input_moves_the_output() -> None:
+    assert answered(LONG, preload_n=50)["deflection_um"] == pytest.approx(40.0)
+    assert answered(LONG, preload_n=50)["assumptions"] == []
+
+
+def test_the_level_of_detail_counts() -> None:
+    request = validated(LONG.request, {"spring": {"force_n": 30}, "detail": "summary"})
+    assert {"energy_j", "load_n"} & set(json.loads(written(evaluate(LONG, request)))) == {"energy_j"}
+
+
+def test_the_schema_says_what_the_declaration_says() -> None:
+    section = LONG.request.model_json_schema()["$defs"]["SpringSection"]["properties"]["preload_n"]
+    assert section == {
+        "type": "number",
+        "minimum": 0,
+        "maximum": 100,
+        "default": 10.0,
+        "title": "preload",
+        "description": "preload",
+        "x-symbol": "F_0",
+        "x-assumed": "order of magnitude",
+        "x-tolerance": 0.5,
+        "x-unit": "N",
+    }
+    way = leaf_at(LONG.response, "way_mm")
+    assert way is not None
+    assert (way.title, way.unit, way.axes, way.detail, way.dimensions) == ("way", "mm", ("load_n",), "curves", 1)
+    energy = LONG.response.model_json_schema(mode="serialization")["properties"]["energy_j"]
+    assert (energy["title"], energy["description"], energy["x-unit"]) == (
+        "stored energy",
+        "of the spring under load",
+        "J",
+    )
+
+
+@pytest.mark.parametrize("value", [-1, 101, "10", True, float("nan")])
+def test_what_is_out_of_range_is_refused(value: object) -> None:
+    with pytest.raises(InvalidBody) as refused:
+        validated(LONG.request, {"spring": {"force_n": 30, "preload_n": value}})
+    assert [fault.pointer for fault in refused.value.faults] == ["/spring/preload_n"]
+
+
+def test_the_form_asks_for_it() -> None:
+    (section,) = (each for each in form(LONG.request, State()) if each.path == "spring")
+    field = next(block.field for block in section.blocks if block.field.name == "spring.preload_n")
+    assert (field.label, field.unit, field.placeholder) == ("preload", "N", "10")
+
+
+def test_tables_and_files_hold_it() -> None:
+    response = evaluate(LONG, validated(LONG.request, {"spring": {"force_n": 30}}))
+    rows = {entry.path: (entry.leaf.title, entry.value) for _, entry in entries(response)}
+    assert rows["energy_j"] == ("stored energy", pytest.approx(4e-4))
+    assert csv.curve(response, "way_mm") == b"load [N],way [mm]\r\n0.0,0.0\r\n20.0,0.01\r\n40.0,0.02\r\n"
+
+
+def test_a_sweep_varies_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(calculations.BY_PATH, LONG.path, LONG)
+    question = Question(LONG.path, {"spring": {"force_n": 30}}, ["deflection_um", "energy_j"], 30.0)
+    points = [solve_point(question, {"spring.preload_n": preload}) for preload in (0, 50)]
+    assert [point.out for point in points] == [pytest.approx([15.0, 2.25e-4]), pytest.approx([40.0, 1.6e-3])]
+
+
+def test_a_solver_s_complaint_names_the_request_s_field() -> None:
+    def refuses(_: Spring) -> Deflection:
+        raise InvalidInput("too_soft", "take a stiffer spring", "stiffness")
+
+    request = validated(SHORT.request, {"spring": {"force_n": 30}})
+    with pytest.raises(Unprocessable) as refused:
+        evaluate(replace(SHORT, solve=refuses), request)
+    assert refused.value.path == "spring.stiffness_n_per_um"
+
+
+@record
+class Inner:
     """What another calculation answers."""
 
-    width_mm: Annotated[float, Output("width")]
+    width: float = quantity("width", unit="mm")
 
 
-class Outer(Inner):
-    """And what is built on it."""
+@record
+class Outer:
+    """And what is built on it; `deep` may be missing."""
 
-    held: ClassVar = {Inner: "inner"}
-    height_mm: Annotated[float, Output("height")]
-    depth_mm: Annotated[float | None, Output("depth", of="deep")]
+    inner: Inner
+    height: float = quantity("height", unit="mm")
+    deep: Spring | None = None
 
 
-@pytest.mark.parametrize(("deep", "depth"), [(SimpleNamespace(depth=0.5), 500.0), (None, None)])
-def test_an_output_is_read_from_the_member_that_holds_it(deep: object, depth: float | None) -> None:
-    result = SimpleNamespace(inner=SimpleNamespace(width=0.001, height=9.0), height=0.002, deep=deep)
-    assert from_si(Outer, result, "summary") == {"width_mm": 1.0, "height_mm": 2.0, "depth_mm": depth}
+class InnerGroup(Group, of=Inner):
+    """A width."""
+
+
+class OuterGroup(InnerGroup, of=(Outer, Spring)):
+    """Filled from a result, from the result inside it and from a member that may be missing."""
+
+
+@pytest.mark.parametrize(("deep", "force"), [(Spring(5.0), 5.0), (None, None)])
+def test_an_output_is_read_from_the_member_that_holds_it(deep: Spring | None, force: float | None) -> None:
+    found = from_si(OuterGroup, Outer(Inner(0.001), 0.002, deep), "summary")
+    stiffness = None if deep is None else 2.0
+    assert found == {"width_mm": 1.0, "height_mm": 2.0, "force_n": force, "stiffness_n_per_um": stiffness}
+
+
+def test_defaults_are_written_in_the_shown_unit_and_held_in_si() -> None:
+    assert Spring(1.0).stiffness == 2e6
+    assert quantities(Spring)["stiffness"].default == 2.0
+    assert CouplingDesign(teeth=52, module=3e-3).hub_distance == 0.2
+
+
+def test_inputs_built_in_python_are_checked_where_the_user_asks_for_it() -> None:
+    spring = Spring(force=30.0)
+    assert checked(spring) is spring
+    with pytest.raises(InvalidInput) as refused:
+        checked(replace(spring, stiffness=2e8))
+    assert (refused.value.code, refused.value.field) == ("out_of_range", "stiffness")
+    assert refused.value.message == "stiffness is 200 N/µm; allowed above 0 and at most 100 N/µm"
+    with pytest.raises(InvalidInput):
+        checked(replace(spring, force=float("nan")))
+    with pytest.raises(InvalidInput) as refused:
+        checked(CouplingDesign(teeth=52, module=3e-3, pitch_errors=(0.0, 1.0)))
+    assert refused.value.field == "pitch_errors.1"
+
+
+def test_a_coupling_s_proportions_follow_the_module() -> None:
+    coupling = CouplingDesign(teeth=52, module=3e-3, tooth_height=5e-3).coupling()
+    assert isinstance(coupling, Coupling)
+    assert (coupling.face_width, coupling.tooth_height) == (0.024, 0.005)

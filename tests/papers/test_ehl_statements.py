@@ -185,7 +185,7 @@ SLIDE_ROLL = [
 def at_slide_roll_ratio(ratio: float, rheology: str) -> LineContactResult:
     """R 6.5 mm, 350 N/mm, 2.4 m/s, p_H 1.39 GPa, 91 nodes; surface 1 is the faster one."""
     speeds = 2.4 * (1 + ratio / 2), 2.4 * (1 - ratio / 2)
-    model = replace(Model(nodes=91, refine=False), rheology=rheology)
+    model = replace(Model(nodes=91, refine_mesh=False), rheology=rheology)
     return solve(LineContactInputs(Contact(3.5e5, 6.5e-3, *speeds), model=model))
 
 

@@ -22,7 +22,6 @@ from solvers.scuffing.inputs import (
     ScuffingInputs,
     Temperatures,
     angular_speed,
-    torque_from_power,
 )
 from solvers.scuffing.load_balance import line_loads
 from solvers.scuffing.results import ContactPoints
@@ -93,7 +92,7 @@ def relieved_pair(points: int) -> ScuffingInputs:
     gears = GearPairInputs(GearTeeth(23), GearTeeth(30), 3e-3, 20e-3, helix_angle=radians(9.8), rack_tip_radius=0.38)
     speed = angular_speed(2000.0)
     distribution = LoadDistributionInputs(
-        gears, Load(torque_from_power(50e3, speed), speed), Modifications(tip_relief=30e-6, root_relief=30e-6)
+        gears, Load(50e3 / speed, speed), Modifications(tip_relief=30e-6, root_relief=30e-6)
     )
     return ScuffingInputs(distribution, temperatures=Temperatures(scuffing=573.15), path_points=points)
 

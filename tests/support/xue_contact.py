@@ -36,7 +36,7 @@ def point_a(
     eyring_stress: float = 5e6,
 ) -> LineContactResult:
     """Point A solved at a resolution."""
-    model = Model(thermal=thermal, nodes=nodes, film_nodes=film_nodes, eyring_stress=eyring_stress, refine=False)
+    model = Model(thermal=thermal, nodes=nodes, film_nodes=film_nodes, eyring_stress=eyring_stress, refine_mesh=False)
     return solve(contact(replace(model, rheology=rheology)))
 
 

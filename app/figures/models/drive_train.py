@@ -28,10 +28,7 @@ from app.figures.declaration import Declaration, present
 from app.figures.models.load_distribution import FACE as FLANK_FACE
 from app.figures.models.load_distribution import PROFILE
 from app.figures.wording import number, percent
-from app.requests.drive_train import DriveTrainRequest
-from app.requests.drive_train_shafts import UnitShaft
-from app.responses.drive_train import DriveTrainResponse
-from app.responses.drive_train_parts import ShaftState
+from app.schema.drive_train import DriveTrainRequest, DriveTrainResponse, ShaftState, UnitShaft
 from solvers.drive_train import solve
 from solvers.drive_train.inputs import DriveTrainInputs, Effects
 

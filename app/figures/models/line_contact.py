@@ -5,8 +5,7 @@ import numpy as np
 from app.figures.data import Axis, Figure, Hue, Line, Map, Mark, NoFigure, Panel, Role, Row, Span, matrix, values
 from app.figures.declaration import Declaration, present
 from app.figures.wording import number, percent
-from app.requests.line_contact import LineContactRequest
-from app.schema.line_contact import LineContactResponse
+from app.schema.line_contact import LineContactRequest, LineContactResponse
 
 ACROSS = "position across the contact, along the flow"
 THICK = 3.0  # film beyond so many central films is inlet and outlet, not contact

@@ -22,8 +22,7 @@ from app.figures.data import (
 )
 from app.figures.declaration import Declaration, present
 from app.figures.wording import number, percent
-from app.requests.load_distribution import LoadDistributionRequest
-from app.responses.load_distribution import FlankFields, FlankPlace, LoadDistributionResponse
+from app.schema.load_distribution import FlankFields, FlankPlace, LoadDistributionRequest, LoadDistributionResponse
 
 FIFTHS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
 FACE = Axis("face (0: end that meshes first)", limits=(0.0, 1.0), ticks=FIFTHS)

@@ -6,8 +6,7 @@ from app.figures.data import Axis, Figure, Hue, Level, Line, Mark, NoFigure, Pan
 from app.figures.declaration import Declaration, present
 from app.figures.models.load_distribution import PATH, path_points, unnamed
 from app.figures.wording import number
-from app.requests.scuffing import ScuffingRequest
-from app.responses.scuffing import ScuffingPathCurves, ScuffingResponse
+from app.schema.scuffing import ScuffingPathCurves, ScuffingRequest, ScuffingResponse
 
 UNSOLVED = {"no_solution", "refused"}
 WARNED = "outside validity"

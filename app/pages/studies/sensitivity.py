@@ -9,8 +9,8 @@ from app.pages.query import body_of, link
 from app.pages.studies.declaration import Cell, PageStudy, Result, StudyPage, Table
 from app.pages.typesetting import shown
 from app.pages.views import Asked
-from app.requests.practice import GIVEN_BULK
 from app.schema.fields import Leaf
+from app.schema.scuffing import GIVEN_BULK
 from app.studies.sensitivity import sensitivity_study
 from app.studies.stream import Line
 

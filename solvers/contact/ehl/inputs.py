@@ -32,6 +32,7 @@ class Contact:
         le=300,
         tolerance=0.01,
         text="through the contact, positive into it",
+        relative_tolerance=0.01,
     )
     speed_2: float = quantity(
         "speed of surface 2",
@@ -42,6 +43,7 @@ class Contact:
         le=300,
         tolerance=0.01,
         text="through the contact, positive into it",
+        relative_tolerance=0.01,
     )
 
     @property
@@ -55,20 +57,51 @@ class Contact:
         return (self.speed_1 - self.speed_2) / self.entrainment_speed
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Temperatures:
     """Bulk temperatures of the two surfaces and temperature of the oil at the inlet [K]."""
 
-    surface_1: float = 360.0
-    surface_2: float = 360.0
-    inlet: float = 360.0
+    surface_1: float = quantity(
+        "bulk temperature of surface 1",
+        "θ_M1",
+        XUE,
+        unit="c",
+        default=86.85,
+        ge=-50,
+        le=400,
+        tolerance=5,
+        assumed="360 K, the paper's bulk temperature",
+    )
+    surface_2: float = quantity(
+        "bulk temperature of surface 2",
+        "θ_M2",
+        XUE,
+        unit="c",
+        default=86.85,
+        ge=-50,
+        le=400,
+        tolerance=5,
+        assumed="360 K, the paper's bulk temperature",
+    )
+    inlet: float = quantity(
+        "inlet temperature",
+        "θ_in",
+        XUE,
+        unit="c",
+        default=86.85,
+        ge=-50,
+        le=400,
+        tolerance=5,
+        text="temperature of the oil at the inlet",
+        assumed="360 K, the paper's bulk temperature",
+    )
 
 
 @record
 class Model:
     """Physics and resolution; eyring_stress [Pa], `nodes` along the contact, `film_nodes` across the film.
 
-    `refine` adds nodes until the estimated error of the mesh, but for what spikes of pressure leave, is below 2 %.
+    `refine_mesh` adds nodes until the estimated error of the mesh, but for what spikes of pressure leave, is below 2 %.
     The paper's film is Newtonian; near pure rolling its friction is not physical, so Ree-Eyring is the default.
     """
 
@@ -93,13 +126,14 @@ class Model:
         advanced=True,
     )
     nodes: int = quantity("nodes along the contact", "N", default=121, ge=61, le=481, advanced=True)
-    film_nodes: int = quantity("nodes across the film", "N_z", default=21, ge=7, le=61, advanced=True)
-    refine: bool = quantity(
+    refine_mesh: bool = quantity(
         "refine the mesh",
+        kw_only=True,
         default=True,
         text="add nodes, up to 481, until the estimated error of the mesh is below 2 %",
         advanced=True,
     )
+    film_nodes: int = quantity("nodes across the film", "N_z", default=21, ge=7, le=61, advanced=True)
 
 
 @dataclass(frozen=True, slots=True)

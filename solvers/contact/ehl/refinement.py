@@ -159,7 +159,7 @@ def refined(
     converge within the steps left. What decides is the contact itself, never how its solution was found.
     """
     found = compared(inputs, constants, resolution, attempt)
-    while inputs.model.refine and not acceptable(found) and resolution.nodes < FINEST:
+    while inputs.model.refine_mesh and not acceptable(found) and resolution.nodes < FINEST:
         resolution = replace(resolution, nodes=finer_nodes(resolution.nodes, found))
         grid = grid_for(resolution.gap, resolution.nodes)
         guess = interpolate(attempt.state, attempt.grid.x, grid.x)

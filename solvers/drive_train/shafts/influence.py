@@ -99,7 +99,7 @@ def unit(inputs: DriveTrainInputs, path: PathOfContact) -> Unit:
     stations = np.linspace(0.0, plane.face_width, inputs.face_stations)
     load = inputs.mesh.distribution.load
     ratio = path.pair.pinion.teeth / path.pair.wheel.teeth
-    torques, speeds = (load.pinion_torque, load.pinion_torque / ratio), (load.pinion_speed, load.pinion_speed * ratio)
+    torques, speeds = (load.torque, load.torque / ratio), (load.pinion_speed, load.pinion_speed * ratio)
     couplings = []
     for k, coupling in enumerate(inputs.acting_couplings):
         i = 0 if coupling.shaft == "pinion" else 1

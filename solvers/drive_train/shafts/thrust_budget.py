@@ -3,16 +3,16 @@
 API 613 (5th ed., 2003) adds the coupling's force numerically and loads a thrust bearing to half its ultimate rating.
 """
 
-from dataclasses import dataclass
-
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.shafts.frame import Frame
 from solvers.gears.pair import PathOfContact
+from solvers.quantity import computed, quantity, record
+from solvers.sources import API_613
 
 USABLE = 0.5  # of the ultimate rating
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Thrust:
     """Of one shaft, towards +Z [N]: mesh, its couplings, their friction's limit, bounds of the thrust bearing's load.
 
@@ -21,16 +21,34 @@ class Thrust:
     over half the ultimate rating. `customary` is 0.25 T / D, the rule of thumb for couplings.
     """
 
-    mesh: float
-    coupling: float
-    coupling_limit: float
-    collar: float | None
-    lower: float | None
-    upper: float | None
-    use: float | None
-    customary: float | None
+    mesh: float = quantity("axial force of the mesh", "F_a", unit="n")
+    coupling: float = quantity(
+        "thrust of the couplings", "τ F_max", unit="n", text="the stated share of the friction limit of all couplings"
+    )
+    coupling_limit: float = quantity(
+        "limit of the coupling's thrust", "F_max", unit="n", text="of all couplings of the shaft"
+    )
+    collar: float | None = quantity(
+        "force of the thrust collar", "F_k", unit="n", text="holds mesh and couplings of the pinion; null without one"
+    )
+    lower: float | None = quantity(
+        "least bearing thrust", "F_ax,min", API_613, unit="n", text="null where a collar holds the shaft"
+    )
+    upper: float | None = quantity(
+        "largest bearing thrust", "F_ax,max", API_613, unit="n", text="null where a collar holds the shaft"
+    )
+    use: float | None = quantity(
+        "use of the thrust bearing",
+        "F/(0.5 F_ult)",
+        API_613,
+        text="largest load over half the ultimate one; null without one",
+    )
+    customary: float | None = quantity(
+        "customary thrust of a coupling", "0.25 T/D", "from memory", unit="n", text="null without a coupling"
+    )
 
     @property
+    @computed("thrust reversal", text="whether the coupling's friction can turn the bearing's load round")
     def reverses(self) -> bool:
         """Whether friction may turn the load of the bearing round."""
         return self.lower is not None and self.upper is not None and self.lower < 0.0 < self.upper
@@ -38,7 +56,7 @@ class Thrust:
 
 def mesh_thrust(inputs: DriveTrainInputs, path: PathOfContact, directions: Frame) -> float:
     """Axial force of the mesh on the pinion towards +Z, sigma h F_bt tan beta_b [N]."""
-    tangential = inputs.mesh.distribution.load.pinion_torque / path.pair.pinion.base_radius
+    tangential = inputs.mesh.distribution.load.torque / path.pair.pinion.base_radius
     return float(tangential * directions.force[2])
 
 
@@ -57,7 +75,7 @@ def thrust_budget(
     collared = inputs.collar_radius is not None
     load = inputs.mesh.distribution
     ratio = load.gears.wheel.teeth / load.gears.pinion.teeth
-    torques = (load.load.pinion_torque, load.load.pinion_torque * ratio)
+    torques = (load.load.torque, load.load.torque * ratio)
     bounds = (
         ((None, None), (-pinion - wheel, pinion + wheel))
         if collared

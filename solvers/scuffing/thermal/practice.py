@@ -51,7 +51,7 @@ def mean_friction(inputs: LoadDistributionInputs, path: PathOfContact, factor: f
     at most 50 m/s; rho_relC the reduced radius there [mm]; `factor` is X_L. The speed must not be 0.
     """
     load, pair, pitch = inputs.load, path.pair, path.pitch_point
-    tangential = load.contact_factor * load.pinion_torque / pair.pinion.reference_radius
+    tangential = load.contact_factor * load.torque / pair.pinion.reference_radius
     line_load = max(face_load_factor * tangential / inputs.gears.face_width * 1e-3, LEAST_LINE_LOAD)
     speed = load.pinion_speed * min(1.0, FASTEST_PITCH_LINE / pitch_line_velocity(inputs, path))
     speeds = speed * (pitch + pair.pinion.teeth / pair.wheel.teeth * (pair.line_of_action - pitch))

@@ -15,7 +15,7 @@ from tests.support.drive_trains import turbo_gear
 from tests.support.gear_pairs import UNDERCUT_PAIR
 from tests.support.modified_pairs import relieved_pair
 
-COARSE = ehl.Model(nodes=61, film_nodes=11, refine=False)
+COARSE = ehl.Model(nodes=61, film_nodes=11, refine_mesh=False)
 
 
 def heat_of(inputs: ScuffingInputs) -> FlankHeat:

@@ -33,7 +33,7 @@ from tests.support.stored import stored
 
 SCUFFING = Temperatures(scuffing=573.15)
 POINTS = [pytest.param(points, marks=() if points < 100 else pytest.mark.slow) for points in PATH_POINTS]
-COARSE = ehl.Model(nodes=61, film_nodes=11, refine=False)
+COARSE = ehl.Model(nodes=61, film_nodes=11, refine_mesh=False)
 
 
 @pytest.mark.parametrize("points", POINTS)

@@ -20,7 +20,6 @@ from solvers.scuffing.inputs import (
     ScuffingInputs,
     Temperatures,
     angular_speed,
-    torque_from_power,
 )
 from solvers.scuffing.safety_results import Scuffing
 from tests.support.gear_pairs import with_torque
@@ -159,7 +158,7 @@ def compressor_gears(power: float, points: int = 11) -> ScuffingInputs:
     """A wide pair of module 7 mm at 2000 1/min under `power` [W]: fast, with a thick film."""
     gears = GearPairInputs(GearTeeth(47), GearTeeth(117), 7e-3, 0.2, rack_tip_radius=0.38)
     speed = angular_speed(2000.0)
-    distribution = LoadDistributionInputs(gears=gears, load=Load(torque_from_power(power, speed), speed))
+    distribution = LoadDistributionInputs(gears=gears, load=Load(power / speed, speed))
     return ScuffingInputs(distribution, film=COARSE, path_points=points)
 
 

@@ -113,7 +113,7 @@ def test_a_spike_without_a_limit_is_said_not_to_converge() -> None:
     """
     model = Model(thermal=False, rheology="newtonian")
     inputs = at_pressure(1e9, 0.5, 15.0, 0.08, 4e-3, model)
-    result, coarse = solve(inputs), solve(replace(inputs, model=replace(model, nodes=241, refine=False)))
+    result, coarse = solve(inputs), solve(replace(inputs, model=replace(model, nodes=241, refine_mesh=False)))
     assert result.convergence.nodes == 481
     assert result.mesh_error is not None
     assert coarse.friction is not None
@@ -128,7 +128,7 @@ def test_a_spike_without_a_limit_is_said_not_to_converge() -> None:
 def test_film_thickness_converges_with_second_order(thermal: bool) -> None:
     """Intervals 90, 180, 360 of one grading."""
     films = [
-        solve(LineContactInputs(POINT, model=Model(thermal=thermal, nodes=n, refine=False))).film
+        solve(LineContactInputs(POINT, model=Model(thermal=thermal, nodes=n, refine_mesh=False))).film
         for n in (91, 181, 361)
     ]
     for values in ([f.central for f in films], [f.minimum for f in films]):

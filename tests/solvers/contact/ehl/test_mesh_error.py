@@ -9,8 +9,8 @@ from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, M
 from tests.support.line_contacts import POINT, at_pressure, random_contacts
 from tests.support.stored import stored
 
-FINE = Model(nodes=481, refine=False)
-AS_GIVEN = Model(refine=False)
+FINE = Model(nodes=481, refine_mesh=False)
+AS_GIVEN = Model(refine_mesh=False)
 # Pure rolling, and light loads: what 121 nodes get wrong.
 ROLLING = LineContactInputs(Contact(3e4, 5e-3, 4.0, 4.0))
 LIGHT = LineContactInputs(Contact(2e4, 0.01, 20.0, 16.0))
@@ -64,7 +64,7 @@ def test_the_estimate_is_no_exaggeration() -> None:
 @pytest.mark.parametrize("inputs", [LineContactInputs(POINT), ROLLING, LIGHT], ids=["A", "rolling", "light"])
 def test_half_the_spacing_makes_the_estimate_smaller(inputs: LineContactInputs) -> None:
     """By at least 2 over all that is reported; second order would make it 4."""
-    coarse, fine = (solve(replace(inputs, model=Model(nodes=n, refine=False))).mesh_error for n in (121, 241))
+    coarse, fine = (solve(replace(inputs, model=Model(nodes=n, refine_mesh=False))).mesh_error for n in (121, 241))
     assert coarse is not None
     assert fine is not None
     assert fine.largest < 0.5 * coarse.largest
@@ -80,7 +80,7 @@ def test_a_mesh_too_coarse_is_refined() -> None:
 
 
 def test_a_mesh_as_given_is_warned_about() -> None:
-    result = solve(LineContactInputs(POINT, model=Model(nodes=61, refine=False)))
+    result = solve(LineContactInputs(POINT, model=Model(nodes=61, refine_mesh=False)))
     assert result.convergence.nodes == 61
     (warning,) = [warning for warning in result.warnings if warning.code == "mesh_error"]
     assert "central film" in warning.message

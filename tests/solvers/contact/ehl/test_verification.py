@@ -38,7 +38,7 @@ def test_linear_flux_heats_with_the_three_halves_power() -> None:
 
 @pytest.mark.parametrize("rheology", ["ree_eyring", "newtonian"])
 def test_random_contacts_pass_with_room(rheology: str) -> None:
-    for inputs in random_contacts(replace(Model(refine=False), rheology=rheology), 12, seed=7):
+    for inputs in random_contacts(replace(Model(refine_mesh=False), rheology=rheology), 12, seed=7):
         result = solve(inputs)
         if result.status != "no_solution":
             assert result.convergence.departure is not None

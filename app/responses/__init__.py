@@ -1,1 +1,0 @@
-"""What is answered: the results of the HTTP contract, converted from SI."""

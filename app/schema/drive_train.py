@@ -1,0 +1,524 @@
+"""A gear unit whole: request and answer of /v1/drive-train."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import BeforeValidator, Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from app.schema.base import Group, Request, Response, Section
+from app.schema.conversion import to_si
+from app.schema.coupling import CouplingFriction, CrownedCoupling
+from app.schema.gears import BacklashGears, GearMaterials
+from app.schema.load_distribution import FlankModifications, MeshDerived, ScuffingLoad
+from app.schema.model import declared
+from app.schema.oil import CouplingLubricant, Oil
+from app.schema.pumping import GearGroove, Mist, PumpingOptions
+from app.schema.quantities import Input, View
+from app.schema.scuffing import (
+    PRACTICAL_FRICTION,
+    ContactTemperatures,
+    ScuffingModel,
+    assumed_in_practice,
+    check_friction,
+    friction_said,
+    lubricant_factor_asked,
+    with_default,
+)
+from solvers.contact import ehl
+from solvers.coupling.inputs import Coupling, CouplingDesign, Friction
+from solvers.drive_train import derived, results
+from solvers.drive_train import inputs as si
+from solvers.drive_train.shafts import thrust_budget
+from solvers.errors import InvalidInput
+from solvers.gears.inputs import GearPairInputs
+from solvers.lubricants import Lubricant
+from solvers.materials import Solid
+from solvers.oils import OilSheet
+from solvers.pumping import inputs as pumping
+from solvers.quantity import UNITS
+from solvers.scuffing import inputs as mesh
+
+PUMPING_RACK, MESH_RACK = 0.25, 0.38
+
+
+def _only_hot() -> list[si.State]:
+    return ["hot"]
+
+
+class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
+    """The gear pair."""
+
+    rack_tip_radius: Annotated[
+        float | None,
+        Input(
+            "rack tip radius coefficient",
+            "ρ_fP*",
+            "ISO 53",
+            text="tip radius coefficient of the rack, of mesh and pumped spaces alike",
+            ge=0,
+            le=0.6,
+            tolerance=0.02,
+            default_text=f"{MESH_RACK} for the mesh, {PUMPING_RACK} for the pumped spaces",
+            assumed=f"rack A of ISO 53, {MESH_RACK}, for the mesh; a ground fillet, {PUMPING_RACK}, for the spaces",
+        ),
+    ] = None
+
+    def mesh_pair(self) -> GearPairInputs:
+        """The pair of the load distribution."""
+        return self._pair(MESH_RACK)
+
+    def pumping_pair(self) -> GearPairInputs:
+        """The pair of the pumped spaces."""
+        return self._pair(PUMPING_RACK)
+
+    def _pair(self, rack_tip_radius: float) -> GearPairInputs:
+        """The pair; `rack_tip_radius` counts where none is given."""
+        pair = self.si(GearPairInputs)
+        return pair if self.rack_tip_radius is not None else replace(pair, rack_tip_radius=rack_tip_radius)
+
+
+class TrainOperation(ScuffingLoad, of=si.Arrangement, without=("hand",)):
+    """Torque or power, speed, and how the unit stands and turns."""
+
+    @model_validator(mode="after")
+    def torque_or_power(self) -> Self:
+        """Refuse both and neither."""
+        if self.pinion_torque_n_m is None and self.power_kw is None:
+            raise PydanticCustomError("load_missing", "give pinion_torque_n_m or power_kw")
+        if self.pinion_torque_n_m is not None and self.power_kw is not None:
+            raise PydanticCustomError("torque_or_power", "pinion_torque_n_m and power_kw are both given; keep one")
+        return self
+
+
+class GroundCurve(Section, of=mesh.LeadCurve):
+    """Any gap along the face beyond the named modifications; empty lists are none."""
+
+
+class TrainModifications(FlankModifications, of=mesh.Modifications):
+    """Modifications as ground, positive where material is missing."""
+
+
+class TrainModel(ScuffingModel, PumpingOptions, of=si.DriveTrainInputs, only=("face_stations", "coupling_friction")):
+    """Choices where the papers leave room, and the resolution."""
+
+
+def _isotropic(value: Any) -> Any:
+    """A number stands for a bearing as stiff in every direction."""
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return [[value, 0.0], [0.0, value]]
+    return value
+
+
+Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
+Stiffness = Annotated[
+    Annotated[list[Pair], Field(min_length=2, max_length=2)],
+    BeforeValidator(_isotropic, json_schema_input_type=float | list[list[float]]),
+]
+
+
+class CylindricalSection(Section, of=si.ShaftSection):
+    """A cylinder of a shaft."""
+
+
+class ShaftBearing(Section, of=si.ShaftBearing):
+    """A radial bearing: a plain one, one by its stiffness, or a rigid one."""
+
+    stiffness_n_per_um: Stiffness | None
+
+    @model_validator(mode="after")
+    def complete(self) -> Self:
+        """Refuse a bearing that lacks what its type is described by."""
+        needed = {"journal": ("diameter_mm", "width_mm"), "linear": ("stiffness_n_per_um",), "rigid": ()}[self.type]
+        for name in needed:
+            if getattr(self, name) is None:
+                raise PydanticCustomError(
+                    "bearing_data", "A {type} bearing needs {name}", {"type": self.type, "name": name}
+                )
+        return self
+
+
+class ThrustBearing(Section):
+    """What holds a shaft axially."""
+
+    ultimate_load_n: Annotated[float | None, declared(si.Shaft, "ultimate_thrust")] = None
+
+
+class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
+    """A shaft in two bearings."""
+
+    bearings: list[ShaftBearing]
+    thrust_bearing: Annotated[ThrustBearing, Input("thrust bearing")] = ThrustBearing()
+
+    def shaft(self, name: str, oil: OilSheet | Lubricant | None, oil_temperature: float) -> si.Shaft:
+        """The solver's shaft, of this name; plain bearings without viscosity run in the gears' oil [K].
+
+        Raises InvalidInput no_oil where there is none.
+        """
+        return si.Shaft(
+            sections=tuple(section.si(si.ShaftSection) for section in self.sections),
+            bearings=tuple(self._bearings(name, oil, oil_temperature)),
+            ultimate_thrust=self.thrust_bearing.ultimate_load_n,
+            **to_si(self),
+        )
+
+    def _bearings(self, name: str, oil: OilSheet | Lubricant | None, oil_temperature: float) -> Iterator[si.Bearing]:
+        """The solver's bearings; what one lacks is named as its own."""
+        for index, bearing in enumerate(self.bearings):
+            try:
+                yield bearing.si(si.ShaftBearing).bearing(oil, oil_temperature)
+            except InvalidInput as error:
+                raise InvalidInput(error.code, error.message, f"{name}.bearings.{index}.{error.field}") from error
+
+    def unused_shaft_defaults(self, section: str) -> frozenset[str]:
+        """Clearance and oil belong to plain bearings."""
+        return frozenset(
+            f"{section}.bearings.{index}.{name}"
+            for index, bearing in enumerate(self.bearings)
+            if bearing.type != "journal"
+            for name in ("radial_clearance_um", "viscosity_pa_s")
+        )
+
+
+class ShaftAlignment(Section, of=si.Alignment):
+    """How both machines grow as they warm up; with it the hub's offset is the cold one."""
+
+
+class UnitCoupling(Section, of=si.UnitCoupling):
+    """A gear coupling between a shaft of the unit and a machine."""
+
+    coupling: CrownedCoupling
+    lubricant: CouplingLubricant
+    friction: CouplingFriction
+
+    def unit_coupling(self) -> si.UnitCoupling:
+        """The solver's coupling."""
+        return si.UnitCoupling(
+            coupling=self.coupling.si(CouplingDesign).coupling(),
+            lubricant=self.lubricant.lubricant(),
+            friction=self.friction.si(Friction),
+            alignment=None if self.alignment is None else self.alignment.si(si.Alignment),
+            **to_si(self),
+        )
+
+    def unused_coupling_defaults(self, section: str) -> frozenset[str]:
+        """What friction leaves out; a shaft that turns never rests."""
+        unused = {f"{section}.friction.static_coefficient"}
+        unused |= self.friction.unused_friction_defaults(f"{section}.friction")
+        unused |= self.lubricant.unused_defaults(f"{section}.lubricant")
+        if self.friction.coefficient is not None:
+            unused.add(f"{section}.lubricant")
+        return frozenset(unused)
+
+
+class ToothHeat(Section, of=si.Heat):
+    """How warm the teeth are, and how much of the pumped gas's heat they take."""
+
+
+class TrainTemperatures(ContactTemperatures, of=si.DriveTrainInputs, only=("local_bulk",)):
+    """Temperatures of contact and oil."""
+
+    bulk_c: Annotated[
+        float | None,
+        declared(
+            mesh.Temperatures,
+            "bulk",
+            text="bulk temperature of the contact, at which the oil enters",
+            default_text="the mean of the tooth temperatures where one of them is given, else estimated",
+            assumed="the mean of the two tooth temperatures",
+        ),
+    ] = None
+
+
+class TrainEffects(Section, of=si.Effects):
+    """What is taken into account."""
+
+
+class ThrustCollar(Section):
+    """A collar on the pinion that takes the place of its thrust bearing."""
+
+    radius_mm: Annotated[float | None, declared(si.DriveTrainInputs, "collar_radius")] = None
+
+
+class DriveTrainRequest(Request):
+    """A single-stage gear unit with its shafts, bearings, couplings and heat."""
+
+    solver_names: ClassVar = {
+        "heat": "thermal",
+        "collar_radius": "thrust_collar.radius",
+        "ultimate_thrust": "thrust_bearing.ultimate_load",
+        "mesh.distribution.modifications": "modifications",
+    }
+
+    gears: Annotated[TrainGears, Input("gear pair")]
+    grooves: Annotated[
+        list[GearGroove], Field(max_length=50), Input("grooves", text="circumferential grooves; they do not carry less")
+    ] = Field(default_factory=list)
+    operation: Annotated[TrainOperation, Input("operating point")]
+    face_start_mm: Annotated[float, declared(si.DriveTrainInputs, "face_start")]
+    pinion_shaft: Annotated[UnitShaft, declared(si.DriveTrainInputs, "pinion_shaft")]
+    wheel_shaft: Annotated[UnitShaft, declared(si.DriveTrainInputs, "wheel_shaft")]
+    thrust_collar: Annotated[ThrustCollar, Input("thrust collar")] = ThrustCollar()
+    couplings: Annotated[list[UnitCoupling], Field(max_length=10), declared(si.DriveTrainInputs, "couplings")] = Field(
+        default_factory=list
+    )
+    modifications: Annotated[
+        TrainModifications, Input("modifications", text="what is ground, and misalignment from elsewhere")
+    ] = TrainModifications()
+    thermal: Annotated[ToothHeat, declared(si.DriveTrainInputs, "heat")] = ToothHeat()
+    effects: Annotated[TrainEffects, declared(si.DriveTrainInputs, "effects")] = TrainEffects()
+    ambient: Annotated[Mist, Input("ambient", text="the mist around the mesh")] = Mist()
+    materials: Annotated[GearMaterials, Input("materials", text="materials of the pair")] = GearMaterials()
+    lubricant: Annotated[Oil, Input("oil")] = Oil()
+    temperatures: Annotated[TrainTemperatures, Input("temperatures", text="of contact and oil")] = TrainTemperatures()
+    friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
+    states: Annotated[list[si.State], Field(min_length=1, max_length=2), declared(si.DriveTrainInputs, "states")] = (
+        Field(default_factory=_only_hot)
+    )
+    model: Annotated[TrainModel, Input("model", text="choices where the papers leave room", advanced=True)] = (
+        TrainModel()
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def said_in_other_sections(cls, given: Any) -> Any:
+        """A coefficient of friction, or a tooth temperature, says by itself that friction, or bulk, is given."""
+        if not isinstance(given, dict):
+            return given
+        teeth = given.get("thermal")
+        if isinstance(teeth, dict) and any(teeth.get(name) is not None for name in ("pinion_bulk_c", "wheel_bulk_c")):
+            given = with_default(given, "temperatures", "bulk_method", "given")
+        return friction_said(given)
+
+    @model_validator(mode="after")
+    def known_friction(self) -> Self:
+        """A coefficient of friction that is given is a number."""
+        check_friction(self.friction_coefficient, self.model)
+        return self
+
+    def inputs(self) -> si.DriveTrainInputs:
+        """The solver's inputs. Raises InvalidInput no_oil where a plain bearing has neither a viscosity nor an oil."""
+        temperatures, oil = self.temperatures.si(mesh.Temperatures), self.lubricant.oil()
+        shafts = [
+            shaft.shaft(name, oil, temperatures.oil)
+            for name, shaft in (("pinion_shaft", self.pinion_shaft), ("wheel_shaft", self.wheel_shaft))
+        ]
+        fields = to_si(self)
+        return si.DriveTrainInputs(
+            mesh=self._mesh(temperatures, oil),
+            pumping=pumping.PumpingSetup(
+                gears=self.gears.pumping_pair(),
+                normal_backlash=to_si(self.gears)["normal_backlash"],
+                grooves=tuple(groove.si(pumping.Groove) for groove in self.grooves),
+                ambient=self.ambient.si(pumping.Ambient),
+                model=self.model.si(pumping.PumpingModel),
+            ),
+            face_start=fields["face_start"],
+            pinion_shaft=shafts[0],
+            wheel_shaft=shafts[1],
+            arrangement=replace(self.operation.si(si.Arrangement), hand=self.gears.hand),
+            couplings=tuple(self._couplings()),
+            collar_radius=to_si(self.thrust_collar)["radius"],
+            heat=self.thermal.si(si.Heat),
+            effects=self.effects.si(si.Effects),
+            coupling_friction=self.model.coupling_friction,
+            face_stations=self.model.face_stations,
+            local_bulk=self.temperatures.local_bulk,
+            bulk_given=self.temperatures.bulk_c is not None,
+            states=fields["states"],
+        )
+
+    def _couplings(self) -> Iterator[si.UnitCoupling]:
+        """The solver's couplings; an oil that none can be is that of its own coupling."""
+        for k, coupling in enumerate(self.couplings):
+            try:
+                yield coupling.unit_coupling()
+            except InvalidInput as error:
+                raise InvalidInput(error.code, error.message, f"couplings.{k}.{error.field}") from error
+
+    def _mesh(self, temperatures: mesh.Temperatures, oil: OilSheet | Lubricant | None) -> mesh.ScuffingInputs:
+        distribution = mesh.LoadDistributionInputs(
+            gears=self.gears.mesh_pair(),
+            load=self.operation.si(mesh.Load),
+            modifications=self.modifications.si(mesh.Modifications),
+            pinion_material=self.materials.pinion.si(Solid),
+            wheel_material=self.materials.wheel.si(Solid),
+            friction_coefficient=self.friction_coefficient,
+            model=self.model.si(mesh.Model),
+            resolution=self.model.si(mesh.Resolution),
+        )
+        return mesh.ScuffingInputs(
+            distribution=distribution,
+            lubricant=None,
+            oil=oil,
+            temperatures=temperatures,
+            lubrication=self.model.lubrication,
+            friction=self.model.friction,
+            film=self.model.si(ehl.Model),
+            path_points=self.model.path_points,
+        )
+
+    def options(self) -> dict[str, Any]:
+        """The model section, the number of slices filled in."""
+        return self.model.model_dump() | {"slices": self.model.si(pumping.PumpingModel).slice_count}
+
+    def unused_defaults(self) -> frozenset[str]:
+        """Of reliefs that are zero, of bearings and couplings of another kind, of effects that are left out."""
+        unused = set(self.modifications.unused_defaults("modifications"))
+        factor = lubricant_factor_asked(self.lubricant, self.temperatures, self.model)
+        unused |= self.lubricant.unused_defaults("lubricant", factor=factor)
+        unused |= self.temperatures.unused_temperature_defaults("temperatures", oil=self.lubricant.known)
+        unused |= self.model.unused_pumping_defaults("model")
+        unused |= self.pinion_shaft.unused_shaft_defaults("pinion_shaft")
+        unused |= self.wheel_shaft.unused_shaft_defaults("wheel_shaft")
+        for index, coupling in enumerate(self.couplings):
+            unused |= coupling.unused_coupling_defaults(f"couplings.{index}")
+        if not (self.couplings and self.effects.shafts and self.effects.coupling):
+            unused |= {"couplings", "model.coupling_friction"}
+        if not self.effects.thermal:
+            unused |= {"thermal.wall_response", "thermal.wall_response_wheel"}
+        if self.model.lubrication == "closed_form" or not self.lubricant.known:
+            return frozenset({*unused, "model.rheology", "model.eyring_stress_mpa"})
+        return frozenset(unused | self.model.unused_film_defaults("model"))
+
+    def assumed_by_the_model(self) -> dict[str, str]:
+        """What friction, oil and bulk temperature take for granted."""
+        return assumed_in_practice(self.friction_coefficient, self.lubricant, self.temperatures, self.model)
+
+
+class BearingLoad(Group, of=results.BearingResult):
+    """A bearing; what only a plain one has is null of others."""
+
+
+class ShaftThrust(Group, of=thrust_budget.Thrust):
+    """Axial load, positive towards +Z; of a coupling's friction only the limit is known."""
+
+    views: ClassVar = {"use": View(limit=1.0)}
+
+
+class ShaftLine(Group, of=results.ShaftCurves):
+    """Displaced axis of a shaft."""
+
+
+class ShaftSummary(Group, of=results.ShaftResult, without=("curves",)):
+    """A shaft."""
+
+
+class ShaftState(ShaftSummary, of=results.ShaftResult):
+    """A shaft with its displaced axis."""
+
+
+class UnitCouplingState(Group, of=results.CouplingResult):
+    """A coupling as its shaft meets it."""
+
+
+class BearingInForce(Group, of=derived.DerivedBearing):
+    """A plain bearing's defaults; null of others."""
+
+
+class ShaftInForce(Group, of=derived.DerivedShaft):
+    """A shaft's defaults."""
+
+
+class ProportionsInForce(Group, of=Coupling, only=("face_width", "tooth_height")):
+    """A coupling's proportions."""
+
+
+class CouplingInForce(Group, of=derived.DerivedCoupling):
+    """A coupling's defaults."""
+
+    coupling: ProportionsInForce
+
+
+class HeatInForce(Group, of=derived.DerivedHeat):
+    """Wall responses."""
+
+
+class TemperaturesInForce(Group, of=derived.DerivedTemperatures):
+    """Bulk and scuffing temperature."""
+
+
+class StateDerived(Group, of=derived.Derived, only=("temperatures",)):
+    """What the request left open, as a state of the unit has it."""
+
+
+class DriveTrainDerived(MeshDerived, of=derived.Derived):
+    """What the request left open, in groups named as its sections are."""
+
+
+class MisalignmentParts(Group, of=results.Parts):
+    """Slope of the shafts' gap over the face by its causes, as the load lies that shafts and mesh agreed on."""
+
+    member_unit: ClassVar = UNITS["um"]
+
+
+class GapCurves(Group, of=results.GapCurves):
+    """Over the face, positive where the flanks part."""
+
+
+class MisalignmentSummary(Group, of=results.Misalignment, without=("curves",)):
+    """Gap over the face by shafts and heat; minus: it opens towards the end that meshes first, which carries less."""
+
+    views: ClassVar = {"shaft_slope": View(headline=3)}
+
+
+class MisalignmentState(MisalignmentSummary, of=results.Misalignment):
+    """Gap over the face with its curves."""
+
+
+class TrainLoad(Group, of=results.FaceLoad):
+    """How the face carries."""
+
+    views: ClassVar = {"face_load_factor": View(headline=2)}
+
+
+class TrainFlash(Group, of=results.FlashPlaces):
+    """Largest flash temperature by Blok."""
+
+
+class TrainSafety(Group, of=results.TrainSafety):
+    """Safety against scuffing; thermal EHL values are null in closed form, or where a point is not known."""
+
+    views: ClassVar = {
+        "blok_feature": View(limit=1.0, bound="lower"),
+        "blok_flank": View(limit=1.0, bound="lower"),
+        "thermal_ehl_feature": View(limit=1.0, bound="lower"),
+        "thermal_ehl_profile": View(limit=1.0, bound="lower"),
+        "minimum": View(headline=1, limit=1.0, bound="lower"),
+    }
+
+
+class TrainLosses(Group, of=results.TrainLosses):
+    """What the unit loses."""
+
+
+class TrainBalance(Group, of=results.ForceBalance):
+    """How well forces and moments on the shafts balance; null without load."""
+
+
+class TrainConvergence(Group, of=results.Convergence):
+    """How shafts and mesh came to one gap."""
+
+
+class TrainMaps(Group, of=results.FlankMaps):
+    """Over the flank, `[profile][face]`."""
+
+
+class TrainSummary(Group, of=results.DriveTrainResult, without=("flank", "states")):
+    """The unit in another state, in short."""
+
+    misalignment: MisalignmentSummary
+    shafts: list[ShaftSummary]
+    safety: TrainSafety | None
+    derived: StateDerived
+
+
+class TrainStates(Group, of=results.States):
+    """The unit in other states than the one described."""
+
+    cold: TrainSummary | None
+
+
+class DriveTrainResponse(Response, of=results.DriveTrainResult):
+    """A gear unit whole; sections are missing where there is no solution."""

@@ -1,0 +1,166 @@
+"""How a gear pair carries its load: request and answer of /v1/scuffing/load-distribution."""
+
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
+
+from app.schema.base import Derived, Group, Request, Response, Section
+from app.schema.gears import GearMaterials, ScuffingGears
+from app.schema.model import declared
+from app.schema.quantities import Input, View
+from solvers.gears.inputs import GearPairInputs
+from solvers.materials import Solid
+from solvers.scuffing import inputs as si
+from solvers.scuffing import results
+
+FRICTION_COEFFICIENT = declared(si.LoadDistributionInputs, "friction_coefficient")
+
+
+class FlankModifications(Section, of=si.Modifications, without=("lead_curve",)):
+    """Gaps along the transverse line of action, positive where material is missing."""
+
+    def unused_defaults(self, section: str) -> frozenset[str]:
+        """Lengths and exponent of reliefs that are zero."""
+        amplitudes = {relief: getattr(self, f"{relief}_um") for relief in ("tip_relief", "root_relief", "end_relief")}
+        unused = {f"{section}.{relief}_length_mm" for relief, value in amplitudes.items() if value == 0.0}
+        return frozenset(unused if any(amplitudes.values()) else {*unused, f"{section}.relief_exponent"})
+
+
+class ScuffingLoad(Section, of=si.Load):
+    """Torque or power, and speed; exactly one of torque and power is given."""
+
+    exclusive: ClassVar = (("pinion_torque_n_m", "power_kw"),)
+
+    pinion_torque_n_m: float | None = None
+
+    @model_validator(mode="after")
+    def torque_or_power(self) -> Self:
+        """Refuse both and neither."""
+        if self.pinion_torque_n_m is None and self.power_kw is None:
+            raise PydanticCustomError("torque_or_power", "give pinion_torque_n_m or power_kw")
+        if self.pinion_torque_n_m is not None and self.power_kw is not None:
+            raise PydanticCustomError("torque_or_power", "pinion_torque_n_m and power_kw are both given; keep one")
+        return self
+
+
+class LoadDistributionModel(Section, of=(si.Model, si.Resolution)):
+    """Choices where the paper leaves room."""
+
+
+class GearPairRequest(Request):
+    """A loaded, modified, misaligned gear pair."""
+
+    gears: Annotated[ScuffingGears, Input("gear pair")]
+    load: Annotated[ScuffingLoad, Input("load", text="torque or power, and speed")]
+    modifications: Annotated[FlankModifications, Input("modifications", text="modification and misalignment")] = (
+        FlankModifications()
+    )
+    materials: Annotated[GearMaterials, Input("materials", text="materials of the pair")] = GearMaterials()
+
+    def distribution(self, friction: float | None, model: LoadDistributionModel) -> si.LoadDistributionInputs:
+        """The solver's inputs of the load distribution."""
+        return si.LoadDistributionInputs(
+            gears=self.gears.si(GearPairInputs),
+            load=self.load.si(si.Load),
+            modifications=self.modifications.si(si.Modifications),
+            pinion_material=self.materials.pinion.si(Solid),
+            wheel_material=self.materials.wheel.si(Solid),
+            friction_coefficient=friction,
+            model=model.si(si.Model),
+            resolution=model.si(si.Resolution),
+        )
+
+
+class LoadDistributionRequest(GearPairRequest):
+    """A loaded, modified, misaligned gear pair and the friction between its flanks."""
+
+    friction_coefficient: Annotated[float, FRICTION_COEFFICIENT] = 0.06
+    model: Annotated[
+        LoadDistributionModel, Input("model", text="choices where the paper leaves room", advanced=True)
+    ] = LoadDistributionModel()
+
+    def inputs(self) -> si.LoadDistributionInputs:
+        """The solver's inputs."""
+        return self.distribution(self.friction_coefficient, self.model)
+
+    def options(self) -> dict[str, Any]:
+        """The model section."""
+        return self.model.model_dump()
+
+    def unused_defaults(self) -> frozenset[str]:
+        """Of reliefs that are zero; roughness, which loads do not depend on."""
+        roughness = {"materials.pinion.roughness_um", "materials.wheel.roughness_um"}
+        return self.modifications.unused_defaults("modifications") | roughness
+
+
+class ScuffingGeometry(Group, of=results.Geometry):
+    """The mesh."""
+
+
+class ContactLengthCurves(Group, of=results.LengthCurves):
+    """Total contact length over one base pitch; a spur gear's jumps stand twice."""
+
+
+class ContactLineLengths(Group, of=results.ContactLines):
+    """Total length of the contact lines."""
+
+
+class ToothStiffnessCurves(Group, of=results.StiffnessCurves):
+    """Stiffness of one pair of teeth along the path."""
+
+
+class ToothStiffness(Group, of=results.Stiffness):
+    """Stiffness per face width."""
+
+
+class TransmissionErrorCurves(Group, of=results.ErrorCurves):
+    """Transmission error over one base pitch; a spur gear's jumps stand twice."""
+
+
+class TransmissionErrorResult(Group, of=results.TransmissionError):
+    """Transmission error along the transverse line of action."""
+
+    views: ClassVar = {"peak_to_peak": View(headline=3)}
+
+
+class MeshLoss(Group, of=results.FrictionLoss):
+    """Friction loss at the mean coefficient; power and efficiency are those of the transmitted power."""
+
+
+class MeshDerived(Derived, of=results.Derived, without=("rack_tip_radius",)):
+    """Load and lengths where the request left them open."""
+
+
+class ScuffingDerived(MeshDerived, of=results.Derived):
+    """Load and lengths where the request left them open, and what is used of the rack."""
+
+
+class FlankPlace(Group, of=results.Place):
+    """A point of the flank."""
+
+
+class FlankLoad(Group, of=results.LoadOnFlank):
+    """Load on the flank."""
+
+    views: ClassVar = {"face_load_factor": View(headline=2)}
+
+    pair_share: list[list[float]] | None
+
+
+class FlankPressure(Group, of=results.Pressure):
+    """Dry Hertz pressure."""
+
+    views: ClassVar = {"max": View(headline=1)}
+
+
+class FeatureLineCurves(Group, of=results.FeatureLine):
+    """Along the feature line from A1 to E2; the points A, C and E of the path lie on it."""
+
+
+class FlankFields(Group, of=results.Flank):
+    """Over the flank, `[profile][face]`."""
+
+
+class LoadDistributionResponse(Response, of=results.LoadDistribution):
+    """How a gear pair carries its load; sections are missing where there is no solution."""

@@ -1,0 +1,160 @@
+"""Oils: by grade, by data sheet, or by the viscosity where they enter."""
+
+from typing import Any, ClassVar, Self
+
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
+
+from app.schema.base import Derived, Section
+from solvers.coupling.inputs import CouplingOil
+from solvers.coupling.inputs import Lubricant as CouplingLubricantInUse
+from solvers.lubricants import Lubricant, OilInUse
+from solvers.oil_choice import OilBySheet, OilChoice
+from solvers.oils import OilSheet, iso_vg
+from solvers.viscosity_index import SQUARE_MILLIMETRE
+
+_BY_SHEET = ("iso_vg", "kinematic_viscosity_40_mm2_per_s", "kinematic_viscosity_100_mm2_per_s")
+
+
+def names_a_sheet(given: Any) -> bool:
+    """Whether what was sent for an oil names a grade or a kinematic viscosity."""
+    return isinstance(given, dict) and any(given.get(name) is not None for name in _BY_SHEET)
+
+
+class SheetOil(Section, of=OilBySheet):
+    """An oil by its ISO grade or by two kinematic viscosities, where that is what is known of it."""
+
+    @property
+    def by_sheet(self) -> bool:
+        """Whether the oil is given by grade or data sheet."""
+        return any(getattr(self, name) is not None for name in _BY_SHEET)
+
+    @model_validator(mode="after")
+    def one_way(self) -> Self:
+        """A grade, or both viscosities."""
+        pair = [self.kinematic_viscosity_40_mm2_per_s, self.kinematic_viscosity_100_mm2_per_s]
+        given = [value is not None for value in pair]
+        if self.iso_vg is not None and any(given):
+            raise PydanticCustomError("exclusive", "iso_vg and kinematic viscosities are both given; keep one")
+        if any(given) and not all(given):
+            raise PydanticCustomError(
+                "two_viscosities", "give both kinematic_viscosity_40_mm2_per_s and kinematic_viscosity_100_mm2_per_s"
+            )
+        return self
+
+    def stands_for_null(self, name: str) -> Any:
+        """The typical viscosity of a grade, the density of a kind of oil."""
+        if name == "kinematic_viscosity_100_mm2_per_s" and self.iso_vg is not None:
+            return iso_vg(self.iso_vg).kinematic_viscosity_100 / SQUARE_MILLIMETRE
+        sheet = self.si(OilBySheet).sheet()
+        return sheet.reference_density if sheet and name == "density_15_kg_per_m3" else None
+
+    def unused_sheet_defaults(self, section: str) -> frozenset[str]:
+        """What the sheet's fields leave out of a result, by dotted names below `section`."""
+        if not self.by_sheet:
+            return frozenset(f"{section}.{name}" for name in SheetOil.model_fields)
+        both = self.iso_vg is None
+        return frozenset({f"{section}.kinematic_viscosity_100_mm2_per_s"} if both else ())
+
+
+_PAPERS = Lubricant()
+
+
+class Oil(SheetOil, of=OilChoice):
+    """The oil of a lubricated contact: by grade, by data sheet or by its viscosity; nothing names none."""
+
+    exclusive: ClassVar = (
+        ("viscosity_pa_s", "iso_vg", "kinematic_viscosity_40_mm2_per_s"),
+        ("reference_temperature_c", "iso_vg", "kinematic_viscosity_40_mm2_per_s"),
+    )
+
+    reference_temperature_c: float | None = 86.85
+    pressure_viscosity_per_gpa: float | None = 21.9
+    temperature_viscosity_per_k: float | None = _PAPERS.temperature_viscosity
+    density_kg_per_m3: float | None = _PAPERS.density
+    specific_heat_j_per_kg_k: float | None = _PAPERS.specific_heat
+    thermal_conductivity_w_per_m_k: float | None = _PAPERS.thermal_conductivity
+
+    @model_validator(mode="before")
+    @classmethod
+    def properties_follow_the_sheet(cls, given: Any) -> Any:
+        """Properties have defaults of their own only with a viscosity; otherwise they follow from the sheet, if any."""
+        if not isinstance(given, dict) or (given.get("viscosity_pa_s") is not None and not names_a_sheet(given)):
+            return given
+        return dict.fromkeys(_WITH_VISCOSITY) | given
+
+    @model_validator(mode="after")
+    def one_reference(self) -> Self:
+        """Viscosity and its temperature stand alone; with a viscosity no property may be null."""
+        if self.by_sheet:
+            for name in ("viscosity_pa_s", "reference_temperature_c", "density_kg_per_m3"):
+                if getattr(self, name) is not None:
+                    raise PydanticCustomError(
+                        "exclusive", "{name} and a grade or data sheet are both given; keep one", {"name": name}
+                    )
+        elif self.viscosity_pa_s is not None:
+            missing = [name for name in _WITH_VISCOSITY if getattr(self, name) is None]
+            if missing:
+                raise PydanticCustomError(
+                    "missing_property", "give {name}, or the oil by its grade or data sheet", {"name": missing[0]}
+                )
+        return self
+
+    @property
+    def known(self) -> bool:
+        """Whether an oil is given."""
+        return self.by_sheet or self.viscosity_pa_s is not None
+
+    def oil(self) -> OilSheet | Lubricant | None:
+        """The solver's oil. Raises what `OilChoice.resolve` raises."""
+        return self.si(OilChoice).resolve()
+
+    def unused_defaults(self, section: str, *, factor: bool = False) -> frozenset[str]:
+        """What this way of giving the oil leaves out of a result; `factor` says that its kind counts."""
+        if not self.known:
+            return frozenset(f"{section}.{name}" for name in type(self).model_fields)
+        unused = self.unused_sheet_defaults(section)
+        if self.by_sheet:
+            return unused | {f"{section}.{name}" for name in ("reference_temperature_c", "density_kg_per_m3")}
+        return unused - {f"{section}.kind"} if factor else unused
+
+
+_WITH_VISCOSITY = tuple(
+    name
+    for name, field in Oil.model_fields.items()
+    if name not in SheetOil.model_fields and field.default is not None and not isinstance(field.default, bool | str)
+)
+
+
+class CouplingLubricant(SheetOil, of=CouplingOil):
+    """Oil at the teeth."""
+
+    exclusive: ClassVar = (("viscosity_pa_s", "iso_vg", "kinematic_viscosity_40_mm2_per_s"),)
+
+    @model_validator(mode="before")
+    @classmethod
+    def viscosity_follows_the_sheet(cls, given: Any) -> Any:
+        """With grade or data sheet the default viscosity is left out."""
+        return {"viscosity_pa_s": None} | given if names_a_sheet(given) else given
+
+    @model_validator(mode="after")
+    def one_viscosity(self) -> Self:
+        """Refuse both and neither."""
+        if self.by_sheet and self.viscosity_pa_s is not None:
+            raise PydanticCustomError("exclusive", "viscosity_pa_s and a grade or data sheet are both given; keep one")
+        if not self.by_sheet and self.viscosity_pa_s is None:
+            raise PydanticCustomError("missing_property", "give viscosity_pa_s, or the oil by its grade or data sheet")
+        return self
+
+    def lubricant(self) -> CouplingLubricantInUse:
+        """The solver's lubricant."""
+        return self.si(CouplingOil).lubricant()
+
+    def unused_defaults(self, section: str) -> frozenset[str]:
+        """What this way of giving the oil leaves out of a result."""
+        own = "viscosity_pa_s" if self.by_sheet else "temperature_c"
+        return self.unused_sheet_defaults(section) | {f"{section}.{own}"}
+
+
+class OilDerived(Derived, of=OilInUse):
+    """Properties of the oil at its reference temperature, given or by grade and data sheet; null without an oil."""

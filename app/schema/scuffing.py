@@ -1,0 +1,238 @@
+"""Scuffing of a gear pair: request and answer of /v1/scuffing."""
+
+from dataclasses import replace
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
+
+from app.schema.base import Group, Section
+from app.schema.line_contact import FilmModel
+from app.schema.load_distribution import (
+    FRICTION_COEFFICIENT,
+    GearPairRequest,
+    LoadDistributionModel,
+    LoadDistributionResponse,
+    ScuffingDerived,
+)
+from app.schema.oil import Oil
+from app.schema.quantities import Input, View
+from solvers.contact import ehl
+from solvers.lubricants import OilInUse
+from solvers.scuffing import inputs as si
+from solvers.scuffing import safety_results
+
+
+class ScuffingTest(Section, of=si.ScuffingTest):
+    """A scuffing test of the oil; stages of other tests than A/8.3/90 mean other temperatures."""
+
+
+class ContactTemperatures(Section, of=si.Temperatures):
+    """Temperatures of teeth and oil, as numbers or by what practice makes of test and supply."""
+
+    exclusive: ClassVar = (("scuffing_c", "scuffing_test"),)
+
+    bulk_c: float | None = None
+    bulk_method: si.BulkMethod = "estimated"
+    scuffing_test: ScuffingTest | None = None
+
+    @model_validator(mode="after")
+    def one_way(self) -> Self:
+        """One bulk temperature, one scuffing temperature."""
+        if self.bulk_method == "estimated" and self.bulk_c is not None:
+            raise PydanticCustomError("exclusive", "bulk_c and an estimated bulk are both given; keep one")
+        if self.scuffing_c is not None and self.scuffing_test is not None:
+            raise PydanticCustomError("exclusive", "scuffing_c and scuffing_test are both given; keep one")
+        return self
+
+    @model_validator(mode="before")
+    @classmethod
+    def bulk_given(cls, given: Any) -> Any:
+        """A bulk temperature says by itself that it is given."""
+        if isinstance(given, dict) and given.get("bulk_c") is not None:
+            return {"bulk_method": "given"} | given
+        return given
+
+    def unused_temperature_defaults(self, section: str, *, oil: bool) -> frozenset[str]:
+        """What the way of saying bulk and scuffing temperature leaves out of a result, or that there is no oil."""
+        if not oil:
+            return frozenset(f"{section}.{name}" for name in type(self).model_fields)
+        return frozenset({f"{section}.bulk_c"} if self.bulk_method == "estimated" else {f"{section}.oil_supply"})
+
+
+class ScuffingTemperatures(ContactTemperatures):
+    """Temperatures of teeth and oil."""
+
+    @model_validator(mode="after")
+    def known_bulk(self) -> Self:
+        """A bulk temperature that is given is a number."""
+        if self.bulk_method == "given" and self.bulk_c is None:
+            raise PydanticCustomError("missing_bulk", "give bulk_c, or bulk_method estimated")
+        return self
+
+
+class ScuffingModel(LoadDistributionModel, FilmModel, of=si.ScuffingInputs):
+    """Choices where the paper leaves room, and physics and resolution of the film."""
+
+    friction: si.FrictionMethod = "iso_tr_13989"
+
+
+PRACTICAL_FRICTION = replace(FRICTION_COEFFICIENT, assumed=None, default_text="by `model.friction`, from the oil")
+LAW = "the mean coefficient of ISO/TR 13989-1, with the computed K_Hβ; K_Hα is taken as 1"
+NOT_USED = "not used: `model.friction` asks for the coefficient of ISO/TR 13989-1"
+MINERAL_FACTOR = "the lubricant factor is that of a mineral oil; none is known for an ester"
+GIVEN_BULK = (
+    "a given bulk temperature does not follow the oil: with a hotter oil alone the stated safety rises, because it "
+    "counts the temperatures above the oil's"
+)
+SMOOTH_FILM = (
+    "flanks that touch nowhere: the friction of a full film falls as a hotter oil thins it, so the safety by thermal "
+    "EHL may rise by percents with the oil temperature, while the film thins and the safety by Blok falls"
+)
+
+
+def with_default(given: Any, section: str, name: str, value: Any) -> Any:
+    """What was sent, with a field of a section set where it is left out."""
+    held = given.get(section, {})
+    return given | {section: {name: value} | held} if isinstance(held, dict) else given
+
+
+def friction_said(given: Any) -> Any:
+    """A coefficient of friction says by itself that it is given."""
+    if isinstance(given, dict) and given.get("friction_coefficient") is not None:
+        return with_default(given, "model", "friction", "given")
+    return given
+
+
+def check_friction(coefficient: float | None, model: ScuffingModel) -> None:
+    """A coefficient of friction that is given is a number."""
+    if model.friction == "given" and coefficient is None:
+        raise PydanticCustomError("missing_friction", "give friction_coefficient, or friction iso_tr_13989")
+
+
+def lubricant_factor_asked(lubricant: Oil, temperatures: ContactTemperatures, model: ScuffingModel) -> bool:
+    """Whether friction or scuffing temperature rest on the oil's lubricant factor."""
+    test = temperatures.scuffing_test
+    return lubricant.known and (
+        model.friction == "iso_tr_13989" or (test is not None and test.lubricant_factor is None)
+    )
+
+
+def assumed_in_practice(
+    coefficient: float | None, lubricant: Oil, temperatures: ContactTemperatures, model: ScuffingModel
+) -> dict[str, str]:
+    """What friction, oil and bulk temperature take for granted, by dotted names of the request."""
+    found = {}
+    if lubricant.known and model.friction == "iso_tr_13989":
+        found["model.friction"] = LAW
+        if coefficient is not None:
+            found["friction_coefficient"] = NOT_USED
+    if lubricant.kind == "ester" and lubricant_factor_asked(lubricant, temperatures, model):
+        found["lubricant.kind"] = MINERAL_FACTOR
+    if lubricant.known and temperatures.bulk_method == "given":
+        found["temperatures.bulk_method"] = GIVEN_BULK
+    if lubricant.known and model.lubrication == "thermal_ehl":
+        found["model.lubrication"] = SMOOTH_FILM
+    return found
+
+
+class ScuffingRequest(GearPairRequest):
+    """A loaded gear pair, its oil and temperatures."""
+
+    friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
+    lubricant: Annotated[Oil, Input("oil")] = Oil()
+    temperatures: Annotated[ScuffingTemperatures, Input("temperatures", text="temperatures of teeth and oil")] = (
+        ScuffingTemperatures()
+    )
+    model: Annotated[ScuffingModel, Input("model", text="choices where the paper leaves room", advanced=True)] = (
+        ScuffingModel()
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def friction_given(cls, given: Any) -> Any:
+        """A coefficient of friction says by itself that it is given."""
+        return friction_said(given)
+
+    @model_validator(mode="after")
+    def known_friction(self) -> Self:
+        """A coefficient of friction that is given is a number."""
+        check_friction(self.friction_coefficient, self.model)
+        return self
+
+    def inputs(self) -> si.ScuffingInputs:
+        """The solver's inputs."""
+        return si.ScuffingInputs(
+            distribution=self.distribution(self.friction_coefficient, self.model),
+            lubricant=None,
+            oil=self.lubricant.oil(),
+            temperatures=self.temperatures.si(si.Temperatures),
+            lubrication=self.model.lubrication,
+            friction=self.model.friction,
+            film=self.model.si(ehl.Model),
+            path_points=self.model.path_points,
+        )
+
+    def options(self) -> dict[str, Any]:
+        """The model section."""
+        return self.model.model_dump()
+
+    def unused_defaults(self) -> frozenset[str]:
+        """Of reliefs that are zero, of the film's model in closed form, of oil and bulk; roughness counts here."""
+        factor = lubricant_factor_asked(self.lubricant, self.temperatures, self.model)
+        unused = self.modifications.unused_defaults("modifications")
+        unused |= self.lubricant.unused_defaults("lubricant", factor=factor)
+        unused |= self.temperatures.unused_temperature_defaults("temperatures", oil=self.lubricant.known)
+        if self.model.lubrication == "closed_form" or not self.lubricant.known:
+            return unused | {"model.rheology", "model.eyring_stress_mpa"}
+        return unused | self.model.unused_film_defaults("model")
+
+    def assumed_by_the_model(self) -> dict[str, str]:
+        """What friction, oil and bulk temperature take for granted."""
+        return assumed_in_practice(self.friction_coefficient, self.lubricant, self.temperatures, self.model)
+
+
+class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, OilInUse)):
+    """Load and lengths, and the oil as it enters the contact."""
+
+
+class FlashTemperature(Group, of=safety_results.Flash):
+    """Largest flash temperature; thermal EHL values are null in closed form."""
+
+
+class ContactTemperatureResult(Group, of=safety_results.ContactTemperature):
+    """Bulk temperature, and the largest contact temperature: bulk plus flash."""
+
+    views: ClassVar = {
+        "blok_max": View(headline=2, limit="safety.scuffing_c", bound="upper"),
+        "thermal_ehl_max": View(limit="safety.scuffing_c", bound="upper"),
+    }
+
+
+class ThinnestFilm(Group, of=safety_results.Film):
+    """Thinnest film; null where nothing is loaded."""
+
+    views: ClassVar = {"thickness_ratio": View(headline=3, limit=1.0, bound="lower")}
+
+
+class ScuffingSafety(Group, of=safety_results.Safety):
+    """Safety against scuffing."""
+
+    views: ClassVar = {
+        "blok_factor": View(
+            headline=1, limit=1.0, bound="lower", needs="temperatures.scuffing_c", verdict="safety.verdict"
+        ),
+        "thermal_ehl_factor": View(limit=1.0, bound="lower"),
+    }
+
+
+class ScuffingPathCurves(Group, of=(safety_results.ScuffingPath, safety_results.ThermalPath)):
+    """Along the feature line; what only the thermal EHL solution knows is null in closed form."""
+
+    views: ClassVar = {"thickness_ratio": View(limit=1.0, bound="lower")}
+
+
+class ScuffingResponse(LoadDistributionResponse, of=safety_results.Scuffing):
+    """Load distribution and scuffing check; sections are missing where there is no solution."""
+
+    derived: ScuffingOilDerived
