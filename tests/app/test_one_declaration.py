@@ -6,14 +6,13 @@ from typing import Annotated, Any, ClassVar
 
 import numpy as np
 import pytest
-from app.pages.fields import State
 
 from app import calculations
 from app.calculations import Calculation
 from app.evaluate import evaluate
 from app.formats import csv
 from app.formats.json import answer, written
-from app.pages.form import form
+from app.pages.form import State, form
 from app.pages.results import entries
 from app.problems import Unprocessable
 from app.reading import InvalidBody, validated
