@@ -209,7 +209,7 @@ def test_temperature_out_of_range_names_the_bulk_temperature() -> None:
     with pytest.raises(InvalidInput) as refusal:
         solve_scuffing(inputs(temperatures=Temperatures(bulk=180.0), lubricant=Lubricant(temperature_viscosity=0.0)))
     assert (refusal.value.code, refusal.value.field) == ("temperature_range", "temperatures.bulk")
-    with pytest.raises(InvalidInput, match="10\\^.* Pa s at 180 K"):
+    with pytest.raises(InvalidInput, match="Pa s at 180 K"):
         solve_scuffing(inputs(temperatures=Temperatures(bulk=180.0)))
 
 
