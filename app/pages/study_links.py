@@ -7,16 +7,16 @@ from app.studies.requests import DRIVE_TRAIN
 
 
 class StudyLink(NamedTuple):
-    """A study with a page below that of the case: the last part of its address, its link, and what that means."""
+    """The last part of the address of a study's page, the label of the link to it, and a description."""
 
     name: str
     label: str
     hint: str
 
 
-SENSITIVITY = StudyLink("influence", "What matters", "every input moved a little: which moves the result most")
-CORNERS = StudyLink("corners", "Worst corner", "every combination of what nobody knows better: where it is worst")
-DESIGN = StudyLink("design", "What to grind", "the correction of the flank that is best where it is worst")
+SENSITIVITY = StudyLink("influence", "What matters", "every input moved by its tolerance: which moves the result most")
+CORNERS = StudyLink("corners", "Worst corner", "every combination of the uncertain inputs: where the result is worst")
+DESIGN = StudyLink("design", "What to grind", "the flank correction whose worst corner is best")
 
 
 def study_links(calculation: Calculation) -> tuple[StudyLink, ...]:

@@ -160,7 +160,7 @@ async def run_sensitivity(
 @router.post(
     sweep.CORNERS_PATH,
     operation_id="drive_train_corners",
-    summary="A gear unit at every corner of what nobody knows better",
+    summary="A gear unit at every combination of its uncertain inputs",
     response_class=Response,
     responses=_streams(
         "a line for the ranges, each corner, the extremes of each output, and one for the end", "ndjson"

@@ -1,4 +1,4 @@
-"""Where a unit is worst: an output over every combination of what nobody knows better, and the load at its worst."""
+"""Corners: an output over every combination of the uncertain inputs of a unit, and the load at the worst one."""
 
 from dataclasses import replace
 from typing import Any
@@ -154,7 +154,7 @@ def _extremes(study: PageStudy, header: Line, extremes: dict[str, Line], case: C
 CORNERS = StudyPage(
     link=study_links.CORNERS,
     question="which corner is worst?",
-    about=f"Every combination of what nobody knows better: {USUAL_RANGES}.",
+    about=f"Every combination of the uncertain inputs: {USUAL_RANGES}.",
     figures=("corners", LOAD_ALONE.name),
     body=_body,
     plan=corners_study,

@@ -1,4 +1,4 @@
-"""What to grind: the correction of the flank that is best at the worst of all corners, beside the one described."""
+"""Design: the flank correction whose worst corner is best, beside that of the case."""
 
 from dataclasses import dataclass
 from math import inf

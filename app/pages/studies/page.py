@@ -1,4 +1,4 @@
-"""The page of a study of a case: what stands before and after its figures, the figures, files; runs in workers."""
+"""The page of a sensitivity, of corners or of a design, and its files; runs in workers."""
 
 import json
 from dataclasses import replace

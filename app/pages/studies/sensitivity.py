@@ -1,4 +1,4 @@
-"""Which input matters: a sensitivity study of a case, its figure, its numbers."""
+"""Sensitivity: the inputs of a case sorted by what they change, as a figure and a table."""
 
 from typing import Any
 

@@ -165,7 +165,7 @@ def case_of(calculation: Calculation, pairs: Pairs) -> dict[str, Any]:
 
 
 def query_of(calculation: Calculation, case: dict[str, Any], said: dict[str, str]) -> SweepQuery:
-    """What is asked for; raises Unprocessable with a path into the sweep."""
+    """The sweep of a query; raises Unprocessable with a path into the sweep."""
     fields = [_varied(calculation, case, said, name, place) for place, name in enumerate(AXES) if said.get(name)]
     output = shown_output(calculation, said)
     best = said.get("best", "greatest" if output.bound == "lower" else "least")
