@@ -186,10 +186,16 @@ def problem(
 def _invalid_request(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, RequestValidationError)
     errors = [
-        {"pointer": pointer(item["loc"][1:]), "code": item["type"], "message": str(item["msg"])}
-        for item in error.errors()[:MOST_FAULTS]  # of an address: a body is read in a worker
+        {"pointer": pointer(item["loc"][1:]), "code": item["type"], "message": _message(item)}
+        for item in error.errors()[:MOST_FAULTS]  # of an address: those of a body are InvalidBody
     ]
     return _unprocessable_response(request, "invalid_request", errors)
+
+
+def _message(item: dict[str, Any]) -> str:
+    if item["type"] == "literal_error":
+        return f"{item['loc'][-1]}: allowed are {item['ctx']['expected']}"
+    return str(item["msg"])
 
 
 def _invalid_body(request: Request, error: Exception) -> JSONResponse:

@@ -1,4 +1,4 @@
-"""From the bytes of a body to a validated request; runs in a worker, so that no body holds up the other clients."""
+"""From the bytes of a body to a validated request."""
 
 import json
 from typing import Any, TypeVar
@@ -9,6 +9,7 @@ from app.schema.messages import Fault, faults
 
 M = TypeVar("M", bound=BaseModel)
 MOST_MEMBERS = 1000
+MOST_OBJECTS = 10_000
 
 
 class Unreadable(Exception):
@@ -32,7 +33,7 @@ def read(model: type[M], body: bytes) -> M:
 
     Raises Unreadable and InvalidBody.
     """
-    return validated(model, _content(body))
+    return validated(model, content_of(body))
 
 
 def validated(model: type[M], content: Any) -> M:
@@ -44,12 +45,12 @@ def validated(model: type[M], content: Any) -> M:
         raise InvalidBody(faults(model, found)) from None  # type: ignore[arg-type]
 
 
-def _content(body: bytes) -> Any:
+def content_of(body: bytes) -> Any:
     """What the JSON of a body says."""
     if not body:
         raise InvalidBody([Fault("", "missing", "the request needs a body")])
     try:
-        return json.loads(body, object_pairs_hook=_members)
+        return json.loads(body, object_pairs_hook=_Objects().members)
     except json.JSONDecodeError as error:
         message = f"the body is no JSON: {error.msg} at position {error.pos}"
         raise InvalidBody([Fault("", "json_invalid", message)]) from None
@@ -57,11 +58,20 @@ def _content(body: bytes) -> Any:
         raise Unreadable("The body cannot be read as JSON") from None
 
 
-def _members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """An object of unique names, as many as any request could need."""
-    if len(pairs) > MOST_MEMBERS:
-        raise InvalidBody([Fault("", "too_many_fields", f"an object has more than {MOST_MEMBERS} fields")])
-    members = dict(pairs)
-    if len(members) < len(pairs):
-        raise Unreadable("A name stands twice in one object of the body")
-    return members
+class _Objects:
+    """The objects of a body: not more than any request could need, nor more fields in one, and no name twice."""
+
+    def __init__(self) -> None:
+        self._count = 0
+
+    def members(self, pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        """One object."""
+        self._count += 1
+        if self._count > MOST_OBJECTS:
+            raise InvalidBody([Fault("", "too_many_objects", f"the body has more than {MOST_OBJECTS} objects")])
+        if len(pairs) > MOST_MEMBERS:
+            raise InvalidBody([Fault("", "too_many_fields", f"an object has more than {MOST_MEMBERS} fields")])
+        members = dict(pairs)
+        if len(members) < len(pairs):
+            raise Unreadable("A name stands twice in one object of the body")
+        return members

@@ -1,19 +1,19 @@
 """The figures of every endpoint: what there is, and each as an image or as numbers."""
 
 from functools import partial
-from typing import Annotated, Any, Literal, get_args
+from typing import Annotated, Any, Literal, cast, get_args
 
-from fastapi import APIRouter, HTTPException, Path, Query, Request, Response
+from fastapi import APIRouter, Depends, HTTPException, Path, Query, Request, Response
 from pydantic import BaseModel
 
-from app.calculations import CALCULATIONS, Calculation
+from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.figures.registry import figures_of
 from app.figures.rendering import MEDIA_TYPES, Format, render
+from app.http.json_route import JsonRoute
 from app.library import body_of
 from app.problems import documented
-from app.reading import InvalidBody
-from app.routes.calculations import CalculationRoute, Work, read_case
-from app.schema.messages import Fault
+from app.routes.calculations import calculated
+from app.schema.base import Request as Model
 from app.schema.quantities import Output
 
 Theme = Literal["light", "dark"]
@@ -46,32 +46,21 @@ async def list_figures() -> list[FigureSummary]:
     ]
 
 
-class FigureRoute(CalculationRoute):
-    """A figure as its signature documents it, read, validated, calculated and drawn in a worker."""
-
-    def work(self, http: Request) -> Work:
-        """What a worker does with the body, and the media type of the outcome."""
-        path = self.path.partition("/figures/")[0]
-        figures = _FIGURES[path]
-        name, image_format = http.path_params["name"], http.path_params["format"]
-        if name not in figures or image_format not in FORMATS:
-            raise HTTPException(404, f"There are {', '.join(figures)}, each as {', '.join(FORMATS)}")
-        theme = http.query_params.get("theme", "light")
-        if theme not in THEMES:
-            raise InvalidBody([Fault("/theme", "literal_error", "theme: allowed are light, dark")])
-        return Work(path, partial(figure_of, path, name, image_format, theme), MEDIA_TYPES[image_format], ALONE)
-
-
-def figure_of(path: str, name: str, image_format: Format, theme: Theme, body: bytes, deadline_s: float) -> bytes:
-    """The figure of the case in a body; runs in a worker."""
-    calculation, request = read_case(path, body, deadline_s)
-    return render(calculation, _FIGURES[path][name], request, image_format, theme)
+def figure_of(name: str, image_format: Format, theme: Theme, path: str, request: Model) -> bytes:
+    """The figure of a case; runs in a worker."""
+    return render(BY_PATH[path], _FIGURES[path][name], request, image_format, theme)
 
 
 def _add(calculation: Calculation) -> None:
     names = list(_FIGURES[calculation.path])
 
+    async def known(http: Request) -> None:
+        """404 for what there is not, whatever the body."""
+        if http.path_params["name"] not in names or http.path_params["format"] not in FORMATS:
+            raise HTTPException(404, f"There are {', '.join(names)}, each as {', '.join(FORMATS)}")
+
     async def show(
+        http: Request,
         name: Annotated[str, Path(description="name of the figure", json_schema_extra={"enum": names})],
         image_format: Annotated[
             str, Path(alias="format", description="format of the figure", json_schema_extra={"enum": list(FORMATS)})
@@ -79,7 +68,10 @@ def _add(calculation: Calculation) -> None:
         body: Any,
         theme: Annotated[Theme, Query(description="dark lines on white, or light ones on black")] = "light",
     ) -> Response:
-        raise NotImplementedError(name, image_format, body, theme)  # documents the endpoint; FigureRoute answers
+        image = cast("Format", image_format)
+        figure = partial(figure_of, name, image, theme)
+        content = await calculated(http, calculation.path, figure, body)
+        return Response(content, headers={"Content-Security-Policy": ALONE}, media_type=MEDIA_TYPES[image])
 
     show.__annotations__["body"] = Annotated[calculation.request, body_of(calculation.path)]
     _, _, model, *parts = calculation.path.split("/")
@@ -87,7 +79,8 @@ def _add(calculation: Calculation) -> None:
         calculation.path + "/figures/{name}.{format}",
         show,
         methods=["POST"],
-        route_class_override=FigureRoute,
+        dependencies=[Depends(known)],
+        route_class_override=JsonRoute,
         operation_id="_".join((model, *parts, "figure")).replace("-", "_"),
         summary=f"Figures: {calculation.summary}",
         description="The body is that of the calculation; its `detail` is ignored. Points without a solution are gaps.",

@@ -1,20 +1,17 @@
 """Studies: one request at many points, answered as a stream."""
 
 import asyncio
-from collections.abc import AsyncGenerator, Callable, Coroutine
+from collections.abc import AsyncGenerator, Callable
 from contextlib import ExitStack, aclosing
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Body, Query, Request, Response
 from fastapi.responses import StreamingResponse
-from fastapi.routing import APIRoute
 from starlette.types import Receive, Scope, Send
 
+from app.http.json_route import JsonRoute
 from app.problems import documented
-from app.reading import InvalidBody
-from app.routes.calculations import require_json
 from app.routes.study_examples import CORNERS_EXAMPLES, DESIGN_EXAMPLES, SENSITIVITY_EXAMPLES, SWEEP_EXAMPLES
-from app.schema.messages import Fault
 from app.settings import Settings
 from app.studies import design, sensitivity, sweep
 from app.studies.admission import StudyAdmission
@@ -27,14 +24,6 @@ from app.workers.start_up import StartUp
 Format = Literal["ndjson", "csv"]
 MEDIA_TYPES: dict[Format, str] = {"ndjson": "application/x-ndjson", "csv": "text/csv"}
 PATIENCE_S = 10.0  # beyond the study's deadline, for a client that reads slowly
-
-
-PLANNERS: dict[str, Callable[[bytes, int, float], Study]] = {
-    sweep.PATH: sweep.sweep_study,
-    sensitivity.PATH: sensitivity.sensitivity_study,
-    sweep.CORNERS_PATH: sweep.corners_study,
-    design.PATH: design.design_study,
-}
 
 
 class StudyStream(StreamingResponse):
@@ -60,41 +49,29 @@ class StudyStream(StreamingResponse):
                 await super().__call__(scope, receive, send)
 
 
-class StudyRoute(APIRoute):
-    """A study as its signature documents it, whose body is read and checked in a worker before the first line."""
-
-    def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
-        """What answers a request."""
-        planner = PLANNERS[self.path]
-
-        async def handle(http: Request) -> Response:
-            require_json(http)
-            written_as: Format = wanted_format(http) if planner is sweep.sweep_study else "ndjson"
-            start_up: StartUp = http.app.state.start_up
-            start_up.require_any()
-            admission: StudyAdmission = http.app.state.studies
-            runner: Runner = http.app.state.runner
-            limits: Settings = http.app.state.settings
-            body = await http.body()
-            with ExitStack() as stack:
-                stack.enter_context(admission.place())
-                study = await runner.run(http, planner, body, limits.most_study_points, limits.deadline_s)
-                start_up.require(study.question.endpoint)
-                clock = Clock(study.total)
-                lines = guarded(study.lines(await admission.pool(), clock), clock, limits.study_deadline_s)
-                encode = study.table().encode if isinstance(study, sweep.Sweep) and written_as == "csv" else json_line
-                patience = limits.study_deadline_s + PATIENCE_S
-                return StudyStream(encoded(lines, encode), MEDIA_TYPES[written_as], patience, stack.pop_all())
-
-        return handle
+async def started(
+    http: Request, planner: Callable[[bytes, int, float], Study], written_as: Format = "ndjson"
+) -> Response:
+    """The stream of a study, which is checked in a worker before the first line."""
+    start_up: StartUp = http.app.state.start_up
+    start_up.require_any()
+    admission: StudyAdmission = http.app.state.studies
+    runner: Runner = http.app.state.runner
+    limits: Settings = http.app.state.settings
+    with ExitStack() as stack:
+        stack.enter_context(admission.place())
+        study = await runner.run(http, planner, await http.body(), limits.most_study_points, limits.deadline_s)
+        start_up.require(study.question.endpoint)
+        clock = Clock(study.total)
+        lines = guarded(study.lines(await admission.pool(), clock), clock, limits.study_deadline_s)
+        encode = study.table().encode if isinstance(study, sweep.Sweep) and written_as == "csv" else json_line
+        patience = limits.study_deadline_s + PATIENCE_S
+        return StudyStream(encoded(lines, encode), MEDIA_TYPES[written_as], patience, stack.pop_all())
 
 
-def wanted_format(http: Request) -> Format:
+def wanted_format(http: Request, named: Format) -> Format:
     """By `format` in the query, else the first that the client accepts, else NDJSON."""
-    named = http.query_params.get("format")
-    if named is not None:
-        if named not in MEDIA_TYPES:
-            raise InvalidBody([Fault("/format", "literal_error", "format: allowed are ndjson, csv")])
+    if "format" in http.query_params:
         return named
     accepted = [part.partition(";")[0].strip().lower() for part in http.headers.get("accept", "").split(",")]
     return next((name for media in accepted for name, own in MEDIA_TYPES.items() if media == own), "ndjson")
@@ -102,7 +79,7 @@ def wanted_format(http: Request) -> Format:
 
 router = APIRouter(
     tags=["studies"],
-    route_class=StudyRoute,
+    route_class=JsonRoute,
     responses=documented(400, 408, 413, 415, 422, 431, 500, 503, 504),
 )
 
@@ -124,7 +101,8 @@ def _streams(what: str, *formats: Format) -> dict[int | str, dict[str, Any]]:
     responses=_streams("a line for the sweep, one for each point in order, one for the end", "ndjson", "csv"),
 )
 async def run_sweep(
-    body: Annotated[SweepRequest, Body(openapi_examples=SWEEP_EXAMPLES)],
+    http: Request,
+    _body: Annotated[SweepRequest, Body(openapi_examples=SWEEP_EXAMPLES)],
     written_as: Annotated[
         Format, Query(alias="format", description="JSON a line, or a table; the Accept header can choose it too")
     ] = "ndjson",
@@ -135,7 +113,7 @@ async def run_sweep(
     seconds, and `end`; or `error`, which ends a study that broke off. A stream without `end` or `error` was cut off.
     The end of a sample tells 5, 50 and 95 % quantiles and in `quantile_bounds` what holds each with 90 % confidence.
     """
-    raise NotImplementedError(body, written_as)  # documents the endpoint; StudyRoute answers
+    return await started(http, sweep.sweep_study, wanted_format(http, written_as))
 
 
 @router.post(
@@ -146,7 +124,8 @@ async def run_sweep(
     responses=_streams("a line for each output and input, the most influential first, and one for the end", "ndjson"),
 )
 async def run_sensitivity(
-    body: Annotated[SensitivityRequest, Body(openapi_examples=SENSITIVITY_EXAMPLES)],
+    http: Request,
+    _body: Annotated[SensitivityRequest, Body(openapi_examples=SENSITIVITY_EXAMPLES)],
 ) -> Response:
     """Differences of the outputs for every number of the case, moved by its tolerance, else by 1 % (1 K, 1).
 
@@ -154,7 +133,7 @@ async def run_sensitivity(
     `kink` says that the two sides differ by more than 10 %, `curved` that half the step gives another derivative by
     more than 10 %; it is null where the step is none of a tolerance.
     """
-    raise NotImplementedError(body)  # documents the endpoint; StudyRoute answers
+    return await started(http, sensitivity.sensitivity_study)
 
 
 @router.post(
@@ -167,14 +146,15 @@ async def run_sensitivity(
     ),
 )
 async def run_corners(
-    body: Annotated[CornersRequest, Body(openapi_examples=CORNERS_EXAMPLES)],
+    http: Request,
+    _body: Annotated[CornersRequest, Body(openapi_examples=CORNERS_EXAMPLES)],
 ) -> Response:
     """Every corner is the unit's own answer, up to 256 of them; `extremes` say where each output is least and largest.
 
     Where no output needs the thermal film, corners leave it out, which makes them twenty times as fast and their
     warnings fewer. The end warns `no_convergence_of_corner` where corners have no answer; their lines say why.
     """
-    raise NotImplementedError(body)  # documents the endpoint; StudyRoute answers
+    return await started(http, sweep.corners_study)
 
 
 @router.post(
@@ -185,11 +165,12 @@ async def run_corners(
     responses=_streams("a line for the search, one for each correction tried, and one for the end", "ndjson"),
 )
 async def run_design(
-    body: Annotated[DesignRequest, Body(openapi_examples=DESIGN_EXAMPLES)],
+    http: Request,
+    _body: Annotated[DesignRequest, Body(openapi_examples=DESIGN_EXAMPLES)],
 ) -> Response:
     """COBYQA from the request's own correction, each judged at every operating point and corner.
 
     The objective of a correction is that of its worst corner. `safety.minimum` counts the thermal film, a second a
     corner; with `safety.blok_flank`, or `model.lubrication` in closed form, the search is twenty times as fast.
     """
-    raise NotImplementedError(body)  # documents the endpoint; StudyRoute answers
+    return await started(http, design.design_study)
