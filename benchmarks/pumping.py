@@ -8,6 +8,9 @@ from dataclasses import replace
 from math import pi
 
 import numpy as np
+from solvers.pumping.flow.record import empty_record
+from solvers.pumping.gas.cells import Cells, empty_cells, set_walls
+from solvers.pumping.gas.march import march
 
 from benchmarks.pumping_numpy import numpy_step
 from benchmarks.timing import Figure, print_times
@@ -26,9 +29,6 @@ from solvers.pumping import (
     solve,
 )
 from solvers.pumping.flow.duct import active_range
-from solvers.pumping.flow.record import empty_record
-from solvers.pumping.gas.cells import Cells, empty_cells, set_walls
-from solvers.pumping.gas.march import march
 from solvers.pumping.gas.step import step
 from solvers.pumping.space.stroke import stroke_table
 from solvers.pumping.space.tooth_space import tooth_space
