@@ -3,11 +3,11 @@
 from typing import Any
 
 import numpy as np
+from solvers.pumping.gas.cells import Cells
 
 from solvers.arrays import FloatArray
 from solvers.pumping.flow.duct import Duct
 from solvers.pumping.flow.nozzle import Gas
-from solvers.pumping.gas.cells import Cells
 from solvers.pumping.gas.riemann import reservoir_face
 
 SWEEPS = 4  # of Newton's method for all cells at once

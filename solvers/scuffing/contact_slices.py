@@ -24,12 +24,8 @@ from solvers.scuffing.contact_lines import (
 from solvers.scuffing.modification import MOST_EDGES, Gap, gap_at, smooth_parts
 from solvers.scuffing.tooth_stiffness import PairCompliance, compliance_at, line_load
 
-# Rows of the slice table
-X, Y, LENGTH, GAP, CONSTANT, LIMIT, LOG_LOAD, LOAD, STIFFNESS, LINE = range(10)
-ROWS = 10
-NUDGE = 1e-3  # of a slice
-VALUE, AT_X, AT_Y = range(3)  # columns of peaks
-EQUAL = 1e-9  # peaks nearer than this, relatively, are the same; a spur gear's single pair has the same load all along
+NUDGE = 1e-3  # of a slice: how far beside an end the slope of the gap is looked at, well inside the slice
+EQUAL = 1e-9  # peaks nearer than this, relatively, are equal but for rounding, as along the line of a spur gear's pair
 
 
 class Mesh(NamedTuple):
@@ -49,24 +45,64 @@ class Cover(NamedTuple):
     most: float
 
 
+class Slices(NamedTuple):
+    """Slices of the contact lines, arrays with room for those of every line.
+
+    Place `x` and `y` of the middle, `length` along the line and `gap` there [m]; `constant` and `limit` of the pair's
+    compliance (`tooth_stiffness.compliance_at`); line load `load` [N/m], its logarithm `log_load`, the guess for the
+    next solution, and its derivative by the approach `stiffness` [N/m^2]; number of the `line`.
+    """
+
+    x: FloatArray
+    y: FloatArray
+    length: FloatArray
+    gap: FloatArray
+    constant: FloatArray
+    limit: FloatArray
+    log_load: FloatArray
+    load: FloatArray
+    stiffness: FloatArray
+    line: FloatArray
+
+
+class Peaks(NamedTuple):
+    """The largest value of each roll position and its place (positions,), see `Peak`."""
+
+    value: FloatArray
+    x: FloatArray
+    y: FloatArray
+
+
 @kernel
-def slice_table(mesh: Mesh, slices: int) -> FloatArray:
-    """A table with room for the slices of every line."""
-    return np.zeros((ROWS, line_count(mesh.plane) * (slices + MOST_EDGES * MOST_ZONES)))
+def slice_table(mesh: Mesh, slices: int) -> Slices:
+    """Room for the slices of every line."""
+    room = line_count(mesh.plane) * (slices + MOST_EDGES * MOST_ZONES)
+    return Slices(
+        np.zeros(room),
+        np.zeros(room),
+        np.zeros(room),
+        np.zeros(room),
+        np.zeros(room),
+        np.zeros(room),
+        np.zeros(room),
+        np.zeros(room),
+        np.zeros(room),
+        np.zeros(room),
+    )
 
 
 @inlined_kernel
-def _cut(mesh: Mesh, line: float, j: int, zone: FloatArray, slices: int, table: FloatArray, count: int) -> int:
+def _cut(mesh: Mesh, line: float, j: int, zone: FloatArray, slices: int, table: Slices, count: int) -> int:
     """Add equal slices of a stretch of line j, given by its first and last y [m], to the table's columns."""
     low, high = zone
     step = (high - low) / slices
     for i in range(slices):
         y = low + (i + 0.5) * step
         x = line - y * mesh.plane.tan_base_helix
-        table[X, count], table[Y, count], table[LINE, count] = x, y, j
-        table[LENGTH, count] = step / mesh.plane.cos_base_helix
-        table[GAP, count] = gap_at(mesh.gap, x, y)
-        table[CONSTANT, count], table[LIMIT, count] = compliance_at(mesh.compliance, x)
+        table.x[count], table.y[count], table.line[count] = x, y, j
+        table.length[count] = step / mesh.plane.cos_base_helix
+        table.gap[count] = gap_at(mesh.gap, x, y)
+        table.constant[count], table.limit[count] = compliance_at(mesh.compliance, x)
         count += 1
     return count
 
@@ -96,7 +132,7 @@ def _parts(
 
 
 @kernel
-def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, table: FloatArray) -> Cover:
+def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, table: Slices) -> Cover:
     """Fill the columns of the slice table, one a slice (their middles), where the gap lies below `reach` [m].
 
     Every line has `slices` of them, and more only for stretches shorter than one; no slice holds a kink of the gap.
@@ -119,19 +155,19 @@ def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, tab
 
 
 @inlined_kernel
-def _range(mesh: Mesh, line: float, zone: FloatArray, table: FloatArray, first: int, last: int) -> tuple[float, float]:
+def _range(mesh: Mesh, line: float, zone: FloatArray, table: Slices, first: int, last: int) -> tuple[float, float]:
     """Least and largest gap [m] on a stretch that the columns from `first` to `last` cover."""
     low, high = zone
     at_low, at_high = gap_on_line(mesh.gap, mesh.plane, line, low), gap_on_line(mesh.gap, mesh.plane, line, high)
     least, most = min(at_low, at_high), max(at_low, at_high)
     lowest, step = first, (high - low) / (last - first)
     for n in range(first, last):
-        most = max(most, table[GAP, n])
-        if table[GAP, n] < table[GAP, lowest]:
+        most = max(most, table.gap[n])
+        if table.gap[n] < table.gap[lowest]:
             lowest = n
-    if table[GAP, lowest] < least:
-        y = valley(mesh.gap, mesh.plane, line, table[Y, lowest] - step, table[Y, lowest] + step)
-        least = min(table[GAP, lowest], gap_on_line(mesh.gap, mesh.plane, line, min(max(y, low), high)))
+    if table.gap[lowest] < least:
+        y = valley(mesh.gap, mesh.plane, line, table.y[lowest] - step, table.y[lowest] + step)
+        least = min(table.gap[lowest], gap_on_line(mesh.gap, mesh.plane, line, min(max(y, low), high)))
         return least, most
     least = min(least, _beside(mesh, line, table, (low, step), at_low, first, min(first + 1, last - 1)))
     least = min(least, _beside(mesh, line, table, (high, -step), at_high, last - 1, max(last - 2, first)))
@@ -140,11 +176,11 @@ def _range(mesh: Mesh, line: float, zone: FloatArray, table: FloatArray, first: 
 
 @kernel
 def _beside(
-    mesh: Mesh, line: float, table: FloatArray, end: tuple[float, float], at_end: float, middle: int, following: int
+    mesh: Mesh, line: float, table: Slices, end: tuple[float, float], at_end: float, middle: int, following: int
 ) -> float:
     """Least gap [m] between the end of a stretch (y, step inwards) and the middle of its slice."""
     y, step = end
-    if table[GAP, middle] > table[GAP, following]:
+    if table.gap[middle] > table.gap[following]:
         return at_end
     if gap_on_line(mesh.gap, mesh.plane, line, y + NUDGE * step) >= at_end:
         return at_end
@@ -164,7 +200,7 @@ class Survey(NamedTuple):
     """Over the roll positions: friction_moment int w |s - s_C| dl [N m], loaded_length and length [m].
 
     held: slices pressed beyond the half-space; undefined: loaded points too near a base circle for a pressure.
-    peak_load rows (w [N/m], x, y [m]); peak_pressure rows (w / R_n [N/m^2], x, y); line_forces, by line [N].
+    peak_load of w [N/m]; peak_pressure of w / R_n [N/m^2]; line_forces (positions, lines) [N].
     """
 
     friction_moment: FloatArray
@@ -172,8 +208,8 @@ class Survey(NamedTuple):
     length: FloatArray
     held: FloatArray
     undefined: FloatArray
-    peak_load: FloatArray
-    peak_pressure: FloatArray
+    peak_load: Peaks
+    peak_pressure: Peaks
     line_forces: FloatArray
 
 
@@ -195,40 +231,40 @@ def empty_survey(mesh: Mesh, positions: int) -> Survey:
         length=np.zeros(positions),
         held=np.zeros(positions),
         undefined=np.zeros(positions),
-        peak_load=np.zeros((positions, 3)),
-        peak_pressure=np.zeros((positions, 3)),
+        peak_load=Peaks(np.zeros(positions), np.zeros(positions), np.zeros(positions)),
+        peak_pressure=Peaks(np.zeros(positions), np.zeros(positions), np.zeros(positions)),
         line_forces=np.zeros((positions, line_count(mesh.plane))),
     )
 
 
 @kernel
-def _put(peaks: FloatArray, i: int, value: float, x: float, y: float) -> None:
-    peaks[i, VALUE], peaks[i, AT_X], peaks[i, AT_Y] = value, x, y
+def _put(peaks: Peaks, i: int, value: float, x: float, y: float) -> None:
+    peaks.value[i], peaks.x[i], peaks.y[i] = value, x, y
 
 
 @kernel
 def _note_peaks(mesh: Mesh, survey: Survey, i: int, load: float, at: tuple[float, float]) -> None:
     x, y = at
-    if load > survey.peak_load[i, VALUE] * (1.0 + EQUAL):
+    if load > survey.peak_load.value[i] * (1.0 + EQUAL):
         _put(survey.peak_load, i, load, x, y)
     radius = reduced_radius(mesh.plane, x)
     if radius < mesh.plane.least_radius:
         survey.undefined[i] += load > 0.0
-    elif load > survey.peak_pressure[i, VALUE] * radius * (1.0 + EQUAL):
+    elif load > survey.peak_pressure.value[i] * radius * (1.0 + EQUAL):
         _put(survey.peak_pressure, i, load / radius, x, y)
 
 
 @kernel
-def survey_slices(mesh: Mesh, table: FloatArray, count: int, error: float, survey: Survey, i: int) -> None:
+def survey_slices(mesh: Mesh, table: Slices, count: int, error: float, survey: Survey, i: int) -> None:
     """Sum up the slices of roll position i."""
     arm = mesh.plane.pitch_point - mesh.plane.start
     for n in range(count):
-        load, length = table[LOAD, n], table[LENGTH, n]
+        load, length = table.load[n], table.length[n]
         if load > 0.0:
-            survey.friction_moment[i] += load * abs(table[X, n] - arm) * length
-            survey.held[i] += error - table[GAP, n] > table[LIMIT, n]
-            survey.line_forces[i, int(table[LINE, n])] += load * length
-            _note_peaks(mesh, survey, i, load, (table[X, n], table[Y, n]))
+            survey.friction_moment[i] += load * abs(table.x[n] - arm) * length
+            survey.held[i] += error - table.gap[n] > table.limit[n]
+            survey.line_forces[i, int(table.line[n])] += load * length
+            _note_peaks(mesh, survey, i, load, (table.x[n], table.y[n]))
 
 
 @kernel
@@ -253,10 +289,10 @@ def reaches_base_circle(survey: Survey) -> bool:
     return bool(np.any(survey.undefined > 0.0))
 
 
-def largest(peaks: FloatArray) -> Peak | None:
+def largest(peaks: Peaks) -> Peak | None:
     """The largest of the peaks of all roll positions, the first of equals; None where nothing is loaded."""
-    values = peaks[:, VALUE]
+    values = peaks.value
     first = int(np.argmax(values >= values.max() * (1.0 - EQUAL)))
     if values[first] <= 0.0:
         return None
-    return Peak(float(values[first]), float(peaks[first, AT_X]), float(peaks[first, AT_Y]))
+    return Peak(float(values[first]), float(peaks.x[first]), float(peaks.y[first]))

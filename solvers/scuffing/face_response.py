@@ -12,7 +12,7 @@ from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.errors import NoSolution
 from solvers.scuffing.contact_lines import RollPositions
-from solvers.scuffing.contact_slices import LENGTH, LOAD, LOG_LOAD, STIFFNESS, Mesh, Y, gather, slice_table
+from solvers.scuffing.contact_slices import Mesh, Slices, gather, slice_table
 from solvers.scuffing.load_balance import TOLERANCE, solve_near
 
 
@@ -44,7 +44,7 @@ def face_response(
     share *= mesh.plane.cos_base_helix / rolls.phase[-1]
     if start is None:
         error = np.full(share.size, np.nan)
-        log_load = np.zeros((share.size, slice_table(mesh, slices).shape[1]))
+        log_load = np.zeros((share.size, slice_table(mesh, slices).load.size))
     else:
         error, log_load = start.error.copy(), start.log_load.copy()
     spread, derivative = np.zeros(stations), np.zeros((stations, stations))
@@ -77,9 +77,9 @@ def _respond(
     for i in range(phase.size):
         count = gather(mesh, phase[i], side[i], slices, np.inf, table).slices
         near = i if error[i] == error[i] else max(i - 1, 0)
-        table[LOG_LOAD, :count] = log_load[near, :count]
+        table.log_load[:count] = log_load[near, :count]
         error[i], residual, _ = solve_near(table, count, mesh.compliance.logarithmic, force, error[near])
-        log_load[i, :count] = table[LOG_LOAD, :count]
+        log_load[i, :count] = table.log_load[:count]
         worst = max(worst, residual)
         springs[:] = 0.0
         _spread(mesh, table, count, share[i], spread, derivative, springs)
@@ -94,7 +94,7 @@ def _respond(
 @kernel
 def _spread(
     mesh: Mesh,
-    table: FloatArray,
+    table: Slices,
     count: int,
     share: float,
     spread: FloatArray,
@@ -104,12 +104,12 @@ def _spread(
     """Add a roll position's loads and stiffness, as its balance left them, to the stations."""
     steps_per_metre = (spread.size - 1) / mesh.plane.face_width
     for n in range(count):
-        if table[LOAD, n] <= 0.0:
+        if table.load[n] <= 0.0:
             continue
-        position = table[Y, n] * steps_per_metre
+        position = table.y[n] * steps_per_metre
         low = min(int(position), spread.size - 2)
         high = position - low
-        load, spring = table[LOAD, n] * table[LENGTH, n] * share, table[STIFFNESS, n] * table[LENGTH, n] * share
+        load, spring = table.load[n] * table.length[n] * share, table.stiffness[n] * table.length[n] * share
         spread[low] += load * (1.0 - high)
         spread[low + 1] += load * high
         springs[low] += spring * (1.0 - high)

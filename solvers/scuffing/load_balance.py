@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from solvers.arrays import FloatArray, IntArray
 from solvers.compiled import kernel
@@ -20,15 +19,9 @@ from solvers.errors import NoSolution
 from solvers.gears.pair import ContactPlane
 from solvers.scuffing.contact_lines import RollPositions
 from solvers.scuffing.contact_slices import (
-    CONSTANT,
-    GAP,
-    LENGTH,
-    LIMIT,
-    LOAD,
-    LOG_LOAD,
-    STIFFNESS,
     Cover,
     Mesh,
+    Slices,
     Survey,
     empty_survey,
     gather,
@@ -58,7 +51,7 @@ Start = tuple[FloatArray, FloatArray]
 
 
 @kernel
-def _secant_start(table: FloatArray, count: int, logarithmic: float, force: float) -> float:
+def _secant_start(table: Slices, count: int, logarithmic: float, force: float) -> float:
     """Exact TE of the linear problem; half-spaces take their secant compliance at the mean load, and start from it.
 
     All slices pressed to a common TE, pulling included, reach the force to the right of the root of the convex F(TE);
@@ -68,18 +61,18 @@ def _secant_start(table: FloatArray, count: int, logarithmic: float, force: floa
     if logarithmic > 0.0:
         total = 0.0
         for i in range(count):
-            total += table[LENGTH, i]
+            total += table.length[i]
         log_mean = np.log(force / total)
         for i in range(count):
-            table[LOG_LOAD, i] = log_mean
+            table.log_load[i] = log_mean
     error = np.inf
     for _ in range(MAX_STEPS):
         stiffness, moment = 0.0, 0.0
         for i in range(count):
-            if table[GAP, i] < error:
-                compliance = max(table[CONSTANT, i] - logarithmic * log_mean, logarithmic * LEAST_OMEGA)
-                stiffness += table[LENGTH, i] / compliance
-                moment += table[LENGTH, i] / compliance * table[GAP, i]
+            if table.gap[i] < error:
+                compliance = max(table.constant[i] - logarithmic * log_mean, logarithmic * LEAST_OMEGA)
+                stiffness += table.length[i] / compliance
+                moment += table.length[i] / compliance * table.gap[i]
         following = (force + moment) / stiffness
         if following >= error:
             break
@@ -88,7 +81,7 @@ def _secant_start(table: FloatArray, count: int, logarithmic: float, force: floa
 
 
 @kernel
-def _press(table: FloatArray, count: int, logarithmic: float, error: float) -> tuple[float, float, float, float]:
+def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple[float, float, float, float]:
     """Force [N] at an approach [m], its derivative [N/m], its error while slices settle [N], distance of a kink [m].
 
     Each slice goes one step towards its law and is noted with it. A law has a kink where the slice touches, and where
@@ -96,32 +89,32 @@ def _press(table: FloatArray, count: int, logarithmic: float, error: float) -> t
     """
     force, slope, unsettled, nearest = 0.0, 0.0, 0.0, np.inf
     for i in range(count):
-        approach, length = error - table[GAP, i], table[LENGTH, i]
+        approach, length = error - table.gap[i], table.length[i]
         load, stiffness, log_load, step = line_load_near(
-            approach, table[CONSTANT, i], logarithmic, table[LIMIT, i], table[LOG_LOAD, i]
+            approach, table.constant[i], logarithmic, table.limit[i], table.log_load[i]
         )
-        table[LOAD, i], table[STIFFNESS, i], table[LOG_LOAD, i] = load, stiffness, log_load
+        table.load[i], table.stiffness[i], table.log_load[i] = load, stiffness, log_load
         force += load * length
         slope += stiffness * length
         unsettled += load * length * (step * step) ** 2
         nearest = min(nearest, abs(approach))
         if logarithmic > 0.0:
-            nearest = min(nearest, abs(table[LIMIT, i] - approach))
+            nearest = min(nearest, abs(table.limit[i] - approach))
     return force, slope, unsettled, nearest
 
 
 @kernel
-def _follow(table: FloatArray, count: int, change: float) -> float:
+def _follow(table: Slices, count: int, change: float) -> float:
     """Force [N] once the loads have followed a change of TE [m] along their derivatives."""
     force = 0.0
     for i in range(count):
-        table[LOAD, i] += table[STIFFNESS, i] * change
-        force += table[LOAD, i] * table[LENGTH, i]
+        table.load[i] += table.stiffness[i] * change
+        force += table.load[i] * table.length[i]
     return force
 
 
 @kernel
-def newton(table: FloatArray, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
+def newton(table: Slices, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
     """TE [m] from a start, relative residual and steps at one roll position; the slices stay in the table.
 
     One iteration over both levels: with every step of TE each slice goes one of its own. A step that crosses no kink
@@ -144,15 +137,13 @@ def newton(table: FloatArray, count: int, logarithmic: float, force: float, erro
 
 
 @kernel
-def solve_position(table: FloatArray, count: int, logarithmic: float, force: float) -> tuple[float, float, float]:
+def solve_position(table: Slices, count: int, logarithmic: float, force: float) -> tuple[float, float, float]:
     """TE [m], relative residual and steps at one roll position."""
     return newton(table, count, logarithmic, force, _secant_start(table, count, logarithmic, force))
 
 
 @kernel
-def solve_near(
-    table: FloatArray, count: int, logarithmic: float, force: float, error: float
-) -> tuple[float, float, float]:
+def solve_near(table: Slices, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
     """The same from the TE [m] of a similar position and the table's ln w; from nothing if TE is NaN or that fails."""
     if not np.isnan(error):
         error, residual, steps = newton(table, count, logarithmic, force, error)
@@ -235,24 +226,27 @@ def _bent_steps(balance: LoadBalance) -> IntArray:
 def _merged(balance: LoadBalance, added: LoadBalance, places: IntArray) -> LoadBalance:
     """Two balances of one mesh as one, the added roll positions at their places among the others."""
 
-    def together(old: NDArray[Any], new: NDArray[Any]) -> NDArray[Any]:
+    def together(old: Any, new: Any) -> Any:
+        """Values of the positions of both in their order, arrays or tuples of them."""
+        if isinstance(old, tuple):
+            return type(old)(*map(together, old, new))
         return np.insert(old, places, new, axis=0)
 
     return LoadBalance(
         balance.mesh,
-        RollPositions(*map(together, balance.rolls, added.rolls)),
+        together(balance.rolls, added.rolls),
         balance.force,
         together(balance.transmission_error, added.transmission_error),
         together(balance.unloaded_error, added.unloaded_error),
         together(balance.residual, added.residual),
         together(balance.steps, added.steps),
-        Survey(*map(together, balance.survey, added.survey)),
+        together(balance.survey, added.survey),
     )
 
 
 @kernel
 def _settle(
-    mesh: Mesh, at: tuple[float, float], slices: int, force: float, least: float, error: float, table: FloatArray
+    mesh: Mesh, at: tuple[float, float], slices: int, force: float, least: float, error: float, table: Slices
 ) -> tuple[Cover, float, float, float]:
     """Slices, TE [m], relative residual and steps at a roll position (phase, side) whose lines are loaded in part.
 
@@ -286,7 +280,7 @@ def _balance(
         if force > 0.0:
             near = known[i]
             if not np.isnan(near):
-                table[LOG_LOAD, : cover.slices] = log_load[i, : cover.slices]
+                table.log_load[: cover.slices] = log_load[i, : cover.slices]
             elif i > 1:  # the table still holds the slices of the position before
                 near = 2.0 * error[i - 1] - error[i - 2]
             error[i], residual[i], steps[i] = solve_near(table, cover.slices, mesh.compliance.logarithmic, force, near)

@@ -16,7 +16,7 @@ from solvers.gears.pair import gear_pair, path_of_contact, reduced_radius
 from solvers.materials import Solid
 from solvers.published.xue import PAPER_MODIFICATIONS, paper_gears, paper_pair
 from solvers.scuffing import solve_load_distribution
-from solvers.scuffing.contact_slices import CONSTANT, GAP, LENGTH, LIMIT, gather, slice_table
+from solvers.scuffing.contact_slices import gather, slice_table
 from solvers.scuffing.inputs import LeadCurve, Model, Modifications, Resolution
 from solvers.scuffing.modification import gap, gaps_at, lead_table, misalignment_slope
 from solvers.scuffing.tooth_stiffness import (
@@ -190,9 +190,10 @@ def test_every_position_carries_the_force_by_the_settled_law_of_its_slices(
         table, error = slice_table(mesh, 100), balance.transmission_error[i]
         cover = gather(mesh, balance.rolls.phase[i], balance.rolls.side[i], 100, np.inf, table)
         assert error > cover.most
+        columns = [column[: cover.slices] for column in (table.gap, table.constant, table.limit, table.length)]
         carried = sum(
-            line_load(error - slice_[GAP], slice_[CONSTANT], law.logarithmic, slice_[LIMIT], 0.0)[0] * slice_[LENGTH]
-            for slice_ in table[:, : cover.slices].T
+            line_load(error - gap, constant, law.logarithmic, limit, 0.0)[0] * length
+            for gap, constant, limit, length in zip(*columns, strict=True)
         )
         assert carried == pytest.approx(balance.force, rel=2e-13)
         assert balance.survey.line_forces[i].sum() == pytest.approx(balance.force, rel=2e-13)
