@@ -9,8 +9,8 @@ from solvers.coupling.results import Geometry
 from solvers.errors import InvalidInput
 
 MAX_MISALIGNMENT = radians(6.0)
-LEAST_TORQUE = 1e-6
-MAX_CONTACT_PRESSURE = 2e9
+LEAST_TORQUE = 1e-6  # N m, chosen: counts as none
+MAX_CONTACT_PRESSURE = 2e9  # Pa, chosen: the model is elastic, hardened steel yields near it
 MAX_CONTACT_WIDTH = 0.1
 """Half contact width over flank radius beyond which a cylinder is no half space."""
 

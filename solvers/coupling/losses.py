@@ -16,7 +16,7 @@ from solvers.coupling.teeth.loads import mesh_loads
 
 ROUNDING = 1e-12
 """Share of what its parts may add up to below which a sum is their rounding."""
-_PITCH_PARTS = 3
+_PITCH_PARTS = 3  # chosen: parts of a pitch, with a Gauss rule of _PITCH_NODES each
 _PITCH_NODES = 8
 _gauss_rule = cache(np.polynomial.legendre.leggauss)
 

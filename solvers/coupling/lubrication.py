@@ -33,7 +33,7 @@ from solvers.materials import Solid
 
 UNBOUNDED_LOAD = 0.20395702057972376
 """W of an infinitely long inlet, whose exit lies at tan g = 0.47513; 12 of it is Pahl's 2.447."""
-OVERLAP_BOUNDARIES = (1.0, 2.0)
+OVERLAP_BOUNDARIES = (1.0, 2.0)  # Pahl, regimes of Figs 9 to 11
 CAPACITY_BOUNDARIES = (0.2, 0.8)
 UNSTABLE_AREA = "3.3"
 

@@ -18,9 +18,9 @@ from solvers.coupling.teeth.kinematics import MeshMotion, mesh_motion, revolutio
 from solvers.coupling.teeth.loads import floating_loads, largest_value
 from solvers.errors import InvalidInput, NoSolution
 
-MAX_SWEEPS = 50
-REPEAT_TOLERANCE = 1e-12
-HIGHEST_ORDER = 12
+MAX_SWEEPS = 50  # limit; a path that has not settled by then does not
+REPEAT_TOLERANCE = 1e-12  # of the path's size: near rounding
+HIGHEST_ORDER = 12  # harmonics of the path; the result says how much twice as many change
 REFINEMENTS = (2, 3)  # of the rotor angles, to see how certain an orbit is
 
 

@@ -24,11 +24,11 @@ from solvers.coupling.teeth.limits import coaxial_limit
 from solvers.coupling.teeth.loads import elastic_rotation, interference_at_rest
 from solvers.errors import NoSolution
 
-MAX_ITERATIONS = 150
-SUBSTITUTIONS = 5
-SHORTEST_STEP = 1.0 / 64.0
-FORCE_TOLERANCE = 1e-9
-_LIMIT_MARGIN = 0.9999
+MAX_ITERATIONS = 150  # limit; an equilibrium that is not found by then is not
+SUBSTITUTIONS = 5  # fixed-point steps at a time, chosen
+SHORTEST_STEP = 1.0 / 64.0  # of Newton's step, below which the substitution is tried again
+FORCE_TOLERANCE = 1e-9  # in units of T/r_o, chosen
+_LIMIT_MARGIN = 0.9999  # of the force that the teeth can hold, chosen
 
 
 @kernel

@@ -8,7 +8,7 @@ from solvers.pumping.gas.gas_dynamics import LEAST_SLICES
 from solvers.pumping.inputs import Flow, PumpingSetup, rpm
 from solvers.pumping.space.face import Stretch
 
-LEAST_TEETH = 5
+LEAST_TEETH = 5  # chosen: gears of fewer teeth are not in use
 LEAST_SPEED = 1e-100  # rad/s; below it a stroke's duration is no number any more
 NARROW = 0.5  # of the widest slice: below it grooves are the reason for short steps
 

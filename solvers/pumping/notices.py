@@ -11,11 +11,11 @@ from solvers.pumping.inputs import Flow, PumpingSetup
 from solvers.pumping.results import MassFlow, Resolution
 from solvers.pumping.space.stroke import StrokeTable
 
-FEW_TEETH = 12
+FEW_TEETH = 12  # chosen: the paper and the comparisons with it have more
 TIP_SPEED_SHARE = 0.8  # of the ambient speed of sound
 PITCH_LINE_SPEED = 250.0  # m/s
 FEW_SLICES = 20  # in the stroke at one time
-INCOMPRESSIBLE_MACH = 0.3
+INCOMPRESSIBLE_MACH = 0.3  # usual limit: density changes by 5 %
 RESOLVED = 0.06  # of a number, by its resolution
 NET_UNCERTAINTY = 0.3  # of the net flow
 NEGLIGIBLE = 1e-3  # of the gross flow

@@ -6,7 +6,7 @@ from solvers.arrays import FloatArray, frozen
 from solvers.pumping.flow.space_flow import SpaceFlow
 from solvers.quantity import quantity, record
 
-HARMONICS = 8
+HARMONICS = 8  # chosen
 
 
 @record

@@ -22,7 +22,7 @@ from solvers.pumping.flow.nozzle import Gas
 from solvers.pumping.flow.space_flow import SpaceFlow
 from solvers.pumping.results import Resolution
 
-SAFETY = 3.0
+SAFETY = 3.0  # times the difference of two grids, as in the grid convergence index (Roache 1994)
 OF_EXTREMES = 1.2  # times that
 RISE = 2.0  # times what a place rose from half the resolution to all of it, it may still rise
 NEAR = 0.97  # of the largest Mach number: from there on that of the slices may overtake the one at the end of the face

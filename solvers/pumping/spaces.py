@@ -24,7 +24,7 @@ from solvers.pumping.space.stroke import StrokeTable, stroke_table
 from solvers.pumping.space.tooth_space import tooth_space
 
 CELL_STEP_LIMIT = 5_000_000  # some ten seconds
-_ANGLES = 201
+_ANGLES = 201  # at which fields are recorded, enough for figures
 
 
 @dataclass(frozen=True, slots=True)

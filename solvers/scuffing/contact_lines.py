@@ -19,9 +19,9 @@ MOST_LINES = 100  # at once; no gear has a tenth of it
 LOW, HIGH = range(2)  # columns of zones
 MOST_ZONES = 12  # of one line; what more there were joins the last
 LEAST_SAMPLES = 8  # of a smooth part
-BISECTIONS = 45
-GOLDEN_STEPS = 30
-GOLDEN = 0.6180339887498949
+BISECTIONS = 45  # 2^-45 of a sample: beyond the digits of a gap
+GOLDEN_STEPS = 30  # 0.618^30 of a sample: 5e-7, and the gap at a minimum is flat
+GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,11 +17,11 @@ from solvers.scuffing.results import ContactPoints, FeatureLine, Flank
 from solvers.scuffing.tooth_stiffness import compliance_at, line_load
 
 SUBSTEPS = 4  # of a step between roll positions, where lines are loaded in part
-FACE_POINTS = 101
-NEARLY = 0.98
-TOPS = 3
-ZOOMS = 3
-ZOOM_POINTS = 7
+FACE_POINTS = 101  # every percent of the face
+NEARLY = 0.98  # of the largest: tops below it cannot be the largest once they are refined
+TOPS = 3  # highest tops that are refined
+ZOOMS = 3  # each narrows the place of the maximum by a factor of 3
+ZOOM_POINTS = 7  # points between the neighbours of a top, at each zoom
 SAME = 1e-6  # of the range looked at, or of a length
 
 

@@ -33,9 +33,9 @@ from solvers.scuffing.contact_slices import (
 from solvers.scuffing.modification import gap_at
 from solvers.scuffing.tooth_stiffness import LEAST_OMEGA, line_load_near
 
-MAX_STEPS = 60
+MAX_STEPS = 60  # limit; a roll position that has not converged by then does not
 ROUNDING = 1e-14  # relative force at which Newton has nothing left to gain
-NEAR_ROUNDING = 1e-12
+NEAR_ROUNDING = 1e-12  # accepted once the residual no longer falls
 TOLERANCE = 1e-10  # relative force above which there is no solution
 MAX_COVERS = 20  # of the lines of one roll position by slices
 SETTLED = 1e-6  # change of the approach between two covers

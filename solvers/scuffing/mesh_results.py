@@ -17,11 +17,11 @@ from solvers.scuffing.load_balance import LoadBalance
 from solvers.scuffing.results import ErrorCurves, FrictionLoss, Stiffness, StiffnessCurves, TransmissionError
 from solvers.scuffing.tooth_stiffness import single_stiffness
 
-CURVE_POINTS = 101
+CURVE_POINTS = 101  # every percent of the path, for the curve
 REFERENCE_LOAD = 100e3  # N/m, for which ISO 6336-1 states c'; stands in where there is no load
 DISC_FACTOR = 1.0  # C_R: solid discs
 MEASURED_FRACTION = 0.8  # C_M
-HARMONICS = 5
+HARMONICS = 5  # chosen
 
 
 def iso_load_sharing(path: PathOfContact, x: FloatArray) -> FloatArray | None:

@@ -11,7 +11,7 @@ from solvers.errors import InvalidInput
 from solvers.gears.pair import PathOfContact
 from solvers.scuffing.inputs import LeadCurve, Modifications
 
-LEAD_POINTS = 401
+LEAD_POINTS = 401  # every 0.25 % of the face; between them lead curves are straight
 MOST_EDGES = 6
 
 

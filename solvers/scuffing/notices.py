@@ -13,11 +13,11 @@ from solvers.scuffing.contact_slices import reaches_base_circle
 from solvers.scuffing.inputs import Model, Modifications
 from solvers.scuffing.load_balance import LoadBalance
 
-LEAST_TEETH = 8
+LEAST_TEETH = 8  # chosen: gears of fewer teeth are not in use
 PRESSURE_ANGLES = (14.5, 30.0)  # degrees
 LARGEST_HELIX = 45.0  # degrees
 TRANSVERSE_HELIX = 15.0  # degrees
-LEAST_LENGTH_RATIO = 0.2
+LEAST_LENGTH_RATIO = 0.2  # chosen: below it the total length of the lines nearly vanishes once a base pitch
 
 
 def geometry_notices(path: PathOfContact, lengths: ContactLengths) -> list[Notice]:

@@ -24,10 +24,10 @@ from solvers.materials import Solid
 from solvers.scuffing.inputs import Model
 from solvers.scuffing.modification import interpolated, place_of
 
-TABLE_POINTS = 801
+TABLE_POINTS = 801  # every 0.125 % of the path, chosen
 LEAST_RADIUS = 1e-6  # normal modules; on a base circle it vanishes, and the half width with it
 SHALLOWEST = 2.0  # half-space depth over contact half width
-OMEGA_STEPS = 12
+OMEGA_STEPS = 12  # limit of Newton's method for the branch of Lambert's function
 LEAST_OMEGA = 2.0  # of a guess; omega is larger wherever the law is not held, and has no meaning below 1
 LAST_STEP = 1e-3  # of omega; it leaves less than a tenth of its fourth power, so the next step would be rounding
 

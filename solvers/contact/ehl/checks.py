@@ -17,8 +17,8 @@ LOWEST_TEMPERATURE = ROELANDS_POLE_TEMPERATURE + 60.0  # K; no oil flows there
 HIGHEST_PRESSURE = 4e9  # Pa
 THICKEST_FILM = 1e4  # in b^2/R, which is what the surfaces deform by
 THINNEST_FILM = 1e-9  # m, the length of an oil's molecule
-MIN_NODES = 41
-MIN_FILM_NODES = 5
+MIN_NODES = 41  # chosen: the coarsest mesh that is accepted
+MIN_FILM_NODES = 5  # three inside the film: the fewest that show a maximum of temperature between the surfaces
 
 
 def check(inputs: LineContactInputs) -> None:

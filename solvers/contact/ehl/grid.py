@@ -9,7 +9,7 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.compiled import kernel
 
-SHORTEST_INLET = 4.0
+SHORTEST_INLET = 4.0  # half widths of the contact upstream of its centre, chosen
 CLEARANCE = 40.0  # undeformed gap at the inlet over the central film
 
 

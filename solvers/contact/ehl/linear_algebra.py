@@ -9,7 +9,7 @@ import numpy as np
 from solvers.arrays import FloatArray, IntArray
 from solvers.compiled import inlined_kernel, kernel
 
-PANEL = 8
+PANEL = 8  # columns eliminated together, chosen for speed
 
 
 @kernel

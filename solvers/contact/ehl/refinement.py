@@ -21,9 +21,9 @@ from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.results import ContactCurves, ContactField, MeshError
 from solvers.materials import Solid
 
-FINEST = 481
-STEPS_ON_FINER = 20.0
-STEPS_ON_COARSER = 12
+FINEST = 481  # chosen: the cost of the dense solution grows with the third power of the nodes
+STEPS_ON_FINER = 20.0  # Newton steps that a refinement may take, chosen
+STEPS_ON_COARSER = 12  # Newton steps of the comparison with half as many nodes, chosen
 # A step of the contact on half the nodes after which its numbers are known well enough: dP, dT [K].
 NEAR = (0.12, 12.0)
 # What is left of the difference that half as many nodes make: 1/3 in second order. Where pressure falls steeply from

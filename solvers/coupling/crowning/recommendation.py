@@ -27,13 +27,13 @@ from solvers.coupling.teeth.limits import SLIDING_VELOCITY_LIMIT
 from solvers.errors import InvalidInput
 from solvers.notices import Notice
 
-MIN_CROWNING_RATIO = 0.2
+MIN_CROWNING_RATIO = 0.2  # chosen, as the upper end: far outside practice
 MAX_CROWNING_RATIO = 1000.0
 # Constraint by its public name, and the quantity that a larger crowning ratio lowers.
 _LOWER_BOUNDS = (("hertz_pressure", "pressure"), ("contact_width", "width"), ("contact_overlap", "overlap"))
-MAX_SCANNED_RATIO = 100.0
-_SCAN_POINTS = 49
-_WINDOW_POINTS = 25
+MAX_SCANNED_RATIO = 100.0  # chosen: end of the range that is scanned for windows
+_SCAN_POINTS = 49  # chosen: a factor of 1.14 between two ratios
+_WINDOW_POINTS = 25  # chosen: of the grid that the search for the best ratio starts from
 
 _REASONS = {
     "contact_overlap": "no crowning ratio up to 1000 brings the overlap below 1 at the smallest misalignment",

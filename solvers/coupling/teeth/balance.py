@@ -20,9 +20,9 @@ import numpy as np
 from solvers.arrays import FloatArray, IntArray
 from solvers.compiled import kernel
 
-MAX_ITERATIONS = 10_000
-BALANCE_TOLERANCE = 1e-13
-LONGEST_STEP = 1e100
+MAX_ITERATIONS = 10_000  # limit that no balance should reach: each step lowers the energy
+BALANCE_TOLERANCE = 1e-13  # in units of T/r_o: some hundred roundings
+LONGEST_STEP = 1e100  # stands for infinity without overflow when it is squared
 STIFF = 1e-12
 """Least stiffness of the sleeve that counts, over that of the loaded teeth together: rounding is some 1e-16 of it."""
 FLAT = 1e-12

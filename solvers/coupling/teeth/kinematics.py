@@ -14,7 +14,7 @@ from solvers.arrays import FloatArray, frozen
 from solvers.coupling.inputs import Coupling, KinematicModel, Operation
 from solvers.coupling.results import Geometry, KinematicCurves, Kinematics
 
-_LEAST_ROTOR_POSITIONS = 208
+_LEAST_ROTOR_POSITIONS = 208  # rotor positions a revolution: 4 a pitch for the paper's 52 teeth
 _CURVE_ANGLE = frozen(np.linspace(0.0, 2.0 * pi, 181))
 
 

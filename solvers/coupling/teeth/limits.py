@@ -10,7 +10,7 @@ from solvers.coupling.teeth.kinematics import displacement_peak_to_peak, mesh_mo
 
 SLIDING_VELOCITY_LIMIT = 0.12
 """Steady sliding of gear couplings [m/s], Tribology Handbook B4.6; transients may tilt 1.6 times as far."""
-GRAVITY = 9.80665
+GRAVITY = 9.80665  # m/s^2, standard gravity (CGPM 1901)
 
 
 def coaxial_limit(coupling: Coupling, torque: float, friction: float) -> float:

@@ -16,7 +16,7 @@ from solvers.coupling.teeth.geometry import pitch_radius
 from solvers.coupling.teeth.kinematics import MeshMotion, ToothPositions, flank_normals, tangential_displacement
 from solvers.errors import NoSolution
 
-_PEAKS = 8
+_PEAKS = 8  # highest samples around which the maximum is sought; more than one, as neighbours may hide the highest
 _FINER = np.arange(-1.0, 1.125, 0.125)
 
 

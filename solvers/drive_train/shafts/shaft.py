@@ -14,7 +14,7 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.drive_train.inputs import Shaft, ShaftSection
 
-GRAVITY = 9.80665
+GRAVITY = 9.80665  # m/s^2, standard gravity (CGPM 1901)
 COINCIDENT = 1e-9  # m; nodes nearer than this are one
 
 

@@ -16,10 +16,10 @@ from solvers.arrays import Fields, RecordArray, floats, records
 from solvers.compiled import kernel
 from solvers.pumping.flow.nozzle import Gas, mass_flux
 
-_NEWTON_LIMIT = 200
-_TOLERANCE = 1e-10
+_NEWTON_LIMIT = 200  # limit; a step that has not converged by then does not
+_TOLERANCE = 1e-10  # of a pocket's content at ambient pressure
 _ROUNDING = 1e-7  # residual accepted once Newton's method no longer lowers it: pressures differ by round-off only
-_HALVINGS = 12
+_HALVINGS = 12  # a step of 1/4096 of Newton's no longer helps
 
 
 STATE = floats("pressure", "mass")

@@ -28,11 +28,11 @@ from solvers.pumping.gas.riemann import front_face
 from solvers.pumping.gas.step import Cells, empty_cells, set_walls, step
 from solvers.pumping.space.face import Stretch
 
-LEAST_SLICES = 4
+LEAST_SLICES = 4  # chosen: limited slopes need three cells
 _HASTE = 2.5  # steps may be this much shorter than sound at rest asks for
-COURANT = 0.7
+COURANT = 0.7  # below the limit of 1 of the scheme, with room for waves that speed up within a step
 _ROUNDING = 1e-6  # of a step, by which it may be longer rather than leave so little
-_RETRIES = 12
+_RETRIES = 12  # halvings of a step that failed, chosen
 _AHEAD = 4.0  # widths by which cells come early where no wave outruns their stroke
 _STEEP = 0.5  # share of a cell's density or pressure below which nothing is extrapolated from it
 _UNSETTLED = 5.0  # steps in which leakage finds its balance with the walls, and the waves of the beginning pass

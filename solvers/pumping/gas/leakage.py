@@ -13,7 +13,7 @@ import numpy as np
 from solvers.compiled import inlined_kernel, kernel
 from solvers.pumping.flow.nozzle import Gas, flux_squared
 
-_NEWTON_LIMIT = 30
+_NEWTON_LIMIT = 30  # limit; Newton's method on the square of the flux needs few steps
 _TOLERANCE = 1e-10  # relative, of the flux through the gaps
 
 

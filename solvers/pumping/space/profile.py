@@ -11,7 +11,7 @@ from solvers.gears.gear import RackFillet, fillet_point, fillet_sector_area
 from solvers.pumping.space.tooth_space import ToothSpace
 
 _SCAN = 17  # fillet points that bracket the nearest one
-_GOLDEN = 0.6180339887498949
+_GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
 
 
 @kernel

@@ -12,7 +12,7 @@ from solvers.pumping.space.tooth_space import StrokeLimits, ToothSpace, stroke_l
 from solvers.quantity import quantity, record
 from solvers.sources import MILIAN
 
-POSITIONS = 361
+POSITIONS = 361  # every 1/360 of the stroke, chosen
 SMOOTH = 3.0  # times the change of the area's logarithm over the positions beside
 JUMP = 0.01
 
