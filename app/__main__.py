@@ -6,10 +6,13 @@ import json
 import os
 import socket
 import sys
+from difflib import get_close_matches
 from io import TextIOWrapper
 from pathlib import Path
 
+from pydantic import ValidationError
 from pydantic.fields import FieldInfo
+from pydantic_core import ErrorDetails
 
 from app.settings import MEBIBYTE, Settings, settings
 from app.workers.control import Template
@@ -56,7 +59,7 @@ def serve(application: str) -> None:
     """
     assert isinstance(sys.stdout, TextIOWrapper)
     sys.stdout.reconfigure(line_buffering=True)
-    limits = settings()
+    limits = checked_settings()
     try:
         listener = _listener(limits)
     except OSError as error:
@@ -72,6 +75,25 @@ def serve(application: str) -> None:
         sys.exit(INTERRUPTED)
     finally:
         template.close()
+
+
+def checked_settings() -> Settings:
+    """The settings; those that are wrong end the process with a line each, and unknown variables are warned of."""
+    known = [f"TRIBODRIVE_{name.upper()}" for name in Settings.model_fields]
+    for name in sorted(os.environ):
+        if name.startswith("TRIBODRIVE_") and name not in known:
+            nearest = get_close_matches(name, known, 1)
+            meant = f"; did you mean {nearest[0]}?" if nearest else ""
+            sys.stderr.write(f"tribodrive: there is no setting {name}{meant}\n")
+    try:
+        return settings()
+    except ValidationError as error:
+        sys.exit("\n".join(f"tribodrive: {_wrong(fault)}" for fault in error.errors()))
+
+
+def _wrong(fault: ErrorDetails) -> str:
+    name = f"TRIBODRIVE_{str(fault['loc'][0]).upper()}"
+    return f"{name} is {fault['input']!r}: {fault['msg'][0].lower()}{fault['msg'][1:]}"
 
 
 def _listener(limits: Settings) -> socket.socket:

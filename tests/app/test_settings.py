@@ -1,5 +1,6 @@
 """Every limit is one environment variable, and the documentation says so."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -45,3 +46,19 @@ def test_nonsense_settings_are_refused(monkeypatch: pytest.MonkeyPatch, variable
     monkeypatch.setenv(f"TRIBODRIVE_{variable}", value)
     with pytest.raises(ValidationError):
         Settings()
+
+
+def started_with(**variables: str) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, **{f"TRIBODRIVE_{name}": value for name, value in variables.items()}}
+    return subprocess.run(
+        [sys.executable, "-m", "app"], check=False, capture_output=True, text=True, env=environment, timeout=60
+    )
+
+
+def test_a_wrong_setting_is_one_line() -> None:
+    outcome = started_with(PORT="99999", QEUE="3")
+    assert outcome.returncode == 1
+    assert outcome.stderr.splitlines() == [
+        "tribodrive: there is no setting TRIBODRIVE_QEUE; did you mean TRIBODRIVE_QUEUE?",
+        "tribodrive: TRIBODRIVE_PORT is '99999': input should be less than or equal to 65535",
+    ]
