@@ -1,4 +1,4 @@
-"""What the model refuses to compute."""
+"""Checks of the inputs and results of the coupling model."""
 
 from itertools import pairwise
 from math import inf, isfinite, pi, radians

@@ -1,4 +1,4 @@
-"""What a result has to say about its own validity: ranges it leaves, values without meaning."""
+"""Warnings of a coupling calculation: ranges that are left, values without meaning."""
 
 from collections.abc import Iterator
 from math import degrees

@@ -25,7 +25,7 @@ def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> t
 def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocity: float) -> float:
     """F_max (2/pi) asin(v_ax/v_Gmax) [N], F_max once v_ax exceeds v_Gmax: equal tooth loads, many teeth.
 
-    An upper bound for a centred sleeve without pitch errors, whose load gathers where sliding is fastest.
+    An upper bound for a centred sleeve without pitch errors, if the whole load is where sliding is fastest.
     """
     if axial_velocity == 0.0:
         return 0.0

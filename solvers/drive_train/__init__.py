@@ -1,7 +1,7 @@
 """A gear unit whole: coupling, shafts in bearings, pumped heat and mesh agree on one gap over the face.
 
 Data flows inputs, checks -> shafts (with bearings and couplings one system, known by its ports) -> gap (its balance
-with the mesh, and what it comes from) -> elements, losses, safety; all gathered, with notices, by `model.solve`, for
+with the mesh, and what it comes from) -> elements, losses, safety; all called, with notices, by `model.solve`, for
 the hot unit and the cold one by `states.solve`. On top stand studies of many units.
 Own derivation; sources stand with the equations.
 """

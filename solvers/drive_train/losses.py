@@ -1,4 +1,4 @@
-"""What the unit loses, and the books of forces and moments on its shafts."""
+"""Power losses of the unit, and the balance of forces and moments on its shafts."""
 
 import numpy as np
 

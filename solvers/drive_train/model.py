@@ -1,4 +1,4 @@
-"""The drive train: coupling, shafts in bearings, heat and mesh agree on one gap; what the flank makes of it."""
+"""The drive train: the gap over the face at which couplings, shafts, bearings, heat and mesh are in equilibrium."""
 
 from dataclasses import dataclass, replace
 

@@ -1,4 +1,4 @@
-"""What no pair of gears can be: one verdict for every model that computes on it."""
+"""Checks of the inputs of a gear pair, the same in every model."""
 
 from solvers.errors import InvalidInput
 from solvers.gears.gear import Gear, full_rack_tip_radius

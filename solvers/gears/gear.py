@@ -183,7 +183,7 @@ def root_profile(pair: GearPairInputs, teeth: GearTeeth, gear: Gear) -> RootProf
         fillet = fillet._replace(end=end)
     radius, half_angle = fillet_point(fillet, fillet.end)
     root_half_angle = fillet_point(fillet, 0.0)[1]
-    step = _half_space_angle(gear, radius) - half_angle  # nought but where an undercut ends on the base circle
+    step = _half_space_angle(gear, radius) - half_angle  # 0 but where an undercut ends on the base circle
     area = root_half_angle * gear.root_radius**2 / 2 + fillet_sector_area(fillet, fillet.end) + step * radius**2 / 2
     return RootProfile(fillet, gear.root_radius, root_half_angle, roll, area)
 

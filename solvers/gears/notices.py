@@ -1,4 +1,4 @@
-"""What is said about a pair that meshes, by every model that computes on it."""
+"""Warnings about a gear pair that meshes, the same in every model."""
 
 from solvers.gears.gear import Gear, rack_tip_radius
 from solvers.gears.pair import PathOfContact

@@ -1,7 +1,7 @@
 """Air and mist pumped by meshing teeth.
 
 Data flows inputs, checks -> space (tooth space, its section, the stroke table; the face between grooves) -> flow (gas,
-duct, record) -> one of gas, chain and incompressible -> resolution, lead_correction, pulsation (all gathered by
+duct, record) -> one of gas, chain and incompressible -> resolution, lead_correction, pulsation (all called by
 `model.solve`). `spaces` prepares what no speed changes and picks the flow model; on top of it choking and speed_scan.
 """
 

@@ -1,4 +1,4 @@
-"""What no calculation can be made of."""
+"""Checks of the inputs of a pumping calculation."""
 
 from math import ceil, floor, isfinite, log10, sqrt
 from typing import NoReturn
@@ -14,7 +14,7 @@ NARROW = 0.5  # of the widest slice: below it grooves are the reason for short s
 
 
 def check_setup(setup: PumpingSetup) -> None:
-    """Refuse what the models do not take.
+    """Raise InvalidInput for inputs outside the range of the models.
 
     Raises InvalidInput: too_few_teeth, face_width, negative_backlash, isentropic_exponent, discharge_coefficient,
     too_few_slices, helix_incompressible, grooves_incompressible, slices_incompressible.

@@ -120,7 +120,7 @@ def _refined(excess: Excess, root: float, top: float) -> float | None:
 
 
 def _curves(mesh: Mesh, demands: list[_Demand], scan: list[float]) -> ChokingCurves:
-    """What the coarse scan saw: the largest over the spaces."""
+    """Curves of the coarse scan: the largest values over the spaces."""
     return ChokingCurves(
         pinion_speed=frozen([exp(speed) for speed in scan]),
         peak_pressure_ratio=frozen(

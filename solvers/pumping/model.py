@@ -33,7 +33,7 @@ LEAST_HELIX = 1e-100  # rad; the meshing point of a smaller one runs along the f
 
 
 def solve(inputs: PumpingInputs) -> PumpingResult:
-    """Flow through the tooth spaces of a pair at one speed, what it costs and what it heats.
+    """Flow through the tooth spaces of a pair at one speed: pressures, mass flow, power and temperatures.
 
     Raises InvalidInput (codes of `spaces.prepare`; speed_not_positive, too_many_steps, incompressible_vacuum) and
     NoSolution (unphysical_state, newton_not_converged).
@@ -93,7 +93,7 @@ def _geometry(mesh: Mesh) -> MeshGeometry:
 
 
 def _on_grids(mesh: Mesh, space: Space, speed: float, slices: int) -> Grids:
-    """One stroke at the resolution asked for, and at coarser ones to see what it is worth."""
+    """One stroke at the given resolution, and at coarser ones to estimate its error."""
     flow = flow_at(mesh, space, speed, slices)  # first, for it refuses what takes too long
     half, quarter = (coarser_flow_at(mesh, space, speed, slices, times) for times in (2, 4))
     return Grids(flow, half, quarter, _lead(mesh, space, speed))

@@ -1,4 +1,4 @@
-"""What a result has to say about its own validity: too coarse, unresolved, or beyond what was ever checked."""
+"""Warnings of a pumping calculation: too coarse, unresolved, or outside the range in which the models were compared."""
 
 from collections.abc import Sequence
 from math import degrees, expm1, inf, pi

@@ -1,4 +1,4 @@
-"""How well a result is resolved: what half and a quarter of the resolution make of the same flow.
+"""Errors of discretisation, estimated from the same flow at half and a quarter of the resolution.
 
 The kinks of a stroke leave numbers of first order in the width of the slices. For two grids and first order Roache's
 grid convergence index states three times their difference as the uncertainty of the finer one (J. Fluids Eng. 116,
@@ -108,7 +108,7 @@ def net_uncertainty(grids: Grids, jumped: float) -> float:
 
 
 def radial_uncertainty(grids: Grids, jumped: float) -> float:
-    """Mass [kg] by which the net radial flow, the rest of the books, may be off in a stroke."""
+    """Mass [kg] by which the net radial flow, the rest of the mass balance, may be wrong in a stroke."""
     radial = SAFETY * abs(grids.flow.masses.radial - grids.halved.masses.radial)
     return max(radial, net_uncertainty(grids, jumped))
 

@@ -1,4 +1,4 @@
-"""The tooth spaces to compute, ready for any speed: what the choking search and a single solution share."""
+"""Tooth spaces prepared for any speed, for the choking search and for a single solution."""
 
 from dataclasses import dataclass
 from math import tan
@@ -72,7 +72,7 @@ def prepare(setup: PumpingSetup) -> Mesh:
 
 
 def derived(mesh: Mesh) -> Derived:
-    """What the set-up left open, and what is used of it."""
+    """Values derived from the inputs, with defaults in place of what was not given."""
     gears = mesh.setup.gears
     room = min(rack_tip_radius(gears, teeth) for teeth in (gears.pinion, gears.wheel))
     return Derived(mesh.pair.centre_distance, mesh.setup.model.slice_count, room)

@@ -1,4 +1,4 @@
-"""Slices of all contact lines at one roll position, and what they amount to: friction, forces, the worst points."""
+"""Slices of all contact lines at one roll position, and their sums: friction, forces, largest values."""
 
 from dataclasses import dataclass
 from math import ceil

@@ -1,4 +1,4 @@
-"""How the load over the face answers to a gap over the face: what shafts and mesh have to agree on.
+"""Load over the face as a function of the gap over the face, with its derivative, to couple mesh and shafts.
 
 Both are counted at equidistant stations over the face, between which gaps are linear: a station's share of a force
 is weighed by its hat, the linear function that is 1 there and 0 at its neighbours.

@@ -1,4 +1,4 @@
-"""What the balanced load says of the flanks: load over the face, feature line, maps of line load and pressure."""
+"""Results for the flanks from the balanced load: load over the face, feature line, maps of line load and pressure."""
 
 from dataclasses import fields
 

@@ -1,4 +1,4 @@
-"""What the balanced load says of the mesh: load sharing, stiffness, transmission error, friction loss.
+"""Results for the mesh from the balanced load: load sharing, stiffness, transmission error, friction loss.
 
 Eq. 15 is in the paper; the forms of X_Gamma and of the buttressing factor X_but are quoted from general knowledge of
 the standard and were not read again.

@@ -78,7 +78,7 @@ def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
 
 
 def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance: LoadBalance) -> LoadDistribution:
-    """What a balance says, of the inputs' own gap or of another."""
+    """Results of a load balance, with the gap of the inputs or another."""
     path, lengths, resolution = prepared.path, prepared.lengths, inputs.resolution
     modulus = reduced_modulus(inputs.pinion_material, inputs.wheel_material)
     loads = flank(balance, modulus, resolution.profile_points, resolution.face_points)
@@ -129,7 +129,7 @@ def _geometry(path: PathOfContact) -> Geometry:
 
 
 def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
-    """What the inputs left open, and what is used of them."""
+    """Values derived from the inputs, with defaults in place of what was not given."""
     pair = path.pair.inputs
     return Derived(
         pinion_torque=load.torque,

@@ -1,4 +1,4 @@
-"""What a load distribution has to say about its own validity."""
+"""Warnings of a load distribution."""
 
 from math import degrees
 
@@ -61,7 +61,7 @@ def _range_notices(inputs: GearPairInputs) -> list[Notice]:
 
 
 def model_notices(path: PathOfContact, model: Model) -> list[Notice]:
-    """What the chosen options are known to get wrong."""
+    """Warnings about known errors of the chosen options."""
     notices = []
     if model.tooth_stiffness == "parabola":
         notices.append(
@@ -83,7 +83,7 @@ def model_notices(path: PathOfContact, model: Model) -> list[Notice]:
 
 
 def relief_notices(path: PathOfContact, modifications: Modifications) -> list[Notice]:
-    """Reliefs that are longer than what they relieve."""
+    """Warnings about reliefs that are longer than the path or the face."""
     m, face_width = modifications, path.plane.face_width
     reliefs = (
         ("tip_relief", m.tip_relief, m.tip_relief_length, path.length, "path of contact"),

@@ -1,4 +1,4 @@
-"""What cannot be computed as an elastohydrodynamic line contact: one refusal for every range left."""
+"""Checks of the inputs of a line contact; each range that is left raises InvalidInput."""
 
 from dataclasses import replace
 from math import exp, log

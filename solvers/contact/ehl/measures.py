@@ -1,4 +1,4 @@
-"""The quantities an engineer reads off a converged state."""
+"""Results of a converged state: film, friction, temperatures, curves."""
 
 import numpy as np
 

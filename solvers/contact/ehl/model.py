@@ -132,7 +132,7 @@ def _read(
 
 
 def _failed_criterion(attempt: Attempt, found: LineContactResult) -> Stage | None:
-    """What a converged state violates, if anything: the load, the books on heat, or what it was solved for."""
+    """The check that a converged state fails, if any: load, heat balance, or the solved equations."""
     convergence, heat = found.convergence, found.heat
     if convergence.load_error >= WORST_LOAD:
         return convergence.stage

@@ -1,4 +1,4 @@
-"""What limits a result of the line contact: one notice for every range it leaves."""
+"""Warnings of the line contact: one for every range that is left."""
 
 from solvers.contact.ehl.inputs import LineContactInputs
 from solvers.contact.ehl.results import (

@@ -75,7 +75,7 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
 
 
 def _solve_next(inputs: LineContactInputs, walk: _Walk) -> LineContactResult:
-    """From the neighbours if there are any, else, or if that fails, from nothing; the walk goes on from here."""
+    """From the neighbours if there are any, else, or if that fails, from nothing; the next contact starts from here."""
     constants = problem(inputs, groups(inputs))
     resolution = resolution_for(inputs)
     spent = Budget(inf)

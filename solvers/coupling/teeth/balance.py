@@ -179,7 +179,7 @@ def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: flo
 
 @kernel
 def length_to_lowest(ahead: FloatArray, change: FloatArray, start: float) -> float:
-    """Length of a step at which the energy is lowest, LONGEST_STEP where it falls for ever.
+    """Length of a step at which the energy is lowest, LONGEST_STEP where it has no minimum.
 
     Newton on the slope, which rises with the length in straight pieces from its negative `start`, held between the
     lengths known to lie before and behind the lowest energy. Where no tooth resists, the next one may be many steps

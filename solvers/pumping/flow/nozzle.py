@@ -49,7 +49,7 @@ def flux_squared(gas: Gas, upstream: float, density: float, drop: float) -> tupl
 
     G^2 = 2 g/(g - 1) p rho y (y - x) with x the ratio of the pressures, y = x^(1/g) that of the densities. With it the
     derivatives by the upstream and the downstream pressure at a fixed density upstream. Exact down to any pressure
-    drop; below a drop of nought it goes on linearly, negative.
+    drop; below a drop of 0 it is continued linearly, negative.
     """
     power = 1.0 / gas.exponent
     if drop <= 0.0:

@@ -129,7 +129,7 @@ class SpaceFlow:
 
     Fields of shape (angles, positions): `pressure` [Pa], `mach`, `stagnation_temperature` [K] at the owner's `angle`
     [rad] and `position` [m]. Over the face: stroke means of temperature and stagnation temperature [K], peak and
-    lowest pressure [Pa], largest Mach number within slices (nought in the chain). `exit_demand` is the Mach number that
+    lowest pressure [Pa], largest Mach number within slices (0 in the chain). `exit_demand` is the Mach number that
     the ambient pressure asks for at the ends, above one where they are choked; `work` [J] is done on the gas above
     ambient pressure. Errors are relative.
     """

@@ -118,9 +118,9 @@ def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, 
 
     A cell does while its centre is in its stroke, the first also while its outer end is, the last likewise: whatever
     leaves through an end leaves while that end is open. Walls and balances count the share of the step in the stroke.
-    Where the stroke runs along the face faster than sound, cells come some widths early: waves do not reach the border
-    in truth, but on a grid they spread over a few cells. A border among those feeds what it lets pass into the cells
-    that come next, and the flow takes one of two courses by how the steps fall.
+    Where the stroke runs along the face faster than sound, cells come some widths early: physical waves do not reach
+    the border, but on a grid they spread over a few cells. If the border were among those, what it lets pass would feed
+    the cells that come next, and the flow would take one of two courses depending on how the steps fall.
     """
     low, high, rear = 0, 0, duct.cells - 1
     early = _AHEAD * duct.lag * duct.width if duct.speed >= duct.lag * gas.sound_speed else 0.0

@@ -1,4 +1,4 @@
-"""What a cell of the duct exchanges with its walls over an implicit stage: leakage, gas on the flanks, wall work.
+"""Exchange of a cell of the duct with its walls over an implicit stage: leakage, gas on the flanks, wall work.
 
 All amounts are per metre of face. The kinetic energy takes no part: what leaks out leaves with the cell's velocity,
 what leaks in comes from rest. One unknown remains, the flux through the radial gaps; its square is nearly linear in

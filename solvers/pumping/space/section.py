@@ -86,7 +86,7 @@ def _flank_section(
 def _carried(space: ToothSpace, roll: float, gap: float) -> float:
     """Area that rolling flanks have carried through a section of `gap` [m], towards growing roll lengths [m^2].
 
-    The integral of gap times half the sum of both flanks' rolling velocities, from where both stand at nought.
+    The integral of gap times half the sum of both flanks' rolling velocities, from where both are 0.
     """
     facing = space.line_of_action - gap
     roll = min(max(roll, facing - space.mate_tip_roll), space.tip_roll)
