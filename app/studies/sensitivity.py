@@ -45,14 +45,15 @@ class Probe:
     def places(self) -> list[float]:
         """The values it is moved to: below, above, the same by half the step; those that its range allows."""
         steps = [self.step] if self.half is None else [self.step, self.half]
-        moved = [self.value + sign * step for step in steps for sign in (-1, 1)]
+        number = int if self.leaf.kind == "integer" else float
+        moved = [number(self.value + sign * step) for step in steps for sign in (-1, 1)]
         return [place for place in moved if place != self.value and fault(self.leaf, place) is None]
 
 
 def probe(leaf: Leaf, value: float) -> Probe:
     """An input moved by its tolerance, else by 1 %, 1 K for a temperature, 1 for a count."""
     if leaf.kind == "integer":
-        return Probe(leaf, value, 1)
+        return Probe(leaf, value, 1.0)
     if leaf.tolerance is not None:
         step = max(leaf.tolerance, (leaf.relative_tolerance or 0.0) * abs(value))
         return Probe(leaf, value, step, step / 2.0)
