@@ -109,7 +109,7 @@ class Bars:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A named value drawn as a lying bar, with its bounds where it is indeterminate."""
+    """A named value drawn as a horizontal bar, with its bounds where it is indeterminate."""
 
     name: str
     value: float

@@ -233,7 +233,7 @@ class Influence:
 
 
 def influence(output: Axis, value: float, found: list[Influence]) -> Figure:
-    """Lying bars, the most influential input first; in a second hue where the slope depends on the side."""
+    """Horizontal bars, the most influential input first; in a second hue where the slope depends on the side."""
     moving = [each for each in found if each.change][:MOST_ROWS]
     rows = tuple(
         Row(f"{each.name}, {each.step}", each.change, Hue.VERMILLION if each.kink else Hue.BLUE) for each in moving
@@ -258,7 +258,7 @@ class Uncertain:
 
 
 def corners(output: Axis, found: list[Uncertain]) -> Figure:
-    """Lying bars, input by input; those that meet in the worst corner in a second hue."""
+    """Horizontal bars, input by input; those that meet in the worst corner in a second hue."""
     rows = tuple(
         Row(f"{each.name} {each.choice}", each.worst, Hue.VERMILLION if each.decides else Hue.BLUE) for each in found
     )

@@ -116,7 +116,7 @@ async def _answer(
     try:
         asked, clean = await asked_of(http, calculation)
         if not clean and http.scope["method"] == "GET":
-            return sent_on(place, asked)
+            return redirected(place, asked)
         start_up: StartUp = http.app.state.start_up
         if asked.pairs:
             start_up.require(calculation.path)
@@ -128,7 +128,7 @@ async def _answer(
     return Response(shown.content, shown.status, media_type=media, headers={"Content-Security-Policy": policy})
 
 
-def sent_on(place: str, asked: views.Asked) -> Response:
+def redirected(place: str, asked: views.Asked) -> Response:
     """To the address that says the same in fewer words, and names the sources of the answer."""
     looks = {**asked.views, "sources": asked.views.get("sources", SHORT_SOURCES)} if asked.pairs else asked.views
     return RedirectResponse(quote(link(place, asked.pairs, **looks), safe="/?&=%,:.*+-_~"), 303)

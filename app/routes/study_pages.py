@@ -24,7 +24,7 @@ from app.routes.pages import (
     TROUBLES,
     asked_of,
     html,
-    sent_on,
+    redirected,
     trouble_page,
 )
 from app.routes.studies import MEDIA_TYPES, PATIENCE_S, StudyStream
@@ -126,7 +126,7 @@ async def _page(
     try:
         asked, clean = await asked_of(http, calculation)
         if not clean and http.scope["method"] == "GET":
-            return sent_on(path, asked)
+            return redirected(path, asked)
         if asked.pairs:
             _start_up(http).require(calculation.path)
         limits = _limits(http)

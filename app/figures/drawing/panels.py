@@ -137,7 +137,7 @@ def _draw_bars(axes: Axes, bars: Bars, beside: list[Bars], theme: Theme) -> None
 
 
 def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
-    """Lying bars from zero with names and values; a thin line from bound to bound, a dashed outline for a variant."""
+    """Horizontal bars with names and values; a thin line from bound to bound, a dashed outline for a variant."""
     own = {row.name: row for row in panel.rows if row.role is not Role.VARIANT}
     names, scale = list(own), max(abs(row.value) for row in panel.rows)
     axes.grid(visible=False, axis="y")
