@@ -6,11 +6,7 @@ from solvers.sources import XUE
 
 @record
 class Solid:
-    """An isotropic solid; steel unless told otherwise.
-
-    Units: youngs_modulus [Pa], poisson_ratio [-], density [kg/m^3], specific_heat [J/(kg K)],
-    thermal_conductivity [W/(m K)], roughness (arithmetic mean Ra) [m].
-    """
+    """An isotropic solid; steel by default."""
 
     youngs_modulus: float = quantity(
         "Young's modulus", "E", f"{XUE}, Table 2", unit="gpa", default=206.0, ge=1, le=2000

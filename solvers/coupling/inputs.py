@@ -1,6 +1,6 @@
 """What describes a gear coupling, its operation and the choices of the model.
 
-Lengths [m], angles [rad], forces [N], speeds [rad/s]. Every name is the API's name without its unit.
+Attributes are in SI; declarations give range and default in the unit shown.
 """
 
 from dataclasses import dataclass, field, fields
@@ -335,10 +335,7 @@ class MixedFrictionCurve:
 
 @record
 class MixedFrictionTable:
-    """Measured mixed friction: `coefficient` [-] over rising `sliding_velocity` [m/s], one point or more.
-
-    Constant outside the table.
-    """
+    """Measured mixed friction over rising sliding velocity, one point or more; constant outside the table."""
 
     sliding_velocity: tuple[float, ...] = quantity(
         "table of sliding velocities",
@@ -358,10 +355,7 @@ class MixedFrictionTable:
 
 @record
 class Friction:
-    """Coefficients of friction: None means the law of the friction regime.
-
-    `static_coefficient` None means the user's coefficient, without one that of the regime at rest without film.
-    """
+    """Friction between the teeth: coefficients, or the law of the friction regime."""
 
     coefficient: float | None = quantity(
         "coefficient of friction",

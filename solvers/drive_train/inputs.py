@@ -187,11 +187,7 @@ class ShaftBearing:
 
 @record
 class Shaft:
-    """A shaft in two bearings, its sections in the order of Z from `start` [m].
-
-    The torque enters at `torque_position` [m]; None is where its coupling sits. `ultimate_thrust` [N] is that of its
-    thrust bearing.
-    """
+    """A shaft in two bearings, its sections in the order of Z from `start`."""
 
     start: float = quantity(
         "start of the shaft",
@@ -239,10 +235,7 @@ class Shaft:
 
 @record
 class Alignment:
-    """Heights [m] of the unit's and of the machine's shaft over their feet, and how much these warm up [K].
-
-    `expansion` [1/K] of the supports.
-    """
+    """Heights of the unit's and of the machine's shaft over their feet, and how much these warm up."""
 
     unit_height: float | None = quantity(
         "height of the unit's shaft",
@@ -309,12 +302,7 @@ class Alignment:
 
 @record
 class UnitCoupling:
-    """A gear coupling between a shaft of the unit and a machine.
-
-    `position` [m] is the tooth plane of the unit's hub; the machine lies to its `machine_side` along Z. `offset` [m]
-    and `slope` [rad] (X, Y) are those of the machine's hub against the unit's datum axis, cold where an `alignment` is
-    given, else running. `thrust_fraction` is the part of the friction limit that acts, towards +Z if positive.
-    """
+    """A gear coupling between a shaft of the unit and a machine."""
 
     shaft: ShaftName = quantity("shaft of the coupling", text="which of the unit's shafts it sits on")
     position: float = quantity(
@@ -375,11 +363,7 @@ class UnitCoupling:
 
 @record
 class Arrangement:
-    """How the unit stands and turns.
-
-    `hand` of the pinion's helix. `rotation` of the pinion seen against Z. `wheel_angle` is the direction from pinion to
-    wheel, `gravity_angle` that of gravity, counter-clockwise from X [rad]; `gravity_factor` in units of g.
-    """
+    """How the unit stands and turns; angles are counter-clockwise from X, the pinion is seen against Z."""
 
     hand: Literal["right", "left"] = quantity(
         "hand of the pinion's helix", default="right", text="without meaning for spur gears"

@@ -107,10 +107,8 @@ class Ambient:
 class PumpingModel:
     """The options in force.
 
-    `slices` None is the flow model's own number; `closure` belongs to the pocket chain, `wall_transport` to gas
-    dynamics with contact gaps; `discharge_coefficient` acts on every opening of the pocket chain and of the
-    incompressible model and on the radial gaps of gas dynamics; `minimum_gap` [m] is the least radial clearance of a
-    side.
+    `closure` belongs to the pocket chain, `wall_transport` to gas dynamics with contact gaps; `discharge_coefficient`
+    acts on every opening of the pocket chain and of the incompressible model and on the radial gaps of gas dynamics.
     """
 
     flow: Flow = quantity(

@@ -29,7 +29,7 @@ Lubrication = Literal["thermal_ehl", "closed_form"]
 
 @record
 class Load:
-    """Torque [N m] or power [W], and speed [rad/s] of the driving pinion; a torque given counts.
+    """Torque or power, and speed of the driving pinion; a torque given counts.
 
     The factors K_A, K_v and K_gamma multiply the load of the contacts, not the transmitted power.
     """

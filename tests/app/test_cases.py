@@ -134,7 +134,7 @@ def test_what_a_solver_of_many_parts_names_is_found(said: str, meant: str | None
 
 @pytest.mark.parametrize("name", sorted(examples()))
 def test_defaults_are_the_solver_s(name: str) -> None:
-    """A default with a unit is written twice, here in the API's unit and there in SI: they agree."""
+    """A default that a section states itself, in the unit shown, is that of the solver."""
     example = examples()[name]
     calculation = BY_PATH[example.endpoint]
     request = calculation.request.model_validate(example.request)

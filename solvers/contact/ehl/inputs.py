@@ -13,11 +13,7 @@ Rheology = Literal["ree_eyring", "newtonian"]
 
 @record
 class Contact:
-    """Two cylinders rolling and sliding on a film that enters with the surfaces' mean speed.
-
-    Units: line_load [N/m], radius (reduced, 1/R = 1/R1 + 1/R2) [m], speed_1 and speed_2 (surface speeds relative to
-    the contact, positive into it) [m/s].
-    """
+    """Two cylinders rolling and sliding on a film that enters with the surfaces' mean speed."""
 
     line_load: float = quantity("line load", "w", XUE, unit="n_per_mm", gt=0, le=1e5, text="load per length of contact")
     radius: float = quantity(
@@ -99,7 +95,7 @@ class Temperatures:
 
 @record
 class Model:
-    """Physics and resolution; eyring_stress [Pa], `nodes` along the contact, `film_nodes` across the film.
+    """Physics and resolution of the film.
 
     `refine_mesh` adds nodes until the estimated error of the mesh, but for what spikes of pressure leave, is below 2 %.
     The paper's film is Newtonian; near pure rolling its friction is not physical, so Ree-Eyring is the default.
