@@ -76,30 +76,37 @@ class Documented(BaseModel):
             cls.origins = inherited
             return
         members = _members(records[0])
-        inherited = {name: each._replace(member=members.get(each.record)) for name, each in inherited.items()}
-        cls.origins = {}
+        cls.origins = {name: each._replace(member=members.get(each.record)) for name, each in inherited.items()}
         filled: dict[str, Any] = {}
         for record in records:
-            chosen = {name: each for name, each in quantities(record).items() if name in (only or {name} - {*without})}
-            ordered = {name: chosen[name] for name in only or chosen}
-            filled |= cls._filled(record, ordered, inherited, members.get(record))
-        cls.origins = inherited | cls.origins
+            chosen = {name: each for name, each in quantities(record).items() if name not in without}
+            if only:
+                chosen = {name: chosen[name] for name in only if name in chosen}
+            filled |= cls._filled(record, chosen, members.get(record))
+        cls._check_names({*only, *vars(cls).get("views", {})})
         own = get_annotations(cls)
         cls.__annotations__ = filled | {name: kind for name, kind in own.items() if name not in filled}
         if not only and not without:
             _MODELS.setdefault((cls._declares, records[0]), cls)
 
     @classmethod
-    def _filled(
-        cls, record: type[Any], chosen: dict[str, Quantity], inherited: dict[str, Origin], member: str | None
-    ) -> dict[str, Any]:
-        """Annotations for the declared fields of a dataclass; their defaults are set."""
-        shown = {name: cls._shown(each, name) for name, each in chosen.items()}
-        own, filled = get_annotations(cls), {}
+    def _check_names(cls, named: set[str]) -> None:
+        """Raise TypeError for names that no dataclass declares."""
+        unknown = named - {each.name for each in cls.origins.values()}
+        if unknown:
+            raise TypeError(f"{cls.__name__} names fields that are not declared: {', '.join(sorted(unknown))}")
+
+    @classmethod
+    def _filled(cls, record: type[Any], chosen: dict[str, Quantity], member: str | None) -> dict[str, Any]:
+        """Annotations for the declared fields of a dataclass that the model lacks; their defaults are set."""
+        own, inherited = get_annotations(cls), {*cls.origins}
+        shown = {each.name: name for name, each in cls.origins.items()}
+        shown |= {name: cls._shown(each, name) for name, each in chosen.items()}
         factories = {each.name for each in fields(record) if callable(each.default_factory)}
+        filled = {}
         for name, declared in chosen.items():
             api_name = shown[name]
-            if (api_name in inherited and api_name not in own) or api_name in cls.origins:
+            if api_name in inherited and api_name not in own:
                 continue
             cls.origins[api_name] = Origin(record, name, member)
             if _declaration(own.get(api_name)):

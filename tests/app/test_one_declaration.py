@@ -226,6 +226,20 @@ def test_an_output_is_read_from_the_member_that_holds_it(deep: Spring | None, fo
     assert found == {"width_mm": 1.0, "height_mm": 2.0, "force_n": force, "stiffness_n_per_um": stiffness}
 
 
+def test_a_section_names_declared_fields_only() -> None:
+    with pytest.raises(TypeError, match="names fields that are not declared: colour"):
+
+        class Painted(Section, of=Spring, only=("force", "colour")):
+            """No such field."""
+
+    with pytest.raises(TypeError, match="colour"):
+
+        class Judged(Group, of=Spring):
+            """No such field."""
+
+            views: ClassVar = {"colour": View(headline=1)}
+
+
 def test_defaults_are_written_in_the_shown_unit_and_held_in_si() -> None:
     assert Spring(1.0).stiffness == 2e6
     assert quantities(Spring)["stiffness"].default == 2.0
