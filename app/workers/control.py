@@ -18,6 +18,7 @@ from typing import Any, TypeVar
 
 # A template that takes longer is replaced. Loading a stage may take as long as it takes.
 ANSWER_S = {"fork": 10.0, "compile": 10.0, "reap": 10.0}
+LOOK_S = 0.1  # how often a process that starts is looked at
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 T = TypeVar("T")
 LENGTH = struct.Struct("!i")  # stands before each message of a multiprocessing.connection
@@ -107,9 +108,14 @@ class Template:
     async def fork(self, memory_mb: int) -> Worker:
         """A new worker, ready to be called; raises TemplateLost and WorkerDied."""
         worker = await self._copy("fork", memory_mb)
+        ready = asyncio.ensure_future(worker.receive())
         try:
-            await worker.receive()
+            while not (await asyncio.wait({ready}, timeout=LOOK_S))[0]:
+                if not is_running(worker.pid):  # stopped before anybody else watches it
+                    worker.end()
+            ready.result()
         except BaseException:
+            ready.cancel()
             worker.end()
             raise
         return worker
