@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import atan, cos, exp, inf, log, sin, sqrt, tan
+from math import atan, cos, exp, inf, log, pi, sin, sqrt, tan
 
 import numpy as np
 
@@ -69,25 +69,23 @@ class FilmState:
 
 
 def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
-    """Largest normal tooth force of a revolution [N]; with pitch errors it is searched for.
+    """Largest normal tooth force [N] with a tooth in the tilt position, at 90 degrees.
 
-    Without, a tooth meets it where f_t peaks: in the tilt position at 90 degrees with `tangential`, at 90 degrees +
-    side (alpha - chi) with `spatial` kinematics. A rotor angle that puts a tooth of the spatial coupling at 90 degrees
-    puts no tooth at the peak; its largest force depends on the tooth pitch, and vanishing pitch errors would raise it.
+    With pitch errors, which make every tooth another, the largest of a revolution. `spatial` kinematics have their
+    largest displacement past the tilt position, where a tooth carries more.
     """
-    peak = displacement_peak(mesh)
-    if inputs.coupling.pitch_errors is None:
-        return float(_largest_forces(inputs, mesh, _positions_at(peak, inputs.coupling.teeth)).max())
+    if len(set(inputs.coupling.pitch_errors or ())) <= 1:
+        return float(_largest_forces(inputs, mesh, _positions_at(pi / 2, inputs.coupling.teeth)).max())
 
     def largest_forces(angles: FloatArray) -> FloatArray:
         return _largest_forces(inputs, mesh, tooth_positions(angles, inputs.coupling.teeth))
 
-    return largest_value(peak + revolution(inputs.coupling.teeth), largest_forces)
+    return largest_value(displacement_peak(mesh) + revolution(inputs.coupling.teeth), largest_forces)
 
 
 @lru_cache(maxsize=4)
 def _positions_at(angle: float, teeth: int) -> ToothPositions:
-    """Tooth positions at one rotor angle [rad]: f_t peaks at the same one whatever misalignment and crowning."""
+    """Tooth positions at one rotor angle [rad]."""
     found = tooth_positions(np.array([angle]), teeth)
     return ToothPositions(frozen(found.sine), frozen(found.cosine))
 

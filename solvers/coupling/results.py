@@ -131,18 +131,18 @@ class Regime:
 
 @record
 class Lubrication:
-    """Contact and film of the highest loaded tooth of a revolution.
+    """Contact and film of the highest loaded tooth in the tilt position (of a revolution with pitch errors).
 
     `contact_overlap` None: the contact does not travel. `inlet_ratio` None: infinite inlet.
     `load_capacity_coefficient` None: no load.
     """
 
     max_normal_force: float = quantity(
-        "largest normal force of a revolution",
+        "normal force in the tilt position",
         "F_n",
         PAHL,
         unit="n",
-        text="met in the tilt position, with spatial kinematics past it, where the displacement f_t peaks",
+        text="largest tooth force with a tooth in the tilt position, or of a revolution with pitch errors",
     )
     hertz_half_width: float = quantity("half width of the Hertzian contact", "a_HZ", f"{PAHL}, Fig. 7", unit="mm")
     hertz_pressure: float = quantity("largest Hertzian pressure", "p_H", unit="mpa")

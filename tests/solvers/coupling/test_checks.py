@@ -60,7 +60,7 @@ def test_the_largest_displacement_between_few_loaded_teeth_is_found() -> None:
 
 @pytest.mark.parametrize("sleeve", ["centred", "floating"])
 def test_the_largest_force_does_not_depend_on_zero_pitch_errors_written_down(sleeve: SleeveSupport) -> None:
-    # `spatial` took it at 90 degrees, where its f_t does not peak: zeros moved it by up to 33 %.
+    # With errors the largest of a revolution counts, which for `spatial` is more than that of the tilt position.
     random = np.random.default_rng(36)
     for _ in range(20):
         inputs = random_inputs(random, errors=False)
