@@ -205,7 +205,12 @@ def quantities(kind: Any) -> dict[str, Quantity]:
 def type_of(kind: Any, name: str) -> Any:
     """The type of a declared field or computed value."""
     member = getattr(kind, name, None)
-    return get_type_hints(member.fget)["return"] if isinstance(member, property) else get_type_hints(kind)[name]
+    return get_type_hints(member.fget)["return"] if isinstance(member, property) else _hints(kind)[name]
+
+
+@cache
+def _hints(kind: Any) -> dict[str, Any]:
+    return get_type_hints(kind)
 
 
 def checked(inputs: T, prefix: str = "") -> T:
