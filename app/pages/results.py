@@ -160,6 +160,9 @@ class Verdict(NamedTuple):
 
 
 PLAIN = Verdict("plain", "")
+DOUBTS = {"bulk_lower_bound": "the bulk temperature is a lower bound"}
+"""What safety and contact temperature rest on that a warning says is not certain, by the warning's code."""
+DOUBTED = ("safety.", "contact_temperature.")
 
 
 def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> tuple[Card, ...]:
@@ -171,7 +174,18 @@ def cards(response: Documented, inputs: dict[str, Any], before: Documented | Non
         rank = leaf.headline or 0
         if rank not in best or _size(known.get(leaf.path)) > _size(known.get(best[rank].path)):
             best[rank] = leaf
-    return tuple(_card(leaf, _verdict(response, leaf, inputs | known), known, old) for leaf in best.values())
+    doubts = [DOUBTS[each.code] for each in response.warnings if each.code in DOUBTS]
+    return tuple(
+        _card(leaf, _doubted(leaf, _verdict(response, leaf, inputs | known), doubts), known, old)
+        for leaf in best.values()
+    )
+
+
+def _doubted(leaf: Leaf, verdict: Verdict, doubts: list[str]) -> Verdict:
+    """The verdict with what makes it doubtful; a good one is good no more."""
+    if not doubts or not leaf.path.startswith(DOUBTED) or verdict == PLAIN:
+        return verdict
+    return Verdict("near" if verdict.level == "good" else verdict.level, "; ".join([verdict.words, *doubts]))
 
 
 def _size(value: Any) -> float:

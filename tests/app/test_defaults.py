@@ -4,9 +4,12 @@ from typing import Any
 
 import pytest
 
+from app.calculations import BY_PATH
+from app.evaluate import evaluate
 from app.figures.data import NoFigure
 from app.figures.models.scuffing import contact_temperature, friction
 from app.library import examples
+from app.pages.results import cards
 from app.problems import Unprocessable
 from app.schema.scuffing import ScuffingRequest, ScuffingResponse
 from tests.support.requests import CONTACT, refused, solved
@@ -121,6 +124,16 @@ def test_beyond_60_metres_per_second_the_estimated_bulk_is_a_lower_bound(name: s
     assert ("bulk_lower_bound" in codes(solved(SCUFFING, request, {}))) == warned
     given = {"temperatures.bulk_method": "given", "temperatures.bulk_c": 80}
     assert "bulk_lower_bound" not in codes(solved(SCUFFING, request, given))
+
+
+@pytest.mark.parametrize("name", ["starter-high-speed-scuffing", "starter-turbo-gear-drive-train-cold"])
+def test_a_safety_from_a_lower_bound_of_the_bulk_is_never_called_good(name: str) -> None:
+    example = examples()[name]
+    calculation = BY_PATH[example.endpoint]
+    answer = evaluate(calculation, calculation.request.model_validate(example.request))
+    doubted = [card for card in cards(answer, answer.inputs) if "lower bound" in card.verdict]
+    assert doubted
+    assert all(card.level != "good" for card in doubted)
 
 
 def test_an_ester_takes_the_factor_of_a_mineral_oil_and_says_so() -> None:

@@ -77,12 +77,12 @@ def test_the_line_load_of_a_sharp_edge_in_closed_form() -> None:
     result = solve_load_distribution(replace(inputs, gears=replace(inputs.gears, helix_angle=0.0)))
     single = result.balance.survey.line_forces.max(axis=1) / result.balance.force > 1 - 1e-12
     # Where one pair carries all, its stiffness is what is in between; the largest is at the stiffest place.
-    alone = result.balance.survey.peak_load[single]
+    peak = result.balance.survey.peak_load
     table = result.balance.mesh.compliance
-    stiffness = 1 / np.interp(alone[:, 1] * table.points_per_metre, np.arange(table.constant.size), table.constant)
+    stiffness = 1 / np.interp(peak.x[single] * table.points_per_metre, np.arange(table.constant.size), table.constant)
     expected = np.sqrt(2 * result.balance.force * stiffness * slope)
-    assert alone[:, 0] == pytest.approx(expected, rel=1e-4)
-    assert np.all(alone[:, 2] == 0.0)
+    assert peak.value[single] == pytest.approx(expected, rel=1e-4)
+    assert np.all(peak.y[single] == 0.0)
 
 
 # Jumps that were
