@@ -13,7 +13,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.drive_train.gap.face_curves import face_mean
-from solvers.drive_train.gap.hub_balance import HubLoads, Yielding, free_hubs, respond
+from solvers.drive_train.gap.hub_balance import HubLoads, Yielding, free_hubs, respond, solved
 from solvers.drive_train.shafts.influence import Unit
 from solvers.errors import NoSolution
 from solvers.scuffing.contact_lines import roll_positions
@@ -134,7 +134,7 @@ def _settled(mesh: LoadedMesh, state: "_State", iterations: int) -> Equilibrium:
         loads=np.concatenate([mesh.scale * state.response.force, answer.hubs.loads]),
         hubs=answer.hubs,
         balance=mesh.balance(state.gap, state.response),
-        by_gap=np.asarray(np.linalg.solve(_matrix(mesh, state).T, by_gap.T).T, dtype=float),
+        by_gap=solved(_matrix(mesh, state).T, by_gap.T).T,
         iterations=iterations,
         residual=state.size,
     )
@@ -166,7 +166,7 @@ def _matrix(mesh: LoadedMesh, state: _State) -> FloatArray:
 
 def _advance(unit: Unit, mesh: LoadedMesh, state: _State) -> _State:
     """The state after Newton's step, halved while the residual does not fall or the parts find no balance there."""
-    step, share = centred(np.asarray(np.linalg.solve(_matrix(mesh, state), -state.residual), dtype=float)), 1.0
+    step, share = centred(solved(_matrix(mesh, state), -state.residual)), 1.0
     while True:
         try:
             following = _evaluate(unit, mesh, state.gap + share * step, state.answer.hubs, state.response)

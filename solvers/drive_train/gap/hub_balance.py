@@ -116,8 +116,21 @@ def _solve(unit: Unit, force: FloatArray, hubs: HubLoads) -> tuple[Yielding | No
     for _ in range(TILT_ITERATIONS):
         if state.size <= TILT_TOLERANCE:
             return _yielding(unit, force.size, state), state.size
-        state = _advance(unit, force, state, np.asarray(np.linalg.solve(state.by_tilts, -state.residual)))
+        try:
+            step = solved(state.by_tilts, -state.residual)
+        except NoSolution:
+            break
+        state = _advance(unit, force, state, step)
     return None, state.size
+
+
+def solved(matrix: FloatArray, right: FloatArray) -> FloatArray:
+    """The solution of a linear system. Raises NoSolution drive_train where the matrix is singular."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, right), dtype=float)
+    except np.linalg.LinAlgError as error:
+        message = "shafts and couplings yield without bound: their equations are singular"
+        raise NoSolution("drive_train", message, {"reciprocal_condition": 0.0}) from error
 
 
 def _advance(unit: Unit, force: FloatArray, state: _Tilted, step: FloatArray) -> _Tilted:
@@ -141,7 +154,7 @@ def _attempted(unit: Unit, force: FloatArray, tilts: FloatArray, share: float = 
 def _yielding(unit: Unit, count: int, state: _Tilted) -> Yielding:
     """What the unit yields to a force over the face once its hubs are in balance."""
     mesh, hubs = state.derivative[:count], state.derivative[count:]
-    through = np.linalg.solve(state.by_tilts, _levers(unit.couplings) @ hubs[:, :count])
+    through = solved(state.by_tilts, _levers(unit.couplings) @ hubs[:, :count])
     return Yielding(state.hubs, state.motion, mesh[:, :count] + mesh[:, count:] @ state.hubs.by_tilts @ through)
 
 
@@ -179,7 +192,7 @@ def _sizes(tilts: FloatArray) -> FloatArray:
 
 def _along(state: _Tilted, scale: FloatArray, direction: FloatArray) -> FloatArray:
     """The path's direction at a point, the way it came from; tilts in their scale."""
-    found = np.linalg.solve(_across(state, scale, direction), np.append(np.zeros(scale.size), 1.0))
+    found = solved(_across(state, scale, direction), np.append(np.zeros(scale.size), 1.0))
     return np.asarray(found / np.linalg.norm(found))
 
 
@@ -203,7 +216,10 @@ def _on_path(
         if np.max(np.abs(rest)) <= PATH_TOLERANCE:
             return there, state
         across = np.append(-rest, step @ (step - place) / length)
-        place = place + np.linalg.solve(_across(state, scale, step / length), across)
+        try:
+            place = place + solved(_across(state, scale, step / length), across)
+        except NoSolution:
+            return None
     return None
 
 

@@ -30,6 +30,7 @@ from solvers.drive_train.inputs import (
 )
 from solvers.drive_train.model import prepare, settle
 from solvers.drive_train.outcome import outcome
+from solvers.drive_train.shafts.coupling_loads import TILTS
 from solvers.errors import NoSolution
 from solvers.gears.inputs import GearTeeth
 from solvers.scuffing import solve_load_distribution
@@ -406,6 +407,22 @@ def residual_or_refusal(inputs: DriveTrainInputs) -> float | NoSolution:
         return settle(inputs, prepare(inputs)).residual
     except NoSolution as refusal:
         return refusal
+
+
+@pytest.mark.parametrize("unknowns", [TILTS, turbo_gear().face_stations])
+def test_singular_equations_are_no_solution(unknowns: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of the hub's tilts, and of the gap over the face."""
+    inputs, solve_regular = turbo_gear(), np.linalg.solve
+
+    def solve_singular(matrix: FloatArray, right: FloatArray) -> FloatArray:
+        return np.asarray(solve_regular(0.0 * matrix if len(matrix) == unknowns else matrix, right), dtype=float)
+
+    prepared = prepare(inputs)
+    monkeypatch.setattr(np.linalg, "solve", solve_singular)
+    with pytest.raises(NoSolution) as refusal:
+        settle(inputs, prepared)
+    assert refusal.value.code == "drive_train"
+    assert refusal.value.residuals
 
 
 def test_finer_stations_change_little() -> None:
