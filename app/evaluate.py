@@ -78,7 +78,7 @@ def _assumptions(
         if path in unused:
             continue
         if isinstance(value, Section):
-            yield from _assumptions(value, unused, derived.get(name, derived), f"{path}.")
+            yield from _assumptions(value, unused, derived.get(name, derived) or {}, f"{path}.")
         elif isinstance(value, list) and group_of(type(section).model_fields[name].annotation):
             known = derived.get(name) or [{}] * len(value)
             for index, (item, own) in enumerate(zip(value, known, strict=True)):

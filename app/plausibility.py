@@ -20,7 +20,7 @@ LEAST_LOAD = 1.0  # N/mm
 
 def unusual(request: Request, content: dict[str, Any]) -> list[Notice]:
     """The warnings `unusual_value` of a request and of the numbers of its answer."""
-    found = [*_of_oil(request, content), *_of_temperatures(request, content), *_of_air(request), *_of_tooth(request)]
+    found = [*_of_oil(content), *_of_temperatures(request, content), *_of_air(request), *_of_tooth(request)]
     found += [*_of_gears(request), *_of_modifications(request), *_of_load(request, content)]
     return [Notice(code="unusual_value", message=message, field=field) for field, message in found]
 
@@ -28,11 +28,10 @@ def unusual(request: Request, content: dict[str, Any]) -> list[Notice]:
 Found = Iterator[tuple[str, str]]
 
 
-def _of_oil(request: Request, content: dict[str, Any]) -> Found:
+def _of_oil(content: dict[str, Any]) -> Found:
     """Of gears and of plain bearings; that of a coupling's teeth is warned of by the coupling itself."""
     derived = content.get("derived") or {}
-    given = getattr(request, "lubricant", None) if hasattr(request, "gears") else None
-    viscosities = {"lubricant": derived.get("viscosity_pa_s", getattr(given, "viscosity_pa_s", None))}
+    viscosities = {"lubricant": (derived.get("lubricant") or derived).get("viscosity_pa_s")}
     for shaft in ("pinion_shaft", "wheel_shaft"):
         for k, bearing in enumerate((derived.get(shaft) or {}).get("bearings", ())):
             viscosities[f"{shaft}.bearings.{k}"] = bearing["viscosity_pa_s"]

@@ -33,7 +33,7 @@ from solvers.drive_train import inputs as si
 from solvers.drive_train.shafts import thrust_budget
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs
-from solvers.lubricants import Lubricant
+from solvers.lubricants import Lubricant, OilInUse
 from solvers.materials import Solid
 from solvers.oils import OilSheet
 from solvers.pumping import inputs as pumping
@@ -439,12 +439,18 @@ class TemperaturesInForce(Group, of=derived.DerivedTemperatures):
     """Bulk and scuffing temperature."""
 
 
+class OilInForce(Group, of=OilInUse):
+    """The gears' oil as it enters the contact."""
+
+
 class StateDerived(Group, of=derived.Derived, only=("temperatures",)):
     """What the request left open, as a state of the unit has it."""
 
 
 class DriveTrainDerived(MeshDerived, of=derived.Derived):
     """What the request left open, in groups named as its sections are."""
+
+    lubricant: OilInForce | None
 
 
 class MisalignmentParts(Group, of=results.Parts):

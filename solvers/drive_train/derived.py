@@ -2,6 +2,7 @@
 
 from solvers.coupling.inputs import Coupling
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft, ShaftName
+from solvers.lubricants import OilInUse, oil_in_use
 from solvers.quantity import quantity, record
 from solvers.scuffing.results import LoadDistribution
 
@@ -67,13 +68,14 @@ class Derived:
     wheel_shaft: DerivedShaft = quantity("wheel shaft used")
     couplings: tuple[DerivedCoupling, ...] = quantity("couplings used")
     thermal: DerivedHeat = quantity("heat used")
+    lubricant: OilInUse | None = quantity("oil used", text="of the gears, as it enters the contact; null with none")
     temperatures: DerivedTemperatures = quantity("temperatures used")
 
 
 def derived(inputs: DriveTrainInputs, mesh: LoadDistribution) -> Derived:
     """What the description left open, as it was used."""
     ratio = inputs.mesh.distribution.gears.pinion.teeth / inputs.mesh.distribution.gears.wheel.teeth
-    lengths = mesh.derived
+    lengths, lubricant = mesh.derived, inputs.mesh.lubricant
     return Derived(
         pinion_torque=lengths.pinion_torque,
         power=lengths.power,
@@ -89,6 +91,7 @@ def derived(inputs: DriveTrainInputs, mesh: LoadDistribution) -> Derived:
             for one in inputs.couplings
         ),
         thermal=DerivedHeat(*inputs.heat.responses(ratio)),
+        lubricant=None if lubricant is None else OilInUse(**oil_in_use(lubricant)),
         temperatures=DerivedTemperatures(inputs.mesh.temperatures.bulk, inputs.mesh.temperatures.scuffing),
     )
 

@@ -599,6 +599,38 @@ def test_slips_are_named(post: Post, path: str, value: float, message: str) -> N
     assert {"code": "unusual_value", "message": message, "field": path} in said
 
 
+def test_the_gears_oil_is_told_and_a_thick_one_is_named(post: Post) -> None:
+    """VG 680 at 5 C has 13 Pa s, which only its law tells."""
+    cold = {"oil_c": 0, "bulk_method": "given", "bulk_c": 5, "scuffing_c": 220}
+    found = answered(post, request() | {"lubricant": {"iso_vg": 680}, "temperatures": cold})
+    oil = found["derived"]["lubricant"]
+    assert oil["viscosity_pa_s"] == pytest.approx(13.24, abs=0.01)
+    assert oil["reference_temperature_c"] == pytest.approx(5)
+    message = f"13.24 {THICK}"
+    assert {"code": "unusual_value", "message": message, "field": "lubricant.viscosity_pa_s"} in found["warnings"]
+    assumed = {one["field"]: one["value"] for one in found["assumptions"]}
+    for name in ("pressure_viscosity_per_gpa", "temperature_viscosity_per_k", "specific_heat_j_per_kg_k"):
+        assert assumed[f"lubricant.{name}"] == oil[name]
+
+
+def test_without_an_oil_none_is_told(post: Post) -> None:
+    body = request()
+    body.pop("lubricant")
+    assert answered(post, body)["derived"]["lubricant"] is None
+
+
+def test_a_cold_unit_without_solution_is_a_warning(post: Post) -> None:
+    """VG 680 at -50 C is no oil any more; the hot unit has its answer."""
+    body = request(states=["hot", "cold"]) | {"lubricant": {"iso_vg": 680}}
+    body["temperatures"] = {"oil_c": 50, "scuffing_c": 220}
+    body["thermal"] = {**body["thermal"], "reference_c": -50}
+    found = answered(post, body)
+    assert found["states"]["cold"] is None
+    assert found["safety"]["blok_flank"] > 1
+    said = [one for one in found["warnings"] if one["code"] == "no_cold_solution"]
+    assert [one["field"] for one in said] == ["states"]
+
+
 def test_the_example_has_no_slip(post: Post) -> None:
     found = answered(post, request())
     assert not [one for one in found["warnings"] if one["code"] in {"unusual_value", "losses_exceed_power"}]
