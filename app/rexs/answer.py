@@ -34,7 +34,7 @@ class Case(BaseModel):
     overrides: Annotated[dict[str, float], Output("what it changes in the request of /v1/scuffing, by dotted path")]
 
 
-class Gap(BaseModel):
+class MissingValue(BaseModel):
     """What a calculation needs and the file does not tell."""
 
     field: Annotated[str, Output("dotted path of the field, or the endpoint that cannot be asked")]
@@ -72,7 +72,7 @@ class Stage(BaseModel):
     hand: Annotated[str | None, Output("hand of the pinion's helix")]
     requests: Annotated[dict[str, dict[str, Any]], Output("a request for each endpoint that can be asked")]
     cases: Annotated[list[Case], Output("load spectrum of the file")]
-    missing: Annotated[list[Gap], Output("what has to be filled in")]
+    missing: Annotated[list[MissingValue], Output("what has to be filled in")]
     assumed: Annotated[list[AssumedValue], Output("what was put in its place")]
     ignored: Annotated[list[Unused], Output("what could not be used")]
 

@@ -183,11 +183,15 @@ THERMAL += [3.063, 3.301, 3.044, 2.971, 3.009, 2.917]
     "row", [pytest.param(row, marks=() if row == 5 else pytest.mark.slow) for row in range(1, len(THERMAL) + 1)]
 )
 def test_safety_by_the_thermal_film(row: int) -> None:
-    """Along the profile line through the flank's worst point; milder than Blok's and in the same order."""
+    """Along the profile line through the flank's worst point; milder than Blok's and in the same order.
+
+    The table has 50 points of the line; the worst point itself lowers the safety by up to 0.3 %.
+    """
     unit = UNITS[row]()
     found = solve(replace(unit, mesh=replace(unit.mesh, lubrication="thermal_ehl"))).safety
     assert found is not None
-    assert found.thermal_ehl_profile == pytest.approx(THERMAL[row - 1], abs=0.003)
+    assert found.thermal_ehl_profile is not None
+    assert 0.997 * THERMAL[row - 1] <= found.thermal_ehl_profile <= THERMAL[row - 1] + 0.003
     assert found.minimum == found.blok_flank
 
 

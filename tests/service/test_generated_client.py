@@ -20,7 +20,10 @@ def package(server: str, tmp_path_factory: pytest.TempPathFactory) -> ModuleType
     folder: Path = tmp_path_factory.mktemp("generated")
     generator = Path(sys.executable).with_name("openapi-python-client")
     config = folder / "config.yml"
-    config.write_text("content_type_overrides:\n  application/x-ndjson: text/plain\n")  # lines are text to it
+    # Lines are text to it, files are bytes.
+    kinds = {"x-ndjson": "text/plain", "xml": "application/octet-stream", "zip": "application/octet-stream"}
+    overrides = "".join(f"  application/{kind}: {known}\n" for kind, known in kinds.items())
+    config.write_text(f"content_type_overrides:\n{overrides}")
     command: list[str | Path] = [
         generator,
         "generate",
