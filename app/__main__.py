@@ -48,7 +48,10 @@ def print_unit(file: Path) -> int:
         reason = error.message if isinstance(error, Unprocessable) else error.strerror
         print(f"tribodrive: {file}: {reason}", file=sys.stderr)  # noqa: T201  a command's output
         return 1
-    print(json.dumps(found, indent=1, ensure_ascii=False))  # noqa: T201
+    try:
+        print(json.dumps(found, indent=1, ensure_ascii=False), flush=True)  # noqa: T201
+    except BrokenPipeError:  # whoever reads has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return 0
 
 
