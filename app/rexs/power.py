@@ -8,6 +8,7 @@ power splitting there is always an equation with one unknown left, until all is 
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from math import isfinite, nan
 from typing import NamedTuple
 
 from app.rexs.model import Component, LoadCase
@@ -98,12 +99,13 @@ class _Solution:
         flow = Flow()
         for shaft in self._shafts:
             group = self._group[shaft.id]
-            if group in speeds:
+            if isfinite(speeds.get(group, nan)):
                 flow.speed[shaft.id] = speeds[group] * self._senses.get(shaft.id, 1.0)
         for index, force in forces.items():
             mesh = self._meshes[index]
             first, second = (mesh.teeth[place] * force * self._senses.get(mesh.shafts[place], 1.0) for place in (0, 1))
-            flow.mesh_torque[mesh.stage] = first, second
+            if isfinite(first) and isfinite(second):
+                flow.mesh_torque[mesh.stage] = first, second
         return flow
 
     def _speeds(self) -> dict[int, float]:

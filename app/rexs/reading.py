@@ -8,6 +8,7 @@ from typing import Any
 from app.rexs.model import Attribute, Component, LoadCase, Model
 from app.rexs.units import converted
 
+LARGEST = 1e30  # in any unit; keeps sums and products of a hostile file finite
 Vector = tuple[float, float, float]
 
 
@@ -106,7 +107,7 @@ class Reading:
         except (TypeError, ValueError):
             self.find("not_a_number", component, name, "the vector is not three numbers")
             return None
-        if not (isfinite(x) and isfinite(y) and isfinite(z)):
+        if not max(abs(x), abs(y), abs(z)) <= LARGEST:
             self.find("not_a_number", component, name, "the vector is not three finite numbers")
             return None
         scale = converted(1.0, attribute.unit, "mm") or 1.0
@@ -144,6 +145,9 @@ class Reading:
             stated = attribute.unit[:20] or "no unit"
             message = f"{attribute.name} is in {stated}, which is not a unit of its quantity ({unit}); not used"
             self.find("unit", component, attribute.name, message)
+        elif abs(found) > LARGEST:
+            self.find("not_a_number", component, attribute.name, f"{attribute.name} is beyond any machine; not used")
+            return None
         return found
 
 

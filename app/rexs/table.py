@@ -15,7 +15,6 @@ class Row(NamedTuple):
     unit: str = ""
 
 
-GEAR = (Row("teeth", ("number_of_teeth",)),)
 STAGE = (
     Row("gears.centre_distance_mm", ("center_distance",), "mm"),
     Row(
@@ -58,7 +57,6 @@ OIL_TEMPERATURE = Row("temperatures.oil_c", ("temperature_lubricant",), "C")
 BACKLASH = ("minimum_normal_backlash", "maximum_normal_backlash")
 
 FLANKS = ("cylindrical_gear_flank", "flank_geometry")  # the second up to version 1.0
-GEAR_DATA = ("cylindrical_stage_gear_data", "stage_gear_data")
 TOOLS = ("rack_shaped_tool",)
 MODIFICATIONS = (
     "tip_relief",
@@ -91,7 +89,6 @@ RADIAL_BEARINGS = (
     "rolling_bearing_with_catalog_geometry",
     "rolling_bearing_with_detailed_geometry",
 )
-RIGID_FROM = 1e15  # N/m: what programs write for a bearing without deflection
 
 IGNORED = {
     "custom_": "a value of another program's own",

@@ -1,6 +1,7 @@
 """What becomes of a gear unit's file: stages with requests, cases, and what is missing, assumed, ignored or wrong."""
 
 import base64
+import json
 import struct
 from typing import Any
 
@@ -150,6 +151,7 @@ def gear_of(unit: Unit, place: int) -> int:
         ("normal_module", "wide", "mm", "not_a_number"),
         ("normal_module", "inf", "mm", "not_a_number"),
         ("normal_module", 1e9, "mm", "out_of_range"),
+        ("normal_module", 1e300, "mm", "not_a_number"),
         ("number_of_teeth", 2.5, "none", "teeth"),
         ("number_of_teeth", 4, "none", "out_of_range"),
         ("helix_angle_reference_diameter", 20.0, "deg", "helix_angles"),
@@ -323,6 +325,16 @@ def test_what_the_models_cannot_use_is_listed() -> None:
     unit.of(gear_of(unit, 0))["chamfer_at_tooth_end"] = (0.5, "mm")
     ignored = answer(unit)["stages"][0]["ignored"]
     assert [(each["component"], each["attribute"]) for each in ignored] == [(gear_of(unit, 0), "chamfer_at_tooth_end")]
+
+
+@pytest.mark.parametrize("extreme", [1e300, 1e29, -1e29, 1e-300])
+def test_one_extreme_number_leaves_the_answer_finite(extreme: float) -> None:
+    for place, component in enumerate(turbo_unit().components):
+        for name, (value, size) in component["attributes"].items():
+            if isinstance(value, float):
+                unit = turbo_unit()
+                unit.components[place]["attributes"][name] = (extreme, size)
+                json.dumps(answer(unit.json()), allow_nan=False)
 
 
 numbers = st.one_of(
