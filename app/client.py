@@ -1,0 +1,338 @@
+"""A client of the service, for scripts and notebooks; it needs httpx alone.
+
+    from app.client import Tribodrive
+
+    service = Tribodrive("http://127.0.0.1:8000")
+    answer = service.coupling({"coupling": {...}, "operation": {...}})
+    table = service.sweep({"endpoint": "/v1/coupling", "request": {...}, "vary": [...]}).frame()
+
+Requests and answers are the JSON of the interface, as dictionaries. `AsyncTribodrive` has the same methods to be
+awaited. A request that the service is too busy for is sent again after the time that it names (`Retry-After`).
+"""
+
+import asyncio
+import json
+import time
+from abc import ABC, abstractmethod
+from collections.abc import AsyncIterator, Awaitable, Iterator
+from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
+
+import httpx
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+Json = dict[str, Any]
+Answer = TypeVar("Answer")
+Stream = TypeVar("Stream")
+
+ADDRESS = "http://127.0.0.1:8000"
+TIMEOUT_S = 60.0  # beyond the default deadline of a calculation, 30 s
+PATIENCE_S = 120.0
+
+
+class ProblemError(Exception):
+    """An answer other than 200.
+
+    Attributes
+    ----------
+    status
+        HTTP status.
+    code
+        Stable name of the problem, the last part of its type.
+    errors
+        For each field at fault `pointer` (JSON Pointer into the request), `code` and `message`.
+
+    """
+
+    def __init__(self, status: int, document: Json) -> None:
+        self.status = status
+        self.code = str(document.get("type", "")).rpartition(":")[2]
+        self.errors: list[Json] = document.get("errors") or []
+        faults = "; ".join(f"{each['pointer'] or 'request'}: {each['message']}" for each in self.errors)
+        super().__init__(f"{status} {self.code}: {faults or document.get('detail', '')}")
+
+
+class StudyError(Exception):
+    """A study that ended before its last line: by its deadline, in the service, or with its connection."""
+
+
+class _Endpoints(ABC, Generic[Answer, Stream]):
+    """One method an endpoint; `request` is the body of the interface."""
+
+    @abstractmethod
+    def solve(self, endpoint: str, request: Json) -> Answer:
+        """Post a request to an endpoint and return its answer; raises `ProblemError`."""
+
+    @abstractmethod
+    def study(self, endpoint: str, request: Json, *, progress: bool = False) -> Stream:
+        """Open a study, which runs while its lines are read."""
+
+    def coupling(self, request: Json) -> Answer:
+        """Load, lubrication, friction, axial thrust and losses of a gear coupling."""
+        return self.solve("/v1/coupling", request)
+
+    def sleeve_orbit(self, request: Json) -> Answer:
+        """Path and inertia force of a floating sleeve."""
+        return self.solve("/v1/coupling/sleeve-orbit", request)
+
+    def recommendation(self, request: Json) -> Answer:
+        """The crowning with the best film over a range of misalignment."""
+        return self.solve("/v1/coupling/recommendation", request)
+
+    def pumping(self, request: Json) -> Answer:
+        """Air and mist pumped between the teeth."""
+        return self.solve("/v1/pumping", request)
+
+    def choking_speed(self, request: Json) -> Answer:
+        """Speeds at which the flow out of the tooth spaces becomes sonic."""
+        return self.solve("/v1/pumping/choking-speed", request)
+
+    def load_distribution(self, request: Json) -> Answer:
+        """Load, pressure, transmission error and loss of a modified gear pair."""
+        return self.solve("/v1/scuffing/load-distribution", request)
+
+    def scuffing(self, request: Json) -> Answer:
+        """Flash temperature, film thickness and safety against scuffing of a gear pair."""
+        return self.solve("/v1/scuffing", request)
+
+    def line_contact(self, request: Json) -> Answer:
+        """One thermal elastohydrodynamic line contact."""
+        return self.solve("/v1/scuffing/line-contact", request)
+
+    def drive_train(self, request: Json) -> Answer:
+        """A gear unit whole."""
+        return self.solve("/v1/drive-train", request)
+
+    def sweep(self, request: Json, *, progress: bool = False) -> Stream:
+        """One endpoint at many points: a grid, a list of cases or a random sample."""
+        return self.study("/v1/sweep", request, progress=progress)
+
+    def sensitivity(self, request: Json, *, progress: bool = False) -> Stream:
+        """Which input moves each output most."""
+        return self.study("/v1/sensitivity", request, progress=progress)
+
+    def corners(self, request: Json, *, progress: bool = False) -> Stream:
+        """A gear unit at every combination of its uncertain inputs."""
+        return self.study("/v1/drive-train/corners", request, progress=progress)
+
+    def design(self, request: Json, *, progress: bool = False) -> Stream:
+        """The correction of a gear unit whose worst corner is best."""
+        return self.study("/v1/drive-train/design", request, progress=progress)
+
+
+class _Study:
+    """The lines of a study sorted into header, results, progress and end."""
+
+    def __init__(self, endpoint: str, request: Json, patience_s: float, *, progress: bool) -> None:
+        self.header: Json = {}
+        self.end: Json = {}
+        self._endpoint = endpoint
+        self._request = request
+        self._patience_s = patience_s
+        self._progress = progress
+        self._bar: Any = None
+
+    def _begin(self) -> None:
+        self.header, self.end = {}, {}
+        if self._progress:
+            from tqdm.auto import tqdm  # noqa: PLC0415  only who asks for a bar needs it
+
+            self._bar = tqdm()
+
+    def _results(self, text: str) -> Iterator[Json]:
+        """The line, if it is a result; raises `StudyError` for one that ends the study early."""
+        line: Json = json.loads(text)
+        match line["type"]:
+            case "error":
+                raise StudyError(f"{line['code']}: {line['message']}")
+            case "progress":
+                self._show(line["done"], line["total"])
+            case "end":
+                self.end = line
+            case _ if "case" in line and "outputs" in line:
+                self.header = line
+            case kind:
+                if kind == "point":
+                    self._show(line["index"] + 1, self.header["total"])
+                yield line
+
+    def _finish(self) -> None:
+        if self._bar is not None:
+            self._bar.close()
+        if not self.end:
+            raise StudyError("the connection was closed before the study's end")
+
+    def _show(self, done: int, total: int) -> None:
+        if self._bar is not None:
+            self._bar.total = total
+            self._bar.update(done - self._bar.n)
+
+    def _table(self, results: list[Json]) -> "DataFrame":
+        from pandas import DataFrame  # noqa: PLC0415  only tables need it
+
+        if "axes" not in self.header:
+            return DataFrame(results)
+        points = [line for line in results if line["type"] == "point"]
+        columns = [each["path"] for each in self.header["axes"] + self.header["outputs"]]
+        rows = [[*line["at"], *line["out"], line["status"]] for line in points]
+        return DataFrame(rows, columns=[*columns, "status"], index=[line["index"] for line in points])
+
+
+class Study(_Study):
+    """A study: iterate over its results, or ask for all of them as a table.
+
+    `header` and `end` are its first and last line once they have been read; they are empty before.
+    """
+
+    def __init__(self, http: httpx.Client, endpoint: str, request: Json, patience_s: float, *, progress: bool) -> None:
+        super().__init__(endpoint, request, patience_s, progress=progress)
+        self._http = http
+
+    def __iter__(self) -> Iterator[Json]:
+        """Run the study and yield its results as they come; raises `ProblemError` and `StudyError`."""
+        self._begin()
+        give_up = time.monotonic() + self._patience_s
+        while True:
+            with self._http.stream("POST", self._endpoint, json=self._request) as response:
+                if response.is_success:
+                    for text in response.iter_lines():
+                        yield from self._results(text)
+                    return self._finish()
+                response.read()
+            time.sleep(_wait_s(response, give_up))
+
+    def frame(self) -> "DataFrame":
+        """All results as a pandas table, a row each; those of a sweep with a column for each input and output."""
+        return self._table(list(self))
+
+
+class AsyncStudy(_Study):
+    """A study: iterate over its results with `async for`, or await all of them as a table."""
+
+    def __init__(
+        self, http: httpx.AsyncClient, endpoint: str, request: Json, patience_s: float, *, progress: bool
+    ) -> None:
+        super().__init__(endpoint, request, patience_s, progress=progress)
+        self._http = http
+
+    async def __aiter__(self) -> AsyncIterator[Json]:
+        """Run the study and yield its results as they come; raises `ProblemError` and `StudyError`."""
+        self._begin()
+        give_up = time.monotonic() + self._patience_s
+        while True:
+            async with self._http.stream("POST", self._endpoint, json=self._request) as response:
+                if response.is_success:
+                    async for text in response.aiter_lines():
+                        for line in self._results(text):
+                            yield line
+                    self._finish()
+                    return
+                await response.aread()
+            await asyncio.sleep(_wait_s(response, give_up))
+
+    async def frame(self) -> "DataFrame":
+        """All results as a pandas table, a row each; those of a sweep with a column for each input and output."""
+        return self._table([line async for line in self])
+
+
+class Tribodrive(_Endpoints[Json, Study]):
+    """The service at `url`.
+
+    Parameters
+    ----------
+    url
+        Address of the service, with its path prefix if it has one.
+    patience_s
+        How long a request is sent again while the service is busy or warming up [s].
+    options
+        Of `httpx.Client`: `auth`, `headers`, `verify`, `timeout`, `transport`.
+
+    """
+
+    def __init__(self, url: str = ADDRESS, *, patience_s: float = PATIENCE_S, **options: Any) -> None:
+        self._http = httpx.Client(base_url=url, **{"timeout": TIMEOUT_S} | options)
+        self._patience_s = patience_s
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close the connections."""
+        self._http.close()
+
+    def solve(self, endpoint: str, request: Json) -> Json:
+        """Post a request to an endpoint and return its answer; raises `ProblemError`."""
+        give_up = time.monotonic() + self._patience_s
+        while True:
+            response = self._http.post(endpoint, json=request)
+            if response.is_success:
+                return _object(response)
+            time.sleep(_wait_s(response, give_up))
+
+    def study(self, endpoint: str, request: Json, *, progress: bool = False) -> Study:
+        """Open a study, which runs while its lines are read."""
+        return Study(self._http, endpoint, request, self._patience_s, progress=progress)
+
+    def example(self, name: str) -> Json:
+        """The request of a ready example."""
+        response = self._http.get(f"/v1/examples/{name}")
+        if not response.is_success:
+            raise _problem(response)
+        request: Json = response.json()["request"]
+        return request
+
+
+class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
+    """The service at `url` for asyncio; parameters as those of `Tribodrive`."""
+
+    def __init__(self, url: str = ADDRESS, *, patience_s: float = PATIENCE_S, **options: Any) -> None:
+        self._http = httpx.AsyncClient(base_url=url, **{"timeout": TIMEOUT_S} | options)
+        self._patience_s = patience_s
+
+    async def __aenter__(self) -> Self:
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        await self.close()
+
+    async def close(self) -> None:
+        """Close the connections."""
+        await self._http.aclose()
+
+    async def solve(self, endpoint: str, request: Json) -> Json:
+        """Post a request to an endpoint and return its answer; raises `ProblemError`."""
+        give_up = time.monotonic() + self._patience_s
+        while True:
+            response = await self._http.post(endpoint, json=request)
+            if response.is_success:
+                return _object(response)
+            await asyncio.sleep(_wait_s(response, give_up))
+
+    def study(self, endpoint: str, request: Json, *, progress: bool = False) -> AsyncStudy:
+        """Open a study, which runs while its lines are read."""
+        return AsyncStudy(self._http, endpoint, request, self._patience_s, progress=progress)
+
+
+def _object(response: httpx.Response) -> Json:
+    content: Json = response.json()
+    return content
+
+
+def _wait_s(response: httpx.Response, give_up: float) -> float:
+    """Seconds to wait before a busy service is asked again; raises `ProblemError` for every other answer."""
+    named = response.headers.get("Retry-After", "")
+    if not named.isdecimal() or time.monotonic() + int(named) > give_up:
+        raise _problem(response)
+    return float(named)
+
+
+def _problem(response: httpx.Response) -> ProblemError:
+    try:
+        document = response.json()
+    except ValueError:
+        document = {}
+    return ProblemError(response.status_code, document if isinstance(document, dict) else {})

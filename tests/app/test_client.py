@@ -1,0 +1,122 @@
+"""The client against the running service, and against a transport that refuses, waits and breaks off."""
+
+import asyncio
+import json
+from collections.abc import Callable, Iterator
+
+import httpx
+import pytest
+
+from app.client import AsyncTribodrive, ProblemError, Study, StudyError, Tribodrive
+
+COUPLING = {
+    "coupling": {"teeth": 52, "module_mm": 3, "crowning_ratio": 1},
+    "operation": {"torque_n_m": 3000, "speed_rpm": 1910, "misalignment_deg": 0.05, "axial_velocity_mm_per_s": 2},
+    "friction": {"coefficient": 0.2},
+    "detail": "summary",
+}
+SWEEP = {
+    "endpoint": "/v1/coupling",
+    "request": {key: value for key, value in COUPLING.items() if key != "detail"},
+    "vary": [{"path": "operation.torque_n_m", "values": [1500, 3000]}],
+    "outputs": ["axial_thrust.force_n"],
+}
+
+
+@pytest.fixture
+def service(server: str) -> Iterator[Tribodrive]:
+    with Tribodrive(server) as service:
+        yield service
+
+
+def behind(*answers: httpx.Response) -> Tribodrive:
+    """A client whose service gives these answers one after the other."""
+    left = iter(answers)
+    return Tribodrive(transport=httpx.MockTransport(lambda _: next(left)))
+
+
+def test_every_endpoint_has_its_method(server: str) -> None:
+    asked: list[str] = []
+
+    def note(request: httpx.Request) -> httpx.Response:
+        asked.append(request.url.path)
+        return httpx.Response(200, json={"type": "end"})
+
+    client = Tribodrive(transport=httpx.MockTransport(note))
+    public = [name for name in dir(client) if not name.startswith("_")]
+    for name in sorted({*public} - {"close", "example", "solve", "study"}):
+        answer = getattr(client, name)({})
+        if isinstance(answer, Study):
+            list(answer)
+    paths = httpx.get(f"{server}/openapi.json").json()["paths"]
+    solved = {path for path, methods in paths.items() if "post" in methods and "{" not in path}
+    assert set(asked) == solved - {"/v1/rexs", "/v1/rexs/results", "/rexs"}
+
+
+def test_an_answer_is_that_of_the_interface(service: Tribodrive, post: Callable[..., httpx.Response]) -> None:
+    assert service.coupling(COUPLING) == post("/v1/coupling", COUPLING).json()
+
+
+def test_a_refusal_names_field_and_cause(service: Tribodrive) -> None:
+    wrong = {**COUPLING, "coupling": {"teeth": 3, "module_mm": 3}}
+    with pytest.raises(ProblemError, match="/coupling/teeth: ") as caught:
+        service.coupling(wrong)
+    assert caught.value.status == 422
+    assert caught.value.code == "invalid_request"
+    assert [each["pointer"] for each in caught.value.errors] == ["/coupling/teeth"]
+
+
+def test_a_sweep_is_an_iterator_and_a_table(service: Tribodrive) -> None:
+    sweep = service.sweep(SWEEP, progress=True)
+    thrusts = [point["out"][0] for point in sweep]
+    request = {key: value for key, value in COUPLING.items() if key != "detail"}
+    assert thrusts[1] == service.coupling(request)["axial_thrust"]["force_n"]
+    assert sweep.header["total"] == 2
+    assert sweep.end["counts"] == {"ok": 2}
+    table = sweep.frame()
+    assert list(table.columns) == ["operation.torque_n_m", "axial_thrust.force_n", "status"]
+    assert list(table["axial_thrust.force_n"]) == thrusts
+
+
+def test_a_sensitivity_is_a_table(service: Tribodrive) -> None:
+    table = service.sensitivity({"endpoint": "/v1/coupling", "request": SWEEP["request"]}).frame()
+    assert {"output", "path", "derivative", "elasticity"} <= set(table.columns)
+
+
+def test_the_asynchronous_client_answers_the_same(server: str, service: Tribodrive) -> None:
+    async def ask() -> tuple[object, list[float]]:
+        async with AsyncTribodrive(server) as client:
+            answer = await client.coupling(COUPLING)
+            sweep = client.sweep(SWEEP)
+            return answer, list((await sweep.frame())["axial_thrust.force_n"])
+
+    answer, thrusts = asyncio.run(ask())
+    assert answer == service.coupling(COUPLING)
+    assert thrusts == list(service.sweep(SWEEP).frame()["axial_thrust.force_n"])
+
+
+def test_a_busy_service_is_asked_again_after_the_time_it_names() -> None:
+    busy = httpx.Response(503, json={"type": "urn:tribodrive:problem:queue_full"}, headers={"Retry-After": "0"})
+    assert behind(busy, busy, httpx.Response(200, json={"status": "ok"})).coupling({}) == {"status": "ok"}
+
+
+def test_who_is_to_wait_longer_than_his_patience_is_told_at_once() -> None:
+    busy = httpx.Response(503, json={"type": "urn:tribodrive:problem:warming_up"}, headers={"Retry-After": "3600"})
+    with pytest.raises(ProblemError, match="warming_up"):
+        behind(busy).coupling({})
+
+
+def test_what_has_no_time_to_try_again_is_not_tried_again() -> None:
+    with pytest.raises(ProblemError, match="memory_limit"):
+        behind(httpx.Response(503, json={"type": "urn:tribodrive:problem:memory_limit"})).coupling({})
+    with pytest.raises(ProblemError, match="502"):
+        behind(httpx.Response(502, text="<html>")).coupling({})
+
+
+def test_a_study_without_end_is_an_error() -> None:
+    header = {"type": "sweep", "case": "0", "axes": [], "outputs": [], "total": 2}
+    with pytest.raises(StudyError, match="closed before"):
+        list(behind(httpx.Response(200, text=json.dumps(header))).sweep({}))
+    broken = {"type": "error", "code": "study_deadline", "message": "the study took longer than 1 s"}
+    with pytest.raises(StudyError, match="study_deadline"):
+        list(behind(httpx.Response(200, text=json.dumps(broken))).sweep({}))
