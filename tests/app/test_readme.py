@@ -17,7 +17,9 @@ def run(snippet: str, server: str) -> dict[str, Any]:
 
 def test_a_single_request(server: str) -> None:
     (snippet,) = (each for each in SNIPPETS if "safety" in each)
-    assert run(snippet, server)["result"]["status"] in {"ok", "ok_with_warnings"}
+    names = run(snippet, server)
+    with names["service"]:
+        assert names["result"]["status"] in {"ok", "ok_with_warnings"}
 
 
 def test_a_sweep_into_pandas(server: str) -> None:
@@ -28,7 +30,8 @@ def test_a_sweep_into_pandas(server: str) -> None:
     assert list(table["modifications.helix_slope_um"]) == [float(slope) for slope in range(-20, 21)]
     request = names["sweep"]["request"]
     request["modifications"]["helix_slope_um"] = table["modifications.helix_slope_um"][7]
-    answer = names["service"].load_distribution(request)
+    with names["service"] as service:
+        answer = service.load_distribution(request)
     for path in table.columns[1:]:
         found = answer
         for part in path.split("."):
