@@ -186,8 +186,13 @@ def record(cls: type[T], /) -> type[T]: ...
 def record(*, kw_only: bool = False) -> Callable[[type[T]], type[T]]: ...
 @dataclass_transform(frozen_default=True, field_specifiers=(quantity, field))
 def record(cls: Any = None, /, *, kw_only: bool = False) -> Any:
-    """Make a frozen dataclass with slots, whose fields may be declared by `quantity`."""
-    made = dataclass(frozen=True, slots=True, kw_only=kw_only)
+    """Make a frozen dataclass with slots, whose fields may be declared by `quantity` and print with their units."""
+
+    def made(kind: Any) -> Any:
+        if "__repr__" not in vars(kind):
+            kind.__repr__ = _summary
+        return dataclass(frozen=True, slots=True, kw_only=kw_only, repr=False)(kind)
+
     return made if cls is None else made(cls)
 
 
@@ -252,6 +257,68 @@ def allowed(declared: Quantity) -> str:
         return f"{ends['ge']:.12g} to {ends['le']:.12g}"
     words = {"gt": "above", "ge": "at least", "lt": "below", "le": "at most"}
     return " and ".join(f"{word} {ends[end]:.12g}" for end, word in words.items() if end in ends)
+
+
+def to_dict(data: Any) -> dict[str, Any]:
+    """The declared values of a dataclass in the units shown, named as in the interface: `module` as `module_mm`.
+
+    Arrays become lists, dataclasses inside it dictionaries; NaN, which marks a point without a value, becomes None.
+    """
+    return _plain(data, None)  # type: ignore[no-any-return]
+
+
+def _plain(value: Any, outer: Quantity | None) -> Any:
+    """A value as JSON can hold it; `outer` declares the values of a dataclass that have no unit of their own."""
+    if is_dataclass(value):
+        kind: Any = type(value)
+        named = {}
+        for name, declared in quantities(kind).items():
+            known = outer if outer and declared.unit is None else declared
+            own = f"{name}_{declared.unit}" if declared.unit else name
+            named[own] = _plain(getattr(value, name), known)
+        return named
+    if isinstance(value, np.ndarray):
+        return _plain(value.tolist(), outer)
+    if isinstance(value, tuple | list):
+        return [_plain(item, outer) for item in value]
+    if isinstance(value, float) and np.isnan(value):
+        return None
+    return outer.from_si(value) if outer else value
+
+
+def _summary(data: Any) -> str:
+    """One line: numbers with their units, lists and arrays by their shape, dataclasses by their class."""
+    kind: Any = type(data)
+    declared = quantities(kind)
+    parts = []
+    for name in dict.fromkeys([*(each.name for each in fields(data)), *declared]):
+        known = declared.get(name)
+        value = getattr(data, name)
+        shown = known.from_si(value) if known and not is_dataclass(value) else value
+        parts.append(f"{name}={_brief(shown)}{_symbol(known, value)}")
+    return f"{type(data).__name__}({', '.join(parts)})"
+
+
+def _symbol(declared: Quantity | None, value: Any) -> str:
+    if declared is None or declared.unit is None or value is None or is_dataclass(value):
+        return ""
+    return f" {UNITS[declared.unit].symbol}"
+
+
+def _brief(value: Any) -> str:
+    match value:
+        case bool() | str() | None:
+            return repr(value)
+        case float():
+            return f"{value:.6g}"
+        case np.ndarray():
+            return f"array{value.shape}"
+        case tuple() | list():
+            return f"<{len(value)} values>"
+        case _ if is_dataclass(value):
+            return f"{type(value).__name__}(...)"
+        case _:
+            return str(value)
 
 
 def _each(convert: Callable[[Any], Any], value: Any) -> Any:
