@@ -17,7 +17,7 @@ from solvers.coupling.teeth.loads import mesh_loads
 ROUNDING = 1e-12
 """Share of what its parts may add up to below which a sum is their rounding."""
 _PITCH_PARTS = 3  # chosen: parts of a pitch, with a Gauss rule of _PITCH_NODES each
-_PITCH_NODES = 8
+_PITCH_NODES = 8  # chosen: 24 angles a pitch, and exact for polynomials up to degree 15 in each part
 _gauss_rule = cache(np.polynomial.legendre.leggauss)
 
 

@@ -11,7 +11,7 @@ from solvers.notices import Notice
 SHORT_BEARING = 0.7  # width over diameter
 ROUNDING = 1e-9  # of lengths that come from other units
 THIN_FILM = 15e-6  # m
-LARGE_ECCENTRICITY = 0.9
+LARGE_ECCENTRICITY = 0.9  # a tenth of the clearance is left: customary limit of design
 LIFTED = 0.9  # contact fraction
 CORNER = 0.98  # safety over the flank against the feature line's
 

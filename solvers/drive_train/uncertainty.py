@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft
 from solvers.notices import Notice
 
-MOST_CORNERS = 256
+MOST_CORNERS = 256  # eight uncertainties with two values each
 FRICTION = (0.05, 0.25)
 THRUST = (0.0, 1.0)
 RESPONSE = (0.3, 1.0)
-CLEARANCE = 0.1
+CLEARANCE = 0.1  # share of the clearance, both ways
 QUARTERS: tuple[Callable[[float, float], tuple[float, float]], ...] = (
     lambda x, y: (x, y),
     lambda x, y: (-y, x),

@@ -12,7 +12,7 @@ from solvers.gears.pair import PathOfContact
 from solvers.scuffing.inputs import LeadCurve, Modifications
 
 LEAD_POINTS = 401  # every 0.25 % of the face; between them lead curves are straight
-MOST_EDGES = 6
+MOST_EDGES = 6  # two ends, two end reliefs, two reliefs along the path
 
 
 @kernel

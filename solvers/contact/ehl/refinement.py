@@ -31,7 +31,7 @@ NEAR = (0.12, 12.0)
 # the others more than either do with the truth: all of their difference is left where it falls by p_H/2.
 SECOND_ORDER = 1 / 3
 LEFT = {"friction": 1 / 2, "generated_heat": 1 / 2}  # less than second order is observed where heat decides
-LEFT_BY_FALL = 2.0
+LEFT_BY_FALL = 2.0  # per fall in p_H: all of the difference is left from p_H/2 on
 AT_INLET = {"central_film", "centre_pressure"}  # decided there, whatever the pressure does at the outlet
 BEFORE_SPIKES = 0.5  # half widths behind the centre: spikes of pressure stand further back
 SURFACES = {"surface_1_flash": 0, "surface_2_flash": -1}  # places across the film

@@ -28,7 +28,7 @@ from solvers.errors import InvalidInput
 from solvers.notices import Notice
 
 MIN_CROWNING_RATIO = 0.2  # chosen, as the upper end: far outside practice
-MAX_CROWNING_RATIO = 1000.0
+MAX_CROWNING_RATIO = 1000.0  # chosen: nearly straight teeth
 # Constraint by its public name, and the quantity that a larger crowning ratio lowers.
 _LOWER_BOUNDS = (("hertz_pressure", "pressure"), ("contact_width", "width"), ("contact_overlap", "overlap"))
 MAX_SCANNED_RATIO = 100.0  # chosen: end of the range that is scanned for windows

@@ -24,11 +24,11 @@ from solvers.scuffing.model import PreparedMesh
 from solvers.scuffing.modification import kinks_along_face, kinks_along_path
 
 TOLERANCE = 1e-12  # m
-ITERATIONS = 40
+ITERATIONS = 40  # chosen: what has not converged by then does not
 COARSER = 4  # times fewer roll positions and slices, by which the gap changes by a nanometre
 ROUGH_TOLERANCE = 1e-9  # m
-ROUGH_ITERATIONS = 10
-LEAST_STEP = 1 / 64
+ROUGH_ITERATIONS = 10  # the start need not be exact
+LEAST_STEP = 1 / 64  # chosen: six halvings, then the step is taken as it is
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,13 +14,13 @@ from solvers.drive_train.shafts.influence import Unit
 from solvers.errors import InvalidInput, NoSolution
 
 TILT_TOLERANCE = 1e-13  # rad
-TILT_ITERATIONS = 30
-LEAST_STEP = 1 / 64
+TILT_ITERATIONS = 30  # chosen: beyond it the balance is followed along its path
+LEAST_STEP = 1 / 64  # chosen: six halvings, then the step is taken as it is
 LEAST_SIZE = 1e-9  # rad, of tilts along a path
 LONGEST, SHORTEST, LONGER = 0.3, 1e-6, 1.5  # steps along a path, in units of the tilts' own size
 FARTHEST = 2.0  # from the end of a step, in its lengths
-PATH_POINTS = 500
-PATH_ITERATIONS = 6
+PATH_POINTS = 500  # chosen: ends a search that finds no balance
+PATH_ITERATIONS = 6  # chosen: beyond it a shorter step is tried
 PATH_TOLERANCE = 1e-6  # of the tilts' own size
 
 

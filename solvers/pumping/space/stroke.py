@@ -14,7 +14,7 @@ from solvers.sources import MILIAN
 
 POSITIONS = 361  # every 1/360 of the stroke, chosen
 SMOOTH = 3.0  # times the change of the area's logarithm over the positions beside
-JUMP = 0.01
+JUMP = 0.01  # chosen: share of the area, far above the rounding of the section's search
 
 
 @record
