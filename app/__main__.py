@@ -39,7 +39,7 @@ def main() -> None:
 
 def print_unit(file: Path) -> int:
     """Print what /v1/rexs answers to a file; the exit status is 1 where the file cannot be read."""
-    from app.problems import Unprocessable  # noqa: PLC0415  the service starts without this
+    from app.errors import Unprocessable  # noqa: PLC0415  the service starts without this
     from app.rexs.answer import unit_of  # noqa: PLC0415
 
     try:
@@ -69,7 +69,7 @@ def serve(application: str) -> None:
         reason = error.strerror if isinstance(error, socket.gaierror) else os.strerror(error.errno or 0)
         sys.exit(f"tribodrive: cannot listen on port {limits.port} of {limits.host}: {reason}")
     gc.disable()  # `run` enables it: imports leave no garbage, and looking for it takes a third of their time
-    template = Template()
+    template = Template(application.partition(":")[0])
     try:
         from app.http.server import run  # noqa: PLC0415  seconds of imports, for which port and template need not wait
 

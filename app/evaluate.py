@@ -5,18 +5,40 @@ from functools import cache, reduce
 from typing import Any
 
 from app.calculations import Calculation
+from app.errors import Unprocessable
 from app.plausibility import unusual
-from app.problems import Unprocessable
 from app.schema.base import MODEL_VERSION, Notice, Request, Response, Section
-from app.schema.cases import case_of
-from app.schema.conversion import from_si, group_of
+from app.schema.conversion import above, from_si, group_of
 from app.schema.paths import field_path
 from app.schema.quantities import Input
-from app.sources import SOURCES
+from app.sources import SOURCES, case_of
 from solvers import notices
 from solvers.errors import InvalidInput, NoSolution
+from solvers.quantity import Detail
 
 _COMMON = frozenset(Response.model_fields)
+
+
+def refuse_endless(calculation: Calculation, request: Request, deadline_s: float) -> None:
+    """Raise Unprocessable for a request that cannot be finished before the deadline."""
+    if calculation.cost is not None:
+        cost = calculation.cost(request)
+        if cost.seconds > deadline_s:
+            raise Unprocessable(
+                "cannot_finish",
+                f"would take some {cost.seconds:.0f} s, but calculations end after {deadline_s:g} s; make it less",
+                cost.field,
+            )
+
+
+def answer(calculation: Calculation, request: Request) -> bytes:
+    """Solve the request and write its answer as JSON; runs in a worker process. Raises what `evaluate` raises."""
+    return written(evaluate(calculation, request))
+
+
+def written(response: Response, detail: Detail = "fields") -> bytes:
+    """The response as JSON, its fields above a level of detail left out."""
+    return response.model_dump_json(exclude_unset=True, exclude=above(type(response), detail)).encode()
 
 
 def evaluate(calculation: Calculation, request: Request) -> Response:

@@ -1,6 +1,7 @@
-"""The log, written by a thread of its own: a reader that stalls costs lines, which are counted, never a request.
+"""What the service says of itself: log and counters.
 
-Lines of answered requests go to the standard output, everything else to the standard error.
+The log is written by a thread of its own: a reader that stalls costs lines, which are counted, never a request. Lines
+of answered requests go to the standard output, everything else to the standard error.
 """
 
 import logging
@@ -12,11 +13,23 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from logging.handlers import QueueHandler, QueueListener
 
-from app.metrics import LINES_DROPPED
+from prometheus_client import Counter, Gauge, Histogram
 
 LINES_KEPT = 10_000
 LAST_LINES_S = 1.0
-REQUESTS = "tribodrive.requests"
+REQUEST_LOG = "tribodrive.requests"
+
+# At /metrics, in the Prometheus text format.
+REQUESTS = Counter("tribodrive_requests", "Requests answered", ["endpoint", "status"])
+DURATION = Histogram("tribodrive_request_duration_seconds", "From first byte to last", ["endpoint"])
+CALCULATIONS = Gauge("tribodrive_calculations", "Calculations running or waiting")
+WAITING = Gauge("tribodrive_calculations_waiting", "Calculations waiting for a worker")
+REFUSED = Counter("tribodrive_calculations_refused", "Calculations refused because the queue was full")
+ENDED = Counter("tribodrive_calculations_interrupted", "Calculations ended for other clients and asked again later")
+STUDIES = Gauge("tribodrive_studies", "Studies running")
+WORKERS_LOST = Counter("tribodrive_workers_lost", "Worker processes that died while they computed")
+DEADLINES_MISSED = Counter("tribodrive_deadlines_missed", "Calculations ended at their deadline")
+LINES_DROPPED = Counter("tribodrive_log_lines_dropped", "Log lines lost because nobody read the log fast enough")
 
 
 class _Handler(QueueHandler):
@@ -45,7 +58,7 @@ class _Output:
     def handle(self, record: logging.LogRecord) -> None:
         """Write one record; no failure ends the thread."""
         try:
-            stream = sys.stdout if record.name == REQUESTS else sys.stderr
+            stream = sys.stdout if record.name == REQUEST_LOG else sys.stderr
             _write_all(stream.fileno(), f"{record.getMessage()}\n".encode(errors="replace"))
         except Exception:  # noqa: BLE001
             LINES_DROPPED.inc()

@@ -8,10 +8,11 @@ from fastapi import FastAPI
 from fastapi_offline import FastAPIOffline
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 
-from app import log, problems
-from app.answers import Answers
+from app import log
+from app.http import problems
 from app.http.middleware import Protection
-from app.routes import calculations, figures, pages, rexs, service, studies, study_pages
+from app.http.routes import calculations, figures, pages, rexs, service, studies, study_pages
+from app.pages.answers import Answers
 from app.schema.base import MODEL_VERSION
 from app.settings import MEBIBYTE, settings
 from app.studies.admission import StudyAdmission
@@ -38,7 +39,7 @@ def create_app() -> FastAPI:
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         served_by_another = not hasattr(app.state, "template")
-        template = Template() if served_by_another else app.state.template
+        template = Template(__name__) if served_by_another else app.state.template
         app.state.pool = Pool(limits.workers, limits.queue, limits.worker_memory_mb, template)
         app.state.start_up = StartUp(app.state.pool)
         app.state.settings = limits

@@ -1,10 +1,12 @@
-"""The identity of the solvers' sources, and what the changelog says about their results."""
+"""The identity of a case and of the solvers' sources, and what the changelog says about their results."""
 
 import ast
+import json
 import re
 from hashlib import sha256
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
 import solvers
 
@@ -13,6 +15,8 @@ NO_CALCULATION = "published"
 DECLARE = frozenset({"quantity", "Quantity"})
 LABELS = frozenset({"title", "symbol", "source", "text", "default_text", "assumed", "index"})
 """What the declaration of a quantity says in words, beside its positional arguments."""
+
+_CANONICAL = json.JSONEncoder(sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
 
 
 def sources_of(package: Path) -> str:
@@ -48,6 +52,12 @@ def _is_text(statement: ast.stmt) -> bool:
         and isinstance(statement.value, ast.Constant)
         and isinstance(statement.value.value, str)
     )
+
+
+def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
+    """SHA-256 in hex of the case's JSON: sorted keys, no blanks, shortest floats, UTF-8."""
+    content = {"endpoint": endpoint, "inputs": inputs, "sources": sources}
+    return sha256(_CANONICAL.encode(content).encode()).hexdigest()
 
 
 def changes_since(sources: str) -> list[str]:

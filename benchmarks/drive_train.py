@@ -12,10 +12,10 @@ from time import perf_counter
 from typing import Any
 
 from app.calculations import BY_PATH
-from app.library import examples
-from app.routes.study_examples import DESIGN_EXAMPLES
+from app.examples import examples
 from app.studies.design import design_study
 from app.studies.drive_train import usual_corners
+from app.studies.examples import DESIGN_EXAMPLES
 from app.studies.stream import Clock
 from app.studies.study import Study
 from app.studies.sweep import corners_study

@@ -9,9 +9,9 @@ from typing import Any
 
 from app.calculations import CALCULATIONS, Calculation
 from app.evaluate import evaluate
+from app.examples import examples
 from app.figures.data import Figure, NoFigure
 from app.figures.registry import figures_of
-from app.library import examples
 
 CASES = (
     "pahl-heavily-crowned",

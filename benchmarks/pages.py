@@ -8,13 +8,13 @@ from collections.abc import Callable
 from contextlib import suppress
 
 from app.calculations import CALCULATIONS
+from app.errors import Unprocessable
+from app.examples import examples
 from app.figures.registry import figures_of
-from app.library import examples
 from app.pages import views
 from app.pages.cases import solved
 from app.pages.query import pairs_of
 from app.pages.templating import page_path
-from app.problems import Unprocessable
 
 REPEATS = 5
 

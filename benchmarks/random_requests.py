@@ -17,11 +17,11 @@ from functools import cache
 from typing import Any
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
-from app.cost import refuse_endless
-from app.library import examples
-from app.problems import Unprocessable
-from app.reading import InvalidBody, read
-from app.routes.calculations import answer_of
+from app.errors import InvalidBody, Unprocessable
+from app.evaluate import refuse_endless
+from app.examples import examples
+from app.http.routes.calculations import answer_of
+from app.schema.reading import read
 from app.settings import settings
 
 RANGE_END = 0.15
@@ -152,7 +152,7 @@ def tried(seed: int) -> tuple[str, str, float]:
     began = time.process_time()  # what others do on the machine does not count
     try:
         wanted = read(BY_PATH[path].request, json.dumps(body).encode())
-        refuse_endless(wanted, settings().deadline_s)
+        refuse_endless(BY_PATH[path], wanted, settings().deadline_s)
         content = answer_of(path, wanted)
         outcome = str(json.loads(content, parse_constant=refuse)["status"])
     except Unprocessable as refusal:

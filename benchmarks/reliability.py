@@ -24,7 +24,7 @@ from urllib.parse import urlsplit
 
 import httpx
 
-from app.library import examples
+from app.examples import examples
 from tests.support.server import descendants, descriptors, memory_mb, running_server, send_signal, workers
 
 ROOT = Path(__file__).parents[1]

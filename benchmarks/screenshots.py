@@ -12,7 +12,7 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 
 from app.calculations import BY_PATH
-from app.library import examples
+from app.examples import examples
 from app.pages.links import example_link
 from app.pages.studies.sweep_examples import STUDIES
 

@@ -19,9 +19,9 @@ import httpx
 from fastapi import FastAPI
 
 from app.__main__ import serve
-from app.library import Example, examples
+from app.examples import Example, examples
+from app.http.routes.service import Health
 from app.main import create_app
-from app.routes.service import Health
 from app.schema.coupling import CouplingRequest
 from tests.support.server import memory_mb, workers
 

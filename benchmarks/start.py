@@ -12,7 +12,7 @@ from contextlib import suppress
 
 import httpx
 
-from app.library import examples
+from app.examples import examples
 from tests.support.server import (
     memory_mb,
     private_memory_mb,

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import httpx
 
-from app.library import examples
+from app.examples import examples
 from app.studies.fields import set_value
 from app.studies.points import Question, solve_point
 from app.studies.sweep import sweep_study

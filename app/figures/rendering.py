@@ -3,11 +3,11 @@
 from typing import Any, Literal
 
 from app.calculations import Calculation
+from app.errors import Unprocessable
 from app.evaluate import evaluate
 from app.figures.data import Figure, NoFigure, ThemeName
 from app.figures.declaration import Declaration
 from app.figures.tables import table
-from app.problems import Unprocessable
 from app.schema.base import Request
 
 Format = Literal["svg", "png", "pdf", "csv"]

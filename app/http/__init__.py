@@ -1,7 +1,10 @@
-"""What stands between the network and the routes.
+"""The service as HTTP: what stands between the network and the routes, and the routes.
 
 server      uvicorn as `python -m app` runs it
 connection  limits where bytes arrive: headers, connections, time
 middleware  request id, limits on bodies, security headers, timing, the answer to what nobody expected
 records     what every answer carries and leaves behind: headers, a log line, metrics
+json_route  bodies of JSON
+problems    errors as problem documents
+routes      the endpoints and the pages
 """

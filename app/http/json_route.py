@@ -9,8 +9,9 @@ from fastapi.routing import APIRoute
 from pydantic import BaseModel
 from starlette.exceptions import HTTPException
 
-from app.reading import InvalidBody, Unreadable, content_of
+from app.errors import InvalidBody, Unreadable
 from app.schema.messages import faults
+from app.schema.reading import content_of
 
 
 class _StrictRequest(Request):

@@ -8,8 +8,8 @@ from starlette.requests import ClientDisconnect
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from app.http.problems import internal_error, problem
 from app.http.records import own_headers, record, request_id
-from app.problems import internal_error, problem
 from app.settings import Settings
 
 CLIENT_GONE = 499

@@ -8,8 +8,7 @@ from secrets import token_hex
 
 from prometheus_client import Counter, Histogram
 
-from app import log
-from app.metrics import DURATION, REQUESTS
+from app.log import DURATION, REQUEST_LOG, REQUESTS
 
 ACCEPTABLE_ID = re.compile(rb"[A-Za-z0-9._-]{1,128}")
 CONTENT_POLICY = (
@@ -27,7 +26,7 @@ SECURITY_HEADERS = (
 # Written by hand: nothing in it needs escaping.
 LOG_LINE = '{"time": %.3f, "request_id": "%s", "method": "%s", "endpoint": "%s", "status": %d, "duration_ms": %.3f}'
 
-logger = logging.getLogger(log.REQUESTS)
+logger = logging.getLogger(REQUEST_LOG)
 
 
 def request_id(sent: bytes = b"") -> str:

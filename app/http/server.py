@@ -10,13 +10,13 @@ import uvicorn
 from uvicorn.importer import import_from_string
 
 from app.http.connection import LimitedProtocol
-from app.log import REQUESTS
+from app.log import REQUEST_LOG
 from app.settings import settings
 from app.workers.control import Template
 
 INTERRUPT_S = 0.5
 
-log = logging.getLogger(REQUESTS)  # which goes to the standard output
+log = logging.getLogger(REQUEST_LOG)  # which goes to the standard output
 
 
 class Server(uvicorn.Server):

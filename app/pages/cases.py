@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from app.calculations import Calculation
+from app.errors import InvalidBody, Unprocessable
 from app.evaluate import evaluate
 from app.figures.registry import figures_of
 from app.pages.query import Pairs, body_of
-from app.problems import Unprocessable
-from app.reading import InvalidBody, validated
 from app.schema.base import Request
+from app.schema.reading import validated
 
 COMPRESSION = 1
 

@@ -6,7 +6,7 @@ Addresses that are kept name the solvers' sources, so that a later reader is tol
 from dataclasses import dataclass
 
 from app.calculations import Calculation
-from app.library import Example, examples
+from app.examples import Example, examples
 from app.pages.query import Pairs, link, pairs_of
 from app.pages.templating import page_path
 from app.sources import SHORT_SOURCES

@@ -3,7 +3,7 @@
 from functools import cache
 
 from app.calculations import CALCULATIONS, Calculation
-from app.library import Example
+from app.examples import Example
 from app.pages.about import ABOUT
 from app.pages.links import example_link, examples_of
 from app.pages.studies.sweep_examples import studies_of

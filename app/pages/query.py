@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
-from app.reading import Unreadable
+from app.errors import Unreadable
 from app.schema.fields import ITEM, Leaf, leaf_at
 from app.schema.model import Documented
 from app.schema.tree import branches

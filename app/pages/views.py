@@ -3,15 +3,16 @@
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, get_args
 
-from app.answers import key_of
 from app.calculations import CALCULATIONS, Calculation
+from app.errors import InvalidBody, Unprocessable, Unreadable
+from app.evaluate import written as json_written
 from app.figures.data import Figure, NoFigure, ThemeName
 from app.figures.declaration import Declaration
 from app.figures.registry import figures_of
 from app.figures.rendering import Format, written
-from app.formats import csv
-from app.formats.json import written as json_written
+from app.pages import csv
 from app.pages import report as reports
+from app.pages.answers import key_of
 from app.pages.cases import Case, Fault, faults_of, solved
 from app.pages.charts import Chart, charts, data_address, figure_of, linked, values_of
 from app.pages.form import State, anchor, form
@@ -21,8 +22,6 @@ from app.pages.results import cards, entries, flattened, groups
 from app.pages.study_links import study_links
 from app.pages.templating import model_of, page_path, rendered
 from app.pages.typesetting import NO_VALUE
-from app.problems import Unprocessable
-from app.reading import InvalidBody, Unreadable
 from app.schema.fields import headlines, leaf_at
 from app.schema.tree import branches
 from app.sources import changes_since

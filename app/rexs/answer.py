@@ -6,15 +6,14 @@ from typing import Annotated, Any, NamedTuple
 from pydantic import BaseModel
 
 from app.calculations import BY_PATH
-from app.cost import refuse_endless
-from app.evaluate import evaluate
+from app.errors import Unprocessable
+from app.evaluate import evaluate, refuse_endless
 from app.pages.rexs import unit_page
-from app.problems import Unprocessable
-from app.reading import read as read_request
 from app.rexs import document
 from app.rexs.results import TABLES, write_results
 from app.rexs.unit import gear_unit
 from app.schema.quantities import Output
+from app.schema.reading import read as read_request
 
 PATH = "/v1/rexs"
 
@@ -139,7 +138,7 @@ def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | N
         endpoint = "/v1/drive-train" if b'"pinion_shaft"' in request else "/v1/scuffing"
     calculation = BY_PATH[endpoint]
     asked = read_request(calculation.request, body)
-    refuse_endless(asked, deadline_s)
+    refuse_endless(calculation, asked, deadline_s)
     answer = evaluate(calculation, asked).model_dump(mode="json", exclude_unset=True)
     write_results(file, stage, endpoint, answer)
     return File(file.content(), file.media_type, file.suffix)

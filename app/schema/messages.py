@@ -6,30 +6,22 @@ Numbers, digit-only text and field names of at most 40 letters may be repeated; 
 import re
 from collections.abc import Iterable
 from difflib import get_close_matches
-from typing import Any, NamedTuple
+from typing import Any
 
 from pydantic import BaseModel
 
+from app.errors import Fault, pointer
 from app.schema.conversion import group_of
 from app.schema.model import Documented
 from app.schema.quantities import Input
 from solvers.quantity import allowed
 
-LONGEST_POINTER_PART = 100
 MOST_FAULTS = 100
 _NAME = re.compile(r"[A-Za-z0-9_]{1,40}")
 _NUMBER = re.compile(r"[+-]?\d{1,20}([.,]\d{1,20})?")
 _RANGE_TYPES = {"greater_than", "greater_than_equal", "less_than", "less_than_equal"}
 _NUMBER_TYPES = {"float_type", "int_type", "float_parsing", "int_parsing", "number_type"}
 _SECTION_TYPES = {"model_type", "model_attributes_type", "dict_type", "dataclass_type"}
-
-
-class Fault(NamedTuple):
-    """One field at fault: JSON Pointer into the request, stable code, what to change."""
-
-    pointer: str
-    code: str
-    message: str
 
 
 def faults(model: type[BaseModel], items: Iterable[dict[str, Any]]) -> list[Fault]:
@@ -39,12 +31,6 @@ def faults(model: type[BaseModel], items: Iterable[dict[str, Any]]) -> list[Faul
         loc = _fields_only(model, item["loc"])
         found.append(Fault(pointer(loc), str(item["type"]), _message(model, loc, item)))
     return found
-
-
-def pointer(location: Iterable[str | int]) -> str:
-    """RFC 6901 pointer of a location, safe to send whatever the request's keys were."""
-    parts = (str(part).encode(errors="replace").decode()[:LONGEST_POINTER_PART] for part in location)
-    return "".join("/" + part.replace("~", "~0").replace("/", "~1") for part in parts)
 
 
 def _fields_only(model: type[BaseModel], location: tuple[str | int, ...]) -> tuple[str | int, ...]:

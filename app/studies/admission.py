@@ -6,8 +6,8 @@ from collections.abc import AsyncIterator, Iterator
 from contextlib import asynccontextmanager, contextmanager
 from typing import Protocol
 
-from app.metrics import STUDIES
-from app.problems import SchedulerUnavailable, StudiesFull
+from app.errors import SchedulerUnavailable, StudiesFull
+from app.log import STUDIES
 from app.settings import Settings
 from app.studies.engine import Pool
 from app.workers.admission import StudyPool

@@ -11,7 +11,7 @@ from typing import Any
 
 from distributed import Client, KilledWorker
 
-from app.problems import SchedulerUnavailable, WorkerLost
+from app.errors import SchedulerUnavailable, WorkerLost
 from app.sources import SOURCES
 from app.studies.engine import PoolLost
 from app.workers.stages import STAGES, warm

@@ -5,9 +5,9 @@ from contextlib import aclosing
 from dataclasses import dataclass
 from typing import Any
 
-from app.problems import Unprocessable
-from app.reading import read
+from app.errors import Unprocessable
 from app.schema.fields import Leaf
+from app.schema.reading import read
 from app.studies.drive_train import MOST_CORNERS, lightened
 from app.studies.engine import Pool, twice_if_lost
 from app.studies.fields import value_at

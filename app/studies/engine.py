@@ -7,7 +7,7 @@ from collections.abc import AsyncGenerator, Callable
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from app.problems import DeadlineExceeded, WorkerLost
+from app.errors import DeadlineExceeded, WorkerLost
 from app.studies.points import CHUNK_SECONDS, Chunk, Point, Question, solve_chunk
 from app.studies.requests import Overrides
 

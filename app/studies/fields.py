@@ -6,7 +6,7 @@ from difflib import get_close_matches
 from functools import lru_cache
 from typing import Any
 
-from app.problems import Unprocessable
+from app.errors import Unprocessable
 from app.schema.fields import ITEM, Leaf, leaf_at, leaves
 from app.schema.model import Documented
 from app.studies.requests import Scalar

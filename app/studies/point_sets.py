@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from app.problems import Unprocessable
+from app.errors import Unprocessable
 from app.schema.fields import Leaf
 from app.schema.model import Documented
 from app.studies.fields import fault, is_reachable, scalar_at

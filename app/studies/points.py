@@ -7,10 +7,9 @@ from collections.abc import Sequence
 from typing import Any, Literal, NamedTuple
 
 from app.calculations import BY_PATH, Calculation
-from app.cost import refuse_endless
-from app.evaluate import evaluate
-from app.problems import PROBLEMS, Unprocessable, faults_of
-from app.reading import InvalidBody, validated
+from app.errors import PROBLEMS, InvalidBody, Unprocessable, faults_of
+from app.evaluate import evaluate, refuse_endless
+from app.schema.reading import validated
 from app.studies.fields import clear, fellows, set_value, value_at
 from app.studies.requests import Overrides
 
@@ -80,7 +79,7 @@ def solve_point(question: Question, overrides: Overrides) -> Point:
     calculation = BY_PATH[question.endpoint]
     try:
         request = validated(calculation.request, with_overrides(calculation, question.base, overrides))
-        refuse_endless(request, question.deadline_s)
+        refuse_endless(calculation, request, question.deadline_s)
         answer = evaluate(calculation, request)
     except (InvalidBody, Unprocessable) as error:
         return question.refused(error)

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.calculations import Calculation
-from app.problems import Unprocessable
-from app.reading import read
+from app.errors import Unprocessable
 from app.schema.fields import ITEM, Leaf, leaves
+from app.schema.reading import read
 from app.studies.engine import Pool
 from app.studies.fields import fault, scalar_at, value_at
 from app.studies.point_sets import check_count

@@ -7,12 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.calculations import BY_PATH, Calculation
-from app.problems import Unprocessable
-from app.reading import InvalidBody, validated
+from app.errors import InvalidBody, Unprocessable
 from app.schema.base import MODEL_VERSION, Request
-from app.schema.cases import case_of
 from app.schema.fields import Leaf, headlines
-from app.sources import SOURCES
+from app.schema.reading import validated
+from app.sources import SOURCES, case_of
 from app.studies.engine import Pool, Work, in_order
 from app.studies.fields import scalar_at
 from app.studies.points import Point, Question, with_overrides

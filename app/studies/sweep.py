@@ -4,9 +4,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from app.problems import Unprocessable
-from app.reading import read
+from app.errors import Unprocessable
 from app.schema.fields import Leaf
+from app.schema.reading import read
 from app.studies.drive_train import MOST_CORNERS, lightened, unsolved_corners, usual_corners
 from app.studies.engine import Pool, twice_if_lost
 from app.studies.fields import did_you_mean

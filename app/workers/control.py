@@ -82,9 +82,10 @@ class Worker:
 
 
 class Template:
-    """A running template process."""
+    """A running template process that has imported the module `preloaded`, and with it all that workers call."""
 
-    def __init__(self) -> None:
+    def __init__(self, preloaded: str) -> None:
+        self.preloaded = preloaded
         self.loaded: set[str] = set()
         self._ready = False
         self._thread = ThreadPoolExecutor(1, "template")  # one command at a time
@@ -93,7 +94,7 @@ class Template:
             descriptor = theirs.fileno()
             self._process = subprocess.Popen(  # noqa: S603
                 # -P: a folder `app` in the working directory is not ours.
-                [sys.executable, "-P", "-m", "app.workers.template", str(os.getpid()), str(descriptor)],
+                [sys.executable, "-P", "-m", "app.workers.template", str(os.getpid()), str(descriptor), preloaded],
                 stdin=subprocess.DEVNULL,
                 pass_fds=[descriptor],
                 process_group=0,  # a terminal's Ctrl-C is for the service to act on

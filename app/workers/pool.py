@@ -17,8 +17,8 @@ from typing import Any
 
 from cachetools import LRUCache
 
-from app.metrics import CALCULATIONS, DEADLINES_MISSED, ENDED, REFUSED, WAITING, WORKERS_LOST
-from app.problems import ClientGone, DeadlineExceeded, QueueFull, WorkerLost
+from app.errors import ClientGone, DeadlineExceeded, QueueFull, WorkerLost
+from app.log import CALCULATIONS, DEADLINES_MISSED, ENDED, REFUSED, WAITING, WORKERS_LOST
 from app.workers.control import Template, TemplateLost, Worker, WorkerDied, is_running
 
 SUPERVISION_S = 0.1
@@ -302,7 +302,7 @@ class Pool:
                     logger.warning("the template process was lost; it is started again")
                     self._open = False
                     self._template.close()
-                    self._template = Template()
+                    self._template = Template(self._template.preloaded)
                     self.template_restarted.set()
                 self._fill()
                 self._take_for_others()

@@ -12,10 +12,10 @@ from importlib import import_module
 from numba.core import event
 
 from app.calculations import BY_PATH
+from app.evaluate import answer
+from app.examples import examples
 from app.figures.registry import figures_of
 from app.figures.rendering import render
-from app.formats.json import answer
-from app.library import examples
 from solvers.kernel_cache import discard, mark_complete
 
 

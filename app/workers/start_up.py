@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager
 
-from app.problems import WarmingUp
+from app.errors import WarmingUp
 from app.workers.control import TemplateLost, WorkerDied
 from app.workers.pool import Pool
 from app.workers.progress import Progress

@@ -22,6 +22,7 @@ import threading
 import traceback
 from collections.abc import Callable, Sequence
 from functools import partial
+from importlib import import_module
 from multiprocessing.connection import Connection
 from multiprocessing.reduction import recv_handle
 from typing import Any
@@ -32,15 +33,14 @@ MEBIBYTE = 2**20
 logger = logging.getLogger("tribodrive")
 
 
-def main(parent: int, descriptor: int) -> None:
-    """Obey the commands that arrive on the descriptor until the parent process ends."""
+def main(parent: int, descriptor: int, preloaded: str) -> None:
+    """Import the module `preloaded`, then obey the commands that arrive on the descriptor until the parent ends."""
     if sys.platform == "linux":  # elsewhere the process ends when it next reads a command
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     if os.getppid() != parent:
         return
     gc.disable()  # imports leave no garbage, and looking for it takes a third of their time
-    import app.main  # noqa: F401, PLC0415  so that no worker has to import what it is asked to call
-
+    import_module(preloaded)  # so that no worker has to import what it is asked to call
     gc.freeze()
     with Connection(descriptor) as control:
         control.send("ready")
@@ -148,4 +148,4 @@ def _compile(connection: Connection, names: Sequence[str]) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]), int(sys.argv[2]))
+    main(int(sys.argv[1]), int(sys.argv[2]), sys.argv[3])

@@ -78,6 +78,45 @@ def test_imports_have_no_circle_between_modules_or_packages_of_solvers() -> None
     assert order.index("solvers") < order.index("app")
 
 
+ROOMS = (
+    "settings",
+    "log",
+    "errors",
+    "sources",
+    "schema",
+    "examples",
+    "calculations",
+    "plausibility",
+    "evaluate",
+    "figures",
+    "workers",
+    "studies",
+    "pages",
+    "rexs",
+    "http",
+    "client",
+    "main",
+    "__main__",
+)
+"""The entries of `app`: each imports those above it only."""
+
+
+def room(name: str) -> str | None:
+    """The entry of `app` to which a module belongs."""
+    return name.split(".")[1] if name.startswith("app.") else None
+
+
+def test_app_has_these_rooms() -> None:
+    found = {path.stem for path in (ROOT / "app").iterdir() if path.suffix == ".py" or (path / "__init__.py").exists()}
+    assert found - {"__init__"} == set(ROOMS)
+
+
+def test_no_room_imports_a_higher_one() -> None:
+    arrows = {(room(name_of(path)), room(other)) for path in MODULES for other in modules_imported(path)}
+    upward = [(one, two) for one, two in arrows if one and two and ROOMS.index(one) < ROOMS.index(two)]
+    assert upward == []
+
+
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
 def test_a_module_says_what_it_is_about(path: Path) -> None:
     assert ast.get_docstring(ast.parse(path.read_text("utf-8")))

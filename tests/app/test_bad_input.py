@@ -10,7 +10,7 @@ import pytest
 from pydantic import BaseModel
 
 from app.calculations import CALCULATIONS, Calculation
-from app.library import Example, examples
+from app.examples import Example, examples
 from app.schema.quantities import Input
 
 HOSTILE: list[Any] = ["30", True, "x" * 50, None, [], {}, -1e300, 1e300, 10**400, 0, 1e-9, 1e-300]

@@ -9,9 +9,8 @@ from typing import Any
 import pytest
 
 from app.calculations import CALCULATIONS, Calculation
-from app.evaluate import evaluate
-from app.formats.json import written
-from app.library import examples
+from app.evaluate import evaluate, written
+from app.examples import examples
 from app.schema.base import Request
 from app.schema.paths import field_path
 from app.sources import SOURCES

@@ -5,12 +5,12 @@ from typing import Any
 import pytest
 
 from app.calculations import BY_PATH
+from app.errors import Unprocessable
 from app.evaluate import evaluate
+from app.examples import examples
 from app.figures.data import NoFigure
 from app.figures.models.scuffing import contact_temperature, friction
-from app.library import examples
 from app.pages.results import cards
-from app.problems import Unprocessable
 from app.schema.scuffing import ScuffingRequest, ScuffingResponse
 from tests.support.requests import CONTACT, refused, solved
 

@@ -11,7 +11,7 @@ import httpx
 import numpy as np
 import pytest
 
-from app.library import examples
+from app.examples import examples
 from tests.support.requests import changed
 
 Post = Callable[[str, object], httpx.Response]

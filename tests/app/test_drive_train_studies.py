@@ -9,9 +9,9 @@ import httpx
 import pytest
 
 from app.calculations import BY_PATH
-from app.library import examples
-from app.routes.study_examples import CORNERS_EXAMPLES, DESIGN_EXAMPLES
+from app.examples import examples
 from app.studies.design import design_study
+from app.studies.examples import CORNERS_EXAMPLES, DESIGN_EXAMPLES
 from app.studies.fields import set_value, value_at
 from app.studies.sweep import corners_study
 

@@ -7,7 +7,7 @@ import httpx
 import pytest
 
 from app.calculations import CALCULATIONS
-from app.library import examples
+from app.examples import examples
 
 Post = Callable[[str, object], httpx.Response]
 

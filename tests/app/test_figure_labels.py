@@ -18,11 +18,11 @@ from matplotlib.transforms import Bbox
 
 from app.calculations import BY_PATH
 from app.evaluate import evaluate
+from app.examples import Example, examples
 from app.figures.data import Axis, Figure, Hue, Level, Line, Map, Mark, NoFigure, Panel, Row, ThemeName, values
 from app.figures.drawing.image import draw, laid_out, places
 from app.figures.drawing.style import THEMES, WIDTH, settings
 from app.figures.registry import figures_of
-from app.library import Example, examples
 
 X = np.linspace(0.0, 1.0, 41)
 PEAK = 4.0 * X * (1.0 - X)

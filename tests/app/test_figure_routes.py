@@ -9,8 +9,8 @@ import httpx
 import pytest
 
 from app.calculations import CALCULATIONS
+from app.examples import examples
 from app.figures.registry import figures_of
-from app.library import examples
 
 Post = Callable[[str, object], httpx.Response]
 

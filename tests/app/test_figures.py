@@ -13,13 +13,13 @@ import pytest
 
 from app.calculations import CALCULATIONS
 from app.evaluate import evaluate
+from app.examples import examples
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, Role
 from app.figures.drawing.image import draw
 from app.figures.models import drive_train
 from app.figures.registry import figures_of
 from app.figures.tables import table
-from app.library import examples
 from app.schema.model import Documented
 
 Post = Callable[[str, object], httpx.Response]

@@ -7,7 +7,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.library import examples
+from app.examples import examples
 
 Post = Callable[[str, object], httpx.Response]
 PATH = "/v1/scuffing/line-contact"

@@ -6,10 +6,11 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
+from app.errors import Fault
 from app.schema.base import Request
 from app.schema.coupling import CouplingRequest
 from app.schema.load_distribution import LoadDistributionRequest
-from app.schema.messages import Fault, faults
+from app.schema.messages import faults
 
 COUPLING: dict[str, Any] = {
     "coupling": {"teeth": 52, "module_mm": 3.0},

@@ -7,9 +7,9 @@ import pytest
 from numpy.random import Generator
 
 from app.calculations import BY_PATH
-from app.formats.json import answer
-from app.library import examples
-from app.problems import Unprocessable
+from app.errors import Unprocessable
+from app.evaluate import answer
+from app.examples import examples
 from solvers.oils import TYPICAL_VISCOSITY_100
 from tests.support.requests import CONTACT, COUPLING, PAIR, changed, solved
 

@@ -9,17 +9,16 @@ import pytest
 
 from app import calculations
 from app.calculations import Calculation
-from app.evaluate import evaluate
-from app.formats import csv
-from app.formats.json import answer, written
+from app.errors import InvalidBody, Unprocessable
+from app.evaluate import answer, evaluate, written
+from app.pages import csv
 from app.pages.form import State, form
 from app.pages.results import entries
-from app.problems import Unprocessable
-from app.reading import InvalidBody, validated
 from app.schema.base import Group, Request, Response, Section
 from app.schema.conversion import from_si
 from app.schema.fields import leaf_at
 from app.schema.quantities import Input, View
+from app.schema.reading import validated
 from app.studies.points import Question, solve_point
 from solvers.arrays import FloatArray
 from solvers.coupling.inputs import Coupling, CouplingDesign

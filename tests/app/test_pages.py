@@ -12,15 +12,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.calculations import CALCULATIONS, Calculation
-from app.evaluate import evaluate
+from app.errors import Unreadable
+from app.evaluate import evaluate, written
+from app.examples import examples
 from app.figures.registry import figures_of
-from app.formats.json import written
-from app.library import examples
 from app.pages import views
 from app.pages.query import body_of, link, normalised, pairs_of, pairs_of_query
 from app.pages.results import NOT_RESULTS
 from app.pages.templating import page_path
-from app.reading import Unreadable
 from app.schema.fields import ITEM, leaves
 from app.sources import SHORT_SOURCES
 

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from app.calculations import BY_PATH
-from app.library import STARTER, examples
+from app.examples import STARTER, examples
 from tests.support.gear_pairs import FZG_TORQUES
 from tests.support.requests import CONTACT, COUPLING, MIST, PAIR, refused, solved
 

@@ -7,7 +7,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.library import examples
+from app.examples import examples
 
 Post = Callable[[str, object], httpx.Response]
 DISTRIBUTION, SCUFFING = "/v1/scuffing/load-distribution", "/v1/scuffing"

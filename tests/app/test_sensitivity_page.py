@@ -10,7 +10,7 @@ import httpx
 import pytest
 
 from app.calculations import BY_PATH
-from app.library import examples
+from app.examples import examples
 from app.pages.query import pairs_of, pairs_of_query, split_views
 from app.pages.studies import page as pages
 from app.pages.studies import sweep

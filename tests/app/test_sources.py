@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from markupsafe import escape
 
-from app.library import examples
+from app.examples import examples
 from app.pages import views
 from app.pages.query import pairs_of, pairs_of_query, split_views
 from app.sources import SOURCES, changes_since, recent_changes, sources_of

@@ -10,9 +10,9 @@ import httpx
 import pytest
 
 from app.calculations import BY_PATH
-from app.library import examples
-from app.routes.study_examples import SENSITIVITY_EXAMPLES, SWEEP_EXAMPLES
+from app.examples import examples
 from app.schema.fields import headlines
+from app.studies.examples import SENSITIVITY_EXAMPLES, SWEEP_EXAMPLES
 from app.studies.fields import set_value, value_at
 
 Post = Callable[[str, object], httpx.Response]

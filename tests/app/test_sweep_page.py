@@ -13,11 +13,12 @@ import pytest
 from matplotlib.image import imread
 
 from app.calculations import CALCULATIONS, Calculation
+from app.errors import InvalidBody, Unprocessable
+from app.examples import examples
 from app.figures.data import Axis, values
 from app.figures.drawing.image import draw, places
 from app.figures.rendering import MEDIA_TYPES
 from app.figures.studies import MOST_CURVES, Coordinate, Grid, figures_of
-from app.library import examples
 from app.pages.query import STUDY_NAMES, VIEW_NAMES, body_of, pairs_of, pairs_of_query, split_views
 from app.pages.studies import page as pages
 from app.pages.studies import sweep
@@ -28,8 +29,6 @@ from app.pages.studies.sweep_examples import STUDIES, StudyExample
 from app.pages.studies.sweep_query import case_of, shown_outputs, varied
 from app.pages.templating import page_path
 from app.pages.views import Asked
-from app.problems import Unprocessable
-from app.reading import InvalidBody
 from app.schema.fields import leaf_at, leaves
 from app.sources import SHORT_SOURCES
 from app.studies.points import solve_point

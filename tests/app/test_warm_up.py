@@ -4,13 +4,13 @@ import subprocess
 import sys
 
 from app.calculations import CALCULATIONS
-from app.library import examples
+from app.examples import examples
 from app.workers.stages import COUPLING, LINE_CONTACT, STAGES, needed_for
 
 COUNT_COLD = """
 import gc
 from numba.extending import is_jitted
-from app.library import examples
+from app.examples import examples
 from app.workers.stages import STAGES, calculate
 
 def compiled():

@@ -18,7 +18,7 @@ import pytest
 
 from app.calculations import CALCULATIONS
 from app.evaluate import evaluate
-from app.library import examples
+from app.examples import examples
 
 NUMBERS = Path(__file__).with_name("numbers.json")
 CHANGELOG = Path(__file__).parents[2] / "CHANGELOG.md"

@@ -11,7 +11,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.library import examples
+from app.examples import examples
 from app.studies.stream import Clock
 from app.studies.sweep import sweep_study
 from tests.support.dask_cluster import DaskProcesses, running_cluster

@@ -7,7 +7,7 @@ import pytest
 from playwright.sync_api import Browser, Page
 
 from app.calculations import CALCULATIONS
-from app.library import examples
+from app.examples import examples
 
 pytestmark = pytest.mark.service
 

@@ -15,7 +15,7 @@ from urllib.parse import urlsplit
 import httpx
 import pytest
 
-from app.library import examples
+from app.examples import examples
 from tests.support.server import (
     descendants,
     descriptors,

@@ -10,7 +10,7 @@ from types import ModuleType
 import pytest
 
 from app.calculations import CALCULATIONS
-from app.library import examples
+from app.examples import examples
 
 pytestmark = pytest.mark.service
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
+from app.examples import examples
 from app.figures.registry import figures_of
-from app.library import examples
 from app.pages.query import link, pairs_of
 from tests.support.browsing import PHONE, address_of, overflow, serious
 

@@ -15,7 +15,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.library import examples
+from app.examples import examples
 from tests.support.faulty_server import LONG
 from tests.support.server import running_server, send_signal, workers
 

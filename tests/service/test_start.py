@@ -13,7 +13,7 @@ from pathlib import Path
 import httpx
 import pytest
 
-from app.library import examples
+from app.examples import examples
 from tests.support.caches import complete_cache
 from tests.support.server import (
     ROOT,

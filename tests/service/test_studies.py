@@ -17,7 +17,7 @@ from urllib.parse import urlsplit
 import httpx
 import pytest
 
-from app.library import examples
+from app.examples import examples
 from app.schema.coupling import CouplingResponse
 from app.schema.fields import leaves
 from tests.support.faulty_server import HANGING

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.calculations import BY_PATH
-from app.library import examples
+from app.examples import examples
 from solvers.coupling.inputs import CouplingDesign
 from solvers.errors import InvalidInput
 from solvers.quantity import checked, quantity, record, to_dict

@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 
 from app.calculations import BY_PATH
+from app.errors import InvalidBody, Unprocessable, faults_of
 from app.evaluate import evaluate
-from app.library import examples
-from app.problems import Unprocessable, faults_of
-from app.reading import InvalidBody
+from app.examples import examples
 from app.studies.design import design_study
 from app.studies.drive_train import lightened
 from app.studies.engine import Pool

@@ -5,7 +5,7 @@ from contextlib import aclosing
 
 import pytest
 
-from app.problems import DeadlineExceeded, WorkerLost
+from app.errors import DeadlineExceeded, WorkerLost
 from app.studies.engine import CHUNKS_PER_SLOT, PoolLost, Work, in_order
 from app.studies.points import CHUNK_SECONDS, Point
 from tests.support.pools import QUESTION, ScriptedPool, at

@@ -6,9 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.library import examples
-from app.problems import Unprocessable, faults_of
-from app.reading import InvalidBody
+from app.errors import InvalidBody, Unprocessable, faults_of
+from app.examples import examples
 from app.studies.sensitivity import sensitivity_study
 from app.studies.sweep import Sweep, sweep_study
 

@@ -6,9 +6,9 @@ from typing import Any
 import pytest
 
 from app.calculations import BY_PATH
-from app.formats.json import answer
-from app.library import examples
-from app.problems import Unprocessable
+from app.errors import Unprocessable
+from app.evaluate import answer
+from app.examples import examples
 from app.schema.fields import leaves
 from app.studies import points
 from app.studies.fields import value_at

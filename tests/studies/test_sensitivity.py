@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
-from app.library import examples
+from app.examples import examples
 from app.schema.fields import Leaf, leaf_at, leaves
 from app.studies.fields import fault
 from app.studies.sensitivity import Differences, probe, sensitivity_study

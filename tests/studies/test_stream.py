@@ -7,7 +7,7 @@ from contextlib import ExitStack, nullcontext
 import pytest
 from starlette.types import Message
 
-from app.routes.studies import StudyStream
+from app.http.routes.studies import StudyStream
 from app.studies import stream
 from app.studies.engine import PoolLost
 from app.studies.stream import Clock, Line, guarded

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.stats import spearmanr
 
-from app.library import examples
+from app.examples import examples
 from app.schema.fields import Leaf
 from app.studies.point_sets import CheckedAxis, PointSet
 from app.studies.points import Point

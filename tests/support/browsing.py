@@ -4,7 +4,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page
 
 from app.calculations import BY_PATH
-from app.library import examples
+from app.examples import examples
 from app.pages.links import example_link
 
 PHONE = {"width": 360, "height": 740}

@@ -8,7 +8,7 @@ import pytest
 from pydantic import ValidationError
 
 from app.calculations import BY_PATH
-from app.formats.json import answer
+from app.evaluate import answer
 from app.schema.messages import faults
 
 PAIR: dict[str, Any] = {

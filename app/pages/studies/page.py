@@ -4,6 +4,7 @@ import json
 from dataclasses import replace
 
 from app.calculations import Calculation
+from app.errors import Unreadable
 from app.figures.rendering import Format, written
 from app.figures.tables import table
 from app.pages.cases import Fault, faults_of
@@ -18,7 +19,6 @@ from app.pages.studies.sweep_form import output_menu
 from app.pages.studies.sweep_query import field_at_fault, shown_output
 from app.pages.templating import page_path, rendered
 from app.pages.views import REFUSED, Asked
-from app.reading import Unreadable
 from app.schema.fields import Leaf
 from app.studies.stream import Line, StudyBroke
 

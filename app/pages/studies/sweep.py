@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from app.errors import Unreadable
 from app.figures.data import Axis, Figure, values
 from app.figures.rendering import Format, written
 from app.figures.studies import Coordinate, Grid, figures_of
@@ -23,7 +24,6 @@ from app.pages.studies.sweep_query import SweepQuery, Varied, case_of, field_at_
 from app.pages.templating import rendered
 from app.pages.typesetting import shown, words
 from app.pages.views import REFUSED, Asked
-from app.reading import Unreadable
 from app.schema.fields import Leaf
 from app.studies.fields import value_at
 from app.studies.requests import Scalar

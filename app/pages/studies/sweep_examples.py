@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from app.calculations import BY_PATH, Calculation
-from app.library import examples
+from app.examples import examples
 from app.pages.query import link, pairs_of
 from app.pages.templating import page_path
 

@@ -11,12 +11,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from app.calculations import Calculation
+from app.errors import InvalidBody, Unprocessable
 from app.pages.query import LOWER, TRIALS, UPPER, Pairs, body_of, number_of
 from app.pages.results import NOT_RESULTS
 from app.pages.typesetting import shown
-from app.problems import Unprocessable
-from app.reading import InvalidBody, validated
 from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves
+from app.schema.reading import validated
 from app.schema.tree import tree
 from app.studies.fields import scalar_at, value_at
 from app.studies.requests import Scalar

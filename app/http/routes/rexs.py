@@ -4,10 +4,11 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, HTTPException, Query, Request, Response
 
+from app.errors import Unprocessable
+from app.http.problems import documented
+from app.http.routes.pages import TROUBLES, html, trouble_page
 from app.pages.overview import problem_page
-from app.problems import Unprocessable, documented
 from app.rexs import answer
-from app.routes.pages import TROUBLES, html, trouble_page
 from app.settings import MEBIBYTE, Settings
 from app.workers.admission import Runner
 

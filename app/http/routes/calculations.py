@@ -3,14 +3,13 @@
 from collections.abc import Callable
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Body, Request, Response
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
-from app.cost import refuse_endless
-from app.formats.json import answer
+from app.evaluate import answer, refuse_endless
+from app.examples import examples
 from app.http.json_route import JsonRoute
-from app.library import body_of
-from app.problems import documented
+from app.http.problems import documented
 from app.schema.base import Request as Model
 from app.settings import Settings
 from app.workers.admission import Runner
@@ -19,12 +18,23 @@ from app.workers.start_up import StartUp
 router = APIRouter(route_class=JsonRoute, responses=documented(400, 408, 413, 415, 422, 431, 500, 503, 504))
 
 
+def body_of(endpoint: str) -> Any:
+    """The body parameter of an endpoint, its examples on the docs page."""
+    return Body(
+        openapi_examples={
+            example.name: {"summary": example.title, "description": example.source, "value": example.request}
+            for example in examples().values()
+            if example.endpoint == endpoint
+        }
+    )
+
+
 async def calculated(http: Request, path: str, function: Callable[..., bytes], request: Model) -> bytes:
     """What the function makes of the calculation at `path` and its request, in a worker."""
     start_up: StartUp = http.app.state.start_up
     start_up.require(path)
     limits: Settings = http.app.state.settings
-    refuse_endless(request, limits.deadline_s)
+    refuse_endless(BY_PATH[path], request, limits.deadline_s)
     runner: Runner = http.app.state.runner
     made: bytes = await runner.run(http, function, path, request)
     return made

@@ -9,14 +9,9 @@ from typing import Any
 from fastapi import APIRouter, HTTPException, Request, Response
 
 from app.calculations import CALCULATIONS, Calculation
+from app.errors import DeadlineExceeded, WorkerLost
 from app.figures.rendering import MEDIA_TYPES as IMAGE_TYPES
-from app.pages.studies import page as pages
-from app.pages.studies import sweep as sweeps
-from app.pages.studies.declaration import Opened, PageStudy, StudyPage
-from app.pages.study_links import study_links
-from app.pages.templating import page_path, rendered
-from app.problems import DeadlineExceeded, WorkerLost
-from app.routes.pages import (
+from app.http.routes.pages import (
     DOCUMENT_POLICY,
     HTML,
     METHODS,
@@ -27,7 +22,12 @@ from app.routes.pages import (
     redirected,
     trouble_page,
 )
-from app.routes.studies import MEDIA_TYPES, PATIENCE_S, StudyStream
+from app.http.routes.studies import MEDIA_TYPES, PATIENCE_S, StudyStream
+from app.pages.studies import page as pages
+from app.pages.studies import sweep as sweeps
+from app.pages.studies.declaration import Opened, PageStudy, StudyPage
+from app.pages.study_links import study_links
+from app.pages.templating import page_path, rendered
 from app.settings import Settings
 from app.studies.admission import StudyAdmission
 from app.studies.engine import twice_if_lost

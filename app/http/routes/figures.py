@@ -10,9 +10,8 @@ from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.figures.registry import figures_of
 from app.figures.rendering import MEDIA_TYPES, Format, render
 from app.http.json_route import JsonRoute
-from app.library import body_of
-from app.problems import documented
-from app.routes.calculations import calculated
+from app.http.problems import documented
+from app.http.routes.calculations import body_of, calculated
 from app.schema.base import Request as Model
 from app.schema.quantities import Output
 

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from app.library import examples
+from app.examples import examples
 
 _COUPLING = examples()["pahl-axial-displacement"]
 _LOADS = examples()["xue-pair-1-modified"]

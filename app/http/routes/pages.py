@@ -7,19 +7,18 @@ from urllib.parse import quote
 from fastapi import APIRouter, HTTPException, Request, Response
 from fastapi.responses import RedirectResponse
 
-from app.answers import Answers, key_of
 from app.calculations import CALCULATIONS, Calculation
+from app.errors import PROBLEMS, Unreadable
+from app.examples import examples
 from app.figures.registry import figures_of
 from app.figures.rendering import MEDIA_TYPES
-from app.library import examples
 from app.pages import views
 from app.pages.about import ABOUT
+from app.pages.answers import Answers, key_of
 from app.pages.links import example_link
 from app.pages.overview import about_page, problem_page, rows_of, start_page
 from app.pages.query import link, normalised, pairs_of_query, split_views
 from app.pages.templating import ASSETS, asset, page_path
-from app.problems import PROBLEMS
-from app.reading import Unreadable
 from app.sources import SHORT_SOURCES
 from app.workers.admission import Runner
 from app.workers.start_up import StartUp

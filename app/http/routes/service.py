@@ -6,8 +6,9 @@ from fastapi import APIRouter, HTTPException, Path, Request, Response
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 from pydantic import BaseModel
 
-from app.library import Example, ExampleSummary, examples
-from app.problems import WarmingUp, WorkerLost, documented
+from app.errors import WarmingUp, WorkerLost
+from app.examples import Example, ExampleSummary, examples
+from app.http.problems import documented
 from app.schema.quantities import Output
 from app.workers.pool import Pool
 from app.workers.start_up import StartUp

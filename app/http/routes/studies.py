@@ -10,11 +10,11 @@ from fastapi.responses import StreamingResponse
 from starlette.types import Receive, Scope, Send
 
 from app.http.json_route import JsonRoute
-from app.problems import documented
-from app.routes.study_examples import CORNERS_EXAMPLES, DESIGN_EXAMPLES, SENSITIVITY_EXAMPLES, SWEEP_EXAMPLES
+from app.http.problems import documented
 from app.settings import Settings
 from app.studies import design, sensitivity, sweep
 from app.studies.admission import StudyAdmission
+from app.studies.examples import CORNERS_EXAMPLES, DESIGN_EXAMPLES, SENSITIVITY_EXAMPLES, SWEEP_EXAMPLES
 from app.studies.requests import CornersRequest, DesignRequest, SensitivityRequest, SweepRequest
 from app.studies.stream import Clock, encoded, guarded, json_line
 from app.studies.study import Study

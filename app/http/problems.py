@@ -1,12 +1,9 @@
-"""Errors as RFC 9457 problem documents. The input is never echoed.
-
-`PROBLEMS` is the one table from exception to status, code and title.
-"""
+"""Errors as RFC 9457 problem documents. The input is never echoed."""
 
 import logging
 from collections.abc import Callable
 from http import HTTPStatus
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
@@ -15,80 +12,13 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 from starlette.exceptions import HTTPException
 
-from app.reading import InvalidBody, Unreadable
-from app.schema.messages import MOST_FAULTS, pointer
+from app.errors import PROBLEMS, InvalidBody, Unprocessable, Unreadable, faults_of, pointer
+from app.schema.messages import MOST_FAULTS
 from app.schema.quantities import Output
 
 MEDIA_TYPE = "application/problem+json"
 
 logger = logging.getLogger("tribodrive")
-
-
-class Unprocessable(Exception):
-    """Input that the schema allows and physics does not; `path` is the dotted request field at fault."""
-
-    def __init__(self, code: str, message: str, path: str | None) -> None:
-        super().__init__(code, message, path)
-        self.code = code
-        self.message = message
-        self.path = path
-
-
-class QueueFull(Exception):
-    """More requests wait than the settings allow."""
-
-
-class StudiesFull(Exception):
-    """As many studies run as the settings allow."""
-
-
-class SchedulerUnavailable(Exception):
-    """The cluster for studies cannot be used."""
-
-    def __init__(self, detail: str) -> None:
-        super().__init__(detail)
-        self.detail = detail
-
-
-class DeadlineExceeded(Exception):
-    """The calculation took longer than the settings allow; its worker was ended."""
-
-
-class WorkerLost(Exception):
-    """The worker process died while it computed."""
-
-
-class WarmingUp(Exception):
-    """The kernels of this calculation are still being compiled."""
-
-    def __init__(self, detail: str) -> None:
-        super().__init__(detail)
-        self.detail = detail
-
-
-class ClientGone(Exception):
-    """The client closed the connection; its calculation was ended."""
-
-
-class Kind(NamedTuple):
-    """Status, code and title of a problem, and how long to wait before trying again."""
-
-    status: int
-    code: str
-    title: str
-    retry_after_s: int | None = None
-
-
-PROBLEMS: dict[type[Exception], Kind] = {
-    WarmingUp: Kind(503, "warming_up", "The kernels of this calculation are still being compiled; try again", 2),
-    QueueFull: Kind(503, "queue_full", "Too many calculations are waiting; try again later", 1),
-    StudiesFull: Kind(503, "studies_full", "Other studies are running; try again later", 5),
-    SchedulerUnavailable: Kind(503, "scheduler_unavailable", "The cluster for studies cannot be used; try later", 10),
-    WorkerLost: Kind(503, "worker_lost", "The calculation was lost with its process; try again", 1),
-    MemoryError: Kind(503, "memory_limit", "The calculation needs more memory than a worker may use; make it smaller"),
-    DeadlineExceeded: Kind(504, "deadline_exceeded", "The calculation took too long; make it smaller"),
-    ClientGone: Kind(499, "client_gone", "The client closed the connection"),
-}
 
 
 class FieldError(BaseModel):
@@ -211,14 +141,6 @@ def _unreadable(request: Request, error: Exception) -> JSONResponse:
 def _unprocessable(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, Unprocessable)
     return _unprocessable_response(request, error.code, faults_of(error))
-
-
-def faults_of(error: InvalidBody | Unprocessable) -> list[dict[str, str]]:
-    """Pointer, code and message of every field at fault."""
-    if isinstance(error, Unprocessable):
-        parts = error.path.split(".") if error.path else ()
-        return [{"pointer": pointer(parts), "code": error.code, "message": error.message}]
-    return [fault._asdict() for fault in error.faults]
 
 
 def _unprocessable_response(request: Request, code: str, errors: list[dict[str, str]]) -> JSONResponse:

@@ -5,7 +5,6 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import Annotated, Any
 
-from fastapi import Body
 from pydantic import BaseModel
 
 from app.schema.quantities import Output
@@ -36,18 +35,7 @@ class Example(ExampleSummary):
 @lru_cache(maxsize=1)
 def examples() -> dict[str, Example]:
     """Every example by name, the starters with industrial data first, then in alphabetical order."""
-    folder = files("app").joinpath("examples")
-    texts = {path.name.removesuffix(".json"): path.read_text("utf-8") for path in folder.iterdir()}
+    stored = [path for path in files("app.examples").iterdir() if path.name.endswith(".json")]
+    texts = {path.name.removesuffix(".json"): path.read_text("utf-8") for path in stored}
     ordered = sorted(texts, key=lambda name: (not name.startswith(STARTER), name))
     return {name: Example(name=name, **json.loads(texts[name])) for name in ordered}
-
-
-def body_of(endpoint: str) -> Any:
-    """The body parameter of an endpoint, its examples on the docs page."""
-    return Body(
-        openapi_examples={
-            example.name: {"summary": example.title, "description": example.source, "value": example.request}
-            for example in examples().values()
-            if example.endpoint == endpoint
-        }
-    )

@@ -5,27 +5,12 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from app.schema.messages import Fault, faults
+from app.errors import Fault, InvalidBody, Unreadable
+from app.schema.messages import faults
 
 M = TypeVar("M", bound=BaseModel)
 MOST_MEMBERS = 1000
 MOST_OBJECTS = 10_000
-
-
-class Unreadable(Exception):
-    """The body is no JSON that can be read."""
-
-    def __init__(self, detail: str) -> None:
-        super().__init__(detail)
-        self.detail = detail
-
-
-class InvalidBody(Exception):
-    """The body is no request; the faults are a hundred at most."""
-
-    def __init__(self, faults: list[Fault]) -> None:
-        super().__init__(faults)
-        self.faults = faults
 
 
 def read(model: type[M], body: bytes) -> M:

@@ -1,0 +1,114 @@
+"""Why a request gets no answer: the exceptions of the service.
+
+`PROBLEMS` is the one table from exception to status, code and title.
+"""
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+LONGEST_POINTER_PART = 100
+
+
+class Fault(NamedTuple):
+    """One field at fault: JSON Pointer into the request, stable code, what to change."""
+
+    pointer: str
+    code: str
+    message: str
+
+
+def pointer(location: Iterable[str | int]) -> str:
+    """RFC 6901 pointer of a location, safe to send whatever the request's keys were."""
+    parts = (str(part).encode(errors="replace").decode()[:LONGEST_POINTER_PART] for part in location)
+    return "".join("/" + part.replace("~", "~0").replace("/", "~1") for part in parts)
+
+
+class Unreadable(Exception):
+    """The body is no JSON that can be read."""
+
+    def __init__(self, detail: str) -> None:
+        super().__init__(detail)
+        self.detail = detail
+
+
+class InvalidBody(Exception):
+    """The body is no request; the faults are a hundred at most."""
+
+    def __init__(self, faults: list[Fault]) -> None:
+        super().__init__(faults)
+        self.faults = faults
+
+
+class Unprocessable(Exception):
+    """Input that the schema allows and physics does not; `path` is the dotted request field at fault."""
+
+    def __init__(self, code: str, message: str, path: str | None) -> None:
+        super().__init__(code, message, path)
+        self.code = code
+        self.message = message
+        self.path = path
+
+
+def faults_of(error: InvalidBody | Unprocessable) -> list[dict[str, str]]:
+    """Pointer, code and message of every field at fault."""
+    if isinstance(error, Unprocessable):
+        parts = error.path.split(".") if error.path else ()
+        return [{"pointer": pointer(parts), "code": error.code, "message": error.message}]
+    return [fault._asdict() for fault in error.faults]
+
+
+class QueueFull(Exception):
+    """More requests wait than the settings allow."""
+
+
+class StudiesFull(Exception):
+    """As many studies run as the settings allow."""
+
+
+class SchedulerUnavailable(Exception):
+    """The cluster for studies cannot be used."""
+
+    def __init__(self, detail: str) -> None:
+        super().__init__(detail)
+        self.detail = detail
+
+
+class DeadlineExceeded(Exception):
+    """The calculation took longer than the settings allow; its worker was ended."""
+
+
+class WorkerLost(Exception):
+    """The worker process died while it computed."""
+
+
+class WarmingUp(Exception):
+    """The kernels of this calculation are still being compiled."""
+
+    def __init__(self, detail: str) -> None:
+        super().__init__(detail)
+        self.detail = detail
+
+
+class ClientGone(Exception):
+    """The client closed the connection; its calculation was ended."""
+
+
+class Kind(NamedTuple):
+    """Status, code and title of a problem, and how long to wait before trying again."""
+
+    status: int
+    code: str
+    title: str
+    retry_after_s: int | None = None
+
+
+PROBLEMS: dict[type[Exception], Kind] = {
+    WarmingUp: Kind(503, "warming_up", "The kernels of this calculation are still being compiled; try again", 2),
+    QueueFull: Kind(503, "queue_full", "Too many calculations are waiting; try again later", 1),
+    StudiesFull: Kind(503, "studies_full", "Other studies are running; try again later", 5),
+    SchedulerUnavailable: Kind(503, "scheduler_unavailable", "The cluster for studies cannot be used; try later", 10),
+    WorkerLost: Kind(503, "worker_lost", "The calculation was lost with its process; try again", 1),
+    MemoryError: Kind(503, "memory_limit", "The calculation needs more memory than a worker may use; make it smaller"),
+    DeadlineExceeded: Kind(504, "deadline_exceeded", "The calculation took too long; make it smaller"),
+    ClientGone: Kind(499, "client_gone", "The client closed the connection"),
+}
