@@ -10,6 +10,7 @@ from pydantic import BaseModel
 from app.schema.quantities import Output
 
 STARTER = "starter-"
+OUTSIDE = "starter: outside its limits"
 
 
 class ExampleSummary(BaseModel):
@@ -34,8 +35,9 @@ class Example(ExampleSummary):
 
 @lru_cache(maxsize=1)
 def examples() -> dict[str, Example]:
-    """Every example by name, the starters with industrial data first, then in alphabetical order."""
+    """Every example by name: the starters first, those outside the limits last of these, then in alphabetical order."""
     stored = [path for path in files("app.examples").iterdir() if path.name.endswith(".json")]
     texts = {path.name.removesuffix(".json"): path.read_text("utf-8") for path in stored}
-    ordered = sorted(texts, key=lambda name: (not name.startswith(STARTER), name))
-    return {name: Example(name=name, **json.loads(texts[name])) for name in ordered}
+    read = [Example(name=name, **json.loads(text)) for name, text in sorted(texts.items())]
+    ordered = sorted(read, key=lambda example: (not example.starter, example.source == OUTSIDE))
+    return {example.name: example for example in ordered}

@@ -198,7 +198,8 @@ class CouplingThrust(Group, of=results.AxialThrust):
     """Axial thrust, mean over one tooth pitch (one revolution with pitch errors)."""
 
     views: ClassVar = {
-        "force": View(headline=1, limit="axial_thrust.coaxial_limit_n", bound="upper"),
+        "design_force": View(headline=1),
+        "force": View(limit="axial_thrust.coaxial_limit_n", bound="upper"),
         "fraction_of_limit": View(limit=1.0),
     }
 

@@ -70,13 +70,9 @@ def test_the_figure_shows_the_most_influential_first() -> None:
     lines, page = result_of(asked(COUPLING))
     alt = re.findall(r'alt="([^"]+)"', page)[0]
     assert alt.startswith(
-        "What moves the axial thrust most. 757 N now; misalignment, coefficient of friction and axial velocity first"
+        "What moves the thrust to be held most. 8186 N now; coefficient of friction, number of teeth and module first"
     )
-    assert [line["path"] for line in lines[:3]] == [
-        "operation.misalignment_deg",
-        "friction.coefficient",
-        "operation.axial_velocity_mm_per_s",
-    ]
+    assert [line["path"] for line in lines[:3]] == ["friction.coefficient", "coupling.teeth", "coupling.module_mm"]
 
 
 def test_a_case_without_the_output_says_so() -> None:
@@ -85,9 +81,9 @@ def test_a_case_without_the_output_says_so() -> None:
     *lines, end = lines_of(study)
     nothing = [{**line, "change": None, "derivative": None} for line in lines]
     without = {**end, "outputs": [{**end["outputs"][0], "value": None}]}
-    assert "The case has no axial thrust" in pages.whole(study, [*nothing, without]).decode()
+    assert "The case has no thrust to be held" in pages.whole(study, [*nothing, without]).decode()
     still = [{**line, "change": 0.0, "derivative": 0.0} for line in lines]
-    assert "No input moves the axial thrust" in pages.whole(study, [*still, end]).decode()
+    assert "No input moves the thrust to be held" in pages.whole(study, [*still, end]).decode()
 
 
 def test_a_study_that_breaks_off_says_why() -> None:
@@ -113,7 +109,7 @@ def test_the_page_by_its_address(client: httpx.Client) -> None:
     page = client.get(links.study("influence"))
     assert page.status_code == 200
     assert page.text.rstrip().endswith("</html>")
-    assert "What moves the axial thrust most" in page.text
+    assert "What moves the thrust to be held most" in page.text
     assert client.get("/coupling/influence").status_code == 200
     assert client.get("/coupling/influence?coupling.teeth=abc").status_code == 422
     assert client.get("/coupling/influence?" + "&".join(f"a{i}=1" for i in range(1500))).status_code == 400

@@ -33,7 +33,7 @@ def test_from_a_case_to_a_curve_and_back_to_the_case_of_a_point(visit: Callable[
     assert box is not None
     plot.hover(position={"x": box["width"] / 2, "y": box["height"] / 2})
     reading = page.locator("#figure-curve .reading")
-    expect(reading).to_contain_text("axial thrust")
+    expect(reading).to_contain_text("thrust to be held")
     said = reading.inner_text()
     plot.click(position={"x": box["width"] / 2, "y": box["height"] / 2})
     expect(page.locator(".card").first).to_be_visible()

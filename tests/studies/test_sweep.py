@@ -68,7 +68,7 @@ def test_lines_of_a_grid() -> None:
 def test_headline_numbers_by_default() -> None:
     header, *_ = swept(cases=[{}])
     assert [each["path"] for each in header["outputs"]] == [
-        THRUST,
+        "axial_thrust.design_force_n",
         FILM,
         "kinematics.max_sliding_velocity_m_per_s",
     ]
