@@ -1,9 +1,16 @@
-"""The one table of what the service calculates: address, request, solver, response."""
+"""The one table of what the service calculates: an endpoint is a row of it and its solver."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from app.figures.declaration import Declaration
+from app.figures.models import coupling as coupling_figures
+from app.figures.models import drive_train as drive_train_figures
+from app.figures.models import line_contact as line_contact_figures
+from app.figures.models import load_distribution as load_figures
+from app.figures.models import pumping as pumping_figures
+from app.figures.models import scuffing as scuffing_figures
 from app.schema.base import Request, Response
 from app.schema.coupling import (
     CouplingRequest,
@@ -31,8 +38,25 @@ class Cost(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
+class Stage:
+    """Kernels that are compiled and loaded together, before the endpoints that need them answer.
+
+    The `examples` between them call every kernel of these endpoints that no stage before has compiled; `kernels` is
+    about how many.
+    """
+
+    name: str
+    kernels: int
+    examples: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Calculation:
-    """One endpoint."""
+    """One endpoint.
+
+    It answers as soon as the kernels of its `stage` are compiled. `figures` can be drawn of its answers. `cost` tells
+    what a request takes where the schema allows more than can be finished, from measured times of one core.
+    """
 
     path: str
     title: str
@@ -41,8 +65,9 @@ class Calculation:
     request: type[Request]
     solve: Callable[[Any], Any]
     response: type[Response]
+    stage: Stage
+    figures: tuple[Declaration, ...] = ()
     cost: Callable[[Any], Cost] | None = None
-    """What a request takes, where the schema allows more than can be finished; from measured times of one core."""
 
 
 def _thermal_path(request: Any) -> Cost:
@@ -71,6 +96,13 @@ def _choking_search(request: Any) -> Cost:
     return Cost(0.05 * pockets + 3e-4 * pockets**2, "model.slices")
 
 
+COUPLING = Stage("coupling", 7, ("pahl-axial-displacement",))
+SLEEVE = Stage("coupling sleeve", 58, ("pahl-sleeve-orbit", "pahl-z-arrangement"))
+LOADS = Stage("load distribution", 63, ("fzg-type-a",))
+PUMPING = Stage("pumping", 111, ("milian-case-1", "milian-case-1-pocket-chain"))
+LINE_CONTACT = Stage("line contact", 154, ("xue-line-contact", "xue-line-contact-isothermal", "xue-pair-1-thermal"))
+DRIVE_TRAIN = Stage("drive train", 10, ("starter-turbo-gear-drive-train",))
+
 CALCULATIONS = (
     Calculation(
         path="/v1/coupling",
@@ -80,6 +112,8 @@ CALCULATIONS = (
         request=CouplingRequest,
         solve=coupling.solve,
         response=CouplingResponse,
+        stage=COUPLING,
+        figures=coupling_figures.FIGURES,
     ),
     Calculation(
         path="/v1/coupling/sleeve-orbit",
@@ -89,6 +123,8 @@ CALCULATIONS = (
         request=SleeveOrbitRequest,
         solve=coupling.solve_orbit,
         response=SleeveOrbitResponse,
+        stage=SLEEVE,
+        figures=coupling_figures.ORBIT_FIGURES,
     ),
     Calculation(
         path="/v1/coupling/recommendation",
@@ -98,6 +134,8 @@ CALCULATIONS = (
         request=RecommendationRequest,
         solve=coupling.recommend,
         response=RecommendationResponse,
+        stage=SLEEVE,
+        figures=coupling_figures.RECOMMENDATION_FIGURES,
     ),
     Calculation(
         path="/v1/pumping",
@@ -107,6 +145,8 @@ CALCULATIONS = (
         request=PumpingRequest,
         solve=pumping.solve,
         response=PumpingResponse,
+        stage=PUMPING,
+        figures=pumping_figures.FIGURES,
     ),
     Calculation(
         path="/v1/pumping/choking-speed",
@@ -116,6 +156,8 @@ CALCULATIONS = (
         request=ChokingSpeedRequest,
         solve=pumping.choking_speeds,
         response=ChokingSpeedResponse,
+        stage=PUMPING,
+        figures=pumping_figures.CHOKING_FIGURES,
         cost=_choking_search,
     ),
     Calculation(
@@ -126,6 +168,8 @@ CALCULATIONS = (
         request=LoadDistributionRequest,
         solve=scuffing.solve_load_distribution,
         response=LoadDistributionResponse,
+        stage=LOADS,
+        figures=load_figures.FIGURES,
     ),
     Calculation(
         path="/v1/scuffing",
@@ -135,6 +179,8 @@ CALCULATIONS = (
         request=ScuffingRequest,
         solve=scuffing.solve_scuffing,
         response=ScuffingResponse,
+        stage=LINE_CONTACT,
+        figures=(*scuffing_figures.FIGURES, *load_figures.FIGURES),
         cost=_thermal_path,
     ),
     Calculation(
@@ -145,6 +191,8 @@ CALCULATIONS = (
         request=LineContactRequest,
         solve=ehl.solve,
         response=LineContactResponse,
+        stage=LINE_CONTACT,
+        figures=line_contact_figures.FIGURES,
     ),
     Calculation(
         path="/v1/drive-train",
@@ -154,6 +202,8 @@ CALCULATIONS = (
         request=DriveTrainRequest,
         solve=drive_train.solve,
         response=DriveTrainResponse,
+        stage=DRIVE_TRAIN,
+        figures=drive_train_figures.FIGURES,
         cost=_two_thermal_paths,
     ),
 )

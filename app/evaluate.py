@@ -6,6 +6,9 @@ from typing import Any
 
 from app.calculations import Calculation
 from app.errors import Unprocessable
+from app.figures import rendering
+from app.figures.data import ThemeName
+from app.figures.declaration import Declaration
 from app.plausibility import unusual
 from app.schema.base import MODEL_VERSION, Notice, Request, Response, Section
 from app.schema.conversion import above, from_si, group_of
@@ -39,6 +42,19 @@ def answer(calculation: Calculation, request: Request) -> bytes:
 def written(response: Response, detail: Detail = "fields") -> bytes:
     """The response as JSON, its fields above a level of detail left out."""
     return response.model_dump_json(exclude_unset=True, exclude=above(type(response), detail)).encode()
+
+
+def drawn(
+    calculation: Calculation,
+    declaration: Declaration,
+    request: Request,
+    image_format: rendering.Format,
+    theme: ThemeName,
+) -> bytes:
+    """Solve the request and write a figure; raises Unprocessable as `evaluate` does and where there is no figure."""
+    asked = request.model_copy(update={"detail": declaration.detail})
+    figure = rendering.figure_of(declaration, asked, evaluate(calculation, asked))
+    return rendering.written(figure, image_format, theme)
 
 
 def evaluate(calculation: Calculation, request: Request) -> Response:

@@ -11,7 +11,6 @@ from app.calculations import CALCULATIONS, Calculation
 from app.evaluate import evaluate
 from app.examples import examples
 from app.figures.data import Figure, NoFigure
-from app.figures.registry import figures_of
 
 CASES = (
     "pahl-heavily-crowned",
@@ -36,7 +35,7 @@ def built_figures(calculation: Calculation, body: dict[str, Any]) -> list[tuple[
     """The data of every figure of a case, by name."""
     request = calculation.request.model_validate({**body, "detail": "fields"})
     answer, figures = evaluate(calculation, request), []
-    for declaration in figures_of(calculation.path):
+    for declaration in calculation.figures:
         try:
             figures.append((declaration.name, declaration.figure(request, answer)))
         except NoFigure as reason:

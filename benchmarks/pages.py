@@ -10,7 +10,6 @@ from contextlib import suppress
 from app.calculations import CALCULATIONS
 from app.errors import Unprocessable
 from app.examples import examples
-from app.figures.registry import figures_of
 from app.pages import views
 from app.pages.cases import solved
 from app.pages.query import pairs_of
@@ -38,7 +37,7 @@ def main() -> None:
         ]
         drawn = {
             each.name: _milliseconds(lambda kept=kept, name=each.name: _draw(kept, name))
-            for each in figures_of(calculation.path)
+            for each in calculation.figures
         }
         slowest = max(drawn, key=drawn.__getitem__)
         report = _milliseconds(lambda kept=kept: views.report(kept, "http://localhost"))

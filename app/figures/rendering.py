@@ -1,10 +1,8 @@
-"""From a request to the bytes of one of its figures; runs in a worker process."""
+"""From a request and its answer to the bytes of one of its figures; runs in a worker process."""
 
 from typing import Any, Literal
 
-from app.calculations import Calculation
 from app.errors import Unprocessable
-from app.evaluate import evaluate
 from app.figures.data import Figure, NoFigure, ThemeName
 from app.figures.declaration import Declaration
 from app.figures.tables import table
@@ -17,18 +15,6 @@ MEDIA_TYPES: dict[Format, str] = {
     "pdf": "application/pdf",
     "csv": "text/csv; charset=utf-8",
 }
-
-
-def render(
-    calculation: Calculation,
-    declaration: Declaration,
-    request: Request,
-    image_format: Format,
-    theme: ThemeName,
-) -> bytes:
-    """Solve the request and write the figure; raises Unprocessable as `evaluate` does and where there is no figure."""
-    asked = request.model_copy(update={"detail": declaration.detail})
-    return written(figure_of(declaration, asked, evaluate(calculation, asked)), image_format, theme)
 
 
 def figure_of(declaration: Declaration, request: Request, response: Any) -> Figure:

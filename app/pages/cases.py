@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 from app.calculations import Calculation
 from app.errors import InvalidBody, Unprocessable
 from app.evaluate import evaluate
-from app.figures.registry import figures_of
 from app.pages.query import Pairs, body_of
 from app.schema.base import Request
 from app.schema.reading import validated
@@ -67,5 +66,5 @@ def _dotted(pointer: str) -> str:
 
 def _request(calculation: Calculation, pairs: Pairs) -> Request:
     request = validated(calculation.request, body_of(calculation.request, pairs))
-    details = {figure.detail for figure in figures_of(calculation.path)}
+    details = {figure.detail for figure in calculation.figures}
     return request.model_copy(update={"detail": "fields" if "fields" in details else "curves"})

@@ -11,7 +11,6 @@ import numpy as np
 from app.figures.comparison import compared
 from app.figures.data import Bars, Figure, Line, NoFigure, Role, ThemeName, Values
 from app.figures.declaration import Declaration
-from app.figures.registry import figures_of
 from app.figures.rendering import written
 from app.figures.tables import columns_of
 from app.pages.cases import Case
@@ -75,7 +74,7 @@ def charts(
     The data of figures that need more than the answer are None unless `compute` asks for them.
     """
     found, missing = [], []
-    for declaration in figures_of(case.calculation.path):
+    for declaration in case.calculation.figures:
         known = compute or declaration.compute is None
         try:
             found.append(chart(declaration, figure_of(declaration, case, variant) if known else None))

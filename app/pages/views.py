@@ -8,7 +8,6 @@ from app.errors import InvalidBody, Unprocessable, Unreadable
 from app.evaluate import written as json_written
 from app.figures.data import Figure, NoFigure, ThemeName
 from app.figures.declaration import Declaration
-from app.figures.registry import figures_of
 from app.figures.rendering import Format, written
 from app.pages import csv
 from app.pages import report as reports
@@ -131,7 +130,7 @@ def figure(asked: Asked, name: str, image_format: Format | Literal["json"]) -> S
     """One figure as a file; as JSON what the script of the pages needs of it."""
     case = solved(asked.calculation, asked.pairs, asked.kept)
     variant, _ = _variant(asked)
-    declaration = next(each for each in figures_of(asked.calculation.path) if each.name == name)
+    declaration = next(each for each in asked.calculation.figures if each.name == name)
     try:
         data = figure_of(declaration, case, variant)
     except NoFigure as reason:

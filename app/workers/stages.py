@@ -6,53 +6,27 @@
 import os
 import sys
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from importlib import import_module
 
 from numba.core import event
 
-from app.calculations import BY_PATH
-from app.evaluate import answer
+from app.calculations import (
+    BY_PATH,
+    CALCULATIONS,
+    COUPLING,
+    DRIVE_TRAIN,
+    LINE_CONTACT,
+    LOADS,
+    PUMPING,
+    SLEEVE,
+    Stage,
+)
+from app.evaluate import answer, drawn
 from app.examples import examples
-from app.figures.registry import figures_of
-from app.figures.rendering import render
 from solvers.kernel_cache import discard, mark_complete
 
-
-@dataclass(frozen=True, slots=True)
-class Stage:
-    """A part of a model that becomes ready as a whole, and the endpoints that then answer.
-
-    `kernels` is about how many compilations it takes.
-    """
-
-    name: str
-    kernels: int
-    endpoints: tuple[str, ...]
-    examples: tuple[str, ...]
-
-
-COUPLING = Stage("coupling", 7, ("/v1/coupling",), ("pahl-axial-displacement",))
-SLEEVE = Stage(
-    "coupling sleeve",
-    58,
-    ("/v1/coupling/sleeve-orbit", "/v1/coupling/recommendation"),
-    ("pahl-sleeve-orbit", "pahl-z-arrangement"),
-)
-LOADS = Stage("load distribution", 63, ("/v1/scuffing/load-distribution",), ("fzg-type-a",))
-PUMPING = Stage(
-    "pumping", 111, ("/v1/pumping", "/v1/pumping/choking-speed"), ("milian-case-1", "milian-case-1-pocket-chain")
-)
-LINE_CONTACT = Stage(
-    "line contact",
-    154,
-    ("/v1/scuffing/line-contact", "/v1/scuffing"),
-    ("xue-line-contact", "xue-line-contact-isothermal", "xue-pair-1-thermal"),
-)
-DRIVE_TRAIN = Stage("drive train", 10, ("/v1/drive-train",), ("starter-turbo-gear-drive-train",))
-
 # Slow to load or asked for by studies: random samples need scipy.stats, a drawing half a second and 70 MB.
-FIGURES = Stage("figures and studies", 0, (), ())
+FIGURES = Stage("figures and studies", 0, ())
 MODULES = ("scipy.stats", "app.figures.drawing.image", "app.studies.sweep")
 DRAWN = COUPLING.examples[0]
 
@@ -74,7 +48,8 @@ def content() -> str:
 
 def needed_for(endpoint: str) -> Stage:
     """The stage after which an endpoint answers."""
-    return next((stage for stage in STAGES if endpoint in stage.endpoints), STAGES[-1])
+    calculation = BY_PATH.get(endpoint)
+    return calculation.stage if calculation else STAGES[-1]
 
 
 def stage_of(name: str) -> Stage:
@@ -117,7 +92,7 @@ def _draw() -> None:
     example = examples()[DRAWN]
     calculation = BY_PATH[example.endpoint]
     request = calculation.request.model_validate(example.request)
-    render(calculation, figures_of(calculation.path)[0], request, "svg", "light")
+    drawn(calculation, calculation.figures[0], request, "svg", "light")
 
 
 class _Told(event.Listener):
@@ -145,8 +120,9 @@ def compile_stages(names: Iterable[str], tell: Callable[[str], None]) -> None:
 
 def discard_kernels(stage: Stage) -> None:
     """Remove the kept kernels of the modules that the stage's endpoints call."""
-    for endpoint in stage.endpoints:
-        discard(BY_PATH[endpoint].solve.__module__)
+    for calculation in CALCULATIONS:
+        if calculation.stage is stage:
+            discard(calculation.solve.__module__)
 
 
 def main() -> None:

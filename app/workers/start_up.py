@@ -9,11 +9,12 @@ from collections import Counter
 from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager
 
+from app.calculations import Stage
 from app.errors import WarmingUp
 from app.workers.control import TemplateLost, WorkerDied
 from app.workers.pool import Pool
 from app.workers.progress import Progress
-from app.workers.stages import STAGES, TRACKS, Stage, content, discard_kernels, needed_for
+from app.workers.stages import STAGES, TRACKS, content, discard_kernels, needed_for
 from solvers.kernel_cache import is_complete, mark_complete, writable_root
 
 RETRY_S = 0.25

@@ -22,7 +22,6 @@ from app.examples import Example, examples
 from app.figures.data import Axis, Figure, Hue, Level, Line, Map, Mark, NoFigure, Panel, Row, ThemeName, values
 from app.figures.drawing.image import draw, laid_out, places
 from app.figures.drawing.style import THEMES, WIDTH, settings
-from app.figures.registry import figures_of
 
 X = np.linspace(0.0, 1.0, 41)
 PEAK = 4.0 * X * (1.0 - X)
@@ -73,7 +72,7 @@ def figures(example: Example) -> Iterator[Figure]:
     calculation = BY_PATH[example.endpoint]
     request = calculation.request.model_validate({**example.request, "detail": "fields"})
     answer = evaluate(calculation, request)
-    for declaration in figures_of(example.endpoint):
+    for declaration in BY_PATH[example.endpoint].figures:
         try:
             yield declaration.figure(request, answer)
         except NoFigure:

@@ -10,7 +10,6 @@ import pytest
 
 from app.calculations import CALCULATIONS
 from app.examples import examples
-from app.figures.registry import figures_of
 
 Post = Callable[[str, object], httpx.Response]
 
@@ -21,7 +20,7 @@ LOADS = "/v1/coupling/figures/tooth-loads"
 def test_list_names_every_figure(client: httpx.Client) -> None:
     listed = client.get("/v1/figures").json()
     assert [(item["endpoint"], item["name"]) for item in listed] == [
-        (calculation.path, figure.name) for calculation in CALCULATIONS for figure in figures_of(calculation.path)
+        (calculation.path, figure.name) for calculation in CALCULATIONS for figure in calculation.figures
     ]
     assert all(item["formats"] == ["svg", "png", "pdf", "csv"] for item in listed)
     assert all(item["title"] and item["source"] for item in listed)

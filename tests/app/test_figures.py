@@ -11,14 +11,13 @@ import httpx
 import numpy as np
 import pytest
 
-from app.calculations import CALCULATIONS
+from app.calculations import BY_PATH, CALCULATIONS
 from app.evaluate import evaluate
 from app.examples import examples
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, Role
 from app.figures.drawing.image import draw
 from app.figures.models import drive_train
-from app.figures.registry import figures_of
 from app.figures.tables import table
 from app.schema.model import Documented
 
@@ -99,13 +98,13 @@ def solved(name: str) -> tuple[Any, Any]:
 @cache
 def figure(name: str, which: str) -> Figure:
     request, answer = solved(name)
-    declared = {each.name: each for each in figures_of(examples()[name].endpoint)}
+    declared = {each.name: each for each in BY_PATH[examples()[name].endpoint].figures}
     return declared[which].figure(request, answer)
 
 
 def figures(name: str) -> Iterator[tuple[str, Figure]]:
     """All figures of an example; those that it may lack are checked for their reason."""
-    for declaration in figures_of(examples()[name].endpoint):
+    for declaration in BY_PATH[examples()[name].endpoint].figures:
         try:
             yield declaration.name, figure(name, declaration.name)
         except NoFigure as reason:
@@ -156,11 +155,11 @@ def answered(answer: Documented, unit: str | None, shown: np.ndarray[Any, Any]) 
 
 def test_every_figure_of_the_table_exists() -> None:
     for path, names in FIGURES.items():
-        declared = {each.name for each in figures_of(path)}
+        declared = {each.name for each in BY_PATH[path].figures}
         assert names <= declared, path
-    assert {each.name for each in figures_of("/v1/scuffing")} >= FIGURES["/v1/scuffing/load-distribution"]
+    assert {each.name for each in BY_PATH["/v1/scuffing"].figures} >= FIGURES["/v1/scuffing/load-distribution"]
     for calculation in CALCULATIONS:
-        assert figures_of(calculation.path), calculation.path
+        assert calculation.figures, calculation.path
 
 
 @pytest.mark.parametrize("name", QUICK)
@@ -271,7 +270,7 @@ def test_contact_track_is_as_wide_as_the_hertz_contact() -> None:
 
 def test_choking_scan_repeats_the_pumping_endpoint_and_crosses_its_limits_at_the_speeds_found() -> None:
     request, answer = solved("milian-case-1-choking")
-    (declaration,) = figures_of("/v1/pumping/choking-speed")
+    (declaration,) = BY_PATH["/v1/pumping/choking-speed"].figures
     data = declaration.figure(request, answer)
     for panel, found in zip(
         data.panels, (answer.axial_choking_speed_rpm, answer.radial_choking_speed_rpm), strict=True
@@ -315,7 +314,7 @@ def partly_unsolved() -> tuple[Any, Any]:
 
 def test_unsolved_points_are_gaps_counted_in_the_subtitle() -> None:
     request, answer = partly_unsolved()
-    declared = {each.name: each for each in figures_of("/v1/scuffing")}
+    declared = {each.name: each for each in BY_PATH["/v1/scuffing"].figures}
     for which in ("contact-temperature", "film", "friction"):
         data = declared[which].figure(request, answer)
         assert "2 points without solution" in data.subtitle
@@ -332,7 +331,7 @@ def test_unsolved_points_are_gaps_counted_in_the_subtitle() -> None:
 def test_a_case_without_solution_has_no_figure() -> None:
     request, answer = solved("pahl-heavily-crowned")
     unsolved = answer.model_copy(update={"status": "no_solution"})
-    for declaration in figures_of("/v1/coupling"):
+    for declaration in BY_PATH["/v1/coupling"].figures:
         with pytest.raises(NoFigure, match="no solution") as reason:
             declaration.figure(request, unsolved)
         assert reason.value.code == "no_solution"

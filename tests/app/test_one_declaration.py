@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app import calculations
-from app.calculations import Calculation
+from app.calculations import COUPLING, Calculation
 from app.errors import InvalidBody, Unprocessable
 from app.evaluate import answer, evaluate, written
 from app.pages import csv
@@ -96,7 +96,16 @@ def calculation(inputs: type[Any], result: type[Any], solver: Any) -> Calculatio
 
         views: ClassVar = {"deflection": View(headline=1)}
 
-    return Calculation("/v1/spring", "Spring", "A spring", "Hooke", SpringRequest, solver, SpringResponse)
+    return Calculation(
+        path="/v1/spring",
+        title="Spring",
+        summary="A spring",
+        source="Hooke",
+        request=SpringRequest,
+        solve=solver,
+        response=SpringResponse,
+        stage=COUPLING,
+    )
 
 
 SHORT = calculation(Spring, Deflection, solve)

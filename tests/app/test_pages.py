@@ -11,11 +11,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.calculations import CALCULATIONS, Calculation
+from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import Unreadable
 from app.evaluate import evaluate, written
 from app.examples import examples
-from app.figures.registry import figures_of
 from app.pages import views
 from app.pages.query import body_of, link, normalised, pairs_of, pairs_of_query
 from app.pages.results import NOT_RESULTS
@@ -123,7 +122,7 @@ def test_figures_and_links_of_the_page(name: str) -> None:
     html = page(name)
     calculation = CALCULATION[examples()[name].endpoint]
     shown = html.count('<figure class="chart"') + html.count('<p class="missing">')
-    assert shown == len(figures_of(calculation.path))
+    assert shown == len(calculation.figures)
     assert "data:image" not in html
     names = re.findall(r'<figure class="chart" id="figure-([^"]+)"', html)
     assert names
@@ -259,7 +258,7 @@ def test_figures_of_a_page_are_drawn_from_the_kept_answer() -> None:
     case = asked("xue-pair-1-scuffing")
     (kept,) = views.page(case).keep.values()
     again = views.Asked(case.path, case.pairs, {}, kept)
-    for declaration in figures_of("/v1/scuffing"):
+    for declaration in BY_PATH["/v1/scuffing"].figures:
         if declaration.name == "friction":  # of the thermal solution only
             continue
         svg = views.figure(again, declaration.name, "svg")
@@ -285,7 +284,7 @@ def test_figures_of_a_posted_case_are_addressed_by_its_hash(client: httpx.Client
     html = client.post("/coupling", data=fields).text
     case = client.post("/coupling/result.json", data=fields).json()["case"]
     images = [unescape(each) for each in re.findall(r'<img src="([^"]+)"', html)]
-    assert len(images) == len(figures_of("/v1/coupling"))
+    assert len(images) == len(BY_PATH["/v1/coupling"].figures)
     for image in images:
         assert f"case={case}" in image
         answer = client.get(image)

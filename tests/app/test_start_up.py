@@ -6,9 +6,10 @@ from contextlib import asynccontextmanager
 
 import pytest
 
+from app.calculations import COUPLING, Stage
 from app.workers import start_up
 from app.workers.control import TemplateLost
-from app.workers.stages import COUPLING, STAGES, Stage
+from app.workers.stages import STAGES
 from app.workers.start_up import StartUp
 
 

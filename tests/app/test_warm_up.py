@@ -3,9 +3,9 @@
 import subprocess
 import sys
 
-from app.calculations import CALCULATIONS
+from app.calculations import CALCULATIONS, COUPLING, LINE_CONTACT
 from app.examples import examples
-from app.workers.stages import COUPLING, LINE_CONTACT, STAGES, needed_for
+from app.workers.stages import STAGES, needed_for
 
 COUNT_COLD = """
 import gc

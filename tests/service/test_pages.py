@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
+from app.calculations import BY_PATH
 from app.examples import examples
-from app.figures.registry import figures_of
 from app.pages.query import link, pairs_of
 from tests.support.browsing import PHONE, address_of, overflow, serious
 
@@ -173,7 +173,7 @@ def test_a_long_case_is_posted(visit: Callable[..., Page]) -> None:
     expect(page.locator('[id="f.coupling.pitch_errors_um-count"]')).to_have_text("400 values")
     expect(page.locator(".tools")).to_contain_text("Too long for a link")
     loaded = page.locator(".chart img").evaluate_all(LOADED)
-    assert len(loaded) == len(figures_of("/v1/coupling"))
+    assert len(loaded) == len(BY_PATH["/v1/coupling"].figures)
     assert all(width > 400 for width, _ in loaded)
     page.get_by_role("button", name="Report").click()
     expect(page.locator("h2").first).to_contain_text("Verdict")

@@ -15,8 +15,6 @@ from app.settings import Settings
 from app.workers.admission import Runner
 from app.workers.start_up import StartUp
 
-router = APIRouter(route_class=JsonRoute, responses=documented(400, 408, 413, 415, 422, 431, 500, 503, 504))
-
 
 def body_of(endpoint: str) -> Any:
     """The body parameter of an endpoint, its examples on the docs page."""
@@ -45,7 +43,9 @@ def answer_of(path: str, request: Model) -> bytes:
     return answer(BY_PATH[path], request)
 
 
-def _add(calculation: Calculation) -> None:
+def add(router: APIRouter, calculation: Calculation) -> None:
+    """The endpoint of a row of the table."""
+
     async def calculate(http: Request, body: Any) -> Response:
         content = await calculated(http, calculation.path, answer_of, body)
         return Response(content, media_type="application/json")
@@ -64,5 +64,6 @@ def _add(calculation: Calculation) -> None:
     )
 
 
+router = APIRouter(route_class=JsonRoute, responses=documented(400, 408, 413, 415, 422, 431, 500, 503, 504))
 for each in CALCULATIONS:
-    _add(each)
+    add(router, each)

@@ -7,8 +7,8 @@ from fastapi import APIRouter, Depends, HTTPException, Path, Query, Request, Res
 from pydantic import BaseModel
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
-from app.figures.registry import figures_of
-from app.figures.rendering import MEDIA_TYPES, Format, render
+from app.evaluate import drawn
+from app.figures.rendering import MEDIA_TYPES, Format
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
 from app.http.routes.calculations import body_of, calculated
@@ -20,7 +20,7 @@ FORMATS: tuple[Format, ...] = get_args(Format)
 THEMES: tuple[Theme, ...] = get_args(Theme)
 # A figure fetched alone runs nothing and loads nothing; its styles and images are its own.
 ALONE = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
-_FIGURES = {each.path: {figure.name: figure for figure in figures_of(each.path)} for each in CALCULATIONS}
+_FIGURES = {each.path: {figure.name: figure for figure in each.figures} for each in CALCULATIONS}
 
 router = APIRouter(tags=["figures"])
 
@@ -41,13 +41,13 @@ async def list_figures() -> list[FigureSummary]:
     return [
         FigureSummary(endpoint=calculation.path, name=figure.name, title=figure.title, source=figure.source)
         for calculation in CALCULATIONS
-        for figure in figures_of(calculation.path)
+        for figure in calculation.figures
     ]
 
 
 def figure_of(name: str, image_format: Format, theme: Theme, path: str, request: Model) -> bytes:
     """The figure of a case; runs in a worker."""
-    return render(BY_PATH[path], _FIGURES[path][name], request, image_format, theme)
+    return drawn(BY_PATH[path], _FIGURES[path][name], request, image_format, theme)
 
 
 def _add(calculation: Calculation) -> None:
@@ -97,5 +97,5 @@ def _add(calculation: Calculation) -> None:
 
 
 for each in CALCULATIONS:
-    if figures_of(each.path):
+    if each.figures:
         _add(each)

@@ -10,7 +10,6 @@ from fastapi.responses import RedirectResponse
 from app.calculations import CALCULATIONS, Calculation
 from app.errors import PROBLEMS, Unreadable
 from app.examples import examples
-from app.figures.registry import figures_of
 from app.figures.rendering import MEDIA_TYPES
 from app.pages import views
 from app.pages.about import ABOUT
@@ -65,7 +64,7 @@ def _add_about(model: str) -> None:
 
 def _add(calculation: Calculation) -> None:
     path = page_path(calculation)
-    names = [figure.name for figure in figures_of(calculation.path)]
+    names = [figure.name for figure in calculation.figures]
 
     async def page(http: Request) -> Response:
         return await _answer(http, calculation, path, PAGE_POLICY, HTML, views.page)
