@@ -1,25 +1,36 @@
-"""An input is one declaration and its use, an output one declaration and its value; nothing of `app` is touched."""
+"""An input is one declaration and its use, an output one declaration and its value, an endpoint one row and its solver.
 
+Nothing else of `app` is touched.
+"""
+
+import asyncio
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Annotated, Any, ClassVar
 
+import httpx
 import numpy as np
 import pytest
+from fastapi import FastAPI
 
 from app import calculations
 from app.calculations import COUPLING, Calculation
 from app.errors import InvalidBody, Unprocessable
 from app.evaluate import answer, evaluate, written
+from app.http.routes.calculations import add
 from app.pages import csv
 from app.pages.form import State, form
 from app.pages.results import entries
+from app.pages.templating import page_path
 from app.schema.base import Group, Request, Response, Section
 from app.schema.conversion import from_si
 from app.schema.fields import leaf_at
 from app.schema.quantities import Input, View
 from app.schema.reading import validated
+from app.settings import settings
 from app.studies.points import Question, solve_point
+from app.workers.stages import needed_for
 from solvers.arrays import FloatArray
 from solvers.coupling.inputs import Coupling, CouplingDesign
 from solvers.errors import InvalidInput
@@ -201,6 +212,69 @@ def test_a_solver_s_complaint_names_the_request_s_field() -> None:
     with pytest.raises(Unprocessable) as refused:
         evaluate(replace(SHORT, solve=refuses), request)
     assert refused.value.path == "spring.stiffness_n_per_um"
+
+
+class PlainRequest(Request, of=LongSpring):
+    """A spring whose inputs stand at the root of the request: nothing of them is written again."""
+
+    def inputs(self) -> LongSpring:
+        return self.si(LongSpring)
+
+    def options(self) -> dict[str, Any]:
+        return {}
+
+
+ROW = replace(LONG, path="/v1/new-spring", request=PlainRequest)
+"""A new endpoint: this row and its solver."""
+
+
+def test_an_input_at_the_root_is_one_declaration_too() -> None:
+    fields = {name: PlainRequest.model_fields[name] for name in ("force_n", "stiffness_n_per_um", "preload_n")}
+    assert [field.is_required() for field in fields.values()] == [True, False, False]
+    found = json.loads(answer(ROW, validated(PlainRequest, {"force_n": 30, "preload_n": 50})))
+    assert (found["deflection_um"], found["assumptions"]) == (pytest.approx(40.0), [])
+    found = json.loads(answer(ROW, validated(PlainRequest, {"force_n": 30})))
+    assert [each["field"] for each in found["assumptions"]] == ["preload_n"]
+    with pytest.raises(InvalidBody) as refused:
+        validated(PlainRequest, {"force_n": 30, "preload_n": 101})
+    assert refused.value.faults == [("/preload_n", "less_than_equal", "preload_n is 101; allowed 0 to 100 N")]
+
+
+class _AtOnce:
+    """Runs what a worker would run, and finds every kernel warm."""
+
+    async def run(self, _http: object, function: Callable[..., bytes], *arguments: Any) -> bytes:
+        return function(*arguments)
+
+    def require(self, _endpoint: str) -> None:
+        pass
+
+
+def test_an_endpoint_is_one_row_and_its_solver(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(calculations.BY_PATH, ROW.path, ROW)
+    service = FastAPI()
+    service.state.settings, service.state.runner, service.state.start_up = settings(), _AtOnce(), _AtOnce()
+    add(service.router, ROW)
+
+    async def posted(body: dict[str, float]) -> httpx.Response:
+        transport = httpx.ASGITransport(app=service)
+        async with httpx.AsyncClient(transport=transport, base_url="http://service") as client:
+            return await client.post(ROW.path, json=body)
+
+    response = asyncio.run(posted({"force_n": 30, "preload_n": 50}))
+    assert response.status_code == 200
+    assert response.json()["deflection_um"] == pytest.approx(40.0)
+    operation = service.openapi()["paths"]["/v1/new-spring"]["post"]
+    assert (operation["operationId"], operation["summary"], operation["tags"]) == (
+        "new_spring",
+        "A spring",
+        ["new-spring"],
+    )
+    assert operation["responses"]["200"]["content"]["application/json"]["schema"]["$ref"].endswith("SpringResponse")
+    assert page_path(ROW) == "/new-spring"
+    assert needed_for(ROW.path) is COUPLING
+    point = solve_point(Question(ROW.path, {"force_n": 30}, ["deflection_um"], 30.0), {"preload_n": 50})
+    assert point.out == [pytest.approx(40.0)]
 
 
 @record
