@@ -39,8 +39,8 @@ def test_from_a_case_to_a_curve_and_back_to_the_case_of_a_point(visit: Callable[
     expect(page.locator(".card").first).to_be_visible()
     chosen = page.locator('[name="operation.misalignment_deg"]').input_value()
     assert float(chosen) == pytest.approx(float(re.findall(r"misalignment ([\d.]+)", said)[0]), rel=1e-4)
-    thrust = page.locator('[data-path="axial_thrust.force_n"]').inner_text().replace("\u202f", "").replace(" ", "")
-    assert float(thrust) == pytest.approx(float(re.findall(r"thrust ([\d.]+)", said)[0]), rel=1e-3)
+    thrust = page.locator('[data-path="axial_thrust.design_force_n"]').inner_text().replace("\u202f", "").replace(" ", "")
+    assert float(thrust) == pytest.approx(float(re.findall(r"thrust to be held ([\d.]+)", said)[0]), rel=1e-3)
 
 
 def test_the_figure_grows_while_points_come_and_stop_ends_it(visit: Callable[..., Page], server: str) -> None:
@@ -112,7 +112,7 @@ def test_which_input_matters_leads_to_its_curve(visit: Callable[..., Page]) -> N
     page.get_by_role("link", name="What matters").click()
     expect(page.locator("#figure-influence")).to_be_visible()
     first = page.locator(".results tbody a").first
-    expect(first).to_have_text("misalignment")
+    expect(first).to_have_text("coefficient of friction")
     first.click()
     expect(page.locator("#figure-curve")).to_be_visible()
 
