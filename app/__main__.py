@@ -1,4 +1,4 @@
-"""python -m app: start the service; --help lists every setting."""
+"""python -m app: start the service, or solve one request; --help lists every setting."""
 
 import argparse
 import gc
@@ -9,6 +9,7 @@ import sys
 from difflib import get_close_matches
 from io import TextIOWrapper
 from pathlib import Path
+from typing import Any
 
 from pydantic import ValidationError
 from pydantic.fields import FieldInfo
@@ -17,7 +18,10 @@ from pydantic_core import ErrorDetails
 from app.settings import MEBIBYTE, Settings, settings
 from app.workers.control import Template
 
-INTERRUPTED = 130
+INTERRUPTED = 130  # exit status of a process that Ctrl-C ended, as shells give it
+REFUSED = 1
+EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 2 is that of wrong arguments
+STANDARD_INPUT = Path("-")
 
 
 def main() -> None:
@@ -31,9 +35,14 @@ def main() -> None:
     commands = parser.add_subparsers(dest="command", metavar="command", required=False)
     rexs = commands.add_parser("rexs", help="print the requests of a gear unit's file (REXS) instead of serving")
     rexs.add_argument("file", type=Path, help="a .rexs, .rexsj or .rexsz file")
+    solve = commands.add_parser("solve", help="print the answer to a request instead of serving")
+    solve.add_argument("endpoint", help="address of the calculation, such as /v1/coupling")
+    solve.add_argument("file", type=Path, help="the request as JSON; - reads the standard input")
     asked = parser.parse_args()
     if asked.command == "rexs":
         sys.exit(print_unit(asked.file))
+    if asked.command == "solve":
+        sys.exit(print_answer(asked.endpoint, asked.file))
     serve("app.main:app")
 
 
@@ -47,12 +56,46 @@ def print_unit(file: Path) -> int:
     except (OSError, Unprocessable) as error:
         reason = error.message if isinstance(error, Unprocessable) else error.strerror
         print(f"tribodrive: {file}: {reason}", file=sys.stderr)  # noqa: T201  a command's output
-        return 1
+        return REFUSED
+    _print_json(found)
+    return 0
+
+
+def print_answer(endpoint: str, file: Path) -> int:
+    """Print the answer of an endpoint to the request in a file.
+
+    The exit status is 0 with `ok`, 3 with `ok_with_warnings`, 4 with `no_solution`; 1 where the request is refused.
+    """
+    from app.calculations import BY_PATH  # noqa: PLC0415
+    from app.errors import InvalidBody, Unprocessable, Unreadable, faults_of  # noqa: PLC0415
+    from app.evaluate import answer  # noqa: PLC0415
+    from app.schema.reading import content_of  # noqa: PLC0415
+
+    if endpoint not in BY_PATH:
+        print(f"tribodrive: there is no {endpoint}; there are {', '.join(BY_PATH)}", file=sys.stderr)  # noqa: T201
+        return REFUSED
     try:
-        print(json.dumps(found, indent=1, ensure_ascii=False), flush=True)  # noqa: T201
+        body = sys.stdin.buffer.read() if file == STANDARD_INPUT else file.read_bytes()
+        found = answer(endpoint, content_of(body))
+    except OSError as error:
+        print(f"tribodrive: {file}: {error.strerror}", file=sys.stderr)  # noqa: T201
+        return REFUSED
+    except Unreadable as error:
+        print(f"tribodrive: {error.detail}", file=sys.stderr)  # noqa: T201
+        return REFUSED
+    except (InvalidBody, Unprocessable) as error:
+        for fault in faults_of(error):
+            print(f"tribodrive: {fault['pointer'] or 'request'}: {fault['message']}", file=sys.stderr)  # noqa: T201
+        return REFUSED
+    _print_json(found)
+    return EXIT_STATUS[found["status"]]
+
+
+def _print_json(content: dict[str, Any]) -> None:
+    try:
+        print(json.dumps(content, indent=1, ensure_ascii=False), flush=True)  # noqa: T201
     except BrokenPipeError:  # whoever reads has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    return 0
 
 
 def serve(application: str) -> None:

@@ -1,10 +1,11 @@
 """From a validated request to its answer: every view starts from here."""
 
+import json
 from collections.abc import Iterator
 from functools import cache, reduce
 from typing import Any
 
-from app.calculations import Calculation
+from app.calculations import BY_PATH, Calculation
 from app.errors import Unprocessable
 from app.figures import rendering
 from app.figures.data import ThemeName
@@ -14,6 +15,7 @@ from app.schema.base import MODEL_VERSION, Notice, Request, Response, Section
 from app.schema.conversion import above, from_si, group_of
 from app.schema.paths import field_path
 from app.schema.quantities import Input
+from app.schema.reading import validated
 from app.sources import SOURCES, case_of
 from solvers import notices
 from solvers.errors import InvalidInput, NoSolution
@@ -34,7 +36,30 @@ def refuse_endless(calculation: Calculation, request: Request, deadline_s: float
             )
 
 
-def answer(calculation: Calculation, request: Request) -> bytes:
+def answer(endpoint: str, request: dict[str, Any]) -> dict[str, Any]:
+    """The service's answer to a request, in process.
+
+    Parameters
+    ----------
+    endpoint
+        Address of the calculation: "/v1/coupling".
+    request
+        The body that would be posted there.
+
+    Raises
+    ------
+    InvalidBody
+        The body is no request; its `faults` have pointer, code and message each.
+    Unprocessable
+        The input is impossible; `code` and `message` say why, `path` is the field at fault.
+
+    """
+    calculation = BY_PATH[endpoint]
+    content: dict[str, Any] = json.loads(json_answer(calculation, validated(calculation.request, request)))
+    return content
+
+
+def json_answer(calculation: Calculation, request: Request) -> bytes:
     """Solve the request and write its answer as JSON; runs in a worker process. Raises what `evaluate` raises."""
     return written(evaluate(calculation, request))
 

@@ -21,7 +21,7 @@ from app.calculations import (
     SLEEVE,
     Stage,
 )
-from app.evaluate import answer, drawn
+from app.evaluate import drawn, json_answer
 from app.examples import examples
 from solvers.kernel_cache import discard, mark_complete
 
@@ -61,7 +61,7 @@ def calculate(name: str) -> None:
     """Answer one example."""
     example = examples()[name]
     calculation = BY_PATH[example.endpoint]
-    answer(calculation, calculation.request.model_validate(example.request))
+    json_answer(calculation, calculation.request.model_validate(example.request))
 
 
 _warm: set[Stage] = set()  # in this process

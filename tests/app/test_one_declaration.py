@@ -17,7 +17,7 @@ from fastapi import FastAPI
 from app import calculations
 from app.calculations import COUPLING, Calculation
 from app.errors import InvalidBody, Unprocessable
-from app.evaluate import answer, evaluate, written
+from app.evaluate import evaluate, json_answer, written
 from app.http.routes.calculations import add
 from app.pages import csv
 from app.pages.form import State, form
@@ -125,7 +125,7 @@ LONG = calculation(LongSpring, LongDeflection, solve_long)
 
 def answered(chosen: Calculation, **spring: float) -> dict[str, Any]:
     request = validated(chosen.request, {"spring": {"force_n": 30, **spring}})
-    found: dict[str, Any] = json.loads(answer(chosen, request))
+    found: dict[str, Any] = json.loads(json_answer(chosen, request))
     return found
 
 
@@ -231,9 +231,9 @@ ROW = replace(LONG, path="/v1/new-spring", request=PlainRequest)
 def test_an_input_at_the_root_is_one_declaration_too() -> None:
     fields = {name: PlainRequest.model_fields[name] for name in ("force_n", "stiffness_n_per_um", "preload_n")}
     assert [field.is_required() for field in fields.values()] == [True, False, False]
-    found = json.loads(answer(ROW, validated(PlainRequest, {"force_n": 30, "preload_n": 50})))
+    found = json.loads(json_answer(ROW, validated(PlainRequest, {"force_n": 30, "preload_n": 50})))
     assert (found["deflection_um"], found["assumptions"]) == (pytest.approx(40.0), [])
-    found = json.loads(answer(ROW, validated(PlainRequest, {"force_n": 30})))
+    found = json.loads(json_answer(ROW, validated(PlainRequest, {"force_n": 30})))
     assert [each["field"] for each in found["assumptions"]] == ["preload_n"]
     with pytest.raises(InvalidBody) as refused:
         validated(PlainRequest, {"force_n": 30, "preload_n": 101})

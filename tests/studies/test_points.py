@@ -7,7 +7,7 @@ import pytest
 
 from app.calculations import BY_PATH
 from app.errors import Unprocessable
-from app.evaluate import answer
+from app.evaluate import json_answer
 from app.examples import examples
 from app.schema.fields import leaves
 from app.studies import points
@@ -52,7 +52,7 @@ def test_points_are_the_endpoints_own_answers(name: str) -> None:
     assert len({json.dumps(point.out) for point in found}) == len(overrides)
     for each, point in zip(overrides, found, strict=True):
         body = with_overrides(calculation, request, each) | {"detail": "curves"}
-        single = json.loads(answer(calculation, calculation.request.model_validate(body)))
+        single = json.loads(json_answer(calculation, calculation.request.model_validate(body)))
         assert json.loads(json.dumps(point.out)) == [value_at(single, path) for path in outputs]
         assert point.status == single["status"]
         assert point.warnings == [warning["code"] for warning in single["warnings"]]
@@ -71,7 +71,7 @@ def test_what_physics_refuses_is_a_point() -> None:
     calculation = BY_PATH[LOADS.endpoint]
     body = with_overrides(calculation, LOADS.request, {"gears.pinion.addendum": 3.0})
     with pytest.raises(Unprocessable) as caught:
-        answer(calculation, calculation.request.model_validate(body))
+        json_answer(calculation, calculation.request.model_validate(body))
     assert point.error["code"] == caught.value.code
 
 

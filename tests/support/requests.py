@@ -8,7 +8,7 @@ import pytest
 from pydantic import ValidationError
 
 from app.calculations import BY_PATH
-from app.evaluate import answer
+from app.evaluate import json_answer
 from app.schema.messages import faults
 
 PAIR: dict[str, Any] = {
@@ -40,7 +40,7 @@ def solved(endpoint: str, body: dict[str, Any], changes: dict[str, Any]) -> dict
     """The summary of the answer to a changed request."""
     calculation = BY_PATH[endpoint]
     request = calculation.request.model_validate(changed(body, {"detail": "summary", **changes}))
-    return json.loads(answer(calculation, request))
+    return json.loads(json_answer(calculation, request))
 
 
 def changed(body: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Body, Request, Response
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
-from app.evaluate import answer, refuse_endless
+from app.evaluate import json_answer, refuse_endless
 from app.examples import examples
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
@@ -40,7 +40,7 @@ async def calculated(http: Request, path: str, function: Callable[..., bytes], r
 
 def answer_of(path: str, request: Model) -> bytes:
     """The answer of an endpoint to a request; runs in a worker."""
-    return answer(BY_PATH[path], request)
+    return json_answer(BY_PATH[path], request)
 
 
 def add(router: APIRouter, calculation: Calculation) -> None:

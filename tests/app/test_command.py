@@ -1,0 +1,64 @@
+"""The answer without a server: from Python and from a shell."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from app.errors import InvalidBody
+from app.evaluate import answer
+from tests.support.server import ROOT
+
+COUPLING: dict[str, Any] = {
+    "coupling": {"teeth": 52, "module_mm": 3, "crowning_ratio": 1},
+    "operation": {"torque_n_m": 3000, "speed_rpm": 1910, "misalignment_deg": 0.05, "axial_velocity_mm_per_s": 2},
+    "friction": {"coefficient": 0.2},
+}
+TILTED = {**COUPLING, "operation": {**COUPLING["operation"], "misalignment_deg": 3}}
+
+
+def run(*arguments: str, text: str = "") -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "app", *arguments], input=text, capture_output=True, text=True, cwd=ROOT, check=False
+    )
+
+
+def test_the_answer_in_process_is_that_of_the_service(post: Any) -> None:
+    assert answer("/v1/coupling", COUPLING) == post("/v1/coupling", COUPLING).json()
+
+
+def test_a_refusal_in_process_names_the_field() -> None:
+    with pytest.raises(InvalidBody) as caught:
+        answer("/v1/coupling", {**COUPLING, "coupling": {"teeth": 3, "module_mm": 3}})
+    assert [fault.pointer for fault in caught.value.faults] == ["/coupling/teeth"]
+
+
+def test_a_file_and_the_standard_input_are_solved(tmp_path: Path) -> None:
+    file = tmp_path / "case.json"
+    file.write_text(json.dumps(COUPLING))
+    solved = run("solve", "/v1/coupling", str(file))
+    assert solved.returncode == 0
+    assert json.loads(solved.stdout) == answer("/v1/coupling", COUPLING)
+    assert run("solve", "/v1/coupling", "-", text=json.dumps(COUPLING)).stdout == solved.stdout
+
+
+def test_the_exit_status_tells_warnings() -> None:
+    assert run("solve", "/v1/coupling", "-", text=json.dumps(TILTED)).returncode == 3
+
+
+@pytest.mark.parametrize(
+    ("endpoint", "text", "message"),
+    [
+        ("/v1/coupling", "{", "the body is no JSON"),
+        ("/v1/coupling", '{"coupling": {}}', "/operation: operation is required"),
+        ("/v1/couplings", "{}", "there is no /v1/couplings"),
+    ],
+)
+def test_what_is_refused_says_why(endpoint: str, text: str, message: str) -> None:
+    refused = run("solve", endpoint, "-", text=text)
+    assert refused.returncode == 1
+    assert message in refused.stderr
+    assert refused.stdout == ""
