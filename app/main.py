@@ -11,7 +11,7 @@ from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddle
 from app import log
 from app.http import problems
 from app.http.middleware import Protection
-from app.http.routes import calculations, figures, pages, rexs, service, studies, study_pages
+from app.http.routes import calculations, figures, manual, pages, rexs, service, studies, study_pages
 from app.pages.answers import Answers
 from app.schema.base import MODEL_VERSION
 from app.settings import MEBIBYTE, settings
@@ -62,7 +62,7 @@ def create_app() -> FastAPI:
         lifespan=lifespan,
         redoc_url=None,
     )
-    for routes in (calculations, figures, studies, rexs, pages, study_pages, service):
+    for routes in (calculations, figures, studies, rexs, pages, study_pages, manual, service):
         app.include_router(routes.router)
     app.include_router(rexs.pages)
     problems.install(app)

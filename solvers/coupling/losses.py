@@ -150,7 +150,7 @@ def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, frict
     Friction's moment about the pivot direction, against the tilting motion, is M_f = r_o sum mu F_n sgn(v_r)
     sgn(v_G1) sin phi with v_G1 the sliding velocity at 90 degrees: P = M_f omega delta + F_ax v_ax. It is zero where
     nothing tilts, and where nothing slides at all it is open. The power balance leaves M_f - T delta/2 of it to bend
-    the driving hub, whatever the load distribution.
+    the driving hub, whatever the load distribution. Eqs. C25, C28.
     """
     operation, sums = inputs.operation, loaded.sums
     scale = friction / cos(inputs.coupling.pressure_angle)
@@ -172,7 +172,7 @@ def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, frict
 
 
 def equal_loads_friction_moment(coaxial_limit: float, pitch_radius: float) -> float:
-    """(2/pi) mu T/cos(alpha) [N m], friction's moment against a tilt with equal tooth loads.
+    """(2/pi) mu T/cos(alpha) [N m], friction's moment against a tilt with equal tooth loads (Eq. C26).
 
     `coaxial_limit` is that of the thrust, mu T/(r_o cos alpha) [N].
     """
@@ -180,7 +180,7 @@ def equal_loads_friction_moment(coaxial_limit: float, pitch_radius: float) -> fl
 
 
 def contact_shift_moment(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh) -> float:
-    """M_s = |sum z_c F_n n_x| [N m], moment about the tilt axis of tooth forces off the middle of the face.
+    """M_s = |sum z_c F_n n_x| [N m], moment about the tilt axis of tooth forces off the middle of the face (Eq. C27).
 
     Both factors are harmonics of phi: their product is one of sin^2, sin cos and cos^2. `tangential`: z_c = s_1 and
     the tangential part of n; R_t delta T/(2 r_o) for equal loads. `spatial`: z_c = s_1 - delta r_o cos phi, the

@@ -99,7 +99,7 @@ def _largest_forces(inputs: CouplingInputs, mesh: MeshMotion, teeth: ToothPositi
 
 
 def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -> tuple[float, float]:
-    """Half width a_HZ [m] and pressure [Pa] of a cylinder R_e on a plane over the tooth height."""
+    """Half width a_HZ [m] and pressure [Pa] of a cylinder R_e on a plane over the tooth height (Eq. C12)."""
     steel = Solid(youngs_modulus=coupling.youngs_modulus, poisson_ratio=coupling.poisson_ratio)
     modulus = 1.0 / steel.plane_strain_compliance
     line_load, radius = normal_force / coupling.tooth_height, geometry.normal_flank_radius
@@ -127,6 +127,8 @@ def starved_load(inlet_ratio: float) -> float:
 
     Rigid, isoviscous Reynolds with its exit condition (zero pressure and gradient) at tan g, solved in closed form:
     [A2(g) + A2(g_B)] cos^2 g = A4(g) + A4(g_B), W = (1 - H_m/H_B)^2/(4 H_m), bisected for g in (0, g_B).
+
+    Eqs. C15, C16.
     """
     inlet = atan(inlet_ratio)
     a2 = inlet / 2.0 + sin(2.0 * inlet) / 4.0
@@ -147,7 +149,7 @@ def starved_load(inlet_ratio: float) -> float:
 
 
 def inlet_factor(inlet_ratio: float) -> float:
-    """f(B) in [0, 1]: load capacity with the inlet starting at B over that of an infinite inlet (Fig. 8)."""
+    """f(B) in [0, 1]: load capacity with the inlet starting at B over that of an infinite inlet (Fig. 8; Eq. C16)."""
     if inlet_ratio < 0.02:
         # Series; the closed form loses its digits to cancellation here.
         return 0.68948 * inlet_ratio**4
@@ -157,7 +159,7 @@ def inlet_factor(inlet_ratio: float) -> float:
 def hydrodynamic_capacity(
     tooth_height: float, viscosity: float, velocity: float, radius: float, film: float, factor: float
 ) -> float:
-    """F_HD = 2.447 h_trag eta v_H R_e/h_0 f(b_I) [N].
+    """F_HD = 2.447 h_trag eta v_H R_e/h_0 f(b_I) [N] (Eq. C14).
 
     Printed in Fig. 8 with "h" above and "trag" below the bar, the index of h_trag having slipped.
     """
@@ -173,7 +175,7 @@ def film_velocity(mesh: MeshMotion, angle: float | None) -> float:
 
 
 def film_state(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMotion) -> FilmState:
-    """Overlap Pu = a_HZ/s_1max and load capacity coefficient Tr = F_HD/F_n,max of one mesh."""
+    """Overlap Pu = a_HZ/s_1max and load capacity coefficient Tr = F_HD/F_n,max of one mesh (Eq. C13)."""
     coupling, lubricant = inputs.coupling, inputs.lubricant
     travel, radius = max_contact_travel(mesh), geometry.normal_flank_radius
     force = max_normal_force(inputs, mesh)
@@ -228,7 +230,10 @@ def _distance_to_boundary(overlap: float, load_capacity_coefficient: float) -> f
 
 
 def mixed_friction(law: MixedFrictionCurve | MixedFrictionTable, sliding_velocity: float) -> float:
-    """Friction of area 1.1 at the largest sliding velocity [m/s] (Fig. 10, whose points the paper does not print)."""
+    """Friction of area 1.1 at the largest sliding velocity [m/s] (Fig. 10, whose points the paper does not print).
+
+    Eq. C17.
+    """
     if isinstance(law, MixedFrictionTable):
         return float(np.interp(sliding_velocity, law.sliding_velocity, law.coefficient))
     ratio = sliding_velocity / law.velocity
@@ -267,7 +272,7 @@ def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: flo
 
     The paper states bands; this law keeps to their end values and lies inside those of areas 1.1, 1.3, 2.1, 2.2, 2.3
     and 3.1. Across 1.2 it blends, and it may leave 3.2 near overlap 1: the paper calls the boundaries fluid. It never
-    rises with the load capacity coefficient.
+    rises with the load capacity coefficient. Eq. C18.
     """
     if overlap > 2.0:
         return _poorly_supplied(overlap, load_capacity_coefficient)

@@ -45,7 +45,7 @@ class _SettledPath:
 
 
 def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
-    """Path and inertia force of the sleeve of one mesh; no weight acts.
+    """Path and inertia force of the sleeve of one mesh; no weight acts (Eq. C11).
 
     m_s omega^2 d2e/dtheta2 = sum F_n n: each sweep balances the sleeve at every rotor angle under the inertia force of
     the sweep before, derived in Fourier space with orders up to 12, until the path repeats to 1e-12 m. Contracts while

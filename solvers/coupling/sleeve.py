@@ -110,7 +110,7 @@ def balance_sleeve(
 
     interference and ahead (2, teeth), normal and arm (2, 2, teeth); `lever` is (mu/cos alpha)(r_o/l_H). Newton's
     method with steps shortened until the residual falls; some damped substitutions where that fails, for Phi is
-    piecewise linear (teeth come under load) and Newton may cycle between its pieces.
+    piecewise linear (teeth come under load) and Newton may cycle between its pieces. Eq. C22.
     """
     gap, step, accepted, slope = np.empty(2), np.zeros(2), np.zeros(2), np.empty((2, 2))
     accepted_residual, length, substitutions = np.inf, 1.0, 0
@@ -202,6 +202,8 @@ def sleeve_equilibrium(
     Without any sliding (no axial velocity, and no misalignment or no speed) the direction of friction is open: the
     result is zero. Raises NoSolution `sleeve_equilibrium` where the tooth forces cannot hold the moment of friction; an
     equilibrium exists at any rate while mu d_o/l_H < cos(pi/z) (Brouwer: Phi maps the forces the teeth hold into them).
+
+    Eq. C22.
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     meshes = two_meshes(inputs, geometry)

@@ -15,7 +15,7 @@ def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> t
 
     A tooth without relative velocity may carry any friction between -mu F_n and mu F_n: it counts as zero, and as
     mu F_n towards the slack. Without axial velocity the force is zero: half a turn later every tooth meets the same
-    load under the opposite sliding.
+    load under the opposite sliding. Eq. C19.
     """
     scale, sums = friction / cos(loaded.motion.pressure_angle), loaded.sums
     force = without_rounding(sums.axial, sums.load) if axial_velocity != 0.0 else 0.0
@@ -23,7 +23,7 @@ def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> t
 
 
 def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocity: float) -> float:
-    """F_max (2/pi) asin(v_ax/v_Gmax) [N], F_max once v_ax exceeds v_Gmax: equal tooth loads, many teeth.
+    """F_max (2/pi) asin(v_ax/v_Gmax) [N], F_max once v_ax exceeds v_Gmax: equal tooth loads, many teeth (Eq. C21).
 
     An upper bound for a centred sleeve without pitch errors, if the whole load is where sliding is fastest.
     """
@@ -40,7 +40,7 @@ def customary_thrust(operation: Operation) -> float | None:
 
 
 def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: float, factor: float) -> float:
-    """Thrust of the parallel offset with one tooth pair a mesh, 2 kappa mu^2 T/(l_H cos alpha) [N] (Fig. 13).
+    """Thrust of the parallel offset with one tooth pair a mesh, 2 kappa mu^2 T/(l_H cos alpha) [N] (Fig. 13; Eq. C23).
 
     Each tooth carries T/(d_o cos alpha); friction overturns the sleeve by M_2 = 2 F_R d_o, held by F_1 = M_2/l_H. The
     paper does not say which share kappa of F_1 becomes a difference of normal forces.
@@ -49,7 +49,7 @@ def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: floa
 
 
 def uniform_self_induced_thrust(coupling: Coupling, torque: float, friction: float) -> float:
-    """Thrust of the parallel offset with every tooth loaded, (16/pi^2) mu^2 T tan(alpha)/l_H [N].
+    """Thrust of the parallel offset with every tooth loaded, (16/pi^2) mu^2 T tan(alpha)/l_H [N] (Eq. C24).
 
     M_2 = (4/pi) mu T/cos alpha, and a sleeve on isotropic tooth springs turns it into kappa = (4/pi) sin alpha.
     """

@@ -91,6 +91,7 @@ ROOMS = (
     "evaluate",
     "workers",
     "studies",
+    "manual",
     "pages",
     "rexs",
     "http",

@@ -113,7 +113,7 @@ def _state_at(misalignment: float, crowned: CouplingInputs, geometry: Geometry) 
 def crowning_window(state: Callable[[float], CrowningState]) -> tuple[float, float, str | None]:
     """Smallest and largest crowning ratio that meet every constraint, and the name of the one that fails, if any.
 
-    Overlap, pressure and width ask for at least, the edge for at most some crowning ratio.
+    Overlap, pressure and width ask for at least, the edge for at most some crowning ratio. Eq. C32.
     """
     low = MIN_CROWNING_RATIO
     for name, constraint in _LOWER_BOUNDS:
@@ -148,6 +148,8 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
     Constraints: overlap < 1 at both ends, contact within the face at the largest misalignment, Hertz contact; with a
     range of one value also the sliding velocity, which a wider range only reports. The warnings are those of `solve`
     at both ends. Raises InvalidInput as `solve` and misalignment_range, no_load, not_turning; NoSolution as `solve`.
+
+    Eq. C32.
     """
     _check(inputs)
     state = cache(partial(crowning_state, inputs))

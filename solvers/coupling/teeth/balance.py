@@ -46,7 +46,7 @@ def _crossing(ahead: FloatArray, highest: float, psi: float) -> float:
 
 @kernel
 def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
-    """The psi at which sum max(0, psi + lead_i) = 1, exactly, for leads w_i less the highest of them.
+    """The psi at which sum max(0, psi + lead_i) = 1, exactly, for leads w_i less the highest of them (Eq. C8).
 
     Equal to sorting them in falling order and taking the largest k whose psi_k = (1 - sum_1..k lead)/k loads tooth k.
     The sum is convex and linear in pieces: Newton's first step leads to the right of psi from any `start` > 0, the
@@ -215,7 +215,7 @@ def float_sleeve(
     """Balance a floating sleeve under unit torque and an external `force` (2), from and into `state` (psi, e_x, e_y).
 
     Returns the number of iterations, negative if the balance was not met. Leaves u_i in `ahead` (teeth) and the
-    `hessian` (3, 3) of the loaded teeth at the balance.
+    `hessian` (3, 3) of the loaded teeth at the balance. Eq. C9.
     """
     held, missing, step = np.empty(3), np.empty(3), np.empty(3)
     change = np.empty(ahead.size)

@@ -12,7 +12,7 @@ def pitch_radius(coupling: Coupling) -> float:
 
 
 def tooth_geometry(coupling: Coupling) -> Geometry:
-    """Pitch, crowning and flank radii [m].
+    """Pitch, crowning and flank radii [m] (Eq. C1).
 
     A cutter centre moving on the crowning radius r_b feeds radially by zeta^2/(2 r_b) at the axial distance zeta.
     The flank recedes by that times tan(alpha) tangentially and times sin(alpha) along its normal, hence the flank

@@ -69,7 +69,7 @@ def tooth_positions(rotor_angles: FloatArray, teeth: int) -> ToothPositions:
 def mesh_motion(
     coupling: Coupling, geometry: Geometry, operation: Operation, model: KinematicModel, *, side: int = 1, tilt: int = 1
 ) -> MeshMotion:
-    """Harmonic coefficients of one mesh whose hub is tilted by `tilt` (+1 or -1) times the misalignment.
+    """Harmonic coefficients of one mesh whose hub is tilted by `tilt` (+1 or -1) times the misalignment (Eqs. C3, C5).
 
     With delta the tilt angle and n the flank normal, `spatial` is s_1 = R_e delta n_x and, at side +1,
     f_t = r_o delta^2/(2 cos alpha) sin(phi - alpha) [eps sin(phi - alpha)/sin alpha + cos phi], exact to first order
@@ -95,7 +95,7 @@ def mesh_motion(
 
 
 def sliding_velocity(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """v_G = delta omega r_o sin phi [m/s], axial, hub relative to sleeve (Fig. 12)."""
+    """v_G = delta omega r_o sin phi [m/s], axial, hub relative to sleeve (Fig. 12; Eq. C2)."""
     return mesh.sliding * teeth.sine
 
 
@@ -105,12 +105,12 @@ def relative_velocity(mesh: MeshMotion, teeth: ToothPositions, axial_velocity: f
 
 
 def contact_position(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Axial place s_1 of the contact on the hub flank [m]."""
+    """Axial place s_1 of the contact on the hub flank [m] (Eq. C3)."""
     return mesh.travel_sin * teeth.sine + mesh.travel_cos * teeth.cosine
 
 
 def hydrodynamic_velocity(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """v_H [m/s], magnitude of the sum of both surface velocities relative to the contact.
+    """v_H [m/s], magnitude of the sum of both surface velocities relative to the contact (Eq. C6).
 
     The contact moves at s_1' on the hub flank and at s_1' + v_G on the sleeve flank. The sum, not the mean, belongs to
     the constant 2.447 of the load capacity.
@@ -120,7 +120,7 @@ def hydrodynamic_velocity(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray
 
 
 def tangential_displacement(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Tangential displacement f_t [m] of hub against sleeve tooth, positive where the tooth bears first."""
+    """Tangential displacement f_t [m] of hub against sleeve tooth, positive where the tooth bears first (Eq. C5)."""
     s, c = teeth.sine, teeth.cosine
     if mesh.mixed == 0.0 and mesh.pivot == 0.0:
         return mesh.tilt * (s * s)
@@ -133,7 +133,7 @@ def max_contact_travel(mesh: MeshMotion) -> float:
 
 
 def max_hydrodynamic_velocity(mesh: MeshMotion) -> float:
-    """v_Hmax [m/s], the amplitude of a single harmonic."""
+    """v_Hmax [m/s], the amplitude of a single harmonic (Eq. C6)."""
     return hypot(2.0 * mesh.speed * mesh.travel_sin, mesh.sliding - 2.0 * mesh.speed * mesh.travel_cos)
 
 
@@ -166,7 +166,7 @@ def kinematics(mesh: MeshMotion) -> Kinematics:
 
 
 def flank_normals(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Normals of the loaded flanks over cos(alpha), shape (rotor angles, 2, teeth) for x and y.
+    """Normals of the loaded flanks over cos(alpha), shape (rotor angles, 2, teeth) for x and y (Eq. C4).
 
     n = side cos(alpha) e_t + sin(alpha) e_r; times the tangential tooth force n/cos(alpha) is the lateral force on the
     sleeve, whose radial part points outward at both sides.

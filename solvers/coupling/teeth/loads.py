@@ -52,7 +52,7 @@ class ToothLoads:
 
 
 def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """How far each tooth is ahead, f_t + pitch error [m], shape (rows, teeth)."""
+    """How far each tooth is ahead, f_t + pitch error [m], shape (rows, teeth) (Eq. C7)."""
     ahead = tangential_displacement(mesh, teeth)
     if coupling.pitch_errors is not None:
         ahead += coupling.pitch_errors
@@ -65,7 +65,7 @@ def elastic_rotation(coupling: Coupling, torque: float) -> float:
 
 
 def centred_loads(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, torque: float) -> ToothLoads:
-    """Loads of a sleeve held centred on the hub: exact for any torque >= 0."""
+    """Loads of a sleeve held centred on the hub: exact for any torque >= 0 (Eq. C7)."""
     ahead = interference_at_rest(coupling, mesh, teeth)
     rows = ahead.shape[0]
     displacement, iterations = np.zeros((rows, 2)), np.zeros(rows, dtype=np.int64)
@@ -79,7 +79,7 @@ def centred_loads(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, t
 def floating_loads(
     coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, torque: float, force: FloatArray
 ) -> ToothLoads:
-    """Loads of a sleeve that finds its own place under an external `force` (rows, 2) [N], for torque > 0.
+    """Loads of a sleeve that finds its own place under an external `force` (rows, 2) [N], for torque > 0 (Eq. C7).
 
     Iterations are negative in a row without balance: the force exceeds what the torque's tooth forces can hold.
     """

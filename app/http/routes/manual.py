@@ -1,0 +1,32 @@
+"""The theory manual."""
+
+from fastapi import APIRouter, HTTPException, Response
+
+from app.http.routes.pages import html
+from app.manual.chapters import NAMES
+from app.pages.manual import chapter_page, contents_page, functions_page
+
+router = APIRouter(prefix="/manual", include_in_schema=False)
+
+
+# Rendering takes a tenth of a second the first time: these are no coroutines, so that the server answers meanwhile.
+
+
+@router.get("")
+def contents() -> Response:
+    """What the manual holds."""
+    return html(contents_page())
+
+
+@router.get("/functions")
+def functions() -> Response:
+    """The functions that implement the equations."""
+    return html(functions_page())
+
+
+@router.get("/{name}")
+def chapter(name: str) -> Response:
+    """One chapter."""
+    if name not in NAMES:
+        raise HTTPException(404, f"There are {', '.join(NAMES)} and functions")
+    return html(chapter_page(name))

@@ -1,0 +1,42 @@
+"""The chapters, in the order in which they are read."""
+
+import re
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+NAMES = ("coupling",)
+
+_FIGURE = re.compile(r"\]\(figures/([\w-]+)\.([\w-]+)\.png\)")
+
+
+@dataclass(frozen=True, slots=True)
+class Chapter:
+    """A chapter: its name in addresses and file names, and its text in Markdown."""
+
+    name: str
+    text: str
+
+    @property
+    def title(self) -> str:
+        """The first heading."""
+        return self.text.partition("\n")[0].removeprefix("# ")
+
+    @property
+    def lead(self) -> str:
+        """The first paragraph, in one line."""
+        return " ".join(self.text.split("\n\n")[1].split())
+
+    @property
+    def figures(self) -> list[tuple[str, str]]:
+        """Example and figure of every picture; the file is named after both."""
+        return [
+            (example, figure) for example, figure in re.findall(r"\]\(figures/([\w-]+)\.([\w-]+)\.png\)", self.text)
+        ]
+
+
+@cache
+def chapters() -> dict[str, Chapter]:
+    """Every chapter by name."""
+    folder = files("app.manual")
+    return {name: Chapter(name, folder.joinpath(f"{name}.md").read_text("utf-8")) for name in NAMES}

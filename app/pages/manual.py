@@ -1,0 +1,160 @@
+"""Chapters as pages: Markdown to HTML, equations to MathML, pictures to the figures of the running service."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from latex2mathml.converter import convert
+from markdown_it import MarkdownIt
+from markdown_it.renderer import RendererHTML
+from markdown_it.token import Token
+from markdown_it.utils import OptionsDict
+from markupsafe import Markup
+from mdit_py_plugins.anchors import anchors_plugin
+from mdit_py_plugins.dollarmath import dollarmath_plugin
+
+from app.calculations import CALCULATIONS
+from app.examples import examples
+from app.manual.chapters import Chapter, chapters
+from app.manual.equations import anchor, functions
+from app.pages.links import example_link
+from app.pages.query import link
+from app.pages.templating import page_path, rendered
+
+_FUNCTION = re.compile(r"\\(?:arc)?(?:sin|cos|tan|ln|exp|sinh|cosh|tanh|operatorname\{\w+\})(?![a-z])(?:\^\{?\w+\}?)?")
+_TAG = re.compile(r"\\tag\{([^}]+)\}")
+_SOURCE = re.compile(r"(?:\.\./)+solvers/.*\.py")
+
+
+@dataclass(frozen=True, slots=True)
+class Heading:
+    """A section of a chapter."""
+
+    anchor: str
+    text: str
+
+
+@cache
+def contents_page() -> str:
+    """What the manual holds."""
+    listed = [(chapter, headings(chapter)) for chapter in chapters().values()]
+    return rendered("manual_contents.html", listed=listed)
+
+
+@cache
+def chapter_page(name: str) -> str:
+    """One chapter."""
+    chapter, names = chapters()[name], list(chapters())
+    place = names.index(name)
+    following = chapters()[names[place + 1]] if place + 1 < len(names) else None
+    body = Markup(_markdown().render(chapter.text))  # noqa: S704  our own text
+    return rendered("manual.html", chapter=chapter, headings=headings(chapter), body=body, following=following)
+
+
+@cache
+def functions_page() -> str:
+    """The functions that implement the equations."""
+    return rendered("manual_functions.html", functions=functions())
+
+
+def headings(chapter: Chapter) -> list[Heading]:
+    """The sections of a chapter."""
+    tokens = _markdown().parse(chapter.text)
+    return [
+        Heading(str(token.attrs["id"]), tokens[place + 1].content)
+        for place, token in enumerate(tokens)
+        if token.type == "heading_open" and token.tag == "h2"
+    ]
+
+
+@cache
+def _markdown() -> MarkdownIt:
+    """CommonMark with tables, equations in dollars and headings that links can name."""
+    markdown = MarkdownIt("commonmark", {"html": True}).enable("table")
+    markdown.use(anchors_plugin, max_level=3)
+    markdown.use(dollarmath_plugin, allow_labels=False, renderer=_inline_equation)
+    markdown.core.ruler.push("figures", _figures_stand_alone)
+    for rule in (_math_block, _image, _link_open, _table_open, _table_close, _html_block):
+        markdown.add_render_rule(rule.__name__.removeprefix("_"), rule)
+    return markdown
+
+
+def _inline_equation(text: str, _: dict[str, Any]) -> str:
+    return _mathml(text, "inline")
+
+
+def _mathml(text: str, display: str) -> str:
+    """MathML of an equation; the names of functions get the thin spaces that LaTeX sets and the converter does not."""
+    spaced = _FUNCTION.sub(lambda name: rf"\,{name[0]}\,", text)
+    spaced = re.sub(r"(^|[(\[{=+/|&-]|\\left.|\\\\)\s*\\,", r"\1", spaced)
+    spaced = re.sub(r"\\,\s*(?=[(\[)\]])|\\,\s*(?=\\left)", "", spaced)
+    return convert(spaced, display=display)
+
+
+def _figures_stand_alone(state: Any) -> None:
+    """A paragraph that is one picture is no paragraph."""
+    for before, inline, after in zip(state.tokens, state.tokens[1:], state.tokens[2:], strict=False):
+        if inline.type == "inline" and [child.type for child in inline.children] == ["image"]:
+            before.hidden = after.hidden = True
+
+
+def _math_block(_self: RendererHTML, tokens: Sequence[Token], place: int, *_: Any) -> str:
+    """An equation, with its number beside it and as its anchor if it has one."""
+    text = tokens[place].content
+    tag = _TAG.search(text)
+    math = _mathml(_TAG.sub("", text).strip(), "block")
+    if tag is None:
+        return f'<div class="equation scroll" tabindex="0">{math}</div>\n'
+    number = tag[1]
+    return (
+        f'<div class="equation scroll" id="{anchor(number)}" tabindex="0" role="region" aria-label="Equation {number}">'
+        f'{math}<span class="number">({number})</span></div>\n'
+    )
+
+
+def _image(
+    renderer: RendererHTML, tokens: Sequence[Token], place: int, options: OptionsDict, environment: dict[str, Any]
+) -> str:
+    """The figure of an example, drawn by the service, with a link to the case."""
+    token = tokens[place]
+    name, figure, _ = str(token.attrs["src"]).removeprefix("figures/").split(".")
+    example = examples()[name]
+    calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
+    title = next(each.title for each in calculation.figures if each.name == figure)
+    light, dark = (
+        link(f"{page_path(calculation)}/figures/{figure}.svg", [("example", name)], theme=theme)
+        for theme in ("light", "dark")
+    )
+    caption = renderer.renderInline(token.children or [], options, environment)
+    case = Markup('<a href="{}">The case</a>').format(example_link(calculation, example))
+    source = Markup('<source srcset="{}" media="(prefers-color-scheme: dark)">').format(dark)
+    image = Markup('<img src="{}" alt="{}" loading="lazy">').format(light, title)
+    return f"<figure><picture>{source}{image}</picture><figcaption>{caption} {case}.</figcaption></figure>\n"
+
+
+def _link_open(
+    renderer: RendererHTML, tokens: Sequence[Token], place: int, options: OptionsDict, environment: dict[str, Any]
+) -> str:
+    """A link to a chapter's file is one to its page, a link to a source one to the function that it names."""
+    token = tokens[place]
+    address = str(token.attrs["href"])
+    if _SOURCE.fullmatch(address):
+        token.attrs["href"] = f"/manual/functions#{tokens[place + 1].content}"
+    else:
+        token.attrs["href"] = re.sub(r"^([\w-]+)\.md(?=#|$)", r"/manual/\1", address)
+    return renderer.renderToken(tokens, place, options, environment)
+
+
+def _table_open(*_: Any) -> str:
+    return '<div class="scroll" tabindex="0"><table class="results">\n'
+
+
+def _table_close(*_: Any) -> str:
+    return "</table></div>\n"
+
+
+def _html_block(*_: Any) -> str:
+    """Comments are for those who renew generated parts."""
+    return ""

@@ -1,0 +1,54 @@
+"""Which equations the docstrings of `solvers` cite."""
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+SOLVERS = Path(__file__).parents[2] / "solvers"
+PAPERS = {"MILIAN": "Milian", "XUE": "Xue"}
+_CITED = re.compile(r"\bEqs?\. ((?:[A-Z]?\d+(?:\.\d)?)(?:(?:, | and |-)[A-Z]?\d+(?:\.\d)?)*)")
+
+
+def numbers(text: str, paper: str) -> set[str]:
+    """The equations that a text cites; those without a letter are the paper's."""
+    return {number if number[0].isalpha() else f"{paper} {number}" for number in _plain(text)}
+
+
+def _plain(text: str) -> Iterator[str]:
+    for cited in _CITED.findall(text):
+        for part in re.split(r", | and ", cited):
+            first, _, last = part.partition("-")
+            yield from [first] if not last else (str(each) for each in range(int(first), int(last) + 1))
+
+
+def paper_of(path: Path) -> str:
+    """The paper that a module's numbers without a letter belong to."""
+    return "Milian" if "pumping" in path.relative_to(SOLVERS).parts[0] else "Xue"
+
+
+def docstrings() -> Iterator[tuple[Path, str, str]]:
+    """Path, dotted name and docstring of every module, class and function of the solvers."""
+    for path in sorted(SOLVERS.rglob("*.py")):
+        module = ".".join(path.relative_to(SOLVERS.parent).with_suffix("").parts).removesuffix(".__init__")
+        yield from ((path, name, text) for name, text in _inside(ast.parse(path.read_text("utf-8")), module))
+
+
+def _inside(node: ast.Module | ast.ClassDef | ast.FunctionDef, name: str) -> Iterator[tuple[str, str]]:
+    if text := ast.get_docstring(node):
+        yield name, text
+    for each in node.body:
+        if isinstance(each, ast.ClassDef | ast.FunctionDef):
+            yield from _inside(each, f"{name}.{each.name}")
+
+
+def cited() -> dict[str, set[str]]:
+    """The equations that every module, class and function cites."""
+    return {name: found for path, name, text in docstrings() if (found := numbers(text, paper_of(path)))}
+
+
+def declared() -> set[str]:
+    """The equations that declarations of quantities name as their source."""
+    texts = "\n".join(path.read_text("utf-8") for path in SOLVERS.rglob("*.py"))
+    sources = re.findall(r'f"\{(MILIAN|XUE)\}, ([^"]*)"', texts)
+    return {number for paper, text in sources for number in numbers(text, PAPERS[paper])}

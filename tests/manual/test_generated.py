@@ -1,0 +1,117 @@
+"""Tables and pictures of the manual that the code makes: `python -m tests.manual.test_generated` renews them.
+
+In a chapter a table stands between `<!-- generated: NAME -->` and `<!-- end -->`. Pictures are named after an example
+and one of its figures; they are for readers of the repository, the service draws its own.
+"""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from app.calculations import CALCULATIONS
+from app.evaluate import drawn
+from app.examples import examples
+from app.main import app
+from app.manual.chapters import chapters
+from app.settings import Settings
+from solvers.published import STATEMENTS, Row
+
+FOLDER = Path(__file__).parents[2] / "app" / "manual"
+BLOCK = re.compile(r"<!-- generated: ([\w -]+) -->\n(.*?)<!-- end -->", re.DOTALL)
+ROUNDING = 1e-9
+DEFAULTS = {"workers": "one per core", "max_connections": "by the descriptor limit", "scheduler": "none: the workers"}
+
+
+def table(header: tuple[str, ...], rows: Iterator[tuple[str, ...]]) -> str:
+    lines = [header, ("---",) * len(header), *rows]
+    return "".join("| " + " | ".join(cell.replace("|", r"\|") for cell in line) + " |\n" for line in lines)
+
+
+def comparison(model: str) -> str:
+    """What is printed and what is computed."""
+    header = ("statement", "source", "printed", "computed", "unit", "deviation", "remark")
+    return table(header, (_compared(statement.row()) for statement in STATEMENTS[model]))
+
+
+def _compared(row: Row) -> tuple[str, ...]:
+    """One line; what is rounding, in the number or in its deviation, is zero."""
+    outcome = "holds" if row.holds else "does not hold"
+    deviation = outcome if row.deviation is None else f"{100 * row.deviation:+.1f} %"
+    deviation = deviation.replace("-0.0", "0.0").replace("+0.0", "0.0")
+    computed = f"{row.computed if abs(row.computed) > ROUNDING else 0.0:.4g}"
+    return row.statement, row.source, row.printed, computed, row.unit, deviation, row.remark
+
+
+def settings_table() -> str:
+    """Every setting."""
+    return table(
+        ("variable", "what", "default"),
+        (
+            (f"`TRIBODRIVE_{name.upper()}`", field.description or "", DEFAULTS.get(name, _default(field.default)))
+            for name, field in Settings.model_fields.items()
+        ),
+    )
+
+
+def _default(value: object) -> str:
+    return "none" if value is None else f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def endpoint_table() -> str:
+    """Every operation of the contract."""
+    paths = app.openapi()["paths"]
+    return table(
+        ("address", "what"),
+        (
+            (f"`{method.upper()} {path}`", operation["summary"])
+            for path, operations in paths.items()
+            for method, operation in operations.items()
+        ),
+    )
+
+
+def generated(name: str) -> str:
+    """The content of one block."""
+    kind, _, model = name.partition(" ")
+    return {"comparison": lambda: comparison(model), "settings": settings_table, "endpoints": endpoint_table}[kind]()
+
+
+def blocks() -> list[tuple[str, str, str]]:
+    return [(chapter.name, *found) for chapter in chapters().values() for found in BLOCK.findall(chapter.text)]
+
+
+@pytest.mark.parametrize(("name", "content"), [each[1:] for each in blocks()], ids=[each[1] for each in blocks()])
+def test_a_table_is_as_the_code_makes_it(name: str, content: str) -> None:
+    assert content == generated(name), "renew it by python -m tests.manual.test_generated"
+
+
+def renew_tables() -> None:
+    for chapter in chapters().values():
+        text = BLOCK.sub(
+            lambda found: f"<!-- generated: {found[1]} -->\n{generated(found[1])}<!-- end -->", chapter.text
+        )
+        (FOLDER / f"{chapter.name}.md").write_text(text, "utf-8")
+
+
+def _renewed(block: re.Match[str]) -> str:
+    return f"<!-- generated: {block[1]} -->\n{generated(block[1])}<!-- end -->"
+
+
+def renew_figures() -> None:
+    folder = FOLDER / "figures"
+    folder.mkdir(exist_ok=True)
+    for old in folder.iterdir():
+        old.unlink()
+    for name, shown in sorted({each for chapter in chapters().values() for each in chapter.figures}):
+        example = examples()[name]
+        calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
+        declaration = next(each for each in calculation.figures if each.name == shown)
+        request = calculation.request.model_validate(example.request)
+        (folder / f"{name}.{shown}.png").write_bytes(drawn(calculation, declaration, request, "png", "light"))
+
+
+if __name__ == "__main__":
+    renew_tables()
+    renew_figures()

@@ -1,0 +1,128 @@
+"""The manual and the code name each other, its links lead somewhere, its examples run."""
+
+import doctest
+import re
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from app.calculations import CALCULATIONS
+from app.examples import examples
+from app.manual.chapters import NAMES, chapters
+from app.manual.equations import anchor, equations, functions, module_of
+from tests.manual.citations import cited
+
+FOLDER = Path(__file__).parents[2] / "app" / "manual"
+CITED = cited()
+
+
+def implementing(name: str) -> Any:
+    """The function, method or class of this name."""
+    module = module_of(name)
+    found: Any = import_module(module)
+    for part in name.removeprefix(f"{module}.").split("."):
+        found = getattr(found, part)
+    return found
+
+
+def test_every_chapter_is_served_and_no_file_is_left_out() -> None:
+    assert sorted(NAMES) == sorted(path.stem for path in FOLDER.glob("*.md"))
+
+
+def test_every_tag_is_an_equation_of_its_own() -> None:
+    """A block that the pattern of equations misses would have no anchor."""
+    tags = [tag for chapter in chapters().values() for tag in re.findall(r"\\tag\{([^}]+)\}", chapter.text)]
+    assert sorted(tags) == sorted(equations())
+
+
+@pytest.mark.parametrize("number", sorted(equations()))
+def test_functions_of_an_equation_cite_it(number: str) -> None:
+    for name in equations()[number].functions:
+        assert callable(implementing(name)) or isinstance(implementing(name), property)
+        assert number in CITED.get(name, set()), name
+
+
+def test_every_equation_of_ours_is_implemented() -> None:
+    """Equations of papers may be printed only to be corrected; ours stand here because they are computed."""
+    assert [number for number, equation in equations().items() if " " not in number and not equation.functions] == []
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_links_to_code_name_the_file(name: str) -> None:
+    for function, path in re.findall(r"\[`(solvers[\w.]+)`\]\(([^)]+)\)", chapters()[name].text):
+        assert (FOLDER / path).resolve().is_file(), path
+        assert path == f"../../{module_of(function).replace('.', '/')}.py"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_figures_are_there(name: str) -> None:
+    known = {each.path: {figure.name for figure in each.figures} for each in CALCULATIONS}
+    for example, figure in chapters()[name].figures:
+        assert figure in known[examples()[example].endpoint]
+        assert (FOLDER / "figures" / f"{example}.{figure}.png").read_bytes().startswith(b"\x89PNG")
+    shown = {f"{example}.{figure}.png" for each in chapters().values() for example, figure in each.figures}
+    assert shown == {path.name for path in (FOLDER / "figures").iterdir()}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_examples_run(name: str) -> None:
+    parsed = doctest.DocTestParser().get_doctest(chapters()[name].text, {}, name, f"{name}.md", 0)
+    assert doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE).run(parsed).failed == 0
+
+
+@pytest.fixture(scope="module")
+def pages(client: httpx.Client) -> dict[str, str]:
+    """Every page of the manual by its path."""
+    paths = ["/manual", "/manual/functions", *(f"/manual/{name}" for name in NAMES)]
+    found = {}
+    for path in paths:
+        page = client.get(path)
+        assert page.status_code == 200
+        assert "script-src" not in page.headers["content-security-policy"]
+        found[path] = page.text
+    return found
+
+
+def test_links_of_the_pages_lead_somewhere(client: httpx.Client, pages: dict[str, str]) -> None:
+    anchors = {path: set(re.findall(r'\bid="([^"]+)"', text)) for path, text in pages.items()}
+    for path, text in pages.items():
+        assert len(anchors[path]) == len(re.findall(r'\bid="', text))
+        for link in set(re.findall(r'\b(?:href|src|srcset)="([^"]+)"', text)):
+            target, _, place = link.replace("&amp;", "&").partition("#")
+            if (target or path) in pages:
+                assert not place or place in anchors[target or path], link
+            elif target.startswith("/") and "figures" not in target and "?" not in target:
+                assert client.get(target).status_code == 200, link
+            else:
+                assert target.startswith(("/", "https://")), link
+
+
+def test_pages_hold_the_equations_as_mathml_without_scripts(pages: dict[str, str]) -> None:
+    for equation in equations().values():
+        assert f'id="{anchor(equation.number)}"' in pages[f"/manual/{equation.chapter}"]
+    for path, text in pages.items():
+        assert "<script" not in text
+        assert " style=" not in text
+        assert "$" not in re.sub(r"<pre.*?</pre>", "", text, flags=re.DOTALL), path
+
+
+def test_figures_are_drawn_by_the_service(client: httpx.Client, pages: dict[str, str]) -> None:
+    addresses = re.findall(r'<img src="([^"]+)"', pages["/manual/coupling"])
+    assert len(addresses) == len(chapters()["coupling"].figures)
+    drawn = client.get(addresses[0].replace("&amp;", "&"), follow_redirects=True)
+    assert drawn.headers["content-type"].startswith("image/svg+xml")
+
+
+def test_the_functions_page_leads_back(pages: dict[str, str]) -> None:
+    for function in functions():
+        assert f'id="{function.name}"' in pages["/manual/functions"]
+        assert function.text
+        for equation in function.equations:
+            assert f'href="{equation.address}"' in pages["/manual/functions"]
+
+
+def test_a_chapter_that_is_not_there(client: httpx.Client) -> None:
+    assert client.get("/manual/alchemy").status_code == 404
