@@ -12,7 +12,7 @@ from app.figures.data import ThemeName
 from app.figures.declaration import Declaration
 from app.plausibility import unusual
 from app.schema.base import MODEL_VERSION, Notice, Request, Response, Section
-from app.schema.conversion import above, from_si, group_of
+from app.schema.model import above, from_si, group_of
 from app.schema.paths import field_path
 from app.schema.quantities import Input
 from app.schema.reading import validated

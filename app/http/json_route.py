@@ -10,8 +10,7 @@ from pydantic import BaseModel
 from starlette.exceptions import HTTPException
 
 from app.errors import InvalidBody, Unreadable
-from app.schema.messages import faults
-from app.schema.reading import content_of
+from app.schema.reading import content_of, faults
 
 
 class _StrictRequest(Request):

@@ -13,8 +13,8 @@ from pydantic.json_schema import models_json_schema
 from starlette.exceptions import HTTPException
 
 from app.errors import PROBLEMS, InvalidBody, Unprocessable, Unreadable, faults_of, pointer
-from app.schema.messages import MOST_FAULTS
 from app.schema.quantities import Output
+from app.schema.reading import MOST_FAULTS
 
 MEDIA_TYPE = "application/problem+json"
 

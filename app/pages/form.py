@@ -11,9 +11,8 @@ from markupsafe import Markup
 from app.pages.query import PICK, PRESENT, text_of
 from app.pages.typesetting import symbol, words
 from app.schema.base import Request
-from app.schema.fields import ITEM, Leaf
-from app.schema.tree import Branch, Field, tree
-from app.schema.units import split_unit
+from app.schema.fields import ITEM, Branch, Leaf, tree
+from app.schema.quantities import split_unit
 
 Widget = Literal["number", "text", "list", "select"]
 ROWS_OF_TEXT = 3
@@ -71,13 +70,12 @@ def anchor(path: str) -> str:
     return f"f.{path}"
 
 
-def field_view(member: Field, name: str, state: State, column: str = "") -> FieldView:
+def field_view(leaf: Leaf, name: str, state: State, column: str = "") -> FieldView:
     """A field under its name with indices; `column` names it where several stand side by side."""
-    leaf = member.leaf
     return FieldView(
         name=name,
-        label=member.label,
-        symbol=symbol(leaf.symbol),
+        label=leaf.declared.title,
+        symbol=symbol(leaf.declared.symbol),
         unit=leaf.unit or "",
         widget=_widget(leaf),
         text=state.texts.get(name, ""),
@@ -113,8 +111,8 @@ def _placeholder(leaf: Leaf, name: str, state: State) -> str:
         return " ".join(text_of(item) for item in value[:6]) + (" …" if len(value) > 6 else "")
     if value is not None and value != []:
         return f"{value:.6g}" if isinstance(value, float) else text_of(value)
-    if leaf.default_text:
-        return leaf.default_text
+    if leaf.declared.default_text:
+        return leaf.declared.default_text
     return "paste a column" if leaf.dimensions else ""
 
 
@@ -125,7 +123,7 @@ def _options(leaf: Leaf, text: str) -> list[tuple[str, str]]:
     default = text_of(leaf.default) if leaf.default is not None else None
     shown = [(str(value), f"{label} (default)" if str(value) == default else label) for value, label in named]
     known = {value for value, _ in shown}
-    empty = [] if default in known else [("", leaf.default_text or "choose …")]
+    empty = [] if default in known else [("", leaf.declared.default_text or "choose …")]
     strange = [(text, text)] if text and text not in known else []
     return [
         *empty,
@@ -139,13 +137,13 @@ def _help(leaf: Leaf, name: str, state: State) -> list[str]:
     lines = [_sentence(leaf.description)]
     if bounds := _range(leaf):
         lines.append(bounds)
-    if leaf.assumed:
-        lines.append(f"{'Assumed' if name in state.assumed else 'Our default'}: {leaf.assumed}.")
+    if leaf.declared.assumed:
+        lines.append(f"{'Assumed' if name in state.assumed else 'Our default'}: {leaf.declared.assumed}.")
     if leaf.exclusive:
         fellows = ", ".join(_last_words(fellow) for fellow in leaf.exclusive)
         lines.append(f"Instead of: {fellows}.")
-    if leaf.source:
-        lines.append(f"Source: {leaf.source}.")
+    if leaf.declared.source:
+        lines.append(f"Source: {leaf.declared.source}.")
     return lines
 
 
@@ -160,7 +158,7 @@ def _sentence(text: str) -> str:
 
 def _range(leaf: Leaf) -> str:
     names = {"ge": "from", "gt": "above", "le": "to", "lt": "below"}
-    parts = [f"{names[key]} {text_of(float(bound))}" for key, bound in leaf.bounds.items()]
+    parts = [f"{names[key]} {text_of(float(bound))}" for key, bound in leaf.declared.bounds.items()]
     return f"Allowed: {' '.join(parts)} {leaf.unit or ''}".rstrip() + "." if parts else ""
 
 
@@ -236,7 +234,7 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
     """The sections of the form: those with required fields first, model options last."""
     root = tree(request)
     sections = [_section(group, state) for group in _grouped(root.branches)]
-    loose = tuple(field for field in root.fields if field.path != DETAIL)
+    loose = tuple(field for field in root.leaves if field.path != DETAIL)
     if loose:
         sections.append(_loose(loose, state))
     return tuple(sorted(sections, key=lambda each: (not each.needed, each.advanced)))
@@ -252,10 +250,10 @@ def _grouped(branches: tuple[Branch, ...]) -> Iterator[tuple[Branch, ...]]:
             yield members
 
 
-def _loose(fields: tuple[Field, ...], state: State) -> Section:
+def _loose(fields: tuple[Leaf, ...], state: State) -> Section:
     blocks = tuple(Single(field_view(field, field.path, state)) for field in fields)
     names = [field.path for field in fields]
-    needed = any(field.leaf.required for field in fields)
+    needed = any(field.required for field in fields)
     return Section(
         anchor("general"),
         "general",
@@ -368,11 +366,11 @@ def _inner(group: tuple[Branch, ...], prefix: str, state: State) -> Block:
     return _rows(first, path, state) if first.repeated else _branch(first, path, state)
 
 
-def _choices(branch: Branch) -> dict[str, tuple[Field, ...]]:
+def _choices(branch: Branch) -> dict[str, tuple[Leaf, ...]]:
     """Fields that exclude each other and nothing else, by the path of each of them."""
-    fields = {_last(field.path): field for field in branch.fields}
+    fields = {_last(field.path): field for field in branch.leaves}
     memberships = Counter(name for group in branch.model.exclusive for name in group)
-    found: dict[str, tuple[Field, ...]] = {}
+    found: dict[str, tuple[Leaf, ...]] = {}
     for group in branch.model.exclusive:
         if all(name in fields and memberships[name] == 1 for name in group):
             members = tuple(fields[name] for name in group)
@@ -380,11 +378,11 @@ def _choices(branch: Branch) -> dict[str, tuple[Field, ...]]:
     return found
 
 
-def _choice(group: tuple[Field, ...], prefix: str, state: State) -> Choice:
+def _choice(group: tuple[Leaf, ...], prefix: str, state: State) -> Choice:
     names = [_name(field, prefix) for field in group]
     given = next((name for name in names if name in state.texts), None)
     known = next((name for name in names if state.resolved.get(name) is not None), None)
-    legend = " or ".join(field.label for field in group)
+    legend = " or ".join(field.declared.title for field in group)
     views = tuple(field_view(field, name, state) for field, name in zip(group, names, strict=True))
     return Choice(PICK + names[0], legend, views, given or known or names[0])
 
@@ -397,7 +395,7 @@ def _twins(group: tuple[Branch, ...], prefix: str, state: State) -> Twins:
             field_view(field, f"{path}.{_last(field.path)}", state, column)
             for field, path, column in zip(line, paths, columns, strict=True)
         )
-        for line in zip(*(branch.fields for branch in group), strict=True)
+        for line in zip(*(branch.leaves for branch in group), strict=True)
     )
     faults = tuple(state.faults[path] for path in paths if path in state.faults)
     return Twins(columns, rows, faults, tuple(anchor(path) for path in paths))
@@ -417,7 +415,7 @@ def _index(name: str, path: str) -> str | None:
     return part if part.isdecimal() and part.isascii() else None
 
 
-def _name(field: Field, prefix: str) -> str:
+def _name(field: Leaf, prefix: str) -> str:
     return prefix + _last(field.path)
 
 

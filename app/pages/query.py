@@ -7,9 +7,8 @@ from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
 from app.errors import Unreadable
-from app.schema.fields import ITEM, Leaf, leaf_at
+from app.schema.fields import ITEM, Leaf, branches, leaf_at
 from app.schema.model import Documented
-from app.schema.tree import branches
 
 Pairs = list[tuple[str, str]]
 

@@ -81,10 +81,10 @@ def _inputs(case: Case) -> list[Table]:
             continue
         origin = "given" if path in given else "assumed" if path in assumed else "default"
         text = _text(value)
-        if value is None and leaf.default_text:
-            text = leaf.default_text
+        if value is None and leaf.declared.default_text:
+            text = leaf.declared.default_text
         section, index, name = _place(path)
-        row = Row(leaf.title.partition(",")[0], symbol(leaf.symbol), leaf.unit or "", {})
+        row = Row(leaf.title.partition(",")[0], symbol(leaf.declared.symbol), leaf.unit or "", {})
         cells = sections.setdefault(section, {}).setdefault(name, row).cells
         cells[index] = Cell(f"{text} {row.unit}" if value is not None and row.unit else text, origin)
     return [table for title, rows in sections.items() for table in _tables(title, tuple(rows.values()))]

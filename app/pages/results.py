@@ -7,9 +7,8 @@ from typing import Any, NamedTuple
 from markupsafe import Markup
 
 from app.pages.typesetting import percent_change, shown, symbol, words
-from app.schema.fields import Leaf, headlines, leaf_at
+from app.schema.fields import Branch, Leaf, headlines, leaf_at, tree
 from app.schema.model import Documented
-from app.schema.tree import Branch, Field, tree
 
 NOT_RESULTS = frozenset(
     {"status", "warnings", "residuals", "assumptions", "model_version", "sources", "model", "derived", "inputs", "case"}
@@ -21,7 +20,6 @@ class Entry:
     """A value of an answer at its full path."""
 
     leaf: Leaf
-    label: str
     path: str
     value: Any
 
@@ -56,9 +54,9 @@ def entries(response: Documented) -> Iterator[tuple[str, Entry]]:
             yield from _entries(member, getattr(response, member.path), member.path, "")
 
 
-def _entries(member: Field | Branch, value: Any, path: str, group: str) -> Iterator[tuple[str, Entry]]:
-    if isinstance(member, Field):
-        yield group, Entry(member.leaf, member.label, path, value)
+def _entries(member: Leaf | Branch, value: Any, path: str, group: str) -> Iterator[tuple[str, Entry]]:
+    if isinstance(member, Leaf):
+        yield group, Entry(member, path, value)
     elif isinstance(value, list):
         for index, item in enumerate(value):
             yield from _inner(member, item, f"{path}.{index}", _joined(group, f"{member.title} {index + 1}"))
@@ -82,7 +80,7 @@ def groups(response: Documented, before: Documented | None = None) -> tuple[Grou
     known = {entry.path: entry.value for _, entry in entries(before)} if before is not None else {}
     tables: dict[str, list[Row]] = {}
     for title, entry in entries(response):
-        if entry.leaf.is_scalar or (entry.leaf.index and not entry.leaf.axes and entry.leaf.dimensions == 1):
+        if entry.leaf.is_scalar or (entry.leaf.declared.index and not entry.leaf.axes and entry.leaf.dimensions == 1):
             tables.setdefault(title or "result", []).append(_row(entry, known))
     return tuple(Group(title, tuple(rows)) for title, rows in tables.items())
 
@@ -91,8 +89,8 @@ def _row(entry: Entry, known: dict[str, Any]) -> Row:
     leaf = entry.leaf
     old = known.get(entry.path)
     return Row(
-        entry.label,
-        symbol(leaf.symbol),
+        leaf.declared.title,
+        symbol(leaf.declared.symbol),
         _text(entry.value),
         (leaf.unit or "") if entry.value is not None else "",
         entry.path,
@@ -171,7 +169,7 @@ def cards(response: Documented, inputs: dict[str, Any], before: Documented | Non
     old = {entry.path: entry.value for _, entry in entries(before)} if before is not None else {}
     best: dict[int, Leaf] = {}
     for leaf in headlines(type(response)):
-        rank = leaf.headline or 0
+        rank = leaf.view.headline or 0
         if rank not in best or _size(known.get(leaf.path)) > _size(known.get(best[rank].path)):
             best[rank] = leaf
     doubts = [DOUBTS[each.code] for each in response.warnings if each.code in DOUBTS]
@@ -196,12 +194,12 @@ def _card(leaf: Leaf, verdict: Verdict, known: dict[str, Any], old: dict[str, An
     value, previous = known.get(leaf.path), old.get(leaf.path)
     return Card(
         title=leaf.title,
-        symbol=symbol(leaf.symbol),
+        symbol=symbol(leaf.declared.symbol),
         value=shown(value, DIGITS),
         unit=(leaf.unit or "") if value is not None else "",
         level=verdict.level,
         verdict=verdict.words,
-        needs=leaf.needs if value is None else None,
+        needs=leaf.view.needs if value is None else None,
         before=shown(previous, DIGITS) if old else "",
         change=change(value, previous) if old else "",
     )
@@ -210,14 +208,14 @@ def _card(leaf: Leaf, verdict: Verdict, known: dict[str, Any], old: dict[str, An
 def _verdict(response: Documented, leaf: Leaf, known: dict[str, Any]) -> Verdict:
     """How the value stands to its limit, in the answer's own words where it has some."""
     value = known.get(leaf.path)
-    limit = known.get(leaf.limit) if isinstance(leaf.limit, str) else leaf.limit
+    limit = known.get(leaf.view.limit) if isinstance(leaf.view.limit, str) else leaf.view.limit
     if value is None:
-        return Verdict("plain", "" if leaf.needs else _why_not(leaf.description))
-    if leaf.bound is None or limit is None or isinstance(value, bool):
+        return Verdict("plain", "" if leaf.view.needs else _why_not(leaf.description))
+    if leaf.view.bound is None or limit is None or isinstance(value, bool):
         return PLAIN
     name = f"{shown(limit, 4)} {leaf.unit or ''}".strip()
-    verdict = _at_least(value, limit, name) if leaf.bound == "lower" else _at_most(abs(value), limit, name)
-    judge = leaf_at(type(response), leaf.verdict) if leaf.verdict else None
+    verdict = _at_least(value, limit, name) if leaf.view.bound == "lower" else _at_most(abs(value), limit, name)
+    judge = leaf_at(type(response), leaf.view.verdict) if leaf.view.verdict else None
     if judge is None or known.get(judge.path) is None:
         return verdict
     return Verdict(verdict.level, f"{judge.title}: {words(known[judge.path])}")

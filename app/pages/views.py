@@ -21,8 +21,7 @@ from app.pages.results import cards, entries, flattened, groups
 from app.pages.study_links import study_links
 from app.pages.templating import model_of, page_path, rendered
 from app.pages.typesetting import NO_VALUE
-from app.schema.fields import headlines, leaf_at
-from app.schema.tree import branches
+from app.schema.fields import branches, headlines, leaf_at
 from app.sources import changes_since
 
 BY_PAGE = {page_path(calculation): calculation for calculation in CALCULATIONS}

@@ -9,7 +9,7 @@ from app.calculations import BY_PATH
 from app.rexs.model import Component, LoadCase
 from app.rexs.reading import Assumed, Missing, Reading
 from app.rexs.table import Row
-from app.schema.messages import faults
+from app.schema.reading import faults
 
 Origin = tuple[Component, str | None]
 

@@ -8,8 +8,7 @@ from pydantic import ConfigDict, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
-from app.schema.conversion import built
-from app.schema.model import Documented
+from app.schema.model import Documented, built
 from app.schema.quantities import Input, Output
 from solvers.quantity import Detail
 

@@ -8,11 +8,10 @@ from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from app.schema.base import Group, Request, Response, Section
-from app.schema.conversion import to_si
 from app.schema.coupling import CouplingFriction, CrownedCoupling
 from app.schema.gears import BacklashGears, GearMaterials
 from app.schema.load_distribution import FlankModifications, MeshDerived, ScuffingLoad
-from app.schema.model import declared
+from app.schema.model import declared, to_si
 from app.schema.oil import CouplingLubricant, Oil
 from app.schema.pumping import GearGroove, Mist, PumpingOptions
 from app.schema.quantities import Input, View

@@ -1,4 +1,4 @@
-"""Every leaf of a request or response, one after the other: what forms, tables, files, studies and tests walk over."""
+"""The fields of a request or response in their sections: what forms, tables, files, studies and tests walk over."""
 
 from collections import defaultdict
 from collections.abc import Iterator
@@ -10,10 +10,9 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
-from app.schema.conversion import group_of
-from app.schema.model import Documented
-from app.schema.quantities import Bound, Input, Output
-from solvers.quantity import Detail
+from app.schema.model import Documented, group_of
+from app.schema.quantities import Input, Output, View, meaning_of
+from solvers.quantity import Detail, Quantity
 
 Kind = Literal["number", "integer", "boolean", "text", "other"]
 _KINDS: dict[Any, Kind] = {float: "number", int: "integer", bool: "boolean", str: "text"}
@@ -25,38 +24,27 @@ ITEM = "*"
 class Leaf:
     """A field that holds values, not fields.
 
-    `title` is unique within its request or answer: where groups of one kind repeat, the group is named behind it.
-    `dimensions` is 0 for a scalar, 1 for a list, 2 for a matrix. `bounds` are `ge`, `gt`, `le`, `lt`, those there are;
-    `axes` are full paths, as long as the field has dimensions, or empty.
+    `declared` says what the field means, `view` how a result is judged. `title` is unique within its request or answer:
+    where groups of one kind repeat, the group is named behind it. `dimensions` is 0 for a scalar, 1 for a list, 2 for a
+    matrix; `axes` are full paths, as long as the field has dimensions, or empty.
     """
 
     path: str
     title: str
+    declared: Quantity
+    view: View
     description: str
-    symbol: str | None
     unit: str | None
-    source: str | None
     kind: Kind
     dimensions: int
     nullable: bool
     required: bool
     default: Any
-    default_text: str | None
-    bounds: dict[str, float]
     options: tuple[Any, ...]
-    assumed: str | None
     advanced: bool
-    tolerance: float | None
-    relative_tolerance: float | None
     exclusive: tuple[str, ...]
     detail: Detail
     axes: tuple[str, ...]
-    index: str | None
-    headline: int | None
-    limit: str | float | None
-    bound: Bound | None
-    needs: str | None
-    verdict: str | None
 
     @property
     def is_scalar(self) -> bool:
@@ -64,14 +52,53 @@ class Leaf:
         return self.dimensions == 0
 
 
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """A section: `repeated` is a list of them, `optional` may be null; `path` has `*` for indices of lists."""
+
+    path: str
+    title: str
+    description: str
+    model: type[Documented]
+    members: tuple["Leaf | Branch", ...]
+    repeated: bool = False
+    optional: bool = False
+    advanced: bool = False
+
+    @property
+    def leaves(self) -> tuple[Leaf, ...]:
+        """Its own fields."""
+        return tuple(member for member in self.members if isinstance(member, Leaf))
+
+    @property
+    def branches(self) -> tuple["Branch", ...]:
+        """Its own sections."""
+        return tuple(member for member in self.members if isinstance(member, Branch))
+
+    @property
+    def required(self) -> bool:
+        """Whether something in it must be given."""
+        return any(leaf.required for leaf in self.leaves) or any(
+            branch.required for branch in self.branches if not branch.repeated and not branch.optional
+        )
+
+
+@cache
+def tree(model: type[Documented]) -> Branch:
+    """The whole request or response as one section without a name."""
+    return _titled(Branch("", "", "", model, tuple(_members(model, _Place()))))
+
+
+@cache
+def branches(model: type[Documented]) -> dict[str, Branch]:
+    """Every section by its path."""
+    return {branch.path: branch for branch in _sections(tree(model))}
+
+
 @cache
 def leaves(model: type[Documented]) -> tuple[Leaf, ...]:
     """Every leaf in the order of the schema."""
-    found = tuple(_walk(model, _Place()))
-    named = defaultdict(list)
-    for leaf, groups in found:
-        named[leaf.title].append((leaf, groups))
-    return tuple(replace(leaf, title=_distinct(leaf, groups, named[leaf.title])) for leaf, groups in found)
+    return tuple(leaf for leaf, _ in _placed(tree(model)))
 
 
 def leaf_at(model: type[Documented], path: str) -> Leaf | None:
@@ -86,83 +113,103 @@ def headlines(response: type[Documented]) -> tuple[Leaf, ...]:
 
     An answer that extends another one has its own: those of the fields that it adds.
     """
-    own = [leaf for leaf in leaves(response) if leaf.headline and leaf.path.split(".")[0] in response.__annotations__]
-    return tuple(sorted(own, key=lambda leaf: leaf.headline or 0))
+    added = response.__annotations__
+    own = [leaf for leaf in leaves(response) if leaf.view.headline and leaf.path.split(".")[0] in added]
+    return tuple(sorted(own, key=lambda leaf: leaf.view.headline or 0))
+
+
+def _sections(branch: Branch) -> Iterator[Branch]:
+    yield branch
+    for inner in branch.branches:
+        yield from _sections(inner)
+
+
+def _placed(branch: Branch, titles: tuple[str, ...] = ()) -> Iterator[tuple[Leaf, tuple[str, ...]]]:
+    """Every leaf below a section with the titles of the sections around it."""
+    for member in branch.members:
+        if isinstance(member, Leaf):
+            yield member, titles
+        else:
+            yield from _placed(member, (*titles, member.title))
+
+
+def _titled(root: Branch) -> Branch:
+    """The tree with titles that tell its leaves apart: each names the nearest section that its namesakes lack."""
+    namesakes = defaultdict(list)
+    for leaf, titles in _placed(root):
+        namesakes[leaf.title].append((leaf.path, titles))
+    distinct = {}
+    for title, places in namesakes.items():
+        for path, titles in places:
+            telling = (name for name in reversed(titles) if sum(name in others for _, others in places) == 1)
+            section = next(telling, None)
+            distinct[path] = f"{title}, {section}" if section and len(places) > 1 else title
+    return _renamed(root, distinct)
+
+
+def _renamed(branch: Branch, titles: dict[str, str]) -> Branch:
+    members = (
+        replace(member, title=titles[member.path]) if isinstance(member, Leaf) else _renamed(member, titles)
+        for member in branch.members
+    )
+    return replace(branch, members=tuple(members))
 
 
 @dataclass(frozen=True, slots=True)
 class _Place:
-    """Where the walk is: the path so far, the groups' titles on it, and what they hand down."""
+    """Where the walk is: the path so far, and what its sections hand down."""
 
     path: tuple[str, ...] = ()
-    titles: tuple[str, ...] = ()
     advanced: bool = False
     detail: Detail = "summary"
 
 
-def _walk(model: type[Documented], place: _Place) -> Iterator[tuple[Leaf, tuple[str, ...]]]:
+def _members(model: type[Documented], around: _Place) -> Iterator[Leaf | Branch]:
     for name, info in model.model_fields.items():
-        meaning = next((item for item in info.metadata if isinstance(item, Input | Output)), None)
+        meaning = meaning_of(info)
         if meaning is None:
             continue
-        below = _below(place, name, meaning)
+        detail = meaning.detail if isinstance(meaning, Output) and meaning.detail != "summary" else around.detail
+        place = _Place((*around.path, name), around.advanced or meaning.advanced, detail)
         group = group_of(info.annotation)
         if group is None:
-            yield _leaf(model, name, info, meaning, below), place.titles
-        else:
-            items = (ITEM,) if _dimensions(info.annotation) else ()
-            inside = replace(below, path=below.path + items, titles=(*place.titles, meaning.title))
-            yield from _walk(group, inside)
+            yield _leaf(model, info, meaning, place)
+            continue
+        repeated = _dimensions(info.annotation) > 0
+        inside = replace(place, path=(*place.path, ITEM)) if repeated else place
+        yield Branch(
+            ".".join(place.path),
+            meaning.title,
+            meaning.description,
+            group,
+            tuple(_members(group, inside)),
+            repeated,
+            NoneType in get_args(info.annotation),
+            meaning.advanced,
+        )
 
 
-def _below(place: _Place, name: str, meaning: Input | Output) -> _Place:
-    return replace(
-        place,
-        path=(*place.path, name),
-        advanced=place.advanced or (isinstance(meaning, Input) and meaning.advanced),
-        detail=meaning.detail if isinstance(meaning, Output) and meaning.detail != "summary" else place.detail,
-    )
-
-
-def _leaf(model: type[Documented], name: str, info: FieldInfo, meaning: Input | Output, place: _Place) -> Leaf:
-    kinds = tuple(_scalars(info.annotation))
-    given = meaning if isinstance(meaning, Input) else None
-    found = meaning if isinstance(meaning, Output) else None
-    prefix, unit = ".".join(place.path[:-1]), model.unit_of(name)
+def _leaf(model: type[Documented], info: FieldInfo, meaning: Input | Output, place: _Place) -> Leaf:
+    *sections, name = place.path
+    prefix, unit, kinds = ".".join(sections), model.unit_of(name), tuple(_scalars(info.annotation))
+    fellows = (each for group in model.exclusive if name in group for each in group if each != name)
     return Leaf(
         path=".".join(place.path),
         title=meaning.title,
+        declared=meaning,
+        view=meaning if isinstance(meaning, Output) else View(),
         description=meaning.description,
-        symbol=meaning.symbol,
         unit=unit.symbol if unit else None,
-        source=meaning.source,
         kind=next((_KINDS[kind] for kind in kinds if kind in _KINDS), "text" if _options(kinds) else "other"),
         dimensions=_dimensions(info.annotation),
         nullable=NoneType in get_args(info.annotation),
         required=info.is_required(),
         default=None if info.is_required() else info.get_default(call_default_factory=True),
-        default_text=given.default_text if given else None,
-        bounds={key: bound for key in ("ge", "gt", "le", "lt") if given and (bound := getattr(given, key)) is not None},
         options=_options(kinds),
-        assumed=given.assumed if given else None,
         advanced=place.advanced,
-        tolerance=given.tolerance if given else None,
-        relative_tolerance=given.relative_tolerance if given else None,
-        exclusive=tuple(
-            _absolute(fellow, prefix)
-            for group in model.exclusive
-            if name in group
-            for fellow in group
-            if fellow != name
-        ),
+        exclusive=tuple(_absolute(each, prefix) for each in fellows),
         detail=place.detail,
-        axes=tuple(_absolute(axis, prefix) for axis in found.axes) if found else (),
-        index=found.index if found else None,
-        headline=found.headline if found else None,
-        limit=found.limit if found else None,
-        bound=found.bound if found else None,
-        needs=found.needs if found else None,
-        verdict=found.verdict if found else None,
+        axes=tuple(_absolute(axis, prefix) for axis in meaning.axes) if isinstance(meaning, Output) else (),
     )
 
 
@@ -200,13 +247,3 @@ def _dimensions(annotation: Any) -> int:
     if get_origin(annotation) in {Union, UnionType}:
         return max(_dimensions(kind) for kind in get_args(annotation))
     return 0
-
-
-def _distinct(leaf: Leaf, groups: tuple[str, ...], fellows: list[tuple[Leaf, tuple[str, ...]]]) -> str:
-    """The title, with the nearest group that tells it from its namesakes."""
-    if len(fellows) == 1:
-        return leaf.title
-    for group in reversed(groups):
-        if sum(group in others for _, others in fellows) == 1:
-            return f"{leaf.title}, {group}"
-    return leaf.title

@@ -5,22 +5,38 @@
 
 has a field for each declaration on `si.ModelOptions`, named with the suffix of its unit. What stands in the class
 itself is an ordinary field of pydantic: under the name of a filled field it changes the type or the default, and with
-`Input` or `Output` beside the type it replaces the declaration.
+`Input` or `Output` beside the type it replaces the declaration. Requests give the solver's dataclasses in SI (`built`,
+`to_si`), responses are read from them (`from_si`), by names and units that are looked up once a model.
 """
 
-from dataclasses import asdict, fields, is_dataclass
+from dataclasses import asdict, dataclass, fields, is_dataclass
+from functools import cache
 from inspect import get_annotations
 from types import UnionType
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple, Union, get_args, get_origin, get_type_hints
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Any,
+    ClassVar,
+    NamedTuple,
+    TypeVar,
+    Union,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 import numpy as np
 from pydantic import BaseModel, Field, GetJsonSchemaHandler
+from pydantic.fields import FieldInfo
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
-from app.schema.quantities import Input, Output, View
-from app.schema.units import split_unit
-from solvers.quantity import UNITS, Quantity, Unit, quantities, type_of
+from app.schema.quantities import Input, Output, View, meaning_of, split_unit
+from solvers.quantity import UNITS, Detail, Quantity, Unit, quantities, type_of
+
+T = TypeVar("T")
+LEVELS: tuple[Detail, ...] = ("summary", "curves", "fields")
 
 
 class Origin(NamedTuple):
@@ -75,7 +91,7 @@ class Documented(BaseModel):
         if not records:
             cls.origins = inherited
             return
-        members = _members(records[0])
+        members = _holders(records[0])
         cls.origins = {name: each._replace(member=members.get(each.record)) for name, each in inherited.items()}
         filled: dict[str, Any] = {}
         for record in records:
@@ -182,7 +198,7 @@ def declared(kind: type, name: str, **changes: Any) -> Input:
     return Input(**{each.name: getattr(known, each.name) for each in fields(known)} | changes)
 
 
-def _members(record: type) -> dict[Any, str]:
+def _holders(record: type) -> dict[Any, str]:
     """The members of a dataclass by the dataclass that each holds, alone or optional."""
     hints = get_type_hints(record)
     found: dict[Any, str] = {}
@@ -220,3 +236,159 @@ def _published(hint: Any, declared: Quantity, declares: type) -> Any:
 
 def _list_of(kind: Any) -> Any:
     return list[kind]
+
+
+@dataclass(frozen=True, slots=True)
+class _Field:
+    """How one field of a schema maps to the solver."""
+
+    name: str
+    si_name: str
+    unit: Unit | None
+    level: int
+    group: type[Documented] | None
+    record: type[Any] | None
+    holder: str | None
+
+    def value(self, result: Any) -> Any:
+        """What a solver's result holds for it; None where it lacks the member that would."""
+        part = getattr(result, self.holder) if self.holder else result
+        return None if part is None else getattr(part, self.si_name)
+
+
+@cache
+def _fields(model: type[Documented]) -> tuple[_Field, ...]:
+    return tuple(_field(model, name, info) for name, info in model.model_fields.items())
+
+
+def _field(model: type[Documented], name: str, info: FieldInfo) -> _Field:
+    meaning = meaning_of(info)
+    level = LEVELS.index(meaning.detail) if isinstance(meaning, Output) else 0
+    origin = model.origins.get(name)
+    record, member = (origin.record, origin.member) if origin else (None, None)
+    return _Field(name, model.solver_name(name), model.unit_of(name), level, group_of(info.annotation), record, member)
+
+
+def group_of(annotation: Any) -> type[Documented] | None:
+    """The group or section that a field holds, alone, optional or as the item of a list; None for plain values."""
+    if isinstance(annotation, type) and issubclass(annotation, Documented):
+        return annotation
+    if get_origin(annotation) in {Union, UnionType, list, Annotated}:
+        return next((group for kind in get_args(annotation) if (group := group_of(kind))), None)
+    return None
+
+
+def to_si(section: Documented) -> dict[str, Any]:
+    """The section's plain fields by their solver names, in SI; nested sections are left to the caller."""
+    return {field.si_name: _scaled(getattr(section, field.name), field.unit) for field in _plain_fields(type(section))}
+
+
+def built(section: Documented, kind: type[T]) -> T:
+    """The solver's dataclass that a section was filled from, in SI, with those of the sections inside it."""
+    given: dict[str, Any] = {}
+    record: Any = kind
+    for name, field, inner in _members(type(section), record):
+        value = getattr(section, field.name)
+        given[name] = _scaled(value, field.unit) if inner is None else _inner(value, inner)
+    return kind(**given)
+
+
+def _inner(value: Any, kind: type[Any]) -> Any:
+    if value is None:
+        return None
+    return tuple(built(each, kind) for each in value) if isinstance(value, list) else built(value, kind)
+
+
+@cache
+def _members(model: type[Documented], kind: Any) -> tuple[tuple[str, _Field, type[Any] | None], ...]:
+    """The fields that a dataclass takes from a section, and the dataclass of a section inside it."""
+    known = {field.si_name: field for field in _fields(model) if field.record is None or issubclass(kind, field.record)}
+    hints = get_type_hints(kind)
+    return tuple(
+        (each.name, known[each.name], _record_in(hints[each.name]))
+        for each in fields(kind)
+        if each.init and each.name in known
+    )
+
+
+def _record_in(hint: Any) -> type[Any] | None:
+    """The dataclass in a type, alone, optional or as the item of a tuple."""
+    if isinstance(hint, type) and is_dataclass(hint):
+        return hint
+    return next((found for kind in get_args(hint) if (found := _record_in(kind))), None)
+
+
+@cache
+def _plain_fields(section: type[Documented]) -> tuple[_Field, ...]:
+    return tuple(field for field in _fields(section) if field.group is None)
+
+
+def _scaled(value: Any, unit: Unit | None) -> Any:
+    match value:
+        case float():
+            return value if unit is None else value * unit.scale + unit.offset
+        case None | bool() | str():
+            return value
+        case list() | tuple():
+            return tuple(_scaled(item, unit) for item in value)
+        case _:
+            return value if unit is None else value * unit.scale + unit.offset
+
+
+def from_si(group: type[Documented], result: Any, detail: Detail, skip: frozenset[str] = frozenset()) -> dict[str, Any]:
+    """The fields of a response group read from the solver's result, in the units of their names.
+
+    Fields above the level of detail are left out, as are those to `skip`.
+    """
+    level = LEVELS.index(detail)
+    content: dict[str, Any] = {}
+    for field in _fields(group):
+        if field.level <= level and field.name not in skip:
+            value, unit = field.value(result), field.unit
+            if field.group is not None and isinstance(value, tuple | list):
+                content[field.name] = [from_si(field.group, item, detail) for item in value]
+            elif field.group is not None and value is not None:
+                content[field.name] = from_si(field.group, value, detail)
+            else:
+                content[field.name] = value if unit is None and type(value) is float else _displayed(value, unit)
+    return content
+
+
+@cache
+def above(group: type[Documented], detail: Detail) -> dict[str, Any]:
+    """The fields of a group above a level of detail, as pydantic's `exclude` names them."""
+    level = LEVELS.index(detail)
+    found: dict[str, Any] = {}
+    for field in _fields(group):
+        if field.level > level:
+            found[field.name] = True
+        elif field.group is not None and (inner := above(field.group, detail)):
+            found[field.name] = {"__all__": inner} if _is_list(group.model_fields[field.name].annotation) else inner
+    return found
+
+
+def _is_list(annotation: Any) -> bool:
+    return any(get_origin(kind) is list for kind in (annotation, *get_args(annotation)))
+
+
+def _displayed(value: Any, unit: Unit | None) -> Any:
+    """A value in the unit of its field; NaN inside an array marks a point without a value and becomes None."""
+    match value:
+        case None | bool() | str():
+            return value
+        case np.ndarray():
+            return _displayed_array(value, unit)
+        case tuple() | list():
+            return [_displayed(item, unit) for item in value]
+        case _:
+            return value if unit is None else (value - unit.offset) / unit.scale
+
+
+def _displayed_array(values: np.ndarray[Any, Any], unit: Unit | None) -> list[Any]:
+    if unit is not None:
+        values = (values - unit.offset) / unit.scale
+    if values.dtype.kind == "f" and np.isnan(values).any():
+        missing = np.isnan(values)
+        values = values.astype(object)
+        values[missing] = None
+    return values.tolist()  # type: ignore[no-any-return]

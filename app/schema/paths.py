@@ -4,9 +4,8 @@ from collections.abc import Iterator
 from functools import cache
 from typing import Any, get_args, get_origin
 
-from app.schema.conversion import group_of
 from app.schema.fields import ITEM
-from app.schema.model import Documented
+from app.schema.model import Documented, group_of
 
 _Names = tuple[str, ...]
 

@@ -1,13 +1,18 @@
-"""What a field of a request or response means, as pydantic takes it: its checks and its part of the JSON schema."""
+"""What a field of a request or response means, as pydantic takes it: its checks and its part of the JSON schema.
+
+Units stand in field names: `face_width_mm` is the face width in millimetres.
+"""
 
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, Literal
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.fields import FieldInfo
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from solvers.quantity import Quantity
+from solvers.quantity import UNITS, Quantity, Unit
 
 Bound = Literal["upper", "lower"]
 
@@ -108,6 +113,22 @@ class Output(View, Quantity):
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         """The type's own JSON schema and what the field means."""
         return _documented(handler(schema), self)
+
+
+def meaning_of(field: FieldInfo) -> Input | Output | None:
+    """The declaration of a model's field, if it has one."""
+    return next((each for each in field.metadata if isinstance(each, Input | Output)), None)
+
+
+@cache
+def split_unit(name: str) -> tuple[str, Unit | None]:
+    """A field name without its unit, and the unit; the longest suffix that is a unit counts."""
+    words = name.split("_")
+    for start in range(1, len(words)):
+        unit = UNITS.get("_".join(words[start:]))
+        if unit is not None:
+            return "_".join(words[:start]), unit
+    return name, None
 
 
 def _kinds(choices: list[Any]) -> list[CoreSchema]:

@@ -209,10 +209,10 @@ def _sign(request: DesignRequest, objective: Leaf) -> float:
     """Factor with which the objective is minimised."""
     if request.direction is not None:
         return -1.0 if request.direction == "maximise" else 1.0
-    if objective.bound is None:
+    if objective.view.bound is None:
         message = f"{objective.path} has no safe side of its own; say maximise or minimise"
         raise Unprocessable("direction_missing", message, "direction")
-    return -1.0 if objective.bound == "lower" else 1.0
+    return -1.0 if objective.view.bound == "lower" else 1.0
 
 
 def _share(choice: Choice, case: dict[str, Any]) -> float:

@@ -64,7 +64,7 @@ def _number_fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:
         return "out_of_range", "give a number"
     if leaf.kind == "integer" and value != int(value):
         return "not_integer", f"{value:g} is not a whole number"
-    bounds = leaf.bounds
+    bounds = leaf.declared.bounds
     outside = (
         ("ge" in bounds and value < bounds["ge"])
         or ("gt" in bounds and value <= bounds["gt"])

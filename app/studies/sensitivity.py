@@ -54,8 +54,8 @@ def probe(leaf: Leaf, value: float) -> Probe:
     """An input moved by its tolerance, else by 1 %, 1 K for a temperature, 1 for a count."""
     if leaf.kind == "integer":
         return Probe(leaf, value, 1.0)
-    if leaf.tolerance is not None:
-        step = max(leaf.tolerance, (leaf.relative_tolerance or 0.0) * abs(value))
+    if leaf.declared.tolerance is not None:
+        step = max(leaf.declared.tolerance, (leaf.declared.relative_tolerance or 0.0) * abs(value))
         return Probe(leaf, value, step, step / 2.0)
     return Probe(leaf, value, KELVIN_STEP if leaf.unit == "°C" else RELATIVE_STEP * abs(value))
 

@@ -8,7 +8,7 @@ import pytest
 from pydantic import BaseModel
 
 from app.calculations import CALCULATIONS
-from app.schema.units import split_unit
+from app.schema.quantities import split_unit
 
 
 @pytest.fixture(scope="module")

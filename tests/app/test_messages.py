@@ -10,7 +10,7 @@ from app.errors import Fault
 from app.schema.base import Request
 from app.schema.coupling import CouplingRequest
 from app.schema.load_distribution import LoadDistributionRequest
-from app.schema.messages import faults
+from app.schema.reading import faults
 
 COUPLING: dict[str, Any] = {
     "coupling": {"teeth": 52, "module_mm": 3.0},

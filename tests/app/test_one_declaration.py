@@ -24,8 +24,8 @@ from app.pages.form import State, form
 from app.pages.results import entries
 from app.pages.templating import page_path
 from app.schema.base import Group, Request, Response, Section
-from app.schema.conversion import from_si
 from app.schema.fields import leaf_at
+from app.schema.model import from_si
 from app.schema.quantities import Input, View
 from app.schema.reading import validated
 from app.settings import settings

@@ -10,7 +10,7 @@ import pytest
 from app.calculations import CALCULATIONS
 from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves
 from app.schema.model import Documented
-from app.schema.units import split_unit
+from app.schema.quantities import split_unit
 
 REQUESTS = [each.request for each in CALCULATIONS]
 RESPONSES = [each.response for each in CALCULATIONS]
@@ -49,7 +49,7 @@ def test_every_leaf_says_what_it_is(model: type[Documented]) -> None:
         assert leaf.title, leaf.path
         assert leaf.description, leaf.path
         assert leaf.unit or unit is None, leaf.path
-        assert leaf.symbol or leaf.unit is None, f"{leaf.path} has a unit and no symbol"
+        assert leaf.declared.symbol or leaf.unit is None, f"{leaf.path} has a unit and no symbol"
 
 
 @pytest.mark.parametrize("model", MODELS, ids=IDS)
@@ -59,14 +59,14 @@ def test_schema_and_walk_agree(model: type[Documented]) -> None:
         assert leaf.title.startswith(field["title"]), leaf.path
         assert field["description"] == leaf.description
         assert field.get("x-unit") == leaf.unit
-        assert field.get("x-symbol") == leaf.symbol
-        assert field.get("x-source") == leaf.source
-        assert field.get("x-assumed") == leaf.assumed
-        assert field.get("x-default-text") == leaf.default_text
-        assert field.get("x-tolerance") == leaf.tolerance
+        assert field.get("x-symbol") == leaf.declared.symbol
+        assert field.get("x-source") == leaf.declared.source
+        assert field.get("x-assumed") == leaf.declared.assumed
+        assert field.get("x-default-text") == leaf.declared.default_text
+        assert field.get("x-tolerance") == leaf.declared.tolerance
         assert bool(field.get("x-axis")) == bool(leaf.axes)
-        assert field.get("x-limit") == leaf.limit
-        assert field.get("x-headline") == leaf.headline
+        assert field.get("x-limit") == leaf.view.limit
+        assert field.get("x-headline") == leaf.view.headline
 
 
 @pytest.mark.parametrize("model", MODELS, ids=IDS)
@@ -83,11 +83,11 @@ def test_titles_stand_alone(model: type[Documented]) -> None:
 def test_symbols_are_written_alike(model: type[Documented]) -> None:
     """Plain text, one underscore before a subscript, temperatures are θ."""
     for leaf in leaves(model):
-        for part in (leaf.symbol or "").replace("/", " ").replace(",", " ").split():
+        for part in (leaf.declared.symbol or "").replace("/", " ").replace(",", " ").split():
             assert part.count("_") <= 1, leaf.path
             assert not part.endswith("_"), leaf.path
         if leaf.unit == "°C":
-            assert (leaf.symbol or "").startswith("θ"), leaf.path
+            assert (leaf.declared.symbol or "").startswith("θ"), leaf.path
 
 
 @pytest.mark.parametrize("response", RESPONSES, ids=RESPONSE_IDS)
@@ -100,20 +100,20 @@ def test_curves_have_axes(response: type[Documented]) -> None:
             continue
         assert all(answer[axis].dimensions == 1 for axis in leaf.axes), leaf.path
         assert len(leaf.axes) in {0, leaf.dimensions}, leaf.path
-        assert not leaf.dimensions or leaf.axes or leaf.index or leaf.path in abscissas, leaf.path
+        assert not leaf.dimensions or leaf.axes or leaf.declared.index or leaf.path in abscissas, leaf.path
 
 
 @pytest.mark.parametrize("each", CALCULATIONS, ids=RESPONSE_IDS)
 def test_limits_are_numbers_or_fields(each: Any) -> None:
     known = {leaf.path: leaf for leaf in (*leaves(each.request), *leaves(each.response))}
     for leaf in leaves(each.response):
-        if isinstance(leaf.limit, str):
-            assert known[leaf.limit].unit == leaf.unit, leaf.path
+        if isinstance(leaf.view.limit, str):
+            assert known[leaf.view.limit].unit == leaf.unit, leaf.path
 
 
 @pytest.mark.parametrize("response", RESPONSES, ids=RESPONSE_IDS)
 def test_headlines_are_few_scalars(response: type[Documented]) -> None:
-    ranks = [leaf.headline for leaf in headlines(response)]
+    ranks = [leaf.view.headline for leaf in headlines(response)]
     assert ranks[0] == 1
     assert {*ranks} == {*range(1, len({*ranks}) + 1)}
     assert len({*ranks}) <= 3
@@ -124,9 +124,9 @@ def test_headlines_are_few_scalars(response: type[Documented]) -> None:
 def test_defaults_explain_themselves(request_model: type[Documented]) -> None:
     for leaf in leaves(request_model):
         if leaf.nullable and leaf.kind in {"number", "integer"} and not leaf.required and not leaf.exclusive:
-            assert leaf.default_text, leaf.path
-        assert not (leaf.assumed and leaf.required), leaf.path
-        assert leaf.tolerance is None or leaf.kind == "number", leaf.path
+            assert leaf.declared.default_text, leaf.path
+        assert not (leaf.declared.assumed and leaf.required), leaf.path
+        assert leaf.declared.tolerance is None or leaf.kind == "number", leaf.path
 
 
 @pytest.mark.parametrize("request_model", REQUESTS, ids=REQUEST_IDS)
@@ -160,7 +160,7 @@ def test_terms_of_the_field() -> None:
     for path, (title, symbol) in terms.items():
         leaf = leaf_at(request, path)
         assert leaf is not None
-        assert (leaf.title, leaf.symbol) == (title, symbol)
+        assert (leaf.title, leaf.declared.symbol) == (title, symbol)
     terms = {
         "film.thickness_ratio": ("specific film thickness", "λ"),
         "safety.blok_factor": ("scuffing safety by Blok", "S_B"),
@@ -171,7 +171,7 @@ def test_terms_of_the_field() -> None:
     for path, (title, symbol) in terms.items():
         leaf = leaf_at(answer, path)
         assert leaf is not None
-        assert (leaf.title, leaf.symbol) == (title, symbol)
+        assert (leaf.title, leaf.declared.symbol) == (title, symbol)
 
 
 def test_list_items_are_found_by_their_index() -> None:
@@ -179,7 +179,7 @@ def test_list_items_are_found_by_their_index() -> None:
     leaf = leaf_at(pumping, "grooves.12.width_mm")
     assert leaf is not None
     assert leaf.path == "grooves.*.width_mm"
-    assert (leaf.unit, leaf.kind, leaf.bounds) == ("mm", "number", {"ge": 0.01, "le": 5000})
+    assert (leaf.unit, leaf.kind, leaf.declared.bounds) == ("mm", "number", {"ge": 0.01, "le": 5000})
     assert leaf_at(pumping, "grooves.width_mm") is None
     assert leaf_at(pumping, "gears.pinion") is None
 

@@ -116,14 +116,9 @@ def test_places_of_lists_are_moved() -> None:
 def leaf(**changes: Any) -> Leaf:
     found = leaf_at(BY_PATH["/v1/coupling"].request, "friction.coefficient")
     assert found is not None
-    plain = {
-        "kind": "number",
-        "unit": None,
-        "tolerance": None,
-        "relative_tolerance": None,
-        "bounds": {"ge": 0.0, "le": 50.0},
-    }
-    return replace(found, **{**plain, **changes})
+    kind, unit = changes.pop("kind", "number"), changes.pop("unit", None)
+    plain = {"tolerance": None, "relative_tolerance": None, "ge": 0.0, "le": 50.0}
+    return replace(found, kind=kind, unit=unit, declared=replace(found.declared, **{**plain, **changes}))
 
 
 @pytest.mark.parametrize(
@@ -135,13 +130,13 @@ def leaf(**changes: Any) -> Leaf:
         ({"unit": "K"}, 20.0, 19.8, 20.2),
         ({"unit": "°C", "tolerance": 2.0}, 20.0, 18.0, 22.0),
         ({"kind": "integer"}, 20, 19, 21),
-        ({"kind": "integer", "bounds": {"ge": 20, "le": 50}}, 20, None, 21),
+        ({"kind": "integer", "ge": 20, "le": 50}, 20, None, 21),
         ({"tolerance": 0.5}, 0.0, None, 0.5),
         ({"tolerance": 0.5, "relative_tolerance": 0.01}, 20.0, 19.5, 20.5),
         ({"tolerance": 0.5, "relative_tolerance": 0.05}, 20.0, 19.0, 21.0),
-        ({"bounds": {"gt": 0.0, "le": 50.0}, "tolerance": 1.0}, 1.0, None, 2.0),
+        ({"gt": 0.0, "le": 50.0, "tolerance": 1.0}, 1.0, None, 2.0),
         ({}, 50.0, 49.5, None),
-        ({"bounds": {"ge": -50.0, "le": 50.0}}, -20.0, -20.2, -19.8),
+        ({"ge": -50.0, "le": 50.0}, -20.0, -20.2, -19.8),
     ],
 )
 def test_steps(changes: dict[str, Any], value: float, below: float | None, above: float | None) -> None:
@@ -152,8 +147,8 @@ def test_steps(changes: dict[str, Any], value: float, below: float | None, above
 
 
 def test_a_field_with_one_value_only_is_not_moved() -> None:
-    assert probe(leaf(bounds={"ge": 3.0, "le": 3.0}), 3.0).places == []
-    assert probe(leaf(bounds={"ge": 0.0, "le": 0.0}, tolerance=1.0), 0.0).places == []
+    assert probe(leaf(ge=3.0, le=3.0), 3.0).places == []
+    assert probe(leaf(ge=0.0, le=0.0, tolerance=1.0), 0.0).places == []
 
 
 def test_a_tolerance_is_checked_at_half_of_it() -> None:
@@ -165,7 +160,7 @@ def test_a_tolerance_is_checked_at_half_of_it() -> None:
 def test_every_number_that_may_be_zero_has_a_tolerance(calculation: Calculation) -> None:
     for each in leaves(calculation.request):
         if each.kind == "number" and fault(each, 0.0) is None:
-            assert each.tolerance, each.path
+            assert each.declared.tolerance, each.path
 
 
 def differences(
@@ -276,7 +271,9 @@ def test_a_step_that_is_too_large_says_so() -> None:
     body = {"endpoint": UNIT.endpoint, "request": {**UNIT.request, "model": {"lubrication": "closed_form"}}}
     sweep = {**body, "vary": [{"path": path, "values": [-100, -50, 0, 50, 100]}], "outputs": ["load.face_load_factor"]}
     outputs = {line["at"][0]: line["out"][0] for line in points_of(sweep)}
-    found = Differences(probe(replace(leaf_of(UNIT.endpoint, path), tolerance=100.0, path=path), 0.0), outputs)
+    leaf = leaf_of(UNIT.endpoint, path)
+    known = replace(leaf, path=path, declared=replace(leaf.declared, tolerance=100.0))
+    found = Differences(probe(known, 0.0), outputs)
     assert found.derivative == pytest.approx(-0.000236, rel=0.02)
     assert found.kink is True
 

@@ -9,7 +9,7 @@ from pydantic import ValidationError
 
 from app.calculations import BY_PATH
 from app.evaluate import json_answer
-from app.schema.messages import faults
+from app.schema.reading import faults
 
 PAIR: dict[str, Any] = {
     "gears": {

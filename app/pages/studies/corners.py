@@ -63,7 +63,7 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
 
 def worst_end(output: Leaf) -> str:
     """Which of its ends is the bad one: the lower where it has to stay above something, else the upper."""
-    return "min" if output.bound == "lower" else "max"
+    return "min" if output.view.bound == "lower" else "max"
 
 
 def load_figure(case: Case, reference: Case, name: str, finding: str) -> dict[str, Figure]:

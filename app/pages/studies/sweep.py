@@ -116,7 +116,7 @@ def _coordinate(varied: Varied, listed: list[Scalar | list[Scalar]]) -> tuple[Co
     log = varied.axis.get("scale") == "log"
     limits = (float(rising[0]), float(rising[-1])) if log else None
     axis = Axis(leaf.title, leaf.unit, log=log, magnitude=False, limits=limits)
-    scatters = leaf.tolerance is not None
+    scatters = leaf.declared.tolerance is not None
     return Coordinate(axis, rising, own=varied.own, scatters=scatters), order.tolist()
 
 
@@ -173,7 +173,7 @@ def checked(asked: Asked, most: int, deadline_s: float) -> SweepStudy:
 
 def _limit(output: Leaf, case: dict[str, Any]) -> float | None:
     """What bounds the output, where that is a number of its own or of the case."""
-    limit = output.limit if output.bound else None
+    limit = output.view.limit if output.view.bound else None
     if isinstance(limit, str):
         try:
             limit = value_at(case, limit)

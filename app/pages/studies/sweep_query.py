@@ -15,9 +15,8 @@ from app.errors import InvalidBody, Unprocessable
 from app.pages.query import LOWER, TRIALS, UPPER, Pairs, body_of, number_of
 from app.pages.results import NOT_RESULTS
 from app.pages.typesetting import shown
-from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves
+from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves, tree
 from app.schema.reading import validated
-from app.schema.tree import tree
 from app.studies.fields import scalar_at, value_at
 from app.studies.requests import Scalar
 from app.studies.sensitivity import NUMBERS, places
@@ -99,9 +98,9 @@ def _named(leaf: Leaf) -> str:
 def usual_range(leaf: Leaf, value: float | None) -> Range | None:
     """Around the value of the case, inside what is allowed; None where the case has none and the field no two ends."""
     low, high = _ends(leaf)
-    if value is None or (value == 0.0 and leaf.tolerance is None):
+    if value is None or (value == 0.0 and leaf.declared.tolerance is None):
         return None if low is None or high is None else _rounded(leaf, Range(low, high))
-    reach = AROUND * abs(value) if value else TOLERANCES * (leaf.tolerance or 0.0)
+    reach = AROUND * abs(value) if value else TOLERANCES * (leaf.declared.tolerance or 0.0)
     start, stop = value - reach, value + reach
     start = start if low is None else max(start, low)
     stop = stop if high is None else min(stop, high)
@@ -110,11 +109,12 @@ def usual_range(leaf: Leaf, value: float | None) -> Range | None:
 
 def _ends(leaf: Leaf) -> tuple[float | None, float | None]:
     """Least and greatest value that are allowed."""
-    low, high = (leaf.bounds.get(closed, leaf.bounds.get(beyond)) for closed, beyond in (("ge", "gt"), ("le", "lt")))
+    bounds = leaf.declared.bounds
+    low, high = (bounds.get(closed, bounds.get(beyond)) for closed, beyond in (("ge", "gt"), ("le", "lt")))
     margin = INSIDE * (high - low) if low is not None and high is not None else INSIDE
-    if low is not None and "gt" in leaf.bounds:
+    if low is not None and "gt" in bounds:
         low += margin
-    if high is not None and "lt" in leaf.bounds:
+    if high is not None and "lt" in bounds:
         high -= margin
     return low, high
 
@@ -168,7 +168,7 @@ def query_of(calculation: Calculation, case: dict[str, Any], said: dict[str, str
     """The sweep of a query; raises Unprocessable with a path into the sweep."""
     fields = [_varied(calculation, case, said, name, place) for place, name in enumerate(AXES) if said.get(name)]
     output = shown_output(calculation, said)
-    best = said.get("best", "greatest" if output.bound == "lower" else "least")
+    best = said.get("best", "greatest" if output.view.bound == "lower" else "least")
     if best not in {"least", "greatest"}:
         raise Unprocessable("literal_error", "best: allowed are least, greatest", "best")
     return SweepQuery(tuple(fields), output, best == "greatest")
