@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
-NAMES = ("coupling",)
+NAMES = ("coupling", "pumping")
 
 _FIGURE = re.compile(r"\]\(figures/([\w-]+)\.([\w-]+)\.png\)")
 

@@ -26,7 +26,7 @@ Excess = Callable[[float], float]
 
 
 def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
-    """Lowest pinion speeds that choke the gaps or the exits of any of the spaces asked for.
+    """Lowest pinion speeds that choke the gaps or the exits of any of the spaces asked for (Eq. P11).
 
     Radial gaps choke where the largest pressure reaches the critical ratio, exits where the ambient pressure asks for
     Mach 1. Raises InvalidInput and NoSolution as `solve` does, choking_not_modelled and always_choked.

@@ -13,7 +13,7 @@ from solvers.pumping.space.stroke import StrokeTable
 def incompressible(
     gas: Gas, table: StrokeTable, face_width: float, pinion_speed: float, speed_ratio: float, discharge: float
 ) -> SpaceFlow:
-    """Every opening passes the same velocity U = -(dV/dt) / [C_d (2 S + L b)], and p - p_e = rho U |U| / 2.
+    """Every opening passes the same velocity U = -(dV/dt) / [C_d (2 S + L b)], and p - p_e = rho U |U| / 2 (Eq. P14).
 
     `speed_ratio` of the owner to the pinion. The middle of each table interval counts.
     Temperatures are None: what heats the gas is the work, in no place.

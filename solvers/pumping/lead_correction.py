@@ -55,7 +55,7 @@ class LeadCorrection:
 
 
 def lead_correction(pair: GearPair, position: FloatArray, temperature_rise: FloatArray) -> LeadCorrection:
-    """Correction for metal that warms as much as the gas; position [m] and rise [K] are (slices,).
+    """Correction for metal that warms as much as the gas; position [m] and rise [K] are (slices,) (Eq. P12).
 
     It scales with the wall's response, which only measurements give.
     """

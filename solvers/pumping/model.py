@@ -33,7 +33,7 @@ LEAST_HELIX = 1e-100  # rad; the meshing point of a smaller one runs along the f
 
 
 def solve(inputs: PumpingInputs) -> PumpingResult:
-    """Flow through the tooth spaces of a pair at one speed: pressures, mass flow, power and temperatures.
+    """Flow through the tooth spaces of a pair at one speed: pressures, mass flow, power and temperatures (Eq. P9).
 
     Raises InvalidInput (codes of `spaces.prepare`; speed_not_positive, too_many_steps, incompressible_vacuum) and
     NoSolution (unphysical_state, newton_not_converged).

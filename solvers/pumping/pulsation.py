@@ -27,7 +27,7 @@ def pulsation(meshing_frequency: float, flows: list[tuple[SpaceFlow, float, floa
 
     The wave of order k is that of order 1 to the power k.
     `flows`: of each gear's spaces, with the owner's speed [rad/s] and the share of a mesh period by which they come
-    to the line of centres later than the pinion's.
+    to the line of centres later than the pinion's. Eq. P13.
     """
     front = np.zeros(HARMONICS, dtype=complex)
     rear = np.zeros(HARMONICS, dtype=complex)

@@ -49,7 +49,10 @@ class Grids(NamedTuple):
 
 
 def resolution(gas: Gas, spaces: list[Grids]) -> Resolution:
-    """Relative uncertainties of the summary, the largest of all spaces asked for; pressures as gauge pressures."""
+    """Relative uncertainties of the summary, the largest of all spaces asked for; pressures as gauge pressures.
+
+    Eq. P15.
+    """
     shares = [_shares(gas, grids) for grids in spaces]
     uncertain = {name: max(each[name] for each in shares) for name in shares[0]}
     if max(uncertain["peak_pressure"], uncertain["min_pressure"]) >= LOST:

@@ -161,7 +161,10 @@ def _check_cost(mesh: Mesh, pinion_speed: float, parts: list[Stretch], limit: in
 
 
 def space_duct(mesh: Mesh, space: Space, pinion_speed: float, part: Stretch, *, transport: bool) -> Duct:
-    """A stretch of the spaces of one gear as a duct, at a pinion speed [rad/s]; `transport` by flanks or none."""
+    """A stretch of the spaces of one gear as a duct, at a pinion speed [rad/s]; `transport` by flanks or none.
+
+    Eq. 5.
+    """
     table = space.table
     carried = table.carried if transport else np.zeros_like(table.carried)
     clearance = table.clearance_left + table.clearance_right

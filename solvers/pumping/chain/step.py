@@ -110,7 +110,7 @@ def advance(
 ) -> tuple[bool, float]:
     """Pressure and mass of the pockets low..high after dt [s]; whether Newton's method converged, and its residual.
 
-    `width` of a pocket [m], `discharge` coefficient of all openings.
+    `width` of a pocket [m], `discharge` coefficient of all openings. Eqs. 1, 3, P5.
     """
     error, share, halvings, newton = np.inf, 0.0, 0, 0
     for i in range(low, high):

@@ -45,7 +45,7 @@ def gas(ambient: Ambient) -> Gas:
 
 @inlined_kernel
 def flux_squared(gas: Gas, upstream: float, density: float, drop: float) -> tuple[float, float, float]:
-    """Square of the mass flux [kg/(s m^2)]^2 from rest at (upstream, density) over a relative pressure drop.
+    """Square of the mass flux [kg/(s m^2)]^2 from rest at (upstream, density) over a relative pressure drop (Eq. P4).
 
     G^2 = 2 g/(g - 1) p rho y (y - x) with x the ratio of the pressures, y = x^(1/g) that of the densities. With it the
     derivatives by the upstream and the downstream pressure at a fixed density upstream. Exact down to any pressure
@@ -87,7 +87,10 @@ def _expansion(power: float, drop: float) -> tuple[float, float]:
 
 @kernel
 def mass_flux(gas: Gas, upstream: float, density: float, downstream: float) -> tuple[float, float, float]:
-    """Mass flux G [kg/(s m^2)] and its derivatives by upstream and downstream pressure at fixed density upstream."""
+    """Mass flux G [kg/(s m^2)] and its derivatives by upstream and downstream pressure at fixed density upstream.
+
+    Eq. P4.
+    """
     drop = (upstream - downstream) / upstream
     if drop < _LINEAR:
         edge = flux_squared(gas, upstream, density, _LINEAR)[0]

@@ -73,7 +73,7 @@ def add_outflow(record: Record, end: int, step: int, mass: float, energy: float)
 
 @kernel
 def add_means(profile: RecordArray, i: int, static: float, stagnation: float, dt: float, share: float) -> None:
-    """Add the mean temperatures of cell i [K] in the share of a step of dt [s] in which it is active."""
+    """Add the mean temperatures of cell i [K] in the share of a step of dt [s] in which it is active (Eq. P10)."""
     profile[i].static += static * dt * share
     profile[i].stagnation += stagnation * dt * share
     profile[i].active += dt * share

@@ -55,6 +55,8 @@ def implicit_stage(
     """Backward Euler stage of length h [s] from an explicit content, the flux through gaps from a guess [kg/(s m)].
 
     `stiffness` is inner energy per pressure [m^2] of a cell that does wall work and loses flank gas, but does not leak.
+
+    Eq. P7.
     """
     g, area = gas.exponent, walls.area
     into, carried = max(-walls.transport, 0.0) * gas.density, max(walls.transport, 0.0) / area

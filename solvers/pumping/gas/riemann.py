@@ -48,7 +48,7 @@ def _star_flux(g: float, rho: float, u: float, p: float, s: float, s_m: float) -
 
 @kernel
 def reservoir_face(gas: Gas, rho: float, v: float, p: float) -> tuple[float, float, float, float]:
-    """State of a face that opens into the ambient, and how nearly it is sonic.
+    """State of a face that opens into the ambient, and how nearly it is sonic (Eq. P8).
 
     `v` [m/s] is the cell's velocity outwards. Outflow expands to the ambient pressure, at most to Mach 1; inflow
     starts from ambient gas at rest. The last value is the Mach number that the ambient pressure asks for, negative

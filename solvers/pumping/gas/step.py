@@ -112,7 +112,10 @@ def _put(walls: RecordArray, i: int, wall: Wall, share: float) -> None:
 
 @kernel
 def step(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float, order: int) -> bool:
-    """Advance the cells low..high by dt [s] into `next_content` and `next_state`; whether the states are physical."""
+    """Advance the cells low..high by dt [s] into `next_content` and `next_state`; whether the states are physical.
+
+    Eq. P6.
+    """
     _set_slopes(cells, low, high, order)
     if not _predict(gas, duct, cells, low, high, dt):
         return False

@@ -119,7 +119,7 @@ def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tup
 
 @kernel
 def section(space: ToothSpace, angle: float) -> Section:
-    """The section at an `angle` [rad] of the owner; only differences of what is carried have a meaning.
+    """The section at an `angle` [rad] of the owner; only differences of what is carried have a meaning (Eqs. 5, P3).
 
     The flanks of the coast side roll through the section fixed on the line of action: out of the space where the
     owner drives, else into it.

@@ -59,7 +59,7 @@ class StrokeLimits:
 
 
 def circumferential_backlash(pair: GearPair, normal_backlash: float) -> float:
-    """Backlash j_t on the working circles [m]: that of the centre distance and that of the thinned tooth."""
+    """Backlash j_t on the working circles [m]: that of the centre distance and that of the thinned tooth (Eq. P1)."""
     radius_1, radius_2 = pair.pinion_working_radius, pair.wheel_working_radius
     thickness_1 = 2 * radius_1 * pair.pinion.half_tooth_angle(radius_1)
     thickness_2 = 2 * radius_2 * pair.wheel.half_tooth_angle(radius_2)
@@ -122,7 +122,10 @@ def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: b
 
 
 def stroke_limits(space: ToothSpace) -> StrokeLimits:
-    """When the mate's first and last corner cross the owner's tip circle, and when the driving flanks touch."""
+    """When the mate's first and last corner cross the owner's tip circle, and when the driving flanks touch.
+
+    Eq. P2.
+    """
     a, tip, mate_tip = space.centre_distance, space.tip_radius, space.mate_tip_radius
     reach = acos((a**2 + mate_tip**2 - tip**2) / (2 * a * mate_tip)) + space.mate_tip_half_angle
     approach = (space.first_contact - space.pitch_roll) / space.base_radius
