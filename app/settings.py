@@ -29,6 +29,9 @@ class Settings(BaseSettings):
     study_points: int = Field(
         2500, ge=1, le=1_000_000, description="most points of one study, with a scheduler 100000; beyond it 422"
     )
+    spectrum_solves: int = Field(
+        20_000, ge=1, le=1_000_000, description="most points of one load spectrum, cases times machines; beyond it 422"
+    )
     study_deadline_s: float = Field(600.0, gt=0, description="longest time for one study; then it ends with an error")
     studies: int = Field(2, ge=0, description="studies at once; one more is answered 503")
     scheduler: str | None = Field(None, description="Dask scheduler that solves the studies, `tcp://host:port`")

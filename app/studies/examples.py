@@ -7,6 +7,7 @@ from app.examples import examples
 _COUPLING = examples()["pahl-axial-displacement"]
 _LOADS = examples()["xue-pair-1-modified"]
 _UNIT = examples()["starter-turbo-gear-drive-train"]
+_STAGE = examples()["starter-high-speed-scuffing"]
 SWEEP_EXAMPLES: dict[str, dict[str, Any]] = {
     "map": {
         "summary": "Which crowning forgives misalignment: a map of pressure, and its best point",
@@ -102,4 +103,93 @@ DESIGN_EXAMPLES: dict[str, dict[str, Any]] = {
             "objective": "safety.blok_flank",
         },
     }
+}
+SPECTRUM_EXAMPLES: dict[str, dict[str, Any]] = {
+    "scuffing": {
+        "summary": "The probability of scuffing of a high-speed stage over its load spectrum with six tolerances",
+        "value": {
+            "endpoint": _STAGE.endpoint,
+            "request": {**_STAGE.request, "model": {**_STAGE.request["model"], "lubrication": "closed_form"}},
+            "cases": [
+                {
+                    "name": "start",
+                    "share": 0.02,
+                    "set": {"load.power_kw": 2000, "load.pinion_speed_rpm": 3000, "temperatures.oil_c": 40},
+                },
+                {"name": "part load", "share": 0.3, "set": {"load.power_kw": 7000}},
+                {"name": "full load", "share": 0.66, "set": {}},
+                {"name": "overload", "share": 0.02, "set": {"load.power_kw": 14000, "temperatures.oil_c": 60}},
+            ],
+            "tolerances": {
+                "count": 32,
+                "replicates": 4,
+                "inputs": [
+                    {"path": "modifications.helix_slope_um", "distribution": "normal", "mean": 0, "deviation": 8},
+                    {"path": "modifications.lead_crowning_um", "distribution": "uniform", "min": 4, "max": 8},
+                    {
+                        "path": "modifications.tip_relief_um",
+                        "distribution": "triangular",
+                        "min": 10,
+                        "mode": 15,
+                        "max": 20,
+                    },
+                    {
+                        "path": "modifications.root_relief_um",
+                        "distribution": "triangular",
+                        "min": 10,
+                        "mode": 15,
+                        "max": 20,
+                    },
+                    {"path": "load.application_factor", "distribution": "lognormal", "median": 1.1, "factor": 1.05},
+                    {"path": "materials.pinion.roughness_um", "distribution": "normal", "mean": 0.4, "deviation": 0.05},
+                ],
+            },
+            "outputs": ["safety.blok_factor", "friction_loss.power_w"],
+            "hours_per_year": 8000,
+        },
+    },
+    "coupling": {
+        "summary": "How often the thrust of a coupling exceeds what its bearing holds, at two loads",
+        "value": {
+            "endpoint": _COUPLING.endpoint,
+            "request": _COUPLING.request,
+            "cases": [{"set": {}}, {"set": {"operation.torque_n_m": 4500, "operation.speed_rpm": 1500}}],
+            "tolerances": {
+                "inputs": [
+                    {"path": "friction.coefficient", "distribution": "normal", "mean": 0.2, "deviation": 0.02},
+                ]
+            },
+            "outputs": ["axial_thrust.force_n"],
+            "limits": [{"output": "axial_thrust.force_n", "above": {"value": 4000}}],
+        },
+    },
+    "drive_train": {
+        "summary": "A gear unit with oil and tooth temperatures of its own at every load",
+        "value": {
+            "endpoint": _UNIT.endpoint,
+            "request": _UNIT.request,
+            "cases": [
+                {"name": "full load", "share": 0.7, "set": {}},
+                {
+                    "name": "half load",
+                    "share": 0.3,
+                    "set": {
+                        "operation.power_kw": 6000,
+                        "temperatures.oil_c": 45,
+                        "thermal.pinion_bulk_c": 80,
+                        "thermal.wheel_bulk_c": 70,
+                    },
+                },
+            ],
+            "tolerances": {
+                "count": 8,
+                "replicates": 2,
+                "inputs": [
+                    {"path": "modifications.helix_slope_um", "distribution": "normal", "mean": 50, "deviation": 6},
+                    {"path": "couplings.0.offset_um.1", "distribution": "uniform", "min": 0, "max": 400},
+                ],
+            },
+            "outputs": ["losses.total_w", "load.face_load_factor"],
+        },
+    },
 }

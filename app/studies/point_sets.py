@@ -1,5 +1,6 @@
 """Which points a study has: a grid, a list of cases or a random sample, checked against the schema."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import prod
 from typing import Any, NamedTuple
@@ -9,8 +10,9 @@ import numpy as np
 from app.errors import Unprocessable
 from app.schema.fields import Leaf
 from app.schema.model import Documented
+from app.studies.distributions import anchors, drawn, unit_cube
 from app.studies.fields import fault, is_reachable, scalar_at
-from app.studies.requests import Axis, Overrides, Sample, Scalar, SweepRequest
+from app.studies.requests import Axis, Overrides, Range, Sample, Scalar, Scatter, SweepRequest, Triangular
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,11 +138,16 @@ def listed(cases: list[Overrides], base: BaseRequest, most: int, place: str) -> 
     check_count(len(cases), most, place)
     leaves: dict[str, Leaf] = {}
     for number, case in enumerate(cases):
-        for path, value in case.items():
-            if path not in leaves:
-                leaves[path] = base.leaf(path, f"{place}.{number}")
-            check_value(leaves[path], value, f"{place}.{number}")
+        check_case(case, base, f"{place}.{number}", leaves)
     return PointSet([], len(cases), tuple(leaves.values()), cases=cases)
+
+
+def check_case(case: Overrides, base: BaseRequest, place: str, known: dict[str, Leaf]) -> None:
+    """Refuse a case that sets what there is not, or what its field does not take; `known` gathers the fields."""
+    for path, value in case.items():
+        if path not in known:
+            known[path] = base.leaf(path, place)
+        check_value(known[path], value, place)
 
 
 def _length(axis: Axis, place: str) -> int:
@@ -182,30 +189,32 @@ def _spread(axis: Axis, place: str) -> list[Scalar | list[Scalar]]:
 def sampled(sample: Sample, base: BaseRequest, most: int) -> PointSet:
     """Random points, the same for the same seed; raises Unprocessable."""
     check_count(sample.count, most, "sample.count")
-    check_distinct([each.path for each in sample.ranges], "sample.ranges")
-    leaves = []
-    for number, each in enumerate(sample.ranges):
-        place = f"sample.ranges.{number}"
-        leaf = base.leaf(each.path, f"{place}.path")
-        if leaf.kind == "integer":
-            raise Unprocessable("not_integer", f"{each.path} takes whole numbers; vary it or list cases", place)
-        for value in (each.min, each.max):
-            check_value(leaf, value, place)
-        if each.min > each.max:
-            raise Unprocessable("out_of_range", f"{each.path}: min is above max", place)
-        leaves.append(leaf)
+    name, scatters = sample.scatters
+    leaves = scattering(scatters, base, f"sample.{name}")
+    cube = unit_cube(sample.method, sample.count, len(leaves), sample.seed, "sample.count")
     axes = [CheckedAxis(leaf.path, (leaf,), None) for leaf in leaves]
-    low, high = (np.array([getattr(each, end) for each in sample.ranges]) for end in ("min", "max"))
-    return PointSet(axes, sample.count, tuple(leaves), sample=low + (high - low) * _unit_cube(sample, len(leaves)))
+    return PointSet(axes, sample.count, tuple(leaves), sample=drawn(scatters, leaves, cube))
 
 
-def _unit_cube(sample: Sample, dimensions: int) -> np.ndarray[Any, Any]:
-    """Points in the unit cube."""
-    from scipy.stats import qmc  # noqa: PLC0415  half a second that only random samples need
+def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: str) -> list[Leaf]:
+    """The fields of the distributions at `place` of a study; raises Unprocessable."""
+    check_distinct([each.path for each in scatters], place)
+    leaves = []
+    for number, each in enumerate(scatters):
+        here = f"{place}.{number}"
+        leaf = base.leaf(each.path, f"{here}.path")
+        if leaf.kind == "integer":
+            raise Unprocessable("not_integer", f"{each.path} takes whole numbers; vary it or list cases", here)
+        for value in anchors(each):
+            check_value(leaf, value, here)
+        if list(anchors(each)) != sorted(anchors(each)):
+            raise Unprocessable("out_of_range", f"{each.path}: {' is above '.join(_order(each))}", here)
+        leaves.append(leaf)
+    return leaves
 
-    if sample.method == "latin_hypercube":
-        return np.asarray(qmc.LatinHypercube(dimensions, rng=sample.seed).random(sample.count))
-    exponent = sample.count.bit_length() - 1
-    if sample.count != 1 << exponent:
-        raise Unprocessable("not_power_of_two", "a Sobol sample needs a power of two of points", "sample.count")
-    return np.asarray(qmc.Sobol(dimensions, rng=sample.seed).random_base2(exponent))
+
+def _order(scatter: Range | Scatter) -> tuple[str, str]:
+    """Which two values stand the wrong way round."""
+    if isinstance(scatter, Triangular):
+        return ("min", "mode") if scatter.min > scatter.mode else ("mode", "max")
+    return "min", "max"

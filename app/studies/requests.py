@@ -1,6 +1,7 @@
-"""The bodies of the studies: sweep, sensitivity, corners and design."""
+"""The bodies of the studies: sweep, sensitivity, spectrum, corners and design."""
 
 import re
+from collections.abc import Sequence
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema, model_validator
@@ -92,28 +93,80 @@ class Axis(Part):
         return self.path if isinstance(self.path, list) else [self.path]
 
 
-class Range(Part):
-    """The range of one sampled field."""
+class Spread(Part):
+    """How one field scatters."""
 
-    path: Annotated[FieldPath, Input("sampled field", text="dotted path of the field")]
+    path: Annotated[FieldPath, Input("field that scatters", text="dotted path of the field")]
+
+
+class Range(Spread):
+    """Every value between two ends alike."""
+
     min: Annotated[float, Input("lower end")]
     max: Annotated[float, Input("upper end")]
 
 
-class Sample(Part):
-    """Points spread at random over ranges."""
+class Uniform(Range):
+    """Every value between two ends alike."""
 
-    method: Annotated[
-        Literal["latin_hypercube", "sobol"],
-        Input("method of sampling", source="scipy.stats.qmc", text="how the points are spread over the ranges"),
-    ] = "latin_hypercube"
-    count: Annotated[
-        int, Input("number of points", text="how many points; a power of two for Sobol", ge=1, le=1_000_000)
+    distribution: Literal["uniform"]
+
+
+class Triangular(Range):
+    """A density that rises from both ends to the most frequent value."""
+
+    distribution: Literal["triangular"]
+    mode: Annotated[float, Input("most frequent value")]
+
+
+class Normal(Spread):
+    """Normally distributed, cut at four deviations and at the field's own range."""
+
+    distribution: Literal["normal"]
+    mean: Annotated[float, Input("mean")]
+    deviation: Annotated[float, Input("standard deviation", gt=0.0, le=LARGEST)]
+
+
+class Lognormal(Spread):
+    """Its logarithm is normally distributed; cut at four deviations and at the field's own range."""
+
+    distribution: Literal["lognormal"]
+    median: Annotated[float, Input("median", gt=0.0)]
+    factor: Annotated[
+        float, Input("factor", text="one standard deviation: the median times or by this factor", gt=1.0, le=1e6)
     ]
-    seed: Annotated[int, Input("seed", text="equal seeds give equal points", ge=0, le=2**32 - 1)] = 1
+
+
+Scatter = Normal | Lognormal | Uniform | Triangular
+Inputs = Annotated[list[Annotated[Scatter, Field(discriminator="distribution")]], Field(min_length=1, max_length=50)]
+Method = Literal["latin_hypercube", "sobol"]
+Seed = Annotated[int, Input("seed", text="equal seeds give equal points", ge=0, le=2**32 - 1)]
+METHOD = Input("method of sampling", source="scipy.stats.qmc", text="how the points are spread over the ranges")
+COUNT = Input("number of points", text="how many points; a power of two for Sobol", ge=1, le=1_000_000)
+
+
+class Sample(Part):
+    """Points at random: evenly over ranges, or by distributions."""
+
+    method: Annotated[Method, METHOD] = "latin_hypercube"
+    count: Annotated[int, COUNT]
+    seed: Seed = 1
     ranges: Annotated[
-        list[Range], Field(min_length=1, max_length=50), Input("ranges", text="the fields and their ranges")
-    ]
+        list[Range] | None, Field(min_length=1, max_length=50), Input("ranges", text="the fields and their ranges")
+    ] = None
+    inputs: Annotated[Inputs | None, Input("distributions", text="the fields and their distributions")] = None
+
+    @model_validator(mode="after")
+    def one_kind(self) -> Self:
+        """Refuse none and both of ranges and distributions."""
+        if (self.ranges is None) == (self.inputs is None):
+            raise PydanticCustomError("ranges_or_inputs", "Give either ranges or inputs")
+        return self
+
+    @property
+    def scatters(self) -> tuple[str, Sequence[Range | Scatter]]:
+        """The name of the list that is given, and the list."""
+        return ("ranges", self.ranges) if self.ranges is not None else ("inputs", self.inputs or ())
 
 
 class Bound(Part):
@@ -174,6 +227,77 @@ class SweepRequest(StudyRequest):
         if sum(part is not None for part in (self.vary, self.cases, self.sample)) != 1:
             raise PydanticCustomError("vary_cases_or_sample", "Give exactly one of vary, cases and sample")
         return self
+
+
+class Case(Part):
+    """A part of the operating time, and what it changes in the request."""
+
+    name: Annotated[str | None, Field(max_length=100), Input("name", default_text="its number")] = None
+    share: Annotated[
+        float | None, Input("share", text="of the operating time", ge=0.0, le=1.01, default_text="equal shares")
+    ] = None
+    set: Annotated[dict[str, Value], Input("what the case changes", text="values by their dotted paths")] = {}
+
+
+class Tolerances(Part):
+    """How the fields of a machine scatter, and how many machines are drawn."""
+
+    method: Annotated[Method, METHOD] = "sobol"
+    count: Annotated[int, COUNT] = 128
+    replicates: Annotated[
+        int,
+        Input("replicates", text="independent samples of as many machines, whose scatter is the error", ge=1, le=1000),
+    ] = 8
+    seed: Seed = 1
+    inputs: Annotated[Inputs, Input("distributions", text="the fields and their distributions")]
+
+
+class Threshold(Part):
+    """A number, or normally distributed: a property of oil and material, one value for all cases of a machine."""
+
+    value: Annotated[float | None, Input("fixed limit", ge=-LARGEST, le=LARGEST)] = None
+    mean: Annotated[float | None, Input("mean of the limit", ge=-LARGEST, le=LARGEST)] = None
+    deviation: Annotated[float | None, Input("standard deviation of the limit", gt=0.0, le=LARGEST)] = None
+
+    @model_validator(mode="after")
+    def one_kind(self) -> Self:
+        """Refuse a limit that is neither fixed nor distributed."""
+        if (self.mean is None) != (self.deviation is None) or (self.value is None) == (self.mean is None):
+            raise PydanticCustomError("value_or_mean", "Give either value, or mean and deviation")
+        return self
+
+
+class SpectrumLimit(Part):
+    """A limit on one output of every case."""
+
+    output: Annotated[FieldPath, Input("limited output", text="dotted path of a single number of the answer")]
+    above: Annotated[Threshold | None, Input("upper limit", text="it is bad to be above")] = None
+    below: Annotated[Threshold | None, Input("lower limit", text="it is bad to be below")] = None
+
+    @model_validator(mode="after")
+    def one_side(self) -> Self:
+        """Refuse both sides and neither."""
+        if (self.above is None) == (self.below is None):
+            raise PydanticCustomError("above_or_below", "Give either above or below")
+        return self
+
+
+class SpectrumRequest(StudyRequest):
+    """A machine with its tolerances over the cases of its load spectrum."""
+
+    cases: Annotated[
+        list[Case], Field(min_length=1, max_length=100), Input("cases", text="what each case changes, and its share")
+    ]
+    tolerances: Annotated[Tolerances | None, Input("tolerances", default_text="the nominal machine alone")] = None
+    limits: Annotated[
+        list[SpectrumLimit] | None,
+        Field(max_length=20),
+        Input("limits", text="what must not happen", default_text="the scuffing temperature, where there is one"),
+    ] = None
+    hours_per_year: Annotated[
+        float | None, Input("hours per year", text="for the energy that powers add up to", gt=0.0, le=8784.0)
+    ] = None
+    points: Annotated[bool, Input("points", text="whether every solved point is a line of the answer")] = False
 
 
 class SensitivityRequest(StudyRequest):

@@ -10,11 +10,8 @@ import numpy as np
 
 from app.studies.point_sets import PointSet
 from app.studies.points import Point
+from app.studies.probability import CONFIDENCE, QUANTILES, rank_correlation
 from app.studies.requests import Best
-
-LEAST_CORRELATED = 3
-QUANTILES = (0.05, 0.5, 0.95)
-CONFIDENCE = 0.9
 
 
 class Extreme(NamedTuple):
@@ -50,7 +47,7 @@ class Summary:
         if self._points.sample is not None:
             self._values.extend(value if _is_number(value) else nan for value in point.out)
         for each in point.assumptions:
-            self._assume(each)
+            merge_assumption(self._assumptions, each)
 
     @property
     def extremes(self) -> dict[str, dict[str, Extreme]]:
@@ -109,11 +106,12 @@ class Summary:
         (_, index), out = self._chosen
         return {"index": index, "at": self._points.at(index), "out": out}
 
-    def _assume(self, assumption: dict[str, Any]) -> None:
-        """Each assumption once; a value that differs between points is null."""
-        known = self._assumptions.setdefault(assumption["field"], assumption)
-        if known["value"] != assumption["value"]:
-            self._assumptions[assumption["field"]] = {**known, "value": None}
+
+def merge_assumption(known: dict[str, dict[str, Any]], found: dict[str, Any]) -> None:
+    """Each assumption once, by its field; a value that differs between points is null."""
+    before = known.setdefault(found["field"], found)
+    if before["value"] != found["value"]:
+        known[found["field"]] = {**before, "value": None}
 
 
 def _is_number(value: Any) -> bool:
@@ -137,9 +135,7 @@ def statistics(
         "quantiles": {path: np.quantile(values, QUANTILES).tolist() for path, values in columns.items()},
         "quantile_bounds": {path: [_bounds(values, share) for share in QUANTILES] for path, values in columns.items()},
         "rank_correlation": {
-            path: {
-                name: _rank_correlation(inputs[there[path], place], values) for place, name in enumerate(input_paths)
-            }
+            path: {name: rank_correlation(inputs[there[path], place], values) for place, name in enumerate(input_paths)}
             for path, values in columns.items()
         },
     }
@@ -151,12 +147,3 @@ def _bounds(values: np.ndarray[Any, Any], share: float) -> list[float | None]:
 
     interval: Any = quantile_test(values, p=share).confidence_interval(CONFIDENCE)
     return [None if isnan(end) else float(end) for end in interval]
-
-
-def _rank_correlation(x: np.ndarray[Any, Any], y: np.ndarray[Any, Any]) -> float | None:
-    """Spearman's coefficient; none of fewer than three points, or where either does not vary."""
-    from scipy.stats import spearmanr  # noqa: PLC0415  half a second that only random samples need
-
-    if y.size < LEAST_CORRELATED or np.ptp(x) == 0.0 or np.ptp(y) == 0.0:
-        return None
-    return float(spearmanr(x, y).statistic)

@@ -177,11 +177,20 @@ class CouplingResult:
 
 @record
 class FlashPlaces:
-    """Largest Blok flash temperature [K] on the feature line and on the flank, and where; None at a base circle."""
+    """Largest Blok flash temperature [K] on the feature line and on the flank, and where; None at a base circle.
+
+    `contact_max` is the largest contact temperature [K] of both, bulk and flash of each place together.
+    """
 
     feature: float | None = quantity("flash temperature on the feature line", "Δθ_fl,1", unit="k")
     flank: float | None = quantity("flash temperature on the flank", "Δθ_fl,2", unit="k")
     flank_at: Place | None
+    contact_max: float | None = quantity(
+        "largest contact temperature",
+        "θ_B,max",
+        unit="c",
+        text="by Blok over the flank and the feature line; null without an oil",
+    )
 
 
 @record

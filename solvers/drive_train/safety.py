@@ -73,6 +73,7 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: Therma
             feature=_largest(on_feature) if defined else None,
             flank=_largest(on_flank) if defined else None,
             flank_at=place,
+            contact_max=max((contact for contact in hottest[:2] if contact is not None), default=None),
         ),
         safety=_safety(inputs, hottest, place),
         unsolved_points=unsolved,

@@ -12,10 +12,16 @@ from starlette.types import Receive, Scope, Send
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
 from app.settings import Settings
-from app.studies import design, sensitivity, sweep
+from app.studies import design, sensitivity, spectrum, sweep
 from app.studies.admission import StudyAdmission
-from app.studies.examples import CORNERS_EXAMPLES, DESIGN_EXAMPLES, SENSITIVITY_EXAMPLES, SWEEP_EXAMPLES
-from app.studies.requests import CornersRequest, DesignRequest, SensitivityRequest, SweepRequest
+from app.studies.examples import (
+    CORNERS_EXAMPLES,
+    DESIGN_EXAMPLES,
+    SENSITIVITY_EXAMPLES,
+    SPECTRUM_EXAMPLES,
+    SWEEP_EXAMPLES,
+)
+from app.studies.requests import CornersRequest, DesignRequest, SensitivityRequest, SpectrumRequest, SweepRequest
 from app.studies.stream import Clock, encoded, guarded, json_line
 from app.studies.study import Study
 from app.workers.admission import Runner
@@ -50,9 +56,12 @@ class StudyStream(StreamingResponse):
 
 
 async def started(
-    http: Request, planner: Callable[[bytes, int, float], Study], written_as: Format = "ndjson"
+    http: Request,
+    planner: Callable[[bytes, int, float], Study],
+    written_as: Format = "ndjson",
+    most: int | None = None,
 ) -> Response:
-    """The stream of a study, which is checked in a worker before the first line."""
+    """The stream of a study of at most `most` points, which is checked in a worker before the first line."""
     start_up: StartUp = http.app.state.start_up
     start_up.require_any()
     admission: StudyAdmission = http.app.state.studies
@@ -60,7 +69,7 @@ async def started(
     limits: Settings = http.app.state.settings
     with ExitStack() as stack:
         stack.enter_context(admission.place())
-        study = await runner.run(http, planner, await http.body(), limits.most_study_points, limits.deadline_s)
+        study = await runner.run(http, planner, await http.body(), most or limits.most_study_points, limits.deadline_s)
         start_up.require(study.question.endpoint)
         clock = Clock(study.total)
         lines = guarded(study.lines(await admission.pool(), clock), clock, limits.study_deadline_s)
@@ -134,6 +143,28 @@ async def run_sensitivity(
     more than 10 %; it is null where the step is none of a tolerance.
     """
     return await started(http, sensitivity.sensitivity_study)
+
+
+@router.post(
+    spectrum.PATH,
+    operation_id="spectrum",
+    summary="A machine with its tolerances over its load spectrum: probabilities, losses, what decides",
+    response_class=Response,
+    responses=_streams("a line for the spectrum, one for each point if asked for, and one for the end", "ndjson"),
+)
+async def run_spectrum(
+    http: Request,
+    _body: Annotated[SpectrumRequest, Body(openapi_examples=SPECTRUM_EXAMPLES)],
+) -> Response:
+    """Machines are drawn from the tolerances; each runs every case, and its worst case meets the limits.
+
+    The end tells the probability of each limit with its 90 % interval, over the spectrum and of each case alone, which
+    case decides and which tolerance matters (rank correlation), and of every output the mean over the operating time,
+    the extremes, and 5, 50 and 95 % quantiles a case. Draws without solution are counted: where there are any, a
+    probability is stated between its `bounds`. Lines of `progress` come every half second.
+    """
+    settings: Settings = http.app.state.settings
+    return await started(http, spectrum.spectrum_study, most=settings.spectrum_solves)
 
 
 @router.post(

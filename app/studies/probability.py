@@ -1,0 +1,161 @@
+"""Probabilities over a load spectrum with tolerances, on plain arrays `[replicate, draw, case]`; NaN is unsolved.
+
+A draw is one machine, which runs every case: the worst case of a draw decides whether it exceeds a limit. A limit that
+is normally distributed is integrated in closed form, so that the noise is that of the tolerances alone. Replicates are
+independent: their scatter gives the error of every mean.
+"""
+
+from collections.abc import Sequence
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+CONFIDENCE = 0.9
+QUANTILES = (0.05, 0.5, 0.95)
+MODERATE, HIGH = 0.1, 0.3
+MOST_BINS = 40
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+Side = Literal["above", "below"]
+Risk = Literal["low", "moderate", "high"]
+
+
+class Limit(NamedTuple):
+    """What an output must not exceed (`above`) or fall short of (`below`); fixed where the deviation is zero."""
+
+    side: Side
+    mean: float
+    deviation: float
+
+    def exceeded(self, output: Array) -> Array:
+        """The probability that each value is beyond the limit; NaN where there is no value."""
+        from scipy.special import ndtr  # noqa: PLC0415  a third of a second that only studies need
+
+        beyond = output - self.mean if self.side == "above" else self.mean - output
+        if self.deviation > 0.0:
+            return np.asarray(ndtr(beyond / self.deviation))
+        return np.where(np.isnan(beyond), np.nan, beyond > 0.0)
+
+    def worst(self, outputs: Array) -> Array:
+        """The worst of the cases (the last axis) that have a solution; NaN where none has."""
+        return np.asarray((np.fmax if self.side == "above" else np.fmin).reduce(outputs, axis=-1))
+
+
+class Mean(NamedTuple):
+    """A mean over replicates, its standard error and its 90 % interval by Student's t; None of a single replicate."""
+
+    mean: float
+    standard_error: float | None
+    interval: tuple[float, float] | None
+
+
+class Estimate(NamedTuple):
+    """A probability; `bounds` take all unsolved draws as good and as bad, and where they differ there is no value.
+
+    The risk in words is that of the upper bound.
+    """
+
+    probability: float | None
+    bounds: tuple[float, float]
+    standard_error: float | None
+    interval: tuple[float, float] | None
+    risk: Risk
+
+
+def mean_over_replicates(values: Array) -> Mean:
+    """The mean of `[replicate, draw]` without NaN."""
+    from scipy.stats import t  # noqa: PLC0415  half a second that only studies need
+
+    means = values.mean(axis=1)
+    value = float(means.mean())
+    if means.size == 1:
+        return Mean(value, None, None)
+    error = float(means.std(ddof=1) / np.sqrt(means.size))
+    reach = float(t.ppf((1.0 + CONFIDENCE) / 2.0, means.size - 1)) * error
+    return Mean(value, error, (value - reach, value + reach))
+
+
+def of_spectrum(outputs: Array, limit: Limit) -> Estimate:
+    """The probability that the worst case of a machine is beyond the limit."""
+    good = np.nan_to_num(limit.exceeded(limit.worst(outputs)), nan=0.0)
+    unsolved = np.isnan(outputs).any(axis=-1)
+    low, high = (_chances(each, limit) for each in (good, np.where(unsolved, 1.0, good)))
+    errors = [each.standard_error for each in (low, high) if each.standard_error is not None]
+    return Estimate(
+        probability=None if unsolved.any() else low.mean,
+        bounds=(low.mean, high.mean),
+        standard_error=max(errors, default=None),
+        interval=None if low.interval is None or high.interval is None else (low.interval[0], high.interval[1]),
+        risk=risk(high.mean),
+    )
+
+
+def of_case(outputs: Array, limit: Limit) -> Estimate:
+    """The probability of one case as if it were alone; `outputs` are `[replicate, draw]`."""
+    return of_spectrum(outputs[..., np.newaxis], limit)
+
+
+def _chances(chances: Array, limit: Limit) -> Mean:
+    """The mean with its interval inside 0 to 1; of a fixed limit that all draws keep, or none, a one-sided bound."""
+    found, draws = mean_over_replicates(chances), chances.size
+    if limit.deviation == 0.0 and draws > 1 and found.mean in (0.0, 1.0):
+        reach = 1.0 - (1.0 - CONFIDENCE) ** (1.0 / draws)
+        return found._replace(interval=(0.0, reach) if found.mean == 0.0 else (1.0 - reach, 1.0))
+    if found.interval is None:
+        return found
+    low, high = found.interval
+    return found._replace(interval=(max(low, 0.0), min(high, 1.0)))
+
+
+def risk(probability: float) -> Risk:
+    """The classes of AGMA 925-A03."""
+    return "low" if probability < MODERATE else "moderate" if probability <= HIGH else "high"
+
+
+def deciding(outputs: Array, limit: Limit) -> list[float] | None:
+    """How often each case is the worst, of the draws that are solved in all; equal cases share. None without such."""
+    solved = outputs[~np.isnan(outputs).any(axis=-1)]
+    if not solved.size:
+        return None
+    worst = solved == limit.worst(solved)[:, np.newaxis]
+    return [float(share) for share in (worst / worst.sum(axis=1, keepdims=True)).mean(axis=0)]
+
+
+def quantiles(values: Array) -> list[float] | None:
+    """5, 50 and 95 % of all values there are."""
+    known = values[~np.isnan(values)]
+    return [float(each) for each in np.quantile(known, QUANTILES)] if known.size else None
+
+
+def weighted_mean(outputs: Array, shares: Sequence[float]) -> Mean | None:
+    """The mean over the cases by their shares, over the draws that are solved in all; None where a replicate has none.
+
+    Replicates that lost draws are means over those that are left.
+    """
+    per_draw = outputs @ np.asarray(shares)
+    kept = [each[~np.isnan(each)] for each in per_draw]
+    if not all(each.size for each in kept):
+        return None
+    return mean_over_replicates(np.array([[each.mean()] for each in kept]))
+
+
+def histogram(values: Array) -> tuple[list[float], list[float]]:
+    """Edges and probability density of all values there are; nothing where they are all the same."""
+    known = values[~np.isnan(values)]
+    if known.size < 2 or not np.ptp(known) > 0.0:
+        return [], []
+    bins = min(MOST_BINS, max(1, round(np.sqrt(known.size))))
+    try:
+        density, edges = np.histogram(known, bins, density=True)
+    except ValueError:  # values so near to each other that no number lies between two edges
+        return [], []
+    return edges.tolist(), density.tolist()
+
+
+def rank_correlation(x: Array, y: Array) -> float | None:
+    """Spearman's coefficient; none of fewer than three points, or where either does not vary."""
+    from scipy.stats import spearmanr  # noqa: PLC0415  half a second that only studies need
+
+    if y.size < 3 or np.ptp(x) == 0.0 or np.ptp(y) == 0.0:
+        return None
+    return float(spearmanr(x, y).statistic)
