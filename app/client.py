@@ -108,6 +108,10 @@ class _Endpoints(ABC, Generic[Answer, Stream]):
         """One endpoint at many points: a grid, a list of cases or a random sample."""
         return self.study("/v1/sweep", request, progress=progress)
 
+    def spectrum(self, request: Json, *, progress: bool = False) -> Stream:
+        """A machine with its tolerances over its load spectrum; the probabilities are in the end."""
+        return self.study("/v1/spectrum", request, progress=progress)
+
     def sensitivity(self, request: Json, *, progress: bool = False) -> Stream:
         """Which input moves each output most."""
         return self.study("/v1/sensitivity", request, progress=progress)

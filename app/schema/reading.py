@@ -7,16 +7,18 @@ import json
 import re
 from collections.abc import Iterable
 from difflib import get_close_matches
-from typing import Any, TypeVar
+from types import UnionType
+from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
 from app.errors import Fault, InvalidBody, Unreadable, pointer
-from app.schema.model import Documented, group_of
+from app.schema.model import Documented
 from app.schema.quantities import Input, meaning_of
 from solvers.quantity import allowed
 
 M = TypeVar("M", bound=BaseModel)
+Models = tuple[type[BaseModel], ...]
 MOST_MEMBERS = 1000
 MOST_OBJECTS = 10_000
 MOST_FAULTS = 100
@@ -85,34 +87,54 @@ def faults(model: type[BaseModel], items: Iterable[dict[str, Any]]) -> list[Faul
     return found
 
 
+def _models_of(annotation: Any) -> Models:
+    """The models that a field may hold, alone, optional, as the item of a list, or one of several."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return (annotation,)
+    if get_origin(annotation) in {Union, UnionType, list, Annotated}:
+        return tuple(model for kind in get_args(annotation) for model in _models_of(kind))
+    return ()
+
+
+def _below(models: Models, field: str) -> Models:
+    """The models below a field of these."""
+    return tuple(
+        inner
+        for model in models
+        if field in model.model_fields
+        for inner in _models_of(model.model_fields[field].annotation)
+    )
+
+
 def _fields_only(model: type[BaseModel], location: tuple[str | int, ...]) -> tuple[str | int, ...]:
     """The location without the names of the types that a value could have had."""
     kept: list[str | int] = []
-    here: type[BaseModel] | None = model
+    here: Models = (model,)
     for place, part in enumerate(location):
         last = place == len(location) - 1
-        if isinstance(part, int) or here is None or last or part in here.model_fields:
+        known = isinstance(part, str) and any(part in each.model_fields for each in here)
+        if isinstance(part, int) or not here or last or known:
             kept.append(part)
-            if here is not None and isinstance(part, str) and part in here.model_fields:
-                here = group_of(here.model_fields[part].annotation)
+            if known:
+                here = _below(here, str(part))
     return tuple(kept)
 
 
-def _section(model: type[BaseModel], location: tuple[str | int, ...]) -> type[BaseModel] | None:
-    """The section that holds the field at a location."""
-    here: type[BaseModel] | None = model
+def _sections(model: type[BaseModel], location: tuple[str | int, ...]) -> Models:
+    """The section that holds the field at a location, or those of which it is one."""
+    here: Models = (model,)
     for part in location[:-1]:
         if isinstance(part, str):
-            here = group_of(here.model_fields[part].annotation) if here and part in here.model_fields else None
+            here = _below(here, part)
     return here
 
 
 def _message(model: type[BaseModel], location: tuple[str | int, ...], item: dict[str, Any]) -> str:
     """The one sentence that says what to change."""
-    kind, value, section = item["type"], item.get("input"), _section(model, location)
+    kind, value, sections = item["type"], item.get("input"), _sections(model, location)
     name = next((part for part in reversed(location) if isinstance(part, str)), "")
     if kind == "extra_forbidden":
-        return _unknown(str(location[-1]), section)
+        return _unknown(str(location[-1]), sections)
     if kind == "missing":
         return f"{name} is required" if location else "the request needs a body"
     if kind in _NUMBER_TYPES:
@@ -120,13 +142,15 @@ def _message(model: type[BaseModel], location: tuple[str | int, ...], item: dict
     if kind in _SECTION_TYPES:
         return "leave the section out instead of null" if value is None else "give a section {...} of fields here"
     if kind in _RANGE_TYPES:
-        return f"{name} is {_figure(value)}; allowed {_allowed(section, name)}"
+        return f"{name} is {_figure(value)}; allowed {_allowed(sections, name)}"
     plain = {
         "int_from_float": "give a whole number",
         "finite_number": "give a finite number",
         "bool_type": "give true or false",
         "list_type": "give a list [...] of values here",
         "string_type": "give text",
+        "union_tag_not_found": f"{_tag(item)} is required",
+        "union_tag_invalid": f"{_tag(item)}: allowed are {_tags(item)}",
         "literal_error": f"{name}: allowed are {_choices(item)}",
         "enum": f"{name}: allowed are {_choices(item)}",
         "too_short": f"{name} needs at least {item.get('ctx', {}).get('min_length')} values",
@@ -135,11 +159,11 @@ def _message(model: type[BaseModel], location: tuple[str | int, ...], item: dict
     return plain.get(kind, str(item["msg"]))
 
 
-def _unknown(name: str, section: type[BaseModel] | None) -> str:
+def _unknown(name: str, sections: Models) -> str:
     """An unknown field, and the one that was meant."""
     if not _NAME.fullmatch(name):
         return "unknown field"
-    near = get_close_matches(name, section.model_fields if section else (), n=1, cutoff=0.6)
+    near = get_close_matches(name, [known for each in sections for known in each.model_fields], n=1, cutoff=0.6)
     return f"unknown field {name}" + (f"; did you mean {near[0]}?" if near else "")
 
 
@@ -161,15 +185,25 @@ def _figure(value: Any) -> str:
         return "far too large" if value > 0 else "far too small"
 
 
+def _tag(item: dict[str, Any]) -> str:
+    """The field that says which of several sections one is."""
+    return str(item.get("ctx", {}).get("discriminator", "")).strip("'")
+
+
+def _tags(item: dict[str, Any]) -> str:
+    return str(item.get("ctx", {}).get("expected_tags", "")).replace("'", "")
+
+
 def _choices(item: dict[str, Any]) -> str:
     return str(item.get("ctx", {}).get("expected", "")).replace("'", "").replace(" or ", ", ")
 
 
-def _allowed(section: type[BaseModel] | None, name: str) -> str:
+def _allowed(sections: Models, name: str) -> str:
     """The range of a field with its unit."""
-    field = section.model_fields.get(name) if section else None
-    given = meaning_of(field) if field else None
-    if not isinstance(given, Input) or section is None or not issubclass(section, Documented):
-        return "is another range"
-    unit = section.unit_of(name)
-    return f"{allowed(given)} {unit.symbol}" if unit else allowed(given)
+    for section in sections:
+        field = section.model_fields.get(name)
+        given = meaning_of(field) if field else None
+        if isinstance(given, Input):
+            unit = section.unit_of(name) if issubclass(section, Documented) else None
+            return f"{allowed(given)} {unit.symbol}" if unit else allowed(given)
+    return "is another range"

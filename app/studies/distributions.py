@@ -75,7 +75,7 @@ def cut(scatter: Range | Scatter, leaf: Leaf) -> Cut:
             )
         case _:
             return Cut(scatter.min, scatter.max, (0.0, 1.0), stats.uniform(scatter.min, scatter.max - scatter.min))
-    bounds = leaf.bounds
+    bounds = leaf.declared.bounds
     low = max(low, bounds.get("ge", -LARGEST), bounds.get("gt", -LARGEST))
     high = min(high, bounds.get("le", LARGEST), bounds.get("lt", LARGEST))
     return Cut(low, high, (float(law.cdf(low)), float(law.cdf(high))), law)

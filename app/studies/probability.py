@@ -82,7 +82,7 @@ def of_spectrum(outputs: Array, limit: Limit) -> Estimate:
     low, high = (_chances(each, limit) for each in (good, np.where(unsolved, 1.0, good)))
     errors = [each.standard_error for each in (low, high) if each.standard_error is not None]
     return Estimate(
-        probability=None if unsolved.any() else low.mean,
+        probability=low.mean if low.mean == high.mean else None,
         bounds=(low.mean, high.mean),
         standard_error=max(errors, default=None),
         interval=None if low.interval is None or high.interval is None else (low.interval[0], high.interval[1]),

@@ -106,23 +106,26 @@ class Range(Spread):
     max: Annotated[float, Input("upper end")]
 
 
+KIND = Input("distribution", source="scipy.stats", text="which one it is")
+
+
 class Uniform(Range):
     """Every value between two ends alike."""
 
-    distribution: Literal["uniform"]
+    distribution: Annotated[Literal["uniform"], KIND]
 
 
 class Triangular(Range):
     """A density that rises from both ends to the most frequent value."""
 
-    distribution: Literal["triangular"]
+    distribution: Annotated[Literal["triangular"], KIND]
     mode: Annotated[float, Input("most frequent value")]
 
 
 class Normal(Spread):
     """Normally distributed, cut at four deviations and at the field's own range."""
 
-    distribution: Literal["normal"]
+    distribution: Annotated[Literal["normal"], KIND]
     mean: Annotated[float, Input("mean")]
     deviation: Annotated[float, Input("standard deviation", gt=0.0, le=LARGEST)]
 
@@ -130,7 +133,7 @@ class Normal(Spread):
 class Lognormal(Spread):
     """Its logarithm is normally distributed; cut at four deviations and at the field's own range."""
 
-    distribution: Literal["lognormal"]
+    distribution: Annotated[Literal["lognormal"], KIND]
     median: Annotated[float, Input("median", gt=0.0)]
     factor: Annotated[
         float, Input("factor", text="one standard deviation: the median times or by this factor", gt=1.0, le=1e6)

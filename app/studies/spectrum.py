@@ -59,7 +59,7 @@ class Scuffing(NamedTuple):
 
 SCUFFING = {
     "/v1/scuffing": Scuffing("contact_temperature.blok_max_c", "safety.scuffing_c"),
-    DRIVE_TRAIN: Scuffing("flash.contact_c", "derived.temperatures.scuffing_c"),
+    DRIVE_TRAIN: Scuffing("flash.contact_max_c", "derived.temperatures.scuffing_c"),
 }
 
 
@@ -318,13 +318,13 @@ def spectrum_study(body: bytes, most: int, deadline_s: float) -> Spectrum:
         wanted = list(dict.fromkeys([*wanted, *SCUFFING[calculation.path]]))
     light = lightened(request.request, wanted) if calculation.path == DRIVE_TRAIN else request.request
     question = Question(calculation.path, light, wanted, deadline_s)
-    nominal = {each.path: anchors(each)[0] for each in tolerances.inputs} if tolerances else {}
+    typical = {each.path: anchors(each)[0] for each in tolerances.inputs} if tolerances else {}
     for case in cases:
-        checked_base(calculation, request.request, {**nominal, **case})
+        checked_base(calculation, request.request, {**typical, **case})
     total = len(cases) * (tolerances.count * tolerances.replicates if tolerances else 1)
     if total > most:
         where = "tolerances.count" if tolerances else "cases"
-        raise Unprocessable("too_many_points", _too_many(question, {**nominal, **cases[0]}, total, most), where)
+        raise Unprocessable("too_many_points", _too_many(question, {**typical, **cases[0]}, total, most), where)
     return Spectrum(
         question=question,
         outputs=outputs,
@@ -398,10 +398,11 @@ def _machines(tolerances: Tolerances, leaves: Sequence[Leaf]) -> Array:
 
 def _too_many(question: Question, overrides: Overrides, total: int, most: int) -> str:
     """What a study of too many points would take, by one of them."""
+    solve_point(question, overrides)  # the first one may load kernels
     started = perf_counter()
     solve_point(question, overrides)
     seconds = perf_counter() - started
     return (
         f"cases x machines are {total} solutions; at most {most} are allowed. One takes some {seconds:.2g} s, "
-        f"all of them {total * seconds:.2g} s on one core"
+        f"all of them {total * seconds:,.0f} s on one core"
     )

@@ -12,7 +12,7 @@ import pytest
 from app.calculations import BY_PATH
 from app.examples import examples
 from app.schema.fields import headlines
-from app.studies.examples import SENSITIVITY_EXAMPLES, SWEEP_EXAMPLES
+from app.studies.examples import SENSITIVITY_EXAMPLES, SPECTRUM_EXAMPLES, SWEEP_EXAMPLES
 from app.studies.fields import set_value, value_at
 
 Post = Callable[[str, object], httpx.Response]
@@ -107,7 +107,7 @@ def test_more_points_than_the_setting_allows(post: Post) -> None:
 
 
 @pytest.mark.parametrize("body", [b"", b"{", b"[1]", b'{"a": 1, "a": 2}'])
-@pytest.mark.parametrize("path", ["/v1/sweep", "/v1/sensitivity"])
+@pytest.mark.parametrize("path", ["/v1/sweep", "/v1/sensitivity", "/v1/spectrum"])
 def test_what_is_no_study(client: httpx.Client, path: str, body: bytes) -> None:
     response = client.post(path, content=body, headers={"Content-Type": "application/json"})
     assert response.status_code in {400, 422}
@@ -162,6 +162,14 @@ def test_examples_of_sensitivities(post: Post, name: str) -> None:
     expected = {(output["path"], each["path"]) for output in end["outputs"] for each in end["inputs"]}
     assert {(line["output"], line["path"]) for line in found if line["type"] == "sensitivity"} == expected
     assert len(expected) > 15
+
+
+@pytest.mark.parametrize("name", SPECTRUM_EXAMPLES)
+def test_examples_of_spectra(post: Post, name: str) -> None:
+    header, *_, end = lines(post("/v1/spectrum", SPECTRUM_EXAMPLES[name]["value"]))
+    assert header["type"] == "spectrum"
+    assert end["counts"].get("ok", 0) + end["counts"].get("ok_with_warnings", 0) == header["total"]
+    assert len(end["limits"]) == 1
 
 
 def test_documents(client: httpx.Client) -> None:

@@ -5,14 +5,17 @@ import json
 import subprocess
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import httpx
 import pytest
 
 from app.examples import examples
+from app.studies.examples import SPECTRUM_EXAMPLES
+from app.studies.spectrum import spectrum_study
 from app.studies.stream import Clock
+from app.studies.study import Study
 from app.studies.sweep import sweep_study
 from tests.support.dask_cluster import DaskProcesses, running_cluster
 from tests.support.pools import InlinePool
@@ -55,25 +58,28 @@ SWEEPS: dict[str, dict[str, Any]] = {
 }
 
 
+SPECTRUM = {**SPECTRUM_EXAMPLES["coupling"]["value"], "points": True}
+
+
 def lines(text: str) -> list[dict[str, Any]]:
     """The lines but for those that tell the time."""
     found = map(json.loads, text.splitlines())
     return [{key: each[key] for key in each if key != "elapsed_s"} for each in found if each["type"] != "progress"]
 
 
-def local(body: dict[str, Any]) -> list[dict[str, Any]]:
-    """The lines of a sweep calculated in this process."""
+def local(body: dict[str, Any], plan: Callable[..., Study] = sweep_study) -> list[dict[str, Any]]:
+    """The lines of a study calculated in this process."""
 
     async def run() -> list[Any]:
-        study = sweep_study(json.dumps(body).encode(), 2500, 30.0)
+        study = plan(json.dumps(body).encode(), 20_000, 30.0)
         groups = [group async for group in study.lines(InlinePool(), Clock(study.total))]
         return [line for group in groups for line in group]
 
     return lines("\n".join(map(json.dumps, asyncio.run(run()))))
 
 
-def sweep(address: str, body: dict[str, Any]) -> list[dict[str, Any]]:
-    response = httpx.post(f"{address}/v1/sweep", json=body, timeout=PREPARED_S)
+def sweep(address: str, body: dict[str, Any], path: str = "/v1/sweep") -> list[dict[str, Any]]:
+    response = httpx.post(f"{address}{path}", json=body, timeout=PREPARED_S)
     assert response.status_code == 200, response.text
     return lines(response.text)
 
@@ -81,6 +87,12 @@ def sweep(address: str, body: dict[str, Any]) -> list[dict[str, Any]]:
 @pytest.mark.parametrize("kind", SWEEPS)
 def test_same_lines_in_the_same_order(service: Service, kind: str) -> None:
     assert sweep(service[1], SWEEPS[kind]) == local(SWEEPS[kind])
+
+
+def test_a_spectrum_has_the_same_numbers(service: Service) -> None:
+    found = sweep(service[1], SPECTRUM, "/v1/spectrum")
+    assert len(found) == 2 + 2048
+    assert found == local(SPECTRUM, spectrum_study)
 
 
 def test_a_killed_worker_costs_nothing_but_time(service: Service) -> None:

@@ -29,7 +29,7 @@ def test_every_operation() -> None:
         "5",
         "--generation-deterministic",
     ]
-    with running_server(study_points=16, study_deadline_s=1) as (_, address):
+    with running_server(study_points=16, spectrum_solves=16, study_deadline_s=1) as (_, address):
         outcome = subprocess.run(
             [*command, f"{address}/openapi.json"], cwd=ROOT, capture_output=True, text=True, check=False
         )

@@ -1,0 +1,212 @@
+"""Probabilities against laws that are known in closed form."""
+
+from dataclasses import replace
+from math import exp, hypot, inf, log, sqrt
+
+import numpy as np
+import pytest
+from scipy.stats import norm
+
+from app.calculations import BY_PATH
+from app.schema.fields import Leaf, leaves
+from app.schema.quantities import Input
+from app.studies.distributions import cut, drawn, unit_cube
+from app.studies.probability import (
+    Limit,
+    Side,
+    deciding,
+    histogram,
+    mean_over_replicates,
+    of_case,
+    of_spectrum,
+    quantiles,
+    rank_correlation,
+    weighted_mean,
+)
+from app.studies.requests import Lognormal, Method, Normal, Range, Triangular, Uniform
+
+FRICTION = next(leaf for leaf in leaves(BY_PATH["/v1/coupling"].request) if leaf.path == "friction.coefficient")
+
+
+def array(*cases: list[float]) -> np.ndarray:
+    """One replicate whose draws have these cases."""
+    return np.array([cases], dtype=float)
+
+
+def test_the_gaussian_law_of_agma_925() -> None:
+    """The worked answer RFI 16-1 to AGMA 925-A03: its inputs have six digits."""
+    found = of_case(array([0.425354])[..., 0], Limit("below", 0.215956, 0.112623))
+    assert pytest.approx(1.859273, abs=2e-5) == (0.425354 - 0.215956) / 0.112623
+    assert found.probability == pytest.approx(norm.sf(1.859273), rel=1e-4)
+    assert found.probability == pytest.approx(0.0315, abs=5e-5)
+    assert found.risk == "low"
+
+
+@pytest.mark.parametrize(
+    ("side", "value", "expected"), [("above", 130.0, 1), ("above", 100.0, 0), ("below", 130.0, 0), ("below", 90.0, 1)]
+)
+def test_a_fixed_limit_is_exceeded_or_not(side: Side, value: float, expected: float) -> None:
+    found = of_case(array([value])[..., 0], Limit(side, 100.0, 0.0))
+    assert found.probability == expected
+    assert found.standard_error is None
+    assert found.interval is None
+
+
+@pytest.mark.parametrize(
+    ("probability", "risk"), [(0.0999, "low"), (0.1001, "moderate"), (0.2999, "moderate"), (0.3001, "high")]
+)
+def test_risk_in_words(probability: float, risk: str) -> None:
+    limit = Limit("above", -float(norm.ppf(probability)), 1.0)
+    assert of_case(array([0.0])[..., 0], limit).risk == risk
+
+
+def test_replicates_give_the_error() -> None:
+    """Means 1, 2, 3, 6: deviation sqrt(14/3); the 95 % quantile of t with 3 degrees of freedom is 2.3533634."""
+    found = mean_over_replicates(np.array([[0.0, 2.0], [1.0, 3.0], [3.0, 3.0], [5.0, 7.0]]))
+    assert found.mean == 3.0
+    assert found.standard_error == pytest.approx(sqrt(14 / 3) / 2)
+    assert found.interval == pytest.approx((3 - 2.3533634 * sqrt(14 / 3) / 2, 3 + 2.3533634 * sqrt(14 / 3) / 2))
+
+
+def test_no_event_has_a_one_sided_bound() -> None:
+    """All of 1024 machines keep the limit: 1 - 0.1^(1/1024) = 0.22461 %; 0.9978 where all exceed it."""
+    outputs = np.zeros((8, 128, 1))
+    assert of_spectrum(outputs, Limit("above", 1.0, 0.0)).interval == pytest.approx((0.0, 0.0022460921))
+    assert of_spectrum(outputs, Limit("above", -1.0, 0.0)).interval == pytest.approx((1.0 - 0.0022460921, 1.0))
+
+
+def test_an_unsolved_draw_is_never_lost() -> None:
+    """Of eight machines two exceed the limit, one has no solution in a case: 2/8 if it is good, 3/8 if it is bad."""
+    outputs = np.array(
+        [[[1.0, 0.0], [0.0, np.nan], [0.0, 0.0], [0.0, 0.0]], [[1.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0]]]
+    )
+    found = of_spectrum(outputs, Limit("above", 0.5, 0.0))
+    assert found.probability is None
+    assert found.bounds == (0.25, 0.375)
+    assert found.interval is not None
+    assert found.interval[0] <= 0.25
+    assert found.interval[1] >= 0.375
+    assert found.risk == "high"
+
+
+def test_what_is_solved_of_a_machine_counts() -> None:
+    """A machine that exceeds the limit in one case is bad whatever its unsolved case does."""
+    found = of_spectrum(array([1.0, np.nan], [0.0, 0.0]), Limit("above", 0.5, 0.0))
+    assert found.bounds == (0.5, 0.5)
+    assert found.probability == 0.5
+    nothing = of_spectrum(array([np.nan, np.nan]), Limit("above", 0.5, 1.0))
+    assert nothing.bounds == (0.0, 1.0)
+
+
+def test_cases_that_move_oppositely() -> None:
+    """One input makes a case better and the other worse: the machine is bad if either is, never both at once."""
+    x = norm.ppf((np.arange(4096) + 0.5) / 4096).reshape(1, -1)
+    outputs, limit = np.stack([x, -x], axis=-1), Limit("above", 1.5, 0.4)
+    one, other = (of_case(outputs[..., case], limit).probability for case in (0, 1))
+    both = of_spectrum(outputs, limit).probability
+    assert one is not None
+    assert other is not None
+    assert both is not None
+    assert one == pytest.approx(other, rel=1e-9)
+    assert max(one, other) < both < one + other
+    independent = np.stack([x, np.random.default_rng(1).permutation(-x, axis=1)], axis=-1)
+    elsewise = of_spectrum(independent, limit).probability
+    assert elsewise is not None
+    assert abs(elsewise - both) > 0.02 * both
+
+
+def test_what_decides() -> None:
+    assert deciding(np.array([[3.0, 1.0], [1.0, 2.0], [5.0, 4.0], [0.0, 9.0]]), Limit("above", 0, 0)) == [0.5, 0.5]
+    assert deciding(np.array([[3.0, 1.0], [1.0, 2.0], [5.0, 4.0], [0.0, 9.0]]), Limit("below", 0, 0)) == [0.5, 0.5]
+    assert deciding(np.array([[3.0, 3.0, 1.0], [1.0, np.nan, 2.0]]), Limit("above", 0, 0)) == [0.5, 0.5, 0.0]
+    assert deciding(np.array([[np.nan, 1.0]]), Limit("above", 0, 0)) is None
+
+
+def test_means_over_the_operating_time() -> None:
+    outputs = np.array([[[1.0, 11.0], [3.0, 13.0]], [[2.0, 12.0], [np.nan, 99.0]]])
+    found = weighted_mean(outputs, [0.9, 0.1])
+    assert found is not None
+    assert found.mean == pytest.approx((3.0 + 3.0) / 2)  # 2 and 4 in the first replicate, 3 in the second
+    assert weighted_mean(outputs * np.nan, [0.9, 0.1]) is None
+
+
+def test_small_statistics() -> None:
+    values = np.array([np.nan, 0.0, 1.0, 2.0, 3.0, 4.0])
+    assert quantiles(values) == pytest.approx([0.2, 2.0, 3.8])
+    assert quantiles(values[:1]) is None
+    edges, density = histogram(np.arange(100.0))
+    assert len(edges) == len(density) + 1
+    assert np.sum(np.diff(edges) * density) == pytest.approx(1.0)
+    assert histogram(np.ones(5)) == ([], [])
+    assert histogram(np.array([1.0, np.nextafter(1.0, 2.0)] * 8)) == ([], [])
+    assert rank_correlation(np.arange(9.0), np.exp(np.arange(9.0))) == pytest.approx(1.0)
+    assert rank_correlation(np.arange(2.0), np.arange(2.0)) is None
+
+
+class TestDistributions:
+    """Quantiles of the laws, and where they are cut."""
+
+    def value(self, scatter: Range, share: float, leaf: Leaf = FRICTION) -> float:
+        return float(drawn([scatter], [leaf], np.array([[share]]))[0, 0])
+
+    def test_normal(self) -> None:
+        scatter = Normal(path="x", distribution="normal", mean=0.2, deviation=0.02)
+        assert self.value(scatter, 0.5) == pytest.approx(0.2)
+        assert self.value(scatter, 0.84134475) == pytest.approx(0.22, abs=1e-5)
+        assert (self.value(scatter, 0.0), self.value(scatter, 1.0)) == pytest.approx((0.12, 0.28))
+        assert cut(scatter, FRICTION).cut_off == pytest.approx(6.334248e-5)
+
+    def test_cut_at_the_end_of_the_field(self) -> None:
+        """Friction is not negative: what lies below zero, a tenth of the distribution, is cut off."""
+        scatter = Normal(path="x", distribution="normal", mean=1.281551566, deviation=1.0)
+        assert 0.0 <= self.value(scatter, 0.0) < 1e-8
+        assert cut(scatter, FRICTION).cut_off == pytest.approx(0.1 + norm.sf(2.0 - 1.281551566))
+        assert self.value(scatter, 1.0) == pytest.approx(2.0)
+
+    def test_lognormal(self) -> None:
+        scatter = Lognormal(path="x", distribution="lognormal", median=0.05, factor=1.3)
+        assert self.value(scatter, 0.5) == pytest.approx(0.05)
+        assert self.value(scatter, 0.84134475) == pytest.approx(0.065, rel=1e-4)
+        assert self.value(scatter, 1.0) == pytest.approx(0.05 * exp(4 * log(1.3)))
+
+    def test_triangular(self) -> None:
+        scatter = Triangular(path="x", distribution="triangular", min=0.0, mode=0.5, max=1.0)
+        assert self.value(scatter, 0.5) == pytest.approx(0.5)
+        assert self.value(scatter, 0.125) == pytest.approx(0.25)
+
+    def test_uniform(self) -> None:
+        scatter = Uniform(path="x", distribution="uniform", min=0.1, max=0.3)
+        assert self.value(scatter, 0.25) == pytest.approx(0.15)
+        assert self.value(Uniform(path="x", distribution="uniform", min=0.1, max=0.1), 0.7) == 0.1
+
+    def test_nothing_endless(self) -> None:
+        huge = Lognormal(path="x", distribution="lognormal", median=1e300, factor=1e6)
+        assert self.value(huge, 1.0, replace(FRICTION, declared=Input("free"))) < inf
+
+
+LINEAR = 3000.0  # N per unit of friction
+SPREAD = 0.02 * LINEAR
+LIMIT_SPREAD = 0.5 * SPREAD
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("method", "least", "most"), [("sobol", 0.80, 0.96), ("latin_hypercube", 0.85, 0.95)])
+@pytest.mark.parametrize("distance", [0.5, 1.5, 2.5])
+def test_the_interval_covers_the_truth(method: Method, least: float, most: float, distance: float) -> None:
+    """A linear output of a normal input against a normal limit: P = Phi((mu - m) / sqrt(s_y^2 + s^2)).
+
+    Probabilities of 31, 6.7 and 0.6 %. Below it means of replicates are skewed, and 90 % intervals cover some 77 %.
+    """
+    scatter = [Normal(path="x", distribution="normal", mean=0.2, deviation=0.02)]
+    limit = Limit("above", 0.2 * LINEAR + distance * hypot(SPREAD, LIMIT_SPREAD), LIMIT_SPREAD)
+    truth = float(norm.sf(distance))
+    covered = 0
+    for seed in range(400):
+        cubes = [
+            unit_cube(method, 128, 1, np.random.default_rng(each), "") for each in np.random.SeedSequence(seed).spawn(8)
+        ]
+        outputs = LINEAR * drawn(scatter, [FRICTION], np.concatenate(cubes)).reshape(8, 128)
+        interval = of_case(outputs, limit).interval
+        assert interval is not None
+        covered += interval[0] <= truth <= interval[1]
+    assert least <= covered / 400 <= most

@@ -1,0 +1,365 @@
+"""Load spectra: the same machine meets every case, nothing is lost, and simple laws come back."""
+
+import asyncio
+import copy
+import json
+from math import hypot
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.stats import norm
+
+from app.calculations import BY_PATH
+from app.errors import InvalidBody, Unprocessable, faults_of
+from app.evaluate import evaluate
+from app.examples import examples
+from app.studies.examples import SPECTRUM_EXAMPLES
+from app.studies.spectrum import Spectrum, spectrum_study
+from app.studies.stream import Clock, encoded, guarded, json_line
+from app.studies.sweep import sweep_study
+from tests.support.pools import InlinePool
+
+COUPLING = examples()["pahl-axial-displacement"]
+LOADS = examples()["xue-pair-1-modified"]
+STAGE = examples()["starter-high-speed-scuffing"]
+MU = "friction.coefficient"
+COAXIAL = "axial_thrust.coaxial_limit_n"
+PRESSURE = "pressure.max_mpa"
+SLOPE = {"path": "modifications.helix_slope_um", "distribution": "normal", "mean": 0, "deviation": 8}
+
+
+def coupling(**parts: Any) -> dict[str, Any]:
+    body = {"endpoint": COUPLING.endpoint, "request": COUPLING.request, "cases": [{}], "outputs": [COAXIAL], **parts}
+    return {name: part for name, part in body.items() if part is not None}
+
+
+def loads(**parts: Any) -> dict[str, Any]:
+    return {"endpoint": LOADS.endpoint, "request": LOADS.request, "outputs": [PRESSURE], **parts}
+
+
+def friction(**parts: Any) -> dict[str, Any]:
+    return {"inputs": [{"path": MU, "distribution": "normal", "mean": 0.2, "deviation": 0.02}], **parts}
+
+
+def above(output: str, mean: float, deviation: float | None = None) -> dict[str, Any]:
+    return {"output": output, "above": {"value": mean} if deviation is None else {"mean": mean, "deviation": deviation}}
+
+
+def study_of(body: object, most: int = 20_000) -> Spectrum:
+    return spectrum_study(json.dumps(body).encode(), most, 30.0)
+
+
+def text_of(body: object, slots: int = 1) -> bytes:
+    study = study_of(body)
+
+    async def run() -> bytes:
+        clock = Clock(study.total)
+        lines = guarded(study.lines(InlinePool(slots), clock), clock, 600)
+        return b"".join([piece async for piece in encoded(lines, json_line)])
+
+    return asyncio.run(run())
+
+
+def solved(body: object, slots: int = 1) -> list[dict[str, Any]]:
+    """The lines, without those of progress and without the time."""
+    lines = map(json.loads, text_of(body, slots).splitlines())
+    return [{**line, "elapsed_s": 0} for line in lines if line["type"] != "progress"]
+
+
+def fault_of(body: object, most: int = 20_000) -> tuple[str, str, str]:
+    with pytest.raises((Unprocessable, InvalidBody)) as caught:
+        study_of(body, most)
+    (fault, *_) = faults_of(caught.value)
+    return fault["pointer"], fault["code"], fault["message"]
+
+
+def test_lines() -> None:
+    header, *points, end = solved(coupling(tolerances=friction(count=4, replicates=2), points=True))
+    assert list(header) == [
+        *(
+            "type",
+            "endpoint",
+            "cases",
+            "tolerances",
+            "outputs",
+            "total",
+            "model_version",
+            "sources",
+            "case",
+            "elapsed_s",
+        )
+    ]
+    assert header["cases"] == [{"name": "case 1", "share": 1.0, "set": {}}]
+    assert header["tolerances"]["inputs"][0]["cut_off"] == pytest.approx(6.334248e-5)
+    assert [(line["draw"], line["case"]) for line in points] == [(draw, 0) for draw in range(8)]
+    assert end["points"] == 8
+    assert end["counts"] == {"ok": 8}
+    assert "friction.static_coefficient" not in {each["field"] for each in end["assumptions"]}
+    assert [line["type"] for line in solved(coupling(tolerances=friction(count=4, replicates=2)))] == [
+        "spectrum",
+        "end",
+    ]
+
+
+def test_one_case_without_tolerances() -> None:
+    """P = Phi((y - m) / s) to rounding, and nothing that scatters."""
+    header, end = solved(coupling(limits=[above(COAXIAL, 3000, 400)]))
+    (limit,) = end["limits"]
+    mean = end["outputs"][COAXIAL]["mean"]
+    assert header["total"] == 1
+    assert limit["probability"] == pytest.approx(norm.cdf((mean - 3000) / 400), rel=1e-12)
+    assert limit["bounds"] == [limit["probability"]] * 2
+    assert limit["standard_error"] is limit["interval"] is limit["rank_correlation"] is None
+    assert limit["decides"] == [1.0]
+
+
+def test_a_linear_output_of_a_normal_input() -> None:
+    """The coaxial thrust is the friction coefficient times a force: P = Phi((mu - m) / sqrt(s_y^2 + s^2))."""
+    nominal = solved(coupling(cases=[{"set": {MU: 0.2}}]))[-1]["outputs"][COAXIAL]["mean"]
+    deviation = 0.1 * nominal
+    limits = [
+        above(COAXIAL, nominal + 0.5 * deviation, deviation),
+        above(COAXIAL, nominal + 2.0 * deviation, deviation),
+    ]
+    *_, end = solved(coupling(tolerances=friction(), limits=limits))
+    for found, distance in zip(end["limits"], (0.5, 2.0), strict=True):
+        expected = norm.sf(distance * deviation / hypot(deviation, deviation))
+        assert found["interval"][0] <= expected <= found["interval"][1]
+        assert found["probability"] == pytest.approx(expected, abs=4.0 * found["standard_error"])
+        assert found["standard_error"] < 2e-4
+        assert found["rank_correlation"] == {MU: pytest.approx(1.0)}
+    low, middle, high = end["cases"][0]["quantiles"][COAXIAL]
+    assert middle == pytest.approx(nominal, rel=1e-3)
+    assert (low, high) == pytest.approx((nominal - 1.645 * deviation, nominal + 1.645 * deviation), rel=3e-3)
+
+
+def test_a_case_listed_twice_changes_nothing_but_who_decides() -> None:
+    one = {"name": "a", "share": 0.6, "set": {"operation.torque_n_m": 2000}}
+    other = {"name": "b", "share": 0.4, "set": {"operation.torque_n_m": 3000}}
+    half = {**other, "share": 0.2}
+    parts = {
+        "tolerances": friction(count=16, replicates=4),
+        "limits": [above(COAXIAL, 3000, 300)],
+        "hours_per_year": 8000,
+    }
+    *_, once = solved(coupling(cases=[one, other], **parts))
+    *_, twice = solved(coupling(cases=[one, half, half], **parts))
+    assert once["limits"][0].pop("decides") == [0.0, 1.0]
+    assert twice["limits"][0].pop("decides") == [0.0, 0.5, 0.5]
+    assert twice["limits"] == once["limits"]
+    assert twice["cases"][0] == once["cases"][0]
+    assert {**twice["cases"][2], "share": 0.4} == once["cases"][1]
+    mean, again = (end["outputs"][COAXIAL] for end in (once, twice))
+    assert again["mean"] == pytest.approx(mean["mean"], rel=1e-14)
+    assert again["max"]["value"] == mean["max"]["value"]
+
+
+def test_the_same_machine_runs_every_case() -> None:
+    """The helix slope makes one case worse and the other better: one machine is bad in one case or in the other."""
+    cases = [{"set": {"modifications.in_plane_deviation_um": each}} for each in (80.0, -80.0)]
+    tolerances = {"inputs": [SLOPE], "count": 16, "replicates": 4}
+    limit = above(PRESSURE, 1690.0, 25.0)
+    header, *points, end = solved(loads(cases=cases, tolerances=tolerances, limits=[limit], points=True))
+    for one, other in zip(points[::2], points[1::2], strict=True):
+        assert one["at"]["modifications.helix_slope_um"] == other["at"]["modifications.helix_slope_um"]
+    up, down = (np.array([point["out"][0] for point in points[case::2]]) for case in (0, 1))
+    assert np.corrcoef(up, down)[0, 1] < -0.9
+    alone = [case["limits"][0]["probability"] for case in end["cases"]]
+    (spectrum,) = end["limits"]
+    assert max(alone) < spectrum["probability"] < sum(alone)
+    by_hand = norm.cdf((np.maximum(up, down) - 1690.0) / 25.0).mean()
+    independent = norm.cdf((np.maximum(up, np.roll(down, 7)) - 1690.0) / 25.0).mean()
+    assert spectrum["probability"] == pytest.approx(by_hand, rel=1e-12)
+    assert abs(independent - by_hand) > 0.01
+    assert sum(spectrum["decides"]) == pytest.approx(1.0)
+    assert min(spectrum["decides"]) > 0.2
+    assert header["total"] == 128
+
+
+def test_a_draw_without_solution_is_never_lost() -> None:
+    """Teeth that are too high have no mesh: their draws are counted, and the probability lies between two bounds."""
+    high = {"path": "gears.pinion.addendum", "distribution": "uniform", "min": 1.0, "max": 3.0}
+    tolerances = {"inputs": [high], "count": 16, "replicates": 2}
+    _, *points, end = solved(loads(cases=[{}], tolerances=tolerances, limits=[above(PRESSURE, 1e5, 1.0)], points=True))
+    refused = sum(point["status"] == "refused" for point in points)
+    assert 0 < refused < 32
+    assert end["counts"]["refused"] == refused
+    assert sum(end["errors"].values()) == refused
+    assert end["cases"][0]["unsolved"] == end["limits"][0]["unsolved"] == pytest.approx(refused / 32)
+    assert end["limits"][0]["probability"] is None
+    assert end["limits"][0]["bounds"] == [0.0, pytest.approx(refused / 32)]
+    assert end["limits"][0]["risk"] == "high"
+
+
+def test_nothing_solved() -> None:
+    *_, end = solved(loads(cases=[{"set": {"gears.pinion.addendum": 3.0}}], limits=[above(PRESSURE, 1e3)]))
+    assert end["limits"][0]["bounds"] == [0.0, 1.0]
+    assert end["limits"][0]["decides"] is None
+    assert end["outputs"][PRESSURE] == {
+        "mean": None,
+        "standard_error": None,
+        "interval": None,
+        "min": None,
+        "max": None,
+    }
+
+
+def test_means_energy_and_extremes() -> None:
+    cases = [
+        {"share": 0.25, "set": {"operation.speed_rpm": 1000}},
+        {"share": 0.75, "set": {"operation.speed_rpm": 2000}},
+    ]
+    power = "losses.friction_power_w"
+    *_, end = solved(coupling(cases=cases, outputs=[power], hours_per_year=8000))
+    first, second = (case["means"][power] for case in end["cases"])
+    found = end["outputs"][power]
+    assert found["mean"] == pytest.approx(0.25 * first + 0.75 * second)
+    assert found["energy_kwh_per_year"] == pytest.approx(found["mean"] * 8.0)
+    assert (found["min"]["value"], found["min"]["case"], found["min"]["draw"]) == (first, 0, 0)
+    assert found["max"]["at"] == {"operation.speed_rpm": 2000}
+
+
+def scuffing() -> dict[str, Any]:
+    body: dict[str, Any] = copy.deepcopy(SPECTRUM_EXAMPLES["scuffing"]["value"])
+    body["tolerances"] |= {"count": 2, "replicates": 2}
+    return body
+
+
+def test_the_scuffing_temperature_is_the_limit_where_none_is_given() -> None:
+    *_, end = solved(scuffing())
+    (limit,) = end["limits"]
+    assert limit["output"] == "contact_temperature.blok_max_c"
+    assert limit["side"] == "above"
+    assert limit["deviation"] == pytest.approx(0.15 * limit["mean"])
+    (assumption,) = [each for each in end["assumptions"] if each["field"] == "limits"]
+    assert "AGMA 925-A03" in assumption["reason"]
+    body = {"detail": "summary", **STAGE.request}
+    own = evaluate(BY_PATH["/v1/scuffing"], BY_PATH["/v1/scuffing"].request.model_validate(body))
+    assert limit["mean"] == pytest.approx(own.safety.scuffing_c)
+    assert end["notes"] == []
+
+
+def test_a_scuffing_temperature_that_differs_between_cases_is_said() -> None:
+    body = scuffing()
+    body["cases"] = [{"set": {}}, {"set": {"temperatures.scuffing_test.fzg_stage": 10}}]
+    *_, end = solved(body)
+    assert len(end["notes"]) == 1
+    assert "differs between the cases" in end["notes"][0]
+
+
+def test_no_limit_without_a_scuffing_temperature() -> None:
+    body = scuffing()
+    body["request"]["temperatures"].pop("scuffing_test")
+    *_, end = solved(body)
+    assert end["limits"] == []
+    assert "no scuffing temperature" in end["notes"][0]
+    *_, end = solved({**scuffing(), "limits": []})
+    assert end["limits"] == end["notes"] == []
+
+
+def test_equal_seeds_give_equal_bytes() -> None:
+    body = coupling(tolerances=friction(count=8, replicates=2), limits=[above(COAXIAL, 3000)])
+    first, second, other = solved(body), solved(body, slots=3), solved(coupling(tolerances=friction(count=8, seed=2)))
+    assert json.dumps(first) == json.dumps(second)
+    assert first[-1]["outputs"] != other[-1]["outputs"]
+
+
+def test_replicates_are_independent_samples() -> None:
+    study = study_of(coupling(tolerances=friction(count=8, replicates=3)))
+    assert study.scattering is not None
+    samples = study.scattering.values.reshape(3, 8)
+    assert len({tuple(sorted(sample)) for sample in samples}) == 3
+    for sample in samples:  # one point in each eighth of the distribution
+        assert sorted(np.floor(8 * norm.cdf((sample - 0.2) / 0.02)).astype(int)) == list(range(8))
+
+
+def test_a_gear_unit_with_temperatures_of_its_own_in_each_case() -> None:
+    body = copy.deepcopy(SPECTRUM_EXAMPLES["drive_train"]["value"])
+    body["tolerances"] |= {"count": 2, "replicates": 2}
+    header, *points, end = solved({**body, "points": True})
+    contact = [each["path"] for each in header["outputs"]].index("flash.contact_max_c")
+    full, half = (np.array([line["out"][contact] for line in points if line["case"] == case]) for case in (0, 1))
+    assert (full > half + 10.0).all()
+    assert end["limits"][0]["output"] == "flash.contact_max_c"
+    assert (end["limits"][0]["mean"], end["limits"][0]["deviation"]) == (pytest.approx(220.0), pytest.approx(33.0))
+    assert end["limits"][0]["decides"] == [1.0, 0.0]
+    assert end["cases"][0]["limits"][0]["probability"] == pytest.approx(norm.cdf((full - 220) / 33).mean())
+
+
+@pytest.mark.parametrize(
+    ("change", "pointer", "code"),
+    [
+        ({"cases": []}, "/cases", "too_short"),
+        ({"cases": [{"share": 0.5}, {}]}, "/cases", "shares"),
+        ({"cases": [{"share": 0.5}, {"share": 0.4}]}, "/cases", "shares"),
+        ({"cases": [{"share": -0.5}]}, "/cases/0/share", "greater_than_equal"),
+        ({"cases": [{}] * 101}, "/cases", "too_long"),
+        ({"cases": [{"set": {"operation.sped_rpm": 1}}]}, "/cases/0/set", "unknown_path"),
+        ({"cases": [{"set": {}}, {"set": {"operation.speed_rpm": 1e9}}]}, "/cases/1/set", "out_of_range"),
+        ({"cases": [{"set": {MU: 0.1}}], "tolerances": friction()}, "/tolerances/inputs/0/path", "duplicate_path"),
+        ({"tolerances": friction(count=100)}, "/tolerances/count", "not_power_of_two"),
+        ({"tolerances": friction(inputs=[])}, "/tolerances/inputs", "too_short"),
+        ({"tolerances": {"inputs": [{"path": MU}]}}, "/tolerances/inputs/0", "union_tag_not_found"),
+        (
+            {"tolerances": {"inputs": [{"path": MU, "distribution": "beta"}]}},
+            "/tolerances/inputs/0",
+            "union_tag_invalid",
+        ),
+        (
+            {"tolerances": {"inputs": [{"path": MU, "distribution": "normal", "mean": 0.2, "deviation": 0}]}},
+            "/tolerances/inputs/0/deviation",
+            "greater_than",
+        ),
+        (
+            {"tolerances": {"inputs": [{"path": MU, "distribution": "normal", "mean": -1, "deviation": 1}]}},
+            "/tolerances/inputs/0",
+            "out_of_range",
+        ),
+        (
+            {"tolerances": {"inputs": [{"path": MU, "distribution": "triangular", "min": 0, "mode": 2, "max": 1}]}},
+            "/tolerances/inputs/0",
+            "out_of_range",
+        ),
+        (
+            {"tolerances": {"inputs": [{"path": "coupling.teeth", "distribution": "uniform", "min": 20, "max": 30}]}},
+            "/tolerances/inputs/0",
+            "not_integer",
+        ),
+        ({"limits": [{"output": COAXIAL}]}, "/limits/0", "above_or_below"),
+        ({"limits": [{"output": COAXIAL, "above": {"mean": 2}}]}, "/limits/0/above", "value_or_mean"),
+        ({"limits": [above("lubrication.regime.area", 1)]}, "/limits/0/output", "unknown_output"),
+        ({"outputs": ["lubrication.regime.area"]}, "/outputs/0", "unknown_output"),
+        ({"hours_per_year": 1e9}, "/hours_per_year", "less_than_equal"),
+        ({"endpoint": "/v1/nothing"}, "/endpoint", "unknown_endpoint"),
+    ],
+)
+def test_refusals(change: dict[str, Any], pointer: str, code: str) -> None:
+    assert fault_of(coupling(**change))[:2] == (pointer, code)
+
+
+def test_shares_are_normalised() -> None:
+    assert study_of(coupling(cases=[{"share": 0.5}, {"share": 0.495}])).shares == pytest.approx(
+        [0.502513, 0.497487], abs=1e-6
+    )
+    assert study_of(coupling(cases=[{}, {}, {}, {}])).shares == [0.25] * 4
+
+
+def test_a_study_of_too_many_solutions_is_refused_with_an_estimate() -> None:
+    pointer, code, message = fault_of(coupling(tolerances=friction(count=1024, replicates=100)))
+    assert (pointer, code) == ("/tolerances/count", "too_many_points")
+    assert "102400 solutions; at most 20000 are allowed" in message
+    assert " s on one core" in message
+
+
+def test_distributions_of_a_sample() -> None:
+    """A sweep takes the distributions of a spectrum."""
+    body = {
+        "endpoint": COUPLING.endpoint,
+        "request": COUPLING.request,
+        "sample": {"count": 64, "method": "sobol", **friction()},
+    }
+    points = sweep_study(json.dumps(body).encode(), 2500, 30.0).points
+    assert points.sample is not None
+    assert points.sample.mean() == pytest.approx(0.2, abs=1e-3)
+    assert points.sample.std() == pytest.approx(0.02, abs=1e-3)
