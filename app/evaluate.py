@@ -10,7 +10,6 @@ from app.errors import Unprocessable
 from app.figures import rendering
 from app.figures.data import ThemeName
 from app.figures.declaration import Declaration
-from app.plausibility import unusual
 from app.schema.base import MODEL_VERSION, Notice, Request, Response, Section
 from app.schema.model import above, from_si, group_of
 from app.schema.paths import field_path
@@ -105,7 +104,6 @@ def evaluate(calculation: Calculation, request: Request) -> Response:
         content = from_si(
             calculation.response, result, request.detail, skip=_COMMON.difference(calculation.response.origins)
         )
-        warnings += unusual(request, content)
         content |= {"status": "ok_with_warnings" if warnings else "ok", "warnings": warnings}
         if getattr(result, "status", None) == "no_solution":
             content |= {"status": "no_solution", "residuals": result.residuals}

@@ -8,14 +8,12 @@ import numpy as np
 
 from solvers.compiled import kernel
 from solvers.errors import InvalidInput
-from solvers.notices import Notice
 from solvers.quantity import quantity
 
 PressureViscosityLaw = Literal["roelands", "barus"]
 OilKind = Literal["mineral", "pao", "ester", "polyglycol"]
 
 HIGHEST_VISCOSITY = 1e4  # Pa s without pressure; no oil flows there
-THICK_OIL = 1.0  # Pa s at operating temperature, beyond which a slip is likely
 
 ROELANDS_PRESSURE = 5.1e-9  # 1/Pa
 ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the viscosity 6.31e-5 Pa s at the pole
@@ -98,14 +96,6 @@ class OilInUse:
     density: float = quantity("oil density used", "ρ_0", unit="kg_per_m3")
     specific_heat: float = quantity("oil specific heat used", "c_oil", unit="j_per_kg_k")
     thermal_conductivity: float = quantity("oil thermal conductivity used", "λ_oil", unit="w_per_m_k")
-
-
-def thick_oil(viscosity: float) -> Notice | None:
-    """The notice of a viscosity [Pa s] at operating temperature that few machines run with."""
-    if viscosity <= THICK_OIL:
-        return None
-    message = f"{viscosity:.4g} Pa s at operating temperature is very thick; mPa s?"
-    return Notice("unusual_value", message, "lubricant.viscosity")
 
 
 def oil_in_use(lubricant: Lubricant) -> dict[str, float]:

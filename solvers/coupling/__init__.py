@@ -5,8 +5,13 @@ load_distribution, notices; `model.solve` calls them all. The sleeve's orbit nee
 model to recommend a crowning ratio.
 """
 
-from solvers.coupling.crowning.recommendation import recommend
-from solvers.coupling.model import solve
-from solvers.coupling.orbit import solve_orbit
+from solvers.coupling import model, orbit
+from solvers.coupling.crowning import recommendation
+from solvers.coupling.notices import slips
+from solvers.plausibility import warned
+
+solve = warned(model.solve, slips)
+solve_orbit = warned(orbit.solve_orbit, slips)
+recommend = warned(recommendation.recommend, slips)
 
 __all__ = ["recommend", "solve", "solve_orbit"]

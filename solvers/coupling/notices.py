@@ -3,13 +3,13 @@
 from collections.abc import Iterator
 from math import degrees
 
+from solvers import plausibility
 from solvers.coupling.checks import MAX_MISALIGNMENT
-from solvers.coupling.inputs import CouplingInputs
+from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
 from solvers.coupling.losses import equal_loads_friction_moment
 from solvers.coupling.lubrication import UNSTABLE_AREA
 from solvers.coupling.results import AxialThrust, Geometry, Kinematics, Limits, LoadDistribution, Lubrication
 from solvers.coupling.teeth.limits import SLIDING_VELOCITY_LIMIT
-from solvers.lubricants import thick_oil
 from solvers.notices import Notice
 
 ORBIT_RESOLUTION = 0.01
@@ -72,8 +72,7 @@ def load_notices(
 
 def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication: Lubrication) -> Iterator[Notice]:
     """Notices about the oil, the contact on the face and the film."""
-    if (thick := thick_oil(inputs.lubricant.viscosity)) is not None:
-        yield thick
+    yield from plausibility.thick_oil(inputs.lubricant.viscosity)
     half_face = inputs.coupling.face_width / 2.0
     if lubrication.hertz_half_width > half_face:
         yield Notice("wide_contact", "the contact at rest is wider than the tooth face", "face_width")
@@ -116,3 +115,9 @@ def orbit_notices(
     if share > ORBIT_RESOLUTION:
         message = f"teeth that load and unload leave the {name} uncertain by {100.0 * share:.2g} %"
         yield Notice("orbit_resolution", message, "misalignment")
+
+
+def slips(inputs: CouplingInputs | RecommendationInputs, _result: object) -> Iterator[Notice]:
+    """What looks like a slip in the description of a coupling."""
+    coupling = (inputs.design if isinstance(inputs, RecommendationInputs) else inputs).coupling
+    return plausibility.tall_tooth(coupling.tooth_height, coupling.module)

@@ -6,6 +6,10 @@ the hot unit and the cold one by `states.solve`. On top stand studies of many un
 Own derivation; sources stand with the equations.
 """
 
-from solvers.drive_train.states import solve
+from solvers.drive_train import states
+from solvers.drive_train.notices import slips
+from solvers.plausibility import warned
+
+solve = warned(states.solve, slips)
 
 __all__ = ["solve"]

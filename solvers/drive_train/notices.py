@@ -3,10 +3,19 @@
 from collections.abc import Iterator
 from dataclasses import replace
 
+from solvers import plausibility
 from solvers.drive_train.checks import NAMES
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing
-from solvers.drive_train.results import CouplingResult, FaceLoad, ShaftResult, TrainLosses, TrainSafety
+from solvers.drive_train.results import (
+    CouplingResult,
+    DriveTrainResult,
+    FaceLoad,
+    ShaftResult,
+    TrainLosses,
+    TrainSafety,
+)
 from solvers.notices import Notice
+from solvers.scuffing.notices import modification_slips
 
 SHORT_BEARING = 0.7  # width over diameter
 ROUNDING = 1e-9  # of lengths that come from other units
@@ -94,3 +103,20 @@ def coupling_notices(
             code = "misalignment_limit" if notice.code == "sliding_velocity" else notice.code
             where = field if notice.field is None else f"{field}.{notice.field}"
             yield replace(notice, code=code, field=where)
+
+
+def slips(inputs: DriveTrainInputs, result: DriveTrainResult) -> Iterator[Notice]:
+    """What looks like a slip in oils, temperatures, ambient, couplings, gears, modifications and load."""
+    derived, mesh, load = result.derived, inputs.mesh.distribution, result.load
+    yield from plausibility.thick_oil(derived.lubricant.viscosity if derived.lubricant else None)
+    for name, shaft in zip(NAMES, (derived.pinion_shaft, derived.wheel_shaft), strict=True):
+        for k, bearing in enumerate(shaft.bearings):
+            yield from plausibility.thick_oil(bearing.viscosity, f"{name}.bearings.{k}.viscosity")
+    yield from plausibility.hot_oil(inputs.mesh.temperatures.oil, derived.temperatures.bulk)
+    yield from plausibility.thin_air(inputs.pumping.ambient.pressure)
+    for k, each in enumerate(inputs.couplings):
+        yield from plausibility.tall_tooth(each.coupling.tooth_height, each.coupling.module, f"couplings.{k}.coupling")
+    yield from plausibility.gears(mesh.gears, mesh.load.pinion_speed)
+    yield from modification_slips(mesh.modifications)
+    yield from plausibility.high_pressure(load.max_pressure)
+    yield from plausibility.tooth_load(mesh.gears, mesh.load.torque, load.max_line_load)

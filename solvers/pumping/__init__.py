@@ -5,7 +5,8 @@ duct, record) -> one of gas, chain and incompressible -> resolution, lead_correc
 `model.solve`). `spaces` prepares what no speed changes and picks the flow model; on top of it choking and speed_scan.
 """
 
-from solvers.pumping.choking import choking_speeds
+from solvers.plausibility import warned
+from solvers.pumping import choking, model
 from solvers.pumping.inputs import (
     Ambient,
     ChokingInputs,
@@ -18,8 +19,11 @@ from solvers.pumping.inputs import (
     PumpingSetup,
     Spaces,
 )
-from solvers.pumping.model import solve
+from solvers.pumping.notices import slips
 from solvers.pumping.results import ChokingSpeeds, PumpingResult
+
+solve = warned(model.solve, slips)
+choking_speeds = warned(choking.choking_speeds, slips)
 
 __all__ = [
     "Ambient",

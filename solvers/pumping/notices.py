@@ -1,13 +1,14 @@
 """Warnings of a pumping calculation: too coarse, unresolved, or outside the range in which the models were compared."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import degrees, expm1, inf, pi
 
+from solvers import plausibility
 from solvers.gears.notices import pair_notices
 from solvers.gears.pair import GearPair, PathOfContact
 from solvers.notices import Notice
 from solvers.pumping.flow.nozzle import Gas
-from solvers.pumping.inputs import Flow, PumpingSetup
+from solvers.pumping.inputs import ChokingInputs, Flow, PumpingInputs, PumpingSetup
 from solvers.pumping.results import MassFlow, Resolution
 from solvers.pumping.space.stroke import StrokeTable
 
@@ -126,3 +127,10 @@ def speed_notices(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]
         )
         return [Notice("high_speed", message, "pinion_speed")]
     return []
+
+
+def slips(inputs: PumpingInputs | ChokingInputs, _result: object) -> Iterator[Notice]:
+    """What looks like a slip in ambient, gears and speed."""
+    yield from plausibility.thin_air(inputs.setup.ambient.pressure)
+    speed = inputs.pinion_speed if isinstance(inputs, PumpingInputs) else None
+    yield from plausibility.gears(inputs.setup.gears, speed)

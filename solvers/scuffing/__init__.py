@@ -8,7 +8,11 @@ Source: Xue, Zhang, Wang, "The Load Distribution with Modification and Misalignm
 Lubrication Simulation of Helical Gears", Global J. of Researches in Engineering A 20(1), 2020 ("the paper").
 """
 
-from solvers.scuffing.model import solve as solve_load_distribution
-from solvers.scuffing.safety import solve_scuffing
+from solvers.plausibility import warned
+from solvers.scuffing import model, safety
+from solvers.scuffing.notices import load_slips, scuffing_slips
+
+solve_load_distribution = warned(model.solve, load_slips)
+solve_scuffing = warned(safety.solve_scuffing, scuffing_slips)
 
 __all__ = ["solve_load_distribution", "solve_scuffing"]

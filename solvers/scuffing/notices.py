@@ -1,17 +1,22 @@
 """Warnings of a load distribution."""
 
+from collections.abc import Iterator
 from math import degrees
 
 import numpy as np
 
+from solvers import plausibility
 from solvers.gears.inputs import GearPairInputs
 from solvers.gears.notices import pair_notices
 from solvers.gears.pair import PathOfContact
 from solvers.notices import Notice
+from solvers.quantity import quantities
 from solvers.scuffing.contact_lines import ContactLengths
 from solvers.scuffing.contact_slices import reaches_base_circle
-from solvers.scuffing.inputs import Model, Modifications
+from solvers.scuffing.inputs import LoadDistributionInputs, Model, Modifications, ScuffingInputs
 from solvers.scuffing.load_balance import LoadBalance
+from solvers.scuffing.results import LoadDistribution
+from solvers.scuffing.safety_results import Scuffing
 
 LEAST_TEETH = 8  # chosen: gears of fewer teeth are not in use
 PRESSURE_ANGLES = (14.5, 30.0)  # degrees
@@ -128,3 +133,27 @@ def load_notices(balance: LoadBalance) -> list[Notice]:
             )
         )
     return notices
+
+
+def load_slips(inputs: LoadDistributionInputs, result: LoadDistribution) -> Iterator[Notice]:
+    """What looks like a slip in gears, modifications and load."""
+    yield from plausibility.gears(inputs.gears, inputs.load.pinion_speed)
+    yield from modification_slips(inputs.modifications)
+    yield from plausibility.high_pressure(result.pressure.max)
+    yield from plausibility.tooth_load(inputs.gears, inputs.load.torque, result.load.max_line_load)
+
+
+def modification_slips(modifications: Modifications) -> Iterator[Notice]:
+    """Modifications that cannot be ground."""
+    depths = {
+        name: getattr(modifications, name) for name, each in quantities(Modifications).items() if each.unit == "um"
+    }
+    return plausibility.modifications(depths, modifications.lead_curve.gap)
+
+
+def scuffing_slips(inputs: ScuffingInputs, result: Scuffing) -> Iterator[Notice]:
+    """What looks like a slip in oil, temperatures, gears, modifications and load."""
+    oil, hottest = result.derived.oil, result.contact_temperature
+    yield from plausibility.thick_oil(oil.viscosity if oil else None)
+    yield from plausibility.hot_oil(inputs.temperatures.oil, hottest.bulk if hottest else None)
+    yield from load_slips(inputs.distribution, result.distribution)

@@ -87,7 +87,6 @@ ROOMS = (
     "examples",
     "figures",
     "calculations",
-    "plausibility",
     "evaluate",
     "workers",
     "studies",

@@ -5,11 +5,16 @@ newton -> continuation -> measures, refinement -> results, notices. `model.solve
 many.
 """
 
+from solvers.contact.ehl import model
 from solvers.contact.ehl.checks import check, lightest
 from solvers.contact.ehl.inputs import Contact, LineContactInputs, Model, Rheology, Temperatures
-from solvers.contact.ehl.model import solve, warm_up
+from solvers.contact.ehl.model import warm_up
+from solvers.contact.ehl.notices import slips
 from solvers.contact.ehl.path import solve_path
 from solvers.contact.ehl.results import LineContactResult, Stage
+from solvers.plausibility import warned
+
+solve = warned(model.solve, slips)
 
 __all__ = [
     "Contact",

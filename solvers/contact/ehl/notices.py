@@ -1,5 +1,8 @@
 """Warnings of the line contact: one for every range that is left."""
 
+from collections.abc import Iterator
+
+from solvers import plausibility
 from solvers.contact.ehl.inputs import LineContactInputs
 from solvers.contact.ehl.results import (
     ContactFriction,
@@ -7,6 +10,7 @@ from solvers.contact.ehl.results import (
     Convergence,
     Dimensionless,
     FilmThickness,
+    LineContactResult,
     MeshError,
     Stage,
 )
@@ -95,3 +99,9 @@ def failure_notice(convergence: Convergence) -> Notice:
     """Why there is no solution."""
     message = f"{FAILURES[convergence.stage]} on {convergence.nodes} nodes; try other nodes or ree_eyring"
     return Notice("not_converged", message, "nodes")
+
+
+def slips(_inputs: LineContactInputs, result: LineContactResult) -> Iterator[Notice]:
+    """What looks like a slip in oil and load."""
+    yield from plausibility.thick_oil(result.derived.viscosity)
+    yield from plausibility.high_pressure(result.hertz.max_pressure, "line_load")

@@ -11,13 +11,13 @@ from functools import lru_cache
 
 import numpy as np
 
-from solvers import pumping
 from solvers.arrays import FloatArray
 from solvers.drive_train.gap.face_curves import face_mean
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.gears.pair import PathOfContact
 from solvers.notices import Notice
-from solvers.pumping.inputs import PumpingSetup
+from solvers.pumping import model as pumping
+from solvers.pumping.inputs import PumpingInputs, PumpingSetup
 from solvers.pumping.results import SpacesResult
 
 EXPANSION = 12e-6  # of steel, 1/K
@@ -56,7 +56,7 @@ def gas_heat(setup: PumpingSetup, pinion_speed: float) -> GasHeat:
 
     Raises what `pumping.solve` raises.
     """
-    result = pumping.solve(pumping.PumpingInputs(setup, pinion_speed))
+    result = pumping.solve(PumpingInputs(setup, pinion_speed))
     (at_pinion, pinion), (at_wheel, wheel) = _profile(result.pinion_spaces), _profile(result.wheel_spaces)
     return GasHeat(at_pinion, pinion, at_wheel, wheel, result.total.pumping_power, result.warnings)
 

@@ -17,8 +17,8 @@ from math import acos, cos, hypot, pi, sin, sqrt
 
 import numpy as np
 
-from solvers import coupling as gear_coupling
 from solvers.arrays import FloatArray
+from solvers.coupling import model as gear_coupling
 from solvers.coupling.checks import check_contact, check_inputs
 from solvers.coupling.inputs import CouplingInputs, Operation
 from solvers.coupling.losses import loaded_mesh, losses

@@ -1,0 +1,123 @@
+"""Values inside their range that look like slips, often of a unit: a warning names the input and the likely slip.
+
+Each solver adds those of its inputs and results to its warnings (`warned`).
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import wraps
+from math import cos
+from typing import Any, Concatenate, ParamSpec, TypeVar, cast
+
+from solvers.gears.inputs import GearPairInputs
+from solvers.notices import Notice
+
+I = TypeVar("I")
+P = ParamSpec("P")
+R = TypeVar("R")
+Slips = Iterator[Notice]
+
+# Chosen limits, with what lies beyond them.
+THIN_AIR = 20e3  # Pa; nearly a vacuum
+LEAST_MODIFICATION = 0.5e-6  # m; less cannot be ground
+WIDEST_FACE = 3.0  # pitch diameters of the pinion
+NARROWEST_FACE = 0.5  # modules
+TALLEST_TOOTH = 4.0  # modules, of a coupling
+FASTEST = 250.0  # m/s at the pitch line
+HIGHEST_PRESSURE = 2.5e9  # Pa; steel flows
+HIGHEST_ROOT_LOAD = 400e6  # Pa, F_t/(b m_n); the stress in the root is four times it, beyond steel's strength
+LEAST_LOAD = 1e3  # N/m
+THICK_OIL = 1.0  # Pa s at operating temperature
+
+
+def warned(solve: Callable[Concatenate[I, P], R], slips: Callable[[I, R], Slips]) -> Callable[Concatenate[I, P], R]:
+    """The solver whose results also warn of what looks like a slip in its inputs."""
+
+    @wraps(solve)
+    def solved(inputs: I, /, *args: P.args, **kwargs: P.kwargs) -> R:
+        result = solve(inputs, *args, **kwargs)
+        found = tuple(slips(inputs, result))
+        if not found:
+            return result
+        known: Any = result
+        return cast("R", replace(known, warnings=(*known.warnings, *found)))
+
+    return solved
+
+
+def slip(field: str, message: str) -> Notice:
+    """The notice of a value of an input that looks like a slip."""
+    return Notice("unusual_value", message, field)
+
+
+def thick_oil(viscosity: float | None, field: str = "lubricant.viscosity") -> Slips:
+    """A viscosity [Pa s] at operating temperature that few machines run with."""
+    if viscosity is not None and viscosity > THICK_OIL:
+        yield slip(field, f"{viscosity:.4g} Pa s at operating temperature is very thick; mPa s?")
+
+
+def hot_oil(oil: float, bulk: float | None) -> Slips:
+    """Oil [K] that is hotter than the teeth [K]."""
+    if bulk is not None and oil > bulk:
+        message = f"the oil at {oil - 273.15:g} °C is hotter than the teeth at {bulk - 273.15:g} °C; exchanged?"
+        yield slip("temperatures.oil", message)
+
+
+def thin_air(pressure: float) -> Slips:
+    """An ambient pressure [Pa] that is nearly none."""
+    if pressure < THIN_AIR:
+        yield slip("ambient.pressure", f"{pressure / 1e3:g} kPa is nearly a vacuum; bar?")
+
+
+def tall_tooth(height: float, module: float, section: str = "coupling") -> Slips:
+    """A coupling's tooth [m]."""
+    if height > TALLEST_TOOTH * module:
+        message = f"{height * 1e3:g} mm is beyond {TALLEST_TOOTH:g} modules; a diameter?"
+        yield slip(f"{section}.tooth_height", message)
+
+
+def gears(pair: GearPairInputs, pinion_speed: float | None = None) -> Slips:
+    """Face width, and pitch-line velocity at a speed of the pinion [rad/s]."""
+    diameter, width = pitch_diameter(pair), pair.face_width
+    if width > WIDEST_FACE * diameter:
+        message = f"{width * 1e3:g} mm is beyond {WIDEST_FACE:g} pitch diameters of the pinion; cm?"
+        yield slip("gears.face_width", message)
+    if width < NARROWEST_FACE * pair.module:
+        yield slip("gears.face_width", f"{width * 1e3:g} mm is below half a module; cm or inches?")
+    if pinion_speed is not None and (velocity := pinion_speed * diameter / 2) > FASTEST:
+        message = f"the pitch-line velocity is {velocity:.4g} m/s, beyond {FASTEST:g}; the speed of another shaft?"
+        yield slip("pinion_speed", message)
+
+
+def modifications(depths: dict[str, float], curve: tuple[float, ...] = ()) -> Slips:
+    """Depths of modifications by name, and gaps of a lead curve [m]."""
+    for name, value in depths.items():
+        if 0.0 < abs(value) < LEAST_MODIFICATION:
+            yield slip(f"modifications.{name}", f"{value * 1e6:g} µm is less than can be ground; mm?")
+    highest = max(map(abs, curve), default=0.0)
+    if 0.0 < highest < LEAST_MODIFICATION:
+        message = f"{highest * 1e6:g} µm is less than can be ground; mm?"
+        yield slip("modifications.lead_curve.gap", message)
+
+
+def high_pressure(pressure: float | None, field: str = "pinion_torque") -> Slips:
+    """A Hertz pressure [Pa]."""
+    if pressure is not None and pressure > HIGHEST_PRESSURE:
+        message = f"the Hertz pressure of {pressure / 1e6:.4g} MPa is beyond what steel carries; too much load?"
+        yield slip(field, message)
+
+
+def tooth_load(pair: GearPairInputs, torque: float, line_load: float) -> Slips:
+    """The transmitted torque of the pinion [N m] and the largest line load [N/m]."""
+    root = 2 * torque / pitch_diameter(pair) / (pair.face_width * pair.module)
+    if root > HIGHEST_ROOT_LOAD:
+        message = f"the tooth force of {root / 1e6:.4g} N per mm of face and module breaks a tooth of steel; W or N mm?"
+        yield slip("pinion_torque", message)
+    if 0.0 < line_load < LEAST_LOAD:
+        yield slip("pinion_torque", f"the line load is {line_load / 1e3:.3g} N/mm at most; kW or kN m?")
+
+
+def pitch_diameter(pair: GearPairInputs) -> float:
+    """Reference diameter of the pinion [m]."""
+    transverse = 1.0 if pair.module_plane == "transverse" else cos(pair.helix_angle)
+    return pair.module / transverse * pair.pinion.teeth
