@@ -221,13 +221,16 @@ def is_complete(content: str) -> bool:
     return any((root / _mark(content)).is_file() for root in roots())
 
 
-def mark_complete(content: str) -> None:
-    """Note that everything that `content` names is compiled and kept."""
+def mark_complete(content: str, *, complete: bool = True) -> None:
+    """Note whether everything that `content` names is compiled and kept."""
     root = writable_root()
     if root is not None:
         with suppress(OSError):
-            (root / _mark(content)).touch()
-            _prune(root)
+            if complete:
+                (root / _mark(content)).touch()
+                _prune(root)
+            else:
+                (root / _mark(content)).unlink(missing_ok=True)
 
 
 def _prune(root: Path) -> None:

@@ -1,13 +1,14 @@
 """Worker processes that calculate: who gets one, how they are started and replaced, and the first start.
 
-stages     what is compiled and loaded one after the other, and the endpoints that then answer
+stages     what is compiled and loaded one after the other
 template   the process that loads everything once and is forked; what its copies do
 control    the service's end of these processes
-pool       who gets the next worker; a worker that dies, stops or is not wanted any more is replaced
-admission  calls of single requests and of studies: queue, deadline, a client that leaves
+shares     which call gets the next worker, which one is refused or interrupted
+pool       carries out calls; a worker that dies, stops or is not wanted any more is replaced
+admission  calls of single requests and of studies: client, deadline, a client that leaves
 start_up   compiles and loads stage after stage while the port is open
 
 multiprocessing's own fork server loads modules before its first fork only, and blocks when it is stopped, so the
-template is ours; pipes, pickling and the passing of descriptors are multiprocessing's. The pools of concurrent.futures,
-loky and pebble were tried: a dead or stopped worker costs other callers their results or blocks them.
+template is ours. The pools of concurrent.futures, loky and pebble were tried: a dead or stopped worker costs other
+callers their results or blocks them.
 """

@@ -7,9 +7,8 @@ from typing import Any
 from fastapi import Request
 
 from app.settings import Settings
-from app.workers.pool import Job, Pool
-
-GRACE_S = 0.5  # after a study has ended, for calculations that are about to finish
+from app.workers.pool import Pool
+from app.workers.shares import Job
 
 
 class Runner:
@@ -53,17 +52,9 @@ class StudyPool:
         self.slots = pool.size
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
-        """The function's result; cancelled, the call ends at once if it waits, and else soon.
+        """The function's result; cancelled, the call ends at once.
 
         The future raises WorkerLost, DeadlineExceeded, and what the function raises.
         """
         job = Job(self, self, self._deadline_s, of_study=True)
-        call = asyncio.create_task(self._pool.run(job, function, *arguments))
-        outcome = asyncio.shield(call)
-
-        def end(_: object) -> None:
-            if outcome.cancelled():
-                asyncio.get_running_loop().call_later(GRACE_S if job.worker else 0.0, call.cancel)
-
-        outcome.add_done_callback(end)
-        return outcome
+        return asyncio.create_task(self._pool.run(job, function, *arguments))

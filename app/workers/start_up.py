@@ -1,23 +1,22 @@
 """From an empty cache to everything warm while the port is open: compile beside, load, open stage after stage."""
 
 import asyncio
-import contextlib
 import logging
 import os
+import sys
 import time
 from collections import Counter
 from collections.abc import AsyncIterator, Sequence
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, suppress
 
-from app.calculations import Stage
+from app.calculations import BY_PATH, Stage
 from app.errors import WarmingUp
-from app.workers.control import TemplateLost, WorkerDied
+from app.workers.control import ProcessDied
 from app.workers.pool import Pool
-from app.workers.progress import Progress
-from app.workers.stages import STAGES, TRACKS, content, discard_kernels, needed_for
+from app.workers.stages import STAGES, TRACKS, content, discard_kernels
 from solvers.kernel_cache import is_complete, mark_complete, writable_root
 
-RETRY_S = 0.25
+BAR = 40  # characters
 
 logger = logging.getLogger("tribodrive")
 
@@ -27,13 +26,11 @@ class StartUp:
 
     def __init__(self, pool: Pool) -> None:
         self._pool = pool
-        self._compiled: Counter[Stage] = Counter()
-        self._missing = 0  # kernels that were not found on disk after their stage was compiled
-        self._deaths: Counter[Stage] = Counter()  # of the template while it loaded a stage
         self._warm: list[Stage] = []
+        self._compiled: Counter[Stage] = Counter()  # kernels so far
+        self._missing = 0  # kernels that were not found on disk when they were loaded
+        self._deaths: Counter[Stage] = Counter()  # of the template while it loaded a stage
         self._loading = asyncio.Lock()
-        self._progress = Progress([stage.name for stage in STAGES])
-        self._began = time.monotonic()
 
     @asynccontextmanager
     async def running(self) -> AsyncIterator[None]:
@@ -43,7 +40,7 @@ class StartUp:
             yield
         finally:
             task.cancel()
-            with contextlib.suppress(asyncio.CancelledError):
+            with suppress(asyncio.CancelledError):
                 await task
 
     @property
@@ -62,7 +59,7 @@ class StartUp:
 
     def require(self, endpoint: str) -> None:
         """Raise WarmingUp if the endpoint's kernels are not there yet."""
-        if not self.complete and needed_for(endpoint) not in self._warm:
+        if not self.complete and BY_PATH[endpoint].stage not in self._warm:
             raise self._warming_up()
 
     def require_any(self) -> None:
@@ -73,44 +70,52 @@ class StartUp:
     def _warming_up(self) -> WarmingUp:
         return WarmingUp(f"Kernels are being compiled, once after installation: {self.report()}")
 
+    def _share(self, stage: Stage) -> float:
+        return 1.0 if stage in self._warm else min(0.99, self._compiled[stage] / max(1, stage.kernels))
+
     async def _run(self) -> None:
         try:
-            if writable_root() is None and not is_complete(content()):
-                logger.warning("no folder for compiled kernels can be written: they are compiled in memory")
-            if is_complete(content()) or writable_root() is None:
-                for stage in STAGES:
-                    await self._load(stage)
-            else:
-                await self._compile()
-            self._progress.finish(f"tribodrive: everything is warm after {time.monotonic() - self._began:.1f} s")
+            began = time.monotonic()
+            await self._load_all()
+            logger.info("tribodrive: everything is warm after %.1f s", time.monotonic() - began)
             while True:
                 await self._pool.template_restarted.wait()
                 await self._load(STAGES[-1])
         except Exception:
             logger.exception("the warm-up failed")
 
-    async def _compile(self) -> None:
-        """Each track of stages in a process of its own as far as there are cores; each stage loaded when compiled."""
-        cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-        async with asyncio.TaskGroup() as group:
-            for track in TRACKS if cores > 1 else (STAGES,):
-                group.create_task(self._compile_track(track))
-        if self._missing:
-            logger.warning("%d kernels could not be kept on disk; the next start compiles them again", self._missing)
-        else:
-            mark_complete(content())
+    async def _load_all(self) -> None:
+        """Load every stage; compile beside the template what is not on disk, in two processes if there are two cores.
 
-    async def _compile_track(self, track: Sequence[Stage]) -> None:
+        The cache is marked as complete if loading found every kernel in it.
+        """
+        complete = is_complete(content())
+        if complete or writable_root() is None:
+            if not complete:
+                logger.warning("no folder for compiled kernels can be written: they are compiled in memory")
+            for stage in STAGES:
+                await self._load(stage)
+        else:
+            cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+            async with asyncio.TaskGroup() as group:
+                for track in TRACKS if cores > 1 else (STAGES,):
+                    group.create_task(self._compile(track))
+        if self._missing:
+            logger.warning("%d kernels were not on disk; the next start compiles what is missing", self._missing)
+        if complete == bool(self._missing):
+            mark_complete(content(), complete=not self._missing)
+
+    async def _compile(self, stages: Sequence[Stage]) -> None:
         """Compile stages and load each when it is done; where the process is lost, loading compiles the rest."""
-        waiting = list(track)
-        with contextlib.suppress(TemplateLost, WorkerDied):
-            async with self._pool.compiler([stage.name for stage in track]) as process:
+        waiting = list(stages)
+        with suppress(ProcessDied):
+            async with self._pool.template.compiler(stages) as process:
                 while waiting:
-                    if await process.receive() == b"stage":
-                        await self._load(waiting.pop(0))
-                    else:
+                    if await process.receive() is None:
                         self._compiled[waiting[0]] += 1
                         self._show()
+                    else:
+                        await self._load(waiting.pop(0))
         for stage in waiting:
             logger.warning("%s is compiled by the template process: the one beside it was lost", stage.name)
             await self._load(stage)
@@ -123,29 +128,33 @@ class StartUp:
                 try:
                     for each in dict.fromkeys((*self._warm, stage)):
                         loading = each
-                        self._missing += await self._pool.warm(each.name)
+                        self._missing += await self._pool.template.warm(each)
                     break
-                except TemplateLost:
+                except ProcessDied:
+                    await self._pool.template_restarted.wait()
                     await self._mend(loading)
+            self._pool.renew()
             if stage not in self._warm:
                 self._warm.append(stage)
-            self._pool.renew()
+                if not sys.stderr.isatty():
+                    logger.info("tribodrive: %s is warm", stage.name)
             self._show()
 
     async def _mend(self, stage: Stage) -> None:
-        """Wait for another template; where a second one died over a stage, its kernels on disk are not sound."""
+        """Compile a stage again over which the template has died twice: its kernels on disk are not sound."""
         self._deaths[stage] += 1
-        await asyncio.sleep(RETRY_S)
         if self._deaths[stage] == 2:
             logger.warning("two processes died while they loaded %s: its kernels are compiled again", stage.name)
             discard_kernels(stage)
-            with contextlib.suppress(TemplateLost, WorkerDied):
-                async with self._pool.compiler([stage.name]) as process:
-                    while await process.receive() != b"stage":
+            with suppress(ProcessDied):
+                async with self._pool.template.compiler([stage]) as process:
+                    while await process.receive() is None:
                         pass
 
-    def _share(self, stage: Stage) -> float:
-        return 1.0 if stage in self._warm else min(0.99, self._compiled[stage] / max(1, stage.kernels))
-
     def _show(self) -> None:
-        self._progress.show({stage.name: self._share(stage) for stage in STAGES})
+        """On a terminal a bar, which is drawn over the one before."""
+        if sys.stderr.isatty() and self._compiled:
+            share = sum(self._share(stage) * stage.kernels for stage in STAGES) / sum(stage.kernels for stage in STAGES)
+            at_work = ", ".join(stage.name for stage in STAGES if self._compiled[stage] and stage not in self._warm)
+            above = "\x1b[A\x1b[2K" if self._compiled.total() > 1 else ""
+            logger.info("%s%s %3.0f %% %s", above, f"{'█' * round(BAR * share):░<{BAR}}", 100 * share, at_work)

@@ -1,12 +1,13 @@
 """The template process and its copies: workers answer calls, compilers fill the kernel cache.
 
 The template has one thread, so that no copy inherits a lock that is held, and freezes what it has loaded, so that the
-garbage collector of a copy does not touch it and the memory stays shared. It obeys one command at a time:
+garbage collector of a copy does not touch it and the memory stays shared. It carries out one command after the other,
+each a pickled pair of name and argument, and sends the pickled answer before it reads the next:
 
-    ("fork", memory_mb), then a descriptor      a new worker that serves the descriptor; answers its process id
-    ("compile", stage names), then a descriptor a process that compiles these stages; answers its process id
-    ("reap", process id)                        the process has ended; its id is free from now on
-    ("warm", stage name)                        load a stage; answers how many kernels had to be compiled for it
+    ("fork", memory_mb), with a descriptor         a new worker that serves the descriptor: its process id
+    ("compile", stages), with a descriptor         a process that compiles these stages: its process id
+    ("reap", process id)                           wait until the process has ended; its id is free from then on
+    ("warm", stage)                                load a stage: how many kernels had to be compiled for it
 """
 
 import ctypes
@@ -17,6 +18,7 @@ import pickle
 import resource
 import select
 import signal
+import socket
 import sys
 import threading
 import traceback
@@ -24,11 +26,14 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from importlib import import_module
 from multiprocessing.connection import Connection
-from multiprocessing.reduction import recv_handle
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from app.calculations import Stage
 
 PR_SET_PDEATHSIG = 1
 MEBIBYTE = 2**20
+LARGEST_COMMAND = 65536  # bytes
 
 logger = logging.getLogger("tribodrive")
 
@@ -42,45 +47,40 @@ def main(parent: int, descriptor: int, preloaded: str) -> None:
     gc.disable()  # imports leave no garbage, and looking for it takes a third of their time
     import_module(preloaded)  # so that no worker has to import what it is asked to call
     gc.freeze()
-    with Connection(descriptor) as control:
-        control.send("ready")
+    with socket.socket(fileno=descriptor) as control:
+        answer = 0  # ready
         while True:
-            try:
-                command = control.recv()
-            except EOFError:
+            control.send(pickle.dumps(answer))
+            command, descriptors, _, _ = socket.recv_fds(control, LARGEST_COMMAND, 1)
+            if not command:
                 return
-            control.send(_obey(control, *command))
+            match pickle.loads(command):  # noqa: S301  from the service itself
+                case "fork", memory_mb:
+                    answer = _copy(control, descriptors[0], partial(_work, memory_mb=memory_mb))
+                case "compile", stages:
+                    answer = _copy(control, descriptors[0], partial(_compile, stages=stages))
+                case "reap", pid:
+                    answer = os.waitpid(pid, 0)[0]
+                case _, stage:
+                    answer = _warm(stage)
 
 
-def _obey(control: Connection, name: str, argument: Any) -> int:
-    match name:
-        case "fork":
-            return _copy(control, partial(_work, memory_mb=argument))
-        case "compile":
-            return _copy(control, partial(_compile, names=argument))
-        case "reap":
-            return os.waitpid(argument, 0)[0]
-        case _:
-            return _warm(argument)
-
-
-def _warm(name: str) -> int:
+def _warm(stage: "Stage") -> int:
     """Load a stage; one that fails is logged, and costs its first callers time."""
     from app.workers import stages  # noqa: PLC0415  numba, which the service's own process does without
 
     try:
-        return stages.warm(stages.stage_of(name))
+        return stages.warm(stage)
     except Exception:
-        logger.exception("%s failed while its kernels were loaded", name)
+        logger.exception("%s failed while its kernels were loaded", stage.name)
         return 0
     finally:
         gc.collect()
         gc.freeze()
 
 
-def _copy(control: Connection, serve: Callable[[Connection], None]) -> int:
-    """The process id of a copy of this process that serves the descriptor which follows the command."""
-    descriptor = recv_handle(control)
+def _copy(control: socket.socket, descriptor: int, serve: Callable[[Connection], None]) -> int:
+    """The process id of a copy of this process that serves the descriptor."""
     pid = os.fork()
     if pid:
         os.close(descriptor)
@@ -88,9 +88,8 @@ def _copy(control: Connection, serve: Callable[[Connection], None]) -> int:
     try:
         control.close()
         gc.enable()
-        connection = Connection(descriptor)
         threading.Thread(target=_end_with_the_service, args=(descriptor,), daemon=True).start()
-        serve(connection)
+        serve(Connection(descriptor))
     except (EOFError, OSError):  # the service is gone
         pass
     except BaseException:
@@ -108,15 +107,15 @@ def _end_with_the_service(descriptor: int) -> None:
 
 
 def _work(connection: Connection, memory_mb: int) -> None:
-    """Answer calls: an empty message when one begins, then its pickled outcome."""
+    """Answer calls: None when this process is ready and when a call begins, then the call's outcome."""
     from app.workers import stages  # noqa: PLC0415
 
     resource.setrlimit(resource.RLIMIT_DATA, (memory_mb * MEBIBYTE, memory_mb * MEBIBYTE))
     stages.touch_shared_memory()
-    connection.send_bytes(b"")
+    connection.send(None)
     while True:
         call = connection.recv_bytes()
-        connection.send_bytes(b"")
+        connection.send(None)
         connection.send_bytes(_outcome(call))
 
 
@@ -135,16 +134,16 @@ def _outcome(call: bytes) -> bytes:
         return content
 
 
-def _compile(connection: Connection, names: Sequence[str]) -> None:
-    """Compile stages; one message for every kernel ("kernel") and every stage ("stage")."""
-    from app.workers import stages  # noqa: PLC0415
+def _compile(connection: Connection, stages: "Sequence[Stage]") -> None:
+    """Have the kernels of stages on disk: None is sent for every kernel, the stage when all of its kernels are there.
 
-    try:
-        stages.compile_stages(names, lambda message: connection.send_bytes(message.encode()))
-    except OSError:
-        raise
-    except Exception:
-        logger.exception("the compilation failed")
+    What fails here fails once more, and is logged, when the template loads the stage.
+    """
+    from app.workers.stages import warm  # noqa: PLC0415
+
+    for stage in stages:
+        warm(stage, lambda: connection.send(None))
+        connection.send(stage)
 
 
 if __name__ == "__main__":

@@ -30,7 +30,6 @@ from app.schema.quantities import Input, View
 from app.schema.reading import validated
 from app.settings import settings
 from app.studies.points import Question, solve_point
-from app.workers.stages import needed_for
 from solvers.arrays import FloatArray
 from solvers.coupling.inputs import Coupling, CouplingDesign
 from solvers.errors import InvalidInput
@@ -272,7 +271,6 @@ def test_an_endpoint_is_one_row_and_its_solver(monkeypatch: pytest.MonkeyPatch) 
     )
     assert operation["responses"]["200"]["content"]["application/json"]["schema"]["$ref"].endswith("SpringResponse")
     assert page_path(ROW) == "/new-spring"
-    assert needed_for(ROW.path) is COUPLING
     point = solve_point(Question(ROW.path, {"force_n": 30}, ["deflection_um"], 30.0), {"preload_n": 50})
     assert point.out == [pytest.approx(40.0)]
 

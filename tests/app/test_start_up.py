@@ -8,25 +8,27 @@ import pytest
 
 from app.calculations import COUPLING, Stage
 from app.workers import start_up
-from app.workers.control import TemplateLost
+from app.workers.control import ProcessDied
 from app.workers.stages import STAGES
 from app.workers.start_up import StartUp
 
 
 class FakePool:
-    """Loads stages as a test says: how often the template dies over one, and how many kernels each compiles."""
+    """A pool and its template, which loads stages as a test says: how often it dies over one, how many it compiles."""
 
-    def __init__(self, deaths: dict[str, int] | None = None, compiled: int = 0) -> None:
+    def __init__(self, deaths: dict[Stage, int] | None = None, compiled: int = 0) -> None:
+        self.template = self
         self.template_restarted = asyncio.Event()
-        self.loaded: list[str] = []
-        self.compiled: list[str] = []
+        self.loaded: list[Stage] = []
+        self.compiled: list[Stage] = []
         self._deaths = deaths or {}
         self._compiled = compiled
 
-    async def warm(self, stage: str) -> int:
+    async def warm(self, stage: Stage) -> int:
         if self._deaths.get(stage, 0):
             self._deaths[stage] -= 1
-            raise TemplateLost
+            self.template_restarted.set()
+            raise ProcessDied
         self.loaded.append(stage)
         return self._compiled
 
@@ -34,21 +36,30 @@ class FakePool:
         pass
 
     @asynccontextmanager
-    async def compiler(self, stages: Sequence[str]) -> AsyncIterator["FakePool"]:
+    async def compiler(self, stages: Sequence[Stage]) -> AsyncIterator["Compiler"]:
         self.compiled += stages
-        yield self
+        yield Compiler(stages)
 
-    async def receive(self) -> bytes:
-        return b"stage"
+
+class Compiler:
+    """A process that reports one kernel for each stage, then the stage."""
+
+    def __init__(self, stages: Sequence[Stage]) -> None:
+        self._messages = iter([message for stage in stages for message in (None, stage)])
+
+    async def receive(self) -> Stage | None:
+        return next(self._messages)
 
 
 @pytest.fixture
 def marks(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """What is done to the cache."""
     done: list[str] = []
-    monkeypatch.setattr(start_up, "RETRY_S", 0.0)
     monkeypatch.setattr(start_up, "discard_kernels", lambda stage: done.append(f"discarded {stage.name}"))
-    monkeypatch.setattr(start_up, "mark_complete", lambda _: done.append("complete"))
+    monkeypatch.setattr(start_up, "is_complete", lambda _: False)
+    monkeypatch.setattr(
+        start_up, "mark_complete", lambda _, *, complete: done.append("complete" if complete else "incomplete")
+    )
     return done
 
 
@@ -59,26 +70,36 @@ def load(pool: FakePool, stage: Stage) -> None:
 def test_a_stage_that_kills_the_template_twice_is_compiled_again(
     marks: list[str], caplog: pytest.LogCaptureFixture
 ) -> None:
-    pool = FakePool(deaths={COUPLING.name: 2})
+    pool = FakePool(deaths={COUPLING: 2})
     load(pool, COUPLING)
     assert marks == ["discarded coupling"]
-    assert pool.compiled == pool.loaded == ["coupling"]
+    assert pool.compiled == pool.loaded == [COUPLING]
     assert [record.message for record in caplog.records] == [
         "two processes died while they loaded coupling: its kernels are compiled again"
     ]
 
 
 def test_one_death_of_the_template_costs_no_kernel(marks: list[str]) -> None:
-    pool = FakePool(deaths={COUPLING.name: 1})
+    pool = FakePool(deaths={COUPLING: 1})
     load(pool, COUPLING)
     assert marks == []
     assert pool.compiled == []
-    assert pool.loaded == ["coupling"]
+    assert pool.loaded == [COUPLING]
+
+
+def test_a_complete_cache_in_which_a_kernel_is_missing_is_no_longer_marked(
+    marks: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(start_up, "is_complete", lambda _: True)
+    asyncio.run(StartUp(FakePool())._load_all())
+    assert marks == []
+    asyncio.run(StartUp(FakePool(compiled=1))._load_all())
+    assert marks == ["incomplete"]
 
 
 @pytest.mark.parametrize(("compiled", "expected"), [(0, ["complete"]), (1, [])])
 def test_a_cache_is_complete_if_loading_compiled_nothing(marks: list[str], compiled: int, expected: list[str]) -> None:
     pool = FakePool(compiled=compiled)
-    asyncio.run(StartUp(pool)._compile())
-    assert set(pool.loaded) == {stage.name for stage in STAGES}
+    asyncio.run(StartUp(pool)._load_all())
+    assert set(pool.loaded) == set(STAGES)
     assert marks == expected

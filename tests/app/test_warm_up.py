@@ -3,9 +3,9 @@
 import subprocess
 import sys
 
-from app.calculations import CALCULATIONS, COUPLING, LINE_CONTACT
+from app.calculations import BY_PATH, CALCULATIONS, COUPLING, LINE_CONTACT
 from app.examples import examples
-from app.workers.stages import STAGES, needed_for
+from app.workers.stages import STAGES
 
 COUNT_COLD = """
 import gc
@@ -35,10 +35,9 @@ def test_every_kernel_is_warm_after_the_warm_up() -> None:
 
 
 def test_endpoints_open_stage_by_stage() -> None:
-    assert needed_for("/v1/coupling") is COUPLING
-    assert needed_for("/v1/scuffing") is LINE_CONTACT
-    assert needed_for("/v1/unheard-of") is STAGES[-1]
-    assert {needed_for(calculation.path) for calculation in CALCULATIONS} <= set(STAGES)
+    assert BY_PATH["/v1/coupling"].stage is COUPLING
+    assert BY_PATH["/v1/scuffing"].stage is LINE_CONTACT
+    assert {calculation.stage for calculation in CALCULATIONS} <= set(STAGES)
 
 
 def test_stages_name_examples_that_exist() -> None:
