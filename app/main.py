@@ -61,6 +61,7 @@ def create_app() -> FastAPI:
         version=MODEL_VERSION,
         lifespan=lifespan,
         redoc_url=None,
+        redirect_slashes=False,  # its redirects would name the host that the client claims to ask
     )
     for routes in (calculations, figures, studies, rexs, pages, study_pages, manual, service):
         app.include_router(routes.router)

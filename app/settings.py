@@ -3,9 +3,10 @@
 import os
 import resource
 from functools import lru_cache
+from typing import Annotated
 
-from pydantic import Field
-from pydantic_settings import BaseSettings, SettingsConfigDict
+from pydantic import Field, field_validator
+from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 MEBIBYTE = 2**20
 CLUSTER_POINTS = 100_000
@@ -20,6 +21,14 @@ class Settings(BaseSettings):
 
     host: str = Field("127.0.0.1", description="address to listen on")
     port: int = Field(8000, ge=1, le=65535, description="port to listen on")
+    root_path: str = Field(
+        "",
+        pattern=r"^(/[A-Za-z0-9._~-]+)*$",
+        description="prefix of every address behind a proxy, `/tribodrive`, which the proxy may strip or not",
+    )
+    hosts: Annotated[tuple[str, ...], NoDecode] = Field(
+        (), description="host names, with commas between them, that reports may print; others are left out"
+    )
     workers: int = Field(os.cpu_count() or 2, ge=1, le=256, description="worker processes that solve")
     queue: int = Field(64, ge=0, description="requests that may wait for a worker; one more is answered 503")
     client_header: str | None = Field(
@@ -54,6 +63,11 @@ class Settings(BaseSettings):
     )
     shutdown_s: int = Field(30, ge=0, description="time for requests in flight to finish at shutdown")
     log_level: str = Field("info", pattern="^(debug|info|warning|error)$", description="least level that is logged")
+
+    @field_validator("hosts", mode="before")
+    @classmethod
+    def _split(cls, names: object) -> object:
+        return [name.strip() for name in names.split(",") if name.strip()] if isinstance(names, str) else names
 
     def most_body_bytes(self, path: str) -> int:
         """The largest request body at an address; files of gear units are larger than requests."""

@@ -3,6 +3,7 @@
 import asyncio
 import time
 
+from starlette._utils import get_route_path
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 from starlette.responses import JSONResponse
@@ -27,7 +28,16 @@ class Protection:
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
+        scope = _below(self._settings.root_path, scope)
         await _Request(self._settings, scope, receive, send).serve(self._app)
+
+
+def _below(prefix: str, scope: Scope) -> Scope:
+    """The request under the prefix of the settings, as ASGI wants it: its path has it, even if the proxy strips it."""
+    root, path = prefix or scope.get("root_path", ""), scope["path"]
+    if not f"{path}/".startswith(f"{root}/"):
+        path = root + path
+    return {**scope, "root_path": root, "path": f"{root}/" if path == root else path}
 
 
 class _Request:
@@ -35,7 +45,7 @@ class _Request:
 
     def __init__(self, limits: Settings, scope: Scope, receive: Receive, send: Send) -> None:
         self._limits = limits
-        self._most_bytes = limits.most_body_bytes(scope["path"])
+        self._most_bytes = limits.most_body_bytes(get_route_path(scope))
         self._started = time.perf_counter()
         self._headers: dict[bytes, bytes] = dict(scope["headers"])
         self._identifier = request_id(self._headers.get(b"x-request-id", b""))

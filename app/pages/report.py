@@ -53,7 +53,7 @@ class Table:
     rows: tuple[Row, ...]
 
 
-def context(case: Case, views: dict[str, str], address: str, link: str) -> dict[str, Any]:
+def context(case: Case, views: dict[str, str], endpoint: str, link: str) -> dict[str, Any]:
     """What the template needs beside the result."""
     request = {name: value for name, value in case.request.model_dump(exclude_unset=True).items() if name != "detail"}
     body = json.dumps(request)
@@ -63,7 +63,7 @@ def context(case: Case, views: dict[str, str], address: str, link: str) -> dict[
         "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
         "inputs": _inputs(case),
         "body": body.replace("'", "\\u0027"),
-        "address": address,
+        "endpoint": endpoint,
         "link": link,
         "link_text": link if len(link) <= LONGEST_LINK else f"{link[:LONGEST_LINK]}…",
         "about": about_of(case.calculation),

@@ -10,9 +10,9 @@ from app.pages.templating import page_path, rendered
 _CASE_COLUMNS = ("load.pinion_torque_n_m", "load.pinion_speed_rpm", "temperatures.oil_c")
 
 
-def unit_page(unit: dict[str, Any]) -> str:
+def unit_page(root: str, unit: dict[str, Any]) -> str:
     """The page of the answer of /v1/rexs."""
-    return rendered("rexs.html", unit=unit, stages=[_stage(stage) for stage in unit["stages"]])
+    return rendered("rexs.html", root, unit=unit, stages=[_stage(stage) for stage in unit["stages"]])
 
 
 def _stage(stage: dict[str, Any]) -> dict[str, Any]:

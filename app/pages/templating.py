@@ -1,6 +1,6 @@
 """The templates, and what all of them know."""
 
-from functools import cache
+from functools import cache, lru_cache
 from hashlib import sha256
 from importlib.resources import files
 from typing import Any
@@ -21,9 +21,9 @@ ASSETS = {
 }
 
 
-def rendered(template: str, **context: Any) -> str:
-    """A page."""
-    return _environment().get_template(template).render(**context)
+def rendered(template: str, root: str, **context: Any) -> str:
+    """A page; `root` is the prefix that a proxy puts before the addresses of the service."""
+    return _environment(root).get_template(template).render(**context)
 
 
 def page_path(calculation: Calculation) -> str:
@@ -47,8 +47,13 @@ def asset_path(name: str) -> str:
     return f"/static/{name}?{sha256(asset(name)).hexdigest()[:12]}"
 
 
-@cache
-def _environment() -> Environment:
+@lru_cache(maxsize=4)
+def _environment(root: str) -> Environment:
+    """Templates, in which the filter `url` makes an address of the service one that a browser can follow."""
+
+    def url(address: str) -> str:
+        return root + address if address.startswith("/") else address
+
     environment = Environment(
         loader=PackageLoader("app.pages"),
         autoescape=True,
@@ -59,8 +64,8 @@ def _environment() -> Environment:
     environment.globals |= {
         "menu": [(page_path(each), each.title) for each in CALCULATIONS],
         "version": MODEL_VERSION,
-        "asset": asset_path,
+        "asset": lambda name: url(asset_path(name)),
         "anchor": anchor,
     }
-    environment.filters |= {"shown": shown, "symbol": symbol, "typeset": typeset, "words": words}
+    environment.filters |= {"shown": shown, "symbol": symbol, "url": url, "typeset": typeset, "words": words}
     return environment

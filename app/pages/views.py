@@ -25,18 +25,23 @@ from app.schema.fields import branches, headlines, leaf_at
 from app.sources import changes_since
 
 BY_PAGE = {page_path(calculation): calculation for calculation in CALCULATIONS}
+LOCAL = "http://localhost:8000"
 REFUSED = (Unreadable, InvalidBody, Unprocessable)
 
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """A case to look at; `kept` and `kept_ref` are the answers of it and of its variant, if they are still known."""
+    """A case to look at; `kept` and `kept_ref` are the answers of it and of its variant, if they are still known.
+
+    `root` is the prefix that a proxy puts before the addresses of the service.
+    """
 
     path: str
     pairs: Pairs
     views: dict[str, str] = field(default_factory=dict)
     kept: bytes | None = None
     kept_ref: bytes | None = None
+    root: str = ""
 
     @property
     def calculation(self) -> Calculation:
@@ -138,17 +143,22 @@ def figure(asked: Asked, name: str, image_format: Format | Literal["json"]) -> S
     return Shown(content, keep=_keep(asked, case, variant))
 
 
-def report(asked: Asked, address: str) -> Shown:
-    """The report of a case; an input that cannot be computed is shown on its page instead."""
+def report(asked: Asked, host: str) -> Shown:
+    """The report of a case; an input that cannot be computed is shown on its page instead.
+
+    `host` is what addresses on it begin with; without one the link is relative, and the command asks this machine.
+    """
     try:
         case = solved(asked.calculation, asked.pairs, asked.kept)
     except REFUSED:
         return page(asked)
     figures, missing = charts(case, None, _printed, compute=True)
-    place = "" if asked.links.too_long else address + asked.links.alone
-    context = reports.context(case, asked.views, address, place)
+    link = "" if asked.links.too_long else host + asked.root + asked.links.alone
+    endpoint = (host or LOCAL) + asked.root + asked.calculation.path
+    context = reports.context(case, asked.views, endpoint, link)
     content = rendered(
         "report.html",
+        asked.root,
         calculation=asked.calculation,
         response=case.response,
         cards=cards(case.response, _resolved(case)),
@@ -189,6 +199,7 @@ def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
     sections = form(calculation.request, state)
     content = rendered(
         "calculation.html",
+        asked.root,
         calculation=calculation,
         path=asked.path,
         model=model_of(calculation),

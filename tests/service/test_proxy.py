@@ -3,8 +3,6 @@
 import json
 import shutil
 import socket
-import subprocess
-import time
 from collections.abc import Iterator
 from contextlib import suppress
 from urllib.parse import urlsplit
@@ -13,7 +11,8 @@ import httpx
 import pytest
 
 from app.examples import examples
-from tests.support.server import ROOT, free_port, running_server
+from tests.support.proxy import running_proxy
+from tests.support.server import running_server
 
 pytestmark = [
     pytest.mark.service,
@@ -26,34 +25,10 @@ COUPLING = examples()["pahl-axial-displacement"]
 @pytest.fixture(scope="module")
 def proxy(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """The address of nginx in front of a service."""
-    folder = tmp_path_factory.mktemp("nginx")
-    port = free_port()
     with running_server(workers=2, log_level="error") as (_, address):
-        site = (ROOT / "deploy" / "nginx.conf").read_text("utf-8")
-        site = site.replace("listen 80;", f"listen 127.0.0.1:{port};")
-        site = site.replace("127.0.0.1:8000", urlsplit(address).netloc)
-        site = site.replace("timeout 10s", "timeout 1s")
-        main = folder / "nginx.conf"
-        head = f"daemon off; pid {folder}/pid; error_log {folder}/log; events {{}}\nhttp {{ access_log off;\n"
-        places = "".join(f"{each}_temp_path {folder}/{each};\n" for each in ("client_body", "proxy", "fastcgi"))
-        places += "".join(f"{each}_temp_path {folder}/{each};\n" for each in ("uwsgi", "scgi"))
-        main.write_text(f"{head}{places}{site}}}\n", "utf-8")
-        process = subprocess.Popen(["nginx", "-p", str(folder), "-c", str(main), "-e", f"{folder}/log"])  # noqa: S607
-        try:
-            wait_until_open(port)
-            yield f"http://127.0.0.1:{port}"
-        finally:
-            process.terminate()
-            process.wait(10)
-
-
-def wait_until_open(port: int) -> None:
-    end = time.monotonic() + 10
-    while time.monotonic() < end:
-        with suppress(OSError), socket.create_connection(("127.0.0.1", port), timeout=1):
-            return
-        time.sleep(0.05)
-    raise AssertionError("nginx did not start")
+        folder = tmp_path_factory.mktemp("nginx")
+        with running_proxy(folder, address, **{"timeout 10s": "timeout 1s"}) as outside:
+            yield outside
 
 
 def received(address: str, sent: bytes) -> bytes:

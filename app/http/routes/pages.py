@@ -18,6 +18,7 @@ from app.pages.links import example_link
 from app.pages.overview import about_page, problem_page, rows_of, start_page
 from app.pages.query import link, normalised, pairs_of_query, split_views
 from app.pages.templating import ASSETS, asset, page_path
+from app.settings import Settings
 from app.sources import SHORT_SOURCES
 from app.workers.admission import Runner
 from app.workers.start_up import StartUp
@@ -34,9 +35,9 @@ router = APIRouter(include_in_schema=False)
 
 
 @router.get("/")
-async def start() -> Response:
+async def start(http: Request) -> Response:
     """What the models answer, and where to begin."""
-    return html(start_page())
+    return html(start_page(root_of(http)))
 
 
 @router.get("/static/{name}")
@@ -56,8 +57,8 @@ def _add_about(model: str) -> None:
             try:
                 known[model] = await runner.run(http, rows_of, model)
             except TROUBLES as error:
-                return trouble_page(error)
-        return html(about_page(model, known[model]))
+                return trouble_page(http, error)
+        return html(about_page(root_of(http), model, known[model]))
 
     router.add_api_route(f"/{model}/about", about, methods=["GET"])
 
@@ -70,8 +71,8 @@ def _add(calculation: Calculation) -> None:
         return await _answer(http, calculation, path, PAGE_POLICY, HTML, views.page)
 
     async def report(http: Request) -> Response:
-        address = f"{http.url.scheme}://{http.url.netloc}"
-        return await _answer(http, calculation, f"{path}/report", DOCUMENT_POLICY, HTML, views.report, address)
+        host = printed_host(http)
+        return await _answer(http, calculation, f"{path}/report", DOCUMENT_POLICY, HTML, views.report, host)
 
     async def result(http: Request, media: str) -> Response:
         types = {"json": "application/json", "csv": MEDIA_TYPES["csv"]}
@@ -121,7 +122,7 @@ async def _answer(
         shown = await _shown(http, asked, view, arguments)
     except TROUBLES as error:
         if is_page:
-            return trouble_page(error)
+            return trouble_page(http, error)
         raise
     return Response(shown.content, shown.status, media_type=media, headers={"Content-Security-Policy": policy})
 
@@ -129,7 +130,7 @@ async def _answer(
 def redirected(place: str, asked: views.Asked) -> Response:
     """To the address that says the same in fewer words, and names the sources of the answer."""
     looks = {**asked.views, "sources": asked.views.get("sources", SHORT_SOURCES)} if asked.pairs else asked.views
-    return RedirectResponse(quote(link(place, asked.pairs, **looks), safe="/?&=%,:.*+-_~"), 303)
+    return RedirectResponse(quote(asked.root + link(place, asked.pairs, **looks), safe="/?&=%,:.*+-_~"), 303)
 
 
 async def asked_of(http: Request, calculation: Calculation) -> tuple[views.Asked, bool]:
@@ -143,14 +144,14 @@ async def asked_of(http: Request, calculation: Calculation) -> tuple[views.Asked
     given = {name: value for name, value in looks.items() if value}
     if (example := examples().get(dict(sent).get("example", ""))) is not None:
         sent = pairs_of_query(example_link(calculation, example).partition("?")[2])
-        return views.Asked(page_path(calculation), sent, given), False
+        return views.Asked(page_path(calculation), sent, given, root=root_of(http)), False
     pairs = normalised(calculation.request, sent)
     answers: Answers = http.app.state.answers
     path = page_path(calculation)
     variant = views.ref_pairs(calculation, given) if "ref" in given else []
-    asked = views.Asked(
-        path, pairs, given, answers.get(key_of(path, pairs)), answers.get(key_of(path, variant)) if variant else None
-    )
+    kept = answers.get(key_of(path, pairs))
+    kept_ref = answers.get(key_of(path, variant)) if variant else None
+    asked = views.Asked(path, pairs, given, kept, kept_ref, root_of(http))
     return asked, pairs == sent and given == looks
 
 
@@ -177,13 +178,30 @@ async def _shown(
     return shown
 
 
-def trouble_page(error: Exception) -> Response:
+def trouble_page(http: Request, error: Exception) -> Response:
     """A page that says what happened, for whoever reads pages."""
+    root = root_of(http)
     if isinstance(error, Unreadable):
-        return html(problem_page(400, "The case cannot be read", error.detail), 400)
+        return html(problem_page(root, 400, "The case cannot be read", error.detail), 400)
     kind = next(PROBLEMS[base] for base in type(error).__mro__ if base in PROBLEMS)
     headers = {"Retry-After": str(kind.retry_after_s)} if kind.retry_after_s is not None else {}
-    return html(problem_page(kind.status, kind.title, getattr(error, "detail", "")), kind.status, headers)
+    return html(problem_page(root, kind.status, kind.title, getattr(error, "detail", "")), kind.status, headers)
+
+
+def root_of(http: Request) -> str:
+    """The prefix that a proxy puts before the addresses of the service."""
+    root: str = http.scope.get("root_path", "")
+    return root
+
+
+def printed_host(http: Request) -> str:
+    """Scheme and host for what is printed: a host of the settings or this machine, else nothing.
+
+    What a client claims to ask is not repeated: it could lead the reader of a report to another service.
+    """
+    limits: Settings = http.app.state.settings
+    known = http.url.netloc in limits.hosts or http.url.hostname in {*limits.hosts, "localhost", "127.0.0.1", "::1"}
+    return f"{http.url.scheme}://{http.url.netloc}" if known else ""
 
 
 def html(content: str | bytes, status: int = 200, headers: dict[str, str] | None = None) -> Response:

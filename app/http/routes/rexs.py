@@ -6,7 +6,7 @@ from fastapi import APIRouter, HTTPException, Query, Request, Response
 
 from app.errors import Unprocessable
 from app.http.problems import documented
-from app.http.routes.pages import TROUBLES, html, trouble_page
+from app.http.routes.pages import TROUBLES, html, root_of, trouble_page
 from app.pages.overview import problem_page
 from app.rexs import answer
 from app.settings import MEBIBYTE, Settings
@@ -81,11 +81,11 @@ async def show_unit(http: Request) -> Response:
     """The unit as a page: stages, findings, and a link to every calculation."""
     try:
         content, _ = await _upload(http)
-        return html(await _runner(http).run(http, answer.unit_html, content, _most_bytes(http)))
+        return html(await _runner(http).run(http, answer.unit_html, root_of(http), content, _most_bytes(http)))
     except Unprocessable as error:
-        return html(problem_page(422, "The file cannot be read", error.message), 422)
+        return html(problem_page(root_of(http), 422, "The file cannot be read", error.message), 422)
     except TROUBLES as error:
-        return trouble_page(error)
+        return trouble_page(http, error)
 
 
 async def _upload(http: Request) -> tuple[bytes, bytes | None]:

@@ -135,7 +135,7 @@ async def _page(
             return html(opened.head + opened.tail, opened.status)
         return await _stream(http, *pieces_of(opened), HTML, PAGE_POLICY)
     except TROUBLES as error:
-        return trouble_page(error)
+        return trouble_page(http, error)
 
 
 async def _checked(http: Request, calculation: Calculation, check: Callable[..., Any]) -> Any:
@@ -173,7 +173,7 @@ def _progress_page(opened: Opened[PageStudy]) -> tuple[Study, Pieces]:
                 found += [line for line in group if line["type"] != "progress"]
                 done = _done(group, done)
                 if done and time.perf_counter() >= due:
-                    yield rendered("progress.html", done=done, total=study.study.total).encode()
+                    yield rendered("progress.html", "", done=done, total=study.study.total).encode()
                     due = time.perf_counter() + PROGRESS_S
         yield await _drawn(admission, pages.whole, study, found)
         yield opened.tail

@@ -53,6 +53,7 @@ def _page(page: StudyPage, asked: Asked, study: PageStudy | None, faults: list[F
     menu, fields = output_menu(calculation, asked.views, known), page.fields(asked.views, known)
     return rendered(
         "study.html",
+        asked.root,
         calculation=calculation,
         page=page,
         path=asked.path,
@@ -78,11 +79,17 @@ def whole(study: PageStudy, lines: list[Line]) -> bytes:
     """Figures, tables and links; a study that broke off says why."""
     links = StudyAddresses(study.page.link.name, study.asked)
     if lines[-1]["type"] == "error":
-        return rendered("study_result.html", broke=lines[-1]["message"]).encode()
+        return rendered("study_result.html", study.asked.root, broke=lines[-1]["message"]).encode()
     found = study.page.result(study, lines)
     charts = [embedded(name, figure, study.asked.theme) for name, figure in found.figures.items()]
     return rendered(
-        "study_result.html", broke=None, found=found, charts=charts, links=links, formats=IMAGE_FORMATS
+        "study_result.html",
+        study.asked.root,
+        broke=None,
+        found=found,
+        charts=charts,
+        links=links,
+        formats=IMAGE_FORMATS,
     ).encode()
 
 

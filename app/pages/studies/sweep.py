@@ -188,6 +188,7 @@ def _page(asked: Asked, study: SweepStudy | None, faults: list[Fault]) -> str:
     known = {fault.path: fault.message for fault in faults}
     return rendered(
         "vary.html",
+        asked.root,
         calculation=calculation,
         path=asked.path,
         case_links=asked.links,
@@ -207,7 +208,9 @@ def _page(asked: Asked, study: SweepStudy | None, faults: list[Fault]) -> str:
 def frame(study: SweepStudy, received: ReceivedPoints) -> bytes:
     """The first figure with the points that have come."""
     figure = next(iter(_figures(study, received).values()))
-    return rendered("frame.html", chart=embedded("", figure, study.asked.theme), received=received).encode()
+    return rendered(
+        "frame.html", study.asked.root, chart=embedded("", figure, study.asked.theme), received=received
+    ).encode()
 
 
 def whole(study: SweepStudy, received: ReceivedPoints) -> bytes:
@@ -217,6 +220,7 @@ def whole(study: SweepStudy, received: ReceivedPoints) -> bytes:
     charts[0] = replace(charts[0], study=_points(study, received, next(iter(figures.values()))))
     return rendered(
         "whole.html",
+        study.asked.root,
         charts=charts,
         links=study.links,
         formats=IMAGE_FORMATS,
@@ -260,7 +264,7 @@ def _points(study: SweepStudy, received: ReceivedPoints, figure: Figure) -> str:
         for each, axis in zip(study.query.fields, study.sweep.points.axes, strict=True)
     ]
     said = {
-        "address": study.opened(0),
+        "address": study.asked.root + study.opened(0),
         "axes": axes,
         "out": received.out,
         "title": study.query.output.title,

@@ -1,0 +1,44 @@
+"""nginx as deploy/ configures it, in front of a service."""
+
+import socket
+import subprocess
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from getpass import getuser
+from pathlib import Path
+from urllib.parse import urlsplit
+
+from tests.support.server import ROOT, free_port
+
+
+@contextmanager
+def running_proxy(folder: Path, address: str, **replaced: str) -> Iterator[str]:
+    """The address of nginx in front of the service at `address`; each key of `replaced` becomes its value."""
+    port = free_port()
+    site = (ROOT / "deploy" / "nginx.conf").read_text("utf-8")
+    own = {"listen 80;": f"listen 127.0.0.1:{port};", "127.0.0.1:8000": urlsplit(address).netloc}
+    for before, after in (own | replaced).items():
+        assert before in site
+        site = site.replace(before, after)
+    main = folder / "nginx.conf"
+    head = f"user {getuser()}; daemon off; pid {folder}/pid; error_log {folder}/log; events {{}}\nhttp {{ access_log off;\n"
+    places = "".join(f"{each}_temp_path {folder}/{each};\n" for each in ("client_body", "proxy", "fastcgi"))
+    places += "".join(f"{each}_temp_path {folder}/{each};\n" for each in ("uwsgi", "scgi"))
+    main.write_text(f"{head}{places}{site}}}\n", "utf-8")
+    process = subprocess.Popen(["nginx", "-p", str(folder), "-c", str(main), "-e", f"{folder}/log"])  # noqa: S607
+    try:
+        wait_until_open(port)
+        yield f"http://127.0.0.1:{port}"
+    finally:
+        process.terminate()
+        process.wait(10)
+
+
+def wait_until_open(port: int) -> None:
+    end = time.monotonic() + 10
+    while time.monotonic() < end:
+        with suppress(OSError), socket.create_connection(("127.0.0.1", port), timeout=1):
+            return
+        time.sleep(0.05)
+    raise AssertionError("nginx did not start")
