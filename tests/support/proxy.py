@@ -22,7 +22,8 @@ def running_proxy(folder: Path, address: str, **replaced: str) -> Iterator[str]:
         assert before in site
         site = site.replace(before, after)
     main = folder / "nginx.conf"
-    head = f"user {getuser()}; daemon off; pid {folder}/pid; error_log {folder}/log; events {{}}\nhttp {{ access_log off;\n"
+    head = f"user {getuser()}; daemon off; pid {folder}/pid; error_log {folder}/log; events {{}}\n"
+    head += "http { access_log off;\n"
     places = "".join(f"{each}_temp_path {folder}/{each};\n" for each in ("client_body", "proxy", "fastcgi"))
     places += "".join(f"{each}_temp_path {folder}/{each};\n" for each in ("uwsgi", "scgi"))
     main.write_text(f"{head}{places}{site}}}\n", "utf-8")
