@@ -37,26 +37,27 @@ class Heading:
 
 
 @cache
-def contents_page() -> str:
+def contents_page(root: str) -> str:
     """What the manual holds."""
     listed = [(chapter, headings(chapter)) for chapter in chapters().values()]
-    return rendered("manual_contents.html", listed=listed)
+    return rendered("manual_contents.html", root, listed=listed)
 
 
 @cache
-def chapter_page(name: str) -> str:
+def chapter_page(root: str, name: str) -> str:
     """One chapter."""
     chapter, names = chapters()[name], list(chapters())
     place = names.index(name)
     following = chapters()[names[place + 1]] if place + 1 < len(names) else None
-    body = Markup(_markdown().render(chapter.text))  # noqa: S704  our own text
-    return rendered("manual.html", chapter=chapter, headings=headings(chapter), body=body, following=following)
+    text = re.sub(r'\b(href|src|srcset)="/', rf'\1="{root}/', _markdown().render(chapter.text))
+    body = Markup(text)  # noqa: S704  our own text
+    return rendered("manual.html", root, chapter=chapter, headings=headings(chapter), body=body, following=following)
 
 
 @cache
-def functions_page() -> str:
+def functions_page(root: str) -> str:
     """The functions that implement the equations."""
-    return rendered("manual_functions.html", functions=functions())
+    return rendered("manual_functions.html", root, functions=functions())
 
 
 def headings(chapter: Chapter) -> list[Heading]:

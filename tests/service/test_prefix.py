@@ -64,7 +64,7 @@ def addresses_in(html: str) -> set[str]:
 
 def pages() -> list[str]:
     """A page of every kind, with a case of every calculation that is quick."""
-    found = ["/", "/docs", "/coupling/about"]
+    found = ["/", "/docs", "/coupling/about", "/manual", "/manual/coupling", "/manual/functions"]
     for each in CALCULATIONS:
         found.append(page_path(each))
         if each.path in CASES:

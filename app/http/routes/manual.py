@@ -1,8 +1,8 @@
 """The theory manual."""
 
-from fastapi import APIRouter, HTTPException, Response
+from fastapi import APIRouter, HTTPException, Request, Response
 
-from app.http.routes.pages import html
+from app.http.routes.pages import html, root_of
 from app.manual.chapters import NAMES
 from app.pages.manual import chapter_page, contents_page, functions_page
 
@@ -13,20 +13,20 @@ router = APIRouter(prefix="/manual", include_in_schema=False)
 
 
 @router.get("")
-def contents() -> Response:
+def contents(http: Request) -> Response:
     """What the manual holds."""
-    return html(contents_page())
+    return html(contents_page(root_of(http)))
 
 
 @router.get("/functions")
-def functions() -> Response:
+def functions(http: Request) -> Response:
     """The functions that implement the equations."""
-    return html(functions_page())
+    return html(functions_page(root_of(http)))
 
 
 @router.get("/{name}")
-def chapter(name: str) -> Response:
+def chapter(http: Request, name: str) -> Response:
     """One chapter."""
     if name not in NAMES:
         raise HTTPException(404, f"There are {', '.join(NAMES)} and functions")
-    return html(chapter_page(name))
+    return html(chapter_page(root_of(http), name))
