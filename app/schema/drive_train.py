@@ -31,15 +31,13 @@ from solvers.drive_train import derived, results
 from solvers.drive_train import inputs as si
 from solvers.drive_train.shafts import thrust_budget
 from solvers.errors import InvalidInput
-from solvers.gears.inputs import GearPairInputs
+from solvers.gears.inputs import GROUND_FILLET, RACK_A, GearPairInputs
 from solvers.lubricants import Lubricant, OilInUse
 from solvers.materials import Solid
 from solvers.oils import OilSheet
 from solvers.pumping import inputs as pumping
 from solvers.quantity import UNITS
 from solvers.scuffing import inputs as mesh
-
-PUMPING_RACK, MESH_RACK = 0.25, 0.38
 
 
 def _only_hot() -> list[si.State]:
@@ -59,18 +57,18 @@ class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
             ge=0,
             le=0.6,
             tolerance=0.02,
-            default_text=f"{MESH_RACK} for the mesh, {PUMPING_RACK} for the pumped spaces",
-            assumed=f"rack A of ISO 53, {MESH_RACK}, for the mesh; a ground fillet, {PUMPING_RACK}, for the spaces",
+            default_text=f"{RACK_A} for the mesh, {GROUND_FILLET} for the pumped spaces",
+            assumed=f"rack A of ISO 53, {RACK_A}, for the mesh; a ground fillet, {GROUND_FILLET}, for the spaces",
         ),
     ] = None
 
     def mesh_pair(self) -> GearPairInputs:
         """The pair of the load distribution."""
-        return self._pair(MESH_RACK)
+        return self._pair(RACK_A)
 
     def pumping_pair(self) -> GearPairInputs:
         """The pair of the pumped spaces."""
-        return self._pair(PUMPING_RACK)
+        return self._pair(GROUND_FILLET)
 
     def _pair(self, rack_tip_radius: float) -> GearPairInputs:
         """The pair; `rack_tip_radius` counts where none is given."""
@@ -126,17 +124,6 @@ class ShaftBearing(Section, of=si.ShaftBearing):
 
     stiffness_n_per_um: Stiffness | None
 
-    @model_validator(mode="after")
-    def complete(self) -> Self:
-        """Refuse a bearing that lacks what its type is described by."""
-        needed = {"journal": ("diameter_mm", "width_mm"), "linear": ("stiffness_n_per_um",), "rigid": ()}[self.type]
-        for name in needed:
-            if getattr(self, name) is None:
-                raise PydanticCustomError(
-                    "bearing_data", "A {type} bearing needs {name}", {"type": self.type, "name": name}
-                )
-        return self
-
 
 class ThrustBearing(Section):
     """What holds a shaft axially."""
@@ -153,22 +140,15 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
     def shaft(self, name: str, oil: OilSheet | Lubricant | None, oil_temperature: float) -> si.Shaft:
         """The solver's shaft, of this name; plain bearings without viscosity run in the gears' oil [K].
 
-        Raises InvalidInput no_oil where there is none.
+        Raises what `bearings_of` raises.
         """
+        described = tuple(bearing.si(si.ShaftBearing) for bearing in self.bearings)
         return si.Shaft(
             sections=tuple(section.si(si.ShaftSection) for section in self.sections),
-            bearings=tuple(self._bearings(name, oil, oil_temperature)),
+            bearings=si.bearings_of(name, described, oil, oil_temperature),
             ultimate_thrust=self.thrust_bearing.ultimate_load_n,
             **to_si(self),
         )
-
-    def _bearings(self, name: str, oil: OilSheet | Lubricant | None, oil_temperature: float) -> Iterator[si.Bearing]:
-        """The solver's bearings; what one lacks is named as its own."""
-        for index, bearing in enumerate(self.bearings):
-            try:
-                yield bearing.si(si.ShaftBearing).bearing(oil, oil_temperature)
-            except InvalidInput as error:
-                raise InvalidInput(error.code, error.message, f"{name}.bearings.{index}.{error.field}") from error
 
     def unused_shaft_defaults(self, section: str) -> frozenset[str]:
         """Clearance and oil belong to plain bearings."""

@@ -5,7 +5,7 @@ from typing import Annotated
 from app.schema.base import Section
 from app.schema.model import declared
 from app.schema.quantities import Input
-from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.inputs import RACK_A, GearPairInputs, GearTeeth
 from solvers.materials import Solid
 from solvers.pumping.inputs import PumpingSetup
 
@@ -32,7 +32,7 @@ class ScuffingGears(Gears):
             text="tip radius coefficient of the rack",
             assumed="rack A of ISO 53; the paper gives none",
         ),
-    ] = 0.38
+    ] = RACK_A
 
 
 class BacklashGears(Gears, of=PumpingSetup, only=("normal_backlash",)):

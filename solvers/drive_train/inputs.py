@@ -174,7 +174,8 @@ class ShaftBearing:
                 raise InvalidInput("bearing_data", "A linear bearing needs its stiffness", "stiffness")
             return LinearBearing(self.position, self.stiffness, self.offset)
         if self.diameter is None or self.width is None:
-            raise InvalidInput("bearing_data", "A journal bearing needs diameter and width", "diameter")
+            missing = "diameter" if self.diameter is None else "width"
+            raise InvalidInput("bearing_data", "A journal bearing needs diameter and width", missing)
         viscosity = self.viscosity
         if viscosity is None:
             if oil is None:
@@ -183,6 +184,22 @@ class ShaftBearing:
             film = oil_temperature + FILM_ABOVE_OIL if self.film_temperature is None else self.film_temperature
             viscosity = lubricant_at(oil, film).viscosity_at(0.0, film)
         return JournalBearing(self.position, self.diameter, self.width, viscosity, self.radial_clearance, self.offset)
+
+
+def bearings_of(
+    shaft: str, described: tuple[ShaftBearing, ...], oil: OilSheet | Lubricant | None, oil_temperature: float
+) -> tuple[Bearing, ...]:
+    """The bearings of a shaft, named "pinion_shaft" or "wheel_shaft", as `ShaftBearing.bearing` makes them.
+
+    Raises what it raises, with the full name of the field at fault.
+    """
+    found = []
+    for index, each in enumerate(described):
+        try:
+            found.append(each.bearing(oil, oil_temperature))
+        except InvalidInput as error:
+            raise InvalidInput(error.code, error.message, f"{shaft}.bearings.{index}.{error.field}") from error
+    return tuple(found)
 
 
 @record

@@ -6,6 +6,9 @@ from typing import Literal
 from solvers.quantity import quantity, record
 from solvers.sources import ISO_21771
 
+GROUND_FILLET = 0.25  # normal modules; usual tip radius of the rack of ground teeth
+RACK_A = 0.38  # normal modules; rack A of ISO 53, assumed where the stiffness of the teeth counts
+
 
 @record
 class GearTeeth:
@@ -95,7 +98,7 @@ class GearPairInputs:
         "ρ_fP*",
         "ISO 53",
         kw_only=True,
-        default=0.25,
+        default=GROUND_FILLET,
         ge=0,
         le=0.6,
         tolerance=0.02,
