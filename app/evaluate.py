@@ -93,14 +93,15 @@ def evaluate(calculation: Calculation, request: Request) -> Response:
         path = field_path(request, error.field) if error.field else None
         raise Unprocessable(error.code, error.message, path) from error
     except NoSolution as failure:
-        warning = Notice(code=failure.code, message=failure.message)
+        warning = Notice(rank="invalid", code=failure.code, message=failure.message)
         content: dict[str, Any] = {
             "status": "no_solution",
             "warnings": [warning],
             "residuals": failure.residuals,
         }
     else:
-        warnings = [_notice(request, warning) for warning in result.warnings]
+        ranked = sorted(result.warnings, key=lambda each: notices.RANKS.index(each.rank))
+        warnings = [_notice(request, warning) for warning in ranked]
         content = from_si(
             calculation.response, result, request.detail, skip=_COMMON.difference(calculation.response.origins)
         )
@@ -124,7 +125,7 @@ def evaluate(calculation: Calculation, request: Request) -> Response:
 
 def _notice(request: Request, warning: notices.Notice) -> Notice:
     field = field_path(request, warning.field) if warning.field else None
-    return Notice(code=warning.code, message=warning.message, field=field)
+    return Notice(rank=warning.rank, code=warning.code, message=warning.message, field=field)
 
 
 def _assumptions(

@@ -1,6 +1,17 @@
 """What a result has to say about its own validity."""
 
 from dataclasses import dataclass
+from typing import Literal, get_args
+
+Rank = Literal["invalid", "doubtful", "note"]
+"""How much a warning takes from a result.
+
+invalid     a result is missing, or stands where the theory does not hold
+doubtful    a limit of validity, of resolution or of good practice is left; the result is to be questioned
+note        what was left out or assumed, or has no meaning here; the result stands
+"""
+RANKS: tuple[Rank, ...] = get_args(Rank)
+"""The gravest first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -10,3 +21,4 @@ class Notice:
     code: str
     message: str
     field: str | None = None
+    rank: Rank = "doubtful"

@@ -10,6 +10,7 @@ from pydantic_core import CoreSchema
 
 from app.schema.model import Documented, built
 from app.schema.quantities import Input, Output
+from solvers.notices import Rank
 from solvers.quantity import Detail
 
 T = TypeVar("T")
@@ -75,6 +76,14 @@ class Group(Documented):
 class Notice(Group):
     """A value outside its range of validity, or without meaning."""
 
+    rank: Annotated[
+        Rank,
+        Output(
+            "rank of the warning",
+            text="invalid: a result is missing or the theory does not hold; doubtful: a limit is left; note: left out, "
+            "assumed or without meaning; the gravest first",
+        ),
+    ]
     code: Annotated[str, Output("code of the warning", text="stable name, meant for programs")]
     message: Annotated[str, Output("message of the warning", text="what is out of which range, and what follows")]
     field: Annotated[

@@ -39,7 +39,7 @@ def _shown(path: str, value: float) -> Scalar:
 def unsolved_corners(count: int) -> list[dict[str, str]]:
     """The warning about corners without solution, if there are any."""
     notice = no_convergence(count)
-    return [{"code": notice.code, "message": notice.message}] if count else []
+    return [{"rank": notice.rank, "code": notice.code, "message": notice.message}] if count else []
 
 
 def needs_film_or_state(output: str) -> bool:

@@ -24,16 +24,23 @@ def motion_notices(
     """Notices about misalignment, speed and sliding."""
     operation, sliding = inputs.operation, kinematics.max_sliding_velocity
     if operation.misalignment == 0.0:
-        yield Notice("no_misalignment", "the contact does not travel: no contact overlap, no oil film", "misalignment")
+        yield Notice(
+            "no_misalignment",
+            "the contact does not travel: no contact overlap, no oil film",
+            "misalignment",
+            rank="note",
+        )
     if operation.speed == 0.0:
-        yield Notice("not_turning", "the coupling does not turn: no allowable misalignment, no oil film", "speed")
+        yield Notice(
+            "not_turning", "the coupling does not turn: no allowable misalignment, no oil film", "speed", rank="note"
+        )
     elif limits.allowable_misalignment is None:
         message = "it turns so slowly that no misalignment reaches the sliding velocity limit: none to report"
-        yield Notice("no_sliding_limit", message, "speed")
+        yield Notice("no_sliding_limit", message, "speed", rank="note")
     elif limits.allowable_misalignment > MAX_MISALIGNMENT:
         angle = degrees(limits.allowable_misalignment)
         message = f"the allowable misalignment of {angle:.3g} degrees lies beyond the 6 degrees of the theory"
-        yield Notice("allowable_misalignment", message, "speed")
+        yield Notice("allowable_misalignment", message, "speed", rank="note")
     if sliding > SLIDING_VELOCITY_LIMIT:
         message = f"the sliding velocity of {sliding:.3g} m/s exceeds the limit of {SLIDING_VELOCITY_LIMIT} m/s"
         yield Notice("sliding_velocity", message, "misalignment")
@@ -59,9 +66,9 @@ def load_notices(
             "no torque: no load concentration, load capacity coefficient or thrust limit; "
             "friction regime and coefficient are those of a vanishing load"
         )
-        yield Notice("no_load", message, "torque")
+        yield Notice("no_load", message, "torque", rank="note")
     elif thrust.coaxial_limit == 0.0:
-        yield Notice("no_friction", "no friction: the thrust is no fraction of its limit", "coefficient")
+        yield Notice("no_friction", "no friction: the thrust is no fraction of its limit", "coefficient", rank="note")
     if torque < limits.sleeve_centring_torque:
         message = f"below {limits.sleeve_centring_torque:.4g} N m the teeth do not hold a horizontal sleeve centred"
         yield Notice("sleeve_not_centred", message, "torque")
@@ -75,19 +82,19 @@ def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication:
     yield from plausibility.thick_oil(inputs.lubricant.viscosity)
     half_face = inputs.coupling.face_width / 2.0
     if lubrication.hertz_half_width > half_face:
-        yield Notice("wide_contact", "the contact at rest is wider than the tooth face", "face_width")
+        yield Notice("wide_contact", "the contact at rest is wider than the tooth face", "face_width", rank="invalid")
     if kinematics.max_contact_travel >= half_face:
         message = f"the contact travels {kinematics.max_contact_travel * 1e3:.3g} mm and leaves the tooth: no oil film"
-        yield Notice("edge_contact", message, "face_width")
+        yield Notice("edge_contact", message, "face_width", rank="invalid")
     elif kinematics.max_contact_travel + lubrication.hertz_half_width > half_face:
         reach = kinematics.max_contact_travel + lubrication.hertz_half_width
         message = f"the contact reaches {reach * 1e3:.3g} mm from the middle of the face, beyond its end"
         yield Notice("edge_contact", message, "face_width")
     if lubrication.inlet_ratio is None:
-        yield Notice("infinite_inlet", "the inlet is infinitely long: no inlet ratio", "inlet")
+        yield Notice("infinite_inlet", "the inlet is infinitely long: no inlet ratio", "inlet", rank="note")
     if lubrication.regime.area == UNSTABLE_AREA:
         message = "the friction is unstable here: the paper states no coefficient for area 3.3"
-        yield Notice("unstable_regime", message, "misalignment")
+        yield Notice("unstable_regime", message, "misalignment", rank="invalid")
 
 
 def orbit_notices(

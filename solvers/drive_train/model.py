@@ -110,13 +110,13 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
         derived=derived(inputs, spread),
         warnings=(
             *spread.warnings,
-            *gas.warnings,
             *coupling_notices(inputs, couplings, warnings_of(system, found)),
             *shaft_notices(inputs, shafts),
             *load_notices(inputs, load, heat.safety),
             *loss_notices(inputs, losses),
             *oil_notices(inputs.mesh, spread.path_of_contact),
             *heat.warnings,
+            *gas.warnings,
         ),
     )
 

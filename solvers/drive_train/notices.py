@@ -34,7 +34,7 @@ def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResu
                 yield from _film_notices(bearing, state.eccentricity_ratio, state.min_film, field)
         if not all(isinstance(bearing, JournalBearing) for bearing in shaft.bearings):
             message = "the loss of bearings that are no plain ones is not known; total loss and efficiency leave it out"
-            yield Notice("bearing_loss_left_out", message, f"{name}.bearings")
+            yield Notice("bearing_loss_left_out", message, f"{name}.bearings", rank="note")
         thrust = result.thrust
         if thrust.reverses:
             message = f"the coupling's friction can turn the thrust round: {thrust.lower:.0f} to {thrust.upper:.0f} N"
@@ -47,7 +47,7 @@ def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResu
         places = [bearing.position for bearing in shaft.bearings]
         if min(abs(coupling.position - place) for place in places) > max(places) - min(places):
             message = "the hub overhangs its bearing by more than the bearings' distance"
-            yield Notice("long_overhang", message, f"couplings.{k}.position")
+            yield Notice("long_overhang", message, f"couplings.{k}.position", rank="note")
 
 
 def _film_notices(
@@ -72,10 +72,10 @@ def load_notices(inputs: DriveTrainInputs, load: FaceLoad, safety: TrainSafety |
         yield Notice("lift_off", message, "mesh.distribution.modifications")
     if safety is not None and (safety.blok_flank or 0.0) < CORNER * (safety.blok_feature or 0.0):
         message = "the hottest point lies off the feature line, whose safety alone would be too high"
-        yield Notice("corner_missed", message)
+        yield Notice("corner_missed", message, rank="note")
     if inputs.effects.thermal and inputs.heat.wall_response is None:
         message = "the wall response is assumed (0.5); only measurements give it, between 0.2 and 1"
-        yield Notice("wall_response_assumed", message, "heat.wall_response")
+        yield Notice("wall_response_assumed", message, "heat.wall_response", rank="note")
 
 
 def loss_notices(inputs: DriveTrainInputs, losses: TrainLosses) -> Iterator[Notice]:
@@ -98,7 +98,7 @@ def coupling_notices(
         for name, stuck, share in zip(("unit", "machine"), coupling.stuck, coupling.friction_share, strict=True):
             if stuck and inputs.coupling_friction == "elastic_plastic":
                 message = f"the {name}'s hub sticks; its friction moment is {share:.2f} of full sliding's"
-                yield Notice("hub_sticks", message, f"{field}.friction")
+                yield Notice("hub_sticks", message, f"{field}.friction", rank="note")
         for notice in {one.code: one for one in said}.values():
             code = "misalignment_limit" if notice.code == "sliding_velocity" else notice.code
             where = field if notice.field is None else f"{field}.{notice.field}"

@@ -17,13 +17,14 @@ def pair_notices(path: PathOfContact) -> list[Notice]:
         used = rack_tip_radius(inputs, teeth)
         if used < inputs.rack_tip_radius:
             message = f"the {name}'s rack has room for a tip radius of {used:.3f} modules only; that is used"
-            notices.append(Notice("rack_tip_radius", message, "rack_tip_radius"))
+            notices.append(Notice("rack_tip_radius", message, "rack_tip_radius", rank="note"))
         notices += _tooth_notices(gear, inputs.normal_module, name)
     notices += [
         Notice(
             "path_shortened",
             f"the mate's tip reaches below the {name}'s usable involute; the path of contact starts where that does",
             f"{name}.dedendum",
+            rank="note",
         )
         for name in path.shortened_by
     ]

@@ -45,7 +45,10 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
     axial = _lowest([(r.axial, f.axial) for r, f in zip(rough, fine, strict=True)], scan)
     notices = [
         Notice(
-            "beyond_search_limit", f"the {name} stays below sonic flow up to {rpm(exp(top)):.6g} rpm", "search_limit"
+            "beyond_search_limit",
+            f"the {name} stays below sonic flow up to {rpm(exp(top)):.6g} rpm",
+            "search_limit",
+            rank="note",
         )
         for name, speed in (("radial gap", radial), ("axial exit", axial))
         if speed is None

@@ -218,13 +218,15 @@ def _missing(result: SpacesResult, total: Totals, correction: LeadCorrection | N
     notices = []
     if total.axial_meshing_speed is None:
         message = "a spur gear meshes over its whole face at once: the meshing point has no speed along it"
-        notices.append(Notice("spur_gear", message, "helix_angle"))
+        notices.append(Notice("spur_gear", message, "helix_angle", rank="note"))
     if result.max_temperature_rise is None:
-        notices.append(Notice("no_temperature", "an incompressible gas has no temperature rise of its own", "flow"))
+        notices.append(
+            Notice("no_temperature", "an incompressible gas has no temperature rise of its own", "flow", rank="note")
+        )
     elif result.balance.energy_error is None:
         message = "the isentropic closure conserves no energy: its temperatures are low by a factor of about two"
         notices.append(Notice("no_energy_balance", message, "closure"))
     if correction is None:
         message = "a lead correction needs the temperatures of the pinion's spaces"
-        notices.append(Notice("no_lead_correction", message, "spaces"))
+        notices.append(Notice("no_lead_correction", message, "spaces", rank="note"))
     return notices

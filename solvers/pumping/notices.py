@@ -32,7 +32,7 @@ def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float
     ratio = path.transverse_contact_ratio
     if ratio < 1.0:
         message = f"the transverse contact ratio is {ratio:.3f}: below 1 nothing seals the space between two pairs"
-        notices.append(Notice("contact_ratio_below_one", message, "addendum"))
+        notices.append(Notice("contact_ratio_below_one", message, "addendum", rank="invalid"))
     for gear, name in ((setup.gears.pinion, "pinion"), (setup.gears.wheel, "wheel")):
         if gear.teeth < FEW_TEETH:
             message = f"the {name} has {gear.teeth} teeth: below {FEW_TEETH} the model was never checked"
@@ -59,14 +59,14 @@ def jump_notices(tables: Sequence[StrokeTable]) -> list[Notice]:
         "point to a tip corner leaves the flank for the root: pressures are wrong from there on; the contact gap knows "
         "no such jump"
     )
-    return [Notice("area_jump", message, "gap")]
+    return [Notice("area_jump", message, "gap", rank="invalid")]
 
 
 def flow_notices(flow: Flow, largest_mach: float, largest_gauge_pressure: float) -> list[Notice]:
     """Flows outside what their model resolves; the pressure is a share of the ambient one."""
     if flow is Flow.INCOMPRESSIBLE and largest_mach > INCOMPRESSIBLE_MACH:
         message = f"Mach {largest_mach:.2f}: above {INCOMPRESSIBLE_MACH:g} the gas is far from incompressible"
-        return [Notice("incompressible_mach", message, "flow")]
+        return [Notice("incompressible_mach", message, "flow", rank="invalid")]
     if flow is Flow.POCKET_CHAIN and largest_gauge_pressure < LEAST_GAUGE_PRESSURE:
         message = (
             f"the pressure differs from the ambient one by less than its {LEAST_GAUGE_PRESSURE:g}th part, which the "

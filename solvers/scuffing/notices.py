@@ -30,7 +30,9 @@ def geometry_notices(path: PathOfContact, lengths: ContactLengths) -> list[Notic
     notices = [*pair_notices(path), *_range_notices(path.pair.inputs)]
     if not path.start <= path.pitch_point <= path.end:
         notices.append(
-            Notice("pitch_point_outside", "the path of contact does not hold the pitch point", "profile_shift")
+            Notice(
+                "pitch_point_outside", "the path of contact does not hold the pitch point", "profile_shift", rank="note"
+            )
         )
     if lengths.ratio < LEAST_LENGTH_RATIO:
         notices.append(
@@ -74,6 +76,7 @@ def model_notices(path: PathOfContact, model: Model) -> list[Notice]:
                 "calibrated_stiffness",
                 "the parabola is calibrated to the load maxima of Xue, Zhang and Wang, not derived",
                 "tooth_stiffness",
+                rank="note",
             )
         )
     if model.section == "transverse" and degrees(path.pair.inputs.helix_angle) > TRANSVERSE_HELIX:
@@ -111,7 +114,7 @@ def load_notices(balance: LoadBalance) -> list[Notice]:
     notices = []
     if balance.force == 0.0:
         message = "without a torque that presses the flanks only the kinematic transmission error is computed"
-        notices.append(Notice("no_load", message, "pinion_torque"))
+        notices.append(Notice("no_load", message, "pinion_torque", rank="note"))
     if balance.bent_steps:
         message = (
             f"the contact is so light that between {balance.bent_steps} roll positions loads are interpolated roughly: "
@@ -123,7 +126,7 @@ def load_notices(balance: LoadBalance) -> list[Notice]:
             "the loaded path reaches a base circle, towards which the reduced radius vanishes: pressure and flash "
             "temperature have no maximum there, and no safety is stated"
         )
-        notices.append(Notice("path_reaches_base_circle", message, "profile_shift"))
+        notices.append(Notice("path_reaches_base_circle", message, "profile_shift", rank="invalid"))
     if np.any(balance.survey.held > 0.0):
         notices.append(
             Notice(

@@ -1,12 +1,15 @@
 """What an engineer has at hand: an oil by grade or data sheet, an FZG stage, factors; and guards against slips."""
 
+from dataclasses import replace
 from math import pi
-from typing import Any
+from typing import Any, NoReturn
 
 import pytest
 
 from app.calculations import BY_PATH
+from app.evaluate import answer, evaluate
 from app.examples import STARTER, examples
+from solvers.errors import NoSolution
 from tests.support.gear_pairs import FZG_TORQUES
 from tests.support.requests import CONTACT, COUPLING, MIST, PAIR, refused, solved
 
@@ -294,7 +297,7 @@ def test_slips_are_named(
     result = solved(endpoint, body, changes)
     assert result["status"] == "ok_with_warnings"
     said = [warning for warning in result["warnings"] if warning["code"] == "unusual_value"]
-    assert {"code": "unusual_value", "message": message, "field": field} in said
+    assert {"rank": "doubtful", "code": "unusual_value", "message": message, "field": field} in said
 
 
 @pytest.mark.parametrize("endpoint", sorted(BY_PATH))
@@ -309,3 +312,34 @@ def test_every_endpoint_has_a_starter_and_starters_come_first(endpoint: str) -> 
 def test_stagnation_temperature_of_the_axial_speed_only_is_an_assumption(flow: str) -> None:
     assumptions = solved("/v1/pumping", MIST, {"model": {"flow": flow}})["assumptions"]
     assert [item["value"] for item in assumptions if "axial speed only" in item["reason"]] == [flow]
+
+
+@pytest.mark.parametrize(
+    ("example", "ranked"),
+    [
+        ("starter-coupling-at-its-limits", [("invalid", "edge_contact"), ("doubtful", "sliding_velocity")]),
+        (
+            "starter-turbo-gear-drive-train",
+            [("doubtful", "thrust_reversal"), ("doubtful", "net_flow_uncertain"), ("note", "corner_missed")],
+        ),
+        (
+            "milian-table-1-incompressible",
+            [("note", each) for each in ("spur_gear", "no_temperature", "no_lead_correction")],
+        ),
+    ],
+)
+def test_warnings_stand_in_the_order_of_their_rank(example: str, ranked: list[tuple[str, str]]) -> None:
+    chosen = examples()[example]
+    found = answer(chosen.endpoint, {**chosen.request, "detail": "summary"})
+    assert [(each["rank"], each["code"]) for each in found["warnings"]] == ranked
+
+
+def test_what_has_no_solution_is_invalid() -> None:
+    calculation = BY_PATH["/v1/scuffing/load-distribution"]
+    request = calculation.request.model_validate(PAIR | {"model": {}})
+
+    def unsolved(_: object) -> NoReturn:
+        raise NoSolution("load_balance", "the load balance does not converge", {"force": 0.1})
+
+    found = evaluate(replace(calculation, solve=unsolved), request)
+    assert [(each.rank, each.code) for each in found.warnings] == [("invalid", "load_balance")]

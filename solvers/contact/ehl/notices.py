@@ -98,7 +98,7 @@ def mesh_notices(error: MeshError | None) -> list[Notice]:
 def failure_notice(convergence: Convergence) -> Notice:
     """Why there is no solution."""
     message = f"{FAILURES[convergence.stage]} on {convergence.nodes} nodes; try other nodes or ree_eyring"
-    return Notice("not_converged", message, "nodes")
+    return Notice("not_converged", message, "nodes", rank="invalid")
 
 
 def slips(_inputs: LineContactInputs, result: LineContactResult) -> Iterator[Notice]:

@@ -239,7 +239,7 @@ def _infeasible(failed: str, scan: CrowningScan, coupling: Coupling, warnings: t
         at_max=None,
         scan=scan,
         derived=coupling,
-        warnings=(*warnings, Notice("infeasible", _REASONS[failed], "misalignment_range")),
+        warnings=(*warnings, Notice("infeasible", _REASONS[failed], "misalignment_range", rank="invalid")),
     )
 
 

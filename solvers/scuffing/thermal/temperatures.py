@@ -97,14 +97,14 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
             "no oil is given (iso_vg, two kinematic viscosities or viscosity_pa_s): film, contact temperature and "
             "safety are not stated"
         )
-        yield Notice("no_oil", message, "lubricant")
+        yield Notice("no_oil", message, "lubricant", rank="note")
         return
     if inputs.temperatures.bulk is None:
         message = (
             "the path of contact reaches a base circle, where no flash temperature is defined to estimate the bulk "
             "temperature from: film, contact temperature and safety are not stated; give the bulk temperature"
         )
-        yield Notice("no_bulk_estimate", message, "temperatures.bulk_method")
+        yield Notice("no_bulk_estimate", message, "temperatures.bulk_method", rank="invalid")
         return
     speed = pitch_line_velocity(inputs.distribution, path)
     if inputs.temperatures.bulk_method == "estimated" and speed > FLOODED_UP_TO:

@@ -86,7 +86,7 @@ def path_notices(
     notices = []
     if "unloaded" in path.status:
         message = "there is no film where the feature line is not loaded or does not move"
-        notices.append(Notice("no_film", message, _what_leaves_no_film(distribution)))
+        notices.append(Notice("no_film", message, _what_leaves_no_film(distribution), rank="note"))
     if unknown:
         notices.append(
             Notice(
@@ -94,10 +94,16 @@ def path_notices(
                 f"{path.status.count('no_solution')} of {len(path.status)} points have no solution and "
                 f"{path.status.count('refused')} are outside the range of the model; {unknown} of them may decide: no "
                 "largest flash temperature, thinnest film or safety is stated from the others",
+                rank="invalid",
             )
         )
     if safety is not None and safety.blok_factor is None and hottest is not None and hottest.blok_max is not None:
         notices.append(
-            Notice("no_safety", "the teeth stay as cool as the oil; the safety factor has no meaning", "temperatures")
+            Notice(
+                "no_safety",
+                "the teeth stay as cool as the oil; the safety factor has no meaning",
+                "temperatures",
+                rank="note",
+            )
         )
     return tuple(notices)
