@@ -4,9 +4,13 @@ Numba's own locators notice a change of the file that a kernel stands in, not of
 the code of a module lies in a folder named by a hash of that module, of every module of this package that it imports,
 directly or not, of the versions of Python and numba and of the processor: a change of any of them gives another folder.
 
-A folder that cannot be written is read all the same (an installation compiled once and mounted read-only), a broken
-file is removed and compiled again, and where there is no folder kernels live in memory. Where nothing can be written
-and a kernel is called with types that the folder does not hold, numba raises OSError.
+A folder that cannot be written is read all the same (an installation compiled once and mounted read-only), and where
+there is no folder kernels live in memory. Where nothing can be written and a kernel is called with types that the
+folder does not hold, numba raises OSError.
+
+A damaged file would crash the process or, worse, calculate something else. Folders of a complete cache therefore hold a
+digest of their files, and one that does not fit is removed and compiled again. Files of other folders are looked
+through for whether they end too early.
 """
 
 import hashlib
@@ -35,6 +39,7 @@ IMPORT = re.compile(rf"^\s*(?:from|import)\s+({PACKAGE.name}[\w.]*)(?:\s+import\
 KEPT_UNUSED_S = 30 * 86400  # a month: folders of earlier versions serve again when one goes back and forth
 NEEDED_BYTES = 100_000_000  # all kernels take 25 MB; some room for two versions
 
+DIGEST = "sha256"  # the file with the digest of the others
 PICKLES = {".nbi": 2, ".nbc": 1}  # how many pickles numba writes into an index and into a file of code
 
 logger = logging.getLogger(__name__)
@@ -54,8 +59,9 @@ class KernelLocator:
         return None if folder is None else cls(function, folder)
 
     def ensure_cache_path(self) -> None:
-        """Make the folder: numba asks for it before it writes."""
+        """Make the folder: numba asks for it before it writes, and the digest will not fit any longer."""
         self._folder.mkdir(parents=True, exist_ok=True)
+        (self._folder / DIGEST).unlink(missing_ok=True)
 
     def get_cache_path(self) -> str:
         """Where numba reads and writes."""
@@ -102,8 +108,14 @@ def cache_folder(file: str) -> Path | None:
 
 
 def _is_sound(folder: Path) -> bool:
-    """Whether the folder is there and holds whole files only, after the others were removed."""
+    """Whether the folder is there and holds what was written, after what is damaged was removed."""
     if not folder.is_dir():
+        return False
+    if (folder / DIGEST).is_file():
+        if (folder / DIGEST).read_text() == _digest(folder):
+            return True
+        logger.warning("discarded a broken kernel cache: %s", folder)
+        shutil.rmtree(folder, ignore_errors=True)
         return False
     broken = [
         file
@@ -116,6 +128,15 @@ def _is_sound(folder: Path) -> bool:
         with suppress(OSError):
             file.unlink(missing_ok=True)
     return not any(file.exists() for file in broken)
+
+
+def _digest(folder: Path) -> str:
+    """A hash of the names and contents of the files that numba has written."""
+    digest = hashlib.sha256()
+    for file in sorted(file for suffix in PICKLES for file in folder.glob(f"*{suffix}")):
+        digest.update(file.name.encode())
+        digest.update(file.read_bytes())
+    return digest.hexdigest()
 
 
 def _is_whole(file: Path, pickles: int) -> bool:
@@ -222,15 +243,19 @@ def is_complete(content: str) -> bool:
 
 
 def mark_complete(content: str, *, complete: bool = True) -> None:
-    """Note whether everything that `content` names is compiled and kept."""
+    """Note whether everything that `content` names is compiled and kept, and of what is the digests."""
     root = writable_root()
-    if root is not None:
-        with suppress(OSError):
-            if complete:
-                (root / _mark(content)).touch()
-                _prune(root)
-            else:
-                (root / _mark(content)).unlink(missing_ok=True)
+    if root is None:
+        return
+    with suppress(OSError):
+        if not complete:
+            (root / _mark(content)).unlink(missing_ok=True)
+            return
+        for folder in {root / folder_name(source) for source in PACKAGE.rglob("*.py")}:
+            if folder.is_dir() and not (folder / DIGEST).exists():
+                (folder / DIGEST).write_text(_digest(folder))
+        (root / _mark(content)).touch()
+        _prune(root)
 
 
 def _prune(root: Path) -> None:

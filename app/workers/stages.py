@@ -3,6 +3,7 @@
 `python -m app.workers.stages` compiles all of them and keeps the machine code on disk.
 """
 
+import logging
 import os
 import sys
 from collections.abc import Callable
@@ -31,10 +32,11 @@ FIGURES = Stage("figures and studies", 0, ())  # no kernels, but slow to load
 TRACKS = ((COUPLING, SLEEVE, LOADS, PUMPING, DRIVE_TRAIN, FIGURES), (LINE_CONTACT,))
 STAGES = tuple(stage for track in TRACKS for stage in track)
 
-
 # A new worker answers these two before its first call (1 and 8 ms): writing to a page of memory that it shares with the
 # template copies the page, which would double the time of a first call, and these touch most of what others touch.
 TOUCHING = (COUPLING, LOADS)
+
+logger = logging.getLogger("tribodrive")
 
 
 def content() -> str:
@@ -73,11 +75,25 @@ def warm(stage: Stage, notify: Callable[[], object] = lambda: None) -> int:
     compilations = _Compilations(notify)
     with event.install_listener("numba:compile", compilations):
         for name in stage.examples:
-            calculate(name)
+            _calculate_with(compilations, name)
         if stage == FIGURES:
             _load_figures()
     _warm.add(stage)
     return compilations.count
+
+
+def _calculate_with(compilations: _Compilations, name: str) -> None:
+    """Answer one example though kernels cannot be written: numba raises then, but keeps what it has compiled."""
+    while True:
+        before = compilations.count
+        try:
+            calculate(name)
+        except OSError as error:
+            if compilations.count == before:
+                raise
+            logger.warning("a compiled kernel could not be kept on disk: %s", error)
+        else:
+            return
 
 
 def _load_figures() -> None:

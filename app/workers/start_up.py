@@ -16,6 +16,7 @@ from app.workers.pool import Pool
 from app.workers.stages import STAGES, TRACKS, content, discard_kernels
 from solvers.kernel_cache import is_complete, mark_complete, writable_root
 
+MOST_DEATHS = 3  # of the template over one stage
 BAR = 40  # characters
 
 logger = logging.getLogger("tribodrive")
@@ -102,8 +103,7 @@ class StartUp:
                     group.create_task(self._compile(track))
         if self._missing:
             logger.warning("%d kernels were not on disk; the next start compiles what is missing", self._missing)
-        if complete == bool(self._missing):
-            mark_complete(content(), complete=not self._missing)
+        await asyncio.to_thread(mark_complete, content(), complete=not self._missing)
 
     async def _compile(self, stages: Sequence[Stage]) -> None:
         """Compile stages and load each when it is done; where the process is lost, loading compiles the rest."""
@@ -128,7 +128,9 @@ class StartUp:
                 try:
                     for each in dict.fromkeys((*self._warm, stage)):
                         loading = each
-                        self._missing += await self._pool.template.warm(each)
+                        if self._deaths[each] < MOST_DEATHS:
+                            self._missing += await self._pool.template.warm(each)
+                            del self._deaths[each]
                     break
                 except ProcessDied:
                     await self._pool.template_restarted.wait()
@@ -141,9 +143,11 @@ class StartUp:
             self._show()
 
     async def _mend(self, stage: Stage) -> None:
-        """Compile a stage again over which the template has died twice: its kernels on disk are not sound."""
+        """The template has died over a stage: where it is not the first time the kernels on disk may be damaged."""
         self._deaths[stage] += 1
-        if self._deaths[stage] == 2:
+        if self._deaths[stage] == MOST_DEATHS:
+            logger.error("%s is not loaded: %d processes died of it; its first callers wait", stage.name, MOST_DEATHS)
+        elif self._deaths[stage] > 1:
             logger.warning("two processes died while they loaded %s: its kernels are compiled again", stage.name)
             discard_kernels(stage)
             with suppress(ProcessDied):

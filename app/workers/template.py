@@ -66,17 +66,13 @@ def main(parent: int, descriptor: int, preloaded: str) -> None:
 
 
 def _warm(stage: "Stage") -> int:
-    """Load a stage; one that fails is logged, and costs its first callers time."""
+    """Load a stage. Where that fails this process ends, for what it has loaded may be damaged."""
     from app.workers import stages  # noqa: PLC0415  numba, which the service's own process does without
 
-    try:
-        return stages.warm(stage)
-    except Exception:
-        logger.exception("%s failed while its kernels were loaded", stage.name)
-        return 0
-    finally:
-        gc.collect()
-        gc.freeze()
+    compiled = stages.warm(stage)
+    gc.collect()
+    gc.freeze()
+    return compiled
 
 
 def _copy(control: socket.socket, descriptor: int, serve: Callable[[Connection], None]) -> int:

@@ -6,7 +6,7 @@ from contextlib import asynccontextmanager
 
 import pytest
 
-from app.calculations import COUPLING, Stage
+from app.calculations import COUPLING, SLEEVE, Stage
 from app.workers import start_up
 from app.workers.control import ProcessDied
 from app.workers.stages import STAGES
@@ -92,12 +92,28 @@ def test_a_complete_cache_in_which_a_kernel_is_missing_is_no_longer_marked(
 ) -> None:
     monkeypatch.setattr(start_up, "is_complete", lambda _: True)
     asyncio.run(StartUp(FakePool())._load_all())
-    assert marks == []
     asyncio.run(StartUp(FakePool(compiled=1))._load_all())
-    assert marks == ["incomplete"]
+    assert marks == ["complete", "incomplete"]
 
 
-@pytest.mark.parametrize(("compiled", "expected"), [(0, ["complete"]), (1, [])])
+def test_a_stage_over_which_the_template_always_dies_is_left_out(
+    marks: list[str], caplog: pytest.LogCaptureFixture
+) -> None:
+    pool = FakePool(deaths={COUPLING: 1000})
+    start = StartUp(pool)
+
+    async def load_two() -> None:
+        await start._load(COUPLING)
+        await start._load(SLEEVE)
+
+    asyncio.run(load_two())
+    assert pool.loaded == [SLEEVE]
+    assert start.warm == ["coupling", "coupling sleeve"]
+    assert marks == ["discarded coupling"]
+    assert "coupling is not loaded" in caplog.text
+
+
+@pytest.mark.parametrize(("compiled", "expected"), [(0, ["complete"]), (1, ["incomplete"])])
 def test_a_cache_is_complete_if_loading_compiled_nothing(marks: list[str], compiled: int, expected: list[str]) -> None:
     pool = FakePool(compiled=compiled)
     asyncio.run(StartUp(pool)._load_all())

@@ -1,12 +1,12 @@
 """The first start: open at once, coupling first, stoppable at any moment; and a cache in every state of disrepair."""
 
 import os
-import shutil
 import signal
 import socket
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
@@ -14,7 +14,7 @@ import httpx
 import pytest
 
 from app.examples import examples
-from tests.support.caches import complete_cache
+from tests.support.caches import copy_of_cache
 from tests.support.server import (
     ROOT,
     children,
@@ -111,33 +111,95 @@ def test_port_in_use_is_said_at_once() -> None:
     assert outcome.stdout == ""
 
 
-def damaged(folder: Path, target: Path, size: int) -> int:
-    """A copy of the cache in which every file of one model is cut to `size` bytes; how many."""
-    shutil.copytree(folder, target)
-    files = [path for pattern in ("*.nbi", "*.nbc") for path in target.glob(f"balance-*/{pattern}")]
-    for path in files:
-        path.write_bytes(path.read_bytes()[:size])
-    return len(files)
+def answer_after_a_start(cache: Path, log: Path, seconds: float = 120) -> bytes:
+    """What the service answers to a coupling with this cache."""
+    with started_server(environment={"NUMBA_CACHE_DIR": str(cache)}, log=log, workers=2) as (process, address):
+        wait_until_warm(process, address, seconds)
+        answer = httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=20)
+    assert answer.status_code == 200
+    return answer.content
 
 
-@pytest.mark.parametrize("size", [0, 100])
-def test_broken_cache_files_are_compiled_again(tmp_path: Path, size: int) -> None:
-    log = tmp_path / "log"
-    assert damaged(complete_cache(), tmp_path / "cache", size) > 5
-    with started_server(environment={"NUMBA_CACHE_DIR": str(tmp_path / "cache")}, log=log) as (process, address):
-        wait_until_warm(process, address, 120)
-        assert httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=20).status_code == 200
+def machine_code(cache: Path) -> list[Path]:
+    """The files of one module of the coupling."""
+    files = sorted(cache.glob("balance-*/*.nbc"))
+    assert len(files) > 5
+    return files
+
+
+def swap(files: list[Path]) -> None:
+    contents = [file.read_bytes() for file in files]
+    for file, content in zip(files, contents[1:] + contents[:1], strict=True):
+        file.write_bytes(content)
+
+
+def flip_a_bit(files: list[Path]) -> None:
+    content = bytearray(files[0].read_bytes())
+    content[len(content) // 2] ^= 1
+    files[0].write_bytes(content)
+
+
+def cut(files: list[Path]) -> None:
+    for file in files:
+        file.write_bytes(file.read_bytes()[:100])
+
+
+@pytest.mark.parametrize("damage", [flip_a_bit, cut])
+def test_damaged_kernels_are_noticed_and_compiled_again(tmp_path: Path, damage: Callable[[list[Path]], None]) -> None:
+    cache, log = copy_of_cache(tmp_path / "cache"), tmp_path / "log"
+    whole = answer_after_a_start(cache, log)
+    assert "broken" not in log.read_text("utf-8")
+    damage(machine_code(cache))
+    assert answer_after_a_start(cache, log) == whole
     lines = [line for line in log.read_text("utf-8").splitlines() if "broken kernel cache" in line]
     assert lines
     assert all("balance-" in line for line in lines)
-    with started_server(environment={"NUMBA_CACHE_DIR": str(tmp_path / "cache")}, log=log) as (process, address):
-        wait_until_warm(process, address, 60)
+    assert answer_after_a_start(cache, log, 60) == whole
     assert "broken" not in log.read_text("utf-8")
 
 
+def test_kernels_over_which_the_template_dies_twice_are_compiled_again(tmp_path: Path) -> None:
+    """Damage of which no digest tells."""
+    cache, log = copy_of_cache(tmp_path / "cache"), tmp_path / "log"
+    whole = answer_after_a_start(cache, log)
+    for digest in cache.glob("*/sha256"):
+        digest.unlink()
+    swap(machine_code(cache))
+    assert answer_after_a_start(cache, log) == whole
+    lines = [line for line in log.read_text("utf-8").splitlines() if "compiled again" in line]
+    assert lines == ["two processes died while they loaded coupling: its kernels are compiled again"]
+    assert answer_after_a_start(cache, log, 60) == whole
+    assert "died" not in log.read_text("utf-8")
+
+
+WITHOUT_ROOM = """
+import resource
+resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, 10_000))
+from app.calculations import COUPLING
+from app.workers.stages import warm
+print(warm(COUPLING), warm(COUPLING))
+"""
+
+
+def test_kernels_that_cannot_be_written_are_compiled_in_memory(tmp_path: Path) -> None:
+    """As on a full disk; they count as missing each time."""
+    for _ in range(2):
+        outcome = subprocess.run(
+            [sys.executable, "-c", WITHOUT_ROOM],
+            env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)},
+            cwd=ROOT,
+            check=True,
+            capture_output=True,
+            text=True,
+        )
+        first, second = map(int, outcome.stdout.split())
+        assert first > 2
+        assert second == 0
+        assert "could not be kept on disk" in outcome.stderr
+
+
 def test_read_only_cache_is_used(tmp_path: Path) -> None:
-    cache = tmp_path / "cache"
-    shutil.copytree(complete_cache(), cache)
+    cache = copy_of_cache(tmp_path / "cache")
     files_before = sorted(path.relative_to(cache) for path in cache.rglob("*"))
     for folder in [cache, *(path for path in cache.iterdir() if path.is_dir())]:
         folder.chmod(0o555)

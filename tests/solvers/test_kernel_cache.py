@@ -92,6 +92,33 @@ def test_broken_files_are_compiled_again_with_a_word(package: Path, kind: str, s
     assert outcome(package) == (3.0, True, "")
 
 
+def marked_complete(package: Path) -> None:
+    outcome(package)
+    program = "from solvers.kernel_cache import mark_complete; mark_complete('all')"
+    environment = {name: value for name, value in os.environ.items() if name not in {"NUMBA_CACHE_DIR", "PYTHONPATH"}}
+    subprocess.run([sys.executable, "-c", program], cwd=package.parent, env=environment, check=True)
+
+
+def test_a_flipped_bit_in_a_complete_cache_is_noticed(package: Path) -> None:
+    marked_complete(package)
+    assert outcome(package) == (3.0, True, "")
+    (file,) = (package / "__pycache__" / "kernels").glob("outer-*/*.nbc")
+    content = bytearray(file.read_bytes())
+    content[len(content) // 2] ^= 8
+    file.write_bytes(content)
+    value, cached, log = outcome(package)
+    assert (value, cached) == (3.0, False)
+    assert log.count("\n") == log.count("broken kernel cache") == 1
+    assert outcome(package) == (3.0, True, "")
+
+
+def test_a_kernel_compiled_after_the_cache_was_complete_is_no_damage(package: Path) -> None:
+    marked_complete(package)
+    program = PROGRAM.replace("outer(1.0)", "outer(1)")
+    subprocess.run([sys.executable, "-c", program.format(module="solvers.outer")], cwd=package.parent, check=True)
+    assert outcome(package) == (3.0, True, "")
+
+
 def test_code_from_the_cache_is_linked_and_raises(package: Path) -> None:
     inner = "def inner(x):\n    if x < 0.0:\n        raise ValueError('below zero')\n    return 2.0 * x\n"
     (package / "inner.py").write_text(f"from solvers.compiled import kernel\n@kernel\n{inner}")
