@@ -108,24 +108,14 @@ class Bars:
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
-    """A part of a row's value."""
-
-    title: str
-    value: float
-    hue: Hue
-
-
-@dataclass(frozen=True, slots=True)
 class Row:
-    """A named value drawn as a horizontal bar, with its bounds where it is indeterminate; or the sum of its parts."""
+    """A named value drawn as a horizontal bar, with its bounds where it is indeterminate."""
 
     name: str
     value: float
     hue: Hue = Hue.BLUE
     bounds: tuple[float, float] | None = None
     role: Role = Role.RESULT
-    parts: tuple[Part, ...] = ()
 
 
 class Scale(StrEnum):
