@@ -65,6 +65,14 @@ class StudiesFull(Exception):
     """As many studies run as the settings allow."""
 
 
+class StudyEnded(Exception):
+    """A study ended before the figure that was asked for could be drawn."""
+
+    def __init__(self, detail: str) -> None:
+        super().__init__(detail)
+        self.detail = detail
+
+
 class SchedulerUnavailable(Exception):
     """The cluster for studies cannot be used."""
 
@@ -106,6 +114,7 @@ PROBLEMS: dict[type[Exception], Kind] = {
     WarmingUp: Kind(503, "warming_up", "The kernels of this calculation are still being compiled; try again", 2),
     QueueFull: Kind(503, "queue_full", "Too many calculations are waiting; try again later", 1),
     StudiesFull: Kind(503, "studies_full", "Other studies are running; try again later", 5),
+    StudyEnded: Kind(503, "study_ended", "The study ended before its figure could be drawn"),
     SchedulerUnavailable: Kind(503, "scheduler_unavailable", "The cluster for studies cannot be used; try later", 10),
     WorkerLost: Kind(503, "worker_lost", "The calculation was lost with its process; try again", 1),
     MemoryError: Kind(503, "memory_limit", "The calculation needs more memory than a worker may use; make it smaller"),

@@ -27,6 +27,7 @@ WAITING = Gauge("tribodrive_calculations_waiting", "Calculations waiting for a w
 REFUSED = Counter("tribodrive_calculations_refused", "Calculations refused because the queue was full")
 INTERRUPTED = Counter("tribodrive_calculations_interrupted", "Calculations interrupted for others, made again later")
 STUDIES = Gauge("tribodrive_studies", "Studies running")
+STUDIES_UNFINISHED = Counter("tribodrive_studies_unfinished", "Studies that ended with an error, as by their deadline")
 WORKERS_LOST = Counter("tribodrive_workers_lost", "Worker processes that died while they computed")
 DEADLINES_MISSED = Counter("tribodrive_deadlines_missed", "Calculations ended at their deadline")
 LINES_DROPPED = Counter("tribodrive_log_lines_dropped", "Log lines lost because nobody read the log fast enough")

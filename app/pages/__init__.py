@@ -6,5 +6,5 @@ results    headline numbers with verdicts, tables of results
 charts     figures as images at addresses of their own, and their values
 about      what a model answers, and where the paper is wrong
 views      one view of one case, made in a worker
-growing    pages of studies, whose figures grow: vary and studies
+studies    pages of studies, whose results are drawn while they are calculated
 """

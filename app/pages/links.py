@@ -64,11 +64,6 @@ class Links:
         """The report of the case."""
         return self.view("report", sources=SHORT_SOURCES)
 
-    @property
-    def vary(self) -> str:
-        """The case with a field varied."""
-        return self.view("vary", theme=self.theme)
-
     def study(self, name: str) -> str:
         """A study of the case that has a page of its own."""
         return self.view(name, theme=self.theme)

@@ -14,6 +14,7 @@ class StudyLink(NamedTuple):
     hint: str
 
 
+VARY = StudyLink("vary", "Vary", "one input or two over a range: a curve or a map")
 SENSITIVITY = StudyLink("influence", "What matters", "every input moved by its tolerance: which moves the result most")
 CORNERS = StudyLink("corners", "Worst corner", "every combination of the uncertain inputs: where the result is worst")
 DESIGN = StudyLink("design", "What to grind", "the flank correction whose worst corner is best")
@@ -21,4 +22,4 @@ DESIGN = StudyLink("design", "What to grind", "the flank correction whose worst 
 
 def study_links(calculation: Calculation) -> tuple[StudyLink, ...]:
     """The studies that cases of a calculation have."""
-    return (SENSITIVITY, CORNERS, DESIGN) if calculation.path == DRIVE_TRAIN else (SENSITIVITY,)
+    return (VARY, SENSITIVITY, *((CORNERS, DESIGN) if calculation.path == DRIVE_TRAIN else ()))

@@ -16,7 +16,7 @@ ASSETS = {
     "style.css": "text/css; charset=utf-8",
     "page.js": "text/javascript; charset=utf-8",
     "charts.js": "text/javascript; charset=utf-8",
-    "vary.js": "text/javascript; charset=utf-8",
+    "study.js": "text/javascript; charset=utf-8",
     "icon.svg": "image/svg+xml",
 }
 

@@ -200,6 +200,17 @@ class Best(Part):
         return str(self.minimise or self.maximise)
 
 
+FromIndex = Annotated[
+    int,
+    Input(
+        "index of the first point",
+        text="where to go on with a study whose connection was lost; lines of points are the same from there on, the "
+        "end summarises these points",
+        ge=0,
+    ),
+]
+
+
 class StudyRequest(Part):
     """What every study is about: one endpoint, one request."""
 
@@ -223,6 +234,7 @@ class SweepRequest(StudyRequest):
     ] = None
     sample: Annotated[Sample | None, Input("random sample")] = None
     best: Annotated[Best | None, Input("best point", text="which point to pick at the end")] = None
+    from_index: FromIndex = 0
 
     @model_validator(mode="after")
     def one_kind(self) -> Self:
@@ -340,6 +352,7 @@ class CornersRequest(DriveTrainStudy):
         Field(min_length=1, max_length=100),
         Input("outputs", text="dotted paths of the single values wanted", default_text="the headline numbers"),
     ] = None
+    from_index: FromIndex = 0
 
 
 class Variable(Part):

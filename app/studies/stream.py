@@ -10,6 +10,7 @@ from collections.abc import AsyncGenerator, Callable
 from contextlib import aclosing
 from typing import Any
 
+from app.log import STUDIES_UNFINISHED
 from app.schema.fields import Leaf
 from app.studies.engine import PoolLost
 from app.studies.point_sets import PointSet
@@ -17,7 +18,7 @@ from app.studies.points import Point
 
 Line = dict[str, Any]
 Lines = AsyncGenerator[list[Line], None]
-PROGRESS_SECONDS = 2.0
+PROGRESS_S = 2.0
 FORMULA_SIGNS = ("=", "+", "-", "@", "\t", "\r")
 
 logger = logging.getLogger("tribodrive")
@@ -41,12 +42,14 @@ class Clock:
         return {"type": "progress", "done": self.done, "total": self.total, "elapsed_s": self.elapsed_s}
 
     def error(self, code: str, message: str) -> Line:
-        """The line that ends a study before its time."""
+        """The line that ends a study before its time, which is logged and counted."""
+        STUDIES_UNFINISHED.inc()
+        logger.warning("a study ended after %d of %d points: %s", self.done, self.total, message)
         return {"type": "error", "code": code, "message": message, "done": self.done}
 
 
-async def guarded(lines: Lines, clock: Clock, seconds: float) -> Lines:
-    """The lines, with progress between them; a study that breaks off or takes too long ends with an error line."""
+async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float = PROGRESS_S) -> Lines:
+    """The lines, with progress where none came for so long; a study that fails or takes too long ends with an error."""
     async with aclosing(lines):
         upcoming = asyncio.ensure_future(anext(lines, None))
         try:
@@ -55,9 +58,9 @@ async def guarded(lines: Lines, clock: Clock, seconds: float) -> Lines:
                 if left <= 0.0:
                     yield [clock.error("study_deadline", f"the study took longer than {seconds:g} s; make it smaller")]
                     return
-                done, _ = await asyncio.wait({upcoming}, timeout=min(PROGRESS_SECONDS, left))
+                done, _ = await asyncio.wait({upcoming}, timeout=min(progress_s, left))
                 if not done:
-                    if left > PROGRESS_SECONDS:
+                    if left > progress_s:
                         yield [clock.line()]
                     continue
                 group, end = _outcome(upcoming, clock)
@@ -81,10 +84,6 @@ def _outcome(upcoming: asyncio.Future[list[Line] | None], clock: Clock) -> tuple
         logger.exception("a study failed")
         return [clock.error("internal_error", "something went wrong in the service; the log has the cause")], True
     return group or [], group is None
-
-
-class StudyBroke(Exception):
-    """The study ended early; a table cannot say so, therefore its connection is cut."""
 
 
 def json_line(line: Line) -> bytes:
@@ -118,18 +117,20 @@ class Table:
 
     def __init__(self, points: PointSet, outputs: tuple[Leaf, ...]) -> None:
         self._points = points
+        self._outputs = outputs
         inputs, results = ([_column(leaf) for leaf in leaves] for leaves in (points.varied, outputs))
         self._heading = ["index", *inputs, "status", *results, "warnings", "error"]
 
     def encode(self, line: Line) -> bytes:
-        """The row or rows of a line; those of progress and end have none."""
+        """The row of a line; those of progress and end have none, and one that ends the study early says why."""
         match line["type"]:
             case "sweep":
                 return _row(self._heading)
             case "point":
                 return _row(self._cells(line))
             case "error":
-                raise StudyBroke(line["message"])
+                inputs, results = ([None] * len(leaves) for leaves in (self._points.varied, self._outputs))
+                return _row([None, *inputs, "error", *results, None, f"{line['code']}: {line['message']}"])
             case _:
                 return b""
 

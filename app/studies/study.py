@@ -108,7 +108,7 @@ def checked_base(calculation: Calculation, base: dict[str, Any], first: Override
 def case_of_study(path: str, body: StudyRequest | DriveTrainStudy) -> str:
     """The hash of endpoint, body and sources of a study."""
     try:
-        return case_of(path, body.model_dump(), SOURCES)
+        return case_of(path, body.model_dump(exclude={"from_index"}), SOURCES)
     except ValueError:  # in a field that every point replaces
         message = "holds a number that is not finite, or text that is not Unicode"
         raise Unprocessable("not_json", message, "request") from None

@@ -24,10 +24,11 @@ class Extreme(NamedTuple):
 class Summary:
     """Gathers points as they pass; of a grid it keeps the extremes only, of a sample every number."""
 
-    def __init__(self, points: PointSet, outputs: list[str], best: Best | None) -> None:
+    def __init__(self, points: PointSet, outputs: list[str], best: Best | None, first: int = 0) -> None:
         self._points = points
         self._outputs = outputs
         self._best = best
+        self._first = first
         self._counts: Counter[str] = Counter()
         self._ranges: dict[str, dict[str, Extreme]] = {}
         self._chosen: tuple[Extreme, list[Any]] | None = None
@@ -37,7 +38,7 @@ class Summary:
 
     def add(self, point: Point) -> None:
         """Take in the next point, in order."""
-        index, self._count = self._count, self._count + 1
+        index, self._count = self._first + self._count, self._count + 1
         self._counts[point.status] += 1
         for path, value in zip(self._outputs, point.out, strict=True):
             if _is_number(value):

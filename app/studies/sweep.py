@@ -31,16 +31,17 @@ CORNERS_PATH = "/v1/drive-train/corners"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sweep(Study):
-    """A request solved at every point of a set."""
+    """A request solved at the points of a set from `first` on."""
 
     kind: ClassVar[str] = "sweep"
     points: PointSet
     best: Best | None = None
+    first: int = 0
 
     @property
     def total(self) -> int:
-        """How many points it has."""
-        return self.points.total
+        """How many points it has from the first on."""
+        return self.points.total - self.first
 
     def table(self) -> Table:
         """The lines as rows of a table."""
@@ -53,14 +54,19 @@ class Sweep(Study):
                 self.kind,
                 axes=[axis.header() for axis in self.points.axes],
                 outputs=[output_header(leaf) for leaf in self.outputs],
-                total=self.total,
+                total=self.points.total,
+                **({"from_index": self.first} if self.first else {}),
             )
         ]
-        summary = Summary(self.points, paths_of(self.outputs), self.best)
-        async for indices, points in self.solve(pool, clock, self.points.overrides, self.total):
+        summary = Summary(self.points, paths_of(self.outputs), self.best, self.first)
+        remaining = range(self.first, self.points.total)
+        async for indices, points in self.solve(
+            pool, clock, lambda index: self.points.overrides(remaining[index]), len(remaining)
+        ):
             for point in points:
                 summary.add(point)
-            yield [point_line(index, self.points.at(index), each) for index, each in zip(indices, points, strict=True)]
+            places = (remaining[index] for index in indices)
+            yield [point_line(place, self.points.at(place), each) for place, each in zip(places, points, strict=True)]
         yield await self.closing(summary, pool, clock)
 
     async def closing(self, summary: Summary, pool: Pool, clock: Clock) -> list[Line]:
@@ -68,7 +74,8 @@ class Sweep(Study):
         found = NO_STATISTICS
         if self.points.sample is not None:
             inputs, outputs = paths_of(self.points.varied), paths_of(self.outputs)
-            found = await twice_if_lost(pool, statistics, self.points.sample, summary.values, inputs, outputs)
+            sample = self.points.sample[self.first :]
+            found = await twice_if_lost(pool, statistics, sample, summary.values, inputs, outputs)
         return [summary.line(found, clock.elapsed_s)]
 
 
@@ -102,6 +109,7 @@ def sweep_study(body: bytes, most: int, deadline_s: float) -> Sweep:
     if request.best is not None:
         _check_best(request.best, outputs)
     points = points_of(request, BaseRequest(calculation.request, request.request), most)
+    _check_first(request.from_index, points)
     checked_base(calculation, request.request, points.overrides(0))
     return Sweep(
         question=Question(calculation.path, request.request, paths_of(outputs), deadline_s),
@@ -109,6 +117,7 @@ def sweep_study(body: bytes, most: int, deadline_s: float) -> Sweep:
         case=case_of_study(PATH, request),
         points=points,
         best=request.best,
+        first=request.from_index,
     )
 
 
@@ -123,6 +132,7 @@ def corners_study(body: bytes, most: int, deadline_s: float) -> Corners:
     if not ranges:
         raise Unprocessable("no_corners", "nothing is uncertain here; name what is", "ranges")
     points = grid(ranges, BaseRequest(calculation.request, request.request), min(most, MOST_CORNERS), "ranges")
+    _check_first(request.from_index, points)
     checked_base(calculation, request.request, points.overrides(0))
     base = lightened(request.request, paths_of(outputs))
     return Corners(
@@ -130,7 +140,14 @@ def corners_study(body: bytes, most: int, deadline_s: float) -> Corners:
         outputs=outputs,
         case=case_of_study(CORNERS_PATH, request),
         points=points,
+        first=request.from_index,
     )
+
+
+def _check_first(index: int, points: PointSet) -> None:
+    if index >= points.total:
+        message = f"the study has {points.total} points, counted from 0"
+        raise Unprocessable("out_of_range", message, "from_index")
 
 
 def _check_best(best: Best, outputs: tuple[Leaf, ...]) -> None:

@@ -13,9 +13,9 @@ from app.calculations import BY_PATH
 from app.examples import examples
 from app.pages.query import pairs_of, pairs_of_query, split_views
 from app.pages.studies import page as pages
-from app.pages.studies import sweep
 from app.pages.studies.declaration import PageStudy
 from app.pages.studies.sensitivity import MOST_ROWS, SENSITIVITY
+from app.pages.studies.sweep import SWEEP
 from app.pages.templating import page_path
 from app.pages.typesetting import shown
 from app.pages.views import Asked
@@ -63,7 +63,7 @@ def test_the_table_says_what_the_study_says(name: str) -> None:
         assert pairs == found.pairs
         assert said["x"] == line["path"]
     first = Asked(found.path, *split_views(pairs_of_query(rows[0][0].partition("?")[2])))
-    assert sweep.checked(first, MOST, DEADLINE_S).sweep.total > 1
+    assert pages.checked(SWEEP, first, MOST, DEADLINE_S).study.total > 1
 
 
 def test_the_figure_shows_the_most_influential_first() -> None:

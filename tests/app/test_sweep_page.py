@@ -21,18 +21,19 @@ from app.figures.rendering import MEDIA_TYPES
 from app.figures.studies import MOST_CURVES, Coordinate, Grid, figures_of
 from app.pages.query import STUDY_NAMES, VIEW_NAMES, body_of, pairs_of, pairs_of_query, split_views
 from app.pages.studies import page as pages
-from app.pages.studies import sweep
-from app.pages.studies.declaration import StudyAddresses
+from app.pages.studies.declaration import PageStudy, StudyAddresses
 from app.pages.studies.design import DESIGN
-from app.pages.studies.sweep import ReceivedPoints
+from app.pages.studies.outputs import output_choices
+from app.pages.studies.sweep import SWEEP, case_of, field_choices, point_address
 from app.pages.studies.sweep_examples import STUDIES, StudyExample
-from app.pages.studies.sweep_query import case_of, shown_outputs, varied
 from app.pages.templating import page_path
 from app.pages.views import Asked
 from app.schema.fields import leaf_at, leaves
 from app.sources import SHORT_SOURCES
+from app.studies.point_sets import PointSet
 from app.studies.points import solve_point
-from app.studies.stream import point_line
+from app.studies.stream import Line, point_line
+from app.studies.sweep import Sweep
 
 MOST, DEADLINE_S = 2500, 30.0
 CALCULATION = {each.path: each for each in CALCULATIONS}
@@ -49,15 +50,23 @@ def asked(name: str, **said: str) -> Asked:
     return Asked(page_path(CALCULATION[example.endpoint]), pairs_of(example.request), said)
 
 
-def solved(found: Asked) -> tuple[sweep.SweepStudy, ReceivedPoints]:
-    study = sweep.checked(found, MOST, DEADLINE_S)
-    received = ReceivedPoints(study.sweep.total)
-    for index in range(study.sweep.total):
-        overrides = study.sweep.points.overrides(index)
-        point = solve_point(study.sweep.question, overrides)
-        received.add(json.loads(json.dumps(point_line(index, study.sweep.points.at(index), point))))
-    received.add({"type": "end", "elapsed_s": 1.0})
-    return study, received
+def checked(found: Asked) -> tuple[PageStudy, PointSet]:
+    study = pages.checked(SWEEP, found, MOST, DEADLINE_S)
+    assert isinstance(study.study, Sweep)
+    return study, study.study.points
+
+
+def total(found: Asked) -> int:
+    return checked(found)[1].total
+
+
+def solved(found: Asked) -> tuple[PageStudy, list[Line]]:
+    study, points = checked(found)
+    lines = [
+        point_line(index, points.at(index), solve_point(study.study.question, points.overrides(index)))
+        for index in range(points.total)
+    ]
+    return study, [*json.loads(json.dumps(lines)), {"type": "end", "elapsed_s": 1.0}]
 
 
 def study_of(example: StudyExample) -> Asked:
@@ -73,7 +82,7 @@ def test_what_a_study_says_is_no_field_of_a_request() -> None:
 
 @pytest.mark.parametrize("example", STUDIES, ids=lambda each: each.title)
 def test_every_study_to_start_from_is_one(example: StudyExample) -> None:
-    opened = sweep.opened(study_of(example), MOST, DEADLINE_S)
+    opened = pages.opened(SWEEP, study_of(example), MOST, DEADLINE_S)
     assert opened.status == 200
     assert opened.study is not None
     assert opened.tail.endswith(b"</html>\n") or opened.tail.strip().endswith(b"</html>")
@@ -84,9 +93,9 @@ def test_every_endpoint_has_a_study_to_start_from() -> None:
 
 
 def test_the_crowning_that_forgives_is_a_map_of_17_by_11() -> None:
-    study = sweep.checked(study_of(STUDIES[0]), MOST, DEADLINE_S)
-    assert [len(axis.values or ()) for axis in study.sweep.points.axes] == [17, 11]
-    slopes = study.sweep.points.axes[0].values
+    _, points = checked(study_of(STUDIES[0]))
+    assert [len(axis.values or ()) for axis in points.axes] == [17, 11]
+    slopes = points.axes[0].values
     assert slopes is not None
     assert (slopes[0], slopes[-1]) == (-20.0, 20.0)
 
@@ -96,13 +105,13 @@ def test_every_number_of_a_case_is_varied_by_its_name_alone(calculation: Calcula
     """Around its value, inside what is allowed; one that has no value may ask for a range, in words."""
     found = asked(next(each.name for each in examples().values() if each.endpoint == calculation.path))
     case = case_of(calculation, found.pairs)
-    for choice in varied(calculation, case, words=False):
+    for choice in field_choices(calculation, case, texts=False):
         said = Asked(found.path, found.pairs, {"x": choice.path})
         if case_value(case, choice.path):
-            assert sweep.checked(said, MOST, DEADLINE_S).sweep.total > 1, choice
+            assert total(said) > 1, choice
         else:
             with suppress(Unprocessable, InvalidBody):
-                assert sweep.checked(said, MOST, DEADLINE_S).sweep.total > 1, choice
+                assert total(said) > 1, choice
 
 
 def case_value(case: dict[str, Any], path: str) -> Any:
@@ -117,9 +126,11 @@ def test_every_output_that_can_be_shown_is_told_by_a_study(calculation: Calculat
     example = next(each for each in examples().values() if each.endpoint == calculation.path)
     found = asked(example.name)
     case = case_of(calculation, found.pairs)
-    said = {"x": next(each.path for each in varied(calculation, case, words=False) if case_value(case, each.path))}
-    for choice in shown_outputs(calculation):
-        assert sweep.checked(Asked(found.path, found.pairs, said | {"show": choice.path}), MOST, DEADLINE_S)
+    said = {
+        "x": next(each.path for each in field_choices(calculation, case, texts=False) if case_value(case, each.path))
+    }
+    for choice in output_choices(calculation):
+        assert total(Asked(found.path, found.pairs, said | {"show": choice.path}))
 
 
 @pytest.mark.parametrize("name", QUICK)
@@ -128,46 +139,44 @@ def test_a_points_link_opens_the_case_that_was_solved(name: str) -> None:
     calculation = found.calculation
     field = next(
         choice.path
-        for choice in varied(calculation, case_of(calculation, found.pairs), words=False)
+        for choice in field_choices(calculation, case_of(calculation, found.pairs), texts=False)
         if choice.path.endswith(("torque_n_m", "speed_rpm", "torque_n_m"))
     )
-    study, received = solved(Asked(found.path, found.pairs, {"x": field, "x.count": "3"}))
-    for index, value in enumerate(received.out):
-        _, _, query = study.opened(index).partition("?")
+    study, (*points, _) = solved(Asked(found.path, found.pairs, {"x": field, "x.count": "3"}))
+    for index, point in enumerate(points):
+        _, _, query = point_address(study, index).partition("?")
         body = body_of(calculation.request, pairs_of_query(query))
-        alone = solve_point(study.sweep.question._replace(base=body), {})
-        assert alone.out == [value]
-        assert value is not None
+        alone = solve_point(study.study.question._replace(base=body), {})
+        assert alone.out == point["out"] != [None]
 
 
 def test_a_link_of_a_field_that_excludes_others_leaves_them_out() -> None:
     found = asked("starter-industrial-scuffing")
-    study = sweep.checked(
-        Asked(found.path, found.pairs, {"x": "load.pinion_torque_n_m", "x.from": "1000", "x.to": "2000"}),
-        MOST,
-        DEADLINE_S,
+    study, _ = checked(
+        Asked(found.path, found.pairs, {"x": "load.pinion_torque_n_m", "x.from": "1000", "x.to": "2000"})
     )
-    names = dict(pairs_of_query(study.opened(0).partition("?")[2]))
+    names = dict(pairs_of_query(point_address(study, 0).partition("?")[2]))
     assert "load.pinion_torque_n_m" in names
     assert "load.power_kw" not in names
 
 
 def test_an_item_of_a_list_is_varied_and_opened() -> None:
     found = asked("starter-coupling-pitch-errors")
-    study, received = solved(
+    study, (*points, _) = solved(
         Asked(
             found.path, found.pairs, {"x": "coupling.pitch_errors_um.3", "x.from": "-20", "x.to": "20", "x.count": "3"}
         )
     )
-    assert received.status == ["ok", "ok", "ok"] or "refused" not in received.status
-    body = body_of(found.calculation.request, pairs_of_query(study.opened(2).partition("?")[2]))
+    assert "refused" not in {point["status"] for point in points}
+    body = body_of(found.calculation.request, pairs_of_query(point_address(study, 2).partition("?")[2]))
     assert body["coupling"]["pitch_errors_um"][3] == 20
 
 
 def test_the_figures_numbers_are_the_points() -> None:
-    study, received = solved(asked(LOADS, **MAP, **{"y.count": "7"}, show="pressure.max_mpa"))
-    found = np.array(received.out).reshape(3, 7)
-    drawn = {name: sweep.file(study, received, name, "csv").decode().splitlines() for name in ("map", "worst")}
+    study, lines = solved(asked(LOADS, **MAP, **{"y.count": "7"}, show="pressure.max_mpa"))
+    found = np.array([line["out"][0] for line in lines[:-1]]).reshape(3, 7)
+    files = {name: pages.file(study, lines, name, "csv") for name in ("map", "worst")}
+    drawn = {name: file.decode().splitlines() for name, file in files.items() if isinstance(file, bytes)}
     rows = [list(map(float, line.split(","))) for line in drawn["map"][1:]]
     assert [row[2] for row in rows] == found.T.ravel().tolist()
     assert drawn["map"][0] == "helix crowning [µm],helix slope [µm],largest Hertz pressure [MPa]"
@@ -178,13 +187,10 @@ def test_the_figures_numbers_are_the_points() -> None:
 
 
 def test_the_best_point_is_the_one_of_the_sweeps_end(client: httpx.Client) -> None:
-    study = sweep.checked(asked(LOADS, **MAP, **{"y.count": "7"}), MOST, DEADLINE_S)
-    lines = client.get(study.links.view(".ndjson")).text.splitlines()
-    received = ReceivedPoints(study.sweep.total)
-    for line in lines:
-        received.add(json.loads(line))
-    page = sweep.whole(study, received).decode()
-    best = json.loads(lines[-1])["best"]
+    study, _ = checked(asked(LOADS, **MAP, **{"y.count": "7"}))
+    lines = [json.loads(line) for line in client.get(study.links.view(".ndjson")).text.splitlines()]
+    page = pages.whole(study, lines).decode()
+    best = lines[-1]["best"]
     assert f"at helix slope {best['at'][0]:g} µm, helix crowning {best['at'][1]:g} µm" in page
 
 
@@ -268,10 +274,11 @@ def test_a_map_over_even_ratios_puts_its_points_where_the_axes_have_them() -> No
         ({"x": "operation.torque_n_m", "show": "axial_thrust"}, "show", "is a section"),
         ({"x": "operation.torque_n_m", "show": "lubrication.regime.name"}, "show", "no number"),
         ({"x": "operation.torque_n_m", "best": "largest"}, "best", "least, greatest"),
+        ({"y": "operation.torque_n_m"}, "x", "choose a field to vary before a second one"),
     ],
 )
 def test_what_is_refused_stands_at_its_control(said: dict[str, str], control: str, message: str) -> None:
-    opened = sweep.opened(asked(COUPLING, **said), MOST, DEADLINE_S)
+    opened = pages.opened(SWEEP, asked(COUPLING, **said), MOST, DEADLINE_S)
     assert opened.status == 422
     page = unescape(opened.head.decode())
     found = re.search(rf'id="f\.{re.escape(control)}-fault">([^<]*)<', page)
@@ -280,8 +287,8 @@ def test_what_is_refused_stands_at_its_control(said: dict[str, str], control: st
 
 
 def test_a_decimal_comma_is_read() -> None:
-    study = sweep.checked(asked(COUPLING, x="operation.misalignment_deg", **{"x.to": "0,1"}), MOST, DEADLINE_S)
-    axis = study.sweep.points.axes[0].values
+    _, points = checked(asked(COUPLING, x="operation.misalignment_deg", **{"x.to": "0,1"}))
+    axis = points.axes[0].values
     assert axis is not None
     assert axis[-1] == 0.1
 
@@ -289,15 +296,13 @@ def test_a_decimal_comma_is_read() -> None:
 def test_whole_numbers_are_varied_in_whole_steps() -> None:
     said = {"x": "coupling.teeth", "x.from": "40", "x.to": "50"}
     for count, values_wanted in (("3", [40, 45, 50]), ("21", list(range(40, 51)))):
-        axis = sweep.checked(asked(COUPLING, **said, **{"x.count": count}), MOST, DEADLINE_S).sweep.points.axes[0]
-        assert axis.values == values_wanted
+        _, points = checked(asked(COUPLING, **said, **{"x.count": count}))
+        assert points.axes[0].values == values_wanted
 
 
 def test_words_make_a_family() -> None:
-    study = sweep.checked(
-        asked(COUPLING, x="operation.misalignment_deg", **{"x.count": "3"}, y="operation.arrangement"), MOST, DEADLINE_S
-    )
-    words = study.sweep.points.axes[1].values
+    _, points = checked(asked(COUPLING, x="operation.misalignment_deg", **{"x.count": "3"}, y="operation.arrangement"))
+    words = points.axes[1].values
     assert words is not None
     assert set(words) == set(leaf_options("operation.arrangement"))
 
@@ -333,7 +338,7 @@ def test_hostile_queries_get_a_clear_page(client: httpx.Client, query: str) -> N
 
 
 def test_a_page_grows_and_ends_with_the_same_points_as_its_files(client: httpx.Client) -> None:
-    study = sweep.checked(study_of(STUDIES[1]), MOST, DEADLINE_S)
+    study, _ = checked(study_of(STUDIES[1]))
     page = client.get(study.links.view(""))
     assert page.status_code == 200
     assert "244 points in" in page.text
@@ -357,7 +362,7 @@ def test_empty_fields_are_dropped_by_a_redirect(client: httpx.Client) -> None:
 
 def test_figures_are_files(client: httpx.Client) -> None:
     said = {"x": "operation.misalignment_deg", "y": "operation.axial_velocity_mm_per_s", "y.count": "7"}
-    links = StudyAddresses(sweep.NAME, asked(COUPLING, **said))
+    links = StudyAddresses(SWEEP.link.name, asked(COUPLING, **said))
     for image_format, kind in MEDIA_TYPES.items():
         answer = client.get(links.image("map", image_format))
         assert answer.headers["content-type"] == kind
@@ -368,7 +373,7 @@ def test_figures_are_files(client: httpx.Client) -> None:
 
 
 def test_a_posted_study_is_the_same(client: httpx.Client) -> None:
-    links = StudyAddresses(sweep.NAME, asked(COUPLING, x="operation.torque_n_m", **{"x.count": "3"}))
+    links = StudyAddresses(SWEEP.link.name, asked(COUPLING, x="operation.torque_n_m", **{"x.count": "3"}))
     path, _, query = links.view(".csv").partition("?")
     form = {"Content-Type": "application/x-www-form-urlencoded"}
     assert client.post(path, content=query, headers=form).content == client.get(links.view(".csv")).content
@@ -376,7 +381,7 @@ def test_a_posted_study_is_the_same(client: httpx.Client) -> None:
 
 def test_the_names_of_a_study_are_those_of_its_form() -> None:
     varied_one, unit = asked(COUPLING, x="operation.torque_n_m"), asked("starter-generator-gear-drive-train")
-    forms = [sweep.opened(varied_one, MOST, DEADLINE_S).head, pages.opened(DESIGN, unit, MOST, DEADLINE_S).head]
+    forms = [pages.opened(SWEEP, varied_one, MOST, DEADLINE_S).head, pages.opened(DESIGN, unit, MOST, DEADLINE_S).head]
     found = [set(re.findall(r'<(?:input|select)\b[^>]*?\bname="([^"]+)"', form.decode())) for form in forms]
     assert set.union(*found) >= STUDY_NAMES
     for names, case in zip(found, (varied_one, unit), strict=True):

@@ -136,18 +136,18 @@ def test_ranges_and_trials_come_from_the_form() -> None:
 
 
 @pytest.mark.parametrize(
-    ("said", "control"),
+    ("said", "control", "title"),
     [
-        ({"trials": "many"}, "trials"),
-        ({"low.0": "5", "high.0": "1"}, "low.0"),
-        ({"high.1": "9999999"}, "low.1"),
-        ({"show": "no.such"}, "show"),
+        ({"trials": "many"}, "trials", "Study, corrections tried"),
+        ({"low.0": "5", "high.0": "1"}, "low.0", "Study, helix slope, from"),
+        ({"high.1": "9999999"}, "low.1", "Study, crowning, from"),
+        ({"show": "no.such"}, "show", "Show, output"),
     ],
 )
-def test_what_is_wrong_stands_at_its_control(said: dict[str, str], control: str) -> None:
+def test_what_is_wrong_stands_at_its_control(said: dict[str, str], control: str, title: str) -> None:
     opened = pages.opened(DESIGN, asked(**said), MOST, DEADLINE_S)
     assert opened.status == 422
-    assert f'<a href="#f.{control}">{control}</a>' in opened.head.decode()
+    assert f'<a href="#f.{control}">{title}</a>' in opened.head.decode()
 
 
 @pytest.mark.parametrize("page", [CORNERS, DESIGN], ids=lambda page: page.link.name)

@@ -20,6 +20,7 @@ import pytest
 from app.examples import examples
 from app.schema.coupling import CouplingResponse
 from app.schema.fields import leaves
+from tests.support.browsing import address_of
 from tests.support.faulty_server import HANGING
 from tests.support.server import descendants, descriptors, memory_mb, running_server, send_signal, workers
 
@@ -276,6 +277,26 @@ def test_the_deadline_of_a_study_ends_it_with_a_line() -> None:
         assert last["type"] == "error"
         assert last["code"] == "study_deadline"
         assert last["done"] == len(numbers(points)) < 2500
-        with pytest.raises(httpx.RemoteProtocolError):
-            httpx.post(address + SWEEP + "?format=csv", json=loads(2500), timeout=60)
-        wait_until_free(address, 1.0)
+        table = httpx.post(address + SWEEP + "?format=csv", json=loads(2500), timeout=60).text.splitlines()
+        assert table[-1] == ",,error,,,study_deadline: the study took longer than 1 s; make it smaller"
+        assert metric(address, "tribodrive_studies_unfinished_total") == 2
+
+
+def test_a_figure_of_a_study_that_ends_at_its_deadline_is_a_503() -> None:
+    query = "&x=modifications.helix_slope_um&x.count=2500&show=pressure.max_mpa"
+    path = address_of("xue-pair-1-modified").replace("?", "/vary/figures/curve.svg?", 1) + query
+    with running_server(workers=1, study_deadline_s=1, log_level="error") as (_, address):
+        answer = httpx.get(address + path, timeout=60)
+        assert answer.status_code == 503
+        assert answer.json()["type"].endswith("study_ended")
+        assert "longer than 1 s" in answer.json()["detail"]
+        assert metric(address, "tribodrive_studies") == 0
+
+
+def test_a_client_who_leaves_a_figure_frees_its_study(faulty: Server) -> None:
+    _, address = faulty
+    query = "&x=modifications.helix_slope_um&x.count=20000&show=pressure.max_mpa"
+    path = address_of("xue-pair-1-modified").replace("?", "/vary/figures/curve.svg?", 1) + query
+    with pytest.raises(httpx.ReadTimeout):
+        httpx.get(address + path, timeout=1.0)
+    wait_until_free(address, 1.5)

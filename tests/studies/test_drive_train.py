@@ -79,6 +79,14 @@ def test_corners_are_the_units_own_answers() -> None:
     assert (end["counts"], end["warnings"]) == ({"ok_with_warnings": 4}, [])
 
 
+def test_corners_go_on_with_the_same_lines() -> None:
+    body = {"ranges": [FRICTION, RESPONSE], "outputs": [K]}
+    whole, rest = (lines_of(corners_study, **body, **more) for more in ({}, {"from_index": 2}))
+    assert rest[0] == {**whole[0], "from_index": 2}
+    assert rest[1:3] == whole[3:5]
+    assert rest[-1]["points"] == 2
+
+
 def test_studies_say_the_same_on_any_number_of_processes() -> None:
     for planner, body in (
         (corners_study, {"ranges": [FRICTION, RESPONSE], "outputs": [K]}),

@@ -5,15 +5,15 @@ from collections.abc import AsyncGenerator
 from contextlib import ExitStack, nullcontext
 
 import pytest
+from prometheus_client import REGISTRY
 from starlette.types import Message
 
 from app.http.routes.studies import StudyStream
-from app.studies import stream
 from app.studies.engine import PoolLost
 from app.studies.stream import Clock, Line, guarded
 
 
-def lines_of(*steps: float | Exception) -> list[Line]:
+def lines_of(*steps: float | Exception, progress_s: float = 2.0) -> list[Line]:
     """What a study sends that waits these times between its lines, or breaks."""
     closed = []
 
@@ -29,7 +29,7 @@ def lines_of(*steps: float | Exception) -> list[Line]:
 
     async def run() -> list[Line]:
         found: list[Line] = []
-        async for group in guarded(study(), Clock(len(steps)), 0.5):
+        async for group in guarded(study(), Clock(len(steps)), 0.5, progress_s):
             found += group
         return found
 
@@ -38,9 +38,8 @@ def lines_of(*steps: float | Exception) -> list[Line]:
     return found
 
 
-def test_progress_while_nothing_comes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(stream, "PROGRESS_SECONDS", 0.05)
-    kinds = [line["type"] for line in lines_of(0.0, 0.13, 0.0)]
+def test_progress_while_nothing_comes() -> None:
+    kinds = [line["type"] for line in lines_of(0.0, 0.13, 0.0, progress_s=0.05)]
     assert kinds[0] == "point"
     assert set(kinds[1:-2]) == {"progress"}
     assert kinds[-2:] == ["point", "point"]
@@ -50,9 +49,12 @@ def test_no_progress_while_points_come() -> None:
     assert [line["type"] for line in lines_of(*[0.01] * 5)] == ["point"] * 5
 
 
-def test_the_deadline_ends_a_study() -> None:
+def test_the_deadline_ends_a_study_and_is_logged_and_counted(caplog: pytest.LogCaptureFixture) -> None:
+    before = REGISTRY.get_sample_value("tribodrive_studies_unfinished_total") or 0.0
     *_, last = lines_of(0.0, 5.0)
     assert (last["type"], last["code"]) == ("error", "study_deadline")
+    assert REGISTRY.get_sample_value("tribodrive_studies_unfinished_total") == before + 1
+    assert "ended after 0 of 2 points: the study took longer than 0.5 s" in caplog.text
 
 
 def test_the_deadline_ends_a_study_that_sends_without_end() -> None:

@@ -11,12 +11,13 @@ import numpy as np
 import pytest
 from scipy.stats import spearmanr
 
+from app.errors import Unprocessable
 from app.examples import examples
 from app.schema.fields import Leaf
 from app.studies.point_sets import CheckedAxis, PointSet
 from app.studies.points import Point
 from app.studies.requests import Best
-from app.studies.stream import Clock, StudyBroke, Table, encoded, guarded, json_line
+from app.studies.stream import Clock, Table, encoded, guarded, json_line
 from app.studies.summary import Summary, statistics
 from app.studies.sweep import sweep_study
 from tests.support.pools import InlinePool
@@ -229,6 +230,49 @@ def test_words_that_a_spreadsheet_would_compute_are_quoted(text: str) -> None:
     assert cells[2:6] == [f"'{text}", "-1.5", "true", ""]
 
 
-def test_a_broken_table_is_cut_off() -> None:
-    with pytest.raises(StudyBroke):
-        Table(PointSet([], 1, (), cases=[{}]), ()).encode({"type": "error", "message": "gone"})
+def test_a_table_of_a_study_that_ended_early_ends_with_a_row_that_says_so() -> None:
+    body = {"endpoint": COUPLING.endpoint, "request": COUPLING.request, "outputs": [THRUST]}
+    study = sweep_study(json.dumps({**body, "cases": [{"operation.torque_n_m": 4500}]}).encode(), 10, 30.0)
+    error = {"type": "error", "code": "study_deadline", "message": "the study took longer than 1 s", "done": 0}
+    heading, row = table_of([{"type": "sweep"}, error], study.points, study.outputs)
+    assert dict(zip(heading, row, strict=True)) == {
+        "index": "",
+        "operation.torque_n_m [N m]": "",
+        "status": "error",
+        f"{THRUST} [N]": "",
+        "warnings": "",
+        "error": "study_deadline: the study took longer than 1 s",
+    }
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        {"vary": GRID},
+        {"cases": [{"operation.torque_n_m": torque} for torque in (3000, 3500, 4000, 4500, 5000)]},
+        {
+            "sample": {
+                "count": 16,
+                "seed": 5,
+                "ranges": [{"path": "operation.misalignment_deg", "min": 0.03, "max": 0.08}],
+            }
+        },
+    ],
+    ids=["grid", "cases", "sample"],
+)
+def test_a_study_whose_connection_was_lost_goes_on_with_the_same_lines(points: dict[str, Any]) -> None:
+    header, *whole, _ = swept(**points, outputs=[THRUST], best={"minimise": THRUST})
+    again, *rest, end = swept(**points, outputs=[THRUST], best={"minimise": THRUST}, from_index=3)
+    assert rest == whole[3:]
+    assert again == {**header, "from_index": 3}
+    least = min(rest, key=lambda line: line["out"][0])
+    assert end["points"] == len(rest) == header["total"] - 3
+    assert end["best"] == {name: least[name] for name in ("index", "at", "out")}
+    assert end["ranges"][THRUST]["min"] == [least["out"][0], least["index"]]
+
+
+def test_a_study_does_not_go_on_behind_its_last_point() -> None:
+    body = {"endpoint": COUPLING.endpoint, "request": COUPLING.request, "cases": [{}, {}], "from_index": 2}
+    with pytest.raises(Unprocessable) as caught:
+        sweep_study(json.dumps(body).encode(), 10, 30.0)
+    assert (caught.value.code, caught.value.path) == ("out_of_range", "from_index")

@@ -3,6 +3,7 @@
 import asyncio
 from collections.abc import AsyncGenerator, Callable
 from contextlib import ExitStack, aclosing
+from functools import partial
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Body, Query, Request, Response
@@ -22,9 +23,8 @@ from app.studies.examples import (
     SWEEP_EXAMPLES,
 )
 from app.studies.requests import CornersRequest, DesignRequest, SensitivityRequest, SpectrumRequest, SweepRequest
-from app.studies.stream import Clock, encoded, guarded, json_line
+from app.studies.stream import PROGRESS_S, Clock, Line, Lines, encoded, guarded, json_line
 from app.studies.study import Study
-from app.workers.admission import Runner
 from app.workers.start_up import StartUp
 
 Format = Literal["ndjson", "csv"]
@@ -55,6 +55,36 @@ class StudyStream(StreamingResponse):
                 await super().__call__(scope, receive, send)
 
 
+async def planned(http: Request, planner: Callable[[int, float], Any], most: int | None = None) -> Any:
+    """What a worker makes of a study's request, of at most `most` points with the service's deadline each."""
+    limits: Settings = http.app.state.settings
+    return await http.app.state.runner.run(http, planner, most or limits.most_study_points, limits.deadline_s)
+
+
+async def begun(http: Request, study: Study, progress_s: float = PROGRESS_S) -> tuple[Lines, Clock]:
+    """The lines of a study, which has a place among those that run, and its clock."""
+    admission: StudyAdmission = http.app.state.studies
+    limits: Settings = http.app.state.settings
+    clock = Clock(study.total)
+    return guarded(study.lines(await admission.pool(), clock), clock, limits.study_deadline_s, progress_s), clock
+
+
+async def streamed(
+    http: Request,
+    study: Study,
+    pieces: Callable[[Lines, Clock], AsyncGenerator[bytes, None]],
+    media_type: str,
+    headers: dict[str, str] | None = None,
+    progress_s: float = PROGRESS_S,
+) -> Response:
+    """What is written of the lines of a study, which takes its place among those that run."""
+    with ExitStack() as stack:
+        stack.enter_context(http.app.state.studies.place())
+        content = pieces(*await begun(http, study, progress_s))
+        patience = http.app.state.settings.study_deadline_s + PATIENCE_S
+        return StudyStream(content, media_type, patience, stack.pop_all(), headers)
+
+
 async def started(
     http: Request,
     planner: Callable[[bytes, int, float], Study],
@@ -64,18 +94,15 @@ async def started(
     """The stream of a study of at most `most` points, which is checked in a worker before the first line."""
     start_up: StartUp = http.app.state.start_up
     start_up.require_any()
-    admission: StudyAdmission = http.app.state.studies
-    runner: Runner = http.app.state.runner
-    limits: Settings = http.app.state.settings
-    with ExitStack() as stack:
-        stack.enter_context(admission.place())
-        study = await runner.run(http, planner, await http.body(), most or limits.most_study_points, limits.deadline_s)
-        start_up.require(study.question.endpoint)
-        clock = Clock(study.total)
-        lines = guarded(study.lines(await admission.pool(), clock), clock, limits.study_deadline_s)
-        encode = study.table().encode if isinstance(study, sweep.Sweep) and written_as == "csv" else json_line
-        patience = limits.study_deadline_s + PATIENCE_S
-        return StudyStream(encoded(lines, encode), MEDIA_TYPES[written_as], patience, stack.pop_all())
+    study: Study = await planned(http, partial(planner, await http.body()), most)
+    start_up.require(study.question.endpoint)
+    encode = encoder(study, written_as)
+    return await streamed(http, study, lambda lines, _: encoded(lines, encode), MEDIA_TYPES[written_as])
+
+
+def encoder(study: Study, written_as: str) -> Callable[[Line], bytes]:
+    """Writes the lines of a study; those of a sweep also as the rows of a table."""
+    return study.table().encode if isinstance(study, sweep.Sweep) and written_as == "csv" else json_line
 
 
 def wanted_format(http: Request, named: Format) -> Format:
@@ -119,7 +146,8 @@ async def run_sweep(
     """Every point is the endpoint's own answer.
 
     Lines are `sweep`, then `point` in order with the first axis slowest, `progress` when nothing else was sent for two
-    seconds, and `end`; or `error`, which ends a study that broke off. A stream without `end` or `error` was cut off.
+    seconds, and `end`; or `error`, which ends a study early and is the last row of a table. A stream without either was
+    cut off: with `from_index` the study goes on, with the same points and lines from there.
     The end of a sample tells 5, 50 and 95 % quantiles and in `quantile_bounds` what holds each with 90 % confidence.
     """
     return await started(http, sweep.sweep_study, wanted_format(http, written_as))

@@ -1,15 +1,19 @@
-"""Pages of studies: what is declared of each, what a page shows, the addresses of its views and points."""
+"""What is declared of a study's page, what it shows, and the addresses of its views and points."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, Generic, NamedTuple, TypeVar
+from itertools import groupby
+from typing import Any, NamedTuple
 
+from app.calculations import Calculation
 from app.figures.data import Figure
 from app.pages.cases import Case, solved
 from app.pages.form import FieldView
-from app.pages.links import LONGEST_QUERY
-from app.pages.query import STUDY_NAMES, Pairs, body_of, link, pairs_of
+from app.pages.links import LONGEST_QUERY, examples_of
+from app.pages.query import STUDY_NAMES, Pairs, body_of, link, pairs_of, text_of
 from app.pages.study_links import StudyLink
+from app.pages.templating import page_path
+from app.pages.typesetting import symbol
 from app.pages.views import Asked
 from app.schema.fields import Leaf
 from app.sources import SHORT_SOURCES
@@ -18,25 +22,6 @@ from app.studies.points import with_overrides
 from app.studies.requests import Overrides
 from app.studies.stream import Line
 from app.studies.study import Study
-
-FRAMES = "<!-- the figures -->"
-S = TypeVar("S")
-
-
-@dataclass(frozen=True, slots=True)
-class Opened(Generic[S]):
-    """A page around its figures; without a study it is whole."""
-
-    head: bytes
-    tail: bytes = b""
-    status: int = 200
-    study: S | None = None
-
-
-def around(page: str, study: S | None) -> Opened[S]:
-    """A page cut where its figures come."""
-    head, _, tail = page.partition(FRAMES)
-    return Opened(head.encode(), tail.encode(), study=study)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,8 +33,8 @@ class StudyAddresses:
 
     def view(self, below: str) -> str:
         """One of them."""
-        said = {name: text for name, text in self.asked.views.items() if name in STUDY_NAMES or name == "theme"}
-        return link(f"{self.asked.path}/{self.name}{below}", self.asked.pairs, **said, sources=SHORT_SOURCES)
+        views = {name: text for name, text in self.asked.views.items() if name in STUDY_NAMES or name == "theme"}
+        return link(f"{self.asked.path}/{self.name}{below}", self.asked.pairs, **views, sources=SHORT_SOURCES)
 
     @property
     def too_long(self) -> bool:
@@ -79,21 +64,100 @@ def case_at(asked: Asked, overrides: Overrides, outputs: list[str]) -> Case:
     return solved(asked.calculation, pairs_of(lightened(body, outputs)), None)
 
 
+class Choice(NamedTuple):
+    """An entry of a menu, in a group."""
+
+    path: str
+    label: str
+    group: str
+
+
+@dataclass(frozen=True, slots=True)
+class Menu:
+    """A choice in groups; `empty` is the label of no choice."""
+
+    name: str
+    label: str
+    empty: str
+    chosen: str
+    groups: tuple[tuple[str, tuple[Choice, ...]], ...]
+    fault: str | None
+
+    @property
+    def id(self) -> str:
+        """Anchor on the page."""
+        return f"f.{self.name}"
+
+
+class Controls(NamedTuple):
+    """A group of the controls of a study's form."""
+
+    title: str
+    menu: Menu | None = None
+    fields: tuple[FieldView, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """The form of a study of a case: what is wrong by control, and whether all of it was accepted."""
+
+    asked: Asked
+    faults: dict[str, str]
+    accepted: bool
+
+    def menu(self, name: str, label: str, empty: str, choices: list[Choice]) -> Menu:
+        """A menu, whose choice may be one that it does not offer."""
+        groups = tuple((group, tuple(items)) for group, items in groupby(choices, key=lambda choice: choice.group))
+        chosen = self.asked.views.get(name, "")
+        if chosen and all(choice.path != chosen for choice in choices):
+            groups = (*groups, ("asked for", (Choice(chosen, chosen, ""),)))
+        return Menu(name, label, empty, chosen, groups, self.faults.get(name))
+
+    def field(
+        self,
+        name: str,
+        label: str,
+        usual: float | str | None = None,
+        unit: str = "",
+        options: tuple[tuple[str, str], ...] = (),
+    ) -> FieldView:
+        """A number with what stands for it where it is left empty, or a choice of a few options."""
+        return FieldView(
+            name=name,
+            label=label,
+            symbol=symbol(None),
+            unit=unit,
+            widget="select" if options else "number",
+            text=self.asked.views.get(name, ""),
+            placeholder="" if usual is None else text_of(usual),
+            options=options,
+            required=False,
+            assumed=False,
+            help=(),
+            fault=self.faults.get(name),
+        )
+
+
 class Cell(NamedTuple):
-    """A cell of a table: a text, with a link where it leads somewhere; numbers stand right."""
+    """A cell of a table: a text, with a link where it leads somewhere; numbers stand right.
+
+    `label` is what a screen reader says of the link where its text alone says too little.
+    """
 
     text: str
     address: str = ""
     right: bool = False
+    label: str = ""
 
 
 class Table(NamedTuple):
-    """A table under its title, and what there is to say of it."""
+    """A table under its title, and what there is to say of it; a folded one is opened by a click."""
 
     title: str
     head: tuple[Cell, ...]
     rows: tuple[tuple[Cell, ...], ...]
     note: str = ""
+    folded: bool = False
 
 
 class Lead(NamedTuple):
@@ -103,15 +167,27 @@ class Lead(NamedTuple):
     address: str
 
 
+class Starter(NamedTuple):
+    """A link to a study that is ready to run."""
+
+    title: str
+    source: str
+    address: str
+
+
 @dataclass(frozen=True, slots=True)
 class Result:
-    """What a page shows of a study that came to its end; figures by their names."""
+    """What a page shows of the lines of a study; figures by their names.
+
+    `script` is JSON for the script of the page, with which a click into the first figure opens the case of a point.
+    """
 
     progress: str
     figures: dict[str, Figure] = field(default_factory=dict)
     tables: tuple[Table, ...] = ()
     remarks: tuple[str, ...] = ()
     leads: tuple[Lead, ...] = ()
+    script: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,10 +199,24 @@ class PageStudy:
     output: Leaf
     study: Study
 
+    @property
+    def links(self) -> StudyAddresses:
+        """Where the views of the study are."""
+        return StudyAddresses(self.page.link.name, self.asked)
 
-def no_fields(_said: dict[str, str], _faults: dict[str, str]) -> tuple[FieldView, ...]:
-    """A form without fields."""
+
+def _no_controls(_: Form) -> tuple[Any, ...]:
     return ()
+
+
+def _complete(_: Asked) -> bool:
+    return True
+
+
+def starting_from_examples(page: "StudyPage", calculation: Calculation) -> list[Starter]:
+    """The study of every example."""
+    below = f"{page_path(calculation)}/{page.link.name}"
+    return [Starter(each.title, each.source, link(below, pairs_of(each.request))) for each in examples_of(calculation)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,8 +224,10 @@ class StudyPage:
     """A study with a page of its own.
 
     `output` is the path of the one shown when none is chosen, else the first headline. `body` makes what the study's
-    endpoint is asked, `plan` checks it; `fields` are what the form has beside the output; `figures` names all it may
-    show.
+    endpoint is asked, `plan` checks it; `controls` are what the form has beside the output, and `shows` beside the
+    menu of outputs. `result` is what the page shows of the lines of a study; with `grows` also of those that have come
+    while it runs, else only how far it is. `complete` says whether all is chosen that the study needs, else `choose`
+    asks for it. `figures` names all that there may be, `files` the forms in which the lines are offered.
     """
 
     link: StudyLink
@@ -146,4 +238,15 @@ class StudyPage:
     plan: Callable[[bytes, int, float], Study]
     result: Callable[[PageStudy, list[Line]], Result]
     output: str | None = None
-    fields: Callable[[dict[str, str], dict[str, str]], tuple[FieldView, ...]] = no_fields
+    controls: Callable[[Form], tuple[Controls, ...]] = _no_controls
+    shows: Callable[[Form], tuple[FieldView, ...]] = _no_controls
+    grows: bool = False
+    complete: Callable[[Asked], bool] = _complete
+    choose: str = ""
+    starters: Callable[["StudyPage", Calculation], list[Starter]] = starting_from_examples
+    files: tuple[str, ...] = ("ndjson",)
+
+
+def ended(lines: list[Line]) -> bool:
+    """Whether the last line has come."""
+    return bool(lines) and lines[-1]["type"] in {"end", "error"}

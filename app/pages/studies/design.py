@@ -10,11 +10,21 @@ from app.figures.models.drive_train import GAP
 from app.figures.studies import Tried, search
 from app.pages import study_links
 from app.pages.cases import Case
-from app.pages.form import FieldView
 from app.pages.query import LOWER, TRIALS, UPPER, body_of, number_of, text_of
 from app.pages.studies.corners import OUTPUT, corner_table, load_figure, worst_end
-from app.pages.studies.declaration import Cell, Lead, PageStudy, Result, StudyPage, Table, address_at, case_at
-from app.pages.typesetting import shown, symbol
+from app.pages.studies.declaration import (
+    Cell,
+    Controls,
+    Form,
+    Lead,
+    PageStudy,
+    Result,
+    StudyPage,
+    Table,
+    address_at,
+    case_at,
+)
+from app.pages.typesetting import shown
 from app.pages.views import Asked
 from app.schema.fields import Leaf
 from app.studies.design import design_study
@@ -68,29 +78,13 @@ def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
     }
 
 
-def _fields(said: dict[str, str], faults: dict[str, str]) -> tuple[FieldView, ...]:
+def _controls(form: Form) -> tuple[Controls, ...]:
     """Ranges of what may be ground, and how many corrections are tried."""
-    fields = [(TRIALS, "corrections tried", float(EVALUATIONS), "")]
+    fields = [form.field(TRIALS, "corrections tried", EVALUATIONS)]
     for place, each in enumerate(GROUND):
-        fields.append((f"{LOWER}{place}", f"{each.label}, from", each.low, each.unit))
-        fields.append((f"{UPPER}{place}", f"{each.label}, to", each.high, each.unit))
-    return tuple(
-        FieldView(
-            name=name,
-            label=label,
-            symbol=symbol(None),
-            unit=unit,
-            widget="number",
-            text=said.get(name, ""),
-            placeholder=text_of(usual),
-            options=(),
-            required=False,
-            assumed=False,
-            help=(),
-            fault=faults.get(name),
-        )
-        for name, label, usual, unit in fields
-    )
+        fields.append(form.field(f"{LOWER}{place}", f"{each.label}, from", each.low, each.unit))
+        fields.append(form.field(f"{UPPER}{place}", f"{each.label}, to", each.high, each.unit))
+    return (Controls("Study", fields=tuple(fields)),)
 
 
 def _result(study: PageStudy, lines: list[Line]) -> Result:
@@ -177,5 +171,5 @@ DESIGN = StudyPage(
     plan=design_study,
     result=_result,
     output=OUTPUT,
-    fields=_fields,
+    controls=_controls,
 )

@@ -1,7 +1,7 @@
-"""The page of a sensitivity, of corners or of a design, and its files; runs in workers."""
+"""The page of a study before, while and after its lines come, and its figures as files; runs in workers."""
 
 import json
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from app.calculations import Calculation
 from app.errors import Unreadable
@@ -9,31 +9,43 @@ from app.figures.rendering import Format, written
 from app.figures.tables import table
 from app.pages.cases import Fault, faults_of
 from app.pages.charts import embedded
-from app.pages.links import IMAGE_FORMATS, examples_of
-from app.pages.query import link, pairs_of
+from app.pages.links import IMAGE_FORMATS
+from app.pages.query import LOWER, TRIALS, UPPER
 from app.pages.studies.corners import CORNERS
-from app.pages.studies.declaration import FRAMES, Opened, PageStudy, Result, StudyAddresses, StudyPage, around
+from app.pages.studies.declaration import Controls, Form, PageStudy, Result, StudyAddresses, StudyPage
 from app.pages.studies.design import DESIGN
+from app.pages.studies.outputs import output_at, output_choices
 from app.pages.studies.sensitivity import SENSITIVITY
-from app.pages.studies.sweep_form import output_menu
-from app.pages.studies.sweep_query import field_at_fault, shown_output
-from app.pages.templating import page_path, rendered
+from app.pages.studies.sweep import AXES, SWEEP
+from app.pages.templating import rendered
 from app.pages.views import REFUSED, Asked
 from app.schema.fields import Leaf
-from app.studies.stream import Line, StudyBroke
+from app.studies.stream import Line
 
-PAGES = {each.link: each for each in (SENSITIVITY, CORNERS, DESIGN)}
+PAGES = {each.link: each for each in (SWEEP, SENSITIVITY, CORNERS, DESIGN)}
+FRAMES = "<!-- the figures -->"
 
 
-def opened(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Opened[PageStudy]:
+@dataclass(frozen=True, slots=True)
+class Opened:
+    """A page around its figures; without a study it is whole."""
+
+    head: bytes
+    tail: bytes = b""
+    status: int = 200
+    study: PageStudy | None = None
+
+
+def opened(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Opened:
     """The page of a study of a case, and the study if there is a case."""
     try:
-        study = checked(page, asked, most, deadline_s) if asked.pairs else None
+        study = checked(page, asked, most, deadline_s) if asked.pairs and page.complete(asked) else None
     except REFUSED as error:
         faults = [Fault(field_at_fault(each.path), each.message) for each in faults_of(error)]
         status = 400 if isinstance(error, Unreadable) else 422
         return Opened(_page(page, asked, None, faults).encode(), status=status)
-    return around(_page(page, asked, study, []), study)
+    head, _, tail = _page(page, asked, study, []).partition(FRAMES)
+    return Opened(head.encode(), tail.encode(), study=study)
 
 
 def checked(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> PageStudy:
@@ -43,14 +55,37 @@ def checked(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Page
     return PageStudy(page, asked, output, page.plan(body, most, deadline_s))
 
 
-def _output(page: StudyPage, calculation: Calculation, said: dict[str, str]) -> Leaf:
-    return shown_output(calculation, said if page.output is None else {"show": page.output, **said})
+def _output(page: StudyPage, calculation: Calculation, views: dict[str, str]) -> Leaf:
+    return output_at(calculation, views.get("show", page.output))
+
+
+def field_at_fault(path: str) -> str:
+    """The control of the form that a path into the study means; a field of the case keeps its own name."""
+    head, _, rest = path.partition(".")
+    place, _, part = rest.partition(".")
+    match head:
+        case "vary":
+            name = AXES[int(place)] if place in {"0", "1"} else "x"
+            known = {"path": "", "stop": ".to", "count": ".count", "scale": ".scale"}
+            return name + (known.get(part, ".from") if place else ".count")
+        case "variables":
+            return f"{UPPER if part == 'max' else LOWER}{place}"
+        case "evaluations":
+            return TRIALS
+        case "outputs" | "objective":
+            return "show"
+        case "request":
+            return rest
+        case _:
+            return path
 
 
 def _page(page: StudyPage, asked: Asked, study: PageStudy | None, faults: list[Fault]) -> str:
-    calculation, offer = asked.calculation, page.link
-    known = {fault.path: fault.message for fault in faults}
-    menu, fields = output_menu(calculation, asked.views, known), page.fields(asked.views, known)
+    calculation = asked.calculation
+    form = Form(asked, {fault.path: fault.message for fault in faults}, study is not None)
+    show = form.menu("show", "output", _output(page, calculation, {}).title, output_choices(calculation))
+    groups = (*page.controls(form), Controls("Show", show, page.shows(form)))
+    controls = [each for group in groups for each in (group.menu, *group.fields) if each]
     return rendered(
         "study.html",
         asked.root,
@@ -59,46 +94,53 @@ def _page(page: StudyPage, asked: Asked, study: PageStudy | None, faults: list[F
         path=asked.path,
         case_links=asked.links,
         outdated=asked.outdated,
-        links=StudyAddresses(offer.name, asked),
-        show=replace(menu, empty=_output(page, calculation, {}).title),
-        fields=fields,
-        anchors={menu.name: menu.id} | {each.name: each.id for each in fields},
+        links=StudyAddresses(page.link.name, asked),
+        groups=groups,
         hidden=[pair for pair in (*asked.pairs, ("theme", asked.views.get("theme", ""))) if pair[1]],
-        faults=faults,
+        faults=[fault for fault in faults if fault.path not in {each.name for each in controls}],
+        refused=bool(faults),
         theme=asked.views.get("theme", ""),
         study=study,
-        starters=[
-            (example, link(f"{page_path(calculation)}/{offer.name}", pairs_of(example.request)))
-            for example in examples_of(calculation)
-        ],
+        starters=page.starters(page, calculation),
         frames=FRAMES,
     )
 
 
+def partial(study: PageStudy, lines: list[Line], done: int) -> bytes:
+    """How far the study is, and what the lines so far show."""
+    found = study.page.result(study, lines) if study.page.grows and lines else Result("")
+    return _result(study, found, done=done)
+
+
 def whole(study: PageStudy, lines: list[Line]) -> bytes:
-    """Figures, tables and links; a study that broke off says why."""
-    links = StudyAddresses(study.page.link.name, study.asked)
-    if lines[-1]["type"] == "error":
-        return rendered("study_result.html", study.asked.root, broke=lines[-1]["message"]).encode()
-    found = study.page.result(study, lines)
+    """Figures, tables and links; a study that ended early says why, and shows what it found."""
+    if lines[-1]["type"] == "end":
+        return _result(study, study.page.result(study, lines))
+    found = study.page.result(study, lines) if study.page.grows and len(lines) > 1 else Result("")
+    return _result(study, found, problem=lines[-1]["message"], done=lines[-1]["done"])
+
+
+def _result(study: PageStudy, found: Result, *, problem: str = "", done: int | None = None) -> bytes:
     charts = [embedded(name, figure, study.asked.theme) for name, figure in found.figures.items()]
+    if charts and found.script:
+        charts[0] = replace(charts[0], study=found.script)
     return rendered(
         "study_result.html",
         study.asked.root,
-        broke=None,
+        study=study,
         found=found,
+        problem=problem,
+        done=done,
         charts=charts,
-        links=links,
+        links=study.links,
         formats=IMAGE_FORMATS,
     ).encode()
 
 
-def file(study: PageStudy, lines: list[Line], name: str, image_format: Format) -> bytes:
-    """One figure as a file; raises StudyBroke where the study has none in the end."""
-    if lines[-1]["type"] == "error":
-        raise StudyBroke(lines[-1]["message"])
-    found: Result = study.page.result(study, lines)
+def file(study: PageStudy, lines: list[Line], name: str, image_format: Format) -> bytes | str:
+    """One figure as a file, or why the study has none of this name."""
+    found = study.page.result(study, lines)
     if name not in found.figures:
-        raise StudyBroke("; ".join(found.remarks))
+        return "; ".join([f"This study has the figures {', '.join(found.figures) or 'none'}", *found.remarks])
     figure = found.figures[name]
     return table(figure) if image_format == "csv" else written(figure, image_format, study.asked.theme or "light")

@@ -1,4 +1,5 @@
-// A study's page: it grows without script; with it the study can be stopped, and points opened from the figure.
+// A study's page is drawn while it is calculated, also without script; with it the study can be stopped, and points
+// are opened from the figure.
 "use strict";
 
 const stop = () => document.getElementById("stop");
