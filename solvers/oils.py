@@ -85,7 +85,7 @@ class OilSheet:
             raise InvalidInput("viscosity_index", message, field)
 
     def kinematic_viscosity(self, temperature: float) -> float:
-        """Kinematic viscosity [m^2/s] at a temperature [K] by the Walther law through both points (ASTM D341).
+        """Kinematic viscosity [m^2/s] at a temperature [K] by the Walther law through both points (ASTM D341) (Eq. R1).
 
         Raises InvalidInput oil_too_thick beyond 10^5 mm^2/s.
         """
@@ -104,15 +104,18 @@ class OilSheet:
         return KINDS[self.kind].density_15 if self.density_15 is None else self.density_15
 
     def density(self, temperature: float) -> float:
-        """Rho_15 [1 - 0.00065 (t - 15 C)] [kg/m^3]."""
+        """Rho_15 [1 - 0.00065 (t - 15 C)] [kg/m^3] (Eq. R3)."""
         return self.reference_density * (1.0 - THERMAL_EXPANSION * (temperature - DENSITY_TEMPERATURE))
 
     def viscosity(self, temperature: float) -> float:
-        """Eta = nu rho [Pa s]."""
+        """Eta = nu rho [Pa s] (Eq. R3)."""
         return self.kinematic_viscosity(temperature) * self.density(temperature)
 
     def temperature_coefficient(self, temperature: float) -> float:
-        """Beta = -d ln eta/dt [1/K]: what the Walther law and the density say there, unless the sheet gives it."""
+        """Beta = -d ln eta/dt [1/K]: what the Walther law and the density say there, unless the sheet gives it.
+
+        Eq. R4.
+        """
         if self.temperature_viscosity is not None:
             return self.temperature_viscosity
         viscosity = self.kinematic_viscosity(temperature) / SQUARE_MILLIMETRE
@@ -122,7 +125,7 @@ class OilSheet:
         return float(thinning + expansion)
 
     def pressure_coefficient(self, temperature: float) -> float:
-        """Alpha = s nu^t [1/Pa], nu in mm^2/s (Gold), unless the sheet gives it."""
+        """Alpha = s nu^t [1/Pa], nu in mm^2/s (Gold), unless the sheet gives it (Eq. R4)."""
         if self.pressure_viscosity is not None:
             return self.pressure_viscosity
         kind = KINDS[self.kind]

@@ -29,7 +29,7 @@ of the oils of index 0 and 100 with that Y (ASTM D2270, Table X2.1; read in a pu
 
 
 def viscosity_index(viscosity_40: float, viscosity_100: float) -> float:
-    """Viscosity index of an oil of kinematic viscosities U at 40 C and Y at 100 C [m^2/s].
+    """Viscosity index of an oil of kinematic viscosities U at 40 C and Y at 100 C [m^2/s] (Eq. R2).
 
     100 (L - U)/(L - H) up to an index of 100, beyond it 100 + (10^N - 1)/0.00715 with N = log(H/U)/log Y. Below
     Y = 2 mm^2/s, where the standard defines none, the first formula is used with the first of the reference oils.

@@ -108,14 +108,24 @@ class Bars:
 
 
 @dataclass(frozen=True, slots=True)
+class Part:
+    """A part of a row's value."""
+
+    title: str
+    value: float
+    hue: Hue
+
+
+@dataclass(frozen=True, slots=True)
 class Row:
-    """A named value drawn as a horizontal bar, with its bounds where it is indeterminate."""
+    """A named value drawn as a horizontal bar, with its bounds where it is indeterminate; or the sum of its parts."""
 
     name: str
     value: float
     hue: Hue = Hue.BLUE
     bounds: tuple[float, float] | None = None
     role: Role = Role.RESULT
+    parts: tuple[Part, ...] = ()
 
 
 class Scale(StrEnum):

@@ -79,6 +79,10 @@ def _row_columns(panel: Panel, prefix: str) -> list[Column]:
         Column(f"{prefix}name", [row.name for row in own]),
         Column(prefix + _header(panel.x), np.array([row.value for row in own])),
     ]
+    titles = dict.fromkeys(part.title for row in own for part in row.parts)
+    for title in titles:
+        values = [sum(part.value for part in row.parts if part.title == title) for row in own]
+        columns.append(Column(f"{prefix}{_header(Axis(title, panel.x.unit))}", np.array(values)))
     variant = {row.name: row.value for row in panel.rows if row.role is Role.VARIANT}
     if variant:
         columns.append(

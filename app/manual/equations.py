@@ -14,7 +14,7 @@ from importlib.resources import files
 
 from app.manual.chapters import chapters
 
-_EQUATION = re.compile(r"^\$\$\n(.*?)\n?\\tag\{([^}]+)\}\n\$\$\n\n(.*?)(?:\n\n|\Z)", re.MULTILINE | re.DOTALL)
+_EQUATION = re.compile(r"^\$\$\n(.*?)\n?\\tag\{([^}]+)\}\n\$\$(?=\n\n(.*?)(?:\n\n|\Z))", re.MULTILINE | re.DOTALL)
 _FUNCTION = re.compile(r"\[`(solvers[\w.]+)`\]\(([^)]+)\)")
 IMPLEMENTED = "Implemented in "
 """How the paragraph below an equation begins that names its functions."""

@@ -33,6 +33,14 @@ class Case(BaseModel):
     overrides: Annotated[dict[str, float], Output("what it changes in the request of /v1/scuffing, by dotted path")]
 
 
+class SpectrumCase(BaseModel):
+    """A case of the load spectrum as /v1/spectrum takes it."""
+
+    name: Annotated[str, Output("name in the file")]
+    share: Annotated[float, Output("share of the operating time")]
+    set: Annotated[dict[str, float], Output("what it changes in the request of the endpoint, by dotted path")]
+
+
 class MissingValue(BaseModel):
     """What a calculation needs and the file does not tell."""
 
@@ -71,6 +79,7 @@ class Stage(BaseModel):
     hand: Annotated[str | None, Output("hand of the pinion's helix")]
     requests: Annotated[dict[str, dict[str, Any]], Output("a request for each endpoint that can be asked")]
     cases: Annotated[list[Case], Output("load spectrum of the file")]
+    spectra: Annotated[dict[str, list[SpectrumCase]], Output("the same as `cases` of /v1/spectrum, for each endpoint")]
     missing: Annotated[list[MissingValue], Output("what has to be filled in")]
     assumed: Annotated[list[AssumedValue], Output("what was put in its place")]
     ignored: Annotated[list[Unused], Output("what could not be used")]

@@ -15,6 +15,21 @@ from app.rexs.stages import Pair, StageDraft, pairs, related_components, request
 MOST_FINDINGS = 1000
 MOST_STAGES = 50
 MOST_CASES = 200
+LONGEST_NAME, MOST_SPECTRUM_CASES = 100, 100  # of /v1/spectrum
+# Which field of a request a load case sets, where it is not the one of /v1/scuffing.
+SPECTRUM_FIELDS: dict[str, dict[str, str]] = {
+    "/v1/scuffing/load-distribution": {table.OIL_TEMPERATURE.field: ""},
+    "/v1/scuffing": {},
+    "/v1/pumping": {
+        "load.pinion_torque_n_m": "",
+        "load.pinion_speed_rpm": "operation.pinion_speed_rpm",
+        table.OIL_TEMPERATURE.field: "",
+    },
+    "/v1/drive-train": {
+        "load.pinion_torque_n_m": "operation.pinion_torque_n_m",
+        "load.pinion_speed_rpm": "operation.pinion_speed_rpm",
+    },
+}
 SHARES = (("operating_time_fraction", ""), ("operating_time", "h"))
 
 
@@ -54,6 +69,9 @@ class _Unit:
         cases = reading.model.load_cases[:MOST_CASES]
         if len(cases) < len(reading.model.load_cases):
             reading.find("too_many_cases", None, None, f"the first {MOST_CASES} load cases are read")
+        if len(cases) > MOST_SPECTRUM_CASES:
+            message = f"a load spectrum of more than {MOST_SPECTRUM_CASES} load cases cannot be asked as it stands"
+            reading.find("too_many_cases", None, None, message)
         self._base = self._flow(None)
         self._flows = [(case, self._flow(case)) for case in cases]
 
@@ -73,6 +91,7 @@ class _Unit:
         requests = {endpoint: validated(endpoint, draft, own) for endpoint, own in requests_of(stage).items()}
         if drive_train.add_drive_train(stage, draft):
             requests["/v1/drive-train"] = validated("/v1/drive-train", draft, drive_train.paths(draft))
+        cases = list(self._cases(stage))
         return {
             "id": pair.stage.id,
             "name": pair.stage.name,
@@ -81,7 +100,10 @@ class _Unit:
             "driver": None if stage.driver is None else pair.gears[stage.driver].id,
             "hand": draft.fields.get("gears.hand"),
             "requests": requests,
-            "cases": list(self._cases(stage)),
+            "cases": cases,
+            "spectra": {endpoint: _spectrum(endpoint, cases) for endpoint in requests}
+            if 0 < len(cases) <= MOST_SPECTRUM_CASES
+            else {},
             "missing": rows(draft.missing.values()),
             "assumed": rows(draft.assumed.values()),
             "ignored": rows(self._reading.ignored(related_components(stage), table.IGNORED)),
@@ -116,6 +138,19 @@ class _Unit:
             yield {"name": case.name, "share": share, "overrides": overrides}
         if reason:
             stage.draft.note("cases", None, reason)
+
+
+def _spectrum(endpoint: str, cases: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The cases as /v1/spectrum takes them for an endpoint; what its request does not know is left out."""
+    own = SPECTRUM_FIELDS[endpoint]
+    return [
+        {
+            "name": case["name"][:LONGEST_NAME],
+            "share": case["share"],
+            "set": {own.get(path, path): value for path, value in case["overrides"].items() if own.get(path, path)},
+        }
+        for case in cases
+    ]
 
 
 def _shares(reading: Reading, cases: list[LoadCase]) -> tuple[list[float], str | None]:

@@ -109,7 +109,7 @@ SPECTRUM_EXAMPLES: dict[str, dict[str, Any]] = {
         "summary": "The probability of scuffing of a high-speed stage over its load spectrum with six tolerances",
         "value": {
             "endpoint": _STAGE.endpoint,
-            "request": {**_STAGE.request, "model": {**_STAGE.request["model"], "lubrication": "closed_form"}},
+            "request": _STAGE.request,
             "cases": [
                 {
                     "name": "start",

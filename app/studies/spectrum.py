@@ -1,5 +1,6 @@
 """Load spectra: a machine with its tolerances over its cases, and the probability that it exceeds its limits."""
 
+import copy
 from array import array
 from collections import Counter
 from collections.abc import Sequence
@@ -18,6 +19,7 @@ from app.studies import probability
 from app.studies.distributions import anchors, cut, drawn, unit_cube
 from app.studies.drive_train import lightened
 from app.studies.engine import Pool, twice_if_lost
+from app.studies.fields import set_value
 from app.studies.point_sets import BaseRequest, check_case, scattering
 from app.studies.points import Point, Question, solve_point
 from app.studies.probability import Array, Limit, Side
@@ -38,6 +40,7 @@ from app.studies.summary import merge_assumption
 
 PATH = "/v1/spectrum"
 PROGRESS_S = 0.5  # between two lines that say how far a spectrum has come
+BY_FILM = frozenset({"film.min_at_psi", "film.thickness_ratio", "unsolved_points"})
 SOLVED = ("ok", "ok_with_warnings")
 KILOWATTS = {"W": 1e-3, "kW": 1.0}
 RELATIVE_DEVIATION = 0.15
@@ -316,8 +319,7 @@ def spectrum_study(body: bytes, most: int, deadline_s: float) -> Spectrum:
     wanted = paths_of(outputs)
     if request.limits is None and calculation.path in SCUFFING:
         wanted = list(dict.fromkeys([*wanted, *SCUFFING[calculation.path]]))
-    light = lightened(request.request, wanted) if calculation.path == DRIVE_TRAIN else request.request
-    question = Question(calculation.path, light, wanted, deadline_s)
+    question = Question(calculation.path, _lightened(calculation, request.request, wanted), wanted, deadline_s)
     typical = {each.path: anchors(each)[0] for each in tolerances.inputs} if tolerances else {}
     for case in cases:
         checked_base(calculation, request.request, {**typical, **case})
@@ -337,6 +339,17 @@ def spectrum_study(body: bytes, most: int, deadline_s: float) -> Spectrum:
         hours_per_year=request.hours_per_year,
         points=request.points,
     )
+
+
+def _lightened(calculation: Calculation, request: dict[str, Any], outputs: list[str]) -> dict[str, Any]:
+    """The request without the thermal film where no output needs it; the outputs are the same."""
+    if calculation.path == DRIVE_TRAIN:
+        return lightened(request, outputs)
+    if calculation.path != "/v1/scuffing" or any("thermal_ehl" in path or path in BY_FILM for path in outputs):
+        return request
+    light = copy.deepcopy(request)
+    set_value(calculation.request, light, "model.lubrication", "closed_form")
+    return light
 
 
 def _outputs(calculation: Calculation, request: SpectrumRequest) -> tuple[Leaf, ...]:

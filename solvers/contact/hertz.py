@@ -11,15 +11,15 @@ Real = TypeVar("Real", float, FloatArray)
 
 
 def reduced_modulus(solid_1: Solid, solid_2: Solid) -> float:
-    """E' = 2 / [(1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2] [Pa], the convention of the film formulas."""
+    """E' = 2 / [(1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2] [Pa], the convention of the film formulas (Eq. E1)."""
     return 2.0 / (solid_1.plane_strain_compliance + solid_2.plane_strain_compliance)
 
 
 def half_width(line_load: Real, radius: Real, modulus: float) -> Real:
-    """Half width b = sqrt(8 w R / (pi E')) [m] for w [N/m], reduced radius R [m] and E' [Pa]."""
+    """Half width b = sqrt(8 w R / (pi E')) [m] for w [N/m], reduced radius R [m] and E' [Pa] (Eqs. L14, E1)."""
     return cast("Real", np.sqrt(8.0 * line_load * radius / (np.pi * modulus)))
 
 
 def maximum_pressure(line_load: Real, radius: Real, modulus: float) -> Real:
-    """Largest pressure p_H = sqrt(w E' / (2 pi R)) [Pa]; the mean is pi/4 of it."""
+    """Largest pressure p_H = sqrt(w E' / (2 pi R)) [Pa]; the mean is pi/4 of it (Eq. E1)."""
     return cast("Real", np.sqrt(line_load * modulus / (2.0 * np.pi * radius)))

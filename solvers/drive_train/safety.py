@@ -41,7 +41,7 @@ def contact_of(inputs: DriveTrainInputs) -> ScuffingInputs:
 
 
 def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: ThermalLead) -> FlankHeat:
-    """Flash temperature on the feature line and over the flank, thermal EHL on the two lines that matter.
+    """Flash temperature on the feature line and over the flank, thermal EHL on the two lines that matter (Eq. D15).
 
     Loaded next to a base circle neither has a largest value; without an oil there is no contact temperature.
     """

@@ -87,7 +87,10 @@ def transverse_gear(inputs: GearPairInputs, teeth: GearTeeth) -> Gear:
 
 
 def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: float) -> Gear:
-    """The virtual spur gear of the normal section, of z / (cos^2 beta_b cos beta) teeth, cut by the same rack."""
+    """The virtual spur gear of the normal section, of z / (cos^2 beta_b cos beta) teeth, cut by the same rack.
+
+    Eq. L10.
+    """
     virtual_teeth = teeth.teeth / (cos(base_helix_angle) ** 2 * cos(inputs.helix_angle))
     return _cut(inputs, teeth, virtual_teeth, inputs.normal_module, inputs.normal_pressure_angle)
 

@@ -66,7 +66,7 @@ class GearPair:
 
 
 def gear_pair(inputs: GearPairInputs) -> GearPair:
-    """Geometry of the pair.
+    """Geometry of the pair (Eq. L1).
 
     Raises InvalidInput: pointed_rack, no_involute, pointed_tooth, flank_interference, no_mesh, no_tip_clearance.
     """
@@ -203,7 +203,7 @@ class PathOfContact:
         """Rolling speeds u_1, u_2 [m/s] at x [m] for a pinion speed [rad/s].
 
         The flank velocity across the contact line is omega times the transverse radius exactly; Eq. 18 takes the
-        radius of Eq. 13, too large by 1 / cos beta_b.
+        radius across the contact line, too large by 1 / cos beta_b.
         """
         s = self.start + x
         wheel_speed = pinion_speed * self.pair.pinion.teeth / self.pair.wheel.teeth
@@ -216,7 +216,7 @@ def meshing_path(gears: GearPairInputs) -> PathOfContact:
 
 
 def path_of_contact(pair: GearPair) -> PathOfContact:
-    """The path between the tip circles, cut short where an involute begins only after it.
+    """The path between the tip circles, cut short where an involute begins only after it (Eq. L2).
 
     Raises InvalidInput: form_diameter (a fillet reaches the gear's own tip), no_contact (the tips do not reach the
     line of action), involute_interference (the fillets leave nothing of the path).

@@ -109,7 +109,7 @@ def roll_positions(
 
 @kernel
 def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, float]:
-    """First and last y [m] of the contact line x = phase - y tan beta_b; equal where there is none.
+    """First and last y [m] of the contact line x = phase - y tan beta_b; equal where there is none (Eq. L3).
 
     A spur line at the end of the path counts as in contact on the `side` that lies inside.
     """

@@ -36,7 +36,7 @@ def face_response(
 ) -> FaceResponse:
     """Force at `stations` equidistant points from y = 0 to b, both included, and its derivative by the gap there.
 
-    Raises NoSolution load_balance as `balance_load` does.
+    Raises NoSolution load_balance as `balance_load` does. Eq. L20.
     """
     share = np.zeros(rolls.phase.size)
     share[:-1] += np.diff(rolls.phase) / 2

@@ -30,7 +30,7 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
 
     Looked for at equidistant points, at kinks of the gap and at y [m], where a peak is, and closer around the largest.
     The mean is the force in balance over the face. Where to look closer is seen without steps between roll positions,
-    which errs for lines loaded in part: there at every place that is nearly the largest.
+    which errs for lines loaded in part: there at every place that is nearly the largest. Eq. L17.
     """
     plane = balance.mesh.plane
     places = _apart([*np.linspace(0.0, plane.face_width, FACE_POINTS), *kinks_along_face(balance.mesh.gap), y])
@@ -68,7 +68,7 @@ def _apart(places: list[float]) -> FloatArray:
 
 
 def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) -> FloatArray:
-    """Force per face width q = int w dx / p_bt [N/m] at distances y [m] from the end that meshes first.
+    """Force per face width q = int w dx / p_bt [N/m] at distances y [m] from the end that meshes first (Eq. L17).
 
     Where lines are loaded in part, load ends between roll positions, whose steps are then cut into `substeps`.
     """
@@ -131,7 +131,7 @@ def feature_line(
     modulus: float,
     psi: FloatArray,
 ) -> FeatureLine:
-    """The points at psi in 0..1 (n,), x = psi g_alpha, y = psi b; F_bt [N], E' [Pa]."""
+    """The points at psi in 0..1 (n,), x = psi g_alpha, y = psi b; F_bt [N], E' [Pa] (Eq. S1)."""
     x = psi * path.length
     load = line_loads(balance, x, psi * path.plane.face_width)
     line = contact_points(path, balance, x, load, pinion_speed, modulus)

@@ -115,7 +115,7 @@ def _follow(table: Slices, count: int, change: float) -> float:
 
 @kernel
 def newton(table: Slices, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
-    """TE [m] from a start, relative residual and steps at one roll position; the slices stay in the table.
+    """TE [m] from a start, relative residual and steps at one roll position; the slices stay in the table (Eq. L13).
 
     One iteration over both levels: with every step of TE each slice goes one of its own. A step that crosses no kink
     and whose square is rounding is the last, and the loads follow their derivatives; of linear contact any step is that
@@ -179,6 +179,8 @@ def balance_load(
 
     `start` holds TE and the slices' ln w of the same mesh under a similar gap. A force that presses the lines by less
     than `LEAST_LINE_LOAD` counts as none. Raises NoSolution load_balance if the iteration ends short of the force.
+
+    Eq. 9.
     """
     if force < LEAST_LINE_LOAD * mesh.plane.face_width:
         force = 0.0

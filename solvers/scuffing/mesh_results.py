@@ -73,7 +73,7 @@ def standard_stiffness(path: PathOfContact, line_load: float = REFERENCE_LOAD) -
     1/c'_th = 0.04723 + 0.15551/z_n1 + 0.25791/z_n2 - 0.00635 x1 - 0.11654 x1/z_n1 - 0.00193 x2 - 0.24188 x2/z_n2
               + 0.00529 x1^2 + 0.00182 x2^2 [mm um/N]; C_B for the basic rack.
 
-    Below a line load F_t K_A/b [N/m] of 100 N/mm c' falls with its fourth root.
+    Below a line load F_t K_A/b [N/m] of 100 N/mm c' falls with its fourth root. Eq. L16.
     """
     inputs = path.pair.inputs
     virtual = cos(path.pair.base_helix_angle) ** 2 * cos(inputs.helix_angle)
@@ -102,7 +102,7 @@ def _rack_factor(pair: GearPair) -> float:
 
 
 def mesh_stiffness(balance: LoadBalance, tangential_force: float) -> FloatArray | None:
-    """c_gamma(phase) = F_bt / [b (TE - TE_unloaded)] [Pa]; None without load."""
+    """c_gamma(phase) = F_bt / [b (TE - TE_unloaded)] [Pa]; None without load (Eq. L15)."""
     if balance.force == 0.0:
         return None
     approach = balance.transmission_error - balance.unloaded_error
@@ -135,7 +135,7 @@ def stiffness(
 
 
 def transmission_error(balance: LoadBalance) -> TransmissionError:
-    """TE along the transverse line of action [m]; means and harmonics by trapezia over the roll positions.
+    """TE along the transverse line of action [m]; means and harmonics by trapezia over the roll positions (Eq. L18).
 
     The trapezia honour the jumps of spur gears, which stand twice in the grid.
     """
@@ -166,7 +166,7 @@ def friction_loss(
 ) -> FrictionLoss:
     """P_V = f/p_bt int sum_j int w |u1 - u2| dl dphase, u1 - u2 = (omega_1 + omega_2)(s - s_C); H_V = P_V / (f P).
 
-    Power and efficiency are those of the transmitted power; load factors raise the load of the contacts only.
+    Power and efficiency are those of the transmitted power; load factors raise the load of the contacts only. Eq. L19.
     """
     if balance.force == 0.0:
         return FrictionLoss(friction_coefficient, loss_factor=None, power=0.0, efficiency=None)

@@ -113,7 +113,7 @@ def kinks_along_face(form: Gap) -> tuple[float, ...]:
 
 
 def misalignment_slope(in_plane: float, out_of_plane: float, working_pressure_angle: float) -> float:
-    """Helix slope [m] of shaft deviations [m] over the face (ISO/TR 10064-3).
+    """Helix slope [m] of shaft deviations [m] over the face (ISO/TR 10064-3) (Eq. L12).
 
     f_Sigma_delta in the plane of the shafts counts by sin alpha_wt, f_Sigma_beta out of it by cos alpha_wt.
     """
@@ -131,7 +131,7 @@ def _relief(amplitude: float, length: float, distance: float, exponent: float) -
 
 @kernel
 def profile_gap(form: Gap, x: float) -> float:
-    """The part of Delta [m] that changes along the path, at distance x [m] from A."""
+    """The part of Delta [m] that changes along the path, at distance x [m] from A (Eq. L11)."""
     xi = x / form.path_length - 0.5
     value = 4.0 * form.profile_crowning * xi * xi + form.profile_slope * xi
     value += _relief(form.tip_relief, form.tip_relief_length, form.path_length - x, form.exponent)
@@ -140,7 +140,7 @@ def profile_gap(form: Gap, x: float) -> float:
 
 @kernel
 def lead_gap(form: Gap, y: float) -> float:
-    """The part of Delta [m] that changes over the face, at y [m] from the end that meshes first."""
+    """The part of Delta [m] that changes over the face, at y [m] from the end that meshes first (Eq. L11)."""
     eta = y / form.face_width - 0.5
     value = 4.0 * form.lead_crowning * eta * eta + form.helix_slope * eta
     value += interpolated(form.lead, place_of(y, (form.lead.size - 1) / form.face_width, form.lead.size))

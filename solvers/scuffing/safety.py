@@ -38,7 +38,7 @@ SURVEY_POINTS = 4001  # of the formulas along the feature line, to find where th
 
 
 def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
-    """Load distribution and scuffing check.
+    """Load distribution and scuffing check (Eq. 16).
 
     Without an oil or a bulk temperature there are neither film nor contact temperature nor safety. Raises what
     `model.solve` and `in_force` raise, and what the thermal EHL solver raises if it refuses every point.

@@ -113,7 +113,7 @@ def _chord_height(gear: Gear, root_width: float) -> float:
 
 
 def bending_rectangle(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """delta_Br / w [1/Pa], for load heights above or inside the rectangle."""
+    """delta_Br / w [1/Pa], for load heights above or inside the rectangle (Eq. L4)."""
     h_x, s_f = points.height, shape.root_width
     h_r = np.minimum(shape.rectangle_height, h_x)
     factor = 12 * np.cos(points.angle) ** 2 / (material.youngs_modulus * s_f**3)
@@ -124,7 +124,7 @@ def bending_trapezium(shape: ToothShape, points: LoadPoints, material: Solid) ->
     """delta_Bt / w [1/Pa]: 6 cos^2 w / (E S_F^3) [q (4 - q) - 2 ln q - 3] (h_i - h_r)^3, q = (h_i - h_x)/(h_i - h_r).
 
     The logarithm is right as printed (with its sign turned the compliance is negative); E is that of the member, not
-    E_1 as printed.
+    E_1 as printed. Eq. L5.
     """
     if shape.tip_width == shape.root_width:
         return np.zeros_like(points.height)
@@ -134,7 +134,7 @@ def bending_trapezium(shape: ToothShape, points: LoadPoints, material: Solid) ->
 
 
 def shear(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """delta_S / w [1/Pa], shear factor 1: 2 (1 + nu) cos^2 w / (E S_F) [h_r + (h_i - h_r) ln(1/q)]."""
+    """delta_S / w [1/Pa], shear factor 1: 2 (1 + nu) cos^2 w / (E S_F) [h_r + (h_i - h_r) ln(1/q)] (Eq. L6)."""
     length = np.minimum(shape.rectangle_height, points.height)
     if shape.tip_width < shape.root_width:
         slope_height = _apex_height(shape) - shape.rectangle_height
@@ -144,7 +144,7 @@ def shear(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
 
 
 def root_rotation(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """delta_G / w = 24 h_x^2 cos^2 w / (pi E S_F^2) [1/Pa].
+    """delta_G / w = 24 h_x^2 cos^2 w / (pi E S_F^2) [1/Pa] (Eq. L7).
 
     Printed with h_x in place of h_x^2; a rotation M/(E S_F^2) times the arm h_x, and the unit, ask for the square.
     """
@@ -194,7 +194,7 @@ class Member:
 
 
 def pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Model) -> PairCompliance:
-    """Compliance of a pair of teeth along the path.
+    """Compliance of a pair of teeth along the path (Eqs. 7, L8).
 
     Raises InvalidInput contact_law: the parabola is scaled to linear contact and refuses the half-space.
     """
@@ -274,7 +274,7 @@ def compliance_at(compliance: PairCompliance, x: float) -> tuple[float, float]:
 def line_load(
     approach: float, constant: float, logarithmic: float, limit: float, log_load: float
 ) -> tuple[float, float, float]:
-    """Line load w [N/m], its derivative [Pa] by the approach [m], and ln w, a next guess as `log_load` is."""
+    """Line load w [N/m], its derivative [Pa] by the approach [m], and ln w, a next guess as `log_load` is (Eq. L9)."""
     load = stiffness = 0.0
     for _ in range(OMEGA_STEPS):
         load, stiffness, log_load, step = line_load_near(approach, constant, logarithmic, limit, log_load)

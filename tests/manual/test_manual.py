@@ -13,7 +13,7 @@ from app.calculations import CALCULATIONS
 from app.examples import examples
 from app.manual.chapters import NAMES, chapters
 from app.manual.equations import anchor, equations, functions, module_of
-from tests.manual.citations import cited
+from tests.manual.citations import cited, declared
 
 FOLDER = Path(__file__).parents[2] / "app" / "manual"
 CITED = cited()
@@ -43,6 +43,24 @@ def test_functions_of_an_equation_cite_it(number: str) -> None:
     for name in equations()[number].functions:
         assert callable(implementing(name)) or isinstance(implementing(name), property)
         assert number in CITED.get(name, set()), name
+
+
+def test_every_cited_equation_stands_in_the_manual() -> None:
+    missing = {name: sorted(found - set(equations())) for name, found in CITED.items() if found - set(equations())}
+    assert missing == {}
+    assert declared() - set(equations()) == set()
+
+
+def test_every_function_that_cites_an_equation_is_named_below_it() -> None:
+    """Modules and classes may cite what they are about."""
+    unnamed = [
+        (name, number)
+        for name, found in CITED.items()
+        if name.rpartition(".")[2][0].islower() and name != module_of(name)
+        for number in found
+        if name not in equations()[number].functions
+    ]
+    assert unnamed == []
 
 
 def test_every_equation_of_ours_is_implemented() -> None:

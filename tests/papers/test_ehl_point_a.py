@@ -9,8 +9,7 @@ from dataclasses import replace
 
 import pytest
 
-from solvers.contact.ehl import Model
-from solvers.contact.ehl.model import solve
+from solvers.contact.ehl import Model, solve
 from tests.support.xue_contact import contact, point_a
 
 NEWTONIAN = [

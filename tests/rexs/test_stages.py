@@ -13,6 +13,7 @@ from app.calculations import BY_PATH
 from app.evaluate import evaluate
 from app.rexs.document import read
 from app.rexs.unit import gear_unit
+from app.studies.spectrum import spectrum_study
 from tests.rexs.units import Unit, Value, three_stages, turbo_unit
 
 MOST_BYTES = 20_000_000
@@ -126,6 +127,11 @@ def test_load_cases() -> None:
     assert [each["share"] for each in stages[0]["cases"]] == pytest.approx([0.2, 0.8])
     expected = {"load.pinion_torque_n_m": 5.0 * 67 / 23, "load.pinion_speed_rpm": 543.0 * 23 / 67}
     assert stages[1]["cases"][0]["overrides"] == pytest.approx({**expected, "temperatures.oil_c": 70.0})
+    own = stages[1]["cases"][0]["overrides"]
+    assert stages[1]["spectra"]["/v1/scuffing"][0]["share"] == pytest.approx(0.2)
+    assert stages[1]["spectra"]["/v1/scuffing"][0]["set"] == own
+    rotation = {"operation.pinion_speed_rpm": own["load.pinion_speed_rpm"]}
+    assert stages[1]["spectra"]["/v1/pumping"][0]["set"] == rotation
     del unit.of(load)["torque_around_u_axis"], unit.of(shaft)["rotational_speed"]
     first = answer(unit)["stages"][0]
     assert first["requests"][LOAD]["load"] == {"pinion_torque_n_m": 5.0, "pinion_speed_rpm": 543.0}
@@ -133,6 +139,30 @@ def test_load_cases() -> None:
     for case in unit.cases:
         del case[1]
     assert [each["share"] for each in answer(unit)["stages"][0]["cases"]] == [0.5, 0.5]
+
+
+def test_a_load_spectrum_is_ready_to_be_asked() -> None:
+    """Cases and request of every endpoint make a study as they stand."""
+    unit = turbo_unit()
+    load = next(each["id"] for each in unit.components if each["type"] == "external_load")
+    for percent, power in ((30.0, 5000.0), (70.0, 9000.0)):
+        unit.cases.append({1: {"operating_time_fraction": (percent, "%")}, load: {"power": (power, "kW")}})
+    (stage,) = answer(unit)["stages"]
+    for endpoint in ("/v1/scuffing", "/v1/drive-train", LOAD):
+        body = {"endpoint": endpoint, "request": stage["requests"][endpoint], "cases": stage["spectra"][endpoint]}
+        study = spectrum_study(json.dumps(body).encode(), 20_000, 30.0)
+        assert study.shares == pytest.approx([0.3, 0.7])
+        low, high = ([value for path, value in case.items() if "torque" in path] for case in study.cases)
+        assert high == pytest.approx([1.8 * torque for torque in low])
+
+
+def test_a_long_load_spectrum_is_no_spectrum_as_it_stands() -> None:
+    unit = three_stages("1.4")
+    unit.cases = [{1: {"operating_time_fraction": (1.0, "%")}} for _ in range(101)]
+    found = answer(unit)
+    assert len(found["stages"][0]["cases"]) == 101
+    assert found["stages"][0]["spectra"] == {}
+    assert "too_many_cases" in codes(found)
 
 
 def gear_of(unit: Unit, place: int) -> int:

@@ -15,6 +15,7 @@ from app.errors import InvalidBody, Unprocessable, faults_of
 from app.evaluate import evaluate
 from app.examples import examples
 from app.studies.examples import SPECTRUM_EXAMPLES
+from app.studies.fields import value_at
 from app.studies.spectrum import Spectrum, spectrum_study
 from app.studies.stream import Clock, encoded, guarded, json_line
 from app.studies.sweep import sweep_study
@@ -238,6 +239,21 @@ def test_the_scuffing_temperature_is_the_limit_where_none_is_given() -> None:
     own = evaluate(BY_PATH["/v1/scuffing"], BY_PATH["/v1/scuffing"].request.model_validate(body))
     assert limit["mean"] == pytest.approx(own.safety.scuffing_c)
     assert end["notes"] == []
+
+
+def test_the_thermal_film_is_left_out_where_no_output_needs_it() -> None:
+    body = scuffing()
+    assert "lubrication" not in body["request"]["model"]
+    light, whole = study_of(body), study_of({**body, "outputs": ["film.thickness_ratio"]})
+    assert light.question.base["model"]["lubrication"] == "closed_form"
+    assert "lubrication" not in whole.question.base["model"]
+    calculation = BY_PATH["/v1/scuffing"]
+    own, film = (
+        evaluate(calculation, calculation.request.model_validate(request))
+        for request in (light.question.base, body["request"])
+    )
+    for path in light.question.outputs:
+        assert value_at(own, path) == value_at(film, path)
 
 
 def test_a_scuffing_temperature_that_differs_between_cases_is_said() -> None:

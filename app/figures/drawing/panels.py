@@ -17,7 +17,7 @@ from matplotlib.text import Text
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.transforms import Bbox, BboxBase
 
-from app.figures.data import Area, Axis, Bars, Level, Line, Map, Panel, Role, Scale, Values
+from app.figures.data import Area, Axis, Bars, Level, Line, Map, Panel, Role, Row, Scale, Values
 from app.figures.drawing.style import DASHES, LETTER, LIMIT_DASHES, LINE_HEIGHT, REFERENCE_DASHES, TEXT, Theme
 from app.figures.wording import number
 
@@ -146,7 +146,10 @@ def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
     for row in (row for row in panel.rows if row.name in own):
         color, place = theme.drawing[row.hue], names.index(row.name)
         outline: Style = {"facecolor": "none", "edgecolor": color, "linestyle": DASHES[row.role]}
-        axes.barh(place, row.value, 0.52, **(outline if row.role is Role.VARIANT else {"color": color}))
+        if row.parts:
+            _draw_parts(axes, place, row, theme)
+        else:
+            axes.barh(place, row.value, 0.52, **(outline if row.role is Role.VARIANT else {"color": color}))
         if row.bounds is not None and row.bounds[0] < row.bounds[1]:
             axes.plot(row.bounds, [place, place], color=theme.ink, linewidth=1.2, marker="|", markersize=7)
     for place, (name, row) in enumerate(own.items()):
@@ -159,6 +162,14 @@ def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
     axes.set_ylim(len(own) - 0.5, -1.2 if panel.levels else -0.5)
     for label, row in zip(axes.get_yticklabels(), own.values(), strict=True):
         label.set_color(theme.writing[row.hue])
+
+
+def _draw_parts(axes: Axes, place: int, row: Row, theme: Theme) -> None:
+    """The parts of a row one after the other."""
+    left = 0.0
+    for part in row.parts:
+        axes.barh(place, part.value, 0.52, left=left, color=theme.drawing[part.hue])
+        left += part.value
 
 
 def _draw_area(axes: Axes, area: Area, theme: Theme) -> None:
@@ -276,7 +287,7 @@ def _name_beside(axes: Axes, panel: Panel, levels: list[tuple[Level, Line2D]], t
 
 
 def _names(axes: Axes, panel: Panel, levels: list[tuple[Level, Line2D]], theme: Theme) -> Iterator[Name]:
-    """Horizontal levels, lines, and bars that stand beside others."""
+    """Horizontal levels, lines, bars that stand beside others, and the parts of rows."""
 
     def end(value: float) -> float:
         point = axes.transData.transform((axes.get_xlim()[0], value))
@@ -296,6 +307,8 @@ def _names(axes: Axes, panel: Panel, levels: list[tuple[Level, Line2D]], theme: 
     for each in bars if len(bars) > 1 else []:
         patch = Rectangle((0, 0), 1, 1, facecolor=theme.drawing[each.hue])
         yield Name(0.0, fill(each.title, NAME_LENGTH), theme.writing[each.hue], patch)
+    for title, hue in {part.title: part.hue for row in panel.rows for part in row.parts}.items():
+        yield Name(0.0, fill(title, NAME_LENGTH), theme.writing[hue], Rectangle((0, 0), 1, 1, color=theme.drawing[hue]))
 
 
 def place_texts(axes: Axes, panel: Panel, renderer: RendererBase) -> None:

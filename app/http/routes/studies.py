@@ -189,7 +189,8 @@ async def run_spectrum(
     The end tells the probability of each limit with its 90 % interval, over the spectrum and of each case alone, which
     case decides and which tolerance matters (rank correlation), and of every output the mean over the operating time,
     the extremes, and 5, 50 and 95 % quantiles a case. Draws without solution are counted: where there are any, a
-    probability is stated between its `bounds`. Lines of `progress` come every half second.
+    probability is stated between its `bounds`. Where no output needs the thermal film, it is left out. Lines of
+    `progress` come every half second.
     """
     settings: Settings = http.app.state.settings
     return await started(http, spectrum.spectrum_study, most=settings.spectrum_solves)

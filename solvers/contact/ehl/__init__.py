@@ -12,9 +12,9 @@ from solvers.contact.ehl.model import warm_up
 from solvers.contact.ehl.notices import slips
 from solvers.contact.ehl.path import solve_path
 from solvers.contact.ehl.results import LineContactResult, Stage
-from solvers.plausibility import guarded
+from solvers.plausibility import warned
 
-solve = guarded(model.solve, slips)
+solve = warned(model.solve, slips)
 
 __all__ = [
     "Contact",

@@ -29,7 +29,7 @@ def _log_moment(t: float) -> float:
 def deflection_matrix(x: FloatArray) -> FloatArray:
     """K with H = H0 + X^2/2 + K P, exact for pressures linear between the nodes x (n,); shape (n, n).
 
-    The integral -(1/pi) int P ln|X - X'| dX' of Eq. 21. The paper's E is E' of Eq. 14 and its ln|x - s| has an
+    The integral -(1/pi) int P ln|X - X'| dX' of Eq. 21. The paper's E is the E' of Hertz and its ln|x - s| has an
     arbitrary length unit, absorbed by H0; here b.
     """
     n = x.size

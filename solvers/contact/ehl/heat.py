@@ -200,7 +200,7 @@ def column_balance(
     film: Film,
     heat: Heat,
 ) -> None:
-    """Heat balance of column i, linearised by its own temperatures: residual, tridiagonal part, responses.
+    """Heat balance of column i, linearised by its own temperatures: residual, tridiagonal part, responses (Eq. E8).
 
     c [d(psi_zeta t)/dx - d(psi_x t)/dzeta] = (lambda/h) t_zetazeta + h (tau rate + (0.00065 rho0/rho) t u p'), with
     the cross-film flow from continuity (Eq. 23 of the paper leaves it out). Half cells at the walls give the heat

@@ -80,7 +80,10 @@ def mid_film(t: FloatArray) -> FloatArray:
 
 
 def friction(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> ContactFriction:
-    """Traction of the film: mid-film stress, and that on each face, from which it differs by half of h dp/dx."""
+    """Traction of the film: mid-film stress, and that on each face, from which it differs by half of h dp/dx.
+
+    Eq. E9.
+    """
     work, contact = attempt.work, inputs.contact
     p = attempt.state.pressure * problem.maximum_pressure
     gradient = work.height * problem.gap_scale * work.gradient * problem.maximum_pressure / problem.half_width
@@ -118,7 +121,7 @@ def heat_by_node(problem: Problem, attempt: Attempt) -> FloatArray:
 
 
 def heat(problem: Problem, attempt: Attempt) -> ContactHeat:
-    """The heat balance of all columns but the first, whose temperatures are given."""
+    """The heat balance of all columns but the first, whose temperatures are given (Eq. E10)."""
     heats, t = attempt.work.heat, attempt.state.temperature
     width = attempt.grid.weights[1:] * problem.half_width
     generated = float(heat_by_node(problem, attempt).sum())

@@ -34,7 +34,7 @@ class Groups:
 
 @lru_cache(maxsize=256)
 def groups(inputs: LineContactInputs, temperature: float | None = None) -> Groups:
-    """Hertz contact and Moes parameters M = W U^-1/2, L = alpha E' U^1/4.
+    """Hertz contact and Moes parameters M = W U^-1/2, L = alpha E' U^1/4 (Eq. E2).
 
     The viscosity is that at the inlet temperature unless another `temperature` [K] is given.
     """
@@ -76,12 +76,18 @@ def entry_temperature(inputs: LineContactInputs) -> float:
 
 
 def moes_central_film(m: float, l: float) -> float:
-    """Central film thickness (h/R) U^-1/2 of the isothermal, incompressible line contact (Nijenbanning and others)."""
+    """Central film thickness (h/R) U^-1/2 of the isothermal, incompressible line contact (Nijenbanning and others).
+
+    Eq. E3.
+    """
     return _moes_film(l, (3.0 / m, 2.621 * m**-0.2, 1.287 * l ** (2 / 3), 1.311 * m**-0.125 * l**0.75))
 
 
 def moes_minimum_film(m: float, l: float) -> float:
-    """Minimum film thickness (h/R) U^-1/2 of the isothermal, incompressible line contact (Nijenbanning and others)."""
+    """Minimum film thickness (h/R) U^-1/2 of the isothermal, incompressible line contact (Nijenbanning and others).
+
+    Eq. E3.
+    """
     return _moes_film(l, (2.45 / m, 2.05 * m**-0.2, 1.05 * l ** (2 / 3), 0.96 * m**-0.125 * l**0.75))
 
 
@@ -175,5 +181,5 @@ def _surface_heating(solid: Solid, speed: float, scales: Groups) -> float:
 
 
 def peclet_number(solid: Solid, speed: float, scales: Groups) -> float:
-    """Pe = u b rho c / (2 lambda) [-]; below about 5 heat also spreads along the surface."""
+    """Pe = u b rho c / (2 lambda) [-]; below about 5 heat also spreads along the surface (Eq. E11)."""
     return speed * scales.half_width * solid.density * solid.specific_heat / (2.0 * solid.thermal_conductivity)

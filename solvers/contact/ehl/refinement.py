@@ -62,6 +62,8 @@ def surface_heating(solid: Solid, speed: float, x: FloatArray, flux: FloatArray)
     """Temperature rise (n,) [K] of a surface under a heat flux [W/m^2] that is linear between positions x (n,) [m].
 
     Strip sources on a fast half-space (Carslaw and Jaeger): (pi rho c lambda u)^-1/2 int q(s) (x - s)^-1/2 ds.
+
+    Eq. E12.
     """
     effusivity_squared = solid.density * solid.specific_heat * solid.thermal_conductivity
     return strip_integral(x, flux) / sqrt(pi * effusivity_squared * speed)

@@ -107,7 +107,7 @@ def assemble_faces(
     coefficients: FlowCoefficients,
     faces: FaceFluxes,
 ) -> None:
-    """Fluxes m = B H - A H^3 dP/dX through the faces between nodes, with their derivatives.
+    """Fluxes m = B H - A H^3 dP/dX through the faces between nodes, with their derivatives (Eq. E7).
 
     The Couette part is extrapolated from the two nodes upstream (second order; first order upwinding thickens the
     film by 12 per cent), the Poiseuille part uses the logarithmic mean of A.
@@ -272,7 +272,7 @@ def evaluate_column(
 def balance_of_mass(
     grid: Grid, pressure: FloatArray, cavitated: BoolArray, faces: FaceFluxes, residual: FloatArray
 ) -> None:
-    """Residual (n + 1,) of d(flux)/dx = 0, of P = 0 where the film is broken, and of the load."""
+    """Residual (n + 1,) of d(flux)/dx = 0, of P = 0 where the film is broken, and of the load (Eqs. E7, 22)."""
     n = grid.x.size
     residual[n] = -0.5 * np.pi
     for i in range(n):

@@ -100,7 +100,10 @@ def viscosities(problem: Problem, i: int, temperature: FloatArray, p: float, she
 
 @inlined_kernel
 def shear_newtonian(problem: Problem, i: int, g: float, h: float, film: Film) -> None:
-    """Newton's fluid: tau = tau_mid + G (zeta - 1/2), rate = tau/eta, with the sliding speed as its integral."""
+    """Newton's fluid: tau = tau_mid + G (zeta - 1/2), rate = tau/eta, with the sliding speed as its integral.
+
+    Eq. E4.
+    """
     shear, m = film.shear, film.shear.stress.shape[1]
     height, zeroth, first = 1.0 / m, 0.0, 0.0
     for j in range(m):
@@ -117,7 +120,7 @@ def shear_newtonian(problem: Problem, i: int, g: float, h: float, film: Film) ->
 
 @inlined_kernel
 def shear_eyring(problem: Problem, i: int, g: float, h: float, film: Film) -> None:
-    """Ree and Eyring's fluid: rate = (tau0/eta) sinh(tau/tau0) with the sliding speed as its integral.
+    """Ree and Eyring's fluid: rate = (tau0/eta) sinh(tau/tau0) with the sliding speed as its integral (Eqs. E5, E6).
 
     Closed form for e^a, where tau_mid = tau0 a; the form for du < 0 is the conjugate, free of cancellation.
     """

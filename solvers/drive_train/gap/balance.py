@@ -98,7 +98,7 @@ class Equilibrium:
 
 
 def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -> Equilibrium:
-    """Newton's iteration on the gap, from a known one, else from that of a coarse mesh under a uniform load.
+    """Newton's iteration on the gap, from a known one, else from that of a coarse mesh under a uniform load (Eq. D11).
 
     Raises NoSolution drive_train with the residual [um] where it does not converge.
     """

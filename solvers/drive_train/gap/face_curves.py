@@ -11,13 +11,13 @@ def face_mean(values: FloatArray) -> float:
 
 
 def face_slope(values: FloatArray) -> float:
-    """Rise from y = 0 to b of the straight line of least squares: 12 int (eta - 1/2) v d eta."""
+    """Rise from y = 0 to b of the straight line of least squares: 12 int (eta - 1/2) v d eta (Eq. D13)."""
     eta, value, weight = _gauss(values)
     return float(12 * np.sum(weight * (eta - 0.5) * value))
 
 
 def face_crown(values: FloatArray) -> float:
-    """C of C (2 eta - 1)^2 by least squares: (15/2) int P2(2 eta - 1) v d eta, P2 = (3 t^2 - 1) / 2."""
+    """C of C (2 eta - 1)^2 by least squares: (15/2) int P2(2 eta - 1) v d eta, P2 = (3 t^2 - 1) / 2 (Eq. D13)."""
     eta, value, weight = _gauss(values)
     return float(7.5 * np.sum(weight * (1.5 * (2 * eta - 1) ** 2 - 0.5) * value))
 

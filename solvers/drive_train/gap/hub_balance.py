@@ -59,7 +59,7 @@ def free_hubs(unit: Unit, force: FloatArray) -> HubLoads:
 
 
 def respond(unit: Unit, force: FloatArray, start: HubLoads) -> Yielding:
-    """Motion of the ports under a force over the face, the couplings' loads found from the tilts they cause.
+    """Motion of the ports under a force over the face, the couplings' loads found from the tilts they cause (Eq. D12).
 
     Starts at known loads, where that fails at the free hubs, and at last where these go as the couplings' loads grow
     from nothing. Raises InvalidInput where a free hub tilts too far for the coupling model, and NoSolution drive_train

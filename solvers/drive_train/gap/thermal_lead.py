@@ -69,7 +69,7 @@ def _profile(spaces: SpacesResult | None) -> tuple[FloatArray, FloatArray]:
 
 
 def thermal_lead(inputs: DriveTrainInputs, path: PathOfContact, stations: FloatArray) -> ThermalLead:
-    """The gap that heat opens at the stations y [m] and what it does to the profile.
+    """The gap that heat opens at the stations y [m] and what it does to the profile (Eq. D10).
 
     lead = -[eps_1 s_C + tan beta_b int eps_1 + eps_2 (N - s_C) - tan beta_b int eps_2] + mean;
     profile slope = -(mean eps_1 - mean eps_2) g_alpha.

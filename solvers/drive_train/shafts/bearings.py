@@ -33,23 +33,29 @@ class BearingState:
 
 @kernel
 def load_number(eccentricity: float) -> float:
-    """Load of the short bearing over eta omega (D/2) L^3 / (4 c^2), with the film where pressure is positive (pi)."""
+    """Load of the short bearing over eta omega (D/2) L^3 / (4 c^2), with the film where pressure is positive (pi).
+
+    Eq. D4.
+    """
     square = eccentricity**2
     return eccentricity / (1 - square) ** 2 * sqrt(pi**2 * (1 - square) + 16 * square)
 
 
 def attitude_angle(eccentricity: float) -> float:
-    """Angle of the displacement against the load, in the sense of rotation: tan phi = pi sqrt(1 - e^2) / (4 e)."""
+    """Angle of the displacement against the load, in the sense of rotation: tan phi = pi sqrt(1 - e^2) / (4 e).
+
+    Eq. D5.
+    """
     return atan2(pi * sqrt(1 - eccentricity**2), 4 * eccentricity)
 
 
 def film_force(bearing: JournalBearing, speed: float) -> float:
-    """Eta omega (D/2) L^3 / (4 c^2) [N] at the shaft's speed [rad/s]."""
+    """Eta omega (D/2) L^3 / (4 c^2) [N] at the shaft's speed [rad/s] (Eq. D4)."""
     return bearing.viscosity * speed * bearing.diameter / 2 * bearing.width**3 / (4 * bearing.clearance**2)
 
 
 def bearing_state(bearing: Bearing, load: FloatArray, speed: float, rotation: float) -> BearingState:
-    """The bearing under a load (X, Y) [N] at the shaft's speed [rad/s] and sense of rotation.
+    """The bearing under a load (X, Y) [N] at the shaft's speed [rad/s] and sense of rotation (Eq. D5).
 
     Raises NoSolution journal where a film would have to be thinner than a thousandth of the clearance.
     """

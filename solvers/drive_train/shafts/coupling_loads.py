@@ -109,7 +109,10 @@ def coupling_port(
 
 
 def sliding_tilt(port: CouplingPort, friction: float) -> float:
-    """Tilt delta_0 = kt mu T / (z r_o^2 cos alpha c_a) [rad] up to which the teeth yield instead of sliding."""
+    """Tilt delta_0 = kt mu T / (z r_o^2 cos alpha c_a) [rad] up to which the teeth yield instead of sliding.
+
+    Eq. D8.
+    """
     coupling = port.inputs.coupling
     stiffness = port.inputs.axial_tooth_stiffness or coupling.tooth_stiffness
     elastic = coupling.teeth * pitch_radius(coupling) ** 2 * cos(coupling.pressure_angle) * stiffness
@@ -117,12 +120,12 @@ def sliding_tilt(port: CouplingPort, friction: float) -> float:
 
 
 def axial_share(port: CouplingPort) -> float:
-    """Part of the friction left for tilting, kt = cos(pi tau / 2), where the part tau acts axially."""
+    """Part of the friction left for tilting, kt = cos(pi tau / 2), where the part tau acts axially (Eq. D7)."""
     return cos(pi * min(abs(port.inputs.thrust_fraction), 1.0) / 2)
 
 
 def elastic_plastic(ratio: float) -> tuple[float, float]:
-    """Loss and elastic moment over full sliding's, at beta = tilt over the tilt at which sliding begins.
+    """Loss and elastic moment over full sliding's, at beta = tilt over the tilt at which sliding begins (Eq. D9).
 
     First harmonic of the hysteresis of springs that slide at a limit once a turn.
     """
@@ -138,7 +141,7 @@ def regularised(ratio: float) -> tuple[float, float]:
 
 
 def hub_moments(port: CouplingPort, tilt: float) -> HubMoments:
-    """Moments of one hub at a tilt [rad] > 0, and no more of the coupling's model than they take.
+    """Moments of one hub at a tilt [rad] > 0, and no more of the coupling's model than they take (Eq. D7).
 
     Raises what `coupling.solve` raises, its fields prefixed.
     """
@@ -190,7 +193,10 @@ def _prefixed(port: CouplingPort) -> Iterator[None]:
 
 
 def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Loads (F_X, F_Y, m_X, m_Y, F_Z) on the unit's shaft by both hubs' tilts (4,) [rad], and their derivative."""
+    """Loads (F_X, F_Y, m_X, m_Y, F_Z) on the unit's shaft by both hubs' tilts (4,) [rad], and their derivative.
+
+    Eq. D6.
+    """
     loads, derivative = np.zeros(LOADS), np.zeros((LOADS, TILTS))
     least = np.inf
     for hub, driving in enumerate(port.driving):

@@ -40,7 +40,7 @@ class Frame:
 
 
 def frame(arrangement: Arrangement, path: PathOfContact) -> Frame:
-    """The frame of a unit.
+    """The frame of a unit (Eq. D1).
 
     e_t = sigma Z x e_r is the velocity of the pinion at C; the flank force on the pinion opposes it,
     n_t = -(cos a_wt e_t + sin a_wt e_r); a helix adds -tan beta_b along y, and y runs along -sigma h Z. A spur pair

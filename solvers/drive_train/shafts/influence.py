@@ -94,7 +94,7 @@ class Unit:
 
 
 def unit(inputs: DriveTrainInputs, path: PathOfContact) -> Unit:
-    """The unit's shafts, bearings and couplings ready to be loaded."""
+    """The unit's shafts, bearings and couplings ready to be loaded (Eq. D3)."""
     directions, plane = frame(inputs.arrangement, path), path.plane
     stations = np.linspace(0.0, plane.face_width, inputs.face_stations)
     load = inputs.mesh.distribution.load

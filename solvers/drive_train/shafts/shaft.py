@@ -39,14 +39,14 @@ class ShaftModel:
 
 
 def shear_coefficient(poisson_ratio: float, bore_ratio: float) -> float:
-    """Kappa of a hollow circle by Cowper (1966), m = d_i/d_o."""
+    """Kappa of a hollow circle by Cowper (1966), m = d_i/d_o (Eq. D2)."""
     square = bore_ratio**2
     plain = (7 + 6 * poisson_ratio) * (1 + square) ** 2
     return 6 * (1 + poisson_ratio) * (1 + square) ** 2 / (plain + (20 + 12 * poisson_ratio) * square)
 
 
 def shaft_model(shaft: Shaft, torque_position: float, positions: FloatArray) -> ShaftModel:
-    """The shaft with nodes at section ends, bearings, where torque enters, and at `positions` [m]."""
+    """The shaft with nodes at section ends, bearings, where torque enters, and at `positions` [m] (Eq. D2)."""
     ends = shaft.start + np.cumsum([0.0, *(section.length for section in shaft.sections)])
     bearings = [bearing.position for bearing in shaft.bearings]
     wanted = np.sort(np.concatenate([ends, bearings, [torque_position], positions]))

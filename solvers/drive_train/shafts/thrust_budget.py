@@ -55,7 +55,7 @@ class Thrust:
 
 
 def mesh_thrust(inputs: DriveTrainInputs, path: PathOfContact, directions: Frame) -> float:
-    """Axial force of the mesh on the pinion towards +Z, sigma h F_bt tan beta_b [N]."""
+    """Axial force of the mesh on the pinion towards +Z, sigma h F_bt tan beta_b [N] (Eq. D14)."""
     tangential = inputs.mesh.distribution.load.torque / path.pair.pinion.base_radius
     return float(tangential * directions.force[2])
 
@@ -70,6 +70,8 @@ def thrust_budget(
     """Bounds of both shafts' thrust; `mesh` on the pinion, thrust and limits of the couplings of each shaft [N].
 
     `diameters` [m] of the shafts at their couplings. A collar hands the pinion's couplings on to the wheel's bearing.
+
+    Eq. D14.
     """
     pinion, wheel = limits
     collared = inputs.collar_radius is not None

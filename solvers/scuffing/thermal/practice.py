@@ -26,7 +26,7 @@ HIGH_RISK_BELOW, LOW_RISK_ABOVE = 1.0, 2.0
 
 
 def lubricant_factor(viscosity: float, kind: OilKind) -> float:
-    """X_L = eta_oil^-0.05, eta_oil in mPa s, times 0.8 for polyalphaolefins and 0.7 for polyglycols.
+    """X_L = eta_oil^-0.05, eta_oil in mPa s, times 0.8 for polyalphaolefins and 0.7 for polyglycols (Eq. R6).
 
     viscosity [Pa s] at the oil temperature. For esters no factor is known; they count as mineral oils.
     """
@@ -34,7 +34,7 @@ def lubricant_factor(viscosity: float, kind: OilKind) -> float:
 
 
 def roughness_factor(roughness_1: float, roughness_2: float) -> float:
-    """X_R = [(Ra_1 + Ra_2)/2]^0.25, Ra in micrometres; roughness [m]."""
+    """X_R = [(Ra_1 + Ra_2)/2]^0.25, Ra in micrometres; roughness [m] (Eq. R7)."""
     return float(((roughness_1 + roughness_2) / 2 * 1e6) ** 0.25)
 
 
@@ -44,7 +44,7 @@ def pitch_line_velocity(inputs: LoadDistributionInputs, path: PathOfContact) -> 
 
 
 def mean_friction(inputs: LoadDistributionInputs, path: PathOfContact, factor: float, face_load_factor: float) -> float:
-    """Mean coefficient of friction mu = 0.060 [w_Bt/(v_SigmaC rho_relC)]^0.2 X_L X_R.
+    """Mean coefficient of friction mu = 0.060 [w_Bt/(v_SigmaC rho_relC)]^0.2 X_L X_R (Eq. R5).
 
     w_Bt = K_A K_v K_gamma K_Hbeta K_Halpha F_t/b [N/mm], at least 150 N/mm, with F_t at the reference circle and
     K_Halpha taken as 1; v_SigmaC the sum of the tangential speeds at the pitch point [m/s], of a pitch-line velocity of
@@ -61,12 +61,15 @@ def mean_friction(inputs: LoadDistributionInputs, path: PathOfContact, factor: f
 
 
 def scuffing_temperature(stage: int, structure_factor: float, factor: float) -> float:
-    """Scuffing temperature [K] of an oil that fails stage S of FZG A/8.3/90: 80 + (0.85 + 1.4 X_W) X_L S^2 in C."""
+    """Scuffing temperature [K] of an oil that fails stage S of FZG A/8.3/90: 80 + (0.85 + 1.4 X_W) X_L S^2 in C.
+
+    Eq. R9.
+    """
     return 80.0 + (0.85 + 1.4 * structure_factor) * factor * stage**2 + 273.15
 
 
 def bulk_temperature(oil: float, supply: OilSupply, psi: FloatArray, flash: FloatArray) -> float:
-    """Bulk = oil + 0.47 X_S times the mean flash temperature along the path [K]."""
+    """Bulk = oil + 0.47 X_S times the mean flash temperature along the path [K] (Eq. R8)."""
     mean = float(np.trapezoid(flash, psi)) / float(psi[-1] - psi[0])
     return oil + FLASH_SHARE * OIL_SUPPLY_FACTOR[supply] * mean
 

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from solvers.coupling import solve
 from solvers.coupling.inputs import Friction, InletModel, MixedFrictionCurve, MixedFrictionTable, ModelOptions
 from solvers.coupling.lubrication import (
     UNBOUNDED_LOAD,
@@ -19,7 +20,6 @@ from solvers.coupling.lubrication import (
     mixed_friction,
     regime_friction,
 )
-from solvers.coupling.model import solve
 from solvers.published.pahl import pahl_coupling
 
 INLETS: tuple[InletModel, ...] = ("face", "travel", "infinite")

@@ -1,0 +1,177 @@
+"""Figures of a load spectrum: the output of every case against its limit, probabilities, what decides, mean losses."""
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from app.figures.data import (
+    ORDER,
+    Axis,
+    Figure,
+    Hue,
+    Level,
+    Line,
+    NoFigure,
+    Panel,
+    Part,
+    Ribbon,
+    Row,
+    Span,
+    values,
+)
+from app.figures.wording import number, percent
+
+BAND = 1.6448536  # deviations from 5 to 50 %
+REACH = 3.5  # deviations of a limit that are drawn
+CURVE_POINTS = 141
+SPECTRUM = "whole spectrum"
+NAMED = 8  # tolerances
+
+
+class Band(NamedTuple):
+    """5, 50 and 95 %."""
+
+    low: float
+    middle: float
+    high: float
+
+
+@dataclass(frozen=True, slots=True)
+class Chance:
+    """A probability between its bounds, which are equal where every draw is solved, and its interval."""
+
+    low: float
+    high: float
+    interval: tuple[float, float] | None
+
+    @property
+    def text(self) -> str:
+        """In per cent."""
+        if self.low == self.high:
+            return percent(self.low)
+        return f"{percent(self.low)} to {percent(self.high)}"
+
+    def row(self, name: str, hue: Hue) -> Row:
+        """The larger bound, with the interval, in per cent."""
+        bounds = self.interval if self.interval is not None else (self.low, self.high)
+        return Row(name, 100.0 * self.high, hue, (100.0 * bounds[0], 100.0 * bounds[1]))
+
+
+@dataclass(frozen=True, slots=True)
+class SpectrumCase:
+    """A case of the spectrum: its limited output, its probability as if alone, how often it is the worst."""
+
+    name: str
+    band: Band | None
+    chance: Chance
+    decides: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Limited:
+    """A limited output over the spectrum.
+
+    `edges` and `density` are the histogram of the worst case, empty where it does not vary; `influences` are the rank
+    correlations of the worst case with the fields that scatter.
+    """
+
+    output: Axis
+    above: bool
+    mean: float
+    deviation: float | None
+    chance: Chance
+    risk: str
+    cases: tuple[SpectrumCase, ...]
+    edges: tuple[float, ...] = ()
+    density: tuple[float, ...] = ()
+    influences: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def sentence(self) -> str:
+        """The probability in words."""
+        side = "above" if self.above else "below"
+        interval = self.chance.interval
+        reach = f", 90 % interval {percent(interval[0])} to {percent(interval[1])}" if interval else ""
+        return f"probability of being {side} the limit {self.chance.text}{reach}: {self.risk} risk"
+
+
+def overlap(found: Limited) -> Figure:
+    """The densities of the worst case and of the limit, and below them the band of every case."""
+    axis = Axis(found.output.title, found.output.unit, magnitude=False)
+    cases = [each for each in found.cases if each.band is not None]
+    if not cases:
+        raise NoFigure("no_solution", "no case has a solution")
+    panels = [_densities(found, axis)] if found.deviation or found.edges else []
+    rows = tuple(
+        Row(each.name, each.band.middle, Hue.BLUE, (each.band.low, each.band.high)) for each in cases if each.band
+    )
+    name = f"limit {number(found.mean, found.output.unit or '')}"
+    spans: tuple[Span, ...] = ()
+    if found.deviation:
+        reach = BAND * found.deviation
+        spans = (Span(found.mean - reach, found.mean + reach, ""),)
+    levels = (Level(found.mean, name, limit=True, vertical=True),)
+    panels.append(Panel(x=axis, y=Axis("case"), rows=rows, spans=spans, levels=levels))
+    title = f"{found.output.title[0].upper()}{found.output.title[1:]} against its limit"
+    return Figure(f"{found.sentence}; bars to the median, lines and shade from 5 to 95 %", tuple(panels), title=title)
+
+
+def _densities(found: Limited, axis: Axis) -> Panel:
+    """What the worst case reaches and what the limit is, as densities scaled to one height."""
+    ribbons, lines, levels = [], [], []
+    if found.edges:
+        x = np.repeat(found.edges, 2)
+        y = np.concatenate([[0.0], np.repeat(np.array(found.density) / max(found.density), 2), [0.0]])
+        ribbons.append(Ribbon("worst case", values(x), values(np.zeros_like(y)), values(y), Hue.BLUE))
+        lines.append(Line("worst case", values(x), values(y), Hue.BLUE))
+    if found.deviation:
+        x = found.mean + found.deviation * np.linspace(-REACH, REACH, CURVE_POINTS)
+        y = np.exp(-(((x - found.mean) / found.deviation) ** 2) / 2.0)
+        ribbons.append(Ribbon("limit", values(x), values(np.zeros_like(y)), values(y), Hue.VERMILLION))
+        lines.append(Line("limit", values(x), values(y), Hue.VERMILLION))
+    else:
+        levels.append(Level(found.mean, "", limit=True, vertical=True))
+    return Panel(
+        x=axis, y=Axis("density over its largest"), ribbons=tuple(ribbons), lines=tuple(lines), levels=tuple(levels)
+    )
+
+
+def chances(found: Limited) -> Figure:
+    """The probability of each case as if it were alone, and of the spectrum."""
+    rows = (*(each.chance.row(each.name, Hue.BLUE) for each in found.cases), found.chance.row(SPECTRUM, Hue.VERMILLION))
+    side = "above" if found.above else "below"
+    panel = Panel(x=Axis(f"probability of being {side} the limit", "%"), y=Axis("case"), rows=rows)
+    finding = "each case as if it were alone; of the spectrum the worst case of each machine counts"
+    return Figure(finding, (panel,), title=f"Probability: {found.output.title} {side} its limit")
+
+
+def deciding(found: Limited) -> Figure:
+    """How often each case is the worst one, and which tolerance goes with it."""
+    known = [each for each in found.cases if each.decides is not None]
+    if not known:
+        raise NoFigure("no_solution", "no machine is solved in every case")
+    rows = tuple(Row(each.name, 100.0 * (each.decides or 0.0)) for each in known)
+    panels = [Panel(x=Axis("machines whose worst case it is", "%"), y=Axis("case"), rows=rows)]
+    strongest = sorted(found.influences.items(), key=lambda each: -abs(each[1]))[:NAMED]
+    if strongest:
+        axis = Axis("rank correlation with the worst case")
+        panels.append(Panel(x=axis, y=Axis("tolerance"), rows=tuple(Row(name, value) for name, value in strongest)))
+    most = max(known, key=lambda each: each.decides or 0.0)
+    finding = f"{most.name} in {percent(most.decides or 0.0)} of the machines" + (
+        f"; {strongest[0][0]} matters most" if strongest else ""
+    )
+    return Figure(finding, tuple(panels), title="What decides")
+
+
+def losses(cases: dict[str, dict[str, float]], mean: dict[str, float], energy: float | None) -> Figure:
+    """Mean losses [kW] by their kinds, of every case and over the operating time; with the energy of a year [MWh]."""
+    kinds = list(mean)
+    hues = {kind: ORDER[place % len(ORDER)] for place, kind in enumerate(kinds)}
+    rows = tuple(
+        Row(name, sum(own.values()), parts=tuple(Part(kind, own[kind], hues[kind]) for kind in kinds if kind in own))
+        for name, own in (*cases.items(), (SPECTRUM, mean))
+    )
+    year = "" if energy is None else f", {number(energy, 'MWh')} a year"
+    finding = f"{number(sum(mean.values()), 'kW')} over the operating time{year}"
+    return Figure(finding, (Panel(x=Axis("mean loss", "kW"), y=Axis("case"), rows=rows),), title="Mean losses")
