@@ -7,8 +7,10 @@ from dataclasses import replace
 from math import cos, pi, radians
 
 from benchmarks.timing import Figure, print_times
-from solvers.coupling import recommend, solve, solve_orbit
+from solvers.coupling.crowning.recommendation import recommend
 from solvers.coupling.inputs import Coupling, CouplingInputs, ModelOptions, Operation, RecommendationInputs
+from solvers.coupling.model import solve
+from solvers.coupling.orbit import solve_orbit
 
 TEETH = 52
 DESIGN = CouplingInputs(

@@ -19,9 +19,9 @@ from app.studies.examples import DESIGN_EXAMPLES
 from app.studies.stream import Clock
 from app.studies.study import Study
 from app.studies.sweep import corners_study
-from solvers.drive_train import solve
 from solvers.drive_train.gap.thermal_lead import gas_heat
 from solvers.drive_train.outcome import outcome
+from solvers.drive_train.states import solve
 from tests.support.drive_trains import GROUND, SPEED, turbo_gear
 from tests.support.pools import InlinePool
 

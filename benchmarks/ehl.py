@@ -8,7 +8,8 @@ from dataclasses import replace
 from math import cos, pi, radians
 
 from benchmarks.timing import Figure, MedianFigure, print_times
-from solvers.contact.ehl import Contact, LineContactInputs, Model, solve, solve_path
+from solvers.contact.ehl import Contact, LineContactInputs, Model, solve_path
+from solvers.contact.ehl.model import solve
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
 from tests.support.line_contacts import POINT, grid_contacts

@@ -17,19 +17,11 @@ from benchmarks.timing import Figure, print_times
 from solvers.gears.inputs import GearPairInputs
 from solvers.gears.pair import gear_pair
 from solvers.published.milian import CASE_1, CASE_2
-from solvers.pumping import (
-    ChokingInputs,
-    Flow,
-    Gap,
-    PumpingInputs,
-    PumpingModel,
-    PumpingSetup,
-    Spaces,
-    choking_speeds,
-    solve,
-)
+from solvers.pumping import ChokingInputs, Flow, Gap, PumpingInputs, PumpingModel, PumpingSetup, Spaces
+from solvers.pumping.choking import choking_speeds
 from solvers.pumping.flow.duct import active_range
 from solvers.pumping.gas.step import step
+from solvers.pumping.model import solve
 from solvers.pumping.space.stroke import stroke_table
 from solvers.pumping.space.tooth_space import tooth_space
 from solvers.pumping.spaces import face_stretches, prepare, space_duct

@@ -10,7 +10,6 @@ from math import radians
 
 from benchmarks.timing import Figure, print_times
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.scuffing import solve_load_distribution, solve_scuffing
 from solvers.scuffing.inputs import (
     Load,
     LoadDistributionInputs,
@@ -20,6 +19,8 @@ from solvers.scuffing.inputs import (
     ScuffingInputs,
     angular_speed,
 )
+from solvers.scuffing.model import solve as solve_load_distribution
+from solvers.scuffing.safety import solve_scuffing
 
 SPEED = angular_speed(2000)
 MODIFIED = Modifications(profile_crowning=10e-6, lead_crowning=10e-6, tip_relief=5e-6)

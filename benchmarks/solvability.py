@@ -9,7 +9,8 @@ from statistics import median, quantiles
 from time import process_time
 
 from benchmarks.ehl import EYRING, ISOTHERMAL, NEWTONIAN
-from solvers.contact.ehl import LineContactInputs, solve, warm_up
+from solvers.contact.ehl import LineContactInputs, warm_up
+from solvers.contact.ehl.model import solve
 from tests.support.line_contacts import grid_contacts, random_contacts
 
 

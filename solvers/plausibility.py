@@ -1,6 +1,6 @@
 """Values inside their range that look like slips, often of a unit: a warning names the input and the likely slip.
 
-Each solver adds those of its inputs and results to its warnings (`warned`).
+Each solver adds those of its inputs and results to its warnings (`guarded`).
 """
 
 from collections.abc import Callable, Iterator
@@ -11,6 +11,7 @@ from typing import Any, Concatenate, ParamSpec, TypeVar, cast
 
 from solvers.gears.inputs import GearPairInputs
 from solvers.notices import Notice
+from solvers.quantity import checked
 
 I = TypeVar("I")
 P = ParamSpec("P")
@@ -30,12 +31,15 @@ LEAST_LOAD = 1e3  # N/m
 THICK_OIL = 1.0  # Pa s at operating temperature
 
 
-def warned(solve: Callable[Concatenate[I, P], R], slips: Callable[[I, R], Slips]) -> Callable[Concatenate[I, P], R]:
-    """The solver whose results also warn of what looks like a slip in its inputs."""
+def guarded(solve: Callable[Concatenate[I, P], R], slips: Callable[[I, R], Slips]) -> Callable[Concatenate[I, P], R]:
+    """The solver as users call it: it refuses inputs outside their declared ranges and warns of what looks like a slip.
+
+    Raises InvalidInput (out_of_range) with the dotted name of the field, beside what the solver raises.
+    """
 
     @wraps(solve)
     def solved(inputs: I, /, *args: P.args, **kwargs: P.kwargs) -> R:
-        result = solve(inputs, *args, **kwargs)
+        result = solve(checked(inputs), *args, **kwargs)
         found = tuple(slips(inputs, result))
         if not found:
             return result

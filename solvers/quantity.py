@@ -225,29 +225,50 @@ def checked(inputs: T, prefix: str = "") -> T:
     code `out_of_range` and the dotted name of the first field at fault.
     """
     kind: Any = type(inputs)
-    declared = quantities(kind)
-    for each in fields(kind):
-        value = getattr(inputs, each.name)
-        for place, item in enumerate(value if isinstance(value, tuple) else (value,)):
-            name = f"{prefix}{each.name}.{place}" if isinstance(value, tuple) else prefix + each.name
-            if is_dataclass(item):
-                checked(item, f"{name}.")
-            elif each.name in declared and isinstance(item, float | int):
-                _check(declared[each.name], float(item), name)
+    for name, ends in _ranges(kind):
+        value = getattr(inputs, name)
+        if value is None:
+            continue
+        if isinstance(value, tuple):
+            for place, item in enumerate(value):
+                _check(item, ends, f"{prefix}{name}.{place}")
+        else:
+            _check(value, ends, prefix + name)
     return inputs
 
 
-def _check(declared: Quantity, value: float, name: str) -> None:
-    ends = {end: declared.to_si(float(bound)) for end, bound in declared.bounds.items()}
-    inside = (
-        np.isfinite(value)
-        and ends.get("ge", value) <= value <= ends.get("le", value)
-        and ends.get("gt", -np.inf) < value < ends.get("lt", np.inf)
+class _Ends(NamedTuple):
+    """The least and the greatest value allowed in SI, and the declaration that says so."""
+
+    least: float
+    greatest: float
+    declared: Quantity
+
+
+@cache
+def _ranges(kind: Any) -> tuple[tuple[str, _Ends | None], ...]:
+    """The range of every field of a dataclass, None for those without one."""
+    declared = quantities(kind)
+    return tuple((each.name, _ends(declared[each.name]) if each.name in declared else None) for each in fields(kind))
+
+
+def _ends(declared: Quantity) -> _Ends:
+    inside = {end: declared.to_si(float(bound)) for end, bound in declared.bounds.items()}
+    above, below = inside.get("gt", -np.inf), inside.get("lt", np.inf)
+    return _Ends(
+        inside.get("ge", np.nextafter(above, np.inf)), inside.get("le", np.nextafter(below, -np.inf)), declared
     )
-    if not inside:
-        unit = f" {UNITS[declared.unit].symbol}" if declared.unit else ""
-        message = f"{name} is {declared.from_si(value):.12g}{unit}; allowed {allowed(declared)}{unit}"
-        raise InvalidInput("out_of_range", message, name)
+
+
+def _check(value: Any, ends: _Ends | None, name: str) -> None:
+    if isinstance(value, float | int):
+        if ends is not None and not ends.least <= value <= ends.greatest:
+            unit = f" {UNITS[ends.declared.unit].symbol}" if ends.declared.unit else ""
+            shown = f"{ends.declared.from_si(float(value)):.12g}{unit}"
+            message = f"{name} is {shown}; allowed {allowed(ends.declared) or 'are finite numbers'}{unit}"
+            raise InvalidInput("out_of_range", message, name)
+    elif is_dataclass(value):
+        checked(value, f"{name}.")
 
 
 def allowed(declared: Quantity) -> str:

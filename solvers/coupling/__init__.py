@@ -2,16 +2,57 @@
 
 Data flows inputs, checks -> teeth (geometry, motion, shares of the load) -> lubrication, losses -> sleeve, thrust ->
 load_distribution, notices; `model.solve` calls them all. The sleeve's orbit needs the teeth alone; crowning calls the
-model to recommend a crowning ratio.
+model to recommend a crowning ratio. Inputs built by hand are in SI; the functions here refuse what lies outside the
+declared ranges, naming the argument.
 """
 
 from solvers.coupling import model, orbit
 from solvers.coupling.crowning import recommendation
+from solvers.coupling.crowning.results import Recommendation
+from solvers.coupling.inputs import (
+    Coupling,
+    CouplingDesign,
+    CouplingInputs,
+    CouplingOil,
+    Friction,
+    Load,
+    Lubricant,
+    MixedFrictionCurve,
+    MixedFrictionTable,
+    ModelOptions,
+    OperatingPoint,
+    OperatingRange,
+    Operation,
+    RecommendationInputs,
+)
 from solvers.coupling.notices import slips
-from solvers.plausibility import warned
+from solvers.coupling.orbit_results import OrbitResult
+from solvers.coupling.results import CouplingResult
+from solvers.plausibility import guarded
 
-solve = warned(model.solve, slips)
-solve_orbit = warned(orbit.solve_orbit, slips)
-recommend = warned(recommendation.recommend, slips)
+solve = guarded(model.solve, slips)
+solve_orbit = guarded(orbit.solve_orbit, slips)
+recommend = guarded(recommendation.recommend, slips)
 
-__all__ = ["recommend", "solve", "solve_orbit"]
+__all__ = [
+    "Coupling",
+    "CouplingDesign",
+    "CouplingInputs",
+    "CouplingOil",
+    "CouplingResult",
+    "Friction",
+    "Load",
+    "Lubricant",
+    "MixedFrictionCurve",
+    "MixedFrictionTable",
+    "ModelOptions",
+    "OperatingPoint",
+    "OperatingRange",
+    "Operation",
+    "OrbitResult",
+    "Recommendation",
+    "RecommendationInputs",
+    "recommend",
+    "solve",
+    "solve_orbit",
+]

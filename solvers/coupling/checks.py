@@ -1,7 +1,7 @@
 """Checks of the inputs and results of the coupling model."""
 
 from itertools import pairwise
-from math import inf, isfinite, pi, radians
+from math import inf, isfinite, radians
 
 from solvers.coupling.inputs import CouplingInputs, MixedFrictionCurve, MixedFrictionTable
 from solvers.coupling.lubrication import FilmState
@@ -14,49 +14,9 @@ MAX_CONTACT_PRESSURE = 2e9  # Pa, chosen: the model is elastic, hardened steel y
 MAX_CONTACT_WIDTH = 0.1
 """Half contact width over flank radius beyond which a cylinder is no half space."""
 
-# field, lower bound, whether the bound itself is allowed, upper bound (excluded)
-_Range = tuple[str, float, bool, float]
-_COUPLING_RANGES: tuple[_Range, ...] = (
-    ("teeth", 6, True, inf),
-    ("module", 0.0, False, inf),
-    ("face_width", 0.0, False, inf),
-    ("tooth_height", 0.0, False, inf),
-    ("pressure_angle", 0.0, False, pi / 4),
-    ("crowning_ratio", 0.2, True, inf),
-    ("hub_distance", 0.0, False, inf),
-    ("tooth_stiffness", 0.0, False, inf),
-    ("sleeve_mass", 0.0, False, inf),
-    ("youngs_modulus", 0.0, False, inf),
-    ("poisson_ratio", 0.0, True, 0.5),
-)
-_OPERATION_RANGES: tuple[_Range, ...] = (
-    ("torque", 0.0, True, inf),
-    ("speed", -inf, False, inf),
-    ("axial_velocity", -inf, False, inf),
-    ("shaft_diameter", 0.0, False, inf),
-)
-_LUBRICANT_RANGES: tuple[_Range, ...] = (("viscosity", 0.0, False, inf), ("reference_film", 0.0, False, inf))
-_FRICTION_RANGES: tuple[_Range, ...] = (("coefficient", 0.0, True, inf), ("static_coefficient", 0.0, True, inf))
-_CURVE_RANGES: tuple[_Range, ...] = (
-    ("highest", 0.0, False, inf),
-    ("lowest", 0.0, False, inf),
-    ("velocity", 0.0, False, inf),
-)
-_MODEL_RANGES: tuple[_Range, ...] = (
-    ("inlet_length", 0.0, False, inf),
-    ("film_angle", -inf, False, inf),
-    ("rotor_angle", -inf, False, inf),
-    ("simple_thrust_factor", 0.0, True, inf),
-)
-
 
 def check_inputs(inputs: CouplingInputs) -> None:
     """Raise InvalidInput for what cannot be computed: out_of_range, pitch_errors_length, mixed_law, mixed_curve."""
-    _check_ranges(inputs.coupling, _COUPLING_RANGES)
-    _check_ranges(inputs.operation, _OPERATION_RANGES)
-    _check_ranges(inputs.lubricant, _LUBRICANT_RANGES)
-    _check_ranges(inputs.friction, _FRICTION_RANGES)
-    _check_ranges(inputs.model, _MODEL_RANGES)
     if not abs(inputs.operation.misalignment) <= MAX_MISALIGNMENT:
         raise InvalidInput(
             "out_of_range", "the theory is one of small angles; keep the misalignment within 6 degrees", "misalignment"
@@ -68,18 +28,6 @@ def check_inputs(inputs: CouplingInputs) -> None:
         _check_mixed_table(inputs.friction.law)
     else:
         _check_mixed_curve(inputs.friction.law)
-
-
-def _check_ranges(group: object, ranges: tuple[_Range, ...]) -> None:
-    """Raise InvalidInput out_of_range for a number that is not finite or outside its range; None passes."""
-    for name, low, inclusive, high in ranges:
-        value = getattr(group, name)
-        if value is None:
-            continue
-        if not (isfinite(value) and (low <= value if inclusive else low < value) and value < high):
-            bound = f"at least {low:g}" if inclusive else f"above {low:g}"
-            below = f" and below {high:g}" if high < inf else ""
-            raise InvalidInput("out_of_range", f"{name} must be finite, {bound}{below} in SI units", name)
 
 
 def _check_pitch_errors(inputs: CouplingInputs) -> None:
@@ -97,7 +45,6 @@ def _check_pitch_errors(inputs: CouplingInputs) -> None:
 
 def _check_mixed_curve(law: MixedFrictionCurve) -> None:
     """Positive numbers, the lowest coefficient not above the highest."""
-    _check_ranges(law, _CURVE_RANGES)
     if law.lowest > law.highest:
         raise InvalidInput("mixed_curve", "the lowest coefficient must not exceed the highest", "lowest")
 

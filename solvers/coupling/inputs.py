@@ -118,8 +118,8 @@ class CouplingDesign:
 class Coupling(CouplingDesign):
     """The coupling with all proportions known."""
 
-    face_width: float = quantity("face width used", "b", unit="mm")
-    tooth_height: float = quantity("tooth height used", "h_trag", unit="mm")
+    face_width: float = quantity("face width used", "b", unit="mm", ge=0.1, le=2000)
+    tooth_height: float = quantity("tooth height used", "h_trag", unit="mm", ge=0.05, le=200)
 
 
 @record
@@ -240,12 +240,12 @@ class Operation(Load):
     misalignment: float = field(kw_only=True)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Lubricant:
-    """Oil at the teeth: `viscosity` [Pa s] (default: ISO VG 46 near 50 C); `reference_film` [m] of the capacity."""
+    """Oil at the teeth; the default viscosity is that of ISO VG 46 near 50 C."""
 
-    viscosity: float = 0.025
-    reference_film: float = 1e-6
+    viscosity: float = quantity("oil viscosity at the teeth", "η", unit="pa_s", default=0.025, gt=0)
+    reference_film: float = quantity("film of the load capacity", "h_0", unit="um", default=1.0, gt=0)
 
 
 @record

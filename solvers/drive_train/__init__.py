@@ -7,9 +7,39 @@ Own derivation; sources stand with the equations.
 """
 
 from solvers.drive_train import states
+from solvers.drive_train.inputs import (
+    Alignment,
+    Arrangement,
+    DriveTrainInputs,
+    Effects,
+    Heat,
+    JournalBearing,
+    LinearBearing,
+    RigidBearing,
+    Shaft,
+    ShaftBearing,
+    ShaftSection,
+    UnitCoupling,
+)
 from solvers.drive_train.notices import slips
-from solvers.plausibility import warned
+from solvers.drive_train.results import DriveTrainResult
+from solvers.plausibility import guarded
 
-solve = warned(states.solve, slips)
+solve = guarded(states.solve, slips)
 
-__all__ = ["solve"]
+__all__ = [
+    "Alignment",
+    "Arrangement",
+    "DriveTrainInputs",
+    "DriveTrainResult",
+    "Effects",
+    "Heat",
+    "JournalBearing",
+    "LinearBearing",
+    "RigidBearing",
+    "Shaft",
+    "ShaftBearing",
+    "ShaftSection",
+    "UnitCoupling",
+    "solve",
+]

@@ -3,8 +3,8 @@
 from functools import cache
 from math import radians, tan
 
-from solvers.coupling import solve
 from solvers.coupling.inputs import Coupling, CouplingInputs, Friction, Operation
+from solvers.coupling.model import solve
 from solvers.coupling.results import CouplingResult
 
 TORQUE, DIAMETER, FACE, FRICTION = 21806.0, 0.2286, 0.033, 0.3  # N m, m, m, -

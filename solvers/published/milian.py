@@ -9,18 +9,8 @@ from functools import cache
 from math import pi, radians
 
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.pumping import (
-    Closure,
-    Flow,
-    Gap,
-    Groove,
-    PumpingInputs,
-    PumpingModel,
-    PumpingResult,
-    PumpingSetup,
-    Spaces,
-    solve,
-)
+from solvers.pumping import Closure, Flow, Gap, Groove, PumpingInputs, PumpingModel, PumpingResult, PumpingSetup, Spaces
+from solvers.pumping.model import solve
 from solvers.pumping.results import SpacesResult
 
 TABLE_1 = GearPairInputs(

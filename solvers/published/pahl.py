@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
-from solvers.coupling import recommend, solve, solve_orbit
+from solvers.coupling.crowning.recommendation import recommend
 from solvers.coupling.inputs import (
     Arrangement,
     Coupling,
@@ -18,6 +18,8 @@ from solvers.coupling.inputs import (
     Operation,
     RecommendationInputs,
 )
+from solvers.coupling.model import solve
+from solvers.coupling.orbit import solve_orbit
 from solvers.coupling.orbit_results import OrbitResult
 from solvers.coupling.results import CouplingResult
 

@@ -8,7 +8,6 @@ import numpy as np
 
 from solvers.contact import ehl
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.scuffing import solve_load_distribution, solve_scuffing
 from solvers.scuffing.inputs import (
     Load,
     LoadDistributionInputs,
@@ -17,7 +16,9 @@ from solvers.scuffing.inputs import (
     ScuffingInputs,
     angular_speed,
 )
+from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.results import LoadDistribution
+from solvers.scuffing.safety import solve_scuffing
 from solvers.scuffing.safety_results import Scuffing
 
 HELIX_AND_WIDTH = {1: (9.8, 20.0), 2: (9.8, 40.0), 3: (20.2, 20.0), 4: (20.2, 40.0)}

@@ -5,7 +5,7 @@ duct, record) -> one of gas, chain and incompressible -> resolution, lead_correc
 `model.solve`). `spaces` prepares what no speed changes and picks the flow model; on top of it choking and speed_scan.
 """
 
-from solvers.plausibility import warned
+from solvers.plausibility import guarded
 from solvers.pumping import choking, model
 from solvers.pumping.inputs import (
     Ambient,
@@ -22,8 +22,9 @@ from solvers.pumping.inputs import (
 from solvers.pumping.notices import slips
 from solvers.pumping.results import ChokingSpeeds, PumpingResult
 
-solve = warned(model.solve, slips)
-choking_speeds = warned(choking.choking_speeds, slips)
+solve = guarded(model.solve, slips)
+choking_speeds = guarded(choking.choking_speeds, slips)
+
 
 __all__ = [
     "Ambient",

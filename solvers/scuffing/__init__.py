@@ -8,11 +8,43 @@ Source: Xue, Zhang, Wang, "The Load Distribution with Modification and Misalignm
 Lubrication Simulation of Helical Gears", Global J. of Researches in Engineering A 20(1), 2020 ("the paper").
 """
 
-from solvers.plausibility import warned
+from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.oil_choice import OilChoice
+from solvers.plausibility import guarded
 from solvers.scuffing import model, safety
+from solvers.scuffing.inputs import (
+    LeadCurve,
+    Load,
+    LoadDistributionInputs,
+    Model,
+    Modifications,
+    Resolution,
+    ScuffingInputs,
+    ScuffingTest,
+    Temperatures,
+)
 from solvers.scuffing.notices import load_slips, scuffing_slips
+from solvers.scuffing.results import LoadDistribution
+from solvers.scuffing.safety_results import Scuffing
 
-solve_load_distribution = warned(model.solve, load_slips)
-solve_scuffing = warned(safety.solve_scuffing, scuffing_slips)
+solve_load_distribution = guarded(model.solve, load_slips)
+solve_scuffing = guarded(safety.solve_scuffing, scuffing_slips)
 
-__all__ = ["solve_load_distribution", "solve_scuffing"]
+__all__ = [
+    "GearPairInputs",
+    "GearTeeth",
+    "LeadCurve",
+    "Load",
+    "LoadDistribution",
+    "LoadDistributionInputs",
+    "Model",
+    "Modifications",
+    "OilChoice",
+    "Resolution",
+    "Scuffing",
+    "ScuffingInputs",
+    "ScuffingTest",
+    "Temperatures",
+    "solve_load_distribution",
+    "solve_scuffing",
+]

@@ -8,9 +8,10 @@ from math import atan2, cos, degrees, pi, radians, sin, sqrt, tan
 import numpy as np
 import pytest
 
-from solvers.coupling import solve, solve_orbit
 from solvers.coupling.inputs import KinematicModel, ModelOptions, SleeveSupport
 from solvers.coupling.lubrication import max_normal_force
+from solvers.coupling.model import solve
+from solvers.coupling.orbit import solve_orbit
 from solvers.coupling.orbit_results import OrbitResult
 from solvers.coupling.results import KinematicCurves
 from solvers.coupling.teeth.geometry import tooth_geometry

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize_scalar
 
-from solvers.coupling import solve
 from solvers.coupling.inputs import Friction, MixedFrictionTable
 from solvers.coupling.lubrication import UNBOUNDED_LOAD, friction_regime, regime_friction
+from solvers.coupling.model import solve
 from solvers.coupling.results import Lubrication
 from solvers.published.pahl import pahl_coupling
 

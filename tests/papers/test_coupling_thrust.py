@@ -9,8 +9,9 @@ from math import asin, cos, log, pi, radians
 import numpy as np
 import pytest
 
-from solvers.coupling import recommend, solve
+from solvers.coupling.crowning.recommendation import recommend
 from solvers.coupling.inputs import CouplingInputs, KinematicModel, ModelOptions, RecommendationInputs
+from solvers.coupling.model import solve
 from solvers.coupling.results import AxialThrust
 from solvers.published.pahl import PITCH_RADIUS, pahl_coupling
 

@@ -15,9 +15,9 @@ import pytest
 
 from solvers.contact.hertz import reduced_modulus
 from solvers.coupling.inputs import Friction
-from solvers.drive_train import solve
 from solvers.drive_train.inputs import DriveTrainInputs, Effects, RigidBearing, Shaft
 from solvers.drive_train.results import DriveTrainResult
+from solvers.drive_train.states import solve
 from solvers.pumping.inputs import Groove
 from solvers.scuffing.flank_results import feature_line
 from solvers.scuffing.thermal.blok import blok_flash

@@ -5,7 +5,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, solve
+from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model
+from solvers.contact.ehl.model import solve
 
 RATIOS = (0.0, 0.02, 0.05, 0.1, 0.3, 0.6, 1.0, 1.5)
 

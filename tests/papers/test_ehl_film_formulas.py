@@ -5,7 +5,8 @@ from math import sqrt
 import pytest
 
 from solvers.contact import hertz
-from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, solve
+from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model
+from solvers.contact.ehl.model import solve
 from solvers.contact.ehl.problem import moes_central_film, moes_minimum_film
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid

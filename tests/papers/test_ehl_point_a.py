@@ -9,7 +9,8 @@ from dataclasses import replace
 
 import pytest
 
-from solvers.contact.ehl import Model, solve
+from solvers.contact.ehl import Model
+from solvers.contact.ehl.model import solve
 from tests.support.xue_contact import contact, point_a
 
 NEWTONIAN = [

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, solve
+from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model
+from solvers.contact.ehl.model import solve
 from tests.support.xue_contact import START, blok_flash, contact, path, path_contacts, point_a
 
 

@@ -6,7 +6,8 @@ import pytest
 
 from solvers.gears.inputs import GearPairInputs
 from solvers.published.milian import CASE_1, CASE_2, PRINTED, SPEED_1, SPEED_2, TIP
-from solvers.pumping import ChokingInputs, ChokingSpeeds, PumpingModel, PumpingSetup, choking_speeds
+from solvers.pumping import ChokingInputs, ChokingSpeeds, PumpingModel, PumpingSetup
+from solvers.pumping.choking import choking_speeds
 
 
 def search(gears: GearPairInputs, backlash: float, model: PumpingModel, limit: float = 60000) -> ChokingSpeeds:

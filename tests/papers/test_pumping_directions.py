@@ -8,7 +8,8 @@ import pytest
 
 from solvers.gears.inputs import GearPairInputs
 from solvers.published.milian import CASE_1, CASE_2, CHAIN, PRINTED, SPEED_1, SPEED_2, TABLE_1, pinion, run
-from solvers.pumping import Ambient, PumpingInputs, PumpingModel, PumpingSetup, solve
+from solvers.pumping import Ambient, PumpingInputs, PumpingModel, PumpingSetup
+from solvers.pumping.model import solve
 
 
 @pytest.mark.parametrize(("gears", "speed"), [(CASE_1, SPEED_1), (CASE_2, SPEED_2), (TABLE_1, 9000.0)])

@@ -27,8 +27,9 @@ from solvers.published.milian import (
     pinion,
     run,
 )
-from solvers.pumping import Ambient, PumpingInputs, PumpingModel, PumpingSetup, solve
+from solvers.pumping import Ambient, PumpingInputs, PumpingModel, PumpingSetup
 from solvers.pumping.flow.nozzle import choked_mass_flux, gas, mass_flux
+from solvers.pumping.model import solve
 
 CASES = [(CASE_1, SPEED_1), (CASE_2, SPEED_2)]
 

@@ -19,9 +19,9 @@ from solvers.gears.pair import reduced_radius
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 from solvers.published.xue import PAPER_SPEED, paper_gears, paper_pair
-from solvers.scuffing import solve_load_distribution, solve_scuffing
 from solvers.scuffing.inputs import ScuffingInputs, Temperatures
-from solvers.scuffing.safety import safety_factor
+from solvers.scuffing.model import solve as solve_load_distribution
+from solvers.scuffing.safety import safety_factor, solve_scuffing
 from solvers.scuffing.safety_results import Scuffing
 
 STEEL = Solid()

@@ -17,9 +17,9 @@ from solvers.contact import hertz
 from solvers.gears.pair import gear_pair, path_of_contact, reduced_radius
 from solvers.materials import Solid
 from solvers.published.xue import PAPER_MODIFICATIONS, paper_gears, paper_pair
-from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.contact_lines import contact_lengths
 from solvers.scuffing.inputs import Model, Modifications
+from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.results import LoadDistribution
 
 PAIRS = (1, 2, 3, 4)

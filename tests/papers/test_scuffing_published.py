@@ -14,10 +14,10 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair, path_of_contact, reduced_radius
 from solvers.materials import Solid
 from solvers.published.xue import PAPER_LOAD, paper_pair
-from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, Resolution, angular_speed
 from solvers.scuffing.load_balance import line_loads
 from solvers.scuffing.mesh_results import standard_stiffness
+from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.tooth_stiffness import linear_contact_compliance
 from tests.support.gear_pairs import FZG_A, FZG_TORQUES, with_torque
 

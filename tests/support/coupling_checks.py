@@ -12,9 +12,12 @@ from unittest.mock import patch
 import numpy as np
 from numpy.random import Generator
 
-from solvers.coupling import losses, recommend, solve, solve_orbit
+from solvers.coupling import losses
 from solvers.coupling.crowning import recommendation
+from solvers.coupling.crowning.recommendation import recommend
 from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
+from solvers.coupling.model import solve
+from solvers.coupling.orbit import solve_orbit
 from solvers.coupling.results import CouplingResult
 from solvers.coupling.teeth import kinematics
 from solvers.errors import SolverError

@@ -13,11 +13,11 @@ from solvers.arrays import FloatArray
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import meshing_path
-from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.contact_lines import contact_lengths, line_count
 from solvers.scuffing.flank_results import face_loads
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, Modifications, Resolution
 from solvers.scuffing.load_balance import line_loads
+from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.results import LoadDistribution
 
 RESOLUTIONS = ("roll_positions", "slices", "profile_points", "face_points", "feature_points")

@@ -8,12 +8,12 @@ import pytest
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs
 from solvers.published.xue import PAPER_LOAD, paper_gears
-from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.inputs import (
     LoadDistributionInputs,
     Model,
     Modifications,
 )
+from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.safety_results import Scuffing
 

@@ -13,7 +13,6 @@ from solvers.contact.hertz import reduced_modulus
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
-from solvers.scuffing import solve_scuffing
 from solvers.scuffing.flank_results import contact_points
 from solvers.scuffing.inputs import (
     Load,
@@ -25,6 +24,7 @@ from solvers.scuffing.inputs import (
 )
 from solvers.scuffing.load_balance import line_loads
 from solvers.scuffing.results import ContactPoints
+from solvers.scuffing.safety import solve_scuffing
 from solvers.scuffing.safety_results import Scuffing
 from solvers.scuffing.thermal.thermal_path import contact_at
 

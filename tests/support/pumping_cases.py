@@ -14,7 +14,8 @@ from numpy.random import Generator
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
-from solvers.pumping import Ambient, Flow, Gap, Groove, PumpingInputs, PumpingModel, PumpingResult, PumpingSetup, solve
+from solvers.pumping import Ambient, Flow, Gap, Groove, PumpingInputs, PumpingModel, PumpingResult, PumpingSetup
+from solvers.pumping.model import solve
 from solvers.pumping.results import SpacesResult
 from solvers.pumping.spaces import prepare
 

@@ -10,7 +10,8 @@ from math import cos, pi, radians
 
 import numpy as np
 
-from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, solve, solve_path
+from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, solve_path
+from solvers.contact.ehl.model import solve
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
 

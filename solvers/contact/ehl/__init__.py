@@ -12,9 +12,9 @@ from solvers.contact.ehl.model import warm_up
 from solvers.contact.ehl.notices import slips
 from solvers.contact.ehl.path import solve_path
 from solvers.contact.ehl.results import LineContactResult, Stage
-from solvers.plausibility import warned
+from solvers.plausibility import guarded
 
-solve = warned(model.solve, slips)
+solve = guarded(model.solve, slips)
 
 __all__ = [
     "Contact",

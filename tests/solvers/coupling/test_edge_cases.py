@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
-from solvers.coupling import recommend, solve, solve_orbit
+from solvers import coupling
+from solvers.coupling.crowning.recommendation import recommend
 from solvers.coupling.crowning.results import Recommendation
 from solvers.coupling.inputs import (
     Arrangement,
@@ -23,6 +24,8 @@ from solvers.coupling.inputs import (
     Operation,
     RecommendationInputs,
 )
+from solvers.coupling.model import solve
+from solvers.coupling.orbit import solve_orbit
 from solvers.coupling.results import CouplingResult
 from solvers.errors import InvalidInput, NoSolution, SolverError
 from solvers.published.pahl import pahl_coupling
@@ -197,8 +200,6 @@ INVALID = [
     ("coupling", "poisson_ratio", 0.5),
     ("operation", "torque", -1.0),
     ("operation", "speed", inf),
-    ("operation", "misalignment", radians(6.1)),
-    ("operation", "misalignment", nan),
     ("operation", "axial_velocity", nan),
     ("operation", "shaft_diameter", 0.0),
     ("lubricant", "viscosity", 0.0),
@@ -216,10 +217,18 @@ INVALID = [
 def test_numbers_out_of_range_are_refused(group: str, field: str, value: float) -> None:
     inputs = pahl_coupling(0.1)
     bad = replace(inputs, **{group: replace(getattr(inputs, group), **{field: value})})
-    for calculation in (solve, solve_orbit):
+    for calculation in (coupling.solve, coupling.solve_orbit):
         with pytest.raises(InvalidInput) as caught:
             calculation(bad)
-        assert (caught.value.code, caught.value.field) == ("out_of_range", field)
+        assert (caught.value.code, caught.value.field) == ("out_of_range", f"{group}.{field}")
+
+
+@pytest.mark.parametrize("misalignment", [radians(6.1), nan])
+def test_a_tilt_beyond_small_angles_is_refused(misalignment: float) -> None:
+    inputs = pahl_coupling(0.1)
+    with pytest.raises(InvalidInput) as caught:
+        solve(replace(inputs, operation=replace(inputs.operation, misalignment=misalignment)))
+    assert (caught.value.code, caught.value.field) == ("out_of_range", "misalignment")
 
 
 @pytest.mark.parametrize(("errors", "code"), [((0.0,) * 51, "pitch_errors_length"), ((nan,) * 52, "out_of_range")])
@@ -260,15 +269,15 @@ def test_a_friction_table_of_one_point_is_a_constant() -> None:
 @pytest.mark.parametrize(
     ("law", "code", "field"),
     [
-        (MixedFrictionCurve(highest=0.0), "out_of_range", "highest"),
-        (MixedFrictionCurve(lowest=nan), "out_of_range", "lowest"),
-        (MixedFrictionCurve(velocity=0.0), "out_of_range", "velocity"),
+        (MixedFrictionCurve(highest=0.0), "out_of_range", "friction.mixed_curve.highest"),
+        (MixedFrictionCurve(lowest=nan), "out_of_range", "friction.mixed_curve.lowest"),
+        (MixedFrictionCurve(velocity=0.0), "out_of_range", "friction.mixed_curve.velocity"),
         (MixedFrictionCurve(highest=0.04), "mixed_curve", "lowest"),
     ],
 )
 def test_friction_curves_are_checked(law: MixedFrictionCurve, code: str, field: str) -> None:
     with pytest.raises(InvalidInput) as caught:
-        solve(replace(pahl_coupling(0.1), friction=Friction(mixed_curve=law)))
+        coupling.solve(replace(pahl_coupling(0.1), friction=Friction(mixed_curve=law)))
     assert (caught.value.code, caught.value.field) == (code, field)
 
 

@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from solvers.coupling import solve
 from solvers.coupling.inputs import Friction, InletModel, MixedFrictionCurve, MixedFrictionTable, ModelOptions
 from solvers.coupling.lubrication import (
     UNBOUNDED_LOAD,
@@ -20,6 +19,7 @@ from solvers.coupling.lubrication import (
     mixed_friction,
     regime_friction,
 )
+from solvers.coupling.model import solve
 from solvers.published.pahl import pahl_coupling
 
 INLETS: tuple[InletModel, ...] = ("face", "travel", "infinite")

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import assume
 from hypothesis import strategies as st
 
-from solvers.coupling import solve
 from solvers.coupling.inputs import CouplingInputs, ModelOptions
+from solvers.coupling.model import solve
 from solvers.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from tests.support.couplings import random_pitch_errors
 from tests.support.plain_coupling import PlainMesh, midpoints

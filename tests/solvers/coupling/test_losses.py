@@ -5,8 +5,8 @@ from math import asin, cos, hypot, pi, radians, sin, sqrt
 
 import pytest
 
-from solvers.coupling import solve
 from solvers.coupling.inputs import CouplingInputs, KinematicModel, ModelOptions
+from solvers.coupling.model import solve
 from solvers.coupling.results import CouplingResult
 from solvers.published.pahl import PITCH_RADIUS, pahl_coupling
 from tests.support.couplings import random_pitch_errors

@@ -8,8 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solvers.coupling import orbit, solve, solve_orbit
+from solvers.coupling import orbit
 from solvers.coupling.inputs import CouplingInputs
+from solvers.coupling.model import solve
+from solvers.coupling.orbit import solve_orbit
 from solvers.coupling.teeth import kinematics
 from solvers.coupling.teeth.geometry import tooth_geometry
 from solvers.coupling.teeth.kinematics import flank_normals, mesh_motion, tooth_positions

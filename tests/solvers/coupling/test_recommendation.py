@@ -7,9 +7,9 @@ from math import radians
 import numpy as np
 import pytest
 
-from solvers.coupling import recommend, solve
-from solvers.coupling.crowning.recommendation import at_misalignment, crowning_state, crowning_window
+from solvers.coupling.crowning.recommendation import at_misalignment, crowning_state, crowning_window, recommend
 from solvers.coupling.inputs import ModelOptions, RecommendationInputs
+from solvers.coupling.model import solve
 from solvers.errors import InvalidInput
 from solvers.published.pahl import pahl_coupling
 from tests.support.couplings import random_pitch_errors

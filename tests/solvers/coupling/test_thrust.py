@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import root
 
-from solvers.coupling import solve
 from solvers.coupling.inputs import Arrangement, CouplingInputs, KinematicModel, ModelOptions, OperatingPoint
 from solvers.coupling.losses import rotor_samples
+from solvers.coupling.model import solve
 from solvers.coupling.sleeve import sleeve_equilibrium, two_meshes
 from solvers.coupling.teeth.geometry import tooth_geometry
 from solvers.errors import NoSolution

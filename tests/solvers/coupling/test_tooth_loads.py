@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.optimize import brentq, minimize
 
-from solvers.coupling import solve
 from solvers.coupling.inputs import Coupling, CouplingInputs, ModelOptions, Operation
+from solvers.coupling.model import solve
 from solvers.coupling.teeth.balance import turn_to_torque
 from solvers.coupling.teeth.geometry import tooth_geometry
 from solvers.coupling.teeth.kinematics import MeshMotion, flank_normals, mesh_motion, tooth_positions

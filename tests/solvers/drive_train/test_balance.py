@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 
 from solvers.arrays import FloatArray
 from solvers.coupling.inputs import Friction
-from solvers.drive_train import solve
 from solvers.drive_train.gap.face_curves import face_mean
 from solvers.drive_train.gap.thermal_lead import thermal_lead
 from solvers.drive_train.inputs import (
@@ -31,13 +30,14 @@ from solvers.drive_train.inputs import (
 from solvers.drive_train.model import prepare, settle
 from solvers.drive_train.outcome import outcome
 from solvers.drive_train.shafts.coupling_loads import TILTS
+from solvers.drive_train.states import solve
 from solvers.errors import NoSolution
 from solvers.gears.inputs import GearTeeth
-from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.face_response import FaceResponse, face_response
 from solvers.scuffing.inputs import LeadCurve, LoadDistributionInputs, Resolution
 from solvers.scuffing.load_balance import balance_load
 from solvers.scuffing.model import mesh_of
+from solvers.scuffing.model import solve as solve_load_distribution
 from tests.support.drive_trains import COUPLING, GROUND, NO_EFFECTS, SPEED, turbo_gear
 from tests.support.properties import examples
 

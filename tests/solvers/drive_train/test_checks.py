@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from solvers import drive_train
 from solvers.coupling.inputs import Friction
-from solvers.drive_train import solve
 from solvers.drive_train.inputs import (
     DriveTrainInputs,
     Effects,
@@ -17,6 +17,7 @@ from solvers.drive_train.inputs import (
     Shaft,
     ShaftSection,
 )
+from solvers.drive_train.states import solve
 from solvers.errors import InvalidInput, NoSolution
 from solvers.scuffing.inputs import LeadCurve
 from tests.support.drive_trains import COUPLING, GROUND, PINION_SHAFT, turbo_gear
@@ -81,7 +82,6 @@ REFUSED: list[tuple[str, str, Callable[[], DriveTrainInputs]]] = [
         "temperatures.scuffing",
         lambda: _temperatures(scuffing=300.0),
     ),
-    ("out_of_range", "couplings.0.face_width", lambda: coupling(coupling=replace(COUPLING.coupling, face_width=-1.0))),
     ("out_of_range", "couplings.0.misalignment", lambda: coupling(offset=(0.0, 0.1))),
 ]
 
@@ -96,6 +96,13 @@ def test_refusals(code: str, field: str, inputs: Callable[[], DriveTrainInputs])
     with pytest.raises(InvalidInput) as refusal:
         solve(inputs())
     assert (refusal.value.code, refusal.value.field) == (code, field)
+
+
+def test_ranges_of_parts_are_checked_by_name() -> None:
+    thin = coupling(coupling=replace(COUPLING.coupling, face_width=-1.0))
+    with pytest.raises(InvalidInput, match="face_width is -1000 mm; allowed 0.1 to 2000 mm") as refusal:
+        drive_train.solve(thin)
+    assert refusal.value.code == "out_of_range"
 
 
 def test_a_film_too_thin_to_exist() -> None:

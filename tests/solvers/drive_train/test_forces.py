@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from solvers.coupling.inputs import Friction
-from solvers.drive_train import solve
 from solvers.drive_train.inputs import Arrangement, DriveTrainInputs, Shaft
 from solvers.drive_train.results import DriveTrainResult
+from solvers.drive_train.states import solve
 from solvers.gears.pair import meshing_path
 from tests.support.drive_trains import COUPLING, GROUND, turbo_gear
 

@@ -8,9 +8,9 @@ import pytest
 from solvers.contact import ehl
 from solvers.drive_train.gap.thermal_lead import no_heat
 from solvers.drive_train.safety import FlankHeat, flank_heat
-from solvers.scuffing import solve_scuffing
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, ScuffingInputs, Temperatures, angular_speed
 from solvers.scuffing.model import solve
+from solvers.scuffing.safety import solve_scuffing
 from tests.support.drive_trains import turbo_gear
 from tests.support.gear_pairs import UNDERCUT_PAIR
 from tests.support.modified_pairs import relieved_pair

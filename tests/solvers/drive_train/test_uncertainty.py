@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from solvers.drive_train import solve
 from solvers.drive_train.gap.balance import uniform_force
 from solvers.drive_train.inputs import DriveTrainInputs, Effects, RigidBearing
 from solvers.drive_train.model import prepare, settle
 from solvers.drive_train.outcome import Outcome, outcome, outcome_of
+from solvers.drive_train.states import solve
 from solvers.drive_train.uncertainty import uncertain_inputs
 from solvers.scuffing.inputs import LeadCurve, Resolution
 from solvers.scuffing.safety import safety_factor

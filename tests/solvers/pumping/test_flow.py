@@ -23,10 +23,10 @@ from solvers.pumping import (
     PumpingModel,
     PumpingSetup,
     Spaces,
-    choking_speeds,
-    solve,
 )
+from solvers.pumping.choking import choking_speeds
 from solvers.pumping.flow.nozzle import gas
+from solvers.pumping.model import solve
 from solvers.pumping.space.tooth_space import stroke_limits, tooth_space
 from solvers.pumping.spaces import prepare
 from tests.support.meshing_pairs import setups

@@ -16,8 +16,9 @@ from solvers.gears.notices import pair_notices
 from solvers.gears.pair import gear_pair, meshing_path
 from solvers.notices import Notice
 from solvers.published.milian import CASE_1, SPEED_1, pinion
-from solvers.pumping import Ambient, Gap, Groove, PumpingInputs, PumpingModel, PumpingSetup, Spaces, solve
+from solvers.pumping import Ambient, Gap, Groove, PumpingInputs, PumpingModel, PumpingSetup, Spaces
 from solvers.pumping.lead_correction import EXPANSION, lead_correction
+from solvers.pumping.model import solve
 from solvers.pumping.results import SpacesResult
 from solvers.pumping.spaces import prepare
 from tests.support.gear_pairs import FZG_A, INCH_PAIR

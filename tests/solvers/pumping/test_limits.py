@@ -24,10 +24,10 @@ from solvers.pumping import (
     PumpingResult,
     PumpingSetup,
     Spaces,
-    choking_speeds,
-    solve,
 )
 from solvers.pumping import model as pumping_model
+from solvers.pumping.choking import choking_speeds
+from solvers.pumping.model import solve
 from solvers.pumping.spaces import flow_at
 from solvers.pumping.speed_scan import speed_scan
 

@@ -10,9 +10,7 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from solvers.arrays import FloatArray
-from solvers.pumping import (
-    Ambient,
-)
+from solvers.pumping import Ambient
 from solvers.pumping.flow.duct import Duct, wall_table
 from solvers.pumping.flow.nozzle import Gas, flux_squared, gas, mass_flux
 from solvers.pumping.flow.space_flow import Record, empty_record

@@ -9,7 +9,6 @@ import pytest
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.published.xue import PAPER_LOAD, paper_gears, paper_pair
-from solvers.scuffing import solve_load_distribution, solve_scuffing
 from solvers.scuffing.inputs import (
     Load,
     LoadDistributionInputs,
@@ -19,6 +18,8 @@ from solvers.scuffing.inputs import (
     ScuffingInputs,
     angular_speed,
 )
+from solvers.scuffing.model import solve as solve_load_distribution
+from solvers.scuffing.safety import solve_scuffing
 from tests.support.gear_pairs import UNDERCUT_PAIR, with_torque
 from tests.support.loaded_gears import LINEAR, codes, everything_finite, refusal, solve_gears
 from tests.support.modified_pairs import random_pair

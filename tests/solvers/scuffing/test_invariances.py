@@ -12,9 +12,9 @@ from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import PathOfContact, gear_pair, path_of_contact
 from solvers.materials import Solid
-from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.contact_lines import contact_lengths, roll_positions, total_lengths
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, Resolution
+from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.modification import gap, gaps_at
 from solvers.scuffing.results import LoadDistribution
 

@@ -15,9 +15,9 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair, path_of_contact, reduced_radius
 from solvers.materials import Solid
 from solvers.published.xue import PAPER_MODIFICATIONS, paper_gears, paper_pair
-from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.contact_slices import gather, slice_table
 from solvers.scuffing.inputs import LeadCurve, Model, Modifications, Resolution
+from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.modification import gap, gaps_at, lead_table, misalignment_slope
 from solvers.scuffing.tooth_stiffness import (
     bending_compliance,

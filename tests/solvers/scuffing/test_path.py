@@ -11,12 +11,12 @@ from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.published.xue import PAPER_LOAD, paper_pair
-from solvers.scuffing import solve_scuffing
 from solvers.scuffing.inputs import (
     LoadDistributionInputs,
     ScuffingInputs,
     Temperatures,
 )
+from solvers.scuffing.safety import solve_scuffing
 from solvers.scuffing.safety_results import Scuffing
 from solvers.scuffing.thermal.thermal_path import contact_at
 from tests.support.modified_pairs import (

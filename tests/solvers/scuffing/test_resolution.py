@@ -9,8 +9,8 @@ import pytest
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import meshing_path
 from solvers.published.xue import paper_gears, paper_pair
-from solvers.scuffing import solve_load_distribution
 from solvers.scuffing.inputs import LoadDistributionInputs, Model, Modifications, Resolution
+from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.modification import gap
 from tests.support import flanks
 from tests.support.gear_pairs import with_torque

@@ -12,7 +12,6 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 from solvers.published.xue import paper_pair
-from solvers.scuffing import solve_scuffing
 from solvers.scuffing.inputs import (
     Load,
     LoadDistributionInputs,
@@ -21,6 +20,7 @@ from solvers.scuffing.inputs import (
     Temperatures,
     angular_speed,
 )
+from solvers.scuffing.safety import solve_scuffing
 from solvers.scuffing.safety_results import Scuffing
 from tests.support.gear_pairs import with_torque
 

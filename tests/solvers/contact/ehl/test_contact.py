@@ -5,14 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from solvers.contact.ehl import (
-    LineContactInputs,
-    LineContactResult,
-    Model,
-    Temperatures,
-    continuation,
-    solve,
-)
+from solvers.contact.ehl import LineContactInputs, LineContactResult, Model, Temperatures, continuation
+from solvers.contact.ehl.model import solve
 from solvers.contact.ehl.shear import STRESS_LIMIT
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant

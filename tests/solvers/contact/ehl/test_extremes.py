@@ -12,8 +12,9 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from solvers.contact import hertz
-from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, Temperatures, check, solve
+from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, Temperatures, check
 from solvers.contact.ehl.checks import THICKEST_FILM
+from solvers.contact.ehl.model import solve
 from solvers.contact.ehl.problem import expected_gap
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, solve
+from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model
+from solvers.contact.ehl.model import solve
 from tests.support.line_contacts import POINT, at_pressure, random_contacts
 from tests.support.stored import stored
 

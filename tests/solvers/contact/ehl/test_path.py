@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from solvers.contact.ehl import Contact, LineContactInputs, Model, Temperatures, continuation, path, solve, solve_path
+from solvers.contact.ehl import Contact, LineContactInputs, Model, Temperatures, continuation, path, solve_path
 from solvers.contact.ehl.continuation import STEPS_IN_ALL, TIGHT, Attempt, Budget, Resolution
 from solvers.contact.ehl.grid import Grid
+from solvers.contact.ehl.model import solve
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.state import State
 from solvers.errors import InvalidInput

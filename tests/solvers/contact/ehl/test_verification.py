@@ -6,7 +6,8 @@ from time import process_time
 import numpy as np
 import pytest
 
-from solvers.contact.ehl import LineContactInputs, LineContactResult, Model, Temperatures, refinement, solve
+from solvers.contact.ehl import LineContactInputs, LineContactResult, Model, Temperatures, refinement
+from solvers.contact.ehl.model import solve
 from solvers.contact.ehl.refinement import departure, strip_integral
 from solvers.contact.ehl.results import ContactCurves, ContactField
 from tests.support.line_contacts import POINT, random_contacts
