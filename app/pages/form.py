@@ -2,20 +2,19 @@
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import groupby
 from typing import Any, Literal
 
 from markupsafe import Markup
 
-from app.pages.query import PICK, PRESENT, text_of
+from app.pages.query import MATRIX, PICK, PRESENT, SIDE, text_of
 from app.pages.typesetting import symbol, words
 from app.schema.base import Request
 from app.schema.fields import ITEM, Branch, Leaf, tree
 from app.schema.quantities import split_unit
 
 Widget = Literal["number", "text", "list", "select"]
-ROWS_OF_TEXT = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +57,7 @@ class FieldView:
     fault: str | None
     column: str = ""
     excludes: tuple[str, ...] = ()
+    kind: str = "field"
 
     @property
     def id(self) -> str:
@@ -163,11 +163,14 @@ def _range(leaf: Leaf) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Single:
-    """A field on a line of its own."""
+class Matrix:
+    """A matrix with a field for each of its elements, by rows."""
 
-    field: FieldView
-    kind: str = "field"
+    id: str
+    label: str
+    symbol: Markup
+    rows: tuple[tuple[FieldView, ...], ...]
+    kind: str = "matrix"
 
 
 @dataclass(frozen=True, slots=True)
@@ -223,7 +226,7 @@ class Rows:
     kind: str = "rows"
 
 
-Block = Single | Choice | Twins | Section | Rows
+Block = FieldView | Matrix | Choice | Twins | Section | Rows
 
 
 DETAIL = "detail"
@@ -251,7 +254,7 @@ def _grouped(branches: tuple[Branch, ...]) -> Iterator[tuple[Branch, ...]]:
 
 
 def _loose(fields: tuple[Leaf, ...], state: State) -> Section:
-    blocks = tuple(Single(field_view(field, field.path, state)) for field in fields)
+    blocks = tuple(_own(field, field.path, state) for field in fields)
     names = [field.path for field in fields]
     needed = any(field.required for field in fields)
     return Section(
@@ -352,10 +355,34 @@ def _blocks(branch: Branch, prefix: str, state: State) -> Iterator[Block]:
             if member.path in groups:
                 yield _inner(groups[member.path], prefix, state)
         elif (group := choices.get(member.path)) is None:
-            yield Single(field_view(member, _name(member, prefix), state))
+            yield _own(member, _name(member, prefix), state)
         elif member.path not in shown:
             shown.update(field.path for field in group)
             yield _choice(group, prefix, state)
+
+
+def _own(leaf: Leaf, name: str, state: State) -> FieldView | Matrix:
+    """A field that shares its line with no other one."""
+    if leaf.dimensions < MATRIX:
+        return field_view(leaf, name, state)
+    whole, resolved = field_view(leaf, name, state), state.resolved.get(name)
+    rows = tuple(
+        tuple(
+            replace(
+                whole,
+                name=f"{name}.{row}.{column}",
+                label=f"{whole.label}, row {row + 1}, column {column + 1}",
+                widget="number",
+                text=state.texts.get(f"{name}.{row}.{column}", whole.text if row == column == 0 else ""),
+                placeholder=f"{resolved[row][column]:.6g}" if resolved else "",
+                help=(*whole.help, "The first element alone: the same in every direction."),
+                fault=state.faults.get(f"{name}.{row}.{column}", whole.fault if row == column == 0 else None),
+            )
+            for column in range(SIDE)
+        )
+        for row in range(SIDE)
+    )
+    return Matrix(whole.id, whole.label, whole.symbol, rows)
 
 
 def _inner(group: tuple[Branch, ...], prefix: str, state: State) -> Block:

@@ -28,6 +28,8 @@ MOST_FIELDS = 1000
 DEEPEST = 12
 LONGEST_NAME = 100
 LONGEST_INDEX = 10
+MATRIX = 2  # dimensions
+SIDE = 2  # of a matrix: the two directions across a shaft
 PRESENT = "on"
 
 _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
@@ -59,15 +61,24 @@ def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
         for name, text in pairs
         if text.strip() and name not in dropped and not name.startswith(PICK)
     ]
-    return renumbered(kept)
+    return _renumbered(model, [pair for name, text in kept for pair in _elements(model, name, text)])
 
 
-def renumbered(pairs: Pairs) -> Pairs:
-    """List items counted from 0 without gaps, whichever rows were left empty."""
+def _elements(model: type[Documented], name: str, text: str) -> Pairs:
+    """The row of a matrix by its elements, each of which has a field of the form; any other field as it is."""
+    matrix = leaf_at(model, name.rpartition(".")[0])
+    if matrix is None or matrix.dimensions != MATRIX:
+        return [(name, text)]
+    return [(f"{name}.{column}", text_of(item)) for column, item in enumerate(_listed(matrix, text))]
+
+
+def _renumbered(model: type[Documented], pairs: Pairs) -> Pairs:
+    """Items of lists of sections counted from 0 without gaps, whichever rows of the form were left empty."""
     indices: dict[str, set[int]] = defaultdict(set)
     for name, _ in pairs:
         for prefix, index in _indices(name):
-            indices[prefix].add(index)
+            if leaf_at(model, prefix) is None and leaf_at(model, prefix.rpartition(".")[0]) is None:
+                indices[prefix].add(index)
     places = {prefix: {index: place for place, index in enumerate(sorted(found))} for prefix, found in indices.items()}
     return [(_renamed(name, places), text) for name, text in pairs]
 
@@ -81,7 +92,7 @@ def _indices(name: str) -> Iterator[tuple[str, int]]:
 
 
 def _renamed(name: str, places: dict[str, dict[int, int]]) -> str:
-    found = {prefix.count(".") + 1: places[prefix][index] for prefix, index in _indices(name)}
+    found = {prefix.count(".") + 1: places[prefix][index] for prefix, index in _indices(name) if prefix in places}
     return ".".join(str(found.get(position, part)) for position, part in enumerate(name.split(".")))
 
 
@@ -111,7 +122,7 @@ def body_of(model: type[Documented], pairs: Pairs) -> dict[str, Any]:
         if parts[-1] in place:
             raise Unreadable("A field stands twice")
         place[parts[-1]] = _value(model, name, text)
-    content: dict[str, Any] = _with_lists(body)
+    content: dict[str, Any] = _with_lists(model, body)
     return content
 
 
@@ -132,8 +143,7 @@ def _value(model: type[Documented], name: str, text: str) -> Any:
         section = ".".join(ITEM if part.isdecimal() else part for part in name.split("."))
         if text == PRESENT and section in branches(model):
             return {}
-        row = leaf_at(model, name.rpartition(".")[0])
-        return _listed(row, text) if row is not None and row.dimensions > 1 else text
+        return number_of(text) if leaf_at(model, name.rpartition(".")[0].rpartition(".")[0]) else text
     if leaf.dimensions == 1:
         return _listed(leaf, text)
     if leaf.dimensions == 2:
@@ -171,14 +181,33 @@ def _number(text: str) -> Any:
     return float(text) if _NUMBER.fullmatch(text) and "," not in text else text
 
 
-def _with_lists(content: Any) -> Any:
+def _with_lists(model: type[Documented], content: Any, path: str = "") -> Any:
     """Objects whose names are indices, as lists."""
     if not isinstance(content, dict):
         return content
-    inner = {name: _with_lists(value) for name, value in content.items()}
+    inner = {name: _with_lists(model, each, f"{path}.{name}".lstrip(".")) for name, each in content.items()}
+    if (leaf := leaf_at(model, path)) is not None and leaf.dimensions == MATRIX:
+        return _matrix(content)
     if inner and all(name.isdecimal() and name.isascii() for name in inner):
         return [inner[name] for name in sorted(inner, key=lambda name: (len(name), name))]
     return inner
+
+
+def _matrix(elements: dict[str, Any]) -> Any:
+    """A matrix of its elements by row and column; the first one alone stands for a multiple of the unit matrix.
+
+    What is missing is None, for the validator to name.
+    """
+    if elements.keys() == {"0"} and isinstance(elements["0"], dict) and elements["0"].keys() == {"0"}:
+        return elements["0"]["0"]
+    places = [str(place) for place in range(SIDE)]
+    if not elements.keys() <= set(places):
+        return elements
+    rows = [elements.get(place, {}) for place in places]
+    return [
+        [row.get(place) for place in places] if isinstance(row, dict) and row.keys() <= set(places) else row
+        for row in rows
+    ]
 
 
 def _pairs(content: Any, name: str) -> Iterator[tuple[str, str]]:
@@ -191,8 +220,9 @@ def _pairs(content: Any, name: str) -> Iterator[tuple[str, str]]:
             for key, value in content.items():
                 yield from _pairs(value, f"{name}.{key}" if name else key)
         case list() if any(isinstance(item, dict | list) for item in content):
-            for index, item in enumerate(content):
-                yield from _pairs(item, f"{name}.{index}")
+            for index, item in enumerate(content):  # a section, or the row of a matrix
+                named = dict(enumerate(item)) if isinstance(item, list) else item
+                yield from _pairs(named, f"{name}.{index}")
         case list():
             if content:
                 yield name, ",".join(text_of(item) for item in content)

@@ -81,7 +81,7 @@ def ref_pairs(calculation: Calculation, views: dict[str, str]) -> Pairs:
 def page(asked: Asked) -> Shown:
     """The page of a case: form and result, or the form and what is wrong with it."""
     if not asked.pairs:
-        return _page(asked, State())
+        return form_page(asked)
     try:
         case = solved(asked.calculation, asked.pairs, asked.kept)
     except REFUSED as error:
@@ -111,6 +111,11 @@ def page(asked: Asked) -> Shown:
         curves=_curves(case),
     )
     return replace(shown, keep=_keep(asked, case, variant, by_case=links.too_long))
+
+
+def form_page(asked: Asked) -> Shown:
+    """The page with the form as it was filled in, and no answer."""
+    return _page(asked, State(dict(asked.pairs)))
 
 
 def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
