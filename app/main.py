@@ -46,7 +46,6 @@ def create_app() -> FastAPI:
         app.state.runner = Runner(limits, app.state.pool)
         app.state.studies = StudyAdmission(limits, app.state.pool)
         app.state.answers = Answers(limits.answers_mb * MEBIBYTE)
-        app.state.published = {}
         with log.running(limits.log_level):
             if served_by_another:
                 logger.warning(

@@ -28,6 +28,15 @@ class Chapter:
         return " ".join(self.text.split("\n\n")[1].split())
 
     @property
+    def answers(self) -> list[str]:
+        """Which questions it answers."""
+        return re.findall(r"^\* (.*)$", self.section("What it answers"), re.MULTILINE)
+
+    def section(self, heading: str) -> str:
+        """The text below a heading, without it."""
+        return self.text.partition(f"\n## {heading}\n")[2].partition("\n## ")[0].strip()
+
+    @property
     def figures(self) -> list[tuple[str, str]]:
         """Example and figure of every picture; the file is named after both."""
         return [

@@ -26,6 +26,7 @@ class Equation:
 
     number: str
     chapter: str
+    text: str
     functions: tuple[str, ...]
 
     @property
@@ -53,9 +54,9 @@ def anchor(number: str) -> str:
 def equations() -> dict[str, Equation]:
     """Every numbered equation by its number."""
     found = [
-        Equation(number, chapter.name, tuple(name for name, _ in _FUNCTION.findall(below)))
+        Equation(number, chapter.name, text, tuple(name for name, _ in _FUNCTION.findall(below)))
         for chapter in chapters().values()
-        for _, number, below in _EQUATION.findall(chapter.text)
+        for text, number, below in _EQUATION.findall(chapter.text)
     ]
     return {equation.number: equation for equation in found}
 

@@ -4,7 +4,7 @@ query      the query string is the case
 form       fields with what was typed, what they mean and what is wrong with them
 results    headline numbers with verdicts, tables of results
 charts     figures as images at addresses of their own, and their values
-about      what a model answers, and where the paper is wrong
+manual     chapters of the manual as pages, and what reports say of them
 views      one view of one case, made in a worker
 studies    pages of studies, whose results are drawn while they are calculated
 """

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
 from latex2mathml.converter import convert
@@ -15,13 +15,13 @@ from markupsafe import Markup
 from mdit_py_plugins.anchors import anchors_plugin
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
-from app.calculations import CALCULATIONS
+from app.calculations import CALCULATIONS, Calculation
 from app.examples import examples
 from app.manual.chapters import Chapter, chapters
-from app.manual.equations import anchor, functions
+from app.manual.equations import anchor, equations, functions
 from app.pages.links import example_link
 from app.pages.query import link
-from app.pages.templating import page_path, rendered
+from app.pages.templating import model_of, page_path, rendered
 
 _FUNCTION = re.compile(r"\\(?:arc)?(?:sin|cos|tan|ln|exp|sinh|cosh|tanh|operatorname\{\w+\})(?![a-z])(?:\^\{?\w+\}?)?")
 _TAG = re.compile(r"\\tag\{([^}]+)\}")
@@ -36,28 +36,68 @@ class Heading:
     text: str
 
 
-@cache
+@lru_cache(maxsize=4)
 def contents_page(root: str) -> str:
     """What the manual holds."""
     listed = [(chapter, headings(chapter)) for chapter in chapters().values()]
     return rendered("manual_contents.html", root, listed=listed)
 
 
-@cache
+@lru_cache(maxsize=32)
 def chapter_page(root: str, name: str) -> str:
     """One chapter."""
     chapter, names = chapters()[name], list(chapters())
     place = names.index(name)
     following = chapters()[names[place + 1]] if place + 1 < len(names) else None
-    text = re.sub(r'\b(href|src|srcset)="/', rf'\1="{root}/', _markdown().render(chapter.text))
-    body = Markup(text)  # noqa: S704  our own text
+    body = _html(chapter.text, root)
     return rendered("manual.html", root, chapter=chapter, headings=headings(chapter), body=body, following=following)
 
 
-@cache
+@lru_cache(maxsize=4)
 def functions_page(root: str) -> str:
     """The functions that implement the equations."""
     return rendered("manual_functions.html", root, functions=functions())
+
+
+def chapter_of(calculation: Calculation) -> Chapter:
+    """The chapter about a calculation."""
+    own = calculation.path.rpartition("/")[2]
+    return chapters()[own if own in chapters() else model_of(calculation)]
+
+
+@dataclass(frozen=True, slots=True)
+class Method:
+    """What a report says of the method: chapter, numbered equations, deviations from print and limits."""
+
+    chapter: Chapter
+    lead: Markup
+    equations: list[tuple[str, Markup]]
+    misprints: Markup
+    limits: Markup
+
+
+@cache
+def method_of(calculation: Calculation) -> Method:
+    """The method of a calculation in brief, without links: a report is printed."""
+    chapter = chapter_of(calculation)
+    numbered = [each for each in equations().values() if each.chapter == chapter.name]
+    return Method(
+        chapter=chapter,
+        lead=_plain(chapter.lead),
+        equations=[(each.number, Markup(_mathml(each.text, "inline"))) for each in numbered],  # noqa: S704  our own
+        misprints=_plain(chapter.section("Misprints and how they were decided")),
+        limits=_plain(chapter.section("Limits of validity")),
+    )
+
+
+def _html(text: str, root: str) -> Markup:
+    """Markdown of ours as HTML, its addresses below the prefix."""
+    return Markup(re.sub(r'\b(href|src|srcset)="/', rf'\1="{root}/', _markdown().render(text)))  # noqa: S704
+
+
+def _plain(text: str) -> Markup:
+    """Markdown of ours as HTML without links."""
+    return Markup(re.sub(r"</?a\b[^>]*>", "", _html(text, "")))  # noqa: S704
 
 
 def headings(chapter: Chapter) -> list[Heading]:
@@ -77,7 +117,7 @@ def _markdown() -> MarkdownIt:
     markdown.use(anchors_plugin, max_level=3)
     markdown.use(dollarmath_plugin, allow_labels=False, renderer=_inline_equation)
     markdown.core.ruler.push("figures", _figures_stand_alone)
-    for rule in (_math_block, _image, _link_open, _table_open, _table_close, _html_block):
+    for rule in (_math_block, _image, _link_open, _table_open, _table_close, _fence, _html_block):
         markdown.add_render_rule(rule.__name__.removeprefix("_"), rule)
     return markdown
 
@@ -154,6 +194,10 @@ def _table_open(*_: Any) -> str:
 
 def _table_close(*_: Any) -> str:
     return "</table></div>\n"
+
+
+def _fence(_self: RendererHTML, tokens: Sequence[Token], place: int, *_: Any) -> str:
+    return str(Markup('<pre class="scroll" tabindex="0"><code>{}</code></pre>\n').format(tokens[place].content))
 
 
 def _html_block(*_: Any) -> str:

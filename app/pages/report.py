@@ -7,8 +7,8 @@ from typing import Any
 
 from markupsafe import Markup
 
-from app.pages.about import about_of
 from app.pages.cases import Case
+from app.pages.manual import method_of
 from app.pages.results import flattened
 from app.pages.typesetting import shown, symbol
 from app.schema.fields import leaf_at
@@ -66,7 +66,7 @@ def context(case: Case, views: dict[str, str], endpoint: str, link: str) -> dict
         "endpoint": endpoint,
         "link": link,
         "link_text": link if len(link) <= LONGEST_LINK else f"{link[:LONGEST_LINK]}…",
-        "about": about_of(case.calculation),
+        "method": method_of(case.calculation),
     }
 
 

@@ -16,10 +16,11 @@ from app.pages.cases import Case, Fault, faults_of, solved
 from app.pages.charts import Chart, charts, data_address, figure_of, linked, values_of
 from app.pages.form import State, anchor, form
 from app.pages.links import IMAGE_FORMATS, Links, example_link, examples_of
+from app.pages.manual import chapter_of
 from app.pages.query import Pairs, normalised, pairs_of_query, split_views
 from app.pages.results import cards, entries, flattened, groups
 from app.pages.study_links import study_links
-from app.pages.templating import model_of, page_path, rendered
+from app.pages.templating import page_path, rendered
 from app.pages.typesetting import NO_VALUE
 from app.schema.fields import branches, headlines, leaf_at
 from app.sources import changes_since
@@ -207,7 +208,7 @@ def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
         asked.root,
         calculation=calculation,
         path=asked.path,
-        model=model_of(calculation),
+        chapter=chapter_of(calculation).name,
         sections=sections,
         outdated=asked.outdated,
         theme=asked.views.get("theme", ""),

@@ -110,7 +110,7 @@ def test_what_cannot_finish_is_refused_with_the_reason(
 def test_home_is_the_start_page(client: httpx.Client) -> None:
     answer = client.get("/")
     assert answer.status_code == 200
-    assert "/coupling/about" in answer.text
+    assert "/manual/coupling" in answer.text
 
 
 def test_metrics_count_requests(client: httpx.Client) -> None:

@@ -9,10 +9,11 @@ from typing import Any
 import httpx
 import pytest
 
-from app.calculations import CALCULATIONS
+from app.calculations import CALCULATIONS, Calculation
 from app.examples import examples
 from app.manual.chapters import NAMES, chapters
 from app.manual.equations import anchor, equations, functions, module_of
+from app.pages.manual import method_of
 from tests.manual.citations import cited, declared
 
 FOLDER = Path(__file__).parents[2] / "app" / "manual"
@@ -144,3 +145,20 @@ def test_the_functions_page_leads_back(pages: dict[str, str]) -> None:
 
 def test_a_chapter_that_is_not_there(client: httpx.Client) -> None:
     assert client.get("/manual/alchemy").status_code == 404
+
+
+def test_pages_about_a_model_have_become_chapters(client: httpx.Client) -> None:
+    for model in ("coupling", "pumping", "scuffing", "drive-train"):
+        answer = client.get(f"/{model}/about")
+        assert (answer.status_code, answer.headers["location"]) == (308, f"/manual/{model}")
+        assert chapters()[model].answers
+    assert client.get("/alchemy/about").status_code == 404
+
+
+@pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
+def test_every_calculation_has_its_chapter_and_method(calculation: Calculation) -> None:
+    method = method_of(calculation)
+    assert len(method.equations) > 5
+    assert method.misprints.startswith("<div")
+    assert method.limits.startswith("<ul>")
+    assert "<a " not in method.misprints + method.limits + method.lead

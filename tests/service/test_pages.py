@@ -17,6 +17,7 @@ pytestmark = pytest.mark.service
 STARTERS = [example.name for example in examples().values() if example.starter]
 COUPLING = "pahl-axial-displacement"
 SCUFFING = "xue-pair-1-scuffing"
+READING = ("/", "/manual", "/manual/coupling", "/manual/scuffing", "/manual/functions")
 MOST_PAGES = 9
 
 
@@ -205,7 +206,7 @@ def test_a_phone_needs_no_sideways_scrolling(visit: Callable[..., Page], name: s
     assert top < page.locator("#form").bounding_box()["y"]  # type: ignore[index]
 
 
-@pytest.mark.parametrize("address", ["/", "/coupling/about", "/pumping/about", "/scuffing/about"])
+@pytest.mark.parametrize("address", READING)
 def test_reading_pages_fit_a_phone(visit: Callable[..., Page], address: str) -> None:
     assert overflow(visit(address, viewport=PHONE)) == 0
 
@@ -213,7 +214,15 @@ def test_reading_pages_fit_a_phone(visit: Callable[..., Page], address: str) -> 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize(
     "address",
-    ["/", "/scuffing/about", "/pumping", "/scuffing?gears.pinion.teeth=abc", *map(address_of, STARTERS)],
+    [
+        "/",
+        "/manual",
+        "/manual/scuffing",
+        "/manual/functions",
+        "/pumping",
+        "/scuffing?gears.pinion.teeth=abc",
+        *map(address_of, STARTERS),
+    ],
 )
 def test_accessibility(visit: Callable[..., Page], address: str, scheme: str) -> None:
     page = visit(address, color_scheme=scheme)

@@ -64,7 +64,7 @@ def addresses_in(html: str) -> set[str]:
 
 def pages() -> list[str]:
     """A page of every kind, with a case of every calculation that is quick."""
-    found = ["/", "/docs", "/coupling/about", "/manual", "/manual/coupling", "/manual/functions"]
+    found = ["/", "/docs", "/manual", "/manual/coupling", "/manual/functions"]
     for each in CALCULATIONS:
         found.append(page_path(each))
         if each.path in CASES:
@@ -94,8 +94,6 @@ def test_every_address_of_every_page_leads_somewhere(proxies: dict[str, str], na
         for path, address in seen.items():
             if path == f"{PREFIX}/rexs" or ("?" in address and path.removesuffix("/vary") in slow):
                 continue  # takes files only; takes a minute
-            if path.endswith("/about") and "coupling" not in path:
-                continue
             status = client.get(address).status_code
             # An address of a form may stand alone, without the fields that it sends.
             assert status in ({200, 303} if "?" in address else {200, 303, 400, 422}), address

@@ -12,10 +12,9 @@ from app.errors import PROBLEMS, Unreadable
 from app.examples import examples
 from app.figures.rendering import MEDIA_TYPES
 from app.pages import views
-from app.pages.about import ABOUT
 from app.pages.answers import Answers, key_of
 from app.pages.links import example_link
-from app.pages.overview import about_page, problem_page, rows_of, start_page
+from app.pages.overview import problem_page, start_page
 from app.pages.query import link, normalised, pairs_of_query, split_views
 from app.pages.templating import ASSETS, asset, page_path
 from app.settings import Settings
@@ -46,21 +45,6 @@ async def static(name: str) -> Response:
     if name not in ASSETS:
         raise HTTPException(404, f"There are {', '.join(ASSETS)}")
     return Response(asset(name), media_type=ASSETS[name], headers={"Cache-Control": FOREVER})
-
-
-def _add_about(model: str) -> None:
-    async def about(http: Request) -> Response:
-        """The model, and its numbers beside the paper's; computed once."""
-        known: dict[str, Any] = http.app.state.published
-        if model not in known:
-            runner: Runner = http.app.state.runner
-            try:
-                known[model] = await runner.run(http, rows_of, model)
-            except TROUBLES as error:
-                return trouble_page(http, error)
-        return html(about_page(root_of(http), model, known[model]))
-
-    router.add_api_route(f"/{model}/about", about, methods=["GET"])
 
 
 def _add(calculation: Calculation) -> None:
@@ -210,7 +194,5 @@ def html(content: str | bytes, status: int = 200, headers: dict[str, str] | None
     return Response(content, status, media_type=HTML, headers=policy | (headers or {}))
 
 
-for each in ABOUT:
-    _add_about(each)
 for each_calculation in CALCULATIONS:
     _add(each_calculation)
