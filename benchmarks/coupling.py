@@ -7,7 +7,7 @@ from dataclasses import replace
 from math import cos, pi, radians
 
 from benchmarks.timing import Figure, print_times
-from solvers.coupling.crowning.recommendation import recommend
+from solvers.coupling.crowning import recommend
 from solvers.coupling.inputs import Coupling, CouplingInputs, ModelOptions, Operation, RecommendationInputs
 from solvers.coupling.model import solve
 from solvers.coupling.orbit import solve_orbit

@@ -1,11 +1,57 @@
-"""Oils as their data sheets describe them, and the lubricant they are at the temperature where they enter a contact."""
+"""Oils as their users know them: by ISO grade, by data sheet, or by the viscosity at one temperature.
 
-from dataclasses import dataclass
+A data sheet has two kinematic viscosities, which also tell the viscosity index (ASTM D2270, ISO 2909); where the oil
+enters a contact it becomes a lubricant of the models.
+"""
+
+from dataclasses import dataclass, fields, replace
 from math import log, log10
+from typing import Literal
 
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant, OilKind, PressureViscosityLaw
-from solvers.viscosity_index import SQUARE_MILLIMETRE, viscosity_index
+from solvers.quantity import quantity, record
+from solvers.sources import XUE
+
+SQUARE_MILLIMETRE = 1e-6  # m^2
+LEAST_VISCOSITY = 2.0
+"""Kinematic viscosity at 100 C [mm^2/s] from which the standard defines the index."""
+
+REFERENCE_OILS = (
+    (2.0, (1.14673, 1.7576, -0.109), (0.84155, 1.5521, -0.077)),
+    (3.8, (3.38095, -15.4952, 33.196), (0.78571, 1.7929, -0.183)),
+    (4.4, (2.5, -7.2143, 13.812), (0.82143, 1.5679, 0.119)),
+    (5.0, (0.101, 16.635, -45.469), (0.04985, 9.1613, -18.557)),
+    (6.4, (3.35714, -23.5643, 78.466), (0.22619, 7.7369, -16.656)),
+    (7.0, (0.01191, 21.475, -72.870), (0.79762, -0.7321, 14.610)),
+    (7.7, (0.41858, 16.1558, -56.040), (0.05794, 10.5156, -28.240)),
+    (9.0, (0.88779, 7.5527, -16.600), (0.26665, 6.7015, -10.810)),
+    (12.0, (0.76720, 10.7972, -38.180), (0.20073, 8.4658, -22.490)),
+    (15.0, (0.97305, 5.3135, -2.200), (0.28889, 5.9741, -4.930)),
+    (18.0, (0.97256, 5.2500, -0.980), (0.24504, 7.4160, -16.730)),
+    (22.0, (0.91413, 7.4759, -21.820), (0.20323, 9.1267, -34.230)),
+    (28.0, (0.87031, 9.7157, -50.770), (0.18411, 10.1015, -46.750)),
+    (40.0, (0.84703, 12.6752, -133.310), (0.17029, 11.4866, -80.620)),
+    (55.0, (0.85921, 11.1009, -83.190), (0.17130, 11.3680, -76.940)),
+    (70.0, (0.83531, 14.6731, -216.246), (0.16841, 11.8493, -96.947)),
+)
+"""From a viscosity Y at 100 C [mm^2/s] on: a, b, c of L = a Y^2 + b Y + c and of H, the viscosities at 40 C [mm^2/s]
+of the oils of index 0 and 100 with that Y (ASTM D2270, Table X2.1; read in a public implementation)."""
+
+
+def viscosity_index(viscosity_40: float, viscosity_100: float) -> float:
+    """Viscosity index of an oil of kinematic viscosities U at 40 C and Y at 100 C [m^2/s] (Eq. R2).
+
+    100 (L - U)/(L - H) up to an index of 100, beyond it 100 + (10^N - 1)/0.00715 with N = log(H/U)/log Y. Below
+    Y = 2 mm^2/s, where the standard defines none, the first formula is used with the first of the reference oils.
+    """
+    u, y = viscosity_40 / SQUARE_MILLIMETRE, viscosity_100 / SQUARE_MILLIMETRE
+    _, low, high = max((row for row in REFERENCE_OILS if row[0] <= y), default=REFERENCE_OILS[0])
+    l_40, h_40 = (a * y**2 + b * y + c for a, b, c in (low, high))
+    if u >= h_40 or y < LEAST_VISCOSITY:
+        return 100.0 * (l_40 - u) / (l_40 - h_40)
+    return 100.0 + float(10.0 ** (log10(h_40 / u) / log10(y)) - 1.0) / 0.00715
+
 
 CELSIUS = 273.15  # K
 WALTHER_SHIFT = 0.7  # mm^2/s
@@ -176,3 +222,183 @@ def lubricant_at(oil: Lubricant | OilSheet, temperature: float) -> Lubricant:
 
 def _double_logarithm(kinematic_viscosity: float) -> float:
     return log10(log10(kinematic_viscosity / SQUARE_MILLIMETRE + WALTHER_SHIFT))
+
+
+IsoGrade = Literal[32, 46, 68, 100, 150, 220, 320, 460, 680]
+
+
+@record
+class OilBySheet:
+    """An oil by its ISO grade or by two kinematic viscosities, where that is what is known of it."""
+
+    iso_vg: IsoGrade | None = quantity("ISO viscosity grade", "VG", "ISO 3448", default=None)
+    kinematic_viscosity_40: float | None = quantity(
+        "kinematic viscosity at 40 °C", "ν_40", "ASTM D341", unit="mm2_per_s", default=None, ge=2, le=5000
+    )
+    kinematic_viscosity_100: float | None = quantity(
+        "kinematic viscosity at 100 °C",
+        "ν_100",
+        "ASTM D341",
+        unit="mm2_per_s",
+        default=None,
+        ge=1,
+        le=1000,
+        default_text="with a grade, typical of a mineral oil of viscosity index 95",
+        assumed="typical of a mineral oil with viscosity index 95",
+    )
+    kind: OilKind = quantity(
+        "kind of oil", default="mineral", assumed="a mineral oil, where the data sheet's kind is not given"
+    )
+    density_15: float | None = quantity(
+        "oil density at 15 °C",
+        "ρ_15",
+        unit="kg_per_m3",
+        default=None,
+        ge=500,
+        le=2000,
+        default_text="by the kind of oil; a data sheet rarely gives it",
+        assumed="by the kind of oil; a data sheet rarely gives it",
+    )
+
+    def sheet(self) -> OilSheet | None:
+        """The oil by grade or data sheet; None where neither is given.
+
+        Raises InvalidInput (viscosity_order) where it would not thin as it warms.
+        """
+        if self.iso_vg is not None:
+            known = iso_vg(self.iso_vg)
+        elif self.kinematic_viscosity_40 is None or self.kinematic_viscosity_100 is None:
+            return None
+        else:
+            known = OilSheet(self.kinematic_viscosity_40, self.kinematic_viscosity_100)
+        return replace(known, kind=self.kind, density_15=self.density_15)
+
+
+@record
+class OilChoice(OilBySheet):
+    """What is known of an oil; one of `iso_vg`, the two kinematic viscosities and `viscosity` names it.
+
+    `reference_temperature` and `density` belong to `viscosity`; a property that is None is that of the kind of oil with
+    a grade or data sheet, and that of `Lubricant` otherwise.
+    """
+
+    viscosity: float | None = quantity(
+        "oil viscosity",
+        "η_0",
+        f"{XUE}, Table 2",
+        unit="pa_s",
+        default=None,
+        ge=1e-5,
+        le=100,
+        text="viscosity at the reference temperature and no pressure",
+        default_text="by grade or data sheet; with neither no oil is known",
+    )
+    reference_temperature: float | None = quantity(
+        "oil reference temperature",
+        "θ_0",
+        f"{XUE}, Eq. 20",
+        unit="c",
+        default=None,
+        ge=-50,
+        le=300,
+        tolerance=1,
+        text="temperature of viscosity and density",
+        default_text="with grade or data sheet, where the oil enters the contact",
+        assumed="86.85 °C, 360 K, at which the paper's viscosity gives its film thickness; give that of yours",
+    )
+    pressure_viscosity: float | None = quantity(
+        "pressure-viscosity coefficient",
+        "α",
+        f"{XUE}, Table 2",
+        unit="per_gpa",
+        default=None,
+        ge=1,
+        le=60,
+        default_text="with grade or data sheet, by kind and viscosity (Gold, from memory)",
+        assumed="the paper's oil; with grade or data sheet, by kind and viscosity (Gold, from memory)",
+    )
+    temperature_viscosity: float | None = quantity(
+        "temperature-viscosity coefficient",
+        "β",
+        f"{XUE}, Table 2",
+        unit="per_k",
+        default=None,
+        ge=0,
+        le=0.2,
+        tolerance=0.001,
+        default_text="with grade or data sheet, the slope of the Walther law",
+        assumed="the paper's oil; with grade or data sheet, the slope of the Walther law",
+    )
+    density: float | None = quantity(
+        "oil density",
+        "ρ_0",
+        f"{XUE}, Table 2",
+        unit="kg_per_m3",
+        default=None,
+        ge=100,
+        le=5000,
+        text="density at the reference temperature",
+        default_text="with grade or data sheet, from the density at 15 °C",
+        assumed="the paper's oil",
+    )
+    specific_heat: float | None = quantity(
+        "oil specific heat",
+        "c_oil",
+        f"{XUE}, Table 2",
+        unit="j_per_kg_k",
+        default=None,
+        ge=100,
+        le=10000,
+        default_text="with grade or data sheet, by kind",
+        assumed="the paper's oil; with grade or data sheet, by the kind of oil; a data sheet rarely gives it",
+    )
+    thermal_conductivity: float | None = quantity(
+        "oil thermal conductivity",
+        "λ_oil",
+        f"{XUE}, Table 2",
+        unit="w_per_m_k",
+        default=None,
+        ge=0.01,
+        le=10,
+        default_text="with grade or data sheet, by kind",
+        assumed="the paper's oil; with grade or data sheet, by the kind of oil; a data sheet rarely gives it",
+    )
+    pressure_viscosity_law: PressureViscosityLaw = quantity(
+        "pressure-viscosity law",
+        None,
+        f"{XUE}, Table 2",
+        default="roelands",
+        text="how viscosity depends on pressure and temperature",
+        advanced=True,
+    )
+    compressible: bool = quantity(
+        "compressible oil",
+        None,
+        f"{XUE}, Table 2",
+        default=True,
+        text="whether density follows pressure and temperature (Dowson and Higginson)",
+        advanced=True,
+    )
+
+    def resolve(self) -> OilSheet | Lubricant | None:
+        """The oil of the models; None where nothing says how viscous it is.
+
+        Raises InvalidInput (viscosity_order) where it would not thin as it warms.
+        """
+        sheet = self.sheet()
+        if sheet is not None:
+            return replace(sheet, **{name: getattr(self, name) for name in _BEYOND_VISCOSITY})
+        if self.viscosity is None:
+            return None
+        given = {item.name: getattr(self, item.name) for item in fields(Lubricant)}
+        return Lubricant(**{name: value for name, value in given.items() if value is not None})
+
+
+_BEYOND_VISCOSITY = (
+    "pressure_viscosity",
+    "temperature_viscosity",
+    "specific_heat",
+    "thermal_conductivity",
+    "pressure_viscosity_law",
+    "compressible",
+)

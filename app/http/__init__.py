@@ -2,8 +2,7 @@
 
 server      uvicorn as `python -m app` runs it
 connection  limits where bytes arrive: headers, connections, time
-middleware  request id, limits on bodies, security headers, timing, the answer to what nobody expected
-records     what every answer carries and leaves behind: headers, a log line, metrics
+middleware  limits on bodies; what every answer carries and leaves behind: request id, headers, a log line, metrics
 json_route  bodies of JSON
 problems    errors as problem documents
 routes      the endpoints and the pages

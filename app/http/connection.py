@@ -13,8 +13,8 @@ from typing import Any
 
 from uvicorn.protocols.http.httptools_impl import STATUS_LINE, HttpToolsProtocol, RequestResponseCycle
 
+from app.http.middleware import own_headers, record, request_id
 from app.http.problems import problem
-from app.http.records import own_headers, record, request_id
 from app.settings import settings
 
 MOST_PIPELINED = 16  # thousands arrive at once, and each that waits takes 4 kB

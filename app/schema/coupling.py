@@ -8,9 +8,8 @@ from pydantic_core import PydanticCustomError
 from app.schema.base import Derived, Group, Request, Response, Section
 from app.schema.oil import CouplingLubricant
 from app.schema.quantities import Input, View
+from solvers.coupling import crowning, results
 from solvers.coupling import inputs as si
-from solvers.coupling import orbit_results, results
-from solvers.coupling.crowning import results as crowning
 
 
 class CouplingDesign(Section, of=si.CouplingDesign, without=("crowning_ratio",)):
@@ -226,15 +225,15 @@ class SleeveOrbitDerived(Derived, of=results.Geometry, only=("pitch_radius",)):
     """The circle on which the teeth stand."""
 
 
-class SleeveOrbit(Group, of=orbit_results.Orbit):
+class SleeveOrbit(Group, of=results.Orbit):
     """Path of the sleeve centre."""
 
 
-class SleeveInertia(Group, of=orbit_results.InertiaForce):
+class SleeveInertia(Group, of=results.InertiaForce):
     """Inertia force of the sleeve mass of one mesh."""
 
 
-class SleeveOrbitResponse(Response, of=orbit_results.OrbitResult):
+class SleeveOrbitResponse(Response, of=results.OrbitResult):
     """One revolution of a floating sleeve under its own inertia."""
 
     derived: SleeveOrbitDerived

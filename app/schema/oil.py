@@ -9,9 +9,7 @@ from app.schema.base import Derived, Section
 from solvers.coupling.inputs import CouplingOil
 from solvers.coupling.inputs import Lubricant as CouplingLubricantInUse
 from solvers.lubricants import Lubricant, OilInUse
-from solvers.oil_choice import OilBySheet, OilChoice
-from solvers.oils import OilSheet, iso_vg
-from solvers.viscosity_index import SQUARE_MILLIMETRE
+from solvers.oils import SQUARE_MILLIMETRE, OilBySheet, OilChoice, OilSheet, iso_vg
 
 _BY_SHEET = ("iso_vg", "kinematic_viscosity_40_mm2_per_s", "kinematic_viscosity_100_mm2_per_s")
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from app.calculations import BY_PATH
 from app.schema.base import Request
-from app.schema.paths import field_path
+from app.schema.fields import field_path
 from app.schema.quantities import split_unit
 from app.studies.fields import set_value
 from app.studies.requests import DRIVE_TRAIN, Axis, Scalar

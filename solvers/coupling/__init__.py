@@ -6,9 +6,8 @@ model to recommend a crowning ratio. Inputs built by hand are in SI; the functio
 declared ranges, naming the argument.
 """
 
-from solvers.coupling import model, orbit
-from solvers.coupling.crowning import recommendation
-from solvers.coupling.crowning.results import Recommendation
+from solvers.coupling import crowning, model, orbit
+from solvers.coupling.crowning import Recommendation
 from solvers.coupling.inputs import (
     Coupling,
     CouplingDesign,
@@ -26,13 +25,12 @@ from solvers.coupling.inputs import (
     RecommendationInputs,
 )
 from solvers.coupling.notices import slips
-from solvers.coupling.orbit_results import OrbitResult
-from solvers.coupling.results import CouplingResult
+from solvers.coupling.results import CouplingResult, OrbitResult
 from solvers.plausibility import guarded
 
 solve = guarded(model.solve, slips)
 solve_orbit = guarded(orbit.solve_orbit, slips)
-recommend = guarded(recommendation.recommend, slips)
+recommend = guarded(crowning.recommend, slips)
 
 __all__ = [
     "Coupling",

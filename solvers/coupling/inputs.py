@@ -8,7 +8,7 @@ from math import atan
 from typing import Literal
 
 from solvers.errors import InvalidInput
-from solvers.oil_choice import OilBySheet
+from solvers.oils import OilBySheet
 from solvers.quantity import quantity, record
 from solvers.sources import PAHL
 

@@ -9,8 +9,7 @@ from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.losses import ROUNDING
 from solvers.coupling.results import Geometry, LoadCurves, LoadDistribution
 from solvers.coupling.teeth.kinematics import MeshMotion, tooth_positions
-from solvers.coupling.teeth.limits import unloading_misalignment
-from solvers.coupling.teeth.loads import mesh_loads
+from solvers.coupling.teeth.loads import mesh_loads, unloading_misalignment
 
 LOADED = 1e-6
 """Tooth force over the mean one from which a tooth counts as loaded."""

@@ -9,9 +9,8 @@ from solvers.coupling.losses import loaded_mesh, losses
 from solvers.coupling.lubrication import FilmState, film_state, friction_coefficient, friction_regime
 from solvers.coupling.notices import contact_notices, load_notices, motion_notices
 from solvers.coupling.results import CouplingResult, Lubrication
-from solvers.coupling.teeth.geometry import tooth_geometry
-from solvers.coupling.teeth.kinematics import kinematics, mesh_motion
-from solvers.coupling.teeth.limits import limits
+from solvers.coupling.teeth.kinematics import kinematics, mesh_motion, tooth_geometry
+from solvers.coupling.teeth.loads import limits
 from solvers.coupling.thrust import axial_thrust
 
 

@@ -9,7 +9,7 @@ from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
 from solvers.coupling.losses import equal_loads_friction_moment
 from solvers.coupling.lubrication import UNSTABLE_AREA
 from solvers.coupling.results import AxialThrust, Geometry, Kinematics, Limits, LoadDistribution, Lubrication
-from solvers.coupling.teeth.limits import SLIDING_VELOCITY_LIMIT
+from solvers.coupling.teeth.loads import SLIDING_VELOCITY_LIMIT
 from solvers.notices import Notice
 
 ORBIT_RESOLUTION = 0.01

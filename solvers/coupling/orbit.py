@@ -11,10 +11,15 @@ from solvers.coupling.checks import check_inputs
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.load_distribution import LOADED
 from solvers.coupling.notices import orbit_notices
-from solvers.coupling.orbit_results import InertiaForce, Orbit, OrbitResult
-from solvers.coupling.results import Geometry
-from solvers.coupling.teeth.geometry import pitch_radius, tooth_geometry
-from solvers.coupling.teeth.kinematics import MeshMotion, mesh_motion, revolution, tooth_positions
+from solvers.coupling.results import Geometry, InertiaForce, Orbit, OrbitResult
+from solvers.coupling.teeth.kinematics import (
+    MeshMotion,
+    mesh_motion,
+    pitch_radius,
+    revolution,
+    tooth_geometry,
+    tooth_positions,
+)
 from solvers.coupling.teeth.loads import floating_loads, largest_value
 from solvers.errors import InvalidInput, NoSolution
 

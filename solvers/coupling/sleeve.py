@@ -20,8 +20,7 @@ from solvers.coupling.losses import RotorSamples, rotor_samples, without_roundin
 from solvers.coupling.results import Geometry
 from solvers.coupling.teeth.balance import ALONG_X, ALONG_Y, ROTATION, SHIFT_X, SHIFT_Y, float_sleeve, solve_loaded
 from solvers.coupling.teeth.kinematics import MeshMotion, flank_normals, mesh_motion, relative_velocity
-from solvers.coupling.teeth.limits import coaxial_limit
-from solvers.coupling.teeth.loads import elastic_rotation, interference_at_rest
+from solvers.coupling.teeth.loads import coaxial_limit, elastic_rotation, interference_at_rest
 from solvers.errors import NoSolution
 
 MAX_ITERATIONS = 150  # limit; an equilibrium that is not found by then is not

@@ -7,7 +7,7 @@ from solvers.coupling.losses import LoadedMesh, without_rounding
 from solvers.coupling.lubrication import static_friction
 from solvers.coupling.results import AxialThrust, Geometry, SelfInducedThrust
 from solvers.coupling.sleeve import sleeve_equilibrium
-from solvers.coupling.teeth.limits import coaxial_limit
+from solvers.coupling.teeth.loads import coaxial_limit
 
 
 def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> tuple[float, float]:

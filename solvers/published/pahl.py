@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
-from solvers.coupling.crowning.recommendation import recommend
+from solvers.coupling.crowning import recommend
 from solvers.coupling.inputs import (
     Arrangement,
     Coupling,
@@ -20,8 +20,7 @@ from solvers.coupling.inputs import (
 )
 from solvers.coupling.model import solve
 from solvers.coupling.orbit import solve_orbit
-from solvers.coupling.orbit_results import OrbitResult
-from solvers.coupling.results import CouplingResult
+from solvers.coupling.results import CouplingResult, OrbitResult
 
 TEETH, PITCH_RADIUS = 52, 0.078  # -, m
 HEAVY, SLIGHT = 1.0, 11.0  # crowning ratios

@@ -9,7 +9,7 @@ Lubrication Simulation of Helical Gears", Global J. of Researches in Engineering
 """
 
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.oil_choice import OilChoice
+from solvers.oils import OilChoice
 from solvers.plausibility import guarded
 from solvers.scuffing import model, safety
 from solvers.scuffing.inputs import (

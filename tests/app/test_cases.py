@@ -12,7 +12,7 @@ from app.calculations import CALCULATIONS, Calculation
 from app.evaluate import evaluate, written
 from app.examples import examples
 from app.schema.base import Request
-from app.schema.paths import field_path
+from app.schema.fields import field_path
 from app.sources import SOURCES
 
 BY_PATH = {each.path: each for each in CALCULATIONS}

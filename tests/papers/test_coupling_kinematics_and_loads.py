@@ -12,10 +12,8 @@ from solvers.coupling.inputs import KinematicModel, ModelOptions, SleeveSupport
 from solvers.coupling.lubrication import max_normal_force
 from solvers.coupling.model import solve
 from solvers.coupling.orbit import solve_orbit
-from solvers.coupling.orbit_results import OrbitResult
-from solvers.coupling.results import KinematicCurves
-from solvers.coupling.teeth.geometry import tooth_geometry
-from solvers.coupling.teeth.kinematics import displacement_peak, mesh_motion, tooth_positions
+from solvers.coupling.results import KinematicCurves, OrbitResult
+from solvers.coupling.teeth.kinematics import displacement_peak, mesh_motion, tooth_geometry, tooth_positions
 from solvers.coupling.teeth.loads import centred_loads
 from solvers.published.pahl import PITCH_RADIUS, TEETH, harmonic_pitch_errors, pahl_coupling
 from tests.support.couplings import random_pitch_errors

@@ -9,7 +9,7 @@ from math import asin, cos, log, pi, radians
 import numpy as np
 import pytest
 
-from solvers.coupling.crowning.recommendation import recommend
+from solvers.coupling.crowning import recommend
 from solvers.coupling.inputs import CouplingInputs, KinematicModel, ModelOptions, RecommendationInputs
 from solvers.coupling.model import solve
 from solvers.coupling.results import AxialThrust

@@ -6,8 +6,7 @@ import pytest
 
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant, OilKind
-from solvers.oils import KINDS, TYPICAL_VISCOSITY_100, OilSheet, iso_vg, lubricant_at
-from solvers.viscosity_index import viscosity_index
+from solvers.oils import KINDS, TYPICAL_VISCOSITY_100, OilSheet, iso_vg, lubricant_at, viscosity_index
 
 GRADES = sorted(TYPICAL_VISCOSITY_100)
 

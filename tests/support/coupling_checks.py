@@ -12,9 +12,8 @@ from unittest.mock import patch
 import numpy as np
 from numpy.random import Generator
 
-from solvers.coupling import losses
-from solvers.coupling.crowning import recommendation
-from solvers.coupling.crowning.recommendation import recommend
+from solvers.coupling import crowning, losses
+from solvers.coupling.crowning import recommend
 from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
 from solvers.coupling.model import solve
 from solvers.coupling.orbit import solve_orbit
@@ -133,7 +132,7 @@ def check_recommendation_resolution(random: Generator) -> None:
     before = recommend(wanted)
     with ExitStack() as stack:
         for name in ("_SCAN_POINTS", "_WINDOW_POINTS"):
-            stack.enter_context(patch.object(recommendation, name, 2 * getattr(recommendation, name) - 1))
+            stack.enter_context(patch.object(crowning, name, 2 * getattr(crowning, name) - 1))
         after = recommend(wanted)
     assert before.feasible == after.feasible, inputs
     assert before.failed_constraint == after.failed_constraint, inputs

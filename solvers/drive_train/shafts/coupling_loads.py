@@ -23,9 +23,8 @@ from solvers.coupling.checks import check_contact, check_inputs
 from solvers.coupling.inputs import CouplingInputs, Operation
 from solvers.coupling.losses import loaded_mesh, losses
 from solvers.coupling.lubrication import film_state, friction_coefficient
-from solvers.coupling.teeth.geometry import pitch_radius, tooth_geometry
-from solvers.coupling.teeth.kinematics import mesh_motion
-from solvers.coupling.teeth.limits import coaxial_limit
+from solvers.coupling.teeth.kinematics import mesh_motion, pitch_radius, tooth_geometry
+from solvers.coupling.teeth.loads import coaxial_limit
 from solvers.drive_train.inputs import CouplingFriction, UnitCoupling
 from solvers.errors import InvalidInput
 from solvers.notices import Notice

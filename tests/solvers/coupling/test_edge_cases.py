@@ -9,8 +9,7 @@ import pytest
 from hypothesis import strategies as st
 
 from solvers import coupling
-from solvers.coupling.crowning.recommendation import recommend
-from solvers.coupling.crowning.results import Recommendation
+from solvers.coupling.crowning import Recommendation, recommend
 from solvers.coupling.inputs import (
     Arrangement,
     Coupling,

@@ -13,8 +13,7 @@ from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.model import solve
 from solvers.coupling.orbit import solve_orbit
 from solvers.coupling.teeth import kinematics
-from solvers.coupling.teeth.geometry import tooth_geometry
-from solvers.coupling.teeth.kinematics import flank_normals, mesh_motion, tooth_positions
+from solvers.coupling.teeth.kinematics import flank_normals, mesh_motion, tooth_geometry, tooth_positions
 from solvers.coupling.teeth.loads import ToothLoads, floating_loads
 from solvers.errors import InvalidInput, NoSolution
 from solvers.published.pahl import TEETH, harmonic_pitch_errors, pahl_coupling

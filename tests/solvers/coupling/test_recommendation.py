@@ -7,7 +7,7 @@ from math import radians
 import numpy as np
 import pytest
 
-from solvers.coupling.crowning.recommendation import at_misalignment, crowning_state, crowning_window, recommend
+from solvers.coupling.crowning import at_misalignment, crowning_state, crowning_window, recommend
 from solvers.coupling.inputs import ModelOptions, RecommendationInputs
 from solvers.coupling.model import solve
 from solvers.errors import InvalidInput

@@ -13,7 +13,7 @@ from solvers.coupling.inputs import Arrangement, CouplingInputs, KinematicModel,
 from solvers.coupling.losses import rotor_samples
 from solvers.coupling.model import solve
 from solvers.coupling.sleeve import sleeve_equilibrium, two_meshes
-from solvers.coupling.teeth.geometry import tooth_geometry
+from solvers.coupling.teeth.kinematics import tooth_geometry
 from solvers.errors import NoSolution
 from solvers.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from tests.support.couplings import random_pitch_errors

@@ -1,1 +1,0 @@
-"""Which crowning suits a range of misalignment: recommendation -> results."""
