@@ -37,3 +37,10 @@ def test_a_sweep_into_pandas(server: str) -> None:
         for part in path.split("."):
             found = found[part]
         assert found == table[path][7]
+
+
+def test_a_flash_temperature_without_a_server() -> None:
+    (snippet,) = (each for each in SNIPPETS if "GearPairInputs" in each)
+    flash = run(snippet, ADDRESS)["flash"]
+    assert flash.path.blok_flash.max() == flash.flash.blok_max
+    assert 20.0 < flash.flash.blok_max < 60.0
