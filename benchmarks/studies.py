@@ -16,9 +16,11 @@ from typing import Any, NamedTuple
 
 import httpx
 
+from app.calculations import BY_PATH
 from app.examples import examples
 from app.studies.fields import set_value
 from app.studies.points import Question, solve_point
+from app.studies.study import paths_of
 from app.studies.sweep import sweep_study
 from tests.support.dask_cluster import running_cluster
 from tests.support.server import running_server
@@ -39,7 +41,7 @@ class Kind(NamedTuple):
         example = examples()[self.example]
         request = copy.deepcopy(example.request)
         for path, value in self.fixed.items():
-            set_value(request, path, value)
+            set_value(BY_PATH[example.endpoint].request, request, path, value)
         axis = {"path": self.path, "start": self.start, "stop": self.stop, "count": count}
         return {"endpoint": example.endpoint, "request": request, "vary": [axis]}
 
@@ -64,11 +66,11 @@ MAP = {
 def in_process(body: dict[str, Any]) -> float:
     """Seconds of all points one after another in this process."""
     study = sweep_study(json.dumps(body).encode(), 10**6, 30.0)
-    question = Question(body["endpoint"], body["request"], study.outputs.paths, 30.0)
-    solve_point(question, study.plan.overrides(0))
+    question = Question(body["endpoint"], body["request"], paths_of(study.outputs), 30.0)
+    solve_point(question, study.points.overrides(0))
     started = time.perf_counter()
     for index in range(study.total):
-        solve_point(question, study.plan.overrides(index))
+        solve_point(question, study.points.overrides(index))
     return time.perf_counter() - started
 
 
@@ -80,9 +82,9 @@ def in_two_processes(body: dict[str, Any]) -> float:
 
 def single_requests(client: httpx.Client, body: dict[str, Any]) -> float:
     """Seconds of all points as requests of their own, two at a time."""
-    plan = sweep_study(json.dumps(body).encode(), 10**6, 30.0).plan
-    points = [plan.overrides(index) for index in range(plan.total)]
-    return asyncio.run(_single_requests(str(client.base_url), body, points))
+    points = sweep_study(json.dumps(body).encode(), 10**6, 30.0).points
+    overrides = [points.overrides(index) for index in range(points.total)]
+    return asyncio.run(_single_requests(str(client.base_url), body, overrides))
 
 
 async def _single_requests(address: str, body: dict[str, Any], points: list[dict[str, Any]]) -> float:
