@@ -28,7 +28,7 @@ from tests.support.pools import InlinePool
 REPEATS = 20
 INPUTS = replace(turbo_gear(GROUND), coupling_friction="elastic_plastic")
 REQUEST = {**examples()["starter-turbo-gear-drive-train"].request, "model": {"lubrication": "closed_form"}}
-USUAL = usual_corners(BY_PATH["/v1/drive-train"].request.model_validate(REQUEST))
+USUAL = list(usual_corners(BY_PATH["/v1/drive-train"].request.model_validate(REQUEST)).values())
 
 
 def best(run: Callable[[], object], repeats: int = REPEATS) -> float:

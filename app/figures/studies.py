@@ -17,6 +17,7 @@ from app.figures.data import (
     Map,
     Mark,
     Panel,
+    Ribbon,
     Role,
     Row,
     Span,
@@ -266,6 +267,44 @@ def corners(output: Axis, found: list[Uncertain]) -> Figure:
     finding = f"worst {number(worst, output.unit or '')}, where the red values meet"
     panel = Panel(x=output, y=Axis("uncertain input"), rows=rows)
     return Figure(finding, (panel,), title="The worst that each value of an uncertain input can lead to")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LeadTrace:
+    """A helix trace to grind over the axis of the unit: slope and crowning [um], and what they may be off."""
+
+    position: Values
+    face_fraction: Values
+    slope: float
+    crowning: float
+    slope_tolerance: float
+    crowning_tolerance: float
+
+    def depth(self, slope: float, crowning: float) -> Values:
+        """Material to remove below the plain helix at the middle of the face [um]."""
+        eta = self.face_fraction - 0.5
+        return values(slope * eta + 4.0 * crowning * eta**2)
+
+
+def lead_chart(trace: LeadTrace, before: tuple[float, float], ends: tuple[str, str]) -> Figure:
+    """The helix trace to grind with its tolerances, as a lead chart shows it: removed material points downwards.
+
+    `before` are slope and crowning as described, `ends` what the ends of the face are called.
+    """
+    wanted = -trace.depth(trace.slope, trace.crowning)
+    off = trace.depth(0.0, trace.crowning_tolerance) + np.abs(trace.depth(trace.slope_tolerance, 0.0))
+    panel = Panel(
+        x=Axis("position on the unit's axis Z", "mm", magnitude=False),
+        y=Axis("flank, removed material downwards", "µm", magnitude=False),
+        lines=(
+            Line("to grind", trace.position, values(wanted)),
+            Line("as described", trace.position, values(-trace.depth(*before)), Hue.GREY, Role.REFERENCE),
+        ),
+        ribbons=(Ribbon("tolerance", trace.position, values(wanted - off), values(wanted + off)),),
+    )
+    low, high = sorted(zip(trace.position[[0, -1]], ends, strict=True))
+    finding = f"left {low[1]}, right {high[1]}; shaded: tolerances"
+    return Figure(finding, (panel,), title="Lead chart of the pinion's working flank")
 
 
 class Tried(NamedTuple):

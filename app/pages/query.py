@@ -13,11 +13,13 @@ from app.schema.model import Documented
 Pairs = list[tuple[str, str]]
 
 # What a study of a case varies or may choose, how often, and which output it shows.
-LOWER, UPPER, TRIALS = "low.", "high.", "trials"
+LOWER, UPPER, TRIALS, CORNER = "low.", "high.", "trials", "corner."
+UNCERTAIN = ("wall response", "pinion clearance", "wheel clearance", "friction", "offset", "thrust fraction")
 CHOSEN = 3  # ranges of a search
 STUDY_NAMES = frozenset(
     {f"{axis}{part}" for axis in ("x", "y") for part in ("", ".from", ".to", ".count", ".scale")}
     | {f"{end}{place}" for end in (LOWER, UPPER) for place in range(CHOSEN)}
+    | {f"{CORNER}{quantity.replace(' ', '_')}" for quantity in UNCERTAIN}
     | {"show", "best", TRIALS}
 )
 REPORT_NAMES = frozenset({"paper", "project", "part", "author", "checker", "notes"})

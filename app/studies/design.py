@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from contextlib import aclosing
 from dataclasses import dataclass
+from math import ceil, floor, inf
 from typing import Any
 
 from app.errors import Unprocessable
@@ -37,10 +38,18 @@ class Choice:
     leaves: tuple[Leaf, ...]
     low: float
     high: float
+    step: float | None
 
     def value(self, share: float) -> float:
         """The value at a share of the range."""
         return self.low + share * (self.high - self.low)
+
+    def rounded(self, value: float) -> float:
+        """The nearest multiple of the step inside the range, or the value itself where there is none."""
+        if self.step is None:
+            return value
+        steps = min(max(round(value / self.step), ceil(self.low / self.step)), floor(self.high / self.step))
+        return min(max(float(f"{steps * self.step:.12g}"), self.low), self.high)
 
     def header(self) -> Line:
         """The choice in the first line."""
@@ -82,7 +91,12 @@ class Design(Study):
     @property
     def total(self) -> int:
         """How many points it may have."""
-        return self.evaluations * len(self.cases)
+        return (self.evaluations + self.is_rounded) * len(self.cases)
+
+    @property
+    def is_rounded(self) -> bool:
+        """Whether the best values are rounded in the end."""
+        return any(choice.step is not None for choice in self.choices)
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
         """The header, a line for each trial, the end."""
@@ -100,21 +114,25 @@ class Design(Study):
         while place := await twice_if_lost(
             pool, next_place, self.start, [trial.figures for trial in trials], self.evaluations
         ):
-            trial = await self._trial(pool, clock, place)
+            values = (choice.value(share) for choice, share in zip(self.choices, place, strict=True))
+            trial = await self._trial(pool, clock, list(values))
             yield [{"type": "trial", "index": len(trials), **trial.content(), "worst_corner": trial.worst}]
             trials.append(trial)
             if trials[0].figures is None:
                 message = "the unit that the search starts from has no answer at its worst corner"
                 yield [clock.error("no_start", message)]
                 return
-        yield [self._end(trials, clock)]
+        best = min(trials, key=lambda trial: max(trial.figures or [inf]))
+        rounded = None
+        if self.is_rounded:
+            values = (choice.rounded(float(best.chosen[choice.leaves[0].path] or 0.0)) for choice in self.choices)
+            rounded = await self._trial(pool, clock, list(values))
+        yield [self._end(trials, best, rounded, clock)]
 
-    async def _trial(self, pool: Pool, clock: Clock, place: Sequence[float]) -> Trial:
-        """The values at a place of the unit cube, solved until a case has no solution."""
+    async def _trial(self, pool: Pool, clock: Clock, values: Sequence[float]) -> Trial:
+        """The values of the choices, solved until a case has no solution."""
         chosen: Overrides = {
-            leaf.path: choice.value(share)
-            for choice, share in zip(self.choices, place, strict=True)
-            for leaf in choice.leaves
+            leaf.path: value for choice, value in zip(self.choices, values, strict=True) for leaf in choice.leaves
         }
         objectives: list[float] = []
         runs = self.solve(pool, clock, lambda index: {**chosen, **self.cases[index]}, len(self.cases))
@@ -129,9 +147,7 @@ class Design(Study):
         worst = figures.index(max(figures))
         return Trial(chosen, objectives[worst], self.cases[worst], figures)
 
-    def _end(self, trials: list[Trial], clock: Clock) -> Line:
-        solved = [trial for trial in trials if trial.objective is not None]
-        best = min(solved, key=lambda trial: self.sign * (trial.objective or 0.0))
+    def _end(self, trials: list[Trial], best: Trial, rounded: Trial | None, clock: Clock) -> Line:
         return {
             "type": "end",
             "start": trials[0].chosen,
@@ -140,7 +156,8 @@ class Design(Study):
             "objective_best": best.objective,
             "worst_corner": best.worst,
             "evaluations": len(trials),
-            "unsolved": len(trials) - len(solved),
+            **({"rounded": {**rounded.content(), "worst_corner": rounded.worst}} if rounded else {}),
+            "unsolved": sum(trial.objective is None for trial in trials),
             "history": [trial.content() for trial in trials],
             "elapsed_s": clock.elapsed_s,
         }
@@ -159,9 +176,8 @@ def design_study(body: bytes, most: int, deadline_s: float) -> Design:
     varied = BaseRequest(calculation.request, request.request)
     choices = tuple(_choice(each, varied, f"variables.{place}") for place, each in enumerate(request.variables))
     cases = _cases(request, varied)
-    check_count(request.evaluations * len(cases), most, "evaluations")
     base = checked_base(calculation, request.request, cases[0]).model_dump()
-    return Design(
+    study = Design(
         question=Question(calculation.path, lightened(request.request, [objective.path]), [objective.path], deadline_s),
         outputs=(objective,),
         case=case_of_study(PATH, request),
@@ -171,6 +187,8 @@ def design_study(body: bytes, most: int, deadline_s: float) -> Design:
         start=tuple(_share(choice, base) for choice in choices),
         evaluations=request.evaluations,
     )
+    check_count(study.total, most, "evaluations")
+    return study
 
 
 def _choice(variable: Variable, base: BaseRequest, place: str) -> Choice:
@@ -182,7 +200,9 @@ def _choice(variable: Variable, base: BaseRequest, place: str) -> Choice:
             check_value(leaf, value, place)
     if not variable.min < variable.max:
         raise Unprocessable("variable_range", "a variable needs a range from min to max", place)
-    return Choice(leaves, variable.min, variable.max)
+    if variable.step is not None and floor(variable.max / variable.step) < ceil(variable.min / variable.step):
+        raise Unprocessable("variable_step", "no multiple of the step lies between min and max", f"{place}.step")
+    return Choice(leaves, variable.min, variable.max, variable.step)
 
 
 def _cases(request: DesignRequest, base: BaseRequest) -> list[Overrides]:

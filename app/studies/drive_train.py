@@ -18,14 +18,15 @@ COLD = "states.cold."
 BY_FILM = frozenset({"safety.minimum", "safety.thermal_ehl_feature", "safety.thermal_ehl_profile"})
 
 
-def usual_corners(request: Request) -> list[Axis]:
-    """The uncertain inputs of a unit and their values, where the user names none."""
-    axes = []
+def usual_corners(request: Request) -> dict[str, Axis]:
+    """The uncertain inputs of a unit and their values, where the user names none, by what they are."""
+    axes = {}
     for each in uncertain_inputs(request.inputs()):
         paths = [path for name in each.names if (path := field_path(request, name))]
         rows = [[_shown(path, value) for path, value in zip(paths, row, strict=True)] for row in each.values]
         alone = len(paths) == 1
-        axes.append(Axis(path=paths[0], values=[own for (own,) in rows]) if alone else Axis(path=paths, values=rows))
+        axis = Axis(path=paths[0], values=[own for (own,) in rows]) if alone else Axis(path=paths, values=rows)
+        axes[each.quantity] = axis
     return axes
 
 

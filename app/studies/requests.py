@@ -361,6 +361,10 @@ class Variable(Part):
     path: Annotated[FieldPaths, Input("field to choose", text="dotted path, or several fields of one value")]
     min: Annotated[float, Input("lower end")]
     max: Annotated[float, Input("upper end")]
+    step: Annotated[
+        float | None,
+        Input("step", text="to what the best value is rounded, which is then judged once more", gt=0, le=1e6),
+    ] = None
 
     @property
     def paths(self) -> list[str]:

@@ -128,7 +128,7 @@ def corners_study(body: bytes, most: int, deadline_s: float) -> Corners:
     outputs = chosen(calculation, request.outputs)
     ranges = request.ranges
     if ranges is None:
-        ranges = usual_corners(checked_base(calculation, request.request, {}))
+        ranges = list(usual_corners(checked_base(calculation, request.request, {})).values())
     if not ranges:
         raise Unprocessable("no_corners", "nothing is uncertain here; name what is", "ranges")
     points = grid(ranges, BaseRequest(calculation.request, request.request), min(most, MOST_CORNERS), "ranges")

@@ -24,8 +24,9 @@ QUARTERS: tuple[Callable[[float, float], tuple[float, float]], ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """Values that inputs at dotted names take together, a row for each choice."""
+    """Values that the inputs at dotted `names` take together, a row for each choice; `quantity` says what they are."""
 
+    quantity: str
     names: tuple[str, ...]
     values: tuple[tuple[float, ...], ...]
 
@@ -36,32 +37,36 @@ def uncertain_inputs(inputs: DriveTrainInputs) -> tuple[Range, ...]:
     The clearances of a shaft's two bearings move 10 % in opposite senses, for what they share does not tilt. Couplings
     move together: in all combinations of their own, two would need 2,048 runs.
     """
-    ranges = [Range(("heat.wall_response",), tuple((value,) for value in RESPONSE))] if inputs.effects.thermal else []
+    ranges = (
+        [Range("wall response", ("heat.wall_response",), tuple((value,) for value in RESPONSE))]
+        if inputs.effects.thermal
+        else []
+    )
     if inputs.effects.shafts:
-        named = (("pinion_shaft", inputs.pinion_shaft), ("wheel_shaft", inputs.wheel_shaft))
-        ranges += [_clearances(name, shaft) for name, shaft in named]
+        ranges += [_clearances("pinion", inputs.pinion_shaft), _clearances("wheel", inputs.wheel_shaft)]
     if inputs.acting_couplings:
         ranges += [
-            _together(inputs, "friction.coefficient", FRICTION),
+            _together(inputs, "friction", "friction.coefficient", FRICTION),
             _offsets(inputs),
-            _together(inputs, "thrust_fraction", THRUST),
+            _together(inputs, "thrust fraction", "thrust_fraction", THRUST),
         ]
     return tuple(one for one in ranges if one.names)
 
 
-def _clearances(name: str, shaft: Shaft) -> Range:
+def _clearances(gear: str, shaft: Shaft) -> Range:
     """Clearances of plain bearings up by a share at the first, down at the second, and the reverse."""
     plain = [(k, bearing.clearance) for k, bearing in enumerate(shaft.bearings) if isinstance(bearing, JournalBearing)]
     return Range(
-        tuple(f"{name}.bearings.{k}.radial_clearance" for k, _ in plain),
+        f"{gear} clearance",
+        tuple(f"{gear}_shaft.bearings.{k}.radial_clearance" for k, _ in plain),
         tuple(tuple(own * (1 + sign * (1 - 2 * k) * CLEARANCE) for k, own in plain) for sign in (1, -1)),
     )
 
 
-def _together(inputs: DriveTrainInputs, name: str, values: tuple[float, ...]) -> Range:
+def _together(inputs: DriveTrainInputs, quantity: str, name: str, values: tuple[float, ...]) -> Range:
     """The same values of all couplings."""
     names = tuple(f"couplings.{k}.{name}" for k in range(len(inputs.acting_couplings)))
-    return Range(names, tuple((value,) * len(names) for value in values))
+    return Range(quantity, names, tuple((value,) * len(names) for value in values))
 
 
 def _offsets(inputs: DriveTrainInputs) -> Range:
@@ -69,7 +74,7 @@ def _offsets(inputs: DriveTrainInputs) -> Range:
     given = [(k, one.offset) for k, one in enumerate(inputs.acting_couplings) if any(one.offset)]
     names = tuple(f"couplings.{k}.offset.{axis}" for k, _ in given for axis in range(2))
     turned = ([pair for _, (x, y) in given for pair in turn(x, y)] for turn in QUARTERS)
-    return Range(names, tuple(map(tuple, turned)))
+    return Range("offset", names, tuple(map(tuple, turned)))
 
 
 def no_convergence(failed: int) -> Notice:

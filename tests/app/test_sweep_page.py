@@ -379,8 +379,18 @@ def test_a_posted_study_is_the_same(client: httpx.Client) -> None:
     assert client.post(path, content=query, headers=form).content == client.get(links.view(".csv")).content
 
 
+def test_ready_questions_on_the_page_of_a_case_are_asked_of_this_case() -> None:
+    own = asked("xue-pair-3-modified")
+    page = unescape(pages.opened(SWEEP, own, MOST, DEADLINE_S).head.decode())
+    links = re.findall(r'<li><a href="([^"]+)">Which crowning forgives', page)
+    pairs, said = split_views(pairs_of_query(links[0].partition("?")[2]))
+    assert pairs == own.pairs
+    assert (said["x"], said["y"], said["x.count"]) == (SLOPE, CROWNING, "17")
+    assert total(Asked(own.path, pairs, said)) == 17 * 11
+
+
 def test_the_names_of_a_study_are_those_of_its_form() -> None:
-    varied_one, unit = asked(COUPLING, x="operation.torque_n_m"), asked("starter-generator-gear-drive-train")
+    varied_one, unit = asked(COUPLING, x="operation.torque_n_m"), asked("starter-turbo-gear-drive-train")
     forms = [pages.opened(SWEEP, varied_one, MOST, DEADLINE_S).head, pages.opened(DESIGN, unit, MOST, DEADLINE_S).head]
     found = [set(re.findall(r'<(?:input|select)\b[^>]*?\bname="([^"]+)"', form.decode())) for form in forms]
     assert set.union(*found) >= STUDY_NAMES

@@ -27,7 +27,7 @@ from tests.support.pools import InlinePool
 
 MOST, DEADLINE_S = 2500, 30.0
 UNIT = "starter-generator-gear-drive-train"
-SAFETY = "safety.blok_flank"
+SAFETY, SLOPE = "safety.blok_flank", "modifications.helix_slope_um"
 
 
 def asked(name: str = UNIT, **said: str) -> Asked:
@@ -113,24 +113,82 @@ def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> 
     end = lines[-1]
     assert end["evaluations"] == 5
     assert end["objective_best"] > end["objective_start"]
-    *grinding, judged = rows_of(page, "What to grind")
-    assert [row[2] for row in grinding] == [shown(value, 3) for value in end["best"].values()]
-    assert judged[1:3] == [shown(end["objective_start"]), shown(end["objective_best"])]
+    wanted = end["rounded"]
+    assert all((2.0 * value).is_integer() for value in wanted["at"].values())
+    sheet = rows_of(page, "What to grind")
+    assert [row[0] for row in sheet] == ["pinion", "pinion", "pinion", "wheel"]
+    assert [row[4] for row in sheet] == [shown(abs(value), 4) for value in wanted["at"].values()]
+    worst, nominal = rows_of(page, "What it brings")
+    assert worst[1:3] == [shown(end["objective_start"]), shown(wanted["objective"])]
+    before, after = dict[str, Any](), wanted["at"]
+    cases = [case_at(study.asked, at, [SAFETY]).response.safety.blok_flank for at in (before, after)]
+    assert nominal[1:3] == [shown(each) for each in cases]
+    assert ("With the inputs as described it is worse" in page) == (cases[1] < cases[0])
+    numbers = {row[0].partition(":")[0].partition(",")[0]: row[1] for row in rows_of(page, "Which number is which")}
+    estimate = case_at(study.asked, {}, [SAFETY]).response.misalignment.recommended_helix_slope_um
+    assert numbers["first estimate"] == shown(estimate, 4)
+    assert numbers["best at the worst corner"] == shown(end["best"][SLOPE], 4)
+    assert numbers["to grind"] == shown(wanted["at"][SLOPE], 4)
     result = DESIGN.result(study, lines)
+    assert list(result.figures) == ["lead", "face-load", "gap", "search"], "the search comes last"
     assert set(result.figures) == set(DESIGN.figures)
     reached = result.figures["search"].panels[0].lines[0].y.tolist()
     assert reached == [line["objective"] for line in lines if line["type"] == "trial"]
     pairs = dict(pairs_of_query(result.leads[0].address.partition("?")[2]))
-    assert {path: float(pairs[path]) for path in end["best"]} == end["best"]
+    assert {path: float(pairs[path]) for path in wanted["at"]} == wanted["at"]
     assert result.leads[2].address.startswith("/drive-train/corners?")
-    at_worst = case_at(study.asked, {**end["best"], **end["worst_corner"]}, [SAFETY]).response
-    assert at_worst.safety.blok_flank == end["objective_best"]
+    at_worst = case_at(study.asked, {**wanted["at"], **wanted["worst_corner"]}, [SAFETY]).response
+    assert at_worst.safety.blok_flank == wanted["objective"]
+
+
+def test_the_sheet_names_the_end_where_material_is_removed() -> None:
+    """The lead chart is lowest there, whatever the sign of the slope; the other end is the highest."""
+    study, lines, _ = studied(DESIGN)
+    for slope in (30.0, -30.0):
+        end = {**lines[-1], "rounded": {**lines[-1]["rounded"], "at": {**lines[-1]["rounded"]["at"], SLOPE: slope}}}
+        result = DESIGN.result(study, [*lines[:-1], end])
+        where = result.first[0].rows[0][2].text
+        low, high = (float(text) for text in re.findall(r"Z = (\d+) mm", where))
+        trace = result.figures["lead"].panels[0].lines[0]
+        assert result.first[0].rows[0][4].text == "30"
+        assert trace.x[trace.y.argmin()] == low
+        assert trace.y[trace.x == low] - trace.y[trace.x == high] == pytest.approx(-30.0)
+
+
+def test_the_best_so_far_is_shown_while_the_search_runs_and_when_it_ends_early() -> None:
+    study, lines, _ = studied(DESIGN)
+    trials = [line for line in lines if line["type"] == "trial"]
+    best = max(trials[:3], key=lambda line: line["objective"])
+    error = {"type": "error", "code": "study_deadline", "message": "the study took longer than 1 s", "done": 9}
+    for page in (pages.partial(study, lines[:4], 9), pages.whole(study, [*lines[:4], error])):
+        text = unescape(page.decode())
+        *corrections, judged = rows_of(text, "Best so far")
+        assert [row[2] for row in corrections] == [shown(value, 4) for value in best["at"].values()]
+        assert judged[1:3] == [shown(trials[0]["objective"]), shown(best["objective"])]
+        assert "Open the unit ground so" in text
+    assert "9 of " in pages.partial(study, [], 9).decode()
+
+
+def test_corners_are_those_typed_on_both_pages() -> None:
+    said = {"corner.friction": "0,1; 0.2", "corner.offset": "0 300; 300 0", "corner.pinion_clearance": "140 120"}
+    turbo = asked("starter-turbo-gear-drive-train", **said)
+    for page, part, others in ((CORNERS, "ranges", 3), (DESIGN, "corners", 1)):
+        body = page.body(turbo, pages.checked(page, turbo, MOST, DEADLINE_S).output)
+        values = {str(axis["path"]): axis["values"] for axis in body[part]}
+        assert values["couplings.0.friction.coefficient"] == [0.1, 0.2]
+        assert values["['couplings.0.offset_um.0', 'couplings.0.offset_um.1']"] == [[0, 300], [300, 0]]
+        assert [140, 120] in [each for axis in values.values() for each in axis]
+        assert len(values) == 3 + others
+        wrong = asked("starter-turbo-gear-drive-train", **{**said, "corner.friction": "0.1; 7"})
+        opened = pages.opened(page, wrong, MOST, DEADLINE_S)
+        assert opened.status == 422
+        assert '<a href="#f.corner.friction">Uncertain inputs, friction</a>' in opened.head.decode()
 
 
 def test_ranges_and_trials_come_from_the_form() -> None:
     said = {"low.0": "-10", "high.0": "20,5", "trials": "7", "show": "load.face_load_factor"}
     body = DESIGN.body(asked(**said), pages.checked(DESIGN, asked(**said), MOST, DEADLINE_S).output)
-    assert body["variables"][0] == {"path": ["modifications.helix_slope_um"], "min": -10, "max": 20.5}
+    assert body["variables"][0] == {"path": ["modifications.helix_slope_um"], "min": -10, "max": 20.5, "step": 0.5}
     assert body["variables"][1]["max"] == 20.0
     assert (body["evaluations"], body["objective"], body["direction"]) == (7, "load.face_load_factor", "minimise")
 
@@ -138,9 +196,9 @@ def test_ranges_and_trials_come_from_the_form() -> None:
 @pytest.mark.parametrize(
     ("said", "control", "title"),
     [
-        ({"trials": "many"}, "trials", "Study, corrections tried"),
-        ({"low.0": "5", "high.0": "1"}, "low.0", "Study, helix slope, from"),
-        ({"high.1": "9999999"}, "low.1", "Study, crowning, from"),
+        ({"trials": "many"}, "trials", "Search, corrections tried"),
+        ({"low.0": "5", "high.0": "1"}, "low.0", "Search, helix slope, from"),
+        ({"high.1": "9999999"}, "low.1", "Search, crowning, from"),
         ({"show": "no.such"}, "show", "Show, output"),
     ],
 )

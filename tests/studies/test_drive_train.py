@@ -166,6 +166,21 @@ def test_a_design_is_judged_at_its_worst_corner() -> None:
     assert [each["objective"] for each in end["history"]] == [trial["objective"] for trial in trials]
 
 
+def test_the_best_correction_in_whole_steps_is_judged_at_its_own_worst_corner() -> None:
+    """0.7 um is no step that a grinder uses, but tells rounding from chance."""
+    body = {"corners": [FRICTION], "objective": SAFETY, "evaluations": 3}
+    plain = lines_of(design_study, variables=[HELIX], **body)
+    stepped = lines_of(design_study, variables=[{**HELIX, "step": 0.7}], **body)
+    rounded = stepped[-1].pop("rounded")
+    assert timeless(stepped[1:]) == timeless(plain[1:])
+    best, slope = plain[-1]["best"][HELIX["path"]], rounded["at"][HELIX["path"]]
+    assert slope == pytest.approx(0.7 * round(best / 0.7), abs=1e-9)
+    cases: list[dict[str, Any]] = [{str(FRICTION["path"]): friction} for friction in (0.05, 0.25)]
+    values = [answered({str(HELIX["path"]): slope, **case}, [SAFETY])[0] for case in cases]
+    assert rounded["objective"] == min(values)
+    assert rounded["worst_corner"] == cases[int(np.argmin(values))]
+
+
 def test_trials_told_one_by_one_are_those_of_one_search() -> None:
     """A ridge, and a corner of the square without solution."""
 
@@ -305,6 +320,11 @@ REFUSED: dict[str, tuple[tuple[Planner, dict[str, Any]], str, str]] = {
     ),
     "design bounds": (search_of(variables=[{**HELIX, "max": 1e6}]), "/variables/0", "out_of_range"),
     "design range": (search_of(variables=[{**HELIX, "min": 100}]), "/variables/0", "variable_range"),
+    "design step": (
+        search_of(variables=[{**HELIX, "min": 1, "max": 2, "step": 5}]),
+        "/variables/0/step",
+        "variable_step",
+    ),
     "design none": (search_of(variables=[]), "/variables", "too_short"),
     "design twice": (search_of(variables=[HELIX, HELIX]), "/variables", "duplicate_path"),
     "design both": (search_of(corners=[axis(HELIX["path"], 1)]), "/corners", "duplicate_path"),

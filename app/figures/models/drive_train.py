@@ -179,7 +179,7 @@ def gap(_: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
         )
     )
     slopes = f"shafts {number(shafts)}, heat {number(heat, 'µm')} over the face"
-    wanted = f"grind {number(found.recommended_helix_slope_um, 'µm')} of helix slope"
+    wanted = f"first estimate of the helix slope to grind {number(found.recommended_helix_slope_um, 'µm')}"
     return Figure(f"{slopes}; {wanted}", (Panel(x=FACE, y=axis, lines=lines),))
 
 

@@ -231,6 +231,7 @@ async def run_design(
     """COBYQA from the request's own correction, each judged at every operating point and corner.
 
     The objective of a correction is that of its worst corner. `safety.minimum` counts the thermal film, a second a
-    corner; with `safety.blok_flank`, or `model.lubrication` in closed form, the search is twenty times as fast.
+    corner; with `safety.blok_flank`, or `model.lubrication` in closed form, the search is twenty times as fast. Where
+    variables have a `step`, `rounded` in the end is the best correction in whole steps, judged like the others.
     """
     return await started(http, design.design_study)

@@ -10,25 +10,90 @@ from app.figures.studies import Uncertain, corners
 from app.figures.wording import listed, number
 from app.pages import study_links
 from app.pages.cases import Case
-from app.pages.query import body_of
-from app.pages.studies.declaration import Cell, Lead, PageStudy, Result, StudyPage, Table, address_at, case_at
+from app.pages.query import CORNER, UNCERTAIN, body_of, number_of, text_of
+from app.pages.studies.declaration import (
+    Cell,
+    Controls,
+    Form,
+    Lead,
+    PageStudy,
+    Result,
+    StudyPage,
+    Table,
+    address_at,
+    case_at,
+)
 from app.pages.typesetting import shown
-from app.pages.views import Asked
+from app.pages.views import REFUSED, Asked
 from app.schema.fields import Leaf, headlines
-from app.studies.drive_train import needs_film_or_state
+from app.studies.drive_train import needs_film_or_state, usual_corners
 from app.studies.fields import scalar_at, value_at
 from app.studies.requests import USUAL_RANGES, Overrides
 from app.studies.stream import Line
+from app.studies.study import checked_base
 from app.studies.sweep import corners_study
 
 OUTPUT = "safety.blok_flank"
 
 
+def ranges_of(asked: Asked, left_alone: tuple[str, ...] = ()) -> dict[str, dict[str, Any]]:
+    """The values of the uncertain inputs as typed, else the usual ones, by the names of their controls.
+
+    Those of `left_alone` are as in the case where nothing is typed. A case that is refused has none.
+    """
+    calculation = asked.calculation
+    try:
+        usual = usual_corners(checked_base(calculation, body_of(calculation.request, asked.pairs), {}))
+    except REFUSED:
+        return {}
+    found = {}
+    for quantity, axis in usual.items():
+        name = control_of(quantity)
+        if text := asked.views.get(name):
+            rows = [[number_of(each) for each in row.split()] for row in text.split(";")]
+            found[name] = {"path": axis.path, "values": [row[0] if len(row) == 1 else row for row in rows]}
+        elif quantity not in left_alone:
+            found[name] = axis.model_dump(exclude_none=True)
+    return found
+
+
+def control_of(quantity: str) -> str:
+    """The name of the control of an uncertain input."""
+    return f"{CORNER}{quantity.replace(' ', '_')}"
+
+
+def range_controls(form: Form, left_alone: tuple[str, ...] = ()) -> Controls:
+    """A field for the values of each uncertain input."""
+    bare = replace(form.asked, views={})
+    usual, ranges = ranges_of(bare), ranges_of(bare, left_alone)
+    request = form.asked.calculation.request
+    fields = []
+    for quantity in UNCERTAIN:
+        name = control_of(quantity)
+        if axis := usual.get(name):
+            path = axis["path"] if isinstance(axis["path"], str) else axis["path"][0]
+            unit = scalar_at(request, path, "", "unknown_path").unit or ""
+            text = _text(axis["values"]) if name in ranges else "as in the case"
+            fields.append(form.field(name, quantity, text, unit))
+    about = "Values with semicolons between; blanks between inputs that move together."
+    return Controls("Uncertain inputs", fields=tuple(fields), about=about)
+
+
+def _text(rows: list[Any]) -> str:
+    """Values as they are typed: choices with semicolons between, blanks between inputs that move together."""
+    return "; ".join(" ".join(map(text_of, row)) if isinstance(row, list) else text_of(row) for row in rows)
+
+
+def _controls(form: Form) -> tuple[Controls, ...]:
+    return (range_controls(form),)
+
+
 def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
-    """The usual corners, and beside the output what decides and costs no film."""
+    """The corners as typed or usual, and beside the output what decides and costs no film."""
     deciding = [leaf.path for leaf in headlines(asked.calculation.response) if not needs_film_or_state(leaf.path)]
     return {
         "request": body_of(asked.calculation.request, asked.pairs),
+        "ranges": list(ranges_of(asked).values()) or None,
         "outputs": list(dict.fromkeys([output.path, *deciding])),
     }
 
@@ -160,4 +225,6 @@ CORNERS = StudyPage(
     plan=corners_study,
     result=_result,
     output=OUTPUT,
+    controls=_controls,
+    ranges=ranges_of,
 )

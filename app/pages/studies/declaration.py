@@ -5,14 +5,12 @@ from dataclasses import dataclass, field
 from itertools import groupby
 from typing import Any, NamedTuple
 
-from app.calculations import Calculation
 from app.figures.data import Figure
 from app.pages.cases import Case, solved
 from app.pages.form import FieldView
 from app.pages.links import LONGEST_QUERY, examples_of
 from app.pages.query import STUDY_NAMES, Pairs, body_of, link, pairs_of, text_of
 from app.pages.study_links import StudyLink
-from app.pages.templating import page_path
 from app.pages.typesetting import symbol
 from app.pages.views import Asked
 from app.schema.fields import Leaf
@@ -90,11 +88,12 @@ class Menu:
 
 
 class Controls(NamedTuple):
-    """A group of the controls of a study's form."""
+    """A group of the controls of a study's form; with a text on how to fill them in, each takes a line."""
 
     title: str
     menu: Menu | None = None
     fields: tuple[FieldView, ...] = ()
+    about: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,13 +120,13 @@ class Form:
         unit: str = "",
         options: tuple[tuple[str, str], ...] = (),
     ) -> FieldView:
-        """A number with what stands for it where it is left empty, or a choice of a few options."""
+        """What is typed, with what stands for it where it is left empty; or a choice of a few options."""
         return FieldView(
             name=name,
             label=label,
             symbol=symbol(None),
             unit=unit,
-            widget="select" if options else "number",
+            widget="select" if options else "text" if isinstance(usual, str) else "number",
             text=self.asked.views.get(name, ""),
             placeholder="" if usual is None else text_of(usual),
             options=options,
@@ -177,7 +176,7 @@ class Starter(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """What a page shows of the lines of a study; figures by their names.
+    """What a page shows of the lines of a study: the `first` tables, figures by their names, more tables.
 
     `script` is JSON for the script of the page, with which a click into the first figure opens the case of a point.
     """
@@ -188,6 +187,7 @@ class Result:
     remarks: tuple[str, ...] = ()
     leads: tuple[Lead, ...] = ()
     script: str = ""
+    first: tuple[Table, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,14 +209,19 @@ def _no_controls(_: Form) -> tuple[Any, ...]:
     return ()
 
 
+def _no_ranges(_: Asked) -> dict[str, Any]:
+    return {}
+
+
 def _complete(_: Asked) -> bool:
     return True
 
 
-def starting_from_examples(page: "StudyPage", calculation: Calculation) -> list[Starter]:
-    """The study of every example."""
-    below = f"{page_path(calculation)}/{page.link.name}"
-    return [Starter(each.title, each.source, link(below, pairs_of(each.request))) for each in examples_of(calculation)]
+def starting_from_examples(page: "StudyPage", asked: Asked) -> list[Starter]:
+    """The study of every example; a case of one's own needs none."""
+    below = f"{asked.path}/{page.link.name}"
+    examples = () if asked.pairs else examples_of(asked.calculation)
+    return [Starter(each.title, each.source, link(below, pairs_of(each.request))) for each in examples]
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,9 +230,10 @@ class StudyPage:
 
     `output` is the path of the one shown when none is chosen, else the first headline. `body` makes what the study's
     endpoint is asked, `plan` checks it; `controls` are what the form has beside the output, and `shows` beside the
-    menu of outputs. `result` is what the page shows of the lines of a study; with `grows` also of those that have come
-    while it runs, else only how far it is. `complete` says whether all is chosen that the study needs, else `choose`
-    asks for it. `figures` names all that there may be, `files` the forms in which the lines are offered.
+    menu of outputs; `ranges` are the values of the uncertain inputs, by the names of their controls. `result` is what
+    the page shows of the lines of a study; with `grows` also of those that have come while it runs, else only how far
+    it is. `complete` says whether all is chosen that the study needs, else `choose` asks for it. `figures` names all
+    that there may be, `files` the forms in which the lines are offered.
     """
 
     link: StudyLink
@@ -241,9 +247,10 @@ class StudyPage:
     controls: Callable[[Form], tuple[Controls, ...]] = _no_controls
     shows: Callable[[Form], tuple[FieldView, ...]] = _no_controls
     grows: bool = False
+    ranges: Callable[[Asked], dict[str, Any]] = _no_ranges
     complete: Callable[[Asked], bool] = _complete
     choose: str = ""
-    starters: Callable[["StudyPage", Calculation], list[Starter]] = starting_from_examples
+    starters: Callable[["StudyPage", Asked], list[Starter]] = starting_from_examples
     files: tuple[str, ...] = ("ndjson",)
 
 

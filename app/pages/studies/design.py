@@ -1,17 +1,16 @@
-"""Design: the flank correction whose worst corner is best, beside that of the case."""
+"""Design: the flank correction whose worst corner is best, as a sheet for the grinder, and how it was found."""
 
-from dataclasses import dataclass
 from math import inf
-from typing import Any
+from typing import Any, NamedTuple
 
 from app.figures.comparison import compared
-from app.figures.data import Axis, Figure, NoFigure
+from app.figures.data import Axis, Figure, NoFigure, values
 from app.figures.models.drive_train import GAP
-from app.figures.studies import Tried, search
+from app.figures.studies import LeadTrace, Tried, lead_chart, search
 from app.pages import study_links
 from app.pages.cases import Case
 from app.pages.query import LOWER, TRIALS, UPPER, body_of, number_of, text_of
-from app.pages.studies.corners import OUTPUT, corner_table, load_figure, worst_end
+from app.pages.studies.corners import OUTPUT, corner_table, load_figure, range_controls, ranges_of, worst_end
 from app.pages.studies.declaration import (
     Cell,
     Controls,
@@ -28,17 +27,18 @@ from app.pages.typesetting import shown
 from app.pages.views import Asked
 from app.schema.fields import Leaf
 from app.studies.design import design_study
-from app.studies.drive_train import usual_corners
 from app.studies.fields import scalar_at, value_at
+from app.studies.requests import Overrides
 from app.studies.stream import Line
-from app.studies.study import checked_base
 
 EVALUATIONS = 40
-LEFT_ALONE = ("radial_clearance_um", "thrust_fraction")  # of the usual corners, for they say least
+STEP_UM = 0.5  # to which a correction is rounded
+LEFT_ALONE = ("pinion clearance", "wheel clearance", "thrust fraction")  # of the uncertain inputs, for they say least
+SLOPE, CROWNING = "modifications.helix_slope_um", "modifications.lead_crowning_um"
+TIP, ROOT = "modifications.tip_relief_um", "modifications.root_relief_um"
 
 
-@dataclass(frozen=True, slots=True)
-class Ground:
+class Ground(NamedTuple):
     """What may be ground: fields of one value, and the range searched when none is given."""
 
     label: str
@@ -49,79 +49,230 @@ class Ground:
 
 
 GROUND = (
-    Ground("helix slope", ("modifications.helix_slope_um",), -100.0, 100.0),
-    Ground("crowning", ("modifications.lead_crowning_um",), 0.0, 20.0),
-    Ground("relief at tip and root", ("modifications.tip_relief_um", "modifications.root_relief_um"), 0.0, 30.0),
+    Ground("helix slope", (SLOPE,), -100.0, 100.0),
+    Ground("crowning", (CROWNING,), 0.0, 20.0),
+    Ground("relief at tip and root", (TIP, ROOT), 0.0, 30.0),
 )
 
 
+def _ranges(asked: Asked) -> dict[str, dict[str, Any]]:
+    return ranges_of(asked, LEFT_ALONE)
+
+
 def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
-    """The ranges as typed or usual, at the usual corners of heat and couplings."""
-    calculation, said = asked.calculation, asked.views
-    request = body_of(calculation.request, asked.pairs)
-    axes = usual_corners(checked_base(calculation, request, {}))
-    chosen = [axis for axis in axes if not str(axis.paths[0]).endswith(LEFT_ALONE)]
+    """The ranges as typed or usual, at the corners as typed or the usual ones of heat and couplings."""
+    views = asked.views
     return {
-        "request": request,
+        "request": body_of(asked.calculation.request, asked.pairs),
         "variables": [
             {
                 "path": list(each.paths),
-                "min": number_of(said.get(f"{LOWER}{place}", text_of(each.low))),
-                "max": number_of(said.get(f"{UPPER}{place}", text_of(each.high))),
+                "min": number_of(views.get(f"{LOWER}{place}", text_of(each.low))),
+                "max": number_of(views.get(f"{UPPER}{place}", text_of(each.high))),
+                "step": STEP_UM,
             }
             for place, each in enumerate(GROUND)
         ],
-        "corners": [axis.model_dump(exclude_none=True) for axis in chosen] or None,
+        "corners": list(_ranges(asked).values()) or None,
         "objective": output.path,
         "direction": "maximise" if worst_end(output) == "min" else "minimise",
-        "evaluations": number_of(said.get(TRIALS, str(EVALUATIONS))),
+        "evaluations": number_of(views.get(TRIALS, str(EVALUATIONS))),
     }
 
 
 def _controls(form: Form) -> tuple[Controls, ...]:
-    """Ranges of what may be ground, and how many corrections are tried."""
+    """Ranges of what may be ground, how many corrections are tried, and the uncertain inputs."""
     fields = [form.field(TRIALS, "corrections tried", EVALUATIONS)]
     for place, each in enumerate(GROUND):
         fields.append(form.field(f"{LOWER}{place}", f"{each.label}, from", each.low, each.unit))
         fields.append(form.field(f"{UPPER}{place}", f"{each.label}, to", each.high, each.unit))
-    return (Controls("Study", fields=tuple(fields)),)
+    return Controls("Search", fields=tuple(fields)), range_controls(form, LEFT_ALONE)
 
 
 def _result(study: PageStudy, lines: list[Line]) -> Result:
-    """The search, the load before and after at the worst corner, the gap that is left, all in numbers."""
-    end, output, asked = lines[-1], study.output, study.asked
+    """The sheet, what it brings, which number is which; the load and the gap; the search."""
     trials = [line for line in lines if line["type"] == "trial"]
-    best, start = end["best"], trials[0]["worst_corner"]
-    outputs = [output.path]
+    solved = [line for line in trials if line["objective"] is not None]
+    if not solved:
+        return Result("")
+    end, output, asked = lines[-1], study.output, study.asked
+    greatest = worst_end(output) == "min"
+    tried = [
+        Tried(inf if line["objective"] is None else line["objective"], line["objective"] is not None) for line in trials
+    ]
+    figure = {"search": search(Axis(output.title, output.unit), tried, greatest=greatest)}
+    if end["type"] != "end":
+        best = (max if greatest else min)(solved, key=lambda line: line["objective"])
+        lead = Lead("Open the unit ground so", address_at(asked, best["at"]))
+        return Result("", figure, first=(_so_far(study, solved[0], best),), leads=(lead,))
+    wanted = (
+        end["rounded"]
+        if end["rounded"]["objective"] is not None
+        else {"at": end["best"], "objective": end["objective_best"], "worst_corner": end["worst_corner"]}
+    )
+    at, corner, outputs = wanted["at"], wanted["worst_corner"], [output.path]
+    case, ground = case_at(asked, {}, outputs), case_at(asked, at, outputs)
     figures = {
-        "search": search(Axis(output.title, output.unit), _tried(trials), greatest=worst_end(output) == "min"),
+        "lead": _lead_chart(case, at),
         **load_figure(
-            case_at(asked, {**best, **end["worst_corner"]}, outputs),
-            case_at(asked, start, outputs),
+            case_at(asked, {**at, **corner}, outputs),
+            case_at(asked, trials[0]["worst_corner"], outputs),
             "ground so",
             "each at its worst corner, dashed as described: ",
         ),
+        **_gap(ground, case),
+        **figure,
     }
-    case, ground = case_at(asked, {}, outputs), case_at(asked, best, outputs)
-    figures |= _gap(ground, case)
-    remarks = [f"{end['unsolved']} of the corrections had a corner without solution."] if end["unsolved"] else []
+    unsolved = end["unsolved"]
     return Result(
         f"{end['evaluations']} corrections at {lines[0]['corners']} corners in {shown(end['elapsed_s'], 2)} s",
         figures,
-        (_grinding(study, end, case), corner_table("Where it is worst then", asked, ground, end["worst_corner"])),
-        tuple(remarks),
+        (_numbers(case, end, at), corner_table("The worst corner with this correction", asked, ground, corner)),
+        (f"{unsolved} of the corrections had a corner without solution.",) if unsolved else (),
         (
-            Lead("Open the unit ground so", address_at(asked, best)),
-            Lead("Its report", address_at(asked, best, "/report")),
-            Lead("Its worst corners", address_at(asked, best, f"/{study_links.CORNERS.name}")),
+            Lead("Open the unit ground so", address_at(asked, at)),
+            Lead("Its report", address_at(asked, at, "/report")),
+            Lead("Its worst corners", address_at(asked, at, f"/{study_links.CORNERS.name}")),
         ),
+        first=(_sheet(study, case, at), _before_and_after(study, end, wanted, case, ground)),
     )
 
 
-def _tried(trials: list[Line]) -> list[Tried]:
-    return [
-        Tried(inf if line["objective"] is None else line["objective"], line["objective"] is not None) for line in trials
+def _so_far(study: PageStudy, start: Line, best: Line) -> Table:
+    """The best correction found, before the search has ended."""
+    rows: list[tuple[Cell, ...]] = [
+        (
+            Cell(leaf.title),
+            Cell(shown(start["at"][path], 4), right=True),
+            Cell(shown(value, 4), right=True),
+            _unit(leaf),
+        )
+        for path, value in best["at"].items()
+        for leaf in [_leaf(study, path)]
     ]
+    output = study.output
+    judged = (shown(start["objective"]), shown(best["objective"]))
+    rows.append(
+        (Cell(f"{output.title}, at the worst corner"), *(Cell(each, right=True) for each in judged), _unit(output))
+    )
+    head = (Cell("correction"), Cell("as described", right=True), Cell("best so far", right=True), Cell("unit"))
+    return Table("Best so far", head, tuple(rows))
+
+
+def _leaf(study: PageStudy, path: str) -> Leaf:
+    return scalar_at(study.asked.calculation.request, path, "", "unknown_path")
+
+
+def _unit(leaf: Leaf) -> Cell:
+    return Cell(leaf.unit or "")
+
+
+def _ends(case: Case) -> tuple[str, str]:
+    """What the end of the face that meshes first and the one that leaves the mesh last are called."""
+    first, last = (case.response.misalignment.curves.z_mm[end] for end in (0, -1))
+    drive = case.request.pinion_shaft.torque_position_mm
+    if drive is None:
+        return f"end at Z = {shown(first)} mm", f"end at Z = {shown(last)} mm"
+    sides = ("drive end", "free end") if abs(first - drive) < abs(last - drive) else ("free end", "drive end")
+    return f"{sides[0]} (Z = {shown(first)} mm)", f"{sides[1]} (Z = {shown(last)} mm)"
+
+
+def _sheet(study: PageStudy, case: Case, at: Overrides) -> Table:
+    """What to grind: gear, place, amount and tolerance."""
+    first, last = _ends(case)
+    slope = float(at[SLOPE] or 0.0)
+    deep, high = (last, first) if slope >= 0.0 else (first, last)
+    entries = (
+        (SLOPE, "pinion", "helix slope, over the face width", f"{deep} deeper than the {high}, straight between"),
+        (CROWNING, "pinion", "helix crowning", "both ends deeper than the middle of the face"),
+        (TIP, "pinion", f"tip relief{_length(case, TIP)}", "tip deeper than the involute"),
+        (ROOT, "wheel", f"tip relief{_length(case, ROOT)}", "tip deeper than the involute"),
+    )
+    rows = []
+    for path, gear, feature, place in entries:
+        leaf, described = _leaf(study, path), float(value_at(case.response.inputs, path) or 0.0)
+        amount = abs(slope) if path == SLOPE else at[path]
+        if path == SLOPE and slope < 0.0:
+            described = -described
+        numbers = (shown(described), shown(amount, 4), f"± {shown(leaf.declared.tolerance)}")
+        rows.append(
+            (Cell(gear), Cell(feature), Cell(place), *(Cell(each, right=True) for each in numbers), _unit(leaf))
+        )
+    head = (
+        *(Cell(text) for text in ("gear", "correction", "where")),
+        *(Cell(text, right=True) for text in ("as described", "grind", "tolerance")),
+        Cell("unit"),
+    )
+    note = (
+        f"Working flanks only; deeper: more material removed. Multiples of {STEP_UM:g} µm; tolerances are those usual "
+        "for these corrections. Helix slope and crowning are the sum of both gears, here all on the pinion; tip relief "
+        "of the wheel stands for root relief of the pinion."
+    )
+    return Table("What to grind", head, tuple(rows), note)
+
+
+def _length(case: Case, path: str) -> str:
+    """How far a relief reaches, where the case says it."""
+    length = value_at(case.response.inputs, path.replace("_um", "_length_mm"))
+    return "" if length is None else f", {shown(length)} mm along the line of action"
+
+
+def _before_and_after(study: PageStudy, end: Line, wanted: Line, case: Case, ground: Case) -> Table:
+    """The output at the worst corner and at the values as described, before and after, and why the latter may fall."""
+    output = study.output
+    nominal = [value_at(each.response, output.path) for each in (case, ground)]
+    rows = tuple(
+        (Cell(name), *(Cell(shown(each), right=True) for each in numbers), _unit(output))
+        for name, numbers in (
+            ("at the worst corner of each", (end["objective_start"], wanted["objective"])),
+            ("with the inputs as described", nominal),
+        )
+    )
+    head = (Cell(output.title), Cell("as described", right=True), Cell("ground so", right=True), Cell("unit"))
+    note = ""
+    if None not in nominal and (nominal[1] < nominal[0]) == (worst_end(output) == "min") and nominal[1] != nominal[0]:
+        note = (
+            "With the inputs as described it is worse than before: the correction is sized for the corner that is "
+            "worst for it, and a flank that is right there is not quite right elsewhere."
+        )
+    return Table("What it brings", head, rows, note)
+
+
+def _numbers(case: Case, end: Line, at: Overrides) -> Table:
+    """Which helix slope and crowning stand on the pages of this unit, and what each is."""
+    found = case.response.misalignment
+    inputs = case.response.inputs
+    rows = (
+        ("as described", (value_at(inputs, SLOPE), value_at(inputs, CROWNING))),
+        (
+            "first estimate: inputs as described, load spread evenly over the face",
+            (found.recommended_helix_slope_um, found.recommended_lead_crowning_um),
+        ),
+        ("best at the worst corner, as the search found it", (end["best"][SLOPE], end["best"][CROWNING])),
+        (f"to grind: the best in multiples of {STEP_UM:g} µm", (at[SLOPE], at[CROWNING])),
+    )
+    head = (Cell("number"), Cell("helix slope, µm", right=True), Cell("helix crowning, µm", right=True))
+    return Table(
+        "Which number is which",
+        head,
+        tuple((Cell(name), *(Cell(shown(each, 4), right=True) for each in numbers)) for name, numbers in rows),
+        "A positive helix slope removes material at the end of the face that leaves the mesh last.",
+    )
+
+
+def _lead_chart(case: Case, at: Overrides) -> Figure:
+    """The trace of helix slope and crowning with its tolerances, dashed as described."""
+    curves, request = case.response.misalignment.curves, case.calculation.request
+    tolerances = [scalar_at(request, path, "", "unknown_path").declared.tolerance for path in (SLOPE, CROWNING)]
+    position = values(curves.position_mm)
+    trace = LeadTrace(
+        values(curves.z_mm),
+        values(position / position[-1]),
+        *(float(at[path] or 0.0) for path in (SLOPE, CROWNING)),
+        *(each or 0.0 for each in tolerances),
+    )
+    before = [float(value_at(case.response.inputs, path) or 0.0) for path in (SLOPE, CROWNING)]
+    return lead_chart(trace, (before[0], before[1]), _ends(case))
 
 
 def _gap(ground: Case, case: Case) -> dict[str, Figure]:
@@ -133,43 +284,17 @@ def _gap(ground: Case, case: Case) -> dict[str, Figure]:
     return {GAP.name: compared(own, given, "as described")}
 
 
-def _grinding(study: PageStudy, end: Line, case: Case) -> Table:
-    """What to grind instead of what, and what it brings."""
-    request = study.asked.calculation.request
-    output, best = study.output, end["best"]
-    rows = [
-        (
-            Cell(leaf.title),
-            Cell(shown(_given(case, leaf.path)), right=True),
-            Cell(shown(best[leaf.path], 3), right=True),
-            Cell(leaf.unit or ""),
-        )
-        for leaf in (scalar_at(request, path, "", "unknown_path") for path in best)
-    ]
-    judged = (
-        Cell(f"{output.title}, at the worst corner of each"),
-        Cell(shown(end["objective_start"]), right=True),
-        Cell(shown(end["objective_best"]), right=True),
-        Cell(output.unit or ""),
-    )
-    head = (Cell("grind"), Cell("as described", right=True), Cell("proposed", right=True), Cell("unit"))
-    return Table("What to grind", head, (*rows, judged))
-
-
-def _given(case: Case, path: str) -> float | None:
-    value: float | None = value_at(case.response.inputs, path)
-    return value
-
-
 DESIGN = StudyPage(
     link=study_links.DESIGN,
     question="what to grind?",
-    about="A search for helix slope, crowning and relief, each judged at its worst corner of wall response, friction "
-    "and direction of the couplings' offset. It starts from the correction of the case.",
-    figures=("search", "face-load", GAP.name),
+    about="A search for helix slope, crowning and relief, each judged at its worst corner of the uncertain inputs. It "
+    "starts from the correction of the case.",
+    figures=("lead", "face-load", GAP.name, "search"),
     body=_body,
     plan=design_study,
     result=_result,
     output=OUTPUT,
     controls=_controls,
+    ranges=_ranges,
+    grows=True,
 )

@@ -1,6 +1,7 @@
 """The page of a study before, while and after its lines come, and its figures as files; runs in workers."""
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from app.calculations import Calculation
@@ -41,7 +42,8 @@ def opened(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Opene
     try:
         study = checked(page, asked, most, deadline_s) if asked.pairs and page.complete(asked) else None
     except REFUSED as error:
-        faults = [Fault(field_at_fault(each.path), each.message) for each in faults_of(error)]
+        controls = list(page.ranges(asked))
+        faults = [Fault(field_at_fault(each.path, controls), each.message) for each in faults_of(error)]
         status = 400 if isinstance(error, Unreadable) else 422
         return Opened(_page(page, asked, None, faults).encode(), status=status)
     head, _, tail = _page(page, asked, study, []).partition(FRAMES)
@@ -59,8 +61,11 @@ def _output(page: StudyPage, calculation: Calculation, views: dict[str, str]) ->
     return output_at(calculation, views.get("show", page.output))
 
 
-def field_at_fault(path: str) -> str:
-    """The control of the form that a path into the study means; a field of the case keeps its own name."""
+def field_at_fault(path: str, ranges: Sequence[str] = ()) -> str:
+    """The control of the form that a path into the study means; a field of the case keeps its own name.
+
+    `ranges` are the controls of the uncertain inputs in their order.
+    """
     head, _, rest = path.partition(".")
     place, _, part = rest.partition(".")
     match head:
@@ -68,16 +73,14 @@ def field_at_fault(path: str) -> str:
             name = AXES[int(place)] if place in {"0", "1"} else "x"
             known = {"path": "", "stop": ".to", "count": ".count", "scale": ".scale"}
             return name + (known.get(part, ".from") if place else ".count")
+        case "ranges" | "corners" if ranges:
+            return ranges[int(place) if place else 0]
         case "variables":
             return f"{UPPER if part == 'max' else LOWER}{place}"
-        case "evaluations":
-            return TRIALS
-        case "outputs" | "objective":
-            return "show"
         case "request":
             return rest
         case _:
-            return path
+            return {"evaluations": TRIALS, "outputs": "show", "objective": "show"}.get(head, path)
 
 
 def _page(page: StudyPage, asked: Asked, study: PageStudy | None, faults: list[Fault]) -> str:
@@ -101,7 +104,7 @@ def _page(page: StudyPage, asked: Asked, study: PageStudy | None, faults: list[F
         refused=bool(faults),
         theme=asked.views.get("theme", ""),
         study=study,
-        starters=page.starters(page, calculation),
+        starters=[] if study or faults else page.starters(page, asked),
         frames=FRAMES,
     )
 
