@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
 from itertools import groupby
 from typing import Any, Literal
@@ -9,7 +10,7 @@ from typing import Any, Literal
 from markupsafe import Markup
 
 from app.pages.query import MATRIX, PICK, PRESENT, SIDE, text_of
-from app.pages.typesetting import symbol, words
+from app.pages.typesetting import cited, symbol, words
 from app.schema.base import Request
 from app.schema.fields import ITEM, Branch, Leaf, tree
 from app.schema.quantities import split_unit
@@ -24,7 +25,7 @@ class State:
     texts: Mapping[str, str] = field(default_factory=dict)
     faults: Mapping[str, str] = field(default_factory=dict)
     resolved: Mapping[str, Any] = field(default_factory=dict)
-    assumed: Mapping[str, str] = field(default_factory=dict)
+    assumed: AbstractSet[str] = frozenset()
 
     def given(self, prefix: str) -> int:
         """How many fields below a path were typed."""
@@ -83,7 +84,7 @@ def field_view(leaf: Leaf, name: str, state: State, column: str = "") -> FieldVi
         options=tuple(_options(leaf, state.texts.get(name, ""))),
         required=leaf.required,
         assumed=name in state.assumed,
-        help=tuple(_help(leaf, name, state)),
+        help=tuple(map(cited, _help(leaf, name, state))),
         fault=state.faults.get(name),
         column=column,
         excludes=_excludes(leaf, name),
@@ -112,7 +113,7 @@ def _placeholder(leaf: Leaf, name: str, state: State) -> str:
     if value is not None and value != []:
         return f"{value:.6g}" if isinstance(value, float) else text_of(value)
     if leaf.declared.default_text:
-        return leaf.declared.default_text
+        return cited(leaf.declared.default_text)
     return "paste a column" if leaf.dimensions else ""
 
 
@@ -123,7 +124,7 @@ def _options(leaf: Leaf, text: str) -> list[tuple[str, str]]:
     default = text_of(leaf.default) if leaf.default is not None else None
     shown = [(str(value), f"{label} (default)" if str(value) == default else label) for value, label in named]
     known = {value for value, _ in shown}
-    empty = [] if default in known else [("", leaf.declared.default_text or "choose …")]
+    empty = [] if default in known else [("", cited(leaf.declared.default_text or "choose …"))]
     strange = [(text, text)] if text and text not in known else []
     return [
         *empty,

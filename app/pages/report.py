@@ -1,6 +1,7 @@
 """What a report says beside the result: names, date, every input with where it comes from, how to repeat it."""
 
 import json
+import re
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
@@ -9,20 +10,21 @@ from markupsafe import Markup
 
 from app.pages.cases import Case
 from app.pages.manual import method_of
-from app.pages.results import flattened
-from app.pages.typesetting import shown, symbol
+from app.pages.results import flattened, resolved
+from app.pages.typesetting import cited, shown, symbol
 from app.schema.fields import leaf_at
 
 NAMES = ("project", "part", "author", "checker", "notes")
 LONGEST_TEXT = 200
 LONGEST_LINK = 240  # as text; what it leads to is the whole
 SIDE_BY_SIDE = 4  # items of a list
+_element = re.compile(r"(\.\d+){1,2}$")  # of a list or a matrix of numbers
 PAPERS = {"a4": "A4", "letter": "letter"}
 
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """The value of an input: `origin` is given, assumed or default."""
+    """The value of an input; `origin` is given, assumed, derived, default or not given."""
 
     value: str
     origin: str
@@ -71,22 +73,23 @@ def context(case: Case, views: dict[str, str], endpoint: str, link: str) -> dict
 
 
 def _inputs(case: Case) -> list[Table]:
-    """Every input by section, in the order of the schema."""
-    given = set(flattened(case.request.model_dump(exclude_unset=True)))
-    assumed = {each.field for each in case.response.assumptions}
+    """Every input with the value used and where it comes from, by section in the order of the schema."""
+    typed = {_element.sub("", name) for name, _ in case.pairs}
+    assumed = {each.field: each.value for each in case.response.assumptions}
+    used = resolved(case.response) | assumed
     sections: dict[str, dict[str, Row]] = {}
-    for path, value in flattened(case.response.inputs).items():
-        leaf = leaf_at(type(case.request), path)
-        if leaf is None or (value is None and leaf.exclusive):
+    for path, stated in flattened(case.response.inputs).items():
+        leaf, value = leaf_at(type(case.request), path), used[path]
+        if leaf is None or (value is None and (leaf.exclusive or not leaf.declared.default_text)):
             continue
-        origin = "given" if path in given else "assumed" if path in assumed else "default"
-        text = _text(value)
-        if value is None and leaf.declared.default_text:
-            text = leaf.declared.default_text
         section, index, name = _place(path)
         row = Row(leaf.title.partition(",")[0], symbol(leaf.declared.symbol), leaf.unit or "", {})
         cells = sections.setdefault(section, {}).setdefault(name, row).cells
-        cells[index] = Cell(f"{text} {row.unit}" if value is not None and row.unit else text, origin)
+        if value is None:
+            cells[index] = Cell(cited(leaf.declared.default_text or ""), "not given")
+            continue
+        origin = "assumed" if path in assumed else "derived" if stated is None else "default"
+        cells[index] = Cell(f"{_text(value)} {row.unit}".rstrip(), "given" if path in typed else origin)
     return [table for title, rows in sections.items() for table in _tables(title, tuple(rows.values()))]
 
 

@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 
 from markupsafe import Markup
 
-from app.pages.typesetting import percent_change, shown, symbol, words
+from app.pages.typesetting import cited, percent_change, shown, symbol, words
+from app.schema.base import Assumption, Response
 from app.schema.fields import Branch, Leaf, headlines, leaf_at, tree
 from app.schema.model import Documented
 
@@ -36,6 +37,17 @@ class Row:
     description: str
     before: str = ""
     change: str = ""
+
+
+class Assumed(NamedTuple):
+    """A default that is ours: the field, the value used with its unit, and why."""
+
+    path: str
+    title: str
+    symbol: Markup
+    value: str
+    unit: str
+    reason: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +106,7 @@ def _row(entry: Entry, known: dict[str, Any]) -> Row:
         _text(entry.value),
         (leaf.unit or "") if entry.value is not None else "",
         entry.path,
-        leaf.description,
+        cited(leaf.description),
         _text(old) if known else "",
         change(entry.value, old) if known else "",
     )
@@ -128,6 +140,29 @@ def flattened(content: Any, prefix: str = "") -> dict[str, Any]:
             for path, value in flattened(inner, f"{prefix}.{index}").items()
         }
     return {prefix: content}
+
+
+def resolved(response: Response) -> dict[str, Any]:
+    """What every input stands for: the inputs with their defaults, and what was derived for the empty ones."""
+    derived = flattened(response.derived.model_dump()) if response.derived else {}
+    found = flattened(response.inputs)
+    for path, value in found.items():
+        if value is None:
+            found[path] = derived.get(path, derived.get(path.rpartition(".")[2]))
+    return found
+
+
+def assumptions(request: type[Documented], response: Response) -> list[Assumed]:
+    """The defaults that the answer used and that are ours."""
+    return [_assumed(each, leaf_at(request, each.field)) for each in response.assumptions]
+
+
+def _assumed(each: Assumption, leaf: Leaf | None) -> Assumed:
+    reason = cited(each.reason)
+    if leaf is None:
+        return Assumed(each.field, each.field, Markup(""), _text(each.value), "", reason)
+    unit = (leaf.unit or "") if isinstance(each.value, int | float | list) else ""
+    return Assumed(each.field, leaf.title, symbol(leaf.declared.symbol), _text(each.value), unit, reason)
 
 
 DIGITS = 3

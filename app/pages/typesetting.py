@@ -9,7 +9,27 @@ from app.figures.wording import number
 # A letter or two, an underscore, letters and digits with commas between them.
 _SUBSCRIPT = re.compile(r"((?:[^\W\d_²³]){1,2})_([^\W_²³]+(?:,[^\W_²³]+)*)")
 _LETTER = re.compile(r"[^\W\d_]{1,2}\*?")
+_SECOND_HAND = re.compile(r"as read in a public implementation|(?:quoted )?from memory")
 NO_VALUE = "–"
+_WORDS = {
+    "angular": "angular misalignment",
+    "barus": "Barus",
+    "closed_form": "closed form",
+    "dip": "dip lubrication",
+    "elastic_plastic": "elastic, then plastic",
+    "full_film": "full film",
+    "gas_dynamics": "gas dynamics",
+    "hertzian": "Hertzian",
+    "ishikawa": "Ishikawa",
+    "iso_tr_13989": "ISO/TR 13989-1",
+    "newtonian": "Newtonian",
+    "pao": "polyalphaolefin (PAO)",
+    "pocket_chain": "chain of pockets",
+    "ree_eyring": "Ree-Eyring",
+    "roelands": "Roelands",
+    "spray": "spray lubrication",
+    "thermal_ehl": "thermal EHL",
+}
 
 
 def typeset(text: str) -> Markup:
@@ -40,9 +60,14 @@ def shown(value: object, digits: int = 5) -> str:
             return words(str(value))
 
 
+def cited(text: str) -> str:
+    """A source or a reason for readers of pages: what was not read in the original is said to be of second hand."""
+    return _SECOND_HAND.sub("secondary source", text)
+
+
 def words(name: str) -> str:
     """A code or choice as people read it."""
-    return name.replace("_", " ")
+    return _WORDS.get(name, name.replace("_", " "))
 
 
 def percent_change(now: float, before: float) -> str:

@@ -18,7 +18,7 @@ from app.pages.form import State, anchor, form
 from app.pages.links import IMAGE_FORMATS, Links, example_link, examples_of
 from app.pages.manual import chapter_of
 from app.pages.query import Pairs, normalised, pairs_of_query, split_views
-from app.pages.results import cards, entries, flattened, groups
+from app.pages.results import assumptions, cards, entries, groups, resolved
 from app.pages.study_links import study_links
 from app.pages.templating import page_path, rendered
 from app.pages.typesetting import NO_VALUE
@@ -95,14 +95,15 @@ def page(asked: Asked) -> Shown:
         case, variant, lambda declaration, data: linked(declaration, data, links.image, asked.theme)
     )
     before = variant.response if variant else None
-    resolved = _resolved(case)
-    state = State(dict(asked.pairs), {}, resolved, _assumed(case))
+    used, assumed = resolved(case.response), assumptions(type(case.request), case.response)
+    state = State(dict(asked.pairs), {}, used, {each.path for each in assumed})
     shown = _page(
         asked,
         state,
         links=links,
         response=case.response,
-        cards=cards(case.response, resolved, before),
+        cards=cards(case.response, used, before),
+        assumed=assumed,
         groups=groups(case.response, before),
         derived=_derived(case),
         charts=figures,
@@ -167,7 +168,8 @@ def report(asked: Asked, host: str) -> Shown:
         asked.root,
         calculation=asked.calculation,
         response=case.response,
-        cards=cards(case.response, _resolved(case)),
+        cards=cards(case.response, resolved(case.response)),
+        assumed=assumptions(type(case.request), case.response),
         groups=groups(case.response),
         derived=_derived(case),
         charts=figures,
@@ -241,20 +243,6 @@ def _by_field(faults: list[Fault]) -> dict[str, str]:
         if fault.path:
             found[fault.path] = f"{found[fault.path]}; {fault.message}" if fault.path in found else fault.message
     return found
-
-
-def _resolved(case: Case) -> dict[str, Any]:
-    """What every input stands for: the inputs with their defaults, and what was derived for the empty ones."""
-    derived = flattened(case.response.derived.model_dump()) if case.response.derived else {}
-    found = flattened(case.response.inputs)
-    for path, value in found.items():
-        if value is None:
-            found[path] = derived.get(path, derived.get(path.rpartition(".")[2]))
-    return found
-
-
-def _assumed(case: Case) -> dict[str, str]:
-    return {each.field: each.reason for each in case.response.assumptions}
 
 
 def _derived(case: Case) -> tuple[Any, ...]:

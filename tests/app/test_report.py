@@ -1,0 +1,78 @@
+"""The report says which value was used and where it comes from, in words a customer reads."""
+
+import re
+from functools import cache
+from html import unescape
+
+import pytest
+
+from app.calculations import BY_PATH
+from app.examples import examples
+from app.pages import views
+from app.pages.query import pairs_of
+from app.pages.templating import page_path
+
+SCUFFING = "starter-industrial-scuffing"
+SHORT = (SCUFFING, "starter-coupling-crowning", "starter-compressor-gear", "starter-generator-gear-drive-train")
+
+
+def asked(name: str, **looks: str) -> views.Asked:
+    example = examples()[name]
+    return views.Asked(page_path(BY_PATH[example.endpoint]), pairs_of(example.request), looks)
+
+
+@cache
+def report(name: str) -> str:
+    return views.report(asked(name), "").content.decode()
+
+
+@cache
+def page(name: str) -> str:
+    return views.page(asked(name)).content.decode()
+
+
+def rows(html: str, first: str, last: str) -> dict[str, tuple[str, ...]]:
+    """The rows of the tables between two headings, by their first cell."""
+    part = html[html.index(f"<h2>{first}") : html.index(f"<h2>{last}")]
+    found = re.findall(r"<tr>(.*?)</tr>", part, re.DOTALL)
+    cells = [re.findall(r"<td[^>]*>(.*?)</td>", row, re.DOTALL) for row in found]
+    texts = [tuple(unescape(re.sub(r"<[^>]+>", "", cell)).strip() for cell in row) for row in cells]
+    return {row[0]: row[1:] for row in texts}
+
+
+def test_inputs_say_the_value_used_and_where_it_comes_from() -> None:
+    inputs = rows(report(SCUFFING), "Inputs", "Assumptions")
+    assert inputs["transmitted power P"] == ("400 kW", "given")
+    assert inputs["pinion torque T1"] == ("2546.48 N m", "derived")
+    assert inputs["centre distance a"] == ("264.963 mm", "derived")
+    assert inputs["pressure-viscosity coefficient α"] == ("17.0533 1/GPa", "assumed")
+    assert inputs["oil density ρ0"] == ("843.746 kg/m³", "derived")
+    assert inputs["Young's modulus E"] == ("206 GPa", "default")
+    assert inputs["bulk temperature θM"] == ("estimated", "not given")
+    assert inputs["rheology"] == ("Ree-Eyring", "assumed")
+
+
+@pytest.mark.parametrize("name", SHORT)
+def test_only_what_was_given_is_said_to_be_given(name: str) -> None:
+    typed = {path for path, _ in pairs_of(examples()[name].request)}
+    part = report(name)
+    part = part[part.index("<h2>Inputs") : part.index("<h2>Assumptions")]
+    cells = re.findall(r'<td class="right given">([^<]*)</td>', part)
+    assert len(cells) == len({re.sub(r"\.[01]\.[01]$", "", path) for path in typed})
+    assert not [cell for cell in cells if "with grade" in cell or "value" in cell]
+
+
+def test_assumptions_have_units_and_reasons() -> None:
+    assumed = rows(report(SCUFFING), "Assumptions", "Results")
+    assert assumed["oil density at 15 °C ρ15"] == ("880 kg/m³", "by the kind of oil; a data sheet rarely gives it")
+    assert assumed["Eyring stress τ0"][0] == "5 MPa"
+    on_page = page(SCUFFING)
+    on_page = on_page[on_page.index("<h2>Assumptions") :]
+    assert re.search(r'880</td><td class="unit">kg/m³</td>', on_page)
+
+
+@pytest.mark.parametrize("name", SHORT)
+def test_customers_read_nothing_from_memory(name: str) -> None:
+    for html in (report(name), page(name)):
+        assert not re.search(r"from memory|as read in", html)
+    assert "ISO/TR 13989-1, secondary source" in page(SCUFFING)
