@@ -58,8 +58,8 @@ class Coordinate:
 class Grid:
     """An output over one field or two, `[x]` or `[x][y]`; NaN where there is no value, or none yet.
 
-    `greatest` says which end is the better one; `limit` bounds the output. `warned` names for each value of a single
-    field the limit of validity that is left there.
+    `greatest` says which end is the better one; `limit` bounds the output. `invalid` says for each value of a single
+    field why the output does not hold there, if so; `doubtful` whether a limit of validity is left.
     """
 
     x: Coordinate
@@ -68,7 +68,8 @@ class Grid:
     values: Values
     greatest: bool = False
     limit: float | None = None
-    warned: tuple[str | None, ...] = ()
+    invalid: tuple[str | None, ...] = ()
+    doubtful: tuple[bool, ...] = ()
     unsolved: int = 0
 
     @property
@@ -96,15 +97,15 @@ def figures_of(grid: Grid) -> dict[str, Figure]:
 
 
 def curve(grid: Grid) -> Figure:
-    """The output along the field; shaded where a limit of validity is left."""
+    """The output along the field; shaded where it does not hold, with rings where it is doubtful."""
     line = Line(grid.output.title, grid.x.values, grid.values, named=False)
     panel = Panel(
         x=grid.x.axis,
         y=_ordinate(grid),
         lines=(line,),
         levels=(*_limit(grid), *_own(grid.x)),
-        spans=_warned(grid),
-        marks=_best_of_curve(grid),
+        spans=_invalid(grid),
+        marks=(*_doubtful(grid), *_best_of_curve(grid)),
     )
     return _figure(grid, f"{grid.output.title} over {grid.x.axis.title}", panel)
 
@@ -178,7 +179,8 @@ def _finding(grid: Grid) -> str:
         f"{field.axis.title} {field.named(index)}" for field, index in zip(fields, grid.best, strict=True)
     )
     value = number(float(grid.values[grid.best]), grid.output.unit or "")
-    return f"{'greatest' if grid.greatest else 'least'} {value} at {places}"
+    rings = "; orange rings: doubtful, a limit of validity is left" if any(grid.doubtful) else ""
+    return f"{'greatest' if grid.greatest else 'least'} {value} at {places}{rings}"
 
 
 def _ordinate(grid: Grid) -> Axis:
@@ -201,10 +203,16 @@ def _own(x: Coordinate) -> tuple[Level, ...]:
     return (Level(x.own, f"this case: {number(x.own, x.axis.unit or '')}", vertical=True),)
 
 
-def _warned(grid: Grid) -> tuple[Span, ...]:
-    """Runs of points that leave the same limit of validity."""
+def _doubtful(grid: Grid) -> tuple[Mark, ...]:
+    """The points at which a limit of validity is left."""
+    points = zip(grid.x.values, grid.values, grid.doubtful, strict=False)
+    return tuple(Mark(float(x), float(y), "", Hue.ORANGE) for x, y, doubtful in points if doubtful and np.isfinite(y))
+
+
+def _invalid(grid: Grid) -> tuple[Span, ...]:
+    """Runs of points without meaning for the same reason."""
     x, spans, start = grid.x.values, [], 0
-    for reason, group in groupby(grid.warned):
+    for reason, group in groupby(grid.invalid):
         stop = start + len(list(group))
         if reason is not None:
             spans.append(Span(float(x[start]), float(x[stop - 1]), reason))

@@ -12,6 +12,7 @@ from app.evaluate import evaluate, refuse_endless
 from app.schema.reading import validated
 from app.studies.fields import clear, fellows, set_value, value_at
 from app.studies.requests import Overrides
+from solvers.notices import Rank
 
 Status = Literal["ok", "ok_with_warnings", "no_solution", "refused", "failed"]
 CHUNK_SECONDS = 0.25
@@ -22,6 +23,7 @@ logger = logging.getLogger("tribodrive")
 class Point(NamedTuple):
     """One answer, cut down to the outputs asked for; `error` where the point was refused or failed.
 
+    `warnings` are codes, the gravest first, `ranks` their ranks.
     `assumptions` are left out where they are those of the point before it in its chunk.
     """
 
@@ -30,6 +32,7 @@ class Point(NamedTuple):
     warnings: list[str]
     error: dict[str, str] | None = None
     assumptions: tuple[dict[str, Any], ...] = ()
+    ranks: tuple[Rank, ...] = ()
 
 
 class Question(NamedTuple):
@@ -94,6 +97,7 @@ def solve_point(question: Question, overrides: Overrides) -> Point:
         [value_at(answer, path) for path in question.outputs],
         [warning.code for warning in answer.warnings],
         assumptions=tuple(dict(each) for each in answer.assumptions),
+        ranks=tuple(warning.rank for warning in answer.warnings),
     )
 
 

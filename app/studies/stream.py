@@ -100,6 +100,7 @@ def point_line(index: int, at: Any, point: Point) -> Line:
         "status": point.status,
         "out": point.out,
         "warnings": point.warnings,
+        "ranks": point.ranks,
     }
     return line if point.error is None else {**line, "error": point.error}
 

@@ -31,7 +31,7 @@ from app.pages.views import Asked
 from app.schema.fields import leaf_at, leaves
 from app.sources import SHORT_SOURCES
 from app.studies.point_sets import PointSet
-from app.studies.points import solve_point
+from app.studies.points import Question, solve_point
 from app.studies.stream import Line, point_line
 from app.studies.sweep import Sweep
 
@@ -396,3 +396,27 @@ def test_the_names_of_a_study_are_those_of_its_form() -> None:
     assert set.union(*found) >= STUDY_NAMES
     for names, case in zip(found, (varied_one, unit), strict=True):
         assert names - STUDY_NAMES == set(dict(case.pairs))
+
+
+def test_a_curve_is_shaded_where_it_is_invalid_and_ringed_where_it_is_doubtful() -> None:
+    x = Coordinate(Axis("speed", "1/min"), values([1.0, 2.0, 3.0, 4.0]))
+    found = Grid(
+        x,
+        None,
+        Axis("thrust", "N"),
+        values([5.0, 6.0, None, 8.0]),
+        invalid=(None, None, None, "edge contact"),
+        doubtful=(False, True, True, False),
+    )
+    figure = figures_of(found)["curve"]
+    panel = figure.panels[0]
+    assert figure.finding.endswith("; orange rings: doubtful, a limit of validity is left")
+    assert [(span.start, span.stop, span.name) for span in panel.spans] == [(4.0, 4.0, "edge contact")]
+    assert [(mark.x, mark.y, mark.text) for mark in panel.marks if not mark.text] == [(2.0, 6.0, "")]
+
+
+def test_points_of_a_study_tell_the_ranks_of_their_warnings() -> None:
+    limits = examples()["starter-coupling-at-its-limits"]
+    point = solve_point(Question(limits.endpoint, limits.request, ["axial_thrust.force_n"], 30.0), {})
+    assert point_line(0, [], point)["warnings"] == ["edge_contact", "sliding_velocity"]
+    assert point_line(0, [], point)["ranks"] == ("invalid", "doubtful")

@@ -56,7 +56,7 @@ def test_lines_of_a_grid() -> None:
     assert header["total"] == 9
     assert [point["index"] for point in points] == list(range(9))
     assert points[4]["at"] == [0.05, pytest.approx(0.15)]
-    assert [list(point) for point in points] == [["type", "index", "at", "status", "out", "warnings"]] * 9
+    assert [list(point) for point in points] == [["type", "index", "at", "status", "out", "warnings", "ranks"]] * 9
     assert (end["points"], end["counts"]) == (9, {"ok": 9})
     thrust = [point["out"][0] for point in points]
     low, high = int(np.argmin(thrust)), int(np.argmax(thrust))

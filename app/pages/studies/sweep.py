@@ -283,6 +283,12 @@ def _remarks(point: Line) -> tuple[str, ...]:
     return (error["message"],) if error else tuple(map(words, point["warnings"]))
 
 
+def _invalid(point: Line) -> str | None:
+    """The warnings that leave a value without meaning."""
+    found = [words(code) for code, rank in zip(point["warnings"], point["ranks"], strict=True) if rank == "invalid"]
+    return ", ".join(found) or None
+
+
 def _grid(study: PageStudy, points: PointSet, fields: list[VariedField], received: list[Line]) -> Grid:
     """The data of the figures; a point that has not come yet is a gap."""
     axes = [each.values or [] for each in points.axes]
@@ -290,10 +296,12 @@ def _grid(study: PageStudy, points: PointSet, fields: list[VariedField], receive
     found[: len(received)] = [nan if line["out"][0] is None else float(line["out"][0]) for line in received]
     along = [_coordinate(field, listed) for field, listed in zip(fields, axes, strict=True)]
     coordinates, orders = zip(*along, strict=True)
-    warned: tuple[str | None, ...] = ()
+    invalid: tuple[str | None, ...] = ()
+    doubtful: tuple[bool, ...] = ()
     if len(axes) == 1 and len(received) == points.total:
-        outside = [", ".join(_remarks(line)) if line["status"] == "ok_with_warnings" else None for line in received]
-        warned = tuple(outside[place] for place in orders[0])
+        sorted_points = [received[place] for place in orders[0]]
+        invalid = tuple(_invalid(line) for line in sorted_points)
+        doubtful = tuple("doubtful" in line["ranks"] for line in sorted_points)
     return Grid(
         x=coordinates[0],
         y=coordinates[1] if len(coordinates) > 1 else None,
@@ -301,7 +309,8 @@ def _grid(study: PageStudy, points: PointSet, fields: list[VariedField], receive
         values=values(found.reshape([len(each) for each in axes])[np.ix_(*orders)]),
         greatest=_is_greatest_best(study.asked, study.output),
         limit=_limit(study),
-        warned=warned if len(set(warned)) > 1 else (),
+        invalid=invalid if len(set(invalid)) > 1 else (),
+        doubtful=doubtful if len(set(doubtful)) > 1 else (),
         unsolved=sum(line["status"] not in {"ok", "ok_with_warnings"} for line in received),
     )
 
