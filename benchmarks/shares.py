@@ -6,6 +6,7 @@ served. Then a lone client asks either service in turn. Run from the project's r
 """
 
 import argparse
+import itertools
 import os
 import statistics
 import sys
@@ -33,6 +34,7 @@ WORKERS = 2
 SUMMARY = {**examples()["pahl-axial-displacement"].request, "detail": "summary"}
 LONG = {**examples()["xue-pair-1-thermal"].request, "detail": "summary"}
 LONG["model"] = {**LONG.get("model", {}), "path_points": 400}
+CONTACT = examples()["xue-line-contact"]
 STUDY = {"endpoint": "/v1/scuffing", "request": LONG, "cases": [{}] * 200}
 HONEST, OTHER = "127.0.0.2", "127.0.0.3"
 
@@ -148,17 +150,18 @@ def beside(address: str, others: Others, seconds: float) -> str:
 
 
 def rate(address: str, mixed: bool, seconds: float) -> float:
-    """Answers per second to a client that keeps eight requests open; mixed: every 200th is long."""
+    """Answers per second to a client that keeps eight requests open; mixed: every tenth is a line contact."""
     end = time.monotonic() + seconds
 
-    def ask(_: int) -> int:
-        count = 0
+    def ask(first: int) -> int:
         with client(address, HONEST) as own:
-            while time.monotonic() < end:
-                long = mixed and count % 200 == 0
-                own.post(*(("/v1/scuffing",) if long else ("/v1/coupling",)), json=LONG if long else SUMMARY)
-                count += 1
-        return count
+            for number in itertools.count(first):
+                if time.monotonic() > end:
+                    return number - first
+                contact = mixed and number % 10 == 0
+                path, body = (CONTACT.endpoint, CONTACT.request) if contact else ("/v1/coupling", SUMMARY)
+                own.post(path, json=body).raise_for_status()
+        raise AssertionError
 
     with ThreadPoolExecutor(8) as threads:
         return sum(threads.map(ask, range(8))) / seconds
@@ -175,8 +178,8 @@ def main(seconds: float, rounds: int) -> None:
                 print(f"| {name} | {kind} | {beside(address, others, seconds)} |", flush=True)
                 time.sleep(5.0)
         print(f"\n| a client alone, {rounds} rounds in turn | fair | first come | ratio |\n|---|---|---|---|")
-        for mixed, name in ((False, "coupling summaries"), (True, "with a long calculation in 200")):
-            pairs = [(rate(fair_one, mixed, 5.0), rate(first_come_one, mixed, 5.0)) for _ in range(rounds)]
+        for mixed, name in ((False, "coupling summaries"), (True, "and a line contact in ten")):
+            pairs = [(rate(fair_one, mixed, 2.0), rate(first_come_one, mixed, 2.0)) for _ in range(rounds)]
             ratio = statistics.median(with_shares / without for with_shares, without in pairs)
             one, other = (statistics.median(each) for each in zip(*pairs, strict=True))
             print(f"| {name} | {one:.0f}/s | {other:.0f}/s | {ratio:.3f} |", flush=True)
@@ -187,7 +190,7 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--serve", choices=["fair", "first_come"], help="serve instead of measuring")
     parser.add_argument("--seconds", type=float, default=20.0, help="of each load")
-    parser.add_argument("--rounds", type=int, default=7)
+    parser.add_argument("--rounds", type=int, default=25, help="of two seconds for either service")
     arguments = parser.parse_args()
     if arguments.serve:
         serve(f"benchmarks.shares:{arguments.serve}")
