@@ -259,7 +259,7 @@ def mark_complete(content: str, *, complete: bool = True) -> None:
 
 
 def _prune(root: Path) -> None:
-    """Remove what no source of today needs and nobody has touched for a month."""
+    """Remove what no source of today needs and has not been touched for a month."""
     needed = {folder_name(source) for source in PACKAGE.rglob("*.py")}
     for folder in root.iterdir():
         if folder.name not in needed and time.time() - folder.stat().st_mtime > KEPT_UNUSED_S:

@@ -1,4 +1,4 @@
-"""Limits where bytes arrive: sum and time of headers, number of connections, time of answers that nobody reads.
+"""Limits where bytes arrive: sum and time of headers, number of connections, time of answers that are not read.
 
 uvicorn's protocol hands a request over when its headers are complete, so these limits have to sit in it. What it
 refuses, and what its parser cannot read, is answered with a problem document and logged like every other answer.
@@ -82,7 +82,7 @@ class LimitedProtocol(HttpToolsProtocol):
         super().on_url(url)
 
     def on_header(self, name: bytes, value: bytes) -> None:
-        """One header, or a trailer, which nobody asked for."""
+        """One header, or a trailer, which is ignored."""
         self._count(len(name) + len(value))
         if self._in_headers:
             super().on_header(name, value)

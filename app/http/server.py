@@ -20,7 +20,7 @@ log = logging.getLogger(REQUEST_LOG)  # which goes to the standard output
 
 
 class Server(uvicorn.Server):
-    """A server that says where it listens once it does, and hurries when it is interrupted at the terminal."""
+    """A server that logs its address once it listens, and stops quickly when it is interrupted at the terminal."""
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Begin to answer."""

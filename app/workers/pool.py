@@ -134,7 +134,7 @@ class Pool:
             await template.reap(worker)
 
     async def _supervise(self) -> None:
-        """Never miss a process that died or was stopped, nor who waits too long."""
+        """Replace processes that died or were stopped; interrupt a call where another has waited too long."""
         while True:
             await asyncio.sleep(SUPERVISION_S)
             try:

@@ -75,7 +75,7 @@ def test_flood_is_cut_off_before_it_costs_memory(small: tuple[subprocess.Popen[s
     assert httpx.get(f"{address}/healthz", timeout=2).status_code == 200
 
 
-def test_refusal_of_headers_is_a_problem_with_books(small: tuple[subprocess.Popen[str], str]) -> None:
+def test_refusal_of_headers_is_a_problem_and_is_logged(small: tuple[subprocess.Popen[str], str]) -> None:
     _, address = small
     with connected(address) as connection:
         connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\nX-Padding: " + b"x" * 17_000 + b"\r\n\r\n")

@@ -1,4 +1,4 @@
-"""The books are true: one line of JSON for every answer, nothing of its content, and nobody waits for the reader."""
+"""The log has one line of JSON for every answer and nothing of its content; a reader that stalls holds nothing up."""
 
 import http.client
 import json
@@ -43,7 +43,7 @@ def test_one_json_line_a_request(tmp_path: Path) -> None:
     assert "hidden" not in log.read_text("utf-8")
 
 
-def test_internal_and_parser_errors_are_in_the_books(tmp_path: Path) -> None:
+def test_internal_and_parser_errors_are_logged_and_counted(tmp_path: Path) -> None:
     log = tmp_path / "log"
     with running_server(FAULTY, log=log, workers=1) as (_, address):
         bug = httpx.post(f"{address}/bug")

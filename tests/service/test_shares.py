@@ -1,4 +1,4 @@
-"""Clients and studies share the workers: nobody pays for what another client does."""
+"""Clients and studies share the workers fairly: a call is answered whatever other clients do."""
 
 import json
 import signal

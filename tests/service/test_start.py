@@ -83,7 +83,7 @@ def test_ends_at_any_moment_of_a_cold_start(tmp_path: Path, number: signal.Signa
             time.sleep(0.02)
 
 
-def test_an_impatient_second_interrupt_is_no_traceback(tmp_path: Path) -> None:
+def test_a_second_interrupt_leaves_no_traceback(tmp_path: Path) -> None:
     log = tmp_path / "log"
     with running_server(log=log) as (process, _):
         process.send_signal(signal.SIGINT)
