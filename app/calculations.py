@@ -180,7 +180,7 @@ CALCULATIONS = (
         solve=scuffing.solve_scuffing,
         response=ScuffingResponse,
         stage=LINE_CONTACT,
-        figures=(*scuffing_figures.FIGURES, *load_figures.FIGURES),
+        figures=scuffing_figures.FIGURES,
         cost=_thermal_path,
     ),
     Calculation(

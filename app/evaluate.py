@@ -76,7 +76,7 @@ def drawn(
     theme: ThemeName,
 ) -> bytes:
     """Solve the request and write a figure; raises Unprocessable as `evaluate` does and where there is no figure."""
-    asked = request.model_copy(update={"detail": declaration.detail})
+    asked = request.model_copy(update={"detail": "summary"})
     figure = rendering.figure_of(declaration, asked, evaluate(calculation, asked))
     return rendering.written(figure, image_format, theme)
 
@@ -87,6 +87,7 @@ def evaluate(calculation: Calculation, request: Request) -> Response:
     Raises Unprocessable where the solver finds the input impossible, and a validation error (never an answer) where
     a result is not finite.
     """
+    result = None
     try:
         result = calculation.solve(request.inputs())
     except InvalidInput as error:
@@ -120,7 +121,7 @@ def evaluate(calculation: Calculation, request: Request) -> Response:
         "inputs": inputs,
         "case": case_of(calculation.path, inputs, SOURCES),
     }
-    return calculation.response.model_validate(content)
+    return calculation.response.model_validate(content).read_from(result)
 
 
 def _notice(request: Request, warning: notices.Notice) -> Notice:

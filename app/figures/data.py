@@ -42,15 +42,8 @@ class Role(StrEnum):
 
 
 def values(items: Sequence[float | None] | Values) -> Values:
-    """A read-only array; None, a point without a value, becomes NaN."""
+    """A read-only copy as an array; None, a point without a value, becomes NaN."""
     array = np.array([np.nan if item is None else item for item in items], dtype=np.float64)
-    array.flags.writeable = False
-    return array
-
-
-def matrix(rows: Sequence[Sequence[float | None]]) -> Values:
-    """A read-only array of rows; None becomes NaN."""
-    array = np.array(rows, dtype=np.float64)
     array.flags.writeable = False
     return array
 

@@ -5,37 +5,40 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 from app.figures.data import Figure, NoFigure
-from solvers.quantity import Detail
+from app.figures.units import shown
+from app.schema.base import Request, Response
 
 T = TypeVar("T")
+Build = Callable[..., Figure]
 
 
 @dataclass(frozen=True, slots=True)
 class Declaration:
     """One figure of an endpoint.
 
-    `build` is pure: (request, answer) to data, with the answer at the level of `detail`; where the answer does not hold
-    what the figure shows, `compute` finds it from the request, and `build` takes it as a third argument.
+    `build` makes the data of the solver's inputs, in SI, and of its result with every quantity in the unit in which it
+    is shown. Where the result does not hold what the figure shows, `compute` finds it from both, and `build` takes it
+    as a third argument.
     """
 
     name: str
     title: str
     source: str
-    build: Callable[..., Figure]
-    detail: Detail = "curves"
+    build: Build
     compute: Callable[[Any, Any], Any] | None = None
 
-    def figure(self, request: Any, answer: Any) -> Figure:
-        """The figure of a case. `Raises NoFigure where there is nothing to show."""
-        if answer.status == "no_solution":
+    def figure(self, request: Request, response: Response) -> Figure:
+        """The figure of a case. Raises NoFigure where there is nothing to show."""
+        if response.status == "no_solution":
             raise NoFigure("no_solution", "The calculation has no solution, so there is nothing to draw")
-        computed = () if self.compute is None else (self.compute(request, answer),)
-        figure = self.build(request, answer, *computed)
+        inputs, result = request.inputs(), shown(response.result)
+        computed = () if self.compute is None else (self.compute(inputs, result),)
+        figure = self.build(inputs, result, *computed)
         return replace(figure, title=figure.title or self.title, source=self.source)
 
 
 def present(part: T | None) -> T:
-    """A part of an answer that a solved case has at this level of detail."""
+    """A part of a result that a solved case has."""
     if part is None:
         raise NoFigure("no_solution", "The answer lacks what this figure shows, so there is nothing to draw")
     return part

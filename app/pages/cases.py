@@ -66,5 +66,4 @@ def _dotted(pointer: str) -> str:
 
 def _request(calculation: Calculation, pairs: Pairs) -> Request:
     request = validated(calculation.request, body_of(calculation.request, pairs))
-    details = {figure.detail for figure in calculation.figures}
-    return request.model_copy(update={"detail": "fields" if "fields" in details else "curves"})
+    return request.model_copy(update={"detail": "fields"})

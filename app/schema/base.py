@@ -2,9 +2,9 @@
 
 from abc import abstractmethod
 from importlib.metadata import version
-from typing import Annotated, Any, ClassVar, Literal, TypeVar
+from typing import Annotated, Any, ClassVar, Literal, Self, TypeVar
 
-from pydantic import ConfigDict, GetJsonSchemaHandler
+from pydantic import ConfigDict, GetJsonSchemaHandler, PrivateAttr
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
@@ -136,6 +136,18 @@ class Response(Group):
         str,
         Output("case", text="SHA-256 of endpoint, inputs and sources; equal cases have equal results"),
     ]
+
+    _result: Any = PrivateAttr(default=None)
+
+    @property
+    def result(self) -> Any:
+        """The solver's result that the response was read from, in SI; None where there is none."""
+        return self._result
+
+    def read_from(self, result: Any) -> Self:
+        """The response with the solver's result kept beside it, for its figures."""
+        self._result = result
+        return self
 
     @classmethod
     def __pydantic_init_subclass__(cls, **_: Any) -> None:

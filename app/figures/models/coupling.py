@@ -23,23 +23,20 @@ from app.figures.data import (
     values,
 )
 from app.figures.declaration import Declaration, present
+from app.figures.units import UM
 from app.figures.wording import number, percent
-from app.schema.coupling import (
-    CouplingRequest,
-    CouplingResponse,
-    RecommendationRequest,
-    RecommendationResponse,
-    SleeveOrbitRequest,
-    SleeveOrbitResponse,
-)
+from solvers.coupling.crowning.results import Recommendation
+from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
 from solvers.coupling.lubrication import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES, friction_regime
+from solvers.coupling.orbit_results import OrbitResult
+from solvers.coupling.results import CouplingResult
 
 MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}
 
 
-def friction_map(_: CouplingRequest, answer: CouplingResponse) -> Figure:
+def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
     """Supply of oil against strength of film, with the nine areas and the distance to the next."""
-    lubrication = present(answer.lubrication)
+    lubrication = result.lubrication
     regime = lubrication.regime
     overlap, capacity = _shown(lubrication.contact_overlap), _shown(lubrication.load_capacity_coefficient)
     x = Axis(
@@ -159,12 +156,12 @@ CONSTRAINTS = {
 }
 
 
-def orbit(_: SleeveOrbitRequest, answer: SleeveOrbitResponse) -> Figure:
+def orbit(_: CouplingInputs, result: OrbitResult) -> Figure:
     """Path of the sleeve centre in equal axes."""
-    path = present(answer.orbit)
-    x, y = values([*path.x_um, path.x_um[0]]), values([*path.y_um, path.y_um[0]])
+    path = result.orbit
+    x, y = values([*path.x, path.x[0]]), values([*path.y, path.y[0]])
     farthest = int(np.argmax(np.hypot(x, y)))
-    largest = present(answer.max_displacement_um)
+    largest = result.max_displacement
     panel = Panel(
         x=Axis("displacement in the pivot direction at θ = 0", "µm", magnitude=False),
         y=Axis("displacement along the tilt axis", "µm", magnitude=False),
@@ -177,13 +174,13 @@ def orbit(_: SleeveOrbitRequest, answer: SleeveOrbitResponse) -> Figure:
     return Figure(finding, (panel,))
 
 
-def inertia_force(_: SleeveOrbitRequest, answer: SleeveOrbitResponse) -> Figure:
+def inertia_force(_: CouplingInputs, result: OrbitResult) -> Figure:
     """Inertia force of the sleeve in both directions over the revolution."""
-    path, force = present(answer.orbit), present(answer.inertia_force)
-    angle = values([*path.rotor_angle_deg, path.rotor_angle_deg[0] + 360.0])
+    path, force = result.orbit, result.inertia_force
+    angle = values([*path.rotor_angle, path.rotor_angle[0] + 360.0])
     lines = []
-    for title, items, hue in (("along x", force.x_n, Hue.BLUE), ("along y", force.y_n, Hue.VERMILLION)):
-        curve = present(items)
+    for title, items, hue in (("along x", force.x, Hue.BLUE), ("along y", force.y, Hue.VERMILLION)):
+        curve = items
         lines.append(Line(title, angle, values([*curve, curve[0]]), hue))
     strongest = max(lines, key=lambda line: float(np.abs(line.y).max()))
     at = int(np.argmax(np.abs(strongest.y)))
@@ -197,13 +194,13 @@ def inertia_force(_: SleeveOrbitRequest, answer: SleeveOrbitResponse) -> Figure:
     return Figure(f"up to {number(abs(value), 'N')} {strongest.title}", (panel,))
 
 
-def orders(_: SleeveOrbitRequest, answer: SleeveOrbitResponse) -> Figure:
+def orders(_: CouplingInputs, result: OrbitResult) -> Figure:
     """Harmonics of the inertia force."""
-    force = present(answer.inertia_force)
-    order = values([float(order) for order in range(len(force.harmonics_x_n))])
+    force = result.inertia_force
+    order = values([float(order) for order in range(len(force.harmonics_x))])
     series = (
-        Bars("along x", order, values(force.harmonics_x_n), Hue.BLUE),
-        Bars("along y", order, values(force.harmonics_y_n), Hue.VERMILLION),
+        Bars("along x", order, values(force.harmonics_x), Hue.BLUE),
+        Bars("along y", order, values(force.harmonics_y), Hue.VERMILLION),
     )
     panel = Panel(
         x=Axis("order of the revolution (0: the mean)", magnitude=False, ticks=tuple(order.tolist())),
@@ -215,18 +212,17 @@ def orders(_: SleeveOrbitRequest, answer: SleeveOrbitResponse) -> Figure:
     return Figure(finding, (panel,))
 
 
-def crowning_scan(request: RecommendationRequest, answer: RecommendationResponse) -> Figure:
+def crowning_scan(inputs: RecommendationInputs, result: Recommendation) -> Figure:
     """Least load capacity and largest overlap over the crowning ratio, the feasible window and the choice."""
-    scan = present(answer.scan)
-    if not scan.crowning_ratio:
+    scan = result.scan
+    if not scan.crowning_ratio.size:
         raise NoFigure("no_contact_to_scan", "No crowning ratio gives a contact that can be computed")
     ratio, feasible = values(scan.crowning_ratio), values([float(each) for each in scan.feasible])
     x = Axis("crowning ratio ε (left: heavily, right: slightly crowned)", log=True)
-    best = answer.crowning_ratio
+    best = result.crowning_ratio
     capacity, overlap = values(scan.min_load_capacity_coefficient), values(scan.max_contact_overlap)
     window = _window(ratio, feasible, best)
     choice = () if best is None else (Level(best, "", vertical=True),)
-    chosen = present(answer.min_load_capacity_coefficient) if best is not None else np.nan
     boundaries = tuple(Level(each, f"Tr = {each:g}") for each in CAPACITY_BOUNDARIES)
     panels = (
         Panel(
@@ -235,7 +231,7 @@ def crowning_scan(request: RecommendationRequest, answer: RecommendationResponse
             lines=(Line("least Tr", ratio, capacity, named=False),),
             levels=(*boundaries, *choice),
             spans=window,
-            marks=() if best is None else (Mark(best, chosen, f"ε = {number(best)}, Tr = {number(chosen)}"),),
+            marks=_chosen(best, result.min_load_capacity_coefficient),
         ),
         Panel(
             x=x,
@@ -245,8 +241,14 @@ def crowning_scan(request: RecommendationRequest, answer: RecommendationResponse
             spans=tuple(Span(span.start, span.stop, "") for span in window),
         ),
     )
-    low, high = request.operation.misalignment_range_deg
-    return Figure(_choice(answer), panels, title=f"Crowning for {number(low)}° to {number(high)}°")
+    low, high = degrees(inputs.min_misalignment), degrees(inputs.max_misalignment)
+    return Figure(_choice(result), panels, title=f"Crowning for {number(low)}° to {number(high)}°")
+
+
+def _chosen(best: float | None, capacity: float | None) -> tuple[Mark, ...]:
+    if best is None or capacity is None:
+        return ()
+    return (Mark(best, capacity, f"ε = {number(best)}, Tr = {number(capacity)}"),)
 
 
 def _window(ratio: Values, feasible: Values, best: float | None) -> tuple[Span, ...]:
@@ -260,13 +262,13 @@ def _decades_shown(capacity: Values) -> tuple[float, float]:
     return top / 1e4, top
 
 
-def _choice(answer: RecommendationResponse) -> str:
-    if answer.crowning_ratio is None:
-        failed = answer.failed_constraint or ""
+def _choice(result: Recommendation) -> str:
+    if result.crowning_ratio is None:
+        failed = result.failed_constraint or ""
         return f"no crowning serves this range: {CONSTRAINTS.get(failed, failed.replace('_', ' '))}"
-    capacity = present(answer.min_load_capacity_coefficient)
-    overlap = max(present(answer.at_min).contact_overlap, present(answer.at_max).contact_overlap)
-    return f"ε = {number(answer.crowning_ratio)}: least Tr = {number(capacity)} with Pu up to {number(overlap)}"
+    capacity = present(result.min_load_capacity_coefficient)
+    overlap = max(present(result.at_min).contact_overlap, present(result.at_max).contact_overlap)
+    return f"ε = {number(result.crowning_ratio)}: least Tr = {number(capacity)} with Pu up to {number(overlap)}"
 
 
 ORBIT_FIGURES = (
@@ -284,44 +286,44 @@ TOOTH = Axis("tooth position φ (tilt at 90° and 270°)", "°", limits=(0.0, 36
 TILTS = (Span(82.0, 98.0, ""), Span(262.0, 278.0, ""))
 
 
-def _tilt_deg(request: CouplingRequest) -> float:
+def _tilt_deg(inputs: CouplingInputs) -> float:
     """Tilt of hub against sleeve [°], given or by the offset of the shafts."""
-    return degrees(request.inputs().operation.misalignment)
+    return degrees(inputs.operation.misalignment)
 
 
-def tooth_loads(request: CouplingRequest, answer: CouplingResponse) -> Figure:
+def tooth_loads(inputs: CouplingInputs, result: CouplingResult) -> Figure:
     """Tangential force of each tooth, mean and largest; the pitch errors behind it."""
-    load = present(answer.load_distribution)
-    curves = present(load.curves)
-    angle, force = values(curves.angle_deg), values(curves.tangential_force_n)
+    load = result.load_distribution
+    curves = load.curves
+    angle, force = values(curves.angle), values(curves.tangential_force)
     largest = int(np.argmax(force))
     teeth = f"{load.loaded_teeth} of {force.size} teeth carry"
-    tilt = f"at {number(abs(_tilt_deg(request)))}° tilt"
+    tilt = f"at {number(abs(_tilt_deg(inputs)))}° tilt"
     panels = [
         Panel(
             x=TOOTH,
             y=Axis("tangential force", "N"),
             bars=(Bars("tangential force", angle, force, Hue.BLUE, strong=largest),),
-            levels=(Level(load.mean_tangential_force_n, f"mean {number(load.mean_tangential_force_n, 'N')}"),),
+            levels=(Level(load.mean_tangential_force, f"mean {number(load.mean_tangential_force, 'N')}"),),
             marks=(Mark(float(angle[largest]), float(force[largest]), number(float(force[largest]), "N")),),
         )
     ]
-    if request.coupling.pitch_errors_um is not None:
+    if inputs.coupling.pitch_errors is not None:
         error = Axis("pitch error (positive: carries more)", "µm", magnitude=False)
-        bars = Bars("pitch error", angle, values(request.coupling.pitch_errors_um), Hue.VERMILLION)
+        bars = Bars("pitch error", angle, values(np.array(inputs.coupling.pitch_errors) / UM), Hue.VERMILLION)
         panels.append(Panel(x=TOOTH, y=error, bars=(bars,)))
     concentration = load.load_concentration
     share = "" if concentration is None else f"; the highest loaded takes {number(concentration)} times the mean {tilt}"
     return Figure(f"{teeth}{share}", tuple(panels))
 
 
-def tooth_motion(_: CouplingRequest, answer: CouplingResponse) -> Figure:
+def tooth_motion(_: CouplingInputs, result: CouplingResult) -> Figure:
     """What wears, what builds the film and what loads a tooth over a revolution."""
-    kinematics, limits = present(answer.kinematics), present(answer.limits)
-    curves = present(kinematics.curves)
-    angle, limit = values(curves.angle_deg), limits.sliding_velocity_limit_m_per_s
-    sliding = values(curves.sliding_velocity_m_per_s)
-    share = kinematics.max_sliding_velocity_m_per_s / limit
+    kinematics, limits = result.kinematics, result.limits
+    curves = kinematics.curves
+    angle, limit = values(curves.angle), limits.sliding_velocity_limit
+    sliding = values(curves.sliding_velocity)
+    share = kinematics.max_sliding_velocity / limit
     top = int(np.argmax(sliding))
     panels = (
         Panel(
@@ -332,27 +334,25 @@ def tooth_motion(_: CouplingRequest, answer: CouplingResponse) -> Figure:
             marks=(Mark(float(angle[top]), float(sliding[top]), number(float(sliding[top]), "m/s"), Hue.VERMILLION),),
             spans=TILTS,
         ),
+        _motion("hydrodynamic velocity, that builds the film", "m/s", angle, curves.hydrodynamic_velocity, Hue.BLUE),
         _motion(
-            "hydrodynamic velocity, that builds the film", "m/s", angle, curves.hydrodynamic_velocity_m_per_s, Hue.BLUE
-        ),
-        _motion(
-            "tangential displacement, that loads the tooth", "µm", angle, curves.tangential_displacement_um, Hue.GREEN
+            "tangential displacement, that loads the tooth", "µm", angle, curves.tangential_displacement, Hue.GREEN
         ),
     )
     finding = f"sliding reaches {percent(share)} of its lasting limit; least film velocity near the tilt positions"
     return Figure(finding, panels)
 
 
-def _motion(title: str, unit: str, angle: Values, items: list[float], hue: Hue) -> Panel:
+def _motion(title: str, unit: str, angle: Values, items: Values, hue: Hue) -> Panel:
     line = Line(title.split(",", maxsplit=1)[0], angle, values(items), hue, named=False)
     return Panel(x=TOOTH, y=Axis(title, unit), lines=(line,), spans=TILTS)
 
 
-def contact_track(_: CouplingRequest, answer: CouplingResponse) -> Figure:
+def contact_track(_: CouplingInputs, result: CouplingResult) -> Figure:
     """Where the contact is on the face, and how wide."""
-    curves, lubrication = present(present(answer.kinematics).curves), present(answer.lubrication)
-    angle, position = values(curves.angle_deg), values(curves.contact_position_mm)
-    half, width = lubrication.hertz_half_width_mm, present(answer.derived).face_width_mm
+    curves, lubrication = result.kinematics.curves, result.lubrication
+    angle, position = values(curves.angle), values(curves.contact_position)
+    half, width = lubrication.hertz_half_width, result.derived.face_width
     edge = width / 2.0
     reach = float(np.abs(position).max()) + half
     panel = Panel(
@@ -368,27 +368,27 @@ def contact_track(_: CouplingRequest, answer: CouplingResponse) -> Figure:
     return Figure(finding, (panel,))
 
 
-def axial_thrust(request: CouplingRequest, answer: CouplingResponse) -> Figure:
+def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
     """Which teeth slide which way, and the thrust that is left of the coaxial one."""
-    thrust, curves = present(answer.axial_thrust), present(present(answer.kinematics).curves)
-    axial = request.operation.axial_velocity_mm_per_s / 1e3
-    sliding = values(curves.sliding_velocity_m_per_s)
+    thrust, curves = result.axial_thrust, result.kinematics.curves
+    axial = inputs.operation.axial_velocity
+    sliding = values(curves.sliding_velocity)
     opposed = float(np.mean(sliding[:-1] > abs(axial)))
     rows = [
-        Row("thrust", thrust.force_n, Hue.BLUE, (thrust.lower_bound_n, thrust.upper_bound_n)),
-        Row("if all teeth carried alike", thrust.uniform_load_force_n, Hue.GREY),
-        Row("breakaway, coaxial at rest", thrust.breakaway_force_n, Hue.ORANGE),
+        Row("thrust", thrust.force, Hue.BLUE, (thrust.lower_bound, thrust.upper_bound)),
+        Row("if all teeth carried alike", thrust.uniform_load_force, Hue.GREY),
+        Row("breakaway, coaxial at rest", thrust.breakaway_force, Hue.ORANGE),
     ]
     if thrust.self_induced is not None:
         rows += [
-            Row("self-induced", thrust.self_induced.force_n, Hue.PURPLE),
-            Row("self-induced, one-pair model", thrust.self_induced.simple_model_force_n, Hue.GREY),
+            Row("self-induced", thrust.self_induced.force, Hue.PURPLE),
+            Row("self-induced, one-pair model", thrust.self_induced.simple_model_force, Hue.GREY),
         ]
-    limit = Level(thrust.coaxial_limit_n, "coaxial limit", limit=True, vertical=True)
+    limit = Level(thrust.coaxial_limit, "coaxial limit", limit=True, vertical=True)
     motion = Panel(
         x=TOOTH,
         y=Axis("velocity along the tooth", "m/s"),
-        lines=(Line("sliding by tilt", values(curves.angle_deg), sliding, Hue.VERMILLION),),
+        lines=(Line("sliding by tilt", values(curves.angle), sliding, Hue.VERMILLION),),
         levels=(Level(axial, f"axial velocity {number(axial * 1e3, 'mm/s')}"),) if axial else (),
     )
     share = (
@@ -408,17 +408,17 @@ def axial_thrust(request: CouplingRequest, answer: CouplingResponse) -> Figure:
     )
 
 
-def losses(_: CouplingRequest, answer: CouplingResponse) -> Figure:
+def losses(_: CouplingInputs, result: CouplingResult) -> Figure:
     """Moments on shaft and bearings, and the power that becomes heat."""
-    loss = present(answer.losses)
+    loss = result.losses
     moments = (
-        Row("friction", loss.friction_moment_n_m, Hue.VERMILLION),
-        Row("shift of the contacts", loss.contact_shift_moment_n_m, Hue.BLUE),
-        Row("bending of the hub, resultant", loss.hub_bending_moment_n_m, Hue.GREY),
+        Row("friction", loss.friction_moment, Hue.VERMILLION),
+        Row("shift of the contacts", loss.contact_shift_moment, Hue.BLUE),
+        Row("bending of the hub, resultant", loss.hub_bending_moment, Hue.GREY),
     )
-    power = (Row("friction power of one mesh", loss.friction_power_w, Hue.VERMILLION),)
-    bending = number(loss.hub_bending_moment_n_m, "N m")
-    finding = f"{number(loss.friction_power_w, 'W')} of heat and {bending} of bending in one mesh"
+    power = (Row("friction power of one mesh", loss.friction_power, Hue.VERMILLION),)
+    bending = number(loss.hub_bending_moment, "N m")
+    finding = f"{number(loss.friction_power, 'W')} of heat and {bending} of bending in one mesh"
     panels = (
         Panel(x=Axis("moment", "N m"), y=Axis("moment"), rows=moments),
         Panel(x=Axis("power", "W"), y=Axis("power"), rows=power),
@@ -432,5 +432,5 @@ FIGURES = (
     Declaration("tooth-motion", "Motion of one tooth over a revolution", "Pahl 1978, Figs. 6, 12", tooth_motion),
     Declaration("contact-track", "Track of the contact on the face", "Pahl 1978, Fig. 7", contact_track),
     Declaration("axial-thrust", "Axial thrust of the coupling", "Pahl 1978, Fig. 14", axial_thrust),
-    Declaration("losses", "Moments and losses of one mesh", "Pahl 1978", losses, detail="summary"),
+    Declaration("losses", "Moments and losses of one mesh", "Pahl 1978", losses),
 )

@@ -21,52 +21,50 @@ from app.figures.data import (
     Row,
     Span,
     Values,
-    matrix,
     values,
 )
-from app.figures.declaration import Declaration, present
+from app.figures.declaration import Declaration
 from app.figures.models.load_distribution import FACE as FLANK_FACE
 from app.figures.models.load_distribution import PROFILE
+from app.figures.units import MM
 from app.figures.wording import number, percent
-from app.schema.drive_train import DriveTrainRequest, DriveTrainResponse, ShaftState, UnitShaft
 from solvers.drive_train import solve
-from solvers.drive_train.inputs import DriveTrainInputs, Effects
+from solvers.drive_train.inputs import DriveTrainInputs, Effects, Shaft
+from solvers.drive_train.results import DriveTrainResult, ShaftResult
 
 
-def flank_load(_: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
+def flank_load(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Line load over the flank under the gap that all parts agreed on."""
-    flank, load = present(answer.flank), present(answer.load)
-    grid = matrix(flank.line_load_n_per_mm)
+    flank, load = result.flank, result.load
+    grid = flank.line_load
     chart = Map(
         "line load",
         "N/mm",
         values(flank.face_fraction),
         values(flank.profile_fraction),
         grid,
-        range=(0.0, max(float(grid.max()), load.max_line_load_n_per_mm) or 1.0),
+        range=(0.0, max(float(grid.max()), load.max_line_load) or 1.0),
     )
     row, column = np.unravel_index(int(np.argmax(grid)), grid.shape)
-    mark = Mark(flank.face_fraction[column], flank.profile_fraction[row], number(load.max_line_load_n_per_mm, "N/mm"))
+    mark = Mark(flank.face_fraction[column], flank.profile_fraction[row], number(load.max_line_load, "N/mm"))
     factor = load.face_load_factor
-    finding = (
-        f"highest {number(load.max_line_load_n_per_mm, 'N/mm')}; {percent(load.contact_fraction)} of the flank carries"
-    )
+    finding = f"highest {number(load.max_line_load, 'N/mm')}; {percent(load.contact_fraction)} of the flank carries"
     if factor is None:
         return Figure("no load", (Panel(x=FLANK_FACE, y=PROFILE, map=chart),))
     return Figure(f"{finding}, K_Hβ = {number(factor)}", (Panel(x=FLANK_FACE, y=PROFILE, map=chart, marks=(mark,)),))
 
 
-def contact_temperature(_: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
+def contact_temperature(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Contact temperature by Blok over the flank; the corners that a feature line never meets count."""
-    flank = present(answer.flank)
-    grid = matrix(flank.contact_temperature_c)
-    if present(answer.derived).temperatures.bulk_c is None:
+    flank = result.flank
+    grid = flank.contact_temperature
+    if result.derived.temperatures.bulk is None:
         raise NoFigure("no_oil", "Without an oil and a bulk temperature there is no contact temperature", "lubricant")
     if not np.isfinite(grid).all():
         raise NoFigure(
             "no_temperature", "The loaded path reaches a base circle, where there is no temperature", "gears"
         )
-    limit = present(answer.derived).temperatures.scuffing_c
+    limit = result.derived.temperatures.scuffing
     low, high = float(grid.min()), float(grid.max())
     critical = (Critical(limit, "scuffing"),) if limit is not None and low < limit < high else ()
     chart = Map(
@@ -81,19 +79,18 @@ def contact_temperature(_: DriveTrainRequest, answer: DriveTrainResponse) -> Fig
     row, column = np.unravel_index(int(np.argmax(grid)), grid.shape)
     hottest = number(high, "°C", digits=4)
     mark = Mark(flank.face_fraction[column], flank.profile_fraction[row], hottest)
-    safety = answer.safety.blok_flank if answer.safety is not None else None
+    safety = result.safety.blok_flank if result.safety is not None else None
     finding = f"up to {hottest}" + ("" if safety is None else f", safety against scuffing {number(safety)} by Blok")
     return Figure(finding, (Panel(x=FLANK_FACE, y=PROFILE, map=chart, marks=(mark,) if high > low else ()),))
 
 
 MAPS = (
-    Declaration("flank-load", "Line load on the flank", "Xue 2020, Fig. 11", flank_load, detail="fields"),
+    Declaration("flank-load", "Line load on the flank", "Xue 2020, Fig. 11", flank_load),
     Declaration(
         "contact-temperature",
         "Contact temperature on the flank",
         "Xue 2020, Eq. 25",
         contact_temperature,
-        detail="fields",
     ),
 )
 
@@ -115,43 +112,49 @@ PARTS = (
 )
 
 
-def shaft_lines(request: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
+def shaft_lines(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Displaced axes of both shafts in both planes, with the reactions of their bearings."""
-    shafts = present(answer.shafts)
-    given = (request.pinion_shaft, request.wheel_shaft)
-    z = np.concatenate([present(state.curves).z_mm for state in shafts])
+    shafts = result.shafts
+    given = (inputs.pinion_shaft, inputs.wheel_shaft)
+    z = np.concatenate([state.curves.z for state in shafts])
     axis = Axis("position along Z", "mm", magnitude=False, limits=(float(z.min()), float(z.max())))
     panels = tuple(
-        _shaft(request, name, own, state, axis)
+        _shaft(inputs, name, own, state, axis)
         for name, own, state in zip(("pinion", "wheel"), given, shafts, strict=True)
     )
-    loads = [hypot(*bearing.reaction_n) for state in shafts for bearing in state.bearings]
+    loads = [hypot(*bearing.reaction) for state in shafts for bearing in state.bearings]
     finding = f"bearings carry {number(min(loads) / NEWTONS)} to {number(max(loads) / NEWTONS, 'kN')}"
     return Figure(f"{finding}; marks are their reactions", panels)
 
 
-def _shaft(request: DriveTrainRequest, name: str, given: UnitShaft, state: ShaftState, axis: Axis) -> Panel:
-    curves = present(state.curves)
-    z = values(curves.z_mm)
+def _shaft(inputs: DriveTrainInputs, name: str, given: Shaft, state: ShaftResult, axis: Axis) -> Panel:
+    curves = state.curves
+    z = values(curves.z)
     lines, marks = [], []
     for plane, (title, shown, hue) in enumerate(
-        (("along X", curves.x_um, Hue.BLUE), ("along Y", curves.y_um, Hue.VERMILLION))
+        (("along X", curves.x, Hue.BLUE), ("along Y", curves.y, Hue.VERMILLION))
     ):
         line = Line(title, z, values(shown), hue)
         lines.append(line)
         for bearing, found in zip(given.bearings, state.bearings, strict=True):
-            height = float(np.interp(bearing.position_mm, z, line.y))
-            reaction = _felt(found.reaction_n[plane], hypot(*found.reaction_n)) / NEWTONS
-            marks.append(Mark(bearing.position_mm, height, number(reaction, "kN"), hue))
-    hubs = [Level(each.position_mm, "hub", vertical=True) for each in request.couplings if each.shaft == name]
+            place = bearing.position / MM
+            height = float(np.interp(place, z, line.y))
+            reaction = _felt(found.reaction[plane], hypot(*found.reaction)) / NEWTONS
+            marks.append(Mark(place, height, number(reaction, "kN"), hue))
+    hubs = [Level(each.position / MM, "hub", vertical=True) for each in inputs.couplings if each.shaft == name]
     return Panel(
         x=axis,
         y=Axis(f"displacement of the {name} shaft", "µm", magnitude=False),
         lines=tuple(lines),
         marks=tuple(marks),
         levels=tuple(hubs),
-        spans=(Span(request.face_start_mm, request.face_start_mm + request.gears.face_width_mm, "face"),),
+        spans=(Span(inputs.face_start / MM, (inputs.face_start + face_width(inputs)) / MM, "face"),),
     )
+
+
+def face_width(inputs: DriveTrainInputs) -> float:
+    """Face width of the gears [m]."""
+    return inputs.mesh.distribution.gears.face_width
 
 
 def _felt(value: float, whole: float) -> float:
@@ -159,38 +162,38 @@ def _felt(value: float, whole: float) -> float:
     return 0.0 if abs(value) < NOISE * abs(whole) else value
 
 
-def gap(_: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
+def gap(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Gap over the face by shafts, heat and what is ground."""
-    found = present(answer.misalignment)
-    curves = present(found.curves)
-    y = values(curves.position_mm)
+    found = result.misalignment
+    curves = found.curves
+    y = values(curves.position)
     lines = (
-        Line("shafts", y, values(curves.shaft_um), Hue.BLUE),
-        Line("heat", y, values(curves.thermal_um), Hue.VERMILLION),
-        Line("as ground", y, values(curves.modification_um), Hue.GREEN),
-        Line("in all", y, values(curves.total_um), Hue.PURPLE),
+        Line("shafts", y, values(curves.shaft), Hue.BLUE),
+        Line("heat", y, values(curves.thermal), Hue.VERMILLION),
+        Line("as ground", y, values(curves.modification), Hue.GREEN),
+        Line("in all", y, values(curves.total), Hue.PURPLE),
     )
     axis = Axis("gap, positive where the flanks part", "µm", magnitude=False)
     shafts, heat = (
         _felt(slope, span)
         for slope, span in (
-            (found.shaft_slope_um, found.shaft_range_um),
-            (found.thermal_slope_um, found.thermal_range_um),
+            (found.shaft_slope, found.shaft_range),
+            (found.thermal_slope, found.thermal_range),
         )
     )
     slopes = f"shafts {number(shafts)}, heat {number(heat, 'µm')} over the face"
-    wanted = f"first estimate of the helix slope to grind {number(found.recommended_helix_slope_um, 'µm')}"
+    wanted = f"first estimate of the helix slope to grind {number(found.recommended_helix_slope, 'µm')}"
     return Figure(f"{slopes}; {wanted}", (Panel(x=FACE, y=axis, lines=lines),))
 
 
-def slope_parts(_: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
+def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Where the misalignment comes from."""
-    found = present(answer.misalignment)
+    found = result.misalignment
     rows = [Row(name, getattr(found.parts, part), hue) for name, part, hue in PARTS]
     rows += [
-        Row("shafts in all", found.shaft_slope_um, Hue.PURPLE),
-        Row("heat", found.thermal_slope_um, Hue.VERMILLION),
-        Row("shafts and heat", found.total_slope_um, Hue.PURPLE),
+        Row("shafts in all", found.shaft_slope, Hue.PURPLE),
+        Row("heat", found.thermal_slope, Hue.VERMILLION),
+        Row("shafts and heat", found.total_slope, Hue.PURPLE),
     ]
     shown = tuple(row for row in rows if row.value != 0.0)
     if not shown:
@@ -201,18 +204,17 @@ def slope_parts(_: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
     return Figure(finding, (Panel(x=axis, y=Axis("cause"), rows=shown),))
 
 
-def effects_apart(request: DriveTrainRequest, _: DriveTrainResponse) -> dict[str, Values]:
+def effects_apart(inputs: DriveTrainInputs, _: DriveTrainResult) -> dict[str, Values]:
     """Transverse force per face [N/mm] of the unit without each of its effects, and without all."""
-    given: DriveTrainInputs = request.inputs()
-    own, variants = given.effects, dict[str, Effects]()
-    if own.shafts and given.acting_couplings:
+    own, variants = inputs.effects, dict[str, Effects]()
+    if own.shafts and inputs.acting_couplings:
         variants["without coupling"] = replace(own, coupling=False)
     if own.thermal and own.shafts:
         variants["without heat"] = replace(own, thermal=False)
         variants["without shafts"] = replace(own, shafts=False)
     if own.thermal or own.shafts:
         variants["mesh alone"] = Effects(shafts=False, coupling=False, thermal=False)
-    return {name: _line_force(replace(given, effects=effects)) for name, effects in variants.items()}
+    return {name: _line_force(replace(inputs, effects=effects)) for name, effects in variants.items()}
 
 
 def _line_force(inputs: DriveTrainInputs) -> Values:
@@ -221,45 +223,45 @@ def _line_force(inputs: DriveTrainInputs) -> Values:
     return values(solve(closed).misalignment.curves.line_force / 1e3)
 
 
-def face_load(request: DriveTrainRequest, answer: DriveTrainResponse, others: dict[str, Values]) -> Figure:
+def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[str, Values]) -> Figure:
     """Load along the face with all effects and without each."""
-    curves, load = present(present(answer.misalignment).curves), present(answer.load)
-    y = values(curves.position_mm)
+    curves, load = result.misalignment.curves, result.load
+    y = values(curves.position)
     hues = {
         "without coupling": Hue.ORANGE,
         "without heat": Hue.VERMILLION,
         "without shafts": Hue.GREEN,
         "mesh alone": Hue.GREY,
     }
-    lines = [Line("as asked", y, values(curves.line_force_n_per_mm), Hue.BLUE)]
+    lines = [Line("as asked", y, values(curves.line_force), Hue.BLUE)]
     lines += [Line(name, y, force, hues[name], Role.REFERENCE) for name, force in others.items()]
     if load.face_load_factor is None or load.face_load_at is None:
         raise NoFigure("no_load", "Without load there is none along the face", "operation")
     place = f"at {percent(load.face_load_at)} of the face"
     panel = Panel(
-        x=replace(FACE, limits=(0.0, request.gears.face_width_mm)),
+        x=replace(FACE, limits=(0.0, face_width(inputs) / MM)),
         y=Axis("transverse force per face, mean over the roll", "N/mm"),
         lines=tuple(lines),
     )
     return Figure(f"K_Hβ = {number(load.face_load_factor)} {place}", (panel,))
 
 
-def thrust(request: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
+def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Axial load of both shafts between the bounds that the couplings' friction leaves."""
-    shafts = present(answer.shafts)
+    shafts = result.shafts
     rows = tuple(
         Row(
             f"{name} shaft",
-            state.thrust.mesh_n,
-            Hue.BLUE if state.thrust.lower_n is not None else Hue.GREY,
+            state.thrust.mesh,
+            Hue.BLUE if state.thrust.lower is not None else Hue.GREY,
             None
-            if state.thrust.lower_n is None or state.thrust.upper_n is None
-            else (state.thrust.lower_n, state.thrust.upper_n),
+            if state.thrust.lower is None or state.thrust.upper is None
+            else (state.thrust.lower, state.thrust.upper),
         )
         for name, state in zip(("pinion", "wheel"), shafts, strict=True)
     )
-    given = (("pinion", request.pinion_shaft.thrust_bearing), ("wheel", request.wheel_shaft.thrust_bearing))
-    usable = {name: 0.5 * bearing.ultimate_load_n for name, bearing in given if bearing.ultimate_load_n is not None}
+    given = (("pinion", inputs.pinion_shaft.ultimate_thrust), ("wheel", inputs.wheel_shaft.ultimate_thrust))
+    usable = {name: 0.5 * ultimate for name, ultimate in given if ultimate is not None}
     alike = len(set(usable.values())) == 1
     levels = [
         Level(sign * load, text if sign > 0.0 else "", limit=True, vertical=True)
@@ -279,21 +281,21 @@ def thrust(request: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
     return Figure(finding, (panel,))
 
 
-def losses(_: DriveTrainRequest, answer: DriveTrainResponse) -> Figure:
+def losses(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """What the unit loses, and where."""
-    found = present(answer.losses)
+    found = result.losses
     parts = (
-        ("plain bearings", found.bearings_w, Hue.BLUE),
-        ("mesh", found.mesh_w, Hue.VERMILLION),
-        ("pumping of air and mist", found.pumping_w, Hue.GREEN),
-        ("couplings", found.coupling_w, Hue.ORANGE),
+        ("plain bearings", found.bearings, Hue.BLUE),
+        ("mesh", found.mesh, Hue.VERMILLION),
+        ("pumping of air and mist", found.pumping, Hue.GREEN),
+        ("couplings", found.coupling, Hue.ORANGE),
     )
     rows = tuple(Row(name, power, hue) for name, power, hue in parts if power is not None)
     efficiency = "" if found.efficiency is None else f", efficiency {number(100 * found.efficiency, '%', digits=4)}"
-    if found.total_w is None:
+    if found.total is None:
         finding = "without the loss of the mesh, whose coefficient of friction is not known"
     else:
-        finding = f"{number(found.total_w / NEWTONS, 'kW')} in all{efficiency}"
+        finding = f"{number(found.total / NEWTONS, 'kW')} in all{efficiency}"
     return Figure(finding, (Panel(x=Axis("power lost", "W"), y=Axis("where"), rows=rows),))
 
 

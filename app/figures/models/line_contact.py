@@ -2,23 +2,23 @@
 
 import numpy as np
 
-from app.figures.data import Axis, Figure, Hue, Line, Map, Mark, NoFigure, Panel, Role, Row, Span, matrix, values
+from app.figures.data import Axis, Figure, Hue, Line, Map, Mark, NoFigure, Panel, Role, Row, Span, values
 from app.figures.declaration import Declaration, present
 from app.figures.wording import number, percent
-from app.schema.line_contact import LineContactRequest, LineContactResponse
+from solvers.contact.ehl import LineContactInputs, LineContactResult
 
 ACROSS = "position across the contact, along the flow"
 THICK = 3.0  # film beyond so many central films is inlet and outlet, not contact
 
 
-def contact(_: LineContactRequest, answer: LineContactResponse) -> Figure:
+def contact(_: LineContactInputs, result: LineContactResult) -> Figure:
     """Pressure with Hertz, film and temperatures across the contact."""
-    curves, film, hertz = present(answer.curves), present(answer.film), present(answer.hertz)
-    x_mm = values(curves.x_mm)
+    curves, film, hertz = present(result.curves), result.film, result.hertz
+    x_mm = values(curves.x)
     x = Axis(ACROSS, "mm", magnitude=False)
-    zone = (Span(-hertz.half_width_mm, hertz.half_width_mm, "Hertz contact"),)
-    plain = (Span(-hertz.half_width_mm, hertz.half_width_mm, ""),)
-    thickness, central = values(curves.film_um), present(film.central_um)
+    zone = (Span(-hertz.half_width, hertz.half_width, "Hertz contact"),)
+    plain = (Span(-hertz.half_width, hertz.half_width, ""),)
+    thickness, central = values(curves.film), present(film.central)
     thinnest = int(np.argmin(thickness))
     ceiling = THICK * central
     panels = [
@@ -26,8 +26,8 @@ def contact(_: LineContactRequest, answer: LineContactResponse) -> Figure:
             x=x,
             y=Axis("pressure", "MPa"),
             lines=(
-                Line("film", x_mm, values(curves.pressure_mpa)),
-                Line("Hertz", x_mm, values(curves.hertz_pressure_mpa), Hue.GREY, Role.REFERENCE),
+                Line("film", x_mm, values(curves.pressure)),
+                Line("Hertz", x_mm, values(curves.hertz_pressure), Hue.GREY, Role.REFERENCE),
             ),
             spans=zone,
         ),
@@ -46,35 +46,35 @@ def contact(_: LineContactRequest, answer: LineContactResponse) -> Figure:
             spans=plain,
         ),
     ]
-    finding = f"film {number(central, 'µm')} in the middle, {number(present(film.minimum_um), 'µm')} at the thinnest"
-    if answer.temperature is not None:
+    finding = f"film {number(central, 'µm')} in the middle, {number(present(film.minimum), 'µm')} at the thinnest"
+    if result.temperature is not None:
         lines = tuple(
             Line(title, x_mm, values(present(items)), hue)
             for title, items, hue in (
-                ("mid film", curves.mid_film_temperature_c, Hue.VERMILLION),
-                ("surface 1", curves.surface_1_temperature_c, Hue.BLUE),
-                ("surface 2", curves.surface_2_temperature_c, Hue.SKY),
+                ("mid film", curves.mid_film_temperature, Hue.VERMILLION),
+                ("surface 1", curves.surface_1_temperature, Hue.BLUE),
+                ("surface 2", curves.surface_2_temperature, Hue.SKY),
             )
         )
         panels.append(Panel(x=x, y=Axis("temperature", "°C", magnitude=False), lines=lines, spans=plain))
-        finding += f"; up to {number(answer.temperature.film_max_c, '°C')}"
-    if answer.friction is not None:
-        finding += f"; μ = {number(answer.friction.coefficient)}"
+        finding += f"; up to {number(result.temperature.film_max, '°C')}"
+    if result.friction is not None:
+        finding += f"; μ = {number(result.friction.coefficient)}"
     return Figure(finding, tuple(panels))
 
 
-def film_temperature(_: LineContactRequest, answer: LineContactResponse) -> Figure:
+def film_temperature(_: LineContactInputs, result: LineContactResult) -> Figure:
     """Temperature over contact and film."""
-    field = answer.field
-    if field is None or answer.temperature is None:
+    field = result.field
+    if field is None or result.temperature is None:
         raise _isothermal()
-    grid = matrix(field.temperature_c).T
+    grid = field.temperature.T
     row, column = np.unravel_index(int(np.argmax(grid)), grid.shape)
     hottest = float(grid[row, column])
     chart = Map(
         "temperature",
         "°C",
-        values(field.x_mm),
+        values(field.x),
         values(field.film_fraction),
         grid,
         range=(float(grid.min()), hottest),
@@ -85,35 +85,35 @@ def film_temperature(_: LineContactRequest, answer: LineContactResponse) -> Figu
         map=chart,
         marks=(Mark(float(chart.x[column]), float(chart.y[row]), number(hottest, "°C")),),
     )
-    surfaces = answer.temperature
+    surfaces = result.temperature
     finding = (
-        f"film to {number(surfaces.film_max_c, '°C')}, surface 1 to {number(surfaces.surface_1_max_c, '°C')}, "
-        f"surface 2 to {number(surfaces.surface_2_max_c, '°C')}"
+        f"film to {number(surfaces.film_max, '°C')}, surface 1 to {number(surfaces.surface_1_max, '°C')}, "
+        f"surface 2 to {number(surfaces.surface_2_max, '°C')}"
     )
     return Figure(finding, (panel,))
 
 
-def heat(_: LineContactRequest, answer: LineContactResponse) -> Figure:
+def heat(_: LineContactInputs, result: LineContactResult) -> Figure:
     """What shear and compression make, and where it goes."""
-    books = answer.heat
+    books = result.heat
     if books is None:
         raise _isothermal()
     unit = "W/mm"
     source = (
-        Row("shear", books.generated_w_per_mm, Hue.VERMILLION),
-        Row("compression", books.compression_w_per_mm, Hue.ORANGE),
+        Row("shear", books.generated, Hue.VERMILLION),
+        Row("compression", books.compression, Hue.ORANGE),
     )
     sink = (
-        Row("into surface 1", books.to_surface_1_w_per_mm, Hue.BLUE),
-        Row("into surface 2", books.to_surface_2_w_per_mm, Hue.SKY),
-        Row("carried out by the oil", books.convected_w_per_mm, Hue.GREEN),
+        Row("into surface 1", books.to_surface_1, Hue.BLUE),
+        Row("into surface 2", books.to_surface_2, Hue.SKY),
+        Row("carried out by the oil", books.convected, Hue.GREEN),
     )
     ends = [0.0, *(row.value for row in (*source, *sink))]
     x = Axis("heat per length of contact", unit, limits=(min(ends), max(ends)) if max(ends) > min(ends) else None)
-    made = books.generated_w_per_mm + books.compression_w_per_mm
+    made = books.generated + books.compression
     shares = [row.value / made for row in sink[:2]] if made else [0.0, 0.0]
     taken = f"surface 1 takes {percent(shares[0])}, surface 2 {percent(shares[1])}"
-    finding = f"{number(books.generated_w_per_mm, unit)} by shear; {taken}"
+    finding = f"{number(books.generated, unit)} by shear; {taken}"
     panels = (
         Panel(x=x, y=Axis("heat"), title="made", rows=source),
         Panel(x=x, y=Axis("heat"), title="gone", rows=sink),
@@ -127,6 +127,6 @@ def _isothermal() -> NoFigure:
 
 FIGURES = (
     Declaration("contact", "Lubricated line contact", "Xue 2020, Fig. 20", contact),
-    Declaration("film-temperature", "Temperature in the film", "Xue 2020, Fig. 21", film_temperature, detail="fields"),
-    Declaration("heat", "Where the heat of the contact goes", "Xue 2020, Eqs. 23, 24", heat, detail="summary"),
+    Declaration("film-temperature", "Temperature in the film", "Xue 2020, Fig. 21", film_temperature),
+    Declaration("heat", "Where the heat of the contact goes", "Xue 2020, Eqs. 23, 24", heat),
 )

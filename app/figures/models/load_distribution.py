@@ -17,51 +17,49 @@ from app.figures.data import (
     Role,
     Scale,
     Values,
-    matrix,
     values,
 )
 from app.figures.declaration import Declaration, present
 from app.figures.wording import number, percent
-from app.schema.load_distribution import FlankFields, FlankPlace, LoadDistributionRequest, LoadDistributionResponse
+from solvers.scuffing.inputs import LoadDistributionInputs
+from solvers.scuffing.results import Flank, LoadDistribution, Place
 
 FIFTHS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
 FACE = Axis("face (0: end that meshes first)", limits=(0.0, 1.0), ticks=FIFTHS)
 PROFILE = Axis("profile (0: A, 1: E)", limits=(0.0, 1.0), ticks=FIFTHS)
 
 
-def flank_load(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
+def flank_load(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Line load over the flank, its maximum over all roll positions marked."""
-    load, flank = present(answer.load), present(answer.flank)
-    panel = _panel(
-        flank, "line load", "N/mm", matrix(flank.line_load_n_per_mm), load.max_at, load.max_line_load_n_per_mm
-    )
+    load, flank = result.load, result.flank
+    panel = _panel(flank, "line load", "N/mm", flank.line_load, load.max_at, load.max_line_load)
     factor = load.face_load_factor
     face = "" if factor is None else f", K_Hβ = {number(factor)}"
     carrying = f"{percent(load.contact_fraction)} of the flank carries"
-    finding = f"highest {number(load.max_line_load_n_per_mm, 'N/mm')}{face}; {carrying}"
+    finding = f"highest {number(load.max_line_load, 'N/mm')}{face}; {carrying}"
     return Figure(finding if load.max_at else "no load", (panel,))
 
 
-def flank_pressure(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
+def flank_pressure(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Hertz pressure over the flank, its maximum over all roll positions marked."""
-    pressure, flank = present(answer.pressure), present(answer.flank)
-    grid = matrix(flank.pressure_mpa)
-    panel = _panel(flank, "Hertz pressure", "MPa", grid, pressure.max_at, pressure.max_mpa)
+    pressure, flank = result.pressure, result.flank
+    grid = flank.pressure
+    panel = _panel(flank, "Hertz pressure", "MPa", grid, pressure.max_at, pressure.max)
     finding = (
-        f"highest {number(pressure.max_mpa, 'MPa')} {_where(pressure.max_at)}"
-        if pressure.max_mpa and pressure.max_at
+        f"highest {number(pressure.max, 'MPa')} {_where(pressure.max_at)}"
+        if pressure.max and pressure.max_at
         else "no load"
     )
-    if pressure.max_mpa is None:
+    if pressure.max is None:
         finding = "no largest pressure: the path reaches a base circle"
     gaps = int(np.isnan(grid).sum())
     return Figure(finding, (panel,), unsolved=gaps)
 
 
-def modification(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
+def modification(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Gap between the unloaded flanks."""
-    flank = present(answer.flank)
-    grid = matrix(flank.modification_um)
+    flank = result.flank
+    grid = flank.modification
     low, high = float(grid.min()), float(grid.max())
     chart = Map(
         "gap between the unloaded flanks",
@@ -76,9 +74,7 @@ def modification(_: LoadDistributionRequest, answer: LoadDistributionResponse) -
     return Figure(finding, (panel,))
 
 
-def _panel(
-    flank: FlankFields, title: str, unit: str, grid: Values, at: FlankPlace | None, largest: float | None
-) -> Panel:
+def _panel(flank: Flank, title: str, unit: str, grid: Values, at: Place | None, largest: float | None) -> Panel:
     seen = float(np.nanmax(grid, initial=0.0))
     chart = Map(
         title,
@@ -94,16 +90,14 @@ def _panel(
     return Panel(x=FACE, y=PROFILE, map=chart, marks=marks)
 
 
-def _where(place: FlankPlace) -> str:
+def _where(place: Place) -> str:
     return f"at {percent(place.face_fraction)} of the face, {percent(place.profile_fraction)} of the profile"
 
 
 MAPS = (
-    Declaration("flank-load", "Line load on the flank", "Xue 2020, Fig. 11", flank_load, detail="fields"),
-    Declaration(
-        "flank-pressure", "Hertz pressure on the flank", "Xue 2020, Figs. 13, 16, 17", flank_pressure, detail="fields"
-    ),
-    Declaration("modification", "Modification of the flank", "Xue 2020, Fig. 15", modification, detail="fields"),
+    Declaration("flank-load", "Line load on the flank", "Xue 2020, Fig. 11", flank_load),
+    Declaration("flank-pressure", "Hertz pressure on the flank", "Xue 2020, Figs. 13, 16, 17", flank_pressure),
+    Declaration("modification", "Modification of the flank", "Xue 2020, Fig. 15", modification),
 )
 
 
@@ -112,49 +106,49 @@ PATH = Axis("path of contact Ψ (0: A, pinion root; 1: E, pinion tip)", limits=(
 NO_LOAD = "no load"
 
 
-def transmission_error(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
+def transmission_error(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Transmission error and length of contact over the roll, and the orders of the error."""
-    error, lines = present(answer.transmission_error), present(answer.contact_lines)
-    curves, lengths = present(error.curves), present(lines.curves)
-    order = values([float(order) for order in range(1, len(error.harmonics_um) + 1)])
+    error, lines = result.transmission_error, result.contact_lines
+    curves, lengths = error.curves, lines.curves
+    order = values([float(order) for order in range(1, len(error.harmonics) + 1)])
     panels = (
         Panel(
             x=ROLL,
             y=Axis("transmission error", "µm", magnitude=False),
-            lines=(Line("transmission error", values(curves.roll_position), values(curves.error_um), named=False),),
-            levels=(Level(error.mean_um, f"mean {number(error.mean_um, 'µm')}"),),
+            lines=(Line("transmission error", values(curves.roll_position), values(curves.error), named=False),),
+            levels=(Level(error.mean, f"mean {number(error.mean, 'µm')}"),),
         ),
         Panel(
             x=ROLL,
             y=Axis("total length of the contact lines", "mm"),
-            lines=(Line("length", values(lengths.roll_position), values(lengths.length_mm), Hue.GREEN, named=False),),
+            lines=(Line("length", values(lengths.roll_position), values(lengths.length), Hue.GREEN, named=False),),
         ),
         Panel(
             x=Axis("order of the mesh", magnitude=False, ticks=tuple(order.tolist())),
             y=Axis("amplitude of the transmission error", "µm"),
-            bars=(Bars("amplitude", order, values(error.harmonics_um)),),
+            bars=(Bars("amplitude", order, values(error.harmonics)),),
         ),
     )
-    contact = f"contact from {number(lines.min_length_mm)} to {number(lines.max_length_mm, 'mm')}"
-    finding = f"peak to peak {number(error.peak_to_peak_um, 'µm')}; {contact}"
+    contact = f"contact from {number(lines.min_length)} to {number(lines.max_length, 'mm')}"
+    finding = f"peak to peak {number(error.peak_to_peak, 'µm')}; {contact}"
     return Figure(finding, panels)
 
 
-def path_of_contact(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
+def path_of_contact(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Line load, pressure and sliding along the feature line."""
-    curves, load, pressure = present(answer.feature_line), present(answer.load), present(answer.pressure)
+    curves, load, pressure = result.feature_line, result.load, result.pressure
     psi = values(curves.psi)
     points = path_points(psi, values(curves.gamma))
-    stresses, sliding = values(curves.pressure_mpa), np.abs(values(curves.sliding_m_per_s))
+    stresses, sliding = values(curves.pressure), np.abs(values(curves.sliding))
     panels = (
-        _along(psi, "line load", "N/mm", values(curves.line_load_n_per_mm), Hue.BLUE, points, "N/mm"),
+        _along(psi, "line load", "N/mm", values(curves.line_load), Hue.BLUE, points, "N/mm"),
         _along(psi, "Hertz pressure", "MPa", stresses, Hue.VERMILLION, unnamed(points), "MPa"),
         _along(psi, "sliding speed, magnitude", "m/s", sliding, Hue.GREEN, unnamed(points), None),
     )
     loaded = load.max_at is not None
-    finding = f"on the whole flank up to {number(load.max_line_load_n_per_mm, 'N/mm')}"
-    if pressure.max_mpa is not None:
-        finding += f" and {number(pressure.max_mpa, 'MPa')}"
+    finding = f"on the whole flank up to {number(load.max_line_load, 'N/mm')}"
+    if pressure.max is not None:
+        finding += f" and {number(pressure.max, 'MPa')}"
     gaps = int(np.isnan(stresses).sum())
     return Figure(finding if loaded else NO_LOAD, panels, unsolved=gaps)
 
@@ -182,19 +176,15 @@ def unnamed(levels: tuple[Level, ...]) -> tuple[Level, ...]:
     return tuple(Level(level.value, "", level.limit, level.vertical) for level in levels)
 
 
-def stiffness(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
+def stiffness(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Stiffness of one pair along the path beside the standard's."""
-    stiff = present(answer.stiffness)
-    curves = present(stiff.curves)
-    gamma, single = values(curves.gamma), values(curves.single_n_per_mm_um)
+    stiff = result.stiffness
+    curves = stiff.curves
+    gamma, single = values(curves.gamma), values(curves.single)
     unit = "N/(mm µm)"
-    levels = [
-        Level(stiff.standard_single_n_per_mm_um, f"ISO 6336-1, one pair: {number(stiff.standard_single_n_per_mm_um)}")
-    ]
-    if stiff.mean_mesh_n_per_mm_um is not None:
-        levels.append(
-            Level(stiff.mean_mesh_n_per_mm_um, f"mean of the loaded mesh: {number(stiff.mean_mesh_n_per_mm_um)}")
-        )
+    levels = [Level(stiff.standard_single, f"ISO 6336-1, one pair: {number(stiff.standard_single)}")]
+    if stiff.mean_mesh is not None:
+        levels.append(Level(stiff.mean_mesh, f"mean of the loaded mesh: {number(stiff.mean_mesh)}"))
     if gamma[0] < 0.0 < gamma[-1]:
         levels.append(Level(0.0, "C, pitch point", vertical=True))
     panel = Panel(
@@ -202,17 +192,17 @@ def stiffness(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> F
         y=Axis("stiffness of one pair per face width", unit),
         lines=(Line("one pair", gamma, single, named=False),),
         levels=tuple(levels),
-        marks=(Mark(stiff.max_at_gamma, stiff.max_n_per_mm_um, number(stiff.max_n_per_mm_um, unit)),),
+        marks=(Mark(stiff.max_at_gamma, stiff.max, number(stiff.max, unit)),),
     )
-    highest = f"highest {number(stiff.max_n_per_mm_um)} at Γ = {number(stiff.max_at_gamma)}"
-    ends = f"{number(stiff.approach_n_per_mm_um)} at A, {number(stiff.recess_n_per_mm_um, unit)} at E"
+    highest = f"highest {number(stiff.max)} at Γ = {number(stiff.max_at_gamma)}"
+    ends = f"{number(stiff.approach)} at A, {number(stiff.recess, unit)} at E"
     finding = f"{highest}, {ends}"
     return Figure(finding, (panel,))
 
 
-def load_sharing(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
+def load_sharing(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Load sharing factor beside the standard's diagram."""
-    curves = present(answer.feature_line)
+    curves = result.feature_line
     psi = values(curves.psi)
     lines = []
     if curves.load_sharing is not None:
@@ -236,9 +226,9 @@ def load_sharing(_: LoadDistributionRequest, answer: LoadDistributionResponse) -
     return Figure(finding, (panel,))
 
 
-def pair_share(_: LoadDistributionRequest, answer: LoadDistributionResponse) -> Figure:
+def pair_share(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Share of the force on each line of contact over the roll."""
-    load, curves = present(answer.load), present(present(answer.transmission_error).curves)
+    load, curves = result.load, present(result.transmission_error.curves)
     if load.pair_share is None:
         raise NoFigure("no_load", "Without load no pair of teeth carries a share of it", "load")
     roll, shares = values(curves.roll_position), load.pair_share
@@ -270,7 +260,5 @@ FIGURES = (
     ),
     Declaration("stiffness", "Stiffness of a pair of teeth along the path", "Xue 2020, Fig. 8", stiffness),
     Declaration("load-sharing", "Load sharing along the path of contact", "Xue 2020, Fig. 19", load_sharing),
-    Declaration(
-        "pair-share", "Share of each pair of teeth over the roll", "Xue 2020, section II", pair_share, detail="fields"
-    ),
+    Declaration("pair-share", "Share of each pair of teeth over the roll", "Xue 2020, section II", pair_share),
 )

@@ -1,0 +1,57 @@
+"""Dataclasses of the solvers with their quantities in the units in which they are shown."""
+
+from dataclasses import fields, is_dataclass
+from functools import cache
+from typing import Any, TypeVar
+
+import numpy as np
+
+from solvers.quantity import UNITS, Quantity, quantities
+
+T = TypeVar("T")
+MM, UM, RPM = (UNITS[name].scale for name in ("mm", "um", "rpm"))
+"""In SI."""
+
+
+def shown(data: T) -> T:
+    """A copy of a solver's dataclass, and of those inside it, whose declared values are in the units shown.
+
+    Computed values that are declared are converted as well; other methods of the copy must not be used, because they
+    would compute from values that are not in SI. What is not declared, and None, stays as it is.
+    """
+    converted: T = _converted(data, None)
+    return converted
+
+
+def _converted(value: Any, declared: Quantity | None) -> Any:
+    """A value in its unit; `declared` is that of the field that holds it."""
+    if is_dataclass(value) and not isinstance(value, type):
+        return _copy(value, declared)
+    if isinstance(value, tuple | list):
+        return tuple(_converted(item, declared) for item in value)
+    if declared is None or not isinstance(value, float | np.ndarray):
+        return value
+    return declared.from_si(value)
+
+
+def _copy(data: Any, outer: Quantity | None) -> Any:
+    """The copy; `outer` declares what has no unit of its own."""
+    kind: Any = type(data)
+    declared = quantities(kind)
+    copy = object.__new__(_plain(kind))
+    for name in (*(each.name for each in fields(data)), *_computed(kind)):
+        own = declared.get(name)
+        known = outer if outer is not None and (own is None or own.unit is None) else own
+        object.__setattr__(copy, name, _converted(getattr(data, name), known))
+    return copy
+
+
+def _computed(kind: Any) -> list[str]:
+    held = {each.name for each in fields(kind)}
+    return [name for name in quantities(kind) if name not in held]
+
+
+@cache
+def _plain(kind: Any) -> Any:
+    """A subclass that holds what the dataclass computes."""
+    return type(kind.__name__, (kind,), {"__slots__": tuple(_computed(kind)), "__doc__": kind.__doc__})
