@@ -87,13 +87,24 @@ def evaluate(calculation: Calculation, request: Request) -> Response:
     Raises Unprocessable where the solver finds the input impossible, and a validation error (never an answer) where
     a result is not finite.
     """
-    result = None
+    return response_to(calculation, request, solve(calculation, request))
+
+
+def solve(calculation: Calculation, request: Request) -> Any:
+    """The solver's result, or the NoSolution that says why there is none; raises Unprocessable as `evaluate` does."""
     try:
-        result = calculation.solve(request.inputs())
+        return calculation.solve(request.inputs())
     except InvalidInput as error:
         path = field_path(request, error.field) if error.field else None
         raise Unprocessable(error.code, error.message, path) from error
     except NoSolution as failure:
+        return failure
+
+
+def response_to(calculation: Calculation, request: Request, result: Any) -> Response:
+    """The answer that a result, or the lack of a solution, makes; raises a validation error if it is not finite."""
+    if isinstance(result, NoSolution):
+        failure, result = result, None
         warning = Notice(rank="invalid", code=failure.code, message=failure.message)
         content: dict[str, Any] = {
             "status": "no_solution",

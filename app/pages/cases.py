@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from app.calculations import Calculation
 from app.errors import InvalidBody, Unprocessable
-from app.evaluate import evaluate
+from app.evaluate import response_to, solve
 from app.pages.query import Pairs, body_of
 from app.schema.base import Request
 from app.schema.reading import validated
@@ -24,7 +24,10 @@ class Fault(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """A request and its answer; `kept` are both as they are kept, and `fresh` says that they were not yet."""
+    """A request and its answer.
+
+    `kept` are the request and the solver's result as they are kept, and `fresh` says that they were not yet.
+    """
 
     calculation: Calculation
     pairs: Pairs
@@ -39,13 +42,14 @@ def solved(calculation: Calculation, pairs: Pairs, kept: bytes | None) -> Case:
 
     Raises Unreadable, InvalidBody and Unprocessable.
     """
-    if kept is not None:
-        request, response = pickle.loads(zlib.decompress(kept))  # noqa: S301  our own
-        return Case(calculation, pairs, request, response, kept, fresh=False)
-    request = _request(calculation, pairs)
-    response = evaluate(calculation, request)
-    kept = zlib.compress(pickle.dumps((request, response)), COMPRESSION)
-    return Case(calculation, pairs, request, response, kept, fresh=True)
+    fresh = kept is None
+    if kept is None:
+        request = _request(calculation, pairs)
+        result = solve(calculation, request)
+        kept = zlib.compress(pickle.dumps((request, result)), COMPRESSION)
+    else:
+        request, result = pickle.loads(zlib.decompress(kept))  # noqa: S301  our own
+    return Case(calculation, pairs, request, response_to(calculation, request, result), kept, fresh)
 
 
 def faults_of(error: Exception) -> list[Fault]:

@@ -10,8 +10,9 @@ from app.evaluate import evaluate
 from app.examples import examples
 from app.figures.data import NoFigure
 from app.figures.models.scuffing import contact_temperature, friction
+from app.figures.units import shown
 from app.pages.results import cards
-from app.schema.scuffing import ScuffingRequest, ScuffingResponse
+from app.schema.scuffing import ScuffingRequest
 from tests.support.requests import CONTACT, refused, solved
 
 SCUFFING, TRAIN = "/v1/scuffing", "/v1/drive-train"
@@ -62,10 +63,10 @@ def test_flash_stays_without_an_oil_where_friction_is_given() -> None:
 
 def test_figures_of_what_only_an_oil_tells_say_so() -> None:
     request = ScuffingRequest.model_validate(DRY)
-    answer = ScuffingResponse.model_validate(solved(SCUFFING, DRY, {"detail": "curves"}))
+    result = shown(evaluate(BY_PATH[SCUFFING], request).result)
     for figure in (contact_temperature, friction):
         with pytest.raises(NoFigure) as refusal:
-            figure(request, answer)
+            figure(request.inputs(), result)
         assert refusal.value.code == "no_oil"
 
 

@@ -4,6 +4,7 @@ import csv
 import io
 import re
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -14,12 +15,14 @@ import pytest
 from app.calculations import BY_PATH, CALCULATIONS
 from app.evaluate import evaluate
 from app.examples import examples
+from app.figures import units
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, Role
 from app.figures.drawing.image import draw
 from app.figures.models import drive_train
 from app.figures.tables import table
 from app.schema.model import Documented
+from solvers.scuffing.safety_results import ThermalPath
 
 Post = Callable[[str, object], httpx.Response]
 
@@ -292,24 +295,28 @@ def partly_unsolved() -> tuple[Any, Any]:
     request, answer = solved("xue-pair-1-scuffing")
     count = len(answer.path.psi)
     status = ["ok"] * count
-    film: list[float | None] = [0.3 + 0.001 * index for index in range(count)]
+    film = 0.3 + 0.001 * np.arange(count)
     for index in (4, 6):
-        status[index], film[index] = "no_solution", None
+        status[index], film[index] = "no_solution", np.nan
     status[20] = status[21] = "ok_with_warnings"
-    flash = [None if each is None else 40.0 * each for each in film]
-    path = answer.path.model_copy(
-        update={
-            "status": status,
-            "minimum_film_um": film,
-            "central_film_um": film,
-            "pinion_flash_k": flash,
-            "wheel_flash_k": flash,
-            "friction_coefficient": film,
-            "max_pressure_mpa": flash,
-        }
+    flash = 40.0 * film
+    known = answer.result
+    thermal = ThermalPath(
+        status=tuple(status),
+        warnings=(),
+        flash_bound=None,
+        film_bound=None,
+        film_max_temperature=300.0 + flash,
+        minimum_film=1e-6 * film,
+        central_film=1e-6 * film,
+        pinion_flash=flash,
+        wheel_flash=flash,
+        friction_coefficient=film,
+        max_pressure=1e6 * flash,
     )
-    thinnest = answer.film.model_copy(update={"thickness_ratio": None, "thickness_regime": None})
-    return request, answer.model_copy(update={"path": path, "film": thinnest, "unsolved_points": 2})
+    thinnest = replace(known.film, thickness_ratio=None, thickness_regime=None)
+    path = replace(known.path, status=tuple(status), thermal=thermal)
+    return request, answer.model_copy().read_from(replace(known, path=path, film=thinnest, unsolved_points=2))
 
 
 def test_unsolved_points_are_gaps_counted_in_the_subtitle() -> None:
@@ -437,16 +444,15 @@ def test_shaft_lines_carry_the_reactions_at_their_bearings() -> None:
 def test_thrust_names_the_bearing_of_each_limit_where_they_differ() -> None:
     request, answer = solved("starter-generator-gear-drive-train")
 
-    def bearing(shaft: Any, ultimate: float | None) -> Any:
-        thrust = shaft.thrust_bearing.model_copy(update={"ultimate_load_n": ultimate})
-        return shaft.model_copy(update={"thrust_bearing": thrust})
+    given = request.inputs()
 
     def limits(pinion: float | None, wheel: float | None) -> set[tuple[str, float]]:
-        shafts = {
-            "pinion_shaft": bearing(request.pinion_shaft, pinion),
-            "wheel_shaft": bearing(request.wheel_shaft, wheel),
-        }
-        (panel,) = drive_train.thrust(request.model_copy(update=shafts), answer).panels
+        inputs = replace(
+            given,
+            pinion_shaft=replace(given.pinion_shaft, ultimate_thrust=pinion),
+            wheel_shaft=replace(given.wheel_shaft, ultimate_thrust=wheel),
+        )
+        (panel,) = drive_train.thrust(inputs, units.shown(answer.result)).panels
         assert {-level.value for level in panel.levels} == {level.value for level in panel.levels}
         return {(level.name, level.value) for level in panel.levels if level.value > 0.0}
 
@@ -457,6 +463,6 @@ def test_thrust_names_the_bearing_of_each_limit_where_they_differ() -> None:
 
 def test_rounding_errors_are_no_misalignment() -> None:
     request, answer = solved("starter-generator-gear-drive-train")
-    parts = answer.misalignment.model_copy(update={"thermal_slope_um": -7.6e-15, "thermal_range_um": 12.0})
-    finding = drive_train.gap(request, answer.model_copy(update={"misalignment": parts})).finding
+    slope = replace(answer.result.misalignment, thermal_slope=-7.6e-21, thermal_range=12e-6)
+    finding = drive_train.gap(request.inputs(), units.shown(replace(answer.result, misalignment=slope))).finding
     assert "heat 0 µm" in finding

@@ -25,11 +25,10 @@ from app.figures.data import (
 from app.figures.declaration import Declaration, present
 from app.figures.units import UM
 from app.figures.wording import number, percent
-from solvers.coupling.crowning.results import Recommendation
+from solvers.coupling.crowning import Recommendation
 from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
 from solvers.coupling.lubrication import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES, friction_regime
-from solvers.coupling.orbit_results import OrbitResult
-from solvers.coupling.results import CouplingResult
+from solvers.coupling.results import CouplingResult, OrbitResult
 
 MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}
 
