@@ -304,8 +304,8 @@ def partly_unsolved() -> tuple[Any, Any]:
     thermal = ThermalPath(
         status=tuple(status),
         warnings=(),
-        flash_bound=None,
-        film_bound=None,
+        flash_bound=np.full(count, np.nan),
+        film_bound=np.full(count, np.nan),
         film_max_temperature=300.0 + flash,
         minimum_film=1e-6 * film,
         central_film=1e-6 * film,
