@@ -4,7 +4,7 @@ import asyncio
 import logging
 from collections.abc import AsyncIterator, Iterator
 from contextlib import asynccontextmanager, contextmanager
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 from app.errors import SchedulerUnavailable, StudiesFull
 from app.log import STUDIES
@@ -13,34 +13,26 @@ from app.studies.engine import Pool
 from app.workers.admission import StudyPool
 from app.workers.pool import Pool as WorkerPool
 
+if TYPE_CHECKING:
+    from app.studies.cluster import DaskCluster
+
 logger = logging.getLogger("tribodrive")
 
 
-class Cluster(Protocol):
-    """A pool elsewhere, to be connected before each study."""
-
-    async def ready(self) -> Pool:
-        """The pool; raises SchedulerUnavailable."""
-
-    def close(self) -> None:
-        """Leave it."""
-
-
-def connectable(address: str) -> Cluster:
-    """The Dask cluster of a scheduler; nothing is sent before the first study."""
+def _cluster(address: str) -> "DaskCluster":
     from app.studies.cluster import DaskCluster  # noqa: PLC0415  an extra, and a second of imports
 
     return DaskCluster(address)
 
 
 class StudyAdmission:
-    """Where studies get their place and their pool."""
+    """How many studies run at once, and the pool that solves their points."""
 
     def __init__(self, settings: Settings, workers: WorkerPool) -> None:
         self._most = settings.studies
         self._settings = settings
         self._workers = workers
-        self._cluster = connectable(settings.scheduler) if settings.scheduler else None
+        self._cluster = _cluster(settings.scheduler) if settings.scheduler else None
         self._running = 0
 
     @contextmanager
@@ -72,15 +64,16 @@ class StudyAdmission:
         if self._cluster is None:
             yield
             return
-        preparation = asyncio.create_task(self._prepare(self._cluster))
+        preparation = asyncio.create_task(_prepare(self._cluster))
         try:
             yield
         finally:
             preparation.cancel()
             await asyncio.to_thread(self._cluster.close)
 
-    async def _prepare(self, cluster: Cluster) -> None:
-        try:
-            await cluster.ready()
-        except SchedulerUnavailable as error:
-            logger.warning("%s; the next study tries again", error.detail)
+
+async def _prepare(cluster: "DaskCluster") -> None:
+    try:
+        await cluster.ready()
+    except SchedulerUnavailable as error:
+        logger.warning("%s; the next study tries again", error.detail)

@@ -9,14 +9,13 @@ from typing import Any
 from app.errors import Unprocessable
 from app.schema.fields import Leaf
 from app.schema.reading import read
-from app.studies.drive_train import MOST_CORNERS, lightened
+from app.studies.drive_train import MOST_CORNERS, reduced_request
 from app.studies.engine import Pool, twice_if_lost
-from app.studies.fields import value_at
+from app.studies.fields import NUMBERS, value_at
 from app.studies.minimax import next_place
 from app.studies.point_sets import BaseRequest, check_count, check_distinct, check_value, grid, listed
 from app.studies.points import Question
 from app.studies.requests import DesignRequest, Overrides, Variable
-from app.studies.sensitivity import NUMBERS
 from app.studies.stream import Clock, Line, Lines
 from app.studies.study import (
     Study,
@@ -32,7 +31,7 @@ PATH = "/v1/drive-train/design"
 
 
 @dataclass(frozen=True, slots=True)
-class Choice:
+class DesignVariable:
     """Fields that take one value, and the range of the search."""
 
     leaves: tuple[Leaf, ...]
@@ -52,7 +51,7 @@ class Choice:
         return min(max(float(f"{steps * self.step:.12g}"), self.low), self.high)
 
     def header(self) -> Line:
-        """The choice in the first line."""
+        """The variable in the first line."""
         units = {leaf.unit for leaf in self.leaves}
         unit = units.pop() if len(units) == 1 else None
         return {"path": paths_of(self.leaves), "unit": unit, "min": self.low, "max": self.high}
@@ -60,29 +59,29 @@ class Choice:
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """Chosen values, the objective at their worst case, and that case; None where a case has no solution.
+    """Values of the variables, the objective at their worst case, and that case; None where a case has no solution.
 
     `figures` are the objectives of all cases with the sign that the search minimises.
     """
 
-    chosen: Overrides
+    values: Overrides
     objective: float | None
     worst: Overrides
     figures: list[float] | None = None
 
     def content(self) -> Line:
         """Values and objective."""
-        return {"at": self.chosen, "objective": self.objective}
+        return {"at": self.values, "objective": self.objective}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Design(Study):
-    """A search over `choices`, each trial solved at all `cases`; its output is the objective.
+    """A search over `variables`, each trial solved at all `cases`; its output is the objective.
 
-    `sign` is -1 where the objective is maximised; `start` holds shares of the ranges of the choices.
+    `sign` is -1 where the objective is maximised; `start` holds shares of the ranges of the variables.
     """
 
-    choices: tuple[Choice, ...]
+    variables: tuple[DesignVariable, ...]
     cases: list[Overrides]
     sign: float
     start: tuple[float, ...]
@@ -96,14 +95,14 @@ class Design(Study):
     @property
     def is_rounded(self) -> bool:
         """Whether the best values are rounded in the end."""
-        return any(choice.step is not None for choice in self.choices)
+        return any(variable.step is not None for variable in self.variables)
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
         """The header, a line for each trial, the end."""
         yield [
             self.header(
                 "design",
-                variables=[choice.header() for choice in self.choices],
+                variables=[variable.header() for variable in self.variables],
                 objective=output_header(self.outputs[0]),
                 direction="minimise" if self.sign > 0.0 else "maximise",
                 corners=len(self.cases),
@@ -114,7 +113,7 @@ class Design(Study):
         while place := await twice_if_lost(
             pool, next_place, self.start, [trial.figures for trial in trials], self.evaluations
         ):
-            values = (choice.value(share) for choice, share in zip(self.choices, place, strict=True))
+            values = (variable.value(share) for variable, share in zip(self.variables, place, strict=True))
             trial = await self._trial(pool, clock, list(values))
             yield [{"type": "trial", "index": len(trials), **trial.content(), "worst_corner": trial.worst}]
             trials.append(trial)
@@ -125,33 +124,35 @@ class Design(Study):
         best = min(trials, key=lambda trial: max(trial.figures or [inf]))
         rounded = None
         if self.is_rounded:
-            values = (choice.rounded(float(best.chosen[choice.leaves[0].path] or 0.0)) for choice in self.choices)
+            values = (
+                variable.rounded(float(best.values[variable.leaves[0].path] or 0.0)) for variable in self.variables
+            )
             rounded = await self._trial(pool, clock, list(values))
         yield [self._end(trials, best, rounded, clock)]
 
     async def _trial(self, pool: Pool, clock: Clock, values: Sequence[float]) -> Trial:
-        """The values of the choices, solved until a case has no solution."""
-        chosen: Overrides = {
-            leaf.path: value for choice, value in zip(self.choices, values, strict=True) for leaf in choice.leaves
+        """The values of the variables, solved until a case has no solution."""
+        at: Overrides = {
+            leaf.path: value for variable, value in zip(self.variables, values, strict=True) for leaf in variable.leaves
         }
         objectives: list[float] = []
-        runs = self.solve(pool, clock, lambda index: {**chosen, **self.cases[index]}, len(self.cases))
+        runs = self.solve(pool, clock, lambda index: {**at, **self.cases[index]}, len(self.cases))
         async with aclosing(runs):
             async for indices, points in runs:
                 for index, point in zip(indices, points, strict=True):
                     (objective,) = point.out
                     if objective is None:
-                        return Trial(chosen, None, self.cases[index])
+                        return Trial(at, None, self.cases[index])
                     objectives.append(objective)
         figures = [self.sign * objective for objective in objectives]
         worst = figures.index(max(figures))
-        return Trial(chosen, objectives[worst], self.cases[worst], figures)
+        return Trial(at, objectives[worst], self.cases[worst], figures)
 
     def _end(self, trials: list[Trial], best: Trial, rounded: Trial | None, clock: Clock) -> Line:
         return {
             "type": "end",
-            "start": trials[0].chosen,
-            "best": best.chosen,
+            "start": trials[0].values,
+            "best": best.values,
             "objective_start": trials[0].objective,
             "objective_best": best.objective,
             "worst_corner": best.worst,
@@ -174,24 +175,26 @@ def design_study(body: bytes, most: int, deadline_s: float) -> Design:
     if objective.kind not in NUMBERS:
         raise Unprocessable("unknown_output", f"{request.objective} is no number", "objective")
     varied = BaseRequest(calculation.request, request.request)
-    choices = tuple(_choice(each, varied, f"variables.{place}") for place, each in enumerate(request.variables))
+    variables = tuple(_variable(each, varied, f"variables.{place}") for place, each in enumerate(request.variables))
     cases = _cases(request, varied)
     base = checked_base(calculation, request.request, cases[0]).model_dump()
     study = Design(
-        question=Question(calculation.path, lightened(request.request, [objective.path]), [objective.path], deadline_s),
+        question=Question(
+            calculation.path, reduced_request(request.request, [objective.path]), [objective.path], deadline_s
+        ),
         outputs=(objective,),
         case=case_of_study(PATH, request),
-        choices=choices,
+        variables=variables,
         cases=cases,
         sign=_sign(request, objective),
-        start=tuple(_share(choice, base) for choice in choices),
+        start=tuple(_share(variable, base) for variable in variables),
         evaluations=request.evaluations,
     )
     check_count(study.total, most, "evaluations")
     return study
 
 
-def _choice(variable: Variable, base: BaseRequest, place: str) -> Choice:
+def _variable(variable: Variable, base: BaseRequest, place: str) -> DesignVariable:
     leaves = tuple(base.leaf(path, f"{place}.path") for path in variable.paths)
     for leaf in leaves:
         if leaf.kind != "number":
@@ -202,7 +205,7 @@ def _choice(variable: Variable, base: BaseRequest, place: str) -> Choice:
         raise Unprocessable("variable_range", "a variable needs a range from min to max", place)
     if variable.step is not None and floor(variable.max / variable.step) < ceil(variable.min / variable.step):
         raise Unprocessable("variable_step", "no multiple of the step lies between min and max", f"{place}.step")
-    return Choice(leaves, variable.min, variable.max, variable.step)
+    return DesignVariable(leaves, variable.min, variable.max, variable.step)
 
 
 def _cases(request: DesignRequest, base: BaseRequest) -> list[Overrides]:
@@ -214,14 +217,14 @@ def _cases(request: DesignRequest, base: BaseRequest) -> list[Overrides]:
     points = [{}] if request.collective is None else request.collective
     listed(points, base, MOST_CORNERS, "collective")
     check_count(len(points) * len(corners), MOST_CORNERS, "corners")
-    chosen = [path for variable in request.variables for path in variable.paths]
+    known = [path for variable in request.variables for path in variable.paths]
     for place, paths in (
         ("variables", []),
         ("corners", corners[0]),
         ("collective", {path for p in points for path in p}),
     ):
-        chosen += paths
-        check_distinct(chosen, place)
+        known += paths
+        check_distinct(known, place)
     return [{**point, **corner} for point in points for corner in corners]
 
 
@@ -235,7 +238,7 @@ def _sign(request: DesignRequest, objective: Leaf) -> float:
     return -1.0 if objective.view.bound == "lower" else 1.0
 
 
-def _share(choice: Choice, case: dict[str, Any]) -> float:
+def _share(variable: DesignVariable, case: dict[str, Any]) -> float:
     """The case's own value as a share of the range; 0 where it has none."""
-    own = value_at(case, choice.leaves[0].path)
-    return 0.0 if own is None else min(max((own - choice.low) / (choice.high - choice.low), 0.0), 1.0)
+    own = value_at(case, variable.leaves[0].path)
+    return 0.0 if own is None else min(max((own - variable.low) / (variable.high - variable.low), 0.0), 1.0)

@@ -12,7 +12,7 @@ from app.studies.fields import set_value
 from app.studies.requests import DRIVE_TRAIN, Axis, Scalar
 from solvers.drive_train.uncertainty import MOST_CORNERS, no_convergence, uncertain_inputs
 
-__all__ = ["MOST_CORNERS", "lightened", "needs_film_or_state", "unsolved_corners", "usual_corners"]
+__all__ = ["MOST_CORNERS", "needs_film_or_state", "reduced_request", "unsolved_corners", "usual_corners"]
 
 COLD = "states.cold."
 BY_FILM = frozenset({"safety.minimum", "safety.thermal_ehl_feature", "safety.thermal_ehl_profile"})
@@ -48,7 +48,7 @@ def needs_film_or_state(output: str) -> bool:
     return output.startswith(COLD) or output in BY_FILM
 
 
-def lightened(request: dict[str, Any], outputs: Sequence[str]) -> dict[str, Any]:
+def reduced_request(request: dict[str, Any], outputs: Sequence[str]) -> dict[str, Any]:
     """The request without thermal film and other states where no output needs them; the outputs are the same."""
     light = copy.deepcopy(request)
     if not BY_FILM & {path.removeprefix(COLD) for path in outputs}:

@@ -94,27 +94,20 @@ def _fair(size: int, left: int, slots: int) -> int:
 
 
 async def _solved_singly(pool: Pool, work: Work, indices: range, error: Exception) -> Chunk:
-    """The points of a lost chunk one by one, a second time; one alone that took too long gets no second chance."""
+    """The points of a lost chunk one by one, each up to twice; a single point that took too long is not repeated."""
     if len(indices) == 1 and isinstance(error, DeadlineExceeded):
         return Chunk([_late(work)], CHUNK_SECONDS)
     started = time.perf_counter()
     points: list[Point] = []
     for index in indices:
         try:
-            points += (await _alone(pool, work, index)).points
+            alone = [work.overrides(index)]
+            points += (await twice_if_lost(pool, solve_chunk, work.question, alone)).points
         except WorkerLost:
-            points.append(work.question.failed("worker_lost", "the point was lost with its process, again and again"))
+            points.append(work.question.failed("worker_lost", "the worker process died each time it solved the point"))
         except DeadlineExceeded:
             points.append(_late(work))
     return Chunk(points, time.perf_counter() - started)
-
-
-async def _alone(pool: Pool, work: Work, index: int) -> Chunk:
-    """One point; once more if its process is lost, for that need not be the point's doing."""
-    try:
-        return await work.begin(pool, range(index, index + 1))
-    except WorkerLost:
-        return await work.begin(pool, range(index, index + 1))
 
 
 def _late(work: Work) -> Point:

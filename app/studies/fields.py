@@ -1,15 +1,33 @@
 """The single values of requests and answers that a study names by their dotted paths."""
 
-from collections.abc import Iterable
+import operator
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from app.errors import Unprocessable
 from app.schema.fields import ITEM, Leaf, leaf_at, leaves
 from app.schema.model import Documented
 from app.studies.requests import Scalar
+
+NUMBERS = frozenset({"number", "integer"})
+
+
+class _Bound(NamedTuple):
+    """A kind of bound: whether a value keeps it, and in words."""
+
+    holds: Callable[[float, float], bool]
+    words: str
+
+
+BOUNDS = {
+    "ge": _Bound(operator.ge, "at least"),
+    "gt": _Bound(operator.gt, "above"),
+    "le": _Bound(operator.le, "at most"),
+    "lt": _Bound(operator.lt, "below"),
+}
 
 
 def scalar_at(model: type[Documented], path: str, place: str, unknown: str) -> Leaf:
@@ -50,33 +68,22 @@ def fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:
     if leaf.options:
         allowed = ", ".join(map(str, leaf.options))
         return None if value in leaf.options else ("out_of_range", f"allowed are {allowed}")
-    match leaf.kind:
-        case "boolean":
-            return None if isinstance(value, bool) else ("out_of_range", "give true or false")
-        case "number" | "integer":
-            return _number_fault(leaf, value)
-        case _:
-            return None if isinstance(value, str) else ("out_of_range", "give text")
+    if leaf.kind in NUMBERS:
+        return _number_fault(leaf, value)
+    kind, message = (bool, "give true or false") if leaf.kind == "boolean" else (str, "give text")
+    return None if isinstance(value, kind) else ("out_of_range", message)
 
 
-def _number_fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:
-    if isinstance(value, bool | str) or value is None:
+def _number_fault(leaf: Leaf, value: bool | float | str) -> tuple[str, str] | None:
+    if isinstance(value, bool | str):
         return "out_of_range", "give a number"
     if leaf.kind == "integer" and value != int(value):
         return "not_integer", f"{value:g} is not a whole number"
     bounds = leaf.declared.bounds
-    outside = (
-        ("ge" in bounds and value < bounds["ge"])
-        or ("gt" in bounds and value <= bounds["gt"])
-        or ("le" in bounds and value > bounds["le"])
-        or ("lt" in bounds and value >= bounds["lt"])
-    )
-    return ("out_of_range", f"{value:g} is not {_range(bounds)}") if outside else None
-
-
-def _range(bounds: dict[str, float]) -> str:
-    words = {"ge": "at least", "gt": "above", "le": "at most", "lt": "below"}
-    return " and ".join(f"{words[key]} {bound:g}" for key, bound in bounds.items())
+    if all(BOUNDS[key].holds(value, bound) for key, bound in bounds.items()):
+        return None
+    allowed = " and ".join(f"{BOUNDS[key].words} {bound:g}" for key, bound in bounds.items())
+    return "out_of_range", f"{value:g} is not {allowed}"
 
 
 def value_at(answer: Any, path: str) -> Any:
@@ -148,7 +155,7 @@ def _step(here: Any, part: str) -> Any:
 
 
 @lru_cache(maxsize=1024)
-def fellows(model: type[Documented], path: str) -> tuple[str, ...]:
+def excluded_by(model: type[Documented], path: str) -> tuple[str, ...]:
     """The fields that a given value of this one excludes, with its own list indices."""
     leaf, own = leaf_at(model, path), path.split(".")
     return tuple(

@@ -10,7 +10,7 @@ from app.calculations import BY_PATH, Calculation
 from app.errors import PROBLEMS, InvalidBody, Unprocessable, faults_of
 from app.evaluate import evaluate, refuse_endless
 from app.schema.reading import validated
-from app.studies.fields import clear, fellows, set_value, value_at
+from app.studies.fields import clear, excluded_by, set_value, value_at
 from app.studies.requests import Overrides
 from solvers.notices import Rank
 
@@ -102,12 +102,12 @@ def solve_point(question: Question, overrides: Overrides) -> Point:
 
 
 def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Overrides) -> dict[str, Any]:
-    """The base request with a point's values; a value for an exclusive field clears its fellows in the base."""
+    """The base request with a point's values; a value for an exclusive field clears its excluded_by in the base."""
     body = copy.deepcopy(base)
     for path, value in overrides.items():
         if value is not None:
-            for fellow in fellows(calculation.request, path):
-                clear(body, fellow)
+            for excluded in excluded_by(calculation.request, path):
+                clear(body, excluded)
     for path, value in overrides.items():
         set_value(calculation.request, body, path, value)
     body["detail"] = "summary"

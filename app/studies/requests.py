@@ -69,7 +69,18 @@ class Part(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
-class Axis(Part):
+class FieldsTogether(Part):
+    """Fields that take a value each, or all the same one."""
+
+    path: FieldPaths
+
+    @property
+    def paths(self) -> list[str]:
+        """The fields."""
+        return self.path if isinstance(self.path, list) else [self.path]
+
+
+class Axis(FieldsTogether):
     """One axis of a grid: the values a field takes, listed or spread between two ends."""
 
     path: Annotated[FieldPaths, Input("varied field", text="dotted path of the field, or several that move together")]
@@ -86,11 +97,6 @@ class Axis(Part):
     scale: Annotated[Literal["linear", "log"], Input("scale", text="even steps or even ratios from start to stop")] = (
         "linear"
     )
-
-    @property
-    def paths(self) -> list[str]:
-        """The fields that take the values."""
-        return self.path if isinstance(self.path, list) else [self.path]
 
 
 class Spread(Part):
@@ -211,6 +217,13 @@ FromIndex = Annotated[
 ]
 
 
+Outputs = Annotated[
+    list[FieldPath] | None,
+    Field(min_length=1, max_length=100),
+    Input("outputs", text="dotted paths of the single values wanted", default_text="the headline numbers"),
+]
+
+
 class StudyRequest(Part):
     """What every study is about: one endpoint, one request."""
 
@@ -218,11 +231,7 @@ class StudyRequest(Part):
     request: Annotated[
         dict[str, Any], Input("request", text="the endpoint's request; a field that is varied may be left out")
     ]
-    outputs: Annotated[
-        list[FieldPath] | None,
-        Field(min_length=1, max_length=100),
-        Input("outputs", text="dotted paths of the single values wanted", default_text="the headline numbers"),
-    ] = None
+    outputs: Outputs = None
 
 
 class SweepRequest(StudyRequest):
@@ -347,15 +356,11 @@ class CornersRequest(DriveTrainStudy):
     ranges: Annotated[
         list[Axis] | None, Field(max_length=20), Input("ranges", text=_RANGES, default_text=USUAL_RANGES)
     ] = None
-    outputs: Annotated[
-        list[FieldPath] | None,
-        Field(min_length=1, max_length=100),
-        Input("outputs", text="dotted paths of the single values wanted", default_text="the headline numbers"),
-    ] = None
+    outputs: Outputs = None
     from_index: FromIndex = 0
 
 
-class Variable(Part):
+class Variable(FieldsTogether):
     """A number that the search varies, and its range."""
 
     path: Annotated[FieldPaths, Input("field to choose", text="dotted path, or several fields of one value")]
@@ -365,11 +370,6 @@ class Variable(Part):
         float | None,
         Input("step", text="to what the best value is rounded, which is then judged once more", gt=0, le=1e6),
     ] = None
-
-    @property
-    def paths(self) -> list[str]:
-        """The fields that take the value."""
-        return self.path if isinstance(self.path, list) else [self.path]
 
 
 class DesignRequest(DriveTrainStudy):

@@ -14,15 +14,14 @@ from app.errors import Unprocessable
 from app.schema.fields import ITEM, Leaf, leaves
 from app.schema.reading import read
 from app.studies.engine import Pool
-from app.studies.fields import fault, scalar_at, value_at
+from app.studies.fields import NUMBERS, fault, scalar_at, value_at
 from app.studies.point_sets import check_count
 from app.studies.points import Point, Question
 from app.studies.requests import Overrides, SensitivityRequest
 from app.studies.stream import Clock, Line, Lines
-from app.studies.study import Study, calculation_of, case_of_study, checked_base, chosen, output_header, paths_of
+from app.studies.study import Study, calculation_of, case_of_study, checked_base, output_header, outputs_at, paths_of
 
 PATH = "/v1/sensitivity"
-NUMBERS = frozenset({"number", "integer"})
 RELATIVE_STEP = 0.01
 KELVIN_STEP = 1.0
 DISAGREEMENT = 0.1  # relative difference of two slopes
@@ -30,7 +29,7 @@ NOISE = 1e-7  # relative change of an output that an iteration may leave
 
 
 @dataclass(frozen=True, slots=True)
-class Probe:
+class Perturbation:
     """An input, its value and the step by which it is moved.
 
     A step of a tolerance need not be small; it is checked at half of it, which is None for other steps.
@@ -50,45 +49,45 @@ class Probe:
         return [place for place in moved if place != self.value and fault(self.leaf, place) is None]
 
 
-def probe(leaf: Leaf, value: float) -> Probe:
+def perturbation(leaf: Leaf, value: float) -> Perturbation:
     """An input moved by its tolerance, else by 1 %, 1 K for a temperature, 1 for a count."""
     if leaf.kind == "integer":
-        return Probe(leaf, value, 1.0)
+        return Perturbation(leaf, value, 1.0)
     if leaf.declared.tolerance is not None:
         step = max(leaf.declared.tolerance, (leaf.declared.relative_tolerance or 0.0) * abs(value))
-        return Probe(leaf, value, step, step / 2.0)
-    return Probe(leaf, value, KELVIN_STEP if leaf.unit == "°C" else RELATIVE_STEP * abs(value))
+        return Perturbation(leaf, value, step, step / 2.0)
+    return Perturbation(leaf, value, KELVIN_STEP if leaf.unit == "°C" else RELATIVE_STEP * abs(value))
 
 
 @dataclass(frozen=True, slots=True)
 class Differences:
     """Values of an output by the value of an input; None where there is no answer."""
 
-    probe: Probe
+    input: Perturbation
     outputs: dict[float, float | None]
 
     @property
     def base(self) -> float | None:
         """The output of the case itself."""
-        return self.outputs[self.probe.value]
+        return self.outputs[self.input.value]
 
     @property
     def derivative(self) -> float | None:
         """Central where both sides have answers, else one-sided [output per input]."""
-        return self._slope(-self.probe.step, self.probe.step)
+        return self._slope(-self.input.step, self.input.step)
 
     @property
     def elasticity(self) -> float | None:
         """Per cent of the output for a per cent of the input; none at zero and for a temperature in degrees."""
-        derivative, probe = self.derivative, self.probe
-        if derivative is None or not self.base or not probe.value or probe.leaf.unit == "°C":
+        derivative, moved = self.derivative, self.input
+        if derivative is None or not self.base or not moved.value or moved.leaf.unit == "°C":
             return None
-        return derivative * probe.value / self.base
+        return derivative * moved.value / self.base
 
     @property
     def change(self) -> float | None:
         """Change of the output by one step upwards, from the side where it is larger."""
-        steps = [slope * self.probe.step for slope in self._sides() if slope is not None]
+        steps = [slope * self.input.step for slope in self._sides() if slope is not None]
         return max(steps, key=abs, default=None)
 
     @property
@@ -99,15 +98,15 @@ class Differences:
     @property
     def curved(self) -> bool | None:
         """Whether half the step gives a derivative that differs by more than a tenth; None where it is not checked."""
-        half = self.probe.half
+        half = self.input.half
         return None if half is None else self._disagree(self.derivative, self._slope(-half, half))
 
     def _sides(self) -> tuple[float | None, float | None]:
-        return self._slope(-self.probe.step, 0), self._slope(0, self.probe.step)
+        return self._slope(-self.input.step, 0), self._slope(0, self.input.step)
 
     def _slope(self, below: float, above: float) -> float | None:
         """Difference quotient between two steps; from the base to the other side where one has no answer."""
-        at = self.probe.value
+        at = self.input.value
         known = [
             (place, value) for step in (below, 0, above) if (value := self.outputs.get(place := at + step)) is not None
         ]
@@ -119,7 +118,7 @@ class Differences:
         if one is None or other is None or self.base is None:
             return None
         largest = max(abs(one), abs(other))
-        if largest * self.probe.step <= NOISE * abs(self.base):
+        if largest * self.input.step <= NOISE * abs(self.base):
             return False
         return abs(one - other) > DISAGREEMENT * largest
 
@@ -128,7 +127,7 @@ class Differences:
 class Sensitivity(Study):
     """A case and its moved inputs; the first point is the case itself."""
 
-    probes: list[Probe]
+    perturbations: list[Perturbation]
 
     @property
     def total(self) -> int:
@@ -144,7 +143,7 @@ class Sensitivity(Study):
         yield [self._end(points, clock)]
 
     def _points(self) -> list[Overrides]:
-        moved: list[Overrides] = [{each.leaf.path: place} for each in self.probes for place in each.places]
+        moved: list[Overrides] = [{each.leaf.path: place} for each in self.perturbations for place in each.places]
         return [{}, *moved]
 
     def _ranked(self, column: int, points: list[Point]) -> Iterator[Line]:
@@ -153,16 +152,16 @@ class Sensitivity(Study):
         rest = iter(moved)
         found = [
             Differences(each, {each.value: base, **{place: next(rest) for place in each.places}})
-            for each in self.probes
+            for each in self.perturbations
         ]
         for each in sorted(found, key=lambda differences: -abs(differences.change or 0.0)):
             yield {
                 "type": "sensitivity",
                 "output": self.outputs[column].path,
-                "path": each.probe.leaf.path,
+                "path": each.input.leaf.path,
                 "derivative": each.derivative,
                 "elasticity": each.elasticity,
-                "step": each.probe.step,
+                "step": each.input.step,
                 "change": each.change,
                 "kink": each.kink,
                 "curved": each.curved,
@@ -172,7 +171,7 @@ class Sensitivity(Study):
         base = points[0]
         line = self.header(
             "end",
-            inputs=[{**output_header(each.leaf), "value": each.value} for each in self.probes],
+            inputs=[{**output_header(each.leaf), "value": each.value} for each in self.perturbations],
             outputs=[
                 {**output_header(leaf), "value": value} for leaf, value in zip(self.outputs, base.out, strict=True)
             ],
@@ -197,18 +196,18 @@ def sensitivity_study(body: bytes, most: int, deadline_s: float) -> Sensitivity:
     """
     request = read(SensitivityRequest, body)
     calculation = calculation_of(request)
-    outputs = chosen(calculation, request.outputs)
+    outputs = outputs_at(calculation, request.outputs)
     case = checked_base(calculation, request.request, {}).model_dump()
     if request.inputs is None:
         inputs = _every_number(calculation, case)
     else:
         inputs = [_named(calculation, case, request.inputs, place) for place in range(len(request.inputs))]
-    probes = [each for leaf in inputs if (each := probe(leaf, value_at(case, leaf.path))).places]
+    perturbations = [each for leaf in inputs if (each := perturbation(leaf, value_at(case, leaf.path))).places]
     study = Sensitivity(
         question=Question(calculation.path, request.request, paths_of(outputs), deadline_s),
         outputs=outputs,
         case=case_of_study(PATH, request),
-        probes=probes,
+        perturbations=perturbations,
     )
     check_count(study.total, most, "inputs")
     return study

@@ -17,23 +17,22 @@ from app.schema.fields import Leaf
 from app.schema.reading import read
 from app.studies import probability
 from app.studies.distributions import anchors, cut, drawn, unit_cube
-from app.studies.drive_train import lightened
+from app.studies.drive_train import reduced_request
 from app.studies.engine import Pool, twice_if_lost
-from app.studies.fields import set_value
+from app.studies.fields import NUMBERS, set_value
 from app.studies.point_sets import BaseRequest, check_case, scattering
 from app.studies.points import Point, Question, solve_point
 from app.studies.probability import Array, Limit, Side
 from app.studies.requests import DRIVE_TRAIN, Case, Overrides, SpectrumLimit, SpectrumRequest, Tolerances
-from app.studies.sensitivity import NUMBERS
 from app.studies.stream import Clock, Line, Lines, point_line
 from app.studies.study import (
     Study,
     calculation_of,
     case_of_study,
     checked_base,
-    chosen,
     output_at,
     output_header,
+    outputs_at,
     paths_of,
 )
 from app.studies.summary import merge_assumption
@@ -181,7 +180,7 @@ class Spectrum(Study):
 
 
 class Found:
-    """Gathers points as they pass: every number, NaN where a point has none or is no solution; what was said."""
+    """Gathers points as they pass: every number, NaN where a point has none or no solution; warnings."""
 
     def __init__(self, outputs: int) -> None:
         self._numbers = array("d")
@@ -344,7 +343,7 @@ def spectrum_study(body: bytes, most: int, deadline_s: float) -> Spectrum:
 def _lightened(calculation: Calculation, request: dict[str, Any], outputs: list[str]) -> dict[str, Any]:
     """The request without the thermal film where no output needs it; the outputs are the same."""
     if calculation.path == DRIVE_TRAIN:
-        return lightened(request, outputs)
+        return reduced_request(request, outputs)
     if calculation.path != "/v1/scuffing" or any("thermal_ehl" in path or path in BY_FILM for path in outputs):
         return request
     light = copy.deepcopy(request)
@@ -354,7 +353,7 @@ def _lightened(calculation: Calculation, request: dict[str, Any], outputs: list[
 
 def _outputs(calculation: Calculation, request: SpectrumRequest) -> tuple[Leaf, ...]:
     """The outputs asked for, by default the headline numbers, and those that are limited; raises Unprocessable."""
-    found = chosen(calculation, request.outputs)
+    found = outputs_at(calculation, request.outputs)
     if request.outputs is None:
         found = tuple(leaf for leaf in found if leaf.kind in NUMBERS)
     limited = [

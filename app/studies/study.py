@@ -75,7 +75,7 @@ def calculation_of(body: StudyRequest | DriveTrainStudy) -> Calculation:
     return BY_PATH[body.endpoint]
 
 
-def chosen(calculation: Calculation, wanted: list[str] | None) -> tuple[Leaf, ...]:
+def outputs_at(calculation: Calculation, wanted: list[str] | None) -> tuple[Leaf, ...]:
     """The outputs at these paths, by default the headline numbers; raises Unprocessable."""
     if wanted is None:
         return headlines(calculation.response)

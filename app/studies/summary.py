@@ -31,7 +31,7 @@ class Summary:
         self._first = first
         self._counts: Counter[str] = Counter()
         self._ranges: dict[str, dict[str, Extreme]] = {}
-        self._chosen: tuple[Extreme, list[Any]] | None = None
+        self._best_so_far: tuple[Extreme, list[Any]] | None = None
         self._assumptions: dict[str, dict[str, Any]] = {}
         self._values = array("d")
         self._count = 0
@@ -44,7 +44,7 @@ class Summary:
             if _is_number(value):
                 self._widen(path, Extreme(value, index))
         if self._best is not None:
-            self._choose(self._best, index, point.out)
+            self._compare(self._best, index, point.out)
         if self._points.sample is not None:
             self._values.extend(value if _is_number(value) else nan for value in point.out)
         for each in point.assumptions:
@@ -87,7 +87,7 @@ class Summary:
         if found.value > known["max"].value:
             known["max"] = found
 
-    def _choose(self, best: Best, index: int, out: list[Any]) -> None:
+    def _compare(self, best: Best, index: int, out: list[Any]) -> None:
         """Keep the point if it is the best so far inside all limits; of equals the first."""
         values = dict(zip(self._outputs, out, strict=True))
         value = values[best.output]
@@ -98,13 +98,13 @@ class Summary:
             for bound in best.where
         )
         better = operator.lt if best.minimise else operator.gt
-        if limited and _is_number(value) and (self._chosen is None or better(value, self._chosen[0].value)):
-            self._chosen = Extreme(value, index), out
+        if limited and _is_number(value) and (self._best_so_far is None or better(value, self._best_so_far[0].value)):
+            self._best_so_far = Extreme(value, index), out
 
     def _best_point(self) -> dict[str, Any] | None:
-        if self._chosen is None:
+        if self._best_so_far is None:
             return None
-        (_, index), out = self._chosen
+        (_, index), out = self._best_so_far
         return {"index": index, "at": self._points.at(index), "out": out}
 
 

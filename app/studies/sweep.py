@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 from app.errors import Unprocessable
 from app.schema.fields import Leaf
 from app.schema.reading import read
-from app.studies.drive_train import MOST_CORNERS, lightened, unsolved_corners, usual_corners
+from app.studies.drive_train import MOST_CORNERS, reduced_request, unsolved_corners, usual_corners
 from app.studies.engine import Pool, twice_if_lost
 from app.studies.fields import did_you_mean
 from app.studies.point_sets import BaseRequest, PointSet, grid, points_of
@@ -19,8 +19,8 @@ from app.studies.study import (
     calculation_of,
     case_of_study,
     checked_base,
-    chosen,
     output_header,
+    outputs_at,
     paths_of,
 )
 from app.studies.summary import NO_STATISTICS, Extreme, Summary, statistics
@@ -105,7 +105,7 @@ def sweep_study(body: bytes, most: int, deadline_s: float) -> Sweep:
     """
     request = read(SweepRequest, body)
     calculation = calculation_of(request)
-    outputs = chosen(calculation, request.outputs)
+    outputs = outputs_at(calculation, request.outputs)
     if request.best is not None:
         _check_best(request.best, outputs)
     points = points_of(request, BaseRequest(calculation.request, request.request), most)
@@ -125,7 +125,7 @@ def corners_study(body: bytes, most: int, deadline_s: float) -> Corners:
     """The corners of a gear unit in a body; arguments and errors as of `sweep_study`."""
     request = read(CornersRequest, body)
     calculation = calculation_of(request)
-    outputs = chosen(calculation, request.outputs)
+    outputs = outputs_at(calculation, request.outputs)
     ranges = request.ranges
     if ranges is None:
         ranges = list(usual_corners(checked_base(calculation, request.request, {})).values())
@@ -134,7 +134,7 @@ def corners_study(body: bytes, most: int, deadline_s: float) -> Corners:
     points = grid(ranges, BaseRequest(calculation.request, request.request), min(most, MOST_CORNERS), "ranges")
     _check_first(request.from_index, points)
     checked_base(calculation, request.request, points.overrides(0))
-    base = lightened(request.request, paths_of(outputs))
+    base = reduced_request(request.request, paths_of(outputs))
     return Corners(
         question=Question(calculation.path, base, paths_of(outputs), deadline_s),
         outputs=outputs,

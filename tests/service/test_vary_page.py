@@ -65,6 +65,18 @@ def test_the_figure_grows_while_points_come_and_stop_ends_it(visit: Callable[...
     assert re.search(r"^tribodrive_studies\S* 0(\.0)?$", running.text(), re.MULTILINE)
 
 
+def test_what_to_grind_shows_the_best_so_far_and_keeps_it_when_it_is_stopped(visit: Callable[..., Page]) -> None:
+    page = visit("/")
+    page.goto(address_of("starter-turbo-gear-drive-train").replace("?", "/design?", 1), wait_until="commit")
+    expect(page.locator(".frame:visible .progress")).to_contain_text(re.compile("[1-9][0-9]* of 656 points"))
+    expect(page.locator(".frame:visible h2", has_text="Best so far")).to_be_visible()
+    page.locator("#stop").click()
+    expect(page.locator("#state")).to_contain_text("Stopped")
+    lead = page.locator(".frame:visible").get_by_role("link", name="Open the unit ground so")
+    lead.click()
+    expect(page.locator(".card").first).to_be_visible()
+
+
 def test_a_map_opens_the_case_of_a_point_by_keyboard(visit: Callable[..., Page]) -> None:
     page = visit(MAP)
     page.locator("#figure-map .plot").focus()

@@ -14,7 +14,7 @@ from app.errors import InvalidBody, Unprocessable, faults_of
 from app.evaluate import evaluate
 from app.examples import examples
 from app.studies.design import design_study
-from app.studies.drive_train import lightened
+from app.studies.drive_train import reduced_request
 from app.studies.engine import Pool
 from app.studies.fields import value_at
 from app.studies.minimax import next_place, search
@@ -136,11 +136,11 @@ def test_only_what_is_asked_is_calculated() -> None:
         (["states.cold.safety.blok_flank"], "closed_form", ["hot", "cold"]),
         (["states.cold.safety.thermal_ehl_feature"], "thermal_ehl", ["hot", "cold"]),
     ):
-        light = lightened(both, outputs)
+        light = reduced_request(both, outputs)
         assert light["model"] == {"lubrication": film, "feature_points": 21}
         assert light.get("states") == states
     assert both["states"] == ["hot", "cold"], "the request itself stays"
-    light = lightened({**TURBO, "states": ["hot", "cold"]}, [K, SAFETY])
+    light = reduced_request({**TURBO, "states": ["hot", "cold"]}, [K, SAFETY])
     assert answered({}, [K, SAFETY], light) == answered({}, [K, SAFETY], TURBO)
 
 

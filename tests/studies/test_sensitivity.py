@@ -11,7 +11,7 @@ from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.examples import examples
 from app.schema.fields import Leaf, leaf_at, leaves
 from app.studies.fields import fault
-from app.studies.sensitivity import Differences, probe, sensitivity_study
+from app.studies.sensitivity import Differences, perturbation, sensitivity_study
 from app.studies.stream import Clock, encoded, guarded, json_line
 from app.studies.sweep import sweep_study
 from tests.support.pools import InlinePool
@@ -106,7 +106,7 @@ def test_places_of_lists_are_moved() -> None:
     example = examples()["milian-case-1-groove"]
     body = {"endpoint": example.endpoint, "request": example.request}
     study = sensitivity_study(json.dumps(body).encode(), 2500, 30.0)
-    paths = [each.leaf.path for each in study.probes]
+    paths = [each.leaf.path for each in study.perturbations]
     count = len(example.request["grooves"])
     assert [path for path in paths if path.startswith("grooves")] == [
         f"grooves.{place}.{name}" for name in ("position_mm", "width_mm") for place in range(count)
@@ -140,20 +140,20 @@ def leaf(**changes: Any) -> Leaf:
     ],
 )
 def test_steps(changes: dict[str, Any], value: float, below: float | None, above: float | None) -> None:
-    found = probe(leaf(**changes), value)
+    found = perturbation(leaf(**changes), value)
     whole = [place for place in (below, above) if place is not None]
     assert replace(found, half=None).places == pytest.approx(whole)
     assert all(isinstance(place, type(value)) for place in found.places)
 
 
 def test_a_field_with_one_value_only_is_not_moved() -> None:
-    assert probe(leaf(ge=3.0, le=3.0), 3.0).places == []
-    assert probe(leaf(ge=0.0, le=0.0, tolerance=1.0), 0.0).places == []
+    assert perturbation(leaf(ge=3.0, le=3.0), 3.0).places == []
+    assert perturbation(leaf(ge=0.0, le=0.0, tolerance=1.0), 0.0).places == []
 
 
 def test_a_tolerance_is_checked_at_half_of_it() -> None:
-    assert probe(leaf(tolerance=0.5), 20.0).places == [19.5, 20.5, 19.75, 20.25]
-    assert probe(leaf(), 20.0).half is None
+    assert perturbation(leaf(tolerance=0.5), 20.0).places == [19.5, 20.5, 19.75, 20.25]
+    assert perturbation(leaf(), 20.0).half is None
 
 
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
@@ -166,7 +166,7 @@ def test_every_number_that_may_be_zero_has_a_tolerance(calculation: Calculation)
 def differences(
     base: float | None, below: float | None, above: float | None, value: float = 10.0, **changes: Any
 ) -> Differences:
-    moved = probe(leaf(**{"tolerance": 1.0, **changes}), value)
+    moved = perturbation(leaf(**{"tolerance": 1.0, **changes}), value)
     return Differences(moved, {value - moved.step: below, value: base, value + moved.step: above})
 
 
@@ -273,7 +273,7 @@ def test_a_step_that_is_too_large_says_so() -> None:
     outputs = {line["at"][0]: line["out"][0] for line in points_of(sweep)}
     leaf = leaf_of(UNIT.endpoint, path)
     known = replace(leaf, path=path, declared=replace(leaf.declared, tolerance=100.0))
-    found = Differences(probe(known, 0.0), outputs)
+    found = Differences(perturbation(known, 0.0), outputs)
     assert found.derivative == pytest.approx(-0.000236, rel=0.02)
     assert found.kink is True
 

@@ -29,11 +29,11 @@ from app.workers.start_up import StartUp
 
 Format = Literal["ndjson", "csv"]
 MEDIA_TYPES: dict[Format, str] = {"ndjson": "application/x-ndjson", "csv": "text/csv"}
-PATIENCE_S = 10.0  # beyond the study's deadline, for a client that reads slowly
+READING_S = 10.0  # beyond the study's deadline, for a client that reads slowly
 
 
 class StudyStream(StreamingResponse):
-    """Lines as they come; when the client leaves, or at the end of all patience, the study ends and frees its place."""
+    """Lines as they come; when the client leaves, or has not read all after so many seconds, the study ends."""
 
     def __init__(
         self,
@@ -81,8 +81,8 @@ async def streamed(
     with ExitStack() as stack:
         stack.enter_context(http.app.state.studies.place())
         content = pieces(*await begun(http, study, progress_s))
-        patience = http.app.state.settings.study_deadline_s + PATIENCE_S
-        return StudyStream(content, media_type, patience, stack.pop_all(), headers)
+        seconds = http.app.state.settings.study_deadline_s + READING_S
+        return StudyStream(content, media_type, seconds, stack.pop_all(), headers)
 
 
 async def started(

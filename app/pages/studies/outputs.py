@@ -5,8 +5,7 @@ from app.errors import Unprocessable
 from app.pages.results import NOT_RESULTS
 from app.pages.studies.declaration import Choice
 from app.schema.fields import ITEM, Leaf, headlines, leaves, tree
-from app.studies.fields import scalar_at
-from app.studies.sensitivity import NUMBERS
+from app.studies.fields import NUMBERS, scalar_at
 
 
 def output_choices(calculation: Calculation) -> list[Choice]:

@@ -85,9 +85,9 @@ def _step(line: Line, inputs: dict[str, dict[str, Any]]) -> str:
 
 def _row(study: PageStudy, line: Line, inputs: dict[str, dict[str, Any]]) -> tuple[Cell, ...]:
     entry, asked = inputs[line["path"]], study.asked
-    said = {"x": line["path"], "show": study.output.path, "theme": asked.views.get("theme", "")}
+    sweep = {"x": line["path"], "show": study.output.path, "theme": asked.views.get("theme", "")}
     return (
-        Cell(_name(entry), link(f"{asked.path}/vary", asked.pairs, **said)),
+        Cell(_name(entry), link(f"{asked.path}/vary", asked.pairs, **sweep)),
         Cell(shown(float(entry["value"])), right=True),
         Cell(entry["unit"] or ""),
         Cell(_step(line, inputs), right=True),

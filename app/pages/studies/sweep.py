@@ -33,10 +33,10 @@ from app.pages.typesetting import shown, words
 from app.pages.views import Asked
 from app.schema.fields import Leaf, leaf_at, leaves, tree
 from app.schema.reading import validated
-from app.studies.fields import scalar_at, value_at
+from app.studies.fields import NUMBERS, scalar_at, value_at
 from app.studies.point_sets import PointSet
 from app.studies.requests import Scalar
-from app.studies.sensitivity import NUMBERS, places
+from app.studies.sensitivity import places
 from app.studies.stream import Line
 from app.studies.sweep import Sweep, sweep_study
 

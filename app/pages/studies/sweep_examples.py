@@ -29,8 +29,10 @@ class StudyExample(NamedTuple):
 
 
 def _axis(name: str, path: str, start: float, stop: float, count: int, scale: str = "linear") -> dict[str, str]:
-    said = {"": path, ".from": f"{start:g}", ".to": f"{stop:g}", ".count": str(count)}
-    return {f"{name}{part}": text for part, text in said.items()} | ({f"{name}.scale": scale} if scale == "log" else {})
+    parts = {"": path, ".from": f"{start:g}", ".to": f"{stop:g}", ".count": str(count)}
+    return {f"{name}{part}": text for part, text in parts.items()} | (
+        {f"{name}.scale": scale} if scale == "log" else {}
+    )
 
 
 STUDIES = (
