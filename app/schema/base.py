@@ -2,11 +2,11 @@
 
 from abc import abstractmethod
 from importlib.metadata import version
-from typing import Annotated, Any, ClassVar, Literal, Self, TypeVar
+from typing import Annotated, Any, ClassVar, Literal, LiteralString, Self, TypeVar
 
-from pydantic import ConfigDict, GetJsonSchemaHandler, PrivateAttr
+from pydantic import ConfigDict, GetJsonSchemaHandler, PrivateAttr, model_validator
 from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema
+from pydantic_core import CoreSchema, PydanticCustomError
 
 from app.schema.model import Documented, built
 from app.schema.quantities import Input, Output
@@ -18,9 +18,28 @@ MODEL_VERSION = version("tribodrive")
 
 
 class Section(Documented):
-    """A part of a request: unknown fields are refused, numbers are numbers, finite and in range."""
+    """A part of a request: unknown fields are refused, numbers are numbers, finite and in range.
+
+    `choice_code` is the code of an error where two fields that exclude each other are given, `choice_missing` that
+    where none is, if one is required.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+    choice_code: ClassVar[LiteralString] = "exclusive"
+    choice_missing: ClassVar[LiteralString | None] = None
+
+    @model_validator(mode="after")
+    def one_of_each_choice(self) -> Self:
+        """Refuse two fields that exclude each other, and none of them where one is required."""
+        for group in self.exclusive:
+            given = [name for name in group if getattr(self, name) is not None]
+            if len(given) > 1:
+                raise PydanticCustomError(
+                    self.choice_code, "{names} are both given; keep one", {"names": " and ".join(given[:2])}
+                )
+            if self.choice_missing and not given:
+                raise PydanticCustomError(self.choice_missing, "give {names}", {"names": " or ".join(group)})
+        return self
 
     def si(self, kind: type[T]) -> T:
         """The solver's dataclass that these fields fill, in SI."""

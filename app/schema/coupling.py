@@ -1,9 +1,6 @@
 """Gear couplings: requests and answers of /v1/coupling and its two companions."""
 
-from typing import Annotated, Any, ClassVar, Self
-
-from pydantic import model_validator
-from pydantic_core import PydanticCustomError
+from typing import Annotated, Any, ClassVar
 
 from app.schema.base import Derived, Group, Request, Response, Section
 from app.schema.oil import CouplingLubricant
@@ -28,15 +25,7 @@ class CouplingOperation(CouplingLoad, of=si.OperatingPoint):
     """Operating point; the tilt is given, or follows from the shafts' offset."""
 
     exclusive: ClassVar = (("misalignment_deg", "parallel_offset_mm"),)
-
-    @model_validator(mode="after")
-    def tilt_or_offset(self) -> Self:
-        """Refuse both and neither."""
-        if self.misalignment_deg is None and self.parallel_offset_mm is None:
-            raise PydanticCustomError("misalignment_or_offset", "give misalignment_deg or parallel_offset_mm")
-        if self.misalignment_deg is not None and self.parallel_offset_mm is not None:
-            raise PydanticCustomError("exclusive", "misalignment_deg and parallel_offset_mm are both given; keep one")
-        return self
+    choice_missing: ClassVar = "misalignment_or_offset"
 
 
 class CouplingOperationRange(CouplingLoad, of=si.OperatingRange):

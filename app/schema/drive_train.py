@@ -5,7 +5,6 @@ from dataclasses import replace
 from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import BeforeValidator, Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from app.schema.base import Group, Request, Response, Section
 from app.schema.coupling import CouplingFriction, CrownedCoupling
@@ -79,14 +78,7 @@ class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
 class TrainOperation(ScuffingLoad, of=si.Arrangement, without=("hand",)):
     """Torque or power, speed, and how the unit stands and turns."""
 
-    @model_validator(mode="after")
-    def torque_or_power(self) -> Self:
-        """Refuse both and neither."""
-        if self.pinion_torque_n_m is None and self.power_kw is None:
-            raise PydanticCustomError("load_missing", "give pinion_torque_n_m or power_kw")
-        if self.pinion_torque_n_m is not None and self.power_kw is not None:
-            raise PydanticCustomError("torque_or_power", "pinion_torque_n_m and power_kw are both given; keep one")
-        return self
+    choice_missing: ClassVar = "load_missing"
 
 
 class GroundCurve(Section, of=mesh.LeadCurve):

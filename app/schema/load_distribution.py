@@ -1,9 +1,6 @@
 """How a gear pair carries its load: request and answer of /v1/scuffing/load-distribution."""
 
-from typing import Annotated, Any, ClassVar, Self
-
-from pydantic import model_validator
-from pydantic_core import PydanticCustomError
+from typing import Annotated, Any, ClassVar
 
 from app.schema.base import Derived, Group, Request, Response, Section
 from app.schema.gears import GearMaterials, ScuffingGears
@@ -31,17 +28,10 @@ class ScuffingLoad(Section, of=si.Load):
     """Torque or power, and speed; exactly one of torque and power is given."""
 
     exclusive: ClassVar = (("pinion_torque_n_m", "power_kw"),)
+    choice_code: ClassVar = "torque_or_power"
+    choice_missing: ClassVar = "torque_or_power"
 
     pinion_torque_n_m: float | None = None
-
-    @model_validator(mode="after")
-    def torque_or_power(self) -> Self:
-        """Refuse both and neither."""
-        if self.pinion_torque_n_m is None and self.power_kw is None:
-            raise PydanticCustomError("torque_or_power", "give pinion_torque_n_m or power_kw")
-        if self.pinion_torque_n_m is not None and self.power_kw is not None:
-            raise PydanticCustomError("torque_or_power", "pinion_torque_n_m and power_kw are both given; keep one")
-        return self
 
 
 class LoadDistributionModel(Section, of=(si.Model, si.Resolution)):

@@ -83,13 +83,12 @@ class Oil(SheetOil, of=OilChoice):
 
     @model_validator(mode="after")
     def one_reference(self) -> Self:
-        """Viscosity and its temperature stand alone; with a viscosity no property may be null."""
+        """The density belongs to a viscosity, with which no property may be null."""
         if self.by_sheet:
-            for name in ("viscosity_pa_s", "reference_temperature_c", "density_kg_per_m3"):
-                if getattr(self, name) is not None:
-                    raise PydanticCustomError(
-                        "exclusive", "{name} and a grade or data sheet are both given; keep one", {"name": name}
-                    )
+            if self.density_kg_per_m3 is not None:
+                raise PydanticCustomError(
+                    "exclusive", "density_kg_per_m3 and a grade or data sheet are both given; keep one"
+                )
         elif self.viscosity_pa_s is not None:
             missing = [name for name in _WITH_VISCOSITY if getattr(self, name) is None]
             if missing:
@@ -136,10 +135,8 @@ class CouplingLubricant(SheetOil, of=CouplingOil):
         return {"viscosity_pa_s": None} | given if names_a_sheet(given) else given
 
     @model_validator(mode="after")
-    def one_viscosity(self) -> Self:
-        """Refuse both and neither."""
-        if self.by_sheet and self.viscosity_pa_s is not None:
-            raise PydanticCustomError("exclusive", "viscosity_pa_s and a grade or data sheet are both given; keep one")
+    def some_viscosity(self) -> Self:
+        """Refuse an oil of which nothing says how viscous it is."""
         if not self.by_sheet and self.viscosity_pa_s is None:
             raise PydanticCustomError("missing_property", "give viscosity_pa_s, or the oil by its grade or data sheet")
         return self

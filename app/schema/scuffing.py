@@ -37,12 +37,10 @@ class ContactTemperatures(Section, of=si.Temperatures):
     scuffing_test: ScuffingTest | None = None
 
     @model_validator(mode="after")
-    def one_way(self) -> Self:
-        """One bulk temperature, one scuffing temperature."""
+    def one_bulk(self) -> Self:
+        """One bulk temperature."""
         if self.bulk_method == "estimated" and self.bulk_c is not None:
             raise PydanticCustomError("exclusive", "bulk_c and an estimated bulk are both given; keep one")
-        if self.scuffing_c is not None and self.scuffing_test is not None:
-            raise PydanticCustomError("exclusive", "scuffing_c and scuffing_test are both given; keep one")
         return self
 
     @model_validator(mode="before")

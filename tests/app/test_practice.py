@@ -165,13 +165,13 @@ def test_from_a_data_sheet_to_a_safety_factor_in_one_request() -> None:
             "/v1/scuffing",
             PAIR,
             {"lubricant": {"iso_vg": 220, "reference_temperature_c": 60}},
-            "reference_temperature_c and a grade or data sheet are both given; keep one",
+            "reference_temperature_c and iso_vg are both given; keep one",
         ),
         (
             "/v1/scuffing",
             PAIR,
             {"lubricant": {"iso_vg": 220, "viscosity_pa_s": 0.1}},
-            "viscosity_pa_s and a grade or data sheet are both given; keep one",
+            "viscosity_pa_s and iso_vg are both given; keep one",
         ),
         (
             "/v1/scuffing",
