@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
-NAMES = ("coupling", "pumping", "load-distribution", "line-contact", "scuffing", "drive-train", "practice")
+NAMES = ("coupling", "pumping", "load-distribution", "line-contact", "scuffing", "drive-train", "practice", "service")
 
 _FIGURE = re.compile(r"\]\(figures/([\w-]+)\.([\w-]+)\.png\)")
 
