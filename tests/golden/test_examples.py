@@ -5,10 +5,12 @@ These are regressions, not truths; truths are in tests/papers. After a change th
 entry to CHANGELOG.md; without a text it corrects the hash in the last entry. Both files belong to the commit.
 """
 
+import itertools
 import json
 import re
 import sys
 import textwrap
+import tomllib
 from collections.abc import Iterator
 from hashlib import sha256
 from pathlib import Path
@@ -22,6 +24,7 @@ from app.examples import examples
 
 NUMBERS = Path(__file__).with_name("numbers.json")
 CHANGELOG = Path(__file__).parents[2] / "CHANGELOG.md"
+PROJECT = CHANGELOG.with_name("pyproject.toml")
 NOT_RESULTS = {"inputs", "case", "model_version", "sources", "model", "assumptions"}
 ROUNDING = {"rel": 1e-6, "abs": 1e-9}
 """What another processor's rounding may change in iterated results, and in what is zero but for rounding."""
@@ -79,6 +82,25 @@ def hash_of_numbers() -> str:
 
 def test_the_last_entry_of_the_changelog_is_about_these_numbers() -> None:
     assert newest_section().endswith(f"`{hash_of_numbers()}`"), "see the docstring of this module"
+
+
+def sections() -> list[tuple[tuple[int, ...], str]]:
+    """Version of every section of the changelog, newest first, and the last hash of numbers in it."""
+    found = [part.partition("\n") for part in CHANGELOG.read_text("utf-8").split("\n## ")[1:]]
+    return [
+        (tuple(map(int, title.split("."))), re.findall(r"`([0-9a-f]{64})`", entries)[-1]) for title, _, entries in found
+    ]
+
+
+def test_the_newest_section_is_the_version_of_the_project() -> None:
+    project = tomllib.loads(PROJECT.read_text("utf-8"))["project"]
+    assert sections()[0][0] == tuple(map(int, project["version"].split(".")))
+
+
+def test_moved_numbers_are_at_least_a_minor_version() -> None:
+    for (version, numbers), (before, numbers_before) in itertools.pairwise(sections()):
+        assert version > before
+        assert numbers == numbers_before or version[:2] > before[:2], f"numbers moved between {before} and {version}"
 
 
 def accept(entry: str) -> None:
