@@ -1,0 +1,60 @@
+"""What the project says of itself: one version, versions of packages that its lock knows, files that exist."""
+
+import re
+import tomllib
+from importlib.metadata import version
+from pathlib import Path
+
+from app.schema.base import MODEL_VERSION
+
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+PINNED = re.compile(r"^([A-Za-z0-9._-]+==\S+)", re.MULTILINE)
+
+
+def text(name: str) -> str:
+    return (ROOT / name).read_text("utf-8")
+
+
+def test_the_version_stands_in_one_place() -> None:
+    """Reinstall (`pip install -e .`) after a change of the version."""
+    assert PROJECT["version"] == version("tribodrive") == MODEL_VERSION
+    stated = [name for name in ("README.md", "CITATION.cff", "CONTRIBUTING.md") if PROJECT["version"] in text(name)]
+    assert stated == []
+
+
+def test_constraints_are_the_names_and_versions_of_the_lock() -> None:
+    locked = PINNED.findall(text("requirements.lock"))
+    assert locked == PINNED.findall(text("constraints.txt"))
+    assert text("requirements.lock").count("--hash=sha256:") > len(locked)
+    assert "http" not in re.sub(r"^http\w+==", "", text("requirements.lock"), flags=re.MULTILINE)
+
+
+def test_every_dependency_is_locked() -> None:
+    names = {_plain(pinned.partition("==")[0]) for pinned in PINNED.findall(text("constraints.txt"))}
+    extras = [one for group in PROJECT["optional-dependencies"].values() for one in group]
+    wanted = {_plain(re.split(r"[\[<>=]", one)[0]) for one in [*PROJECT["dependencies"], *extras]} - {"tribodrive"}
+    assert wanted <= names
+
+
+def _plain(name: str) -> str:
+    return re.sub(r"[-_.]+", "-", name).lower()
+
+
+def test_links_between_the_projects_documents_lead_somewhere() -> None:
+    for name in ("README.md", "CONTRIBUTING.md"):
+        prose = re.sub(r"```.*?```|`[^`\n]*`", "", text(name), flags=re.DOTALL)
+        for target in re.findall(r"\]\(([^)#:]+)(?:#[\w-]+)?\)", prose):
+            assert (ROOT / target).exists(), (name, target)
+
+
+def test_checks_before_a_commit_are_those_of_the_whole_run() -> None:
+    hooks = re.findall(r"entry: (\.venv/bin/[^,\n]+)", text(".pre-commit-config.yaml"))
+    whole = text(".ci/run")
+    assert [each for each in hooks if "pytest" not in each and each not in whole] == []
+    assert len(hooks) == 4
+
+
+def test_the_owner_has_chosen_no_licence() -> None:
+    assert "has not chosen a licence" in " ".join(text("README.md").split())
+    assert not list(ROOT.glob("LICEN[CS]E*"))
