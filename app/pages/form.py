@@ -15,7 +15,7 @@ from app.schema.base import Request
 from app.schema.fields import ITEM, Branch, Leaf, tree
 from app.schema.quantities import split_unit
 
-Widget = Literal["number", "text", "list", "select"]
+Widget = Literal["number", "text", "list", "select", "table"]
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,11 +16,13 @@ Pairs = list[tuple[str, str]]
 LOWER, UPPER, TRIALS, CORNER = "low.", "high.", "trials", "corner."
 UNCERTAIN = ("wall response", "pinion clearance", "wheel clearance", "friction", "offset", "thrust fraction")
 CHOSEN = 3  # ranges of a search
+SCATTERING = 12  # fields of a load spectrum
 STUDY_NAMES = frozenset(
     {f"{axis}{part}" for axis in ("x", "y") for part in ("", ".from", ".to", ".count", ".scale")}
     | {f"{end}{place}" for end in (LOWER, UPPER) for place in range(CHOSEN)}
     | {f"{CORNER}{quantity.replace(' ', '_')}" for quantity in UNCERTAIN}
-    | {"show", "best", TRIALS}
+    | {f"t{place}{part}" for place in range(SCATTERING) for part in ("", ".law", ".by", ".about")}
+    | {"show", "best", TRIALS, "cases", "hours", "machines", "limit", "limit.by", "limit.side"}
 )
 REPORT_NAMES = frozenset({"paper", "project", "part", "author", "checker", "notes"})
 VIEW_NAMES = STUDY_NAMES | REPORT_NAMES | {"ref", "theme", "sources", "curve"}

@@ -5,8 +5,10 @@ from typing import Any
 
 from app.calculations import BY_PATH
 from app.pages.query import link, pairs_of
+from app.pages.studies.spectrum import address_of
 from app.pages.templating import page_path, rendered
 
+SHOWN = ("/v1/scuffing", "/v1/drive-train")  # of the load spectra
 _CASE_COLUMNS = ("load.pinion_torque_n_m", "load.pinion_speed_rpm", "temperatures.oil_c")
 
 
@@ -29,6 +31,11 @@ def _stage(stage: dict[str, Any]) -> dict[str, Any]:
         "module_mm": gears.get("module_mm"),
         "face_width_mm": gears.get("face_width_mm"),
         "links": [(BY_PATH[path].title, _address(path, body)) for path, body in stage["requests"].items()],
+        "spectra": [
+            (BY_PATH[path].title, address_of(BY_PATH[path], pairs_of(stage["requests"][path]), {"cases": cases}))
+            for path, cases in stage["spectra"].items()
+            if path in SHOWN
+        ],
         "cases": [_case(stage, case) for case in stage["cases"]],
     }
 

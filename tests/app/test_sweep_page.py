@@ -24,6 +24,7 @@ from app.pages.studies import page as pages
 from app.pages.studies.declaration import PageStudy, StudyAddresses
 from app.pages.studies.design import DESIGN
 from app.pages.studies.outputs import output_choices
+from app.pages.studies.spectrum import SPECTRUM
 from app.pages.studies.sweep import SWEEP, case_of, field_choices, point_address
 from app.pages.studies.sweep_examples import STUDIES, StudyExample
 from app.pages.templating import page_path
@@ -391,10 +392,13 @@ def test_ready_questions_on_the_page_of_a_case_are_asked_of_this_case() -> None:
 
 def test_the_names_of_a_study_are_those_of_its_form() -> None:
     varied_one, unit = asked(COUPLING, x="operation.torque_n_m"), asked("starter-turbo-gear-drive-train")
-    forms = [pages.opened(SWEEP, varied_one, MOST, DEADLINE_S).head, pages.opened(DESIGN, unit, MOST, DEADLINE_S).head]
-    found = [set(re.findall(r'<(?:input|select)\b[^>]*?\bname="([^"]+)"', form.decode())) for form in forms]
+    scattering = asked(COUPLING, **{"t9": "friction.coefficient", "t9.by": "0.01"})
+    studies = ((SWEEP, varied_one), (DESIGN, unit), (SPECTRUM, scattering))
+    forms = [pages.opened(page, case, MOST, DEADLINE_S).head for page, case in studies]
+    pattern = r'<(?:input|select|textarea)\b[^>]*?\bname="([^"]+)"'
+    found = [set(re.findall(pattern, form.decode())) for form in forms]
     assert set.union(*found) >= STUDY_NAMES
-    for names, case in zip(found, (varied_one, unit), strict=True):
+    for names, case in zip(found, (varied_one, unit, scattering), strict=True):
         assert names - STUDY_NAMES == set(dict(case.pairs))
 
 

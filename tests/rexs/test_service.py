@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from html import unescape
 from pathlib import Path
 from typing import Any
 
@@ -86,6 +87,19 @@ def test_the_page_leads_to_every_calculation(client: httpx.Client) -> None:
     assert len(cases) == 4
     for address in cases:
         assert client.get(address, follow_redirects=True).status_code == 200
+
+
+def test_the_page_leads_to_the_load_spectrum(client: httpx.Client) -> None:
+    unit = turbo_unit()
+    load = next(each["id"] for each in unit.components if each["type"] == "external_load")
+    unit.cases = [{1: {"operating_time_fraction": (50.0, "%")}, load: {"power": (kw, "kW")}} for kw in (5000.0, 9000.0)]
+    page = client.post("/rexs", files={"file": ("unit.rexs", unit.xml())})
+    addresses = [unescape(part.split('"')[0]) for part in page.text.split('href="')[1:]]
+    spectra = [address for address in addresses if "/spectrum?" in address]
+    assert [address.partition("?")[0] for address in spectra] == ["/scuffing/spectrum", "/drive-train/spectrum"]
+    answer = client.get(spectra[0], follow_redirects=True)
+    assert answer.status_code == 200
+    assert "1 machine in 2 cases" in answer.text
 
 
 def test_the_command_prints_the_answer(tmp_path: Path, client: httpx.Client) -> None:

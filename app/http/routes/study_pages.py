@@ -83,7 +83,7 @@ async def _page(http: Request, calculation: Calculation, own: StudyPage, path: s
         return redirected(path, asked)
     if asked.pairs:
         http.app.state.start_up.require(calculation.path)
-    opened: pages.Opened = await planned(http, partial(pages.opened, own, asked))
+    opened: pages.Opened = await planned(http, partial(pages.opened, own, asked), _most(http, own))
     if opened.study is None:
         return html(opened.head + opened.tail, opened.status)
     headers = {"Content-Security-Policy": PAGE_POLICY}
@@ -94,7 +94,13 @@ async def _checked(http: Request, calculation: Calculation, own: StudyPage) -> A
     """The study of a query, for a file; checked in a worker."""
     asked, _ = await asked_of(http, calculation)
     http.app.state.start_up.require(calculation.path)
-    return await planned(http, partial(pages.checked, own, asked))
+    return await planned(http, partial(pages.checked, own, asked), _most(http, own))
+
+
+def _most(http: Request, own: StudyPage) -> int:
+    """The most points of the study."""
+    found: int = getattr(http.app.state.settings, own.most)
+    return found
 
 
 async def _pieces(http: Request, opened: pages.Opened, lines: Lines, clock: Clock) -> AsyncGenerator[bytes, None]:

@@ -224,7 +224,7 @@ CORNERS = StudyPage(
     body=_body,
     plan=corners_study,
     result=_result,
-    output=OUTPUT,
+    outputs=(OUTPUT,),
     controls=_controls,
     ranges=ranges_of,
 )

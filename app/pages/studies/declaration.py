@@ -228,12 +228,13 @@ def starting_from_examples(page: "StudyPage", asked: Asked) -> list[Starter]:
 class StudyPage:
     """A study with a page of its own.
 
-    `output` is the path of the one shown when none is chosen, else the first headline. `body` makes what the study's
-    endpoint is asked, `plan` checks it; `controls` are what the form has beside the output, and `shows` beside the
-    menu of outputs; `ranges` are the values of the uncertain inputs, by the names of their controls. `result` is what
-    the page shows of the lines of a study; with `grows` also of those that have come while it runs, else only how far
-    it is. `complete` says whether all is chosen that the study needs, else `choose` asks for it. `figures` names all
-    that there may be, `files` the forms in which the lines are offered.
+    The output shown when none is chosen is the first of `outputs` that the answer has, else the first headline. `body`
+    makes what the study's endpoint is asked, `plan` checks it; `most` is the setting that bounds its points.
+    `controls` are what the form has beside the output, and `shows` beside the menu of outputs; `ranges` are the values
+    of the uncertain inputs, by the names of their controls. `result` is what the page shows of the lines of a study;
+    with `grows` also of those that have come while it runs, else only how far it is. `complete` says whether all is
+    chosen that the study needs, else `choose` asks for it. `figures` names all that there may be, `files` the forms in
+    which the lines are offered.
     """
 
     link: StudyLink
@@ -243,11 +244,12 @@ class StudyPage:
     body: Callable[[Asked, Leaf], dict[str, Any]]
     plan: Callable[[bytes, int, float], Study]
     result: Callable[[PageStudy, list[Line]], Result]
-    output: str | None = None
+    outputs: tuple[str, ...] = ()
     controls: Callable[[Form], tuple[Controls, ...]] = _no_controls
     shows: Callable[[Form], tuple[FieldView, ...]] = _no_controls
     grows: bool = False
     ranges: Callable[[Asked], dict[str, Any]] = _no_ranges
+    most: str = "most_study_points"
     complete: Callable[[Asked], bool] = _complete
     choose: str = ""
     starters: Callable[["StudyPage", Asked], list[Starter]] = starting_from_examples

@@ -17,14 +17,25 @@ from app.pages.studies.declaration import Controls, Form, PageStudy, Result, Stu
 from app.pages.studies.design import DESIGN
 from app.pages.studies.outputs import output_at, output_choices
 from app.pages.studies.sensitivity import SENSITIVITY
+from app.pages.studies.spectrum import SPECTRUM
 from app.pages.studies.sweep import AXES, SWEEP
 from app.pages.templating import rendered
 from app.pages.views import REFUSED, Asked
-from app.schema.fields import Leaf
+from app.schema.fields import Leaf, leaf_at
 from app.studies.stream import Line
 
-PAGES = {each.link: each for each in (SWEEP, SENSITIVITY, CORNERS, DESIGN)}
+PAGES = {each.link: each for each in (SWEEP, SENSITIVITY, SPECTRUM, CORNERS, DESIGN)}
 FRAMES = "<!-- the figures -->"
+# The control that a part of a study means, whatever of it is wrong.
+CONTROLS = {
+    "evaluations": TRIALS,
+    "outputs": "show",
+    "objective": "show",
+    "cases": "cases",
+    "limits": "limit",
+    "tolerances": "machines",
+    "hours_per_year": "hours",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +69,8 @@ def checked(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Page
 
 
 def _output(page: StudyPage, calculation: Calculation, views: dict[str, str]) -> Leaf:
-    return output_at(calculation, views.get("show", page.output))
+    usual = next((path for path in page.outputs if leaf_at(calculation.response, path)), None)
+    return output_at(calculation, views.get("show", usual))
 
 
 def field_at_fault(path: str, ranges: Sequence[str] = ()) -> str:
@@ -68,19 +80,24 @@ def field_at_fault(path: str, ranges: Sequence[str] = ()) -> str:
     """
     head, _, rest = path.partition(".")
     place, _, part = rest.partition(".")
+    name = path
     match head:
         case "vary":
-            name = AXES[int(place)] if place in {"0", "1"} else "x"
+            axis = AXES[int(place)] if place in {"0", "1"} else "x"
             known = {"path": "", "stop": ".to", "count": ".count", "scale": ".scale"}
-            return name + (known.get(part, ".from") if place else ".count")
+            name = axis + (known.get(part, ".from") if place else ".count")
         case "ranges" | "corners" if ranges:
-            return ranges[int(place) if place else 0]
+            name = ranges[int(place) if place else 0]
         case "variables":
-            return f"{UPPER if part == 'max' else LOWER}{place}"
+            name = f"{UPPER if part == 'max' else LOWER}{place}"
+        case "tolerances" if place == "inputs":
+            number, _, member = part.partition(".")
+            name = f"t{number}" + ("" if member == "path" else ".by")
         case "request":
-            return rest
+            name = rest
         case _:
-            return {"evaluations": TRIALS, "outputs": "show", "objective": "show"}.get(head, path)
+            name = CONTROLS.get(head, path)
+    return name
 
 
 def _page(page: StudyPage, asked: Asked, study: PageStudy | None, faults: list[Fault]) -> str:

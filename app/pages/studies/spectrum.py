@@ -1,0 +1,440 @@
+"""A load spectrum: cases as a table to paste, tolerances beside the fields that scatter, probabilities and losses."""
+
+import csv
+from dataclasses import replace
+from typing import Any
+
+from app.calculations import Calculation
+from app.errors import Unprocessable
+from app.figures.data import Axis, Figure, NoFigure
+from app.figures.spectrum import Band, Chance, Limited, SpectrumCase, chances, deciding, losses, overlap
+from app.figures.wording import percent
+from app.pages.form import FieldView
+from app.pages.query import SCATTERING, Pairs, body_of, link, number_of, pairs_of, text_of
+from app.pages.studies.declaration import (
+    Cell,
+    Controls,
+    Form,
+    PageStudy,
+    Result,
+    Starter,
+    StudyPage,
+    Table,
+    address_at,
+)
+from app.pages.studies.sweep import case_of, field_choices
+from app.pages.study_links import SPECTRUM as LINK
+from app.pages.templating import page_path
+from app.pages.typesetting import shown
+from app.pages.views import Asked
+from app.schema.fields import Leaf, leaf_at
+from app.studies.examples import SPECTRUM_EXAMPLES
+from app.studies.fields import NUMBERS, scalar_at, value_at
+from app.studies.requests import DRIVE_TRAIN
+from app.studies.spectrum import SCUFFING, Spectrum, spectrum_study
+from app.studies.stream import Line
+
+NAME, SHARE = "name", "share"
+REPLICATES = 8
+MACHINES = (("", "256"), ("64", "64"), ("1024", "1024"), ("4096", "4096"))
+LAWS = (("", "normal"), ("uniform", "uniform"), ("triangular", "triangular"), ("lognormal", "lognormal"))
+SIDES = (("", "by the output"), ("above", "above is bad"), ("below", "below is bad"))
+SEPARATORS = "\t;"
+# Fields that a case of the spectrum usually changes, for the table to start from.
+USUAL = (
+    *("load.power_kw", "load.pinion_torque_n_m", "load.pinion_speed_rpm"),
+    *("operation.power_kw", "operation.pinion_torque_n_m", "operation.torque_n_m"),
+    *("operation.pinion_speed_rpm", "operation.speed_rpm", "temperatures.oil_c"),
+)
+LOSSES = {
+    "/v1/coupling": ("losses.friction_power_w",),
+    "/v1/pumping": ("total.pumping_power_w",),
+    "/v1/scuffing/load-distribution": ("friction_loss.power_w",),
+    "/v1/scuffing": ("friction_loss.power_w",),
+    DRIVE_TRAIN: ("losses.coupling_w", "losses.pumping_w", "losses.mesh_w", "losses.bearings_w"),
+}
+MOST_BARS = 40
+
+
+def cases_of(calculation: Calculation, text: str) -> list[dict[str, Any]]:
+    """The cases of a table whose first line names the columns: name, share, and fields by their paths.
+
+    Columns are parted by tabs, as a spreadsheet copies them, or by semicolons; an empty cell changes nothing. Raises
+    Unprocessable.
+    """
+    lines = [line for line in text.splitlines() if line.strip()]
+    if not lines:
+        return [{}]
+    separator = next((each for each in SEPARATORS if each in lines[0]), "\t")
+    try:
+        heading, *rows = csv.reader(lines, delimiter=separator)
+    except csv.Error:
+        raise Unprocessable("table", "the table cannot be read", "cases") from None
+    columns = [cell.strip() for cell in heading]
+    return [_case(calculation, columns, row, place) for place, row in enumerate(rows, start=2)] or [{}]
+
+
+def _case(calculation: Calculation, columns: list[str], row: list[str], line: int) -> dict[str, Any]:
+    if any(cell.strip() for cell in row[len(columns) :]):
+        raise Unprocessable("table", f"line {line} has more columns than the first line names", "cases")
+    cells = {column: cell.strip() for column, cell in zip(columns, row, strict=False) if cell.strip()}
+    case: dict[str, Any] = {"set": {}}
+    for column, cell in cells.items():
+        if column == NAME:
+            case[NAME] = cell
+        elif column == SHARE:
+            case[SHARE] = _share(cell, line)
+        else:
+            case["set"][column] = _typed(calculation, column, cell)
+    return case
+
+
+def _share(cell: str, line: int) -> float:
+    """A fraction, or a percentage with its sign."""
+    number = number_of(cell.removesuffix("%").strip())
+    if isinstance(number, str):
+        raise Unprocessable("table", f"line {line}: the share is no number", "cases")
+    return float(number) / (100.0 if cell.endswith("%") else 1.0)
+
+
+def _typed(calculation: Calculation, path: str, cell: str) -> Any:
+    """A cell as its field takes it; what does not fit stays text, for the study to refuse."""
+    leaf = leaf_at(calculation.request, path)
+    if leaf is not None and leaf.kind == "boolean":
+        return {"true": True, "false": False}.get(cell, cell)
+    return number_of(cell) if leaf is None or leaf.kind in NUMBERS else cell
+
+
+def table_of(cases: list[dict[str, Any]]) -> str:
+    """The table of cases as `cases_of` reads it."""
+    paths = list(dict.fromkeys(path for case in cases for path in case.get("set", {})))
+    rows = [[NAME, SHARE, *paths]]
+    for place, case in enumerate(cases, start=1):
+        own = case.get("set", {})
+        head = [str(case.get(NAME) or f"case {place}"), text_of(case[SHARE]) if case.get(SHARE) is not None else ""]
+        rows.append([*head, *(text_of(own[path]) if path in own else "" for path in paths)])
+    return "\n".join("\t".join(cell.replace("\t", " ") for cell in row) for row in rows)
+
+
+def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
+    """The cases and tolerances as typed, the output shown with its limit, and the losses."""
+    calculation, views = asked.calculation, asked.views
+    inputs = [_scatter(asked, place) for place in range(SCATTERING) if views.get(f"t{place}")]
+    machines = number_of(views.get("machines") or MACHINES[0][1])
+    if not isinstance(machines, int):
+        raise Unprocessable("int_type", "give a whole number", "tolerances.count")
+    tolerances = {"inputs": inputs, "count": machines // REPLICATES}
+    body = {
+        "endpoint": calculation.path,
+        "request": body_of(calculation.request, asked.pairs),
+        "cases": cases_of(calculation, views.get("cases", "")),
+        "tolerances": {**tolerances, "replicates": REPLICATES} if inputs else None,
+        "outputs": list(dict.fromkeys([output.path, *LOSSES.get(calculation.path, ())])),
+        "hours_per_year": number_of(views["hours"]) if views.get("hours") else None,
+    }
+    limits = _limits(calculation, output, views)
+    return body if limits is None else {**body, "limits": limits}
+
+
+def _scatter(asked: Asked, place: int) -> dict[str, Any]:
+    """The distribution of one field: around the value of the case, by its usual tolerance."""
+    calculation, views, name = asked.calculation, asked.views, f"t{place}"
+    where = f"tolerances.inputs.{place}"
+    leaf = scalar_at(calculation.request, views[name], f"{where}.path", "unknown_path")
+    own = value_at(case_of(calculation, asked.pairs), leaf.path)
+    about = _number_of(views.get(f"{name}.about"), own, f"{leaf.title}: say around which value", where)
+    usual = None if leaf.declared.tolerance is None else float(leaf.declared.tolerance)
+    by = _number_of(views.get(f"{name}.by"), usual, f"{leaf.title}: say by how much", where)
+    law = views.get(f"{name}.law") or "normal"
+    known: dict[str, dict[str, float]] = {
+        "normal": {"mean": about, "deviation": by},
+        "lognormal": {"median": about, "factor": by},
+        "uniform": {"min": about - by, "max": about + by},
+        "triangular": {"min": about - by, "mode": about, "max": about + by},
+    }
+    return {"path": leaf.path, "distribution": law, **known.get(law, {})}
+
+
+def _number_of(text: str | None, usual: Any, lacks: str, where: str) -> float:
+    value = number_of(text) if text else usual
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        raise Unprocessable("missing", lacks, where)
+    return float(value)
+
+
+def _limits(calculation: Calculation, output: Leaf, views: dict[str, str]) -> list[dict[str, Any]] | None:
+    """The limit as typed, else that of the output; None where it is the scuffing temperature."""
+    usual = output.view.limit
+    text, scatter = views.get("limit"), views.get("limit.by")
+    if not text:
+        if calculation.path in SCUFFING and output.path == SCUFFING[calculation.path].contact:
+            return None
+        if not output.view.bound or not isinstance(usual, int | float):
+            return []
+    value = number_of(text) if text else usual
+    side = views.get("limit.side") or ("below" if output.view.bound == "lower" else "above")
+    threshold = {"mean": value, "deviation": number_of(scatter)} if scatter else {"value": value}
+    return [{"output": output.path, side: threshold}]
+
+
+def _controls(form: Form) -> tuple[Controls, ...]:
+    """The table of cases, the tolerances, the limit."""
+    asked = form.asked
+    case = case_of(asked.calculation, asked.pairs)
+    groups = [Controls("Load spectrum", fields=(_table_field(form, case),))]
+    used = [place for place in range(SCATTERING) if asked.views.get(f"t{place}")]
+    choices = field_choices(asked.calculation, case, texts=False) if asked.pairs else []
+    for place in range(min(SCATTERING, max(used, default=-1) + 3)):
+        name = f"t{place}"
+        leaf = leaf_at(asked.calculation.request, asked.views.get(name, ""))
+        own = value_at(case, asked.views[name]) if leaf is not None else None
+        fields = (
+            form.field(f"{name}.law", "distribution", options=LAWS),
+            form.field(
+                f"{name}.by", "by", leaf.declared.tolerance if leaf else None, (leaf.unit or "") if leaf else ""
+            ),
+            form.field(f"{name}.about", "around", own, (leaf.unit or "") if leaf else ""),
+        )
+        groups.append(Controls(f"Tolerance {place + 1}", form.menu(name, "field", "none", choices), fields))
+    return tuple(groups)
+
+
+def _table_field(form: Form, case: dict[str, Any]) -> FieldView:
+    text = form.asked.views.get("cases", "")
+    view = form.field("cases", "cases")
+    help_ = (
+        "The first line names the columns: name, share (of the time) and fields of the request.",
+        "One line a case, columns parted by tabs or semicolons, as pasted from a spreadsheet.",
+        "An empty cell changes nothing.",
+    )
+    return replace(view, widget="table", text=text or _suggested(case), help=help_)
+
+
+def _suggested(case: dict[str, Any]) -> str:
+    """A table to start from: the case itself for most of the time, and half its load."""
+    known = {}
+    for path in USUAL:
+        try:
+            value = value_at(case, path)
+        except AttributeError:
+            value = None
+        if isinstance(value, int | float):
+            known[path] = value
+    half = {path: value / 2 if "power" in path or "torque" in path else value for path, value in known.items()}
+    return table_of([{NAME: "full load", SHARE: 0.8, "set": known}, {NAME: "half load", SHARE: 0.2, "set": half}])
+
+
+def _shows(form: Form) -> tuple[FieldView, ...]:
+    return (
+        form.field("limit", "limit", "its own"),
+        form.field("limit.by", "deviation of the limit", "none"),
+        form.field("limit.side", "side", options=SIDES),
+        form.field("machines", "machines drawn", options=MACHINES),
+        form.field("hours", "hours a year"),
+    )
+
+
+def _result(study: PageStudy, lines: list[Line]) -> Result:
+    """The probability, what it is made of, what decides, the losses; each case leads to its page."""
+    header, end, output = lines[0], lines[-1], study.output
+    figures: dict[str, Figure] = {}
+    found = next((each for each in end["limits"] if each["output"] == output.path), None)
+    limited = None if found is None else _limited(study, header, end, found)
+    remarks = [f"{note[0].upper()}{note[1:]}." for note in end["notes"]]
+    if limited is not None:
+        for name, draw in (("limit", overlap), ("probability", chances), ("decides", deciding)):
+            try:
+                figures[name] = draw(limited)
+            except NoFigure as error:
+                remarks.append(f"{error.message}.")
+    elif not end["notes"]:
+        remarks.append(f"The {output.title} has no limit here; state one, and there is a probability.")
+    unsolved = end["points"] - sum(end["counts"].get(status, 0) for status in ("ok", "ok_with_warnings"))
+    if unsolved:
+        remarks.append(
+            f"{unsolved} of {end['points']} points have no solution; each probability lies between taking them as good "
+            f"and as bad."
+        )
+    figures |= _losses(study, header, end)
+    tables = [_cases_table(study, end, found), _outputs_table(study, header, end)]
+    if header["tolerances"]:
+        tables.append(_tolerances_table(header, found))
+    cases = len(header["cases"])
+    machines = end["points"] // cases
+    counted = [f"{count} {noun}{'s' * (count > 1)}" for count, noun in ((machines, "machine"), (cases, "case"))]
+    progress = f"{' in '.join(counted)}, {shown(end['elapsed_s'], 2)} s"
+    if limited is not None:
+        progress = f"{limited.sentence[0].upper()}{limited.sentence[1:]}; {progress}"
+    return Result(progress, figures, tuple(tables), tuple(remarks))
+
+
+def _chance(found: Line) -> Chance:
+    low, high = found["bounds"]
+    return Chance(low, high, None if found["interval"] is None else (found["interval"][0], found["interval"][1]))
+
+
+def _limited(study: PageStudy, header: Line, end: Line, found: Line) -> Limited:
+    """The limit shown, with its most probable cases where there are many."""
+    output, place = study.output, end["limits"].index(found)
+    cases = []
+    for index, each in enumerate(end["cases"]):
+        band = each["quantiles"][output.path]
+        decides = None if found["decides"] is None else found["decides"][index]
+        cases.append(SpectrumCase(each["name"], Band(*band) if band else None, _chance(each["limits"][place]), decides))
+    worst = sorted(cases, key=lambda case: -case.chance.high)[:MOST_BARS]
+    titles = {each["path"]: each["title"] for each in (header["tolerances"] or {"inputs": []})["inputs"]}
+    known = {titles[path]: value for path, value in (found["rank_correlation"] or {}).items() if value is not None}
+    return Limited(
+        output=Axis(output.title, output.unit),
+        above=found["side"] == "above",
+        mean=found["mean"],
+        deviation=found["deviation"],
+        chance=_chance(found),
+        risk=found["risk"],
+        cases=tuple(case for case in cases if case in worst),
+        edges=tuple(found["histogram"]["edges"]),
+        density=tuple(found["histogram"]["density"]),
+        influences=known,
+    )
+
+
+def _losses(study: PageStudy, header: Line, end: Line) -> dict[str, Figure]:
+    """Mean losses of the cases; nothing where one of them is not known."""
+    units = {each["path"]: each for each in header["outputs"]}
+    paths = [path for path in LOSSES.get(study.asked.calculation.path, ()) if end["outputs"][path]["mean"] is not None]
+    if not paths:
+        return {}
+    cases = {
+        each["name"]: {units[path]["title"]: (each["means"][path] or 0.0) / 1e3 for path in paths}
+        for each in end["cases"][:MOST_BARS]
+    }
+    mean = {units[path]["title"]: end["outputs"][path]["mean"] / 1e3 for path in paths}
+    years = [end["outputs"][path].get("energy_kwh_per_year") for path in paths]
+    energy = None if None in years else sum(years) / 1e3
+    return {"losses": losses(cases, mean, energy)}
+
+
+def _cases_table(study: PageStudy, end: Line, found: Line | None) -> Table:
+    """Every case with its share, its probability, how often it decides, and its output."""
+    output, spectrum = study.output, study.study
+    assert isinstance(spectrum, Spectrum)
+    place = None if found is None else end["limits"].index(found)
+    rows = []
+    for index, each in enumerate(end["cases"]):
+        known = each["quantiles"][output.path] or [None] * 3
+        chance = [] if place is None else [_chance(each["limits"][place]).text]
+        decides = [] if found is None else ["–" if found["decides"] is None else percent(found["decides"][index])]
+        rows.append(
+            (
+                Cell(each["name"], address_at(study.asked, spectrum.cases[index])),
+                *(Cell(text, right=True) for text in (percent(each["share"]), *chance, *decides)),
+                *(Cell(shown(value, 4), right=True) for value in known),
+                Cell(percent(each["unsolved"]), right=True),
+            )
+        )
+    unit = f", {output.unit}" if output.unit else ""
+    heads = ["share", *(["probability alone", "decides"] if found else []), f"5 %{unit}", "50 %", "95 %", "unsolved"]
+    note = f"Of each case 5, 50 and 95 % of the machines have a lower {output.title}. A name leads to the nominal case."
+    return Table("Cases", (Cell("case"), *(Cell(text, right=True) for text in heads)), tuple(rows), note)
+
+
+def _outputs_table(study: PageStudy, header: Line, end: Line) -> Table:
+    """Means over the operating time, and the extremes with the machine and case where they are."""
+    rows = []
+    for each in header["outputs"]:
+        found = end["outputs"][each["path"]]
+        ends = [found[name] for name in ("min", "max")]
+        rows.append(
+            (
+                Cell(each["title"]),
+                Cell(shown(found["mean"], 4), right=True),
+                Cell(shown(found["standard_error"], 2), right=True),
+                *(
+                    Cell("–", right=True)
+                    if end_ is None
+                    else Cell(shown(end_["value"], 4), address_at(study.asked, end_["at"]), right=True)
+                    for end_ in ends
+                ),
+                Cell(each["unit"] or ""),
+                Cell(shown(found.get("energy_kwh_per_year"), 4), right=True),
+            )
+        )
+    heads = ("mean", "standard error", "least", "largest")
+    head = (Cell("output"), *(Cell(text, right=True) for text in heads), Cell("unit"), Cell("kWh a year", right=True))
+    return Table("Over the operating time", head, tuple(rows), "A number leads to the machine and case where it is.")
+
+
+def _tolerances_table(header: Line, found: Line | None) -> Table:
+    """How the fields scatter, what is cut off, and how the worst case goes with them."""
+    numbers = ("mean", "deviation", "median", "factor", "min", "mode", "max")
+    rows = []
+    for each in header["tolerances"]["inputs"]:
+        law = ", ".join(f"{name} {shown(each[name], 4)}" for name in numbers if each.get(name) is not None)
+        known = None if found is None or not found["rank_correlation"] else found["rank_correlation"][each["path"]]
+        rows.append(
+            (
+                Cell(each["title"]),
+                Cell(f"{each['distribution']}: {law}"),
+                Cell(each["unit"] or ""),
+                Cell(percent(each["cut_off"]), right=True),
+                Cell(shown(known, 3), right=True),
+            )
+        )
+    head = (Cell("field"), Cell("distribution"), Cell("unit"), Cell("cut off", right=True), Cell("rank", right=True))
+    note = (
+        "Cut off is the share beyond four deviations or the field's range; rank is the correlation with the worst case."
+    )
+    return Table("Tolerances", head, tuple(rows), note)
+
+
+def views_of(body: dict[str, Any]) -> dict[str, str]:
+    """The query of this page for a study of the interface."""
+    views = {"cases": table_of(body["cases"])}
+    for place, each in enumerate((body.get("tolerances") or {"inputs": []})["inputs"]):
+        law = each["distribution"]
+        low, high = each.get("min"), each.get("max")
+        about, by = {
+            "normal": (each.get("mean"), each.get("deviation")),
+            "lognormal": (each.get("median"), each.get("factor")),
+        }.get(law, (None, None) if low is None or high is None else ((low + high) / 2, (high - low) / 2))
+        views |= {f"t{place}": each["path"], f"t{place}.about": text_of(about), f"t{place}.by": text_of(by)}
+        views |= {} if law == "normal" else {f"t{place}.law": law}
+    hours = body.get("hours_per_year")
+    return views if hours is None else {**views, "hours": text_of(hours)}
+
+
+def address_of(endpoint: Calculation, request: Pairs, body: dict[str, Any]) -> str:
+    """The page of a study of the interface."""
+    return link(f"{page_path(endpoint)}/{LINK.name}", request, **views_of(body))
+
+
+def _complete(asked: Asked) -> bool:
+    return bool(asked.views.get("cases") or asked.views.get("t0"))
+
+
+def _starters(_: StudyPage, asked: Asked) -> list[Starter]:
+    """The ready studies of the interface; a case of one's own needs none."""
+    calculation = asked.calculation
+    return [
+        Starter(each["summary"], "example", address_of(calculation, pairs_of(each["value"]["request"]), each["value"]))
+        for each in SPECTRUM_EXAMPLES.values()
+        if each["value"]["endpoint"] == calculation.path and not asked.pairs
+    ]
+
+
+SPECTRUM = StudyPage(
+    link=LINK,
+    question="its load spectrum",
+    about="Machines are drawn from the tolerances; each runs every case, and its worst case meets the limit.",
+    figures=("limit", "probability", "decides", "losses"),
+    body=_body,
+    plan=spectrum_study,
+    result=_result,
+    outputs=tuple(paths.contact for paths in SCUFFING.values()),
+    controls=_controls,
+    shows=_shows,
+    most="spectrum_solves",
+    complete=_complete,
+    choose="Cases are a table of what each part of the operating time changes; tolerances say how the fields scatter.",
+    starters=_starters,
+)

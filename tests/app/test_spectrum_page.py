@@ -1,0 +1,177 @@
+"""The page of a load spectrum: a pasted table and tolerances make the study, whose numbers and links it shows."""
+
+import asyncio
+import json
+import re
+from html import unescape
+from typing import Any
+from urllib.parse import urlencode
+
+import httpx
+import pytest
+
+from app.calculations import BY_PATH
+from app.errors import Unprocessable
+from app.examples import examples
+from app.pages.query import pairs_of, pairs_of_query, split_views
+from app.pages.studies import page as pages
+from app.pages.studies.declaration import PageStudy
+from app.pages.studies.spectrum import SPECTRUM, address_of, cases_of, table_of
+from app.pages.templating import page_path
+from app.pages.views import Asked
+from app.studies.examples import SPECTRUM_EXAMPLES
+from app.studies.spectrum import Spectrum, spectrum_study
+from app.studies.stream import Clock
+from tests.support.pools import InlinePool
+
+SCUFFING = BY_PATH["/v1/scuffing"]
+MOST, DEADLINE_S = 20_000, 30.0
+COUPLING = examples()["pahl-axial-displacement"]
+TABLE = "name\tshare\tload.power_kw\ttemperatures.oil_c\nstart\t2 %\t2000,5\t40\nfull load\t0.98\t\t\n"
+
+
+def asked(**said: str) -> Asked:
+    return Asked(page_path(BY_PATH[COUPLING.endpoint]), pairs_of(COUPLING.request), said)
+
+
+def checked(found: Asked) -> PageStudy:
+    return pages.checked(SPECTRUM, found, MOST, DEADLINE_S)
+
+
+def shown(study: PageStudy) -> tuple[dict[str, Any], str]:
+    """The last line of a study, and what its page shows."""
+
+    async def run() -> list[dict[str, Any]]:
+        clock = Clock(study.study.total)
+        return [line async for group in study.study.lines(InlinePool(), clock) for line in group]
+
+    lines = [line for line in json.loads(json.dumps(asyncio.run(run()))) if line["type"] != "progress"]
+    return lines[-1], unescape(pages.whole(study, lines).decode())
+
+
+def test_a_table_as_a_spreadsheet_copies_it() -> None:
+    found = cases_of(SCUFFING, TABLE)
+    assert found == [
+        {"name": "start", "share": 0.02, "set": {"load.power_kw": 2000.5, "temperatures.oil_c": 40}},
+        {"name": "full load", "share": 0.98, "set": {}},
+    ]
+    assert cases_of(SCUFFING, TABLE.replace("\t", ";")) == found
+    assert cases_of(SCUFFING, table_of(found)) == found
+    assert cases_of(SCUFFING, " \n") == [{}]
+    assert cases_of(SCUFFING, "name\tshare") == [{}]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [("name\nfull\t1", "line 2 has more columns"), ("share\nmuch", "line 2: the share is no number")],
+)
+def test_a_table_that_cannot_be_read(text: str, message: str) -> None:
+    with pytest.raises(Unprocessable) as caught:
+        cases_of(SCUFFING, text)
+    assert caught.value.path == "cases"
+    assert message in caught.value.message
+
+
+@pytest.mark.parametrize("name", SPECTRUM_EXAMPLES)
+def test_ready_studies_are_those_of_the_interface(name: str) -> None:
+    """The query of a starter makes the machines and cases of the example."""
+    body = SPECTRUM_EXAMPLES[name]["value"]
+    calculation = BY_PATH[body["endpoint"]]
+    path, _, query = address_of(calculation, pairs_of(body["request"]), body).partition("?")
+    study = checked(Asked(path.removesuffix("/spectrum"), *split_views(pairs_of_query(query)))).study
+    tolerances = {**body["tolerances"], "count": 32, "replicates": 8}
+    own = spectrum_study(json.dumps({**body, "tolerances": tolerances}).encode(), MOST, DEADLINE_S)
+    assert isinstance(study, Spectrum)
+    assert (study.cases, study.shares) == (own.cases, own.shares)
+    assert study.scattering is not None
+    assert own.scattering is not None
+    assert study.scattering.values == pytest.approx(own.scattering.values)
+
+
+SAID = {
+    "cases": "name;share;operation.torque_n_m\nlow;0.5;3000\nhigh;0.5;4500",
+    "t0": "friction.coefficient",
+    "t0.by": "0.02",
+    "machines": "64",
+    "show": "axial_thrust.coaxial_limit_n",
+    "limit": "5000",
+    "limit.by": "400",
+    "hours": "8000",
+}
+
+
+def test_the_page_shows_what_the_study_says() -> None:
+    study = checked(asked(**SAID))
+    end, page = shown(study)
+    (limit,) = end["limits"]
+    assert "robability of being above the limit" in page
+    assert f"{limit['risk']} risk" in page
+    for name in ("limit", "probability", "decides", "losses"):
+        assert f'id="figure-{name}"' in page
+    rows = re.findall(r'<tr><td><a href="([^"]+)">(low|high)</a></td>', page)
+    assert [name for _, name in rows] == ["low", "high"]
+    pairs, _ = split_views(pairs_of_query(rows[1][0].partition("?")[2]))
+    assert ("operation.torque_n_m", "4500") in pairs
+    assert "64 machines in 2 cases" in page
+
+
+def test_the_nominal_machine_alone() -> None:
+    end, page = shown(checked(asked(cases="name;share\nonly;1", show="axial_thrust.force_n")))
+    assert end["points"] == 1
+    assert "state one, and there is a probability" in page
+
+
+@pytest.mark.parametrize(
+    ("said", "control"),
+    [
+        ({"cases": "name\nfull\t1"}, "cases"),
+        ({"cases": "operation.sped_rpm\n1"}, "cases"),
+        ({"cases": "share\n0.5"}, "cases"),
+        ({"t0": "friction.coefficient", "t0.by": "-1"}, "t0.by"),
+        ({"t0": "friction.coefficient", "t0.by": "x"}, "t0.by"),
+        ({"t0": "friction.coeficient", "t0.by": "0.1"}, "t0"),
+        ({"t0": "friction.coefficient", "t0.by": "0.02", "machines": "1000000"}, "machines"),
+        ({"cases": "name\na", "limit": "x"}, "limit"),
+        ({"cases": "name\na", "hours": "-1"}, "hours"),
+    ],
+)
+def test_what_is_wrong_stands_at_its_control(client: httpx.Client, said: dict[str, str], control: str) -> None:
+    query = urlencode([*pairs_of(COUPLING.request), *said.items()])
+    page = client.get(f"/coupling/spectrum?{query}")
+    assert page.status_code == 422
+    assert re.search(rf'id="f\.{re.escape(control)}-fault"(?! hidden)', page.text), page.text
+    assert f'href="#f.{control}"' in page.text
+
+
+def test_hostile_queries_are_no_errors_of_the_service(client: httpx.Client) -> None:
+    """Whatever stands in the table, the answer is a page or a refusal."""
+    texts = [
+        "\x00\x01",
+        '"',
+        "name\n" + "\n".join("abc" * 50),
+        "<script>;share\n1;1",
+        "name;" * 500,
+        "set;set\n1;2",
+        "٣\n٣",
+    ]
+    case = pairs_of(COUPLING.request)
+    for text in texts:
+        for name in ("cases", "t0", "machines", "limit", "limit.by", "limit.side", "hours", "show", "t0.law"):
+            said = {"t0": "friction.coefficient", "t0.by": "0.01", "cases": "name\na", name: text}
+            page = client.get("/coupling/spectrum?" + urlencode([*case, *said.items()]), follow_redirects=True)
+            assert page.status_code in {200, 400, 422}, (name, text)
+            assert "<script>;" not in page.text
+
+
+def test_the_page_works_from_the_case(client: httpx.Client) -> None:
+    case = client.get("/coupling?" + urlencode(pairs_of(COUPLING.request)))
+    address = unescape(re.findall(r'href="(/coupling/spectrum\?[^"]+)"', case.text)[0])
+    start = client.get(address)
+    assert start.status_code == 200
+    assert "full load\t0.8\t" in unescape(start.text)
+    page = client.get(address + "&" + urlencode(SAID))
+    assert page.status_code == 200
+    assert 'id="figure-limit"' in page.text
+    figure = client.get(address.replace("/spectrum?", "/spectrum/figures/losses.csv?") + "&" + urlencode(SAID))
+    assert figure.status_code == 200
+    assert figure.text.splitlines()[1].startswith("low,")
