@@ -3,6 +3,7 @@
 Every number is in the unit of its axis and equals the answer's; NaN is a point without a value, and a gap.
 """
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
@@ -58,11 +59,13 @@ class Axis:
     magnitude: bool = True
     limits: tuple[float, float] | None = None
     ticks: tuple[float, ...] | None = None
+    symbol: str = ""
 
     @property
     def label(self) -> str:
-        """Title and unit as they stand at the axis."""
-        return f"{self.title}, {self.unit}" if self.unit else self.title
+        """Title, symbol and unit as they stand at the axis; the symbol before what explains the title."""
+        title = re.sub(r"(?=,| \(|$)", f" {self.symbol}", self.title, count=1) if self.symbol else self.title
+        return f"{title},{NO_BREAK}{self.unit}" if self.unit else title
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -111,7 +114,10 @@ class Part:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A named value drawn as a horizontal bar, with its bounds where it is indeterminate; or the sum of its parts."""
+    """A named value drawn as a horizontal bar, with its bounds where it is indeterminate; or the sum of its parts.
+
+    NaN is a value that was not calculated, and is said to be that.
+    """
 
     name: str
     value: float

@@ -6,6 +6,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from app.figures.data import Axis
 from solvers.quantity import UNITS, Quantity, quantities
 
 T = TypeVar("T")
@@ -21,6 +22,13 @@ def shown(data: T) -> T:
     """
     converted: T = _converted(data, None)
     return converted
+
+
+def axis(kind: Any, name: str, title: str = "", **known: Any) -> Axis:
+    """The axis of a declared quantity: its unit and symbol, and its title unless another is given."""
+    declared = quantities(kind)[name]
+    unit = UNITS[declared.unit].symbol if declared.unit else None
+    return Axis(title or declared.title, unit, symbol=declared.symbol or "", **known)
 
 
 def _converted(value: Any, declared: Quantity | None) -> Any:

@@ -23,6 +23,7 @@ TITLE_LENGTH, FINDING_LENGTH = 58, 84  # characters of a line
 HEIGHTS = {1: 2.6, 2: 1.65, 3: 1.3}  # inches, of panels above each other
 PLANE_HEIGHT = 3.3
 ROW_HEIGHT = 0.26
+ABSCISSA_LENGTH = 30  # characters of a line below axes that stand beside others
 ABSCISSA = 0.45  # inches, ticks and name
 CANVASES = {"svg": FigureCanvasSVG, "png": FigureCanvasAgg, "pdf": FigureCanvasPdf}
 # Neither date nor version, so that equal figures give equal bytes.
@@ -90,6 +91,8 @@ def laid_out(figure: Figure, theme: Theme) -> tuple[Sheet, list[Axes]]:
     axes = _axes(sheet, figure)
     for each, panel in zip(axes, figure.panels, strict=True):
         draw_panel(each, panel, theme, _height(panel, figure))
+        if figure.beside:
+            each.set_xlabel(fill(panel.x.label, ABSCISSA_LENGTH))
     sheet.align_ylabels(axes)
     if axes:
         engine.execute(sheet)

@@ -33,6 +33,7 @@ RATIO_TICKS = (0.1, 0.2, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 10
 LINEAR_RATIO = 1.3  # up to which a ratio's ticks are evenly spaced
 CROWDED = 0.05  # of the colour bar: a tick nearer to a critical value gives way
 SHORT = 0.02  # of the longest bar: the value of a shorter one stands at its right, negative or not
+WIDE = 0.15  # of the longest bar: bounds farther apart have their values at their ends
 NOISE = 1e-9  # of the values: what varies by less is rounding error
 STEPS = (1, 2, 2.5, 5, 10)
 NUMBERS = FuncFormatter(lambda value, _: number(value, digits=6))
@@ -139,7 +140,8 @@ def _draw_bars(axes: Axes, bars: Bars, beside: list[Bars], theme: Theme) -> None
 def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
     """Horizontal bars with names and values; a thin line from bound to bound, a dashed outline for a variant."""
     own = {row.name: row for row in panel.rows if row.role is not Role.VARIANT}
-    names, scale = list(own), max(abs(row.value) for row in panel.rows)
+    names = list(own)
+    scale = max((abs(row.value) for row in panel.rows if np.isfinite(row.value)), default=0.0)
     axes.grid(visible=False, axis="y")
     axes.spines["left"].set_visible(False)
     axes.axvline(0.0, color=theme.frame, linewidth=0.9)
@@ -149,19 +151,36 @@ def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
         if row.parts:
             _draw_parts(axes, place, row, theme)
         else:
-            axes.barh(place, row.value, 0.52, **(outline if row.role is Role.VARIANT else {"color": color}))
+            axes.barh(
+                place, np.nan_to_num(row.value), 0.52, **(outline if row.role is Role.VARIANT else {"color": color})
+            )
         if row.bounds is not None and row.bounds[0] < row.bounds[1]:
             axes.plot(row.bounds, [place, place], color=theme.ink, linewidth=1.2, marker="|", markersize=7)
     for place, (name, row) in enumerate(own.items()):
         ends = [0.0, *(end for each in panel.rows if each.name == name for end in (each.value, *(each.bounds or ())))]
-        tip, offset, side = (max(ends), 4, "left") if row.value >= -SHORT * scale else (min(ends), -4, "right")
-        text = number(0.0 if abs(row.value) <= NOISE * scale else row.value, panel.x.unit or "")
-        style: Style = {"fontsize": TEXT, "fontweight": "bold", "bbox": _patch(theme), "textcoords": "offset points"}
-        axes.annotate(text, (tip, place), (offset, 0), ha=side, va="center_baseline", **style)
+        right = not row.value < -SHORT * scale
+        tip, side = (max(ends), "left") if right else (min(ends), "right")
+        style: Style = {"va": "center_baseline", "bbox": _patch(theme), "textcoords": "offset points"}
+        offset = 4.0
+        if row.bounds is not None and row.bounds[1] - row.bounds[0] > WIDE * scale:
+            low, high = (number(end, panel.x.unit or "") for end in row.bounds)
+            axes.annotate(low, (row.bounds[0], place), (-5, 0), color=theme.muted, ha="right", **style)
+            axes.annotate(high, (row.bounds[1], place), (5, 0), color=theme.muted, ha="left", **style)
+            offset += 8.0 + 72.0 * LETTER * len(high if right else low)
+        text = _value(row.value, scale, panel.x.unit or "")
+        style |= {"fontsize": TEXT, "fontweight": "bold"}
+        axes.annotate(text, (tip, place), (offset if right else -offset, 0), ha=side, **style)
     axes.set_yticks(range(len(own)), names)
     axes.set_ylim(len(own) - 0.5, -1.2 if panel.levels else -0.5)
     for label, row in zip(axes.get_yticklabels(), own.values(), strict=True):
         label.set_color(theme.writing[row.hue])
+
+
+def _value(value: float, scale: float, unit: str) -> str:
+    """A row's value as it stands beside its bar; rounding errors beside the longest bar are zero."""
+    if np.isnan(value):
+        return "not calculated"
+    return number(0.0 if abs(value) <= NOISE * scale else value, unit)
 
 
 def _draw_parts(axes: Axes, place: int, row: Row, theme: Theme) -> None:

@@ -23,12 +23,12 @@ from app.figures.data import (
     values,
 )
 from app.figures.declaration import Declaration, present
-from app.figures.units import UM
+from app.figures.units import UM, axis
 from app.figures.wording import number, percent
 from solvers.coupling.crowning import Recommendation
 from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
 from solvers.coupling.lubrication import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES, friction_regime
-from solvers.coupling.results import CouplingResult, OrbitResult
+from solvers.coupling.results import CouplingResult, KinematicCurves, LoadCurves, OrbitResult
 
 MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}
 
@@ -301,7 +301,7 @@ def tooth_loads(inputs: CouplingInputs, result: CouplingResult) -> Figure:
     panels = [
         Panel(
             x=TOOTH,
-            y=Axis("tangential force", "N"),
+            y=axis(LoadCurves, "tangential_force", "tangential force"),
             bars=(Bars("tangential force", angle, force, Hue.BLUE, strong=largest),),
             levels=(Level(load.mean_tangential_force, f"mean {number(load.mean_tangential_force, 'N')}"),),
             marks=(Mark(float(angle[largest]), float(force[largest]), number(float(force[largest]), "N")),),
@@ -327,7 +327,7 @@ def tooth_motion(_: CouplingInputs, result: CouplingResult) -> Figure:
     panels = (
         Panel(
             x=TOOTH,
-            y=Axis("sliding velocity, that wears", "m/s"),
+            y=axis(KinematicCurves, "sliding_velocity", "sliding velocity, that wears"),
             lines=(Line("sliding velocity", angle, sliding, Hue.VERMILLION, named=False),),
             levels=(Level(limit, f"lasting limit {number(limit, 'm/s')}", limit=True),),
             marks=(Mark(float(angle[top]), float(sliding[top]), number(float(sliding[top]), "m/s"), Hue.VERMILLION),),
@@ -403,7 +403,7 @@ def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
     finding = f"{share}; {state}" if axial or thrust.indeterminate else share
     return Figure(
         finding,
-        (Panel(x=Axis("thrust", "N"), y=Axis("thrust"), rows=tuple(rows), levels=(limit,)), motion),
+        (Panel(x=Axis("thrust", "N", symbol="F_ax"), y=Axis("thrust"), rows=tuple(rows), levels=(limit,)), motion),
     )
 
 

@@ -24,39 +24,43 @@ from app.figures.data import (
     values,
 )
 from app.figures.declaration import Declaration
-from app.figures.models.load_distribution import FACE as FLANK_FACE
-from app.figures.models.load_distribution import PROFILE
+from app.figures.models.load_distribution import PROFILE, face
 from app.figures.units import MM
 from app.figures.wording import number, percent
 from solvers.drive_train import solve
-from solvers.drive_train.inputs import DriveTrainInputs, Effects, Shaft
+from solvers.drive_train.inputs import DriveTrainInputs, Effects, JournalBearing, Shaft
 from solvers.drive_train.results import DriveTrainResult, ShaftResult
 
 
-def flank_load(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
+def flank_load(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Line load over the flank under the gap that all parts agreed on."""
-    flank, load = result.flank, result.load
+    flank, load, width = result.flank, result.load, face_width(inputs) / MM
+    x = face(face_width(inputs))
     grid = flank.line_load
     chart = Map(
         "line load",
         "N/mm",
-        values(flank.face_fraction),
+        values(flank.face_fraction * width),
         values(flank.profile_fraction),
         grid,
         range=(0.0, max(float(grid.max()), load.max_line_load) or 1.0),
     )
     row, column = np.unravel_index(int(np.argmax(grid)), grid.shape)
-    mark = Mark(flank.face_fraction[column], flank.profile_fraction[row], number(load.max_line_load, "N/mm"))
+    mark = Mark(
+        flank.face_fraction[column] * face_width(inputs) / MM,
+        flank.profile_fraction[row],
+        number(load.max_line_load, "N/mm"),
+    )
     factor = load.face_load_factor
     finding = f"highest {number(load.max_line_load, 'N/mm')}; {percent(load.contact_fraction)} of the flank carries"
     if factor is None:
-        return Figure("no load", (Panel(x=FLANK_FACE, y=PROFILE, map=chart),))
-    return Figure(f"{finding}, K_Hβ = {number(factor)}", (Panel(x=FLANK_FACE, y=PROFILE, map=chart, marks=(mark,)),))
+        return Figure("no load", (Panel(x=x, y=PROFILE, map=chart),))
+    return Figure(f"{finding}, K_Hβ = {number(factor)}", (Panel(x=x, y=PROFILE, map=chart, marks=(mark,)),))
 
 
-def contact_temperature(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
+def contact_temperature(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Contact temperature by Blok over the flank; the corners that a feature line never meets count."""
-    flank = result.flank
+    flank, width, x = result.flank, face_width(inputs) / MM, face(face_width(inputs))
     grid = flank.contact_temperature
     if result.derived.temperatures.bulk is None:
         raise NoFigure("no_oil", "Without an oil and a bulk temperature there is no contact temperature", "lubricant")
@@ -70,7 +74,7 @@ def contact_temperature(_: DriveTrainInputs, result: DriveTrainResult) -> Figure
     chart = Map(
         "contact temperature",
         "°C",
-        values(flank.face_fraction),
+        values(flank.face_fraction * width),
         values(flank.profile_fraction),
         grid,
         critical=critical,
@@ -78,10 +82,10 @@ def contact_temperature(_: DriveTrainInputs, result: DriveTrainResult) -> Figure
     )
     row, column = np.unravel_index(int(np.argmax(grid)), grid.shape)
     hottest = number(high, "°C", digits=4)
-    mark = Mark(flank.face_fraction[column], flank.profile_fraction[row], hottest)
+    mark = Mark(flank.face_fraction[column] * width, flank.profile_fraction[row], hottest)
     safety = result.safety.blok_flank if result.safety is not None else None
     finding = f"up to {hottest}" + ("" if safety is None else f", safety against scuffing {number(safety)} by Blok")
-    return Figure(finding, (Panel(x=FLANK_FACE, y=PROFILE, map=chart, marks=(mark,) if high > low else ()),))
+    return Figure(finding, (Panel(x=x, y=PROFILE, map=chart, marks=(mark,) if high > low else ()),))
 
 
 MAPS = (
@@ -98,7 +102,6 @@ MAPS = (
 OWN = "own derivation"
 NEWTONS = 1e3  # per kilonewton
 NOISE = 1e-9
-FACE = Axis("position on the face, from the end that meshes first", "mm", magnitude=False)
 PARTS = (
     ("bearings of the pinion", "films_pinion", Hue.BLUE),
     ("bearings of the wheel", "films_wheel", Hue.BLUE),
@@ -162,7 +165,7 @@ def _felt(value: float, whole: float) -> float:
     return 0.0 if abs(value) < NOISE * abs(whole) else value
 
 
-def gap(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
+def gap(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Gap over the face by shafts, heat and what is ground."""
     found = result.misalignment
     curves = found.curves
@@ -173,7 +176,7 @@ def gap(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
         Line("as ground", y, values(curves.modification), Hue.GREEN),
         Line("in all", y, values(curves.total), Hue.PURPLE),
     )
-    axis = Axis("gap, positive where the flanks part", "µm", magnitude=False)
+    axis = Axis("gap, positive where the flanks part", "µm", magnitude=False, symbol="Δ")
     shafts, heat = (
         _felt(slope, span)
         for slope, span in (
@@ -183,7 +186,7 @@ def gap(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     )
     slopes = f"shafts {number(shafts)}, heat {number(heat, 'µm')} over the face"
     wanted = f"first estimate of the helix slope to grind {number(found.recommended_helix_slope, 'µm')}"
-    return Figure(f"{slopes}; {wanted}", (Panel(x=FACE, y=axis, lines=lines),))
+    return Figure(f"{slopes}; {wanted}", (Panel(x=face(face_width(inputs)), y=axis, lines=lines),))
 
 
 def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
@@ -239,7 +242,7 @@ def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[s
         raise NoFigure("no_load", "Without load there is none along the face", "operation")
     place = f"at {percent(load.face_load_at)} of the face"
     panel = Panel(
-        x=replace(FACE, limits=(0.0, face_width(inputs) / MM)),
+        x=face(face_width(inputs)),
         y=Axis("transverse force per face, mean over the roll", "N/mm"),
         lines=tuple(lines),
     )
@@ -281,21 +284,25 @@ def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     return Figure(finding, (panel,))
 
 
-def losses(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
+def losses(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """What the unit loses, and where."""
     found = result.losses
+    bearings = (*inputs.pinion_shaft.bearings, *inputs.wheel_shaft.bearings)
+    plain = any(isinstance(each, JournalBearing) for each in bearings)  # no friction is known of other bearings
     parts = (
-        ("plain bearings", found.bearings, Hue.BLUE),
+        ("plain bearings" if plain else "bearings", found.bearings if plain else None, Hue.BLUE),
         ("mesh", found.mesh, Hue.VERMILLION),
         ("pumping of air and mist", found.pumping, Hue.GREEN),
         ("couplings", found.coupling, Hue.ORANGE),
     )
-    rows = tuple(Row(name, power, hue) for name, power, hue in parts if power is not None)
+    rows = tuple(Row(name, np.nan if power is None else power, hue) for name, power, hue in parts)
     efficiency = "" if found.efficiency is None else f", efficiency {number(100 * found.efficiency, '%', digits=4)}"
     if found.total is None:
         finding = "without the loss of the mesh, whose coefficient of friction is not known"
     else:
-        finding = f"{number(found.total / NEWTONS, 'kW')} in all{efficiency}"
+        finding = f"{number(found.total / NEWTONS, 'kW')} in all{efficiency}" + (
+            "" if plain else "; without the bearings"
+        )
     return Figure(finding, (Panel(x=Axis("power lost", "W"), y=Axis("where"), rows=rows),))
 
 

@@ -24,7 +24,7 @@ def contact(_: LineContactInputs, result: LineContactResult) -> Figure:
     panels = [
         Panel(
             x=x,
-            y=Axis("pressure", "MPa"),
+            y=Axis("pressure", "MPa", symbol="p"),
             lines=(
                 Line("film", x_mm, values(curves.pressure)),
                 Line("Hertz", x_mm, values(curves.hertz_pressure), Hue.GREY, Role.REFERENCE),
@@ -33,7 +33,7 @@ def contact(_: LineContactInputs, result: LineContactResult) -> Figure:
         ),
         Panel(
             x=x,
-            y=Axis("film thickness", "µm", limits=(0.0, ceiling)),
+            y=Axis("film thickness", "µm", symbol="h", limits=(0.0, ceiling)),
             lines=(Line("film thickness", x_mm, thickness, Hue.GREEN, named=False),),
             marks=(
                 Mark(
@@ -56,7 +56,7 @@ def contact(_: LineContactInputs, result: LineContactResult) -> Figure:
                 ("surface 2", curves.surface_2_temperature, Hue.SKY),
             )
         )
-        panels.append(Panel(x=x, y=Axis("temperature", "°C", magnitude=False), lines=lines, spans=plain))
+        panels.append(Panel(x=x, y=Axis("temperature", "°C", symbol="θ", magnitude=False), lines=lines, spans=plain))
         finding += f"; up to {number(result.temperature.film_max, '°C')}"
     if result.friction is not None:
         finding += f"; μ = {number(result.friction.coefficient)}"

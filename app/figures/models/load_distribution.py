@@ -3,6 +3,7 @@
 import numpy as np
 
 from app.figures.data import (
+    NO_BREAK,
     ORDER,
     Axis,
     Bars,
@@ -20,31 +21,38 @@ from app.figures.data import (
     values,
 )
 from app.figures.declaration import Declaration, present
+from app.figures.units import MM, axis
 from app.figures.wording import number, percent
 from solvers.scuffing.inputs import LoadDistributionInputs
-from solvers.scuffing.results import Flank, LoadDistribution, Place
+from solvers.scuffing.results import ErrorCurves, Flank, LoadDistribution, Place, StiffnessCurves
 
 FIFTHS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
-FACE = Axis("face (0: end that meshes first)", limits=(0.0, 1.0), ticks=FIFTHS)
-PROFILE = Axis("profile (0: A, 1: E)", limits=(0.0, 1.0), ticks=FIFTHS)
+PROFILE = Axis("profile (0: A, 1: E)", limits=(0.0, 1.0), ticks=FIFTHS, symbol="ξ")
 
 
-def flank_load(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
+def face(width: float) -> Axis:
+    """The axis along a face of this width [m]."""
+    return Axis("position on the face, from the end that meshes first", "mm", limits=(0.0, width / MM), symbol="y")
+
+
+def flank_load(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Line load over the flank, its maximum over all roll positions marked."""
     load, flank = result.load, result.flank
-    panel = _panel(flank, "line load", "N/mm", flank.line_load, load.max_at, load.max_line_load)
+    panel = _panel(
+        inputs.gears.face_width, flank, "line load", "N/mm", flank.line_load, load.max_at, load.max_line_load
+    )
     factor = load.face_load_factor
-    face = "" if factor is None else f", K_Hβ = {number(factor)}"
+    spread = "" if factor is None else f", K_Hβ = {number(factor)}"
     carrying = f"{percent(load.contact_fraction)} of the flank carries"
-    finding = f"highest {number(load.max_line_load, 'N/mm')}{face}; {carrying}"
+    finding = f"highest {number(load.max_line_load, 'N/mm')}{spread}; {carrying}"
     return Figure(finding if load.max_at else "no load", (panel,))
 
 
-def flank_pressure(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
+def flank_pressure(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Hertz pressure over the flank, its maximum over all roll positions marked."""
     pressure, flank = result.pressure, result.flank
     grid = flank.pressure
-    panel = _panel(flank, "Hertz pressure", "MPa", grid, pressure.max_at, pressure.max)
+    panel = _panel(inputs.gears.face_width, flank, "Hertz pressure", "MPa", grid, pressure.max_at, pressure.max)
     finding = (
         f"highest {number(pressure.max, 'MPa')} {_where(pressure.max_at)}"
         if pressure.max and pressure.max_at
@@ -56,38 +64,42 @@ def flank_pressure(_: LoadDistributionInputs, result: LoadDistribution) -> Figur
     return Figure(finding, (panel,), unsolved=gaps)
 
 
-def modification(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
+def modification(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Gap between the unloaded flanks."""
     flank = result.flank
     grid = flank.modification
     low, high = float(grid.min()), float(grid.max())
+    if not grid.any():
+        raise NoFigure("no_modification", "The flanks are not modified: the gap between them is zero", "modifications")
     chart = Map(
         "gap between the unloaded flanks",
         "µm",
-        values(flank.face_fraction),
+        values(flank.face_fraction * inputs.gears.face_width / MM),
         values(flank.profile_fraction),
         grid,
-        Scale.SIGNED if low < 0.0 else Scale.MAGNITUDE,
+        Scale.SIGNED,
     )
-    panel = Panel(x=FACE, y=PROFILE, map=chart)
-    finding = f"from {number(low)} to {number(high, 'µm')}" if high > low else "flanks without modification"
+    panel = Panel(x=face(inputs.gears.face_width), y=PROFILE, map=chart)
+    finding = f"from {number(low)} to {number(high, 'µm')}"
     return Figure(finding, (panel,))
 
 
-def _panel(flank: Flank, title: str, unit: str, grid: Values, at: Place | None, largest: float | None) -> Panel:
+def _panel(
+    width: float, flank: Flank, title: str, unit: str, grid: Values, at: Place | None, largest: float | None
+) -> Panel:
     seen = float(np.nanmax(grid, initial=0.0))
     chart = Map(
         title,
         unit,
-        values(flank.face_fraction),
+        values(flank.face_fraction * width / MM),
         values(flank.profile_fraction),
         grid,
         range=(0.0, max(seen, largest or 0.0) or 1.0),
     )
     marks: tuple[Mark, ...] = ()
     if at is not None and largest is not None:
-        marks = (Mark(at.face_fraction, at.profile_fraction, number(largest, unit)),)
-    return Panel(x=FACE, y=PROFILE, map=chart, marks=marks)
+        marks = (Mark(at.face_fraction * width / MM, at.profile_fraction, number(largest, unit)),)
+    return Panel(x=face(width), y=PROFILE, map=chart, marks=marks)
 
 
 def _where(place: Place) -> str:
@@ -103,6 +115,7 @@ MAPS = (
 
 ROLL = Axis("roll position", "base pitches", limits=(0.0, 1.0), magnitude=False)
 PATH = Axis("path of contact Ψ (0: A, pinion root; 1: E, pinion tip)", limits=(0.0, 1.0), magnitude=False)
+SLIDING = f"|u₁{NO_BREAK}−{NO_BREAK}u₂|"
 NO_LOAD = "no load"
 
 
@@ -114,13 +127,13 @@ def transmission_error(_: LoadDistributionInputs, result: LoadDistribution) -> F
     panels = (
         Panel(
             x=ROLL,
-            y=Axis("transmission error", "µm", magnitude=False),
+            y=axis(ErrorCurves, "error", "transmission error", magnitude=False),
             lines=(Line("transmission error", values(curves.roll_position), values(curves.error), named=False),),
             levels=(Level(error.mean, f"mean {number(error.mean, 'µm')}"),),
         ),
         Panel(
             x=ROLL,
-            y=Axis("total length of the contact lines", "mm"),
+            y=Axis("total length of the contact lines", "mm", symbol="L"),
             lines=(Line("length", values(lengths.roll_position), values(lengths.length), Hue.GREEN, named=False),),
         ),
         Panel(
@@ -138,12 +151,21 @@ def path_of_contact(_: LoadDistributionInputs, result: LoadDistribution) -> Figu
     """Line load, pressure and sliding along the feature line."""
     curves, load, pressure = result.feature_line, result.load, result.pressure
     psi = values(curves.psi)
-    points = path_points(psi, values(curves.gamma))
+    points = path_points(result)
     stresses, sliding = values(curves.pressure), np.abs(values(curves.sliding))
     panels = (
-        _along(psi, "line load", "N/mm", values(curves.line_load), Hue.BLUE, points, "N/mm"),
-        _along(psi, "Hertz pressure", "MPa", stresses, Hue.VERMILLION, unnamed(points), "MPa"),
-        _along(psi, "sliding speed, magnitude", "m/s", sliding, Hue.GREEN, unnamed(points), None),
+        _along(psi, "line load", "w", "N/mm", values(curves.line_load), Hue.BLUE, points, "N/mm"),
+        _along(psi, "Hertz pressure", "p_H", "MPa", stresses, Hue.VERMILLION, unnamed(points), "MPa"),
+        _along(
+            psi,
+            "sliding speed, magnitude",
+            f"|u₁{NO_BREAK}−{NO_BREAK}u₂|",
+            "m/s",
+            sliding,
+            Hue.GREEN,
+            unnamed(points),
+            None,
+        ),
     )
     loaded = load.max_at is not None
     finding = f"on the whole flank up to {number(load.max_line_load, 'N/mm')}"
@@ -154,21 +176,33 @@ def path_of_contact(_: LoadDistributionInputs, result: LoadDistribution) -> Figu
 
 
 def _along(
-    psi: Values, title: str, unit: str, y: Values, hue: Hue, points: tuple[Level, ...], marked: str | None
+    psi: Values, title: str, symbol: str, unit: str, y: Values, hue: Hue, points: tuple[Level, ...], marked: str | None
 ) -> Panel:
     name = title.split(",", maxsplit=1)[0]
     marks: tuple[Mark, ...] = ()
     if marked is not None and np.nanmax(y, initial=0.0) > 0.0:
         top = int(np.nanargmax(y))
         marks = (Mark(float(psi[top]), float(y[top]), number(float(y[top]), marked), hue),)
-    return Panel(x=PATH, y=Axis(title, unit), lines=(Line(name, psi, y, hue, named=False),), levels=points, marks=marks)
+    return Panel(
+        x=PATH,
+        y=Axis(title, unit, symbol=symbol),
+        lines=(Line(name, psi, y, hue, named=False),),
+        levels=points,
+        marks=marks,
+    )
 
 
-def path_points(psi: Values, gamma: Values) -> tuple[Level, ...]:
-    """The pitch point C; A and E are the ends of the path."""
-    if not gamma[0] < 0.0 < gamma[-1]:
-        return ()
-    return (Level(float(np.interp(0.0, gamma, psi)), "C, pitch point", vertical=True),)
+def path_points(result: LoadDistribution) -> tuple[Level, ...]:
+    """The points A to E of the path of contact, as fractions of it.
+
+    A and E are its ends. Between B and D, each one transverse base pitch from the other end, one pair of teeth meshes
+    in a transverse section (with a contact ratio up to 2); C is the pitch point, where the path has one.
+    """
+    curves, pitch = result.feature_line, 1.0 / result.geometry.transverse_contact_ratio
+    points = {"A": 0.0, "B": 1.0 - pitch, "D": pitch, "E": 1.0} if pitch < 1.0 else {"A": 0.0, "E": 1.0}
+    if curves.gamma[0] < 0.0 < curves.gamma[-1]:
+        points["C"] = float(np.interp(0.0, curves.gamma, curves.psi))
+    return tuple(Level(place, name, vertical=True) for name, place in sorted(points.items()))
 
 
 def unnamed(levels: tuple[Level, ...]) -> tuple[Level, ...]:
@@ -186,10 +220,10 @@ def stiffness(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     if stiff.mean_mesh is not None:
         levels.append(Level(stiff.mean_mesh, f"mean of the loaded mesh: {number(stiff.mean_mesh)}"))
     if gamma[0] < 0.0 < gamma[-1]:
-        levels.append(Level(0.0, "C, pitch point", vertical=True))
+        levels.append(Level(0.0, "C", vertical=True))
     panel = Panel(
         x=Axis("profile parameter Γ (A left, C at 0, E right)", magnitude=False),
-        y=Axis("stiffness of one pair per face width", unit),
+        y=axis(StiffnessCurves, "single", "stiffness of one pair per face width"),
         lines=(Line("one pair", gamma, single, named=False),),
         levels=tuple(levels),
         marks=(Mark(stiff.max_at_gamma, stiff.max, number(stiff.max, unit)),),
@@ -220,7 +254,7 @@ def load_sharing(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
         x=PATH,
         y=Axis("load sharing factor X_Γ = w b / F_bt"),
         lines=tuple(lines),
-        levels=path_points(psi, values(curves.gamma)),
+        levels=path_points(result),
         marks=marks,
     )
     return Figure(finding, (panel,))

@@ -25,6 +25,7 @@ from app.figures.data import (
     values,
 )
 from app.figures.declaration import Declaration, present
+from app.figures.models.load_distribution import face
 from app.figures.units import MM, RPM
 from app.figures.wording import number, ratio
 from solvers.pumping.inputs import ChokingInputs, PumpingInputs, PumpingSetup
@@ -103,8 +104,6 @@ def _panels(
     if len(grids) < len(fields):
         raise _without_temperatures()
     ends = min(float(grid.min()) for grid in grids.values()), max(float(grid.max()) for grid in grids.values())
-    if scale is Scale.SIGNED and ends[0] >= 0.0:
-        scale = Scale.MAGNITUDE
     panels = []
     for gear, field in fields:
         chart = Map(
@@ -120,7 +119,7 @@ def _panels(
         )
         panels.append(
             Panel(
-                x=Axis("position along the face", "mm", limits=(0.0, inputs.setup.gears.face_width / MM)),
+                x=face(inputs.setup.gears.face_width),
                 y=Axis(f"angle of the {gear}", "°", magnitude=False),
                 title=f"spaces of the {gear}",
                 map=chart,
@@ -132,12 +131,12 @@ def _panels(
 
 
 def _around(scale: Scale, low: float, high: float) -> tuple[float, float]:
-    """Ends of the colours: as far below as above 1 by ratio or 0 by difference; a magnitude starts at zero."""
+    """Ends of the colours: as far below as above 1 by ratio or 0 by difference."""
     if scale is Scale.RATIO:
         reach = max(high, 1.0 / max(low, 1e-3), 1.0001)
         return 1.0 / reach, reach
     reach = max(abs(low), abs(high), 1e-12)
-    return (0.0 if scale is Scale.MAGNITUDE else -reach), reach
+    return -reach, reach
 
 
 def _extremes(chart: Map, scale: Scale) -> tuple[Mark, ...]:
@@ -181,7 +180,7 @@ def scan(inputs: ChokingInputs, result: ChokingSpeeds) -> ChokingCurves:
 
 def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves) -> Figure:
     """Both against the limits of sonic flow, choking speeds marked."""
-    x = Axis("pinion speed", "1/min", magnitude=False)
+    x = Axis("pinion speed", "1/min", magnitude=False, symbol="n₁")
     speed, critical = values(curves.pinion_speed / RPM), critical_ratio(inputs.setup)
     pressure, mach = values(curves.peak_pressure_ratio), values(curves.exit_mach)
     speeds = dict(_choking(result))
@@ -194,7 +193,7 @@ def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves)
         ),
         Panel(
             x=x,
-            y=Axis("peak pressure over ambient pressure"),
+            y=Axis("peak pressure over ambient pressure", symbol="p/p₀"),
             lines=(Line("peak pressure", speed, pressure, Hue.VERMILLION, named=False),),
             levels=(
                 Level(critical, f"clearances sonic, {number(critical)}", limit=True),
@@ -205,7 +204,8 @@ def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves)
     limit = number(inputs.search_limit / RPM, "1/min")
     onsets = (f"not up to {limit}" if at is None else f"from {number(at, '1/min')}" for at in speeds.values())
     texts = (f"{name} {onset}" for name, onset in zip(speeds, onsets, strict=True))
-    return Figure(f"sonic: {', '.join(texts)}", panels, unsolved=int(np.isnan(mach).sum()))
+    why = "a curve is the largest over ends and stroke, with a kink where another takes over"
+    return Figure(f"sonic: {', '.join(texts)}; {why}", panels, unsolved=int(np.isnan(mach).sum()))
 
 
 def _choking(result: ChokingSpeeds) -> tuple[tuple[str, float | None], ...]:
@@ -221,7 +221,6 @@ CHOKING_FIGURES = (Declaration("choking", TITLE, SOURCE, choking, compute=scan),
 
 HUES = {"pinion": Hue.BLUE, "wheel": Hue.VERMILLION}
 NO_FLOW = 1e-9  # g/s
-FACE = "position along the face from the end that meshes first"
 
 
 def stroke(_: PumpingInputs, result: PumpingResult) -> Figure:
@@ -234,7 +233,7 @@ def stroke(_: PumpingInputs, result: PumpingResult) -> Figure:
     x = Axis(f"angle of the {gear} from the line of centres", "°", magnitude=False)
     section = Panel(
         x=x,
-        y=Axis("area left by the mating tooth", "mm²"),
+        y=Axis("area left by the mating tooth", "mm²", symbol="S_A"),
         lines=(Line("area", angle, area, named=False),),
         spans=(Span(*contact, "driving flanks in contact"),),
         marks=(Mark(float(angle[least]), float(area[least]), number(float(area[least]), "mm²")),),
@@ -266,7 +265,7 @@ def heating(inputs: PumpingInputs, result: PumpingResult) -> Figure:
         marks.append(Mark(hottest, space.max_temperature_rise, number(space.max_temperature_rise, "K"), line.hue))
         texts.append(f"{gear} {number(space.max_temperature_rise, 'K')} at {number(hottest, 'mm')}")
     panel = Panel(
-        x=_face(inputs),
+        x=face(inputs.setup.gears.face_width),
         y=Axis("temperature rise above ambient", "K"),
         lines=tuple(lines),
         marks=tuple(marks),
@@ -287,8 +286,8 @@ def peak_pressure(inputs: PumpingInputs, result: PumpingResult) -> Figure:
         marks.append(Mark(float(line.x[at]), float(line.y[at]), ratio(float(line.y[at])), line.hue))
     critical = critical_ratio(inputs.setup)
     panel = Panel(
-        x=_face(inputs),
-        y=Axis("largest pressure over ambient pressure"),
+        x=face(inputs.setup.gears.face_width),
+        y=Axis("largest pressure over ambient pressure", symbol="p/p₀"),
         lines=tuple(lines),
         marks=tuple(marks),
         levels=(Level(critical, f"clearances sonic from {number(critical)}", limit=True), Level(1.0, "ambient")),
@@ -308,7 +307,7 @@ def lead_correction(inputs: PumpingInputs, result: PumpingResult) -> Figure:
         )
     curves = lead.curves
     panel = Panel(
-        x=_face(inputs),
+        x=face(inputs.setup.gears.face_width),
         y=Axis("normal to the flank of the pinion", "µm", magnitude=False),
         lines=(
             _along(inputs, "growth", curves.position, curves.growth, Hue.VERMILLION),
@@ -371,10 +370,6 @@ def _exits(space: SpacesResult) -> tuple[Row, ...]:
         Row("grooves: net", flow.grooves, Hue.ORANGE),
         Row("given back between strokes", flow.reset, Hue.GREY),
     )
-
-
-def _face(inputs: PumpingInputs) -> Axis:
-    return Axis(FACE, "mm", limits=(0.0, inputs.setup.gears.face_width / MM))
 
 
 def _grooves(inputs: PumpingInputs) -> tuple[Span, ...]:

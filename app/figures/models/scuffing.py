@@ -40,9 +40,9 @@ def contact_temperature(_: ScuffingInputs, result: Scuffing) -> Figure:
         levels.append(Level(limit, f"scuffing temperature {number(limit, '°C')}", limit=True))
     panel = Panel(
         x=PATH,
-        y=Axis("contact temperature: bulk and flash", "°C", magnitude=False),
+        y=Axis("contact temperature, bulk and flash", "°C", magnitude=False, symbol="θ"),
         lines=tuple(lines),
-        levels=(*levels, *_pitch_point(result, path)),
+        levels=(*levels, *_points(result)),
         spans=_warned(path),
         marks=_hottest(lines[:-1] or lines),
     )
@@ -98,11 +98,11 @@ def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
         marks = (Mark(float(psi[at]), float(lines[0].y[at]), number(float(lines[0].y[at]), "µm"), lines[0].hue),)
     panel = Panel(
         x=PATH,
-        y=Axis("film thickness", "µm"),
+        y=Axis("film thickness", "µm", symbol="h"),
         lines=tuple(lines),
         levels=(
             Level(roughness(inputs), "λ = 1, film as thick as the roughness", limit=True),
-            *_pitch_point(result, path),
+            *_points(result),
         ),
         spans=_warned(path),
         marks=marks,
@@ -131,11 +131,11 @@ def friction(_: ScuffingInputs, result: Scuffing) -> Figure:
             "closed_form", "Friction along the path comes from the thermal EHL solution only", "model.lubrication"
         )
     psi, friction_line = values(path.psi), values(thermal.friction_coefficient)
-    points = _pitch_point(result, path)
+    points = _points(result)
     panels = (
         Panel(
             x=PATH,
-            y=Axis("coefficient of friction"),
+            y=Axis("coefficient of friction", symbol="μ"),
             lines=(Line("friction", psi, friction_line, named=False),),
             levels=(*points, *_mean_friction(result)),
             spans=_warned(path),
@@ -143,7 +143,7 @@ def friction(_: ScuffingInputs, result: Scuffing) -> Figure:
         ),
         Panel(
             x=PATH,
-            y=Axis("largest pressure in the film", "MPa"),
+            y=Axis("largest pressure in the film", "MPa", symbol="p_max"),
             lines=(Line("pressure", psi, values(thermal.max_pressure), Hue.VERMILLION, named=False),),
             levels=unnamed(points),
             spans=tuple(Span(span.start, span.stop, "") for span in _warned(path)),
@@ -168,9 +168,8 @@ def _largest(psi: Values, y: Values, unit: str, hue: Hue) -> tuple[Mark, ...]:
     return (Mark(float(psi[at]), float(y[at]), number(float(y[at]), unit), hue),)
 
 
-def _pitch_point(result: Scuffing, path: ScuffingPath) -> tuple[Level, ...]:
-    curves = result.distribution.feature_line
-    return path_points(values(curves.psi), values(curves.gamma)) if len(path.psi) > 1 else ()
+def _points(result: Scuffing) -> tuple[Level, ...]:
+    return path_points(result.distribution) if len(result.path.psi) > 1 else ()
 
 
 def _unsolved(path: ScuffingPath) -> int:
