@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Annotated, Any, ClassVar, Self
+from typing import Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from app.schema.base import Group, Request, Response, Section
+from app.schema.base import Group, Response, Section
 from app.schema.coupling import CouplingFriction, CrownedCoupling
 from app.schema.gears import BacklashGears, GearMaterials
 from app.schema.load_distribution import FlankModifications, MeshDerived, ScuffingLoad
@@ -14,17 +14,7 @@ from app.schema.model import declared, to_si
 from app.schema.oil import CouplingLubricant, Oil
 from app.schema.pumping import GearGroove, Mist, PumpingOptions
 from app.schema.quantities import Input, View
-from app.schema.scuffing import (
-    PRACTICAL_FRICTION,
-    ContactTemperatures,
-    ScuffingModel,
-    assumed_in_practice,
-    check_friction,
-    friction_said,
-    lubricant_factor_asked,
-    with_default,
-)
-from solvers.contact import ehl
+from app.schema.scuffing import PRACTICAL_FRICTION, ContactTemperatures, MeshInOil, ScuffingModel, with_default
 from solvers.coupling.inputs import Coupling, CouplingDesign, Friction
 from solvers.drive_train import derived, results
 from solvers.drive_train import inputs as si
@@ -32,7 +22,6 @@ from solvers.drive_train.shafts import thrust_budget
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GROUND_FILLET, RACK_A, GearPairInputs
 from solvers.lubricants import Lubricant, OilInUse
-from solvers.materials import Solid
 from solvers.oils import OilSheet
 from solvers.pumping import inputs as pumping
 from solvers.quantity import UNITS
@@ -212,7 +201,7 @@ class ThrustCollar(Section):
     radius_mm: Annotated[float | None, declared(si.DriveTrainInputs, "collar_radius")] = None
 
 
-class DriveTrainRequest(Request):
+class DriveTrainRequest(MeshInOil):
     """A single-stage gear unit with its shafts, bearings, couplings and heat."""
 
     solver_names: ClassVar = {
@@ -253,31 +242,23 @@ class DriveTrainRequest(Request):
 
     @model_validator(mode="before")
     @classmethod
-    def said_in_other_sections(cls, given: Any) -> Any:
-        """A coefficient of friction, or a tooth temperature, says by itself that friction, or bulk, is given."""
-        if not isinstance(given, dict):
-            return given
-        teeth = given.get("thermal")
+    def bulk_given(cls, given: Any) -> Any:
+        """A tooth temperature says by itself that the bulk is given."""
+        teeth = given.get("thermal") if isinstance(given, dict) else None
         if isinstance(teeth, dict) and any(teeth.get(name) is not None for name in ("pinion_bulk_c", "wheel_bulk_c")):
-            given = with_default(given, "temperatures", "bulk_method", "given")
-        return friction_said(given)
-
-    @model_validator(mode="after")
-    def known_friction(self) -> Self:
-        """A coefficient of friction that is given is a number."""
-        check_friction(self.friction_coefficient, self.model)
-        return self
+            return with_default(given, "temperatures", "bulk_method", "given")
+        return given
 
     def inputs(self) -> si.DriveTrainInputs:
         """The solver's inputs. Raises InvalidInput no_oil where a plain bearing has neither a viscosity nor an oil."""
-        temperatures, oil = self.temperatures.si(mesh.Temperatures), self.lubricant.oil()
+        scuffing = self.scuffing_inputs(self.gears.mesh_pair(), self.operation.si(mesh.Load))
         shafts = [
-            shaft.shaft(name, oil, temperatures.oil)
+            shaft.shaft(name, scuffing.oil, scuffing.temperatures.oil)
             for name, shaft in (("pinion_shaft", self.pinion_shaft), ("wheel_shaft", self.wheel_shaft))
         ]
         fields = to_si(self)
         return si.DriveTrainInputs(
-            mesh=self._mesh(temperatures, oil),
+            mesh=scuffing,
             pumping=pumping.PumpingSetup(
                 gears=self.gears.pumping_pair(),
                 normal_backlash=to_si(self.gears)["normal_backlash"],
@@ -308,38 +289,13 @@ class DriveTrainRequest(Request):
             except InvalidInput as error:
                 raise InvalidInput(error.code, error.message, f"couplings.{k}.{error.field}") from error
 
-    def _mesh(self, temperatures: mesh.Temperatures, oil: OilSheet | Lubricant | None) -> mesh.ScuffingInputs:
-        distribution = mesh.LoadDistributionInputs(
-            gears=self.gears.mesh_pair(),
-            load=self.operation.si(mesh.Load),
-            modifications=self.modifications.si(mesh.Modifications),
-            pinion_material=self.materials.pinion.si(Solid),
-            wheel_material=self.materials.wheel.si(Solid),
-            friction_coefficient=self.friction_coefficient,
-            model=self.model.si(mesh.Model),
-            resolution=self.model.si(mesh.Resolution),
-        )
-        return mesh.ScuffingInputs(
-            distribution=distribution,
-            lubricant=None,
-            oil=oil,
-            temperatures=temperatures,
-            lubrication=self.model.lubrication,
-            friction=self.model.friction,
-            film=self.model.si(ehl.Model),
-            path_points=self.model.path_points,
-        )
-
     def options(self) -> dict[str, Any]:
         """The model section, the number of slices filled in."""
         return self.model.model_dump() | {"slices": self.model.si(pumping.PumpingModel).slice_count}
 
     def unused_defaults(self) -> frozenset[str]:
-        """Of reliefs that are zero, of bearings and couplings of another kind, of effects that are left out."""
-        unused = set(self.modifications.unused_defaults("modifications"))
-        factor = lubricant_factor_asked(self.lubricant, self.temperatures, self.model)
-        unused |= self.lubricant.unused_defaults("lubricant", factor=factor)
-        unused |= self.temperatures.unused_temperature_defaults("temperatures", oil=self.lubricant.known)
+        """Also of bearings and couplings of another kind, of effects that are left out."""
+        unused = {*super().unused_defaults()}
         unused |= self.model.unused_pumping_defaults("model")
         unused |= self.pinion_shaft.unused_shaft_defaults("pinion_shaft")
         unused |= self.wheel_shaft.unused_shaft_defaults("wheel_shaft")
@@ -349,13 +305,7 @@ class DriveTrainRequest(Request):
             unused |= {"couplings", "model.coupling_friction"}
         if not self.effects.thermal:
             unused |= {"thermal.wall_response", "thermal.wall_response_wheel"}
-        if self.model.lubrication == "closed_form" or not self.lubricant.known:
-            return frozenset({*unused, "model.rheology", "model.eyring_stress_mpa"})
-        return frozenset(unused | self.model.unused_film_defaults("model"))
-
-    def assumed_by_the_model(self) -> dict[str, str]:
-        """What friction, oil and bulk temperature take for granted."""
-        return assumed_in_practice(self.friction_coefficient, self.lubricant, self.temperatures, self.model)
+        return frozenset(unused)
 
 
 class BearingLoad(Group, of=results.BearingResult):

@@ -48,18 +48,19 @@ class GearPairRequest(Request):
     )
     materials: Annotated[GearMaterials, Input("materials", text="materials of the pair")] = GearMaterials()
 
-    def distribution(self, friction: float | None, model: LoadDistributionModel) -> si.LoadDistributionInputs:
-        """The solver's inputs of the load distribution."""
-        return si.LoadDistributionInputs(
-            gears=self.gears.si(GearPairInputs),
-            load=self.load.si(si.Load),
-            modifications=self.modifications.si(si.Modifications),
-            pinion_material=self.materials.pinion.si(Solid),
-            wheel_material=self.materials.wheel.si(Solid),
-            friction_coefficient=friction,
-            model=model.si(si.Model),
-            resolution=model.si(si.Resolution),
-        )
+
+def distribution_inputs(request: Request, gears: GearPairInputs, load: si.Load) -> si.LoadDistributionInputs:
+    """The solver's inputs for this pair and load, of a request with modifications, materials and friction."""
+    return si.LoadDistributionInputs(
+        gears=gears,
+        load=load,
+        modifications=request.modifications.si(si.Modifications),
+        pinion_material=request.materials.pinion.si(Solid),
+        wheel_material=request.materials.wheel.si(Solid),
+        friction_coefficient=request.friction_coefficient,
+        model=request.model.si(si.Model),
+        resolution=request.model.si(si.Resolution),
+    )
 
 
 class LoadDistributionRequest(GearPairRequest):
@@ -72,7 +73,7 @@ class LoadDistributionRequest(GearPairRequest):
 
     def inputs(self) -> si.LoadDistributionInputs:
         """The solver's inputs."""
-        return self.distribution(self.friction_coefficient, self.model)
+        return distribution_inputs(self, self.gears.si(GearPairInputs), self.load.si(si.Load))
 
     def options(self) -> dict[str, Any]:
         """The model section."""

@@ -6,7 +6,7 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from app.schema.base import Group, Section
+from app.schema.base import Group, Request, Section
 from app.schema.line_contact import FilmModel
 from app.schema.load_distribution import (
     FRICTION_COEFFICIENT,
@@ -14,10 +14,12 @@ from app.schema.load_distribution import (
     LoadDistributionModel,
     LoadDistributionResponse,
     ScuffingDerived,
+    distribution_inputs,
 )
 from app.schema.oil import Oil
 from app.schema.quantities import Input, View
 from solvers.contact import ehl
+from solvers.gears.inputs import GearPairInputs
 from solvers.lubricants import OilInUse
 from solvers.scuffing import inputs as si
 from solvers.scuffing import safety_results
@@ -95,73 +97,28 @@ def with_default(given: Any, section: str, name: str, value: Any) -> Any:
     return given | {section: {name: value} | held} if isinstance(held, dict) else given
 
 
-def friction_said(given: Any) -> Any:
-    """A coefficient of friction says by itself that it is given."""
-    if isinstance(given, dict) and given.get("friction_coefficient") is not None:
-        return with_default(given, "model", "friction", "given")
-    return given
-
-
-def check_friction(coefficient: float | None, model: ScuffingModel) -> None:
-    """A coefficient of friction that is given is a number."""
-    if model.friction == "given" and coefficient is None:
-        raise PydanticCustomError("missing_friction", "give friction_coefficient, or friction iso_tr_13989")
-
-
-def lubricant_factor_asked(lubricant: Oil, temperatures: ContactTemperatures, model: ScuffingModel) -> bool:
-    """Whether friction or scuffing temperature rest on the oil's lubricant factor."""
-    test = temperatures.scuffing_test
-    return lubricant.known and (
-        model.friction == "iso_tr_13989" or (test is not None and test.lubricant_factor is None)
-    )
-
-
-def assumed_in_practice(
-    coefficient: float | None, lubricant: Oil, temperatures: ContactTemperatures, model: ScuffingModel
-) -> dict[str, str]:
-    """What friction, oil and bulk temperature take for granted, by dotted names of the request."""
-    found = {}
-    if lubricant.known and model.friction == "iso_tr_13989":
-        found["model.friction"] = LAW
-        if coefficient is not None:
-            found["friction_coefficient"] = NOT_USED
-    if lubricant.kind == "ester" and lubricant_factor_asked(lubricant, temperatures, model):
-        found["lubricant.kind"] = MINERAL_FACTOR
-    if lubricant.known and temperatures.bulk_method == "given":
-        found["temperatures.bulk_method"] = GIVEN_BULK
-    if lubricant.known and model.lubrication == "thermal_ehl":
-        found["model.lubrication"] = SMOOTH_FILM
-    return found
-
-
-class ScuffingRequest(GearPairRequest):
-    """A loaded gear pair, its oil and temperatures."""
-
-    friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
-    lubricant: Annotated[Oil, Input("oil")] = Oil()
-    temperatures: Annotated[ScuffingTemperatures, Input("temperatures", text="temperatures of teeth and oil")] = (
-        ScuffingTemperatures()
-    )
-    model: Annotated[ScuffingModel, Input("model", text="choices where the paper leaves room", advanced=True)] = (
-        ScuffingModel()
-    )
+class MeshInOil(Request):
+    """What requests about scuffing have in common: a loaded pair with an oil, temperatures and a law of friction."""
 
     @model_validator(mode="before")
     @classmethod
     def friction_given(cls, given: Any) -> Any:
         """A coefficient of friction says by itself that it is given."""
-        return friction_said(given)
+        if isinstance(given, dict) and given.get("friction_coefficient") is not None:
+            return with_default(given, "model", "friction", "given")
+        return given
 
     @model_validator(mode="after")
     def known_friction(self) -> Self:
         """A coefficient of friction that is given is a number."""
-        check_friction(self.friction_coefficient, self.model)
+        if self.model.friction == "given" and self.friction_coefficient is None:
+            raise PydanticCustomError("missing_friction", "give friction_coefficient, or friction iso_tr_13989")
         return self
 
-    def inputs(self) -> si.ScuffingInputs:
-        """The solver's inputs."""
+    def scuffing_inputs(self, gears: GearPairInputs, load: si.Load) -> si.ScuffingInputs:
+        """The solver's inputs for this pair and load."""
         return si.ScuffingInputs(
-            distribution=self.distribution(self.friction_coefficient, self.model),
+            distribution=distribution_inputs(self, gears, load),
             lubricant=None,
             oil=self.lubricant.oil(),
             temperatures=self.temperatures.si(si.Temperatures),
@@ -173,21 +130,58 @@ class ScuffingRequest(GearPairRequest):
 
     def options(self) -> dict[str, Any]:
         """The model section."""
-        return self.model.model_dump()
+        options: dict[str, Any] = self.model.model_dump()
+        return options
+
+    @property
+    def _lubricant_factor_asked(self) -> bool:
+        """Whether friction or scuffing temperature rest on the oil's lubricant factor."""
+        test = self.temperatures.scuffing_test
+        by_test = test is not None and test.lubricant_factor is None
+        return self.lubricant.known and (self.model.friction == "iso_tr_13989" or by_test)
 
     def unused_defaults(self) -> frozenset[str]:
         """Of reliefs that are zero, of the film's model in closed form, of oil and bulk; roughness counts here."""
-        factor = lubricant_factor_asked(self.lubricant, self.temperatures, self.model)
         unused = self.modifications.unused_defaults("modifications")
-        unused |= self.lubricant.unused_defaults("lubricant", factor=factor)
+        unused |= self.lubricant.unused_defaults("lubricant", factor=self._lubricant_factor_asked)
         unused |= self.temperatures.unused_temperature_defaults("temperatures", oil=self.lubricant.known)
         if self.model.lubrication == "closed_form" or not self.lubricant.known:
-            return unused | {"model.rheology", "model.eyring_stress_mpa"}
-        return unused | self.model.unused_film_defaults("model")
+            return frozenset({*unused, "model.rheology", "model.eyring_stress_mpa"})
+        return frozenset(unused | self.model.unused_film_defaults("model"))
 
     def assumed_by_the_model(self) -> dict[str, str]:
         """What friction, oil and bulk temperature take for granted."""
-        return assumed_in_practice(self.friction_coefficient, self.lubricant, self.temperatures, self.model)
+        found: dict[str, str] = {}
+        if not self.lubricant.known:
+            return found
+        if self.model.friction == "iso_tr_13989":
+            found["model.friction"] = LAW
+            if self.friction_coefficient is not None:
+                found["friction_coefficient"] = NOT_USED
+        if self.lubricant.kind == "ester" and self._lubricant_factor_asked:
+            found["lubricant.kind"] = MINERAL_FACTOR
+        if self.temperatures.bulk_method == "given":
+            found["temperatures.bulk_method"] = GIVEN_BULK
+        if self.model.lubrication == "thermal_ehl":
+            found["model.lubrication"] = SMOOTH_FILM
+        return found
+
+
+class ScuffingRequest(MeshInOil, GearPairRequest):
+    """A loaded gear pair, its oil and temperatures."""
+
+    friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
+    lubricant: Annotated[Oil, Input("oil")] = Oil()
+    temperatures: Annotated[ScuffingTemperatures, Input("temperatures", text="temperatures of teeth and oil")] = (
+        ScuffingTemperatures()
+    )
+    model: Annotated[ScuffingModel, Input("model", text="choices where the paper leaves room", advanced=True)] = (
+        ScuffingModel()
+    )
+
+    def inputs(self) -> si.ScuffingInputs:
+        """The solver's inputs."""
+        return self.scuffing_inputs(self.gears.si(GearPairInputs), self.load.si(si.Load))
 
 
 class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, OilInUse)):
