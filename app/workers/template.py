@@ -67,7 +67,7 @@ def main(parent: int, descriptor: int, preloaded: str) -> None:
 
 def _warm(stage: "Stage") -> int:
     """Load a stage. Where that fails this process ends, for what it has loaded may be damaged."""
-    from app.workers import stages  # noqa: PLC0415  numba, which the service's own process does without
+    from app.workers import stages  # noqa: PLC0415  after the garbage collector is off
 
     compiled = stages.warm(stage)
     gc.collect()
