@@ -17,6 +17,7 @@ MAP, THRUST = STUDIES[0].address, STUDIES[1].address
 SLOW = re.sub(r"x\.count=\d+", "x.count=300", re.sub(r"y\.count=\d+", "y.count=8", MAP))
 COUPLING = "pahl-axial-displacement"
 INFLUENCE = address_of(COUPLING).replace("?", "/influence?", 1)
+GRINDING = address_of("starter-turbo-gear-drive-train").replace("?", "/design?", 1)
 
 
 def test_from_a_case_to_a_curve_and_back_to_the_case_of_a_point(visit: Callable[..., Page]) -> None:
@@ -67,7 +68,7 @@ def test_the_figure_grows_while_points_come_and_stop_ends_it(visit: Callable[...
 
 def test_what_to_grind_shows_the_best_so_far_and_keeps_it_when_it_is_stopped(visit: Callable[..., Page]) -> None:
     page = visit("/")
-    page.goto(address_of("starter-turbo-gear-drive-train").replace("?", "/design?", 1), wait_until="commit")
+    page.goto(GRINDING, wait_until="commit")
     expect(page.locator(".frame:visible .progress")).to_contain_text(re.compile("[1-9][0-9]* of 656 points"))
     expect(page.locator(".frame:visible h2", has_text="Best so far")).to_be_visible()
     page.locator("#stop").click()
@@ -131,7 +132,10 @@ def test_which_input_matters_leads_to_its_curve(visit: Callable[..., Page]) -> N
     expect(page.locator("#figure-curve")).to_be_visible()
 
 
-@pytest.mark.parametrize("address", ["/coupling/vary", INFLUENCE, MAP, THRUST, THRUST.replace("x.to=0.15", "x.to=abc")])
+@pytest.mark.parametrize(
+    "address",
+    ["/coupling/vary", INFLUENCE, MAP, THRUST, THRUST.replace("x.to=0.15", "x.to=abc"), f"{GRINDING}&trials=3"],
+)
 def test_phone_and_accessibility(visit: Callable[..., Page], address: str) -> None:
     for scheme in ("light", "dark"):
         page = visit(address, viewport=PHONE, color_scheme=scheme)
