@@ -102,7 +102,7 @@ def solve_point(question: Question, overrides: Overrides) -> Point:
 
 
 def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Overrides) -> dict[str, Any]:
-    """The base request with a point's values; a value for an exclusive field clears its excluded_by in the base."""
+    """The base request with a point's values; a value of a field takes out those that it excludes."""
     body = copy.deepcopy(base)
     for path, value in overrides.items():
         if value is not None:

@@ -38,9 +38,14 @@ class Runner:
 
 
 async def _watch(http: Request, job: Job) -> None:
+    await disconnected(http)
+    job.leave()
+
+
+async def disconnected(http: Request) -> None:
+    """Wait until the client has left."""
     while (await http.receive())["type"] != "http.disconnect":
         pass
-    job.leave()
 
 
 class StudyPool:

@@ -29,6 +29,7 @@ from app.pages.study_links import study_links
 from app.pages.templating import page_path
 from app.studies.engine import twice_if_lost
 from app.studies.stream import Clock, Line, Lines, encoded
+from app.workers.admission import disconnected
 
 FIRST_FRAME_S = 0.3
 FRAME_SHARE = 0.3  # of the time a study has run passes until its page is drawn again
@@ -143,7 +144,7 @@ async def _file(http: Request, study: PageStudy, lines: Lines, name: str, image_
 
 async def _unless_gone(http: Request, work: Coroutine[Any, Any, bytes]) -> bytes:
     """The result of the work, which ends when the client leaves; raises ClientGone."""
-    working, gone = asyncio.create_task(work), asyncio.create_task(_disconnected(http))
+    working, gone = asyncio.create_task(work), asyncio.create_task(disconnected(http))
     try:
         await asyncio.wait({working, gone}, return_when=asyncio.FIRST_COMPLETED)
         if not working.done():
@@ -153,11 +154,6 @@ async def _unless_gone(http: Request, work: Coroutine[Any, Any, bytes]) -> bytes
         working.cancel()
         gone.cancel()
         await asyncio.gather(working, gone, return_exceptions=True)
-
-
-async def _disconnected(http: Request) -> None:
-    while (await http.receive())["type"] != "http.disconnect":
-        pass
 
 
 for each in CALCULATIONS:

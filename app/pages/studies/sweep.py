@@ -265,7 +265,7 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     figures = figures_of(_grid(study, sweep.points, fields, received))
     if not ended(lines):
         return Result("", dict([*figures.items()][:1]))
-    unsolved = sum(line["status"] not in {"ok", "ok_with_warnings"} for line in received)
+    unsolved = _unsolved(received)
     progress = f"{len(received)} points in {shown(lines[-1].get('elapsed_s'), 2)} s"
     reasons = Counter(text for line in received for text in _remarks(line)).most_common(MOST_REASONS)
     return Result(
@@ -275,6 +275,10 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
         tuple(f"{text} at {count} of {len(received)} points" for text, count in reasons),
         script=_script(study, sweep.points, fields, received, next(iter(figures.values()))),
     )
+
+
+def _unsolved(received: list[Line]) -> int:
+    return sum(line["status"] not in {"ok", "ok_with_warnings"} for line in received)
 
 
 def _remarks(point: Line) -> tuple[str, ...]:
@@ -311,7 +315,7 @@ def _grid(study: PageStudy, points: PointSet, fields: list[VariedField], receive
         limit=_limit(study),
         invalid=invalid if len(set(invalid)) > 1 else (),
         doubtful=doubtful if len(set(doubtful)) > 1 else (),
-        unsolved=sum(line["status"] not in {"ok", "ok_with_warnings"} for line in received),
+        unsolved=_unsolved(received),
     )
 
 
@@ -357,16 +361,13 @@ def _table(study: PageStudy, points: PointSet, fields: list[VariedField], receiv
                 Cell("open", address, label=f"open the case at {', '.join(at)}"),
             )
         )
-    titles = [f"{leaf.title}, {leaf.unit}" if leaf.unit else leaf.title for leaf in _columns(study, fields)]
+    columns = [*(field.leaf for field in fields), study.output]
+    titles = [f"{leaf.title}, {leaf.unit}" if leaf.unit else leaf.title for leaf in columns]
     head = (*(Cell(title, right=True) for title in titles), Cell("status"), Cell("case"))
     more = len(received) - MOST_ROWS
     return Table(
         "Points", head, tuple(rows), f"and {more} points more in the CSV file" if more > 0 else "", folded=True
     )
-
-
-def _columns(study: PageStudy, fields: list[VariedField]) -> list[Leaf]:
-    return [*(field.leaf for field in fields), study.output]
 
 
 def point_address(study: PageStudy, index: int) -> str:
