@@ -122,7 +122,7 @@ def _options(leaf: Leaf, text: str) -> list[tuple[str, str]]:
         return []
     named = [("true", "yes"), ("false", "no")] if leaf.kind == "boolean" else [(o, words(str(o))) for o in leaf.options]
     default = text_of(leaf.default) if leaf.default is not None else None
-    shown = [(str(value), f"{label} (default)" if str(value) == default else label) for value, label in named]
+    shown = [(str(value), label) for value, label in named]
     known = {value for value, _ in shown}
     empty = [] if default in known else [("", cited(leaf.declared.default_text or "choose …"))]
     strange = [(text, text)] if text and text not in known else []

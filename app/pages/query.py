@@ -37,6 +37,10 @@ SIDE = 2  # of a matrix: the two directions across a shaft
 PRESENT = "on"
 
 _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
+_SPACED = re.compile(r"[+-]?\d{1,3}([ '\u00a0\u2009\u202f]\d{3})+([.,]\d*)?")
+_ENGLISH = re.compile(r"[+-]?\d{1,3}(,\d{3})+\.\d*|[+-]?\d{1,3}(,\d{3}){2,}")
+_GERMAN = re.compile(r"[+-]?\d{1,3}(\.\d{3})+,\d*|[+-]?\d{1,3}(\.\d{3}){2,}")
+_AMBIGUOUS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
 _INTEGER = re.compile(r"[+-]?\d{1,18}")
 _PASTED = re.compile(r"[\s;]+")
 
@@ -167,9 +171,24 @@ def _scalar(leaf: Leaf, text: str) -> Any:
 
 
 def number_of(text: str) -> Any:
-    """The number that a single field holds, with a decimal point or comma; what is none stays text."""
-    number = _number(text.replace(",", ".", 1))
+    """The number that a single field holds, with a decimal point or comma; what is none stays text.
+
+    Digits may stand in groups of three, where that leaves no doubt which mark is the decimal one.
+    """
+    plain = re.sub(r"[ '\u00a0\u2009\u202f]", "", text) if _SPACED.fullmatch(text) else text
+    if _ENGLISH.fullmatch(plain):
+        plain = plain.replace(",", "")
+    elif _GERMAN.fullmatch(plain):
+        plain = plain.replace(".", "")
+    number = text if _AMBIGUOUS.fullmatch(plain) else _number(plain.replace(",", ".", 1))
     return text if isinstance(number, str) else number
+
+
+def ambiguity(text: str) -> str:
+    """Why a text with a comma is no number, if both readings of the comma make one."""
+    if not _AMBIGUOUS.fullmatch(text):
+        return ""
+    return f"{text} may mean {text.replace(',', '.')} or {text.replace(',', '')}; write one of these"
 
 
 def _listed(leaf: Leaf, text: str) -> list[Any]:

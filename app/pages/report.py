@@ -5,6 +5,7 @@ import re
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
+from unicodedata import category
 
 from markupsafe import Markup
 
@@ -14,8 +15,8 @@ from app.pages.results import flattened, resolved
 from app.pages.typesetting import cited, shown, symbol
 from app.schema.fields import leaf_at
 
-NAMES = ("project", "part", "author", "checker", "notes")
-LONGEST_TEXT = 200
+NAMES = {"project": 200, "part": 200, "author": 200, "checker": 200, "notes": 2000}
+"""What a report says of its occasion, and how many characters of it at most."""
 LONGEST_LINK = 240  # as text; what it leads to is the whole
 SIDE_BY_SIDE = 4  # items of a list
 _element = re.compile(r"(\.\d+){1,2}$")  # of a list or a matrix of numbers
@@ -56,11 +57,12 @@ class Table:
 
 
 def context(case: Case, views: dict[str, str], endpoint: str, link: str) -> dict[str, Any]:
-    """What the template needs beside the result."""
+    """What the template needs beside the result; raises ValueError for a name or note that is too long."""
     request = {name: value for name, value in case.request.model_dump(exclude_unset=True).items() if name != "detail"}
     body = json.dumps(request)
     return {
-        "names": {name: views.get(name, "")[:LONGEST_TEXT] for name in NAMES},
+        "longest": NAMES,
+        "names": {name: _said(name, views.get(name, ""), longest) for name, longest in NAMES.items()},
         "paper": PAPERS.get(views.get("paper", ""), "A4"),
         "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
         "inputs": _inputs(case),
@@ -70,6 +72,14 @@ def context(case: Case, views: dict[str, str], endpoint: str, link: str) -> dict
         "link_text": link if len(link) <= LONGEST_LINK else f"{link[:LONGEST_LINK]}…",
         "method": method_of(case.calculation),
     }
+
+
+def _said(name: str, text: str, longest: int) -> str:
+    """A name or note without characters that cannot be seen, some of which turn text around."""
+    if len(text) > longest:
+        raise ValueError(f"{name}: {len(text)} characters; at most {longest} have room on the report")
+    lines = text.splitlines() if name == "notes" else [" ".join(text.split())]
+    return "\n".join("".join(each for each in line if category(each) not in {"Cc", "Cf"}) for line in lines)
 
 
 def _inputs(case: Case) -> list[Table]:

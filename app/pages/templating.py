@@ -37,6 +37,15 @@ def model_of(calculation: Calculation) -> str:
 
 
 @cache
+def by_model() -> dict[str, list[Calculation]]:
+    """The calculations of each model, the drive train first: it chains the others."""
+    models: dict[str, list[Calculation]] = {"drive-train": []}
+    for each in CALCULATIONS:
+        models.setdefault(model_of(each), []).append(each)
+    return models
+
+
+@cache
 def asset(name: str) -> bytes:
     """A file that pages refer to."""
     return files("app.pages").joinpath("static", name).read_bytes()
@@ -62,7 +71,7 @@ def _environment(root: str) -> Environment:
         lstrip_blocks=True,
     )
     environment.globals |= {
-        "menu": [(page_path(each), each.title) for each in CALCULATIONS],
+        "menu": [[(page_path(each), each.title) for each in some] for some in by_model().values()],
         "version": MODEL_VERSION,
         "asset": lambda name: url(asset_path(name)),
         "anchor": anchor,

@@ -17,7 +17,7 @@ from app.pages.charts import Chart, charts, data_address, figure_of, linked, val
 from app.pages.form import State, anchor, form
 from app.pages.links import IMAGE_FORMATS, Links, example_link, examples_of
 from app.pages.manual import chapter_of
-from app.pages.query import Pairs, normalised, pairs_of_query, split_views
+from app.pages.query import Pairs, ambiguity, normalised, pairs_of_query, split_views
 from app.pages.results import assumptions, cards, entries, groups, resolved
 from app.pages.study_links import study_links
 from app.pages.templating import page_path, rendered
@@ -86,7 +86,8 @@ def page(asked: Asked) -> Shown:
     try:
         case = solved(asked.calculation, asked.pairs, asked.kept)
     except REFUSED as error:
-        faults = faults_of(error)
+        texts = dict(asked.pairs)
+        faults = [Fault(path, ambiguity(texts.get(path, "")) or message) for path, message in faults_of(error)]
         state = State(dict(asked.pairs), _by_field(faults))
         return _page(asked, state, 400 if isinstance(error, Unreadable) else 422, faults=faults)
     variant, trouble = _variant(asked)
@@ -162,10 +163,14 @@ def report(asked: Asked, host: str) -> Shown:
     figures, missing = charts(case, None, _printed, compute=True)
     link = "" if asked.links.too_long else host + asked.root + asked.links.alone
     endpoint = (host or LOCAL) + asked.root + asked.calculation.path
-    context = reports.context(case, asked.views, endpoint, link)
+    try:
+        context = reports.context(case, asked.views, endpoint, link)
+    except ValueError as error:
+        raise Unprocessable("too_long", str(error), None) from error
     content = rendered(
         "report.html",
         asked.root,
+        asked=asked,
         calculation=asked.calculation,
         response=case.response,
         cards=cards(case.response, resolved(case.response)),
@@ -203,7 +208,15 @@ def _keep(asked: Asked, case: Case, variant: Case | None = None, *, by_case: boo
 
 def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
     calculation = asked.calculation
-    context = {"faults": [], "response": None, "compared": False, "trouble": "", "links": asked.links, **found}
+    context = {
+        "faults": [],
+        "response": None,
+        "compared": False,
+        "cards": (),
+        "trouble": "",
+        "links": asked.links,
+        **found,
+    }
     sections = form(calculation.request, state)
     content = rendered(
         "calculation.html",

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
-from app.errors import Unreadable
+from app.errors import Unprocessable, Unreadable
 from app.evaluate import evaluate, written
 from app.examples import examples
 from app.pages import views
@@ -176,7 +176,15 @@ def test_exclusive_fields_are_a_choice_and_the_chosen_one_counts() -> None:
         ("gears.module_mm", "3,5", 3.5),
         ("gears.module_mm", "3.5", 3.5),
         ("gears.module_mm", "-2e-3", -2e-3),
-        ("gears.module_mm", "1,234.5", "1,234.5"),
+        ("gears.module_mm", "1,234.5", 1234.5),
+        ("gears.module_mm", "1.234,5", 1234.5),
+        ("gears.module_mm", "200 000", 200_000),
+        ("gears.module_mm", "200,000.5", 200_000.5),
+        ("gears.module_mm", "1,234,567", 1_234_567),
+        ("gears.module_mm", "1 234,5", 1234.5),
+        ("gears.module_mm", "0,125", 0.125),
+        ("gears.module_mm", "200,000", "200,000"),
+        ("gears.module_mm", "12 34", "12 34"),
         ("gears.module_mm", "nan", "nan"),
         ("gears.module_mm", "1e999", float("inf")),
         ("gears.pinion.teeth", "9" * 400, float("9" * 400)),
@@ -326,10 +334,18 @@ def test_report_has_every_part(name: str) -> None:
     places = [html.index(f"<h2>{part}") for part in parts]
     assert places == sorted(places)
     assert "<b>P</b>" not in html
-    assert "n" * 200 in html
-    assert "n" * 201 not in html
+    assert html.count("n" * 500) == 2  # on the report and in the form that fills it in
     assert not re.search(r'(?:src|href)="(?!data:|http://host/)', html)
     assert "<script" not in html
+
+
+def test_names_of_a_report_are_whole_or_refused() -> None:
+    html = views.report(asked("fzg-type-a", project="A\u202eB\x07C", notes="one\n\x1btwo"), "").content.decode()
+    assert "<dd>ABC</dd>" in html
+    assert "one\ntwo</dd>" in html
+    for name, longest in (("author", 200), ("notes", 2000)):
+        with pytest.raises(Unprocessable, match=f"{name}: {longest + 1} characters"):
+            views.report(asked("fzg-type-a", **{name: "n" * (longest + 1)}), "")
 
 
 def test_reports_curl_is_the_request() -> None:

@@ -77,6 +77,69 @@ def test_a_wrong_field_is_told_at_the_field_and_on_top(visit: Callable[..., Page
     expect(page.locator('[id="f.gears.pinion.teeth-fault"]')).to_be_hidden()
 
 
+def test_after_an_error_the_last_good_result_stays(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(COUPLING))
+    field = page.locator('[name="operation.torque_n_m"]')
+    field.fill("200,000")
+    expect(page.locator(".problem")).to_contain_text("200,000 may mean 200.000 or 200000")
+    expect(page.locator(".problem")).to_contain_text("transmitted torque")
+    expect(page.locator(".card").first).to_be_visible()
+    expect(page.locator("#result")).to_have_class(re.compile("old"))
+    field.fill("2 000")
+    expect(page.locator(".problem")).to_have_count(0)
+    expect(page.locator("#result")).not_to_have_class(re.compile("old"))
+    field.press("Escape")
+    expect(page.locator('[id="f.operation.torque_n_m-help"]')).to_be_hidden()
+
+
+def test_nothing_is_wrong_before_the_first_calculation(visit: Callable[..., Page]) -> None:
+    page = visit("/coupling")
+    with page.expect_response(lambda answer: answer.status == 422):
+        page.locator('[name="coupling.teeth"]').fill("40")
+    expect(page.locator("#result")).not_to_have_class(re.compile("old"))
+    expect(page.locator(".wrong")).to_have_count(0)
+    expect(page.locator(".problem")).to_have_count(0)
+    page.get_by_role("button", name="Calculate", exact=True).click()
+    expect(page.locator(".problem")).to_be_visible()
+    expect(page.locator('[name="coupling.module_mm"]')).to_be_focused()
+
+
+def test_cards_stay_in_sight(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(COUPLING), viewport={"width": 1400, "height": 900})
+    page.locator(".results tr").nth(5).scroll_into_view_if_needed()
+    page.mouse.wheel(0, 600)
+    expect(page.locator(".card").first).to_be_in_viewport()
+    phone = visit(address_of(COUPLING), viewport=PHONE)
+    phone.locator('[name="coupling.teeth"]').scroll_into_view_if_needed()
+    expect(phone.locator(".jump .headline")).to_be_in_viewport()
+
+
+def test_project_and_author_are_put_on_the_report(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(COUPLING))
+    page.get_by_role("link", name="Report").click()
+    page.get_by_label("project").fill("Mill 7")
+    page.get_by_label("notes").fill("first line\nsecond line")
+    page.get_by_role("button", name="Put on the report").click()
+    expect(page.locator("header .names")).to_contain_text("Mill 7")
+    expect(page.locator("header .names")).to_contain_text("second line")
+    page.emulate_media(media="print")
+    expect(page.locator(".fill")).to_be_hidden()
+    page.emulate_media(media="screen")
+    page.locator(".fill summary").click()
+    page.get_by_role("link", name="Back to the case").click()
+    expect(page.locator(".card").first).to_be_visible()
+
+
+def test_home_asks_a_question_of_each_model(visit: Callable[..., Page]) -> None:
+    page = visit("/")
+    assert page.locator(".model h2").all_inner_texts()[0].startswith("Drive train")
+    assert page.locator(".model .question").count() == 4
+    assert all(text.endswith("?") for text in page.locator(".model .question").all_inner_texts())
+    assert page.locator(".model a:visible").count() == 8  # the question and its picture
+    page.locator(".question a", has_text="which teeth carry").click()
+    expect(page.locator(".card").first).to_be_visible()
+
+
 def test_share_a_link(visit: Callable[..., Page]) -> None:
     page = visit(address_of(COUPLING))
     page.locator('[name="operation.torque_n_m"]').fill("3500")

@@ -117,6 +117,7 @@ def test_share_and_download(visit: Callable[..., Page], tmp_path: Path) -> None:
 
 def test_the_start_page_leads_to_the_crowning_that_forgives(visit: Callable[..., Page]) -> None:
     page = visit("/")
+    page.locator("summary", has_text="Calculations and examples").last.click()
     page.get_by_role("link", name="Which crowning forgives").click()
     expect(page.locator("#figure-map")).to_be_visible()
     expect(page.locator("#figure-worst")).to_be_visible()

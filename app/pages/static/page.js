@@ -35,9 +35,13 @@ async function update(force = false) {
   say("calculating …");
   try {
     const page = await ask(wanted);
-    if (caseOf(form) === wanted || page.ok) take(page.document, page.ok);
+    // Before the first result only Calculate tells what is wrong: a field not reached yet is no fault.
+    if (!page.ok && !force && result.querySelector(":scope > .empty")) leave(result);
+    else if (caseOf(form) === wanted || page.ok) take(page.document, page.ok);
+    if (force && !page.ok) form.querySelector(".wrong :is(input:not([type=radio]), select, textarea)")?.focus();
     shown = wanted;
-    const address = document.getElementById("copy")?.getAttribute("href") ?? (wanted ? `?${wanted}` : location.pathname);
+    const copy = page.ok ? document.getElementById("copy")?.getAttribute("href") : null;
+    const address = copy ?? (wanted ? `?${wanted}` : location.pathname);
     if (wanted.length <= long) history.replaceState(null, "", address);
   } catch {
     say("The service does not answer; the result is that of before.");
@@ -59,10 +63,18 @@ function say(text) {
   document.getElementById("state").textContent = text;
 }
 
-function take(page) {
+function leave(result) {
+  result.classList.remove("old");
+  result.removeAttribute("aria-busy");
+  say("");
+}
+
+function take(page, ok) {
   const fresh = page.getElementById("result");
   const here = document.getElementById("result");
   if (!fresh) { say(page.querySelector(".problem")?.textContent.trim() ?? "No answer."); return; }
+  document.querySelector(".jump").replaceWith(document.adoptNode(page.querySelector(".jump")));
+  if (!ok && here.querySelector(".cards")) { keepResult(here, fresh, page); return; }
   const open = new Map([...here.querySelectorAll("details")].map((part, index) => [index, part.open]));
   here.replaceWith(document.adoptNode(fresh));
   if (open.size === fresh.querySelectorAll("details").length) {
@@ -70,6 +82,15 @@ function take(page) {
   }
   takeFields(page);
   prepareResult();
+}
+
+// After an error the last good result stays, dimmed, below what is wrong.
+function keepResult(here, fresh, page) {
+  here.querySelector(":scope > .problem")?.remove();
+  document.getElementById("state").after(document.adoptNode(fresh.querySelector(".problem")));
+  here.removeAttribute("aria-busy");
+  say("The result below is that of before.");
+  takeFields(page);
 }
 
 function takeFields(page) {
@@ -142,6 +163,9 @@ form.addEventListener("submit", (event) => {
   clearTimeout(timer);
   update(true);
 });
+// Escape puts a field's help away until the field is entered again.
+form.addEventListener("keydown", (event) => { if (event.key === "Escape") event.target.closest(".field")?.classList.add("quiet"); });
+form.addEventListener("focusin", () => form.querySelectorAll(".quiet").forEach((field) => field.classList.remove("quiet")));
 document.addEventListener("click", (event) => {
   const link = event.target.closest("a[href^='#']");
   if (link) { event.preventDefault(); goTo(link.getAttribute("href")); }
