@@ -1,7 +1,7 @@
 """One view of one case, from its fields to bytes; runs in a worker."""
 
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, get_args
+from typing import Any, Literal, NamedTuple, get_args
 
 from app.calculations import CALCULATIONS, Calculation
 from app.errors import InvalidBody, Unprocessable, Unreadable
@@ -151,8 +151,24 @@ def figure(asked: Asked, name: str, image_format: Format | Literal["json"]) -> S
     return Shown(content, keep=_keep(asked, case, variant))
 
 
-def report(asked: Asked, host: str) -> Shown:
-    """The report of a case; an input that cannot be computed is shown on its page instead.
+class StudySection(NamedTuple):
+    """What a report says of a study: figures by their names, tables as the study's page has them, the link to it."""
+
+    title: str
+    progress: str
+    remarks: tuple[str, ...]
+    figures: dict[str, Figure]
+    tables: tuple[Any, ...]
+    link: str
+
+    @property
+    def charts(self) -> list[Chart]:
+        """The figures as they are printed."""
+        return [_chart(name, figure) for name, figure in self.figures.items()]
+
+
+def report(asked: Asked, host: str, study: StudySection | None = None) -> Shown:
+    """The report of a case, with a section about a study; an input that cannot be computed is shown on its page.
 
     `host` is what addresses on it begin with; without one the link is relative, and the command asks this machine.
     """
@@ -180,6 +196,8 @@ def report(asked: Asked, host: str) -> Shown:
         charts=figures,
         missing=missing,
         outdated=asked.outdated,
+        study=study,
+        host=host,
         **context,
     )
     return Shown(content.encode(), keep=_keep(asked, case))
@@ -188,7 +206,11 @@ def report(asked: Asked, host: str) -> Shown:
 def _printed(declaration: Declaration, data: Figure | None) -> Chart:
     """A figure as a part of the report."""
     assert data is not None
-    return Chart(declaration.name, data.title, data.subtitle, data_address(written(data, "svg", "light")))
+    return _chart(declaration.name, data)
+
+
+def _chart(name: str, figure: Figure) -> Chart:
+    return Chart(name, figure.title, figure.subtitle, data_address(written(figure, "svg", "light")))
 
 
 def case_key(path: str, case: str) -> str:

@@ -175,3 +175,19 @@ def test_the_page_works_from_the_case(client: httpx.Client) -> None:
     figure = client.get(address.replace("/spectrum?", "/spectrum/figures/losses.csv?") + "&" + urlencode(SAID))
     assert figure.status_code == 200
     assert figure.text.splitlines()[1].startswith("low,")
+
+
+def test_the_report_has_a_section_of_its_own(client: httpx.Client) -> None:
+    query = urlencode([*pairs_of(COUPLING.request), *SAID.items(), ("project", "Pump 7")])
+    page = client.get(f"/coupling/spectrum?{query}")
+    address = unescape(re.findall(r'href="(/coupling/spectrum/report\?[^"]+)"', page.text)[0])
+    report = client.get(address)
+    assert report.status_code == 200
+    text = unescape(report.text)
+    section = text.partition("<h2>Load spectrum</h2>")[2].partition("</section>")[0]
+    assert section.startswith("<p>Probability of being above the limit ")
+    assert section.count("<figure>") == 4
+    assert "<caption>Tolerances</caption>" in section
+    assert "<h2>Inputs</h2>" in text
+    refused = client.get(f"/coupling/spectrum/report?{query}&t1=nothing")
+    assert refused.status_code == 422

@@ -19,6 +19,7 @@ from app.http.routes.pages import (
     TROUBLES,
     asked_of,
     html,
+    printed_host,
     redirected,
     trouble_page,
 )
@@ -67,13 +68,19 @@ def _add(calculation: Calculation, own: StudyPage) -> None:
         if name not in own.figures or image_format not in kinds:
             raise HTTPException(404, f"There are {', '.join(own.figures)}, each as {', '.join(kinds)}")
         study = await _checked(http, calculation, own)
-        with http.app.state.studies.place():
-            found, _ = await begun(http, study.study)
-            drawn = await _unless_gone(http, _file(http, study, found, name, image_format))
+        drawn = await _made(http, study, pages.file, name, image_format)
         return Response(drawn, media_type=kinds[image_format], headers=policy)
+
+    async def report(http: Request) -> Response:
+        try:
+            study = await _checked(http, calculation, own)
+            return Response(await _made(http, study, pages.report, printed_host(http)), media_type=HTML, headers=policy)
+        except TROUBLES as error:
+            return trouble_page(http, error)
 
     router.add_api_route(path, page, methods=METHODS)
     router.add_api_route(f"{path}.{{media}}", lines, methods=METHODS)
+    router.add_api_route(f"{path}/report", report, methods=METHODS)
     router.add_api_route(f"{path}/figures/{{name}}.{{image_format}}", figure, methods=METHODS)
 
 
@@ -128,15 +135,20 @@ async def _part(http: Request, view: Callable[..., bytes], *arguments: Any) -> b
     return made
 
 
-async def _file(http: Request, study: PageStudy, lines: Lines, name: str, image_format: str) -> bytes:
-    """One figure of a study, when its last line has come; raises StudyEnded where that is an error."""
+async def _made(http: Request, study: PageStudy, view: Callable[..., bytes | str], *arguments: Any) -> bytes:
+    """What a worker makes of a study, when its last line has come; ends when the client leaves."""
+    with http.app.state.studies.place():
+        lines, _ = await begun(http, study.study)
+        return await _unless_gone(http, _whole(http, lines, partial(view, study), *arguments))
+
+
+async def _whole(http: Request, lines: Lines, view: Callable[..., bytes | str], *arguments: Any) -> bytes:
+    """What a worker makes of all lines, or 404 with the reason why it cannot; raises StudyEnded at an error."""
     async with aclosing(lines):
         received = [line async for group in lines for line in group if line["type"] != "progress"]
     if received[-1]["type"] == "error":
         raise StudyEnded(received[-1]["message"])
-    found: bytes | str = await twice_if_lost(
-        http.app.state.studies.own(), pages.file, study, received, name, image_format
-    )
+    found: bytes | str = await twice_if_lost(http.app.state.studies.own(), view, received, *arguments)
     if isinstance(found, str):
         raise HTTPException(404, found)
     return found

@@ -20,7 +20,8 @@ from app.pages.studies.sensitivity import SENSITIVITY
 from app.pages.studies.spectrum import SPECTRUM
 from app.pages.studies.sweep import AXES, SWEEP
 from app.pages.templating import rendered
-from app.pages.views import REFUSED, Asked
+from app.pages.views import REFUSED, Asked, StudySection
+from app.pages.views import report as case_report
 from app.schema.fields import Leaf, leaf_at
 from app.studies.stream import Line
 
@@ -164,3 +165,17 @@ def file(study: PageStudy, lines: list[Line], name: str, image_format: Format) -
         return "; ".join([f"This study has the figures {', '.join(found.figures) or 'none'}", *found.remarks])
     figure = found.figures[name]
     return table(figure) if image_format == "csv" else written(figure, image_format, study.asked.theme or "light")
+
+
+def report(study: PageStudy, lines: list[Line], host: str) -> bytes:
+    """The report of the case, with a section about the study."""
+    found = study.page.result(study, lines)
+    section = StudySection(
+        title=study.page.link.label,
+        progress=found.progress,
+        remarks=found.remarks,
+        figures=found.figures,
+        tables=found.tables,
+        link="" if study.links.too_long else study.links.view(""),
+    )
+    return case_report(study.asked, host, section).content

@@ -15,6 +15,7 @@ from app.pages.studies.declaration import (
     Cell,
     Controls,
     Form,
+    Lead,
     PageStudy,
     Result,
     Starter,
@@ -265,7 +266,8 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     progress = f"{' in '.join(counted)}, {shown(end['elapsed_s'], 2)} s"
     if limited is not None:
         progress = f"{limited.sentence[0].upper()}{limited.sentence[1:]}; {progress}"
-    return Result(progress, figures, tuple(tables), tuple(remarks))
+    leads = (Lead("Report with this spectrum", study.links.view("/report")),)
+    return Result(progress, figures, tuple(tables), tuple(remarks), leads)
 
 
 def _chance(found: Line) -> Chance:
