@@ -1,6 +1,5 @@
 """The form of a case from the schema: fields with what was typed, what it means and what is wrong with it."""
 
-from collections import Counter
 from collections.abc import Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
@@ -395,14 +394,13 @@ def _inner(group: tuple[Branch, ...], prefix: str, state: State) -> Block:
 
 
 def _choices(branch: Branch) -> dict[str, tuple[Leaf, ...]]:
-    """Fields that exclude each other and nothing else, by the path of each of them."""
-    fields = {_last(field.path): field for field in branch.leaves}
-    memberships = Counter(name for group in branch.model.exclusive for name in group)
+    """Fields of which one is given, by the path of each of them; a field belongs to the first such group only."""
+    fields = {_last(leaf.path): leaf for leaf in branch.leaves}
     found: dict[str, tuple[Leaf, ...]] = {}
     for group in branch.model.exclusive:
-        if all(name in fields and memberships[name] == 1 for name in group):
+        if all(name in fields and fields[name].path not in found for name in group):
             members = tuple(fields[name] for name in group)
-            found |= {field.path: members for field in members}
+            found |= {leaf.path: members for leaf in members}
     return found
 
 

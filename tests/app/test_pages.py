@@ -170,6 +170,23 @@ def test_exclusive_fields_are_a_choice_and_the_chosen_one_counts() -> None:
     assert re.search(r'value="load\.power_kw" checked', html)
 
 
+@pytest.mark.parametrize("path", ["/coupling", "/scuffing", "/scuffing/line-contact", "/drive-train"])
+def test_the_oil_is_given_in_one_of_three_ways(path: str) -> None:
+    html = views.page(views.Asked(path, [])).content.decode()
+    ways = re.findall(r'type="radio" name="pick:lubricant\.\w+" value="lubricant\.(\w+)"', html)
+    assert ways == ["viscosity_pa_s", "iso_vg", "kinematic_viscosity_40_mm2_per_s"]
+
+
+def test_a_grade_leaves_out_viscosity_and_its_temperature() -> None:
+    sent = [
+        ("lubricant.viscosity_pa_s", "0.04"),
+        ("lubricant.reference_temperature_c", "80"),
+        ("lubricant.iso_vg", "46"),
+    ]
+    picked = ("pick:lubricant.viscosity_pa_s", "lubricant.iso_vg")
+    assert normalised(FORM_CALCULATION.request, [*sent, picked]) == [("lubricant.iso_vg", "46")]
+
+
 @pytest.mark.parametrize(
     ("name", "text", "value"),
     [
@@ -268,7 +285,7 @@ def test_figures_of_a_page_are_drawn_from_the_kept_answer() -> None:
     (kept,) = views.page(case).keep.values()
     again = views.Asked(case.path, case.pairs, {}, kept)
     for declaration in BY_PATH["/v1/scuffing"].figures:
-        if declaration.name == "friction":  # of the thermal solution only
+        if declaration.name in {"friction", "modification"}:  # of a thermal solution, of modified flanks
             continue
         svg = views.figure(again, declaration.name, "svg")
         assert svg.content == views.figure(case, declaration.name, "svg").content

@@ -11,7 +11,11 @@ let shown = caseOf(form);
 function pairsOf(element) {
   const picked = new Map([...element.querySelectorAll("input[type=radio]:checked")].map((radio) => [radio.name, radio.value]));
   const left = new Set([...element.querySelectorAll("input[type=radio]")].map((radio) => radio.value));
-  for (const name of picked.values()) left.delete(name);
+  for (const name of picked.values()) {
+    left.delete(name);
+    const excluded = element.querySelector(`[data-field="${CSS.escape(name)}"]`)?.dataset.excludes ?? "";
+    if (element.querySelector(`[name="${CSS.escape(name)}"]`)?.value.trim()) excluded.split(" ").forEach((other) => left.add(other));
+  }
   return [...new FormData(element)].filter(([name, text]) => !name.startsWith("pick:") && text.trim() && !left.has(name));
 }
 
