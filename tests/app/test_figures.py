@@ -47,13 +47,15 @@ FIGURES = {
         "flank-load",
         "flank-pressure",
         "modification",
+        "modification-traces",
+        "contact-line-load",
         "transmission-error",
         "path-of-contact",
         "stiffness",
         "load-sharing",
         "pair-share",
     },
-    "/v1/scuffing": {"contact-temperature", "film", "friction"},
+    "/v1/scuffing": {"contact-temperature", "safety", "film", "friction"},
     "/v1/scuffing/line-contact": {"contact", "film-temperature", "heat"},
     "/v1/drive-train": {
         "shaft-lines",
@@ -62,6 +64,7 @@ FIGURES = {
         "face-load",
         "flank-load",
         "contact-temperature",
+        "journals",
         "thrust",
         "losses",
     },
@@ -85,9 +88,12 @@ WITHOUT = {
     ("milian-table-1-incompressible", "lead-correction"): "no_lead_correction",
     ("xue-line-contact-isothermal", "film-temperature"): "isothermal",
     ("xue-line-contact-isothermal", "heat"): "isothermal",
+    ("starter-generator-gear-drive-train", "journals"): "no_plain_bearing",
 }
+# Figures of what follows from the answer; each has a test of its own.
+DERIVED = {"safety", "contact-line-load", "modification-traces", "journals"}
 # Figures that closed form, and flanks without modification, leave out.
-BY_CASE = {"friction": "closed_form", "modification": "no_modification"}
+BY_CASE = {"friction": "closed_form", "modification": "no_modification", "modification-traces": "no_modification"}
 QUICK = sorted(name for name in examples() if not name.endswith(("-thermal", "-choking")))
 
 
@@ -192,7 +198,7 @@ def test_curves_and_maps_are_the_answers_numbers_in_the_unit_of_their_axis(name:
     _, answer = solved(name)
     seen = 0
     for which, data in figures(name):
-        for panel in data.panels:
+        for panel in data.panels if which not in DERIVED else ():
             series = [(line.title, line.y) for line in panel.lines] + [(bar.title, bar.height) for bar in panel.bars]
             if panel.map is not None:
                 series.append((panel.map.title, panel.map.values))
@@ -517,3 +523,52 @@ def test_the_face_is_in_mm_from_the_same_end_everywhere() -> None:
         x = figure(name, which).panels[0].x
         assert (x.title, x.unit) == ("position on the face, from the end that meshes first", "mm")
         assert x.limits == pytest.approx((0.0, width))
+
+
+@pytest.mark.parametrize("name", ["starter-industrial-scuffing", "xue-pair-1-scuffing"])
+def test_the_least_safety_along_the_path_is_that_of_the_answer(name: str) -> None:
+    _, answer = solved(name)
+    (panel,) = figure(name, "safety").panels
+    blok = next(line for line in panel.lines if line.title == "Blok")
+    assert np.nanmin(blok.y) == pytest.approx(answer.safety.blok_factor, rel=1e-9)
+    assert [level.value for level in panel.levels if level.limit] == [1.0]
+
+
+def test_the_worst_contact_line_has_the_largest_load_and_leans_at_the_base_helix_angle() -> None:
+    _, answer = solved("xue-pair-4-helix-slope-40")
+    (panel,) = figure("xue-pair-4-helix-slope-40", "contact-line-load").panels
+    worst = next(line for line in panel.lines if line.title == "highest loaded line")
+    assert np.nanmax(worst.y) == pytest.approx(answer.load.max_line_load_n_per_mm, rel=5e-3)
+    # A line of contact ends at A or E of the path: over the face it is as long as the path over tan(beta_b).
+    reach = answer.geometry.path_of_contact_mm / np.tan(np.radians(answer.geometry.base_helix_angle_deg))
+    along = worst.x[np.isfinite(worst.y)]
+    assert along[-1] - along[0] <= reach + 0.5
+    place = answer.load.max_at
+    left = (1.0 - place.profile_fraction) * reach
+    assert along[0] == pytest.approx(max(place.face_fraction * 40.0 - left, 0.0), abs=0.5)
+    assert along[-1] == pytest.approx(min(place.face_fraction * 40.0 + place.profile_fraction * reach, 40.0), abs=0.5)
+
+
+def test_traces_of_profile_and_helix_are_cuts_through_the_modification() -> None:
+    _, answer = solved("xue-pair-4-helix-slope-40")
+    profile, helix = (panel.lines[0] for panel in figure("xue-pair-4-helix-slope-40", "modification-traces").panels)
+    grid = np.array(answer.flank.modification_um)
+    assert np.allclose(profile.y, grid[:, grid.shape[1] // 2], rtol=1e-12)
+    assert np.allclose(helix.y, grid[grid.shape[0] // 2], rtol=1e-12)
+
+
+def test_journals_lie_at_their_eccentricity_on_the_curve_of_their_load() -> None:
+    _, answer = solved("starter-turbo-gear-drive-train")
+    for panel, shaft in zip(figure("starter-turbo-gear-drive-train", "journals").panels, answer.shafts, strict=True):
+        wall, *curves = panel.lines
+        assert np.allclose(np.hypot(wall.x, wall.y), 1.0)
+        for curve, mark, bearing in zip(curves, panel.marks, shaft.bearings, strict=True):
+            assert np.hypot(mark.x, mark.y) == pytest.approx(bearing.eccentricity_ratio, rel=1e-6)
+            assert (curve.x[-1], curve.y[-1]) == pytest.approx((mark.x, mark.y), abs=1e-6)
+            assert (curve.x[0], curve.y[0]) == pytest.approx((0.0, 0.0), abs=1e-12)
+
+
+def test_bearings_without_clearance_have_no_journals() -> None:
+    with pytest.raises(NoFigure) as reason:
+        figure("starter-generator-gear-drive-train", "journals")
+    assert reason.value.code == "no_plain_bearing"

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from functools import partial
-from math import hypot
+from math import atan2, copysign, hypot, pi, sin
 
 import numpy as np
 
@@ -28,8 +28,9 @@ from app.figures.models.load_distribution import PROFILE, face
 from app.figures.units import MM
 from app.figures.wording import number, percent
 from solvers.drive_train import solve
-from solvers.drive_train.inputs import DriveTrainInputs, Effects, JournalBearing, Shaft
+from solvers.drive_train.inputs import DriveTrainInputs, Effects, JournalBearing, Shaft, Vector2
 from solvers.drive_train.results import DriveTrainResult, ShaftResult
+from solvers.drive_train.shafts.bearings import attitude_angle
 
 
 def flank_load(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
@@ -100,6 +101,7 @@ MAPS = (
 
 
 OWN = "own derivation"
+ROUND = np.linspace(0.0, 2.0 * pi, 181)
 NEWTONS = 1e3  # per kilonewton
 NOISE = 1e-9
 PARTS = (
@@ -249,6 +251,42 @@ def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[s
     return Figure(f"K_Hβ = {number(load.face_load_factor)} {place}", (panel,))
 
 
+def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
+    """Journals of the plain bearings in their clearances, and where they go as the load changes (Ocvirk)."""
+    panels = []
+    used = (result.derived.pinion_shaft, result.derived.wheel_shaft)
+    for name, state, known in zip(("pinion", "wheel"), result.shafts, used, strict=True):
+        lines, marks = [], []
+        for index, (bearing, given) in enumerate(zip(state.bearings, known.bearings, strict=True)):
+            if bearing.eccentricity_ratio is None or given.radial_clearance is None:
+                continue
+            x, y = (float(each) / given.radial_clearance for each in bearing.displacement)
+            hue = (Hue.BLUE, Hue.VERMILLION)[index]
+            lines.append(Line(f"bearing {index + 1}", *_locus(x, y, bearing.reaction), hue))
+            marks.append(Mark(x, y, f"ε = {number(bearing.eccentricity_ratio)}", hue))
+        if lines:
+            wall = Line("clearance", values(np.cos(ROUND)), values(np.sin(ROUND)), Hue.GREY, named=False)
+            across, up = (Axis(f"displacement over clearance, along {way}", magnitude=False) for way in "XY")
+            panels.append(
+                Panel(x=across, y=up, title=f"{name} shaft", lines=(wall, *lines), marks=tuple(marks), equal=True)
+            )
+    if not panels:
+        raise NoFigure(
+            "no_plain_bearing", "Only plain bearings have a clearance in which a journal moves", "pinion_shaft"
+        )
+    least = min(each.min_film for state in result.shafts for each in state.bearings if each.min_film is not None)
+    return Figure(f"thinnest film {number(least, 'µm')}; lines: as the load falls to zero", tuple(panels), beside=True)
+
+
+def _locus(x: float, y: float, reaction: Vector2) -> tuple[Values, Values]:
+    """From the middle of the clearance to a displacement over clearance, as the load grows in its direction."""
+    load = atan2(-reaction[1], -reaction[0])
+    side = copysign(1.0, sin(atan2(y, x) - load))
+    eccentricity = np.linspace(0.0, hypot(x, y), 60)
+    angle = np.array([load + side * attitude_angle(float(each)) for each in eccentricity])
+    return values(eccentricity * np.cos(angle)), values(eccentricity * np.sin(angle))
+
+
 def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Axial load of both shafts between the bounds that the couplings' friction leaves."""
     shafts = result.shafts
@@ -316,6 +354,7 @@ FIGURES = (
         "face-load", "Load along the face, with and without each effect", OWN, face_load, compute=effects_apart
     ),
     *MAPS,
+    Declaration("journals", "Journals in the clearances of the plain bearings", "Ocvirk 1953", journals),
     Declaration("thrust", "Axial load of the shafts", "API 613, 5th ed.", thrust),
     Declaration("losses", "Losses of the unit", OWN, losses),
 )

@@ -1,6 +1,10 @@
 """Figures of the load distribution: over the flank, over the roll and along the path of contact."""
 
+from dataclasses import replace
+from math import radians, tan
+
 import numpy as np
+from scipy.interpolate import RegularGridInterpolator
 
 from app.figures.data import (
     NO_BREAK,
@@ -26,6 +30,7 @@ from app.figures.wording import number, percent
 from solvers.scuffing.inputs import LoadDistributionInputs
 from solvers.scuffing.results import ErrorCurves, Flank, LoadDistribution, Place, StiffnessCurves
 
+MOST_LINES = 12  # of contact on either side of one
 FIFTHS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
 PROFILE = Axis("profile (0: A, 1: E)", limits=(0.0, 1.0), ticks=FIFTHS, symbol="ξ")
 
@@ -100,6 +105,70 @@ def _panel(
     if at is not None and largest is not None:
         marks = (Mark(at.face_fraction * width / MM, at.profile_fraction, number(largest, unit)),)
     return Panel(x=face(width), y=PROFILE, map=chart, marks=marks)
+
+
+def contact_line_load(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
+    """Line load along the contact lines of the roll position at which it is largest.
+
+    A line of contact crosses the plane of action at the base helix angle; simultaneous ones are a transverse base pitch
+    apart.
+    """
+    load, flank, geometry = result.load, result.flank, result.geometry
+    if load.max_at is None:
+        raise NoFigure("no_load", "Without load there is none along the face", "load")
+    y = values(flank.face_fraction * inputs.gears.face_width / MM)
+    start = load.max_at.face_fraction * inputs.gears.face_width / MM
+    known = RegularGridInterpolator(
+        (flank.profile_fraction, y), flank.line_load, method="linear", bounds_error=False, fill_value=np.nan
+    )
+    lines = []
+    for pitches in range(-MOST_LINES, MOST_LINES + 1):
+        across = (start - y) * tan(radians(geometry.base_helix_angle)) + pitches * geometry.transverse_base_pitch
+        along = known(np.column_stack([load.max_at.profile_fraction + across / geometry.path_of_contact, y]))
+        if np.isfinite(along).sum() > 1:
+            lines.append(Line(_line_name(pitches), y, values(along), ORDER[pitches % len(ORDER)]))
+    panel = Panel(
+        x=face(inputs.gears.face_width),
+        y=axis(Flank, "line_load", "line load"),
+        lines=tuple(lines),
+        marks=(Mark(start, load.max_line_load, number(load.max_line_load, "N/mm")),),
+    )
+    factor = "" if load.face_load_factor is None else f"K_Hβ = {number(load.face_load_factor)}; "
+    return Figure(f"{factor}highest {number(load.max_line_load, 'N/mm')} at {number(start, 'mm')}", (panel,))
+
+
+def _line_name(pitches: int) -> str:
+    """Of the line so many base pitches nearer to E than the highest loaded one."""
+    if pitches == 0:
+        return "highest loaded line"
+    return f"{abs(pitches)} {'ahead' if pitches > 0 else 'behind'}"
+
+
+def traces(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
+    """Gap of the unloaded flanks along the profile in the middle of the face, and along the face at mid-profile."""
+    flank = result.flank
+    if not flank.modification.any():
+        raise NoFigure("no_modification", "The flanks are not modified: the gap between them is zero", "modifications")
+    middle = tuple(size // 2 for size in flank.modification.shape)
+    profile, lead = flank.modification[:, middle[1]], flank.modification[middle[0]]
+    y = values(flank.face_fraction * inputs.gears.face_width / MM)
+    gap = axis(Flank, "modification", "gap between the unloaded flanks", magnitude=False)
+    panels = (
+        Panel(
+            x=replace(PROFILE, magnitude=False),
+            y=gap,
+            title="profile, in the middle of the face",
+            lines=(Line("profile", values(flank.profile_fraction), values(profile), named=False),),
+        ),
+        Panel(
+            x=face(inputs.gears.face_width),
+            y=gap,
+            title="helix, in the middle of the profile",
+            lines=(Line("helix", y, values(lead), named=False),),
+        ),
+    )
+    ranges = (number(float(np.ptp(each)), "µm") for each in (profile, lead))
+    return Figure("profile over {}, helix over {}; of both gears together".format(*ranges), panels)
 
 
 def _where(place: Place) -> str:
@@ -283,6 +352,13 @@ def _role(index: int) -> Role:
 
 FIGURES = (
     *MAPS,
+    Declaration("modification-traces", "Profile and helix of the pair", "Xue 2020, Fig. 15", traces),
+    Declaration(
+        "contact-line-load",
+        "Line load along the face at the worst roll position",
+        "Xue 2020, section II",
+        contact_line_load,
+    ),
     Declaration(
         "transmission-error", "Transmission error and length of contact", "Xue 2020, Figs. 5, 12", transmission_error
     ),

@@ -10,11 +10,13 @@ from app.figures.models import load_distribution
 from app.figures.models.load_distribution import PATH, path_points, unnamed
 from app.figures.units import UM
 from app.figures.wording import number
+from solvers.quantity import UNITS
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.safety_results import Scuffing, ScuffingPath
 
 UNSOLVED = {"no_solution", "refused"}
 WARNED = "outside validity"
+SHOWN_SAFETIES = 4.0  # times the least, up to which safeties are shown: at the pitch point nothing slides
 
 
 def _of_distribution(build: Build) -> Build:
@@ -67,6 +69,41 @@ def _safety(result: Scuffing) -> str:
     if contact.thermal_ehl_max is not None:
         return f"up to {number(contact.thermal_ehl_max, '°C')} by thermal EHL"
     return "" if contact.blok_max is None else f"up to {number(contact.blok_max, '°C')} by Blok"
+
+
+def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
+    """Scuffing temperature over contact temperature, both above that of the oil (Eq. 26), point by point."""
+    _with_oil(result)
+    if result.safety is None:
+        raise NoFigure("no_scuffing_temperature", "Safety needs a scuffing temperature", "temperatures")
+    path, bulk = result.path, present(result.contact_temperature).bulk
+    oil = inputs.temperatures.oil - UNITS["c"].offset
+    flashes = [("Blok", path.blok_flash, Hue.BLUE if path.thermal is None else Hue.GREY)]
+    if path.thermal is not None:
+        hotter = np.fmax(path.thermal.pinion_flash, path.thermal.wheel_flash)
+        flashes.insert(0, ("thermal EHL", hotter, Hue.VERMILLION))
+    lines = []
+    for title, flash, hue in flashes:
+        rise = bulk + flash - oil
+        factor = np.where(rise > 0.0, (result.safety.scuffing - oil) / np.where(rise > 0.0, rise, 1.0), np.nan)
+        lines.append(Line(title, values(path.psi), values(factor), hue))
+    known = [line for line in lines if np.isfinite(line.y).any()]
+    if not known:
+        raise NoFigure("no_rise", "The contact is nowhere hotter than the oil, so no safety is defined", "temperatures")
+    least = min(known, key=lambda line: float(np.nanmin(line.y)))
+    at = int(np.nanargmin(least.y))
+    value = float(least.y[at])
+    top = max(1.5, min(SHOWN_SAFETIES * value, *(1.1 * float(np.nanmax(line.y)) for line in known)))
+    panel = Panel(
+        x=PATH,
+        y=Axis("safety against scuffing", symbol="S_B", limits=(0.0, top)),
+        lines=tuple(known),
+        levels=(Level(1.0, "scuffing below 1", limit=True), *_points(result)),
+        spans=_warned(path),
+        marks=(Mark(float(least.x[at]), value, number(value), least.hue),),
+    )
+    finding = f"least {number(value)} by {least.title}, at Ψ = {number(float(least.x[at]))}"
+    return Figure(finding, (panel,), unsolved=_unsolved(path))
 
 
 def _hottest(lines: list[Line]) -> tuple[Mark, ...]:
@@ -194,6 +231,7 @@ FIGURES = (
     Declaration(
         "contact-temperature", "Contact temperature along the path of contact", "Xue 2020, Fig. 22", contact_temperature
     ),
+    Declaration("safety", "Safety against scuffing along the path of contact", "Xue 2020, Eq. 26", safety_along),
     Declaration("film", "Film along the path of contact", "Xue 2020, Fig. 23", film),
     Declaration("friction", "Friction and pressure along the path of contact", "Xue 2020, section IV", friction),
     *(replace(each, build=_of_distribution(each.build)) for each in load_distribution.FIGURES),
