@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 logger = logging.getLogger("tribodrive")
 
 
-def _cluster(address: str) -> "DaskCluster":
+def _cluster(address: str, deadline_s: float) -> "DaskCluster":
     from app.studies.cluster import DaskCluster  # noqa: PLC0415  an extra, and a second of imports
 
-    return DaskCluster(address)
+    return DaskCluster(address, deadline_s)
 
 
 class StudyAdmission:
@@ -32,7 +32,7 @@ class StudyAdmission:
         self._most = settings.studies
         self._settings = settings
         self._workers = workers
-        self._cluster = _cluster(settings.scheduler) if settings.scheduler else None
+        self._cluster = _cluster(settings.scheduler, settings.study_deadline_s) if settings.scheduler else None
         self._running = 0
 
     @contextmanager

@@ -13,10 +13,11 @@ from distributed import Client, KilledWorker
 
 from app.errors import SchedulerUnavailable, WorkerLost
 from app.sources import SOURCES
-from app.studies.engine import PoolLost
+from app.studies.engine import OtherSources, PoolLost
 from app.workers.stages import STAGES, warm
 
-CONNECT_S = 10.0
+CONNECT_S = 10.0  # within which a scheduler answers
+WARM_S = 600.0  # within which workers load their kernels, compiled if need be
 WATCH_S = 0.5
 PACKAGES = ("tribodrive", "numpy", "scipy", "numba", "pydantic")  # what the numbers depend on
 LOST = "the Dask scheduler is gone; start the study again"
@@ -25,36 +26,50 @@ LOST = "the Dask scheduler is gone; start the study again"
 class DaskCluster:
     """A Dask cluster whose workers run our versions with warm kernels."""
 
-    def __init__(self, address: str) -> None:
+    def __init__(self, address: str, deadline_s: float) -> None:
         self._address = address
+        self._deadline_s = deadline_s
         self._client: Client | None = None
         self._prepared: set[str] = set()
-        self._connecting = asyncio.Lock()
+        self._preparation: asyncio.Task[None] | None = None
         self.slots = 1
 
     async def ready(self) -> "DaskCluster":
-        """The cluster, connected and every worker prepared; raises SchedulerUnavailable."""
-        async with self._connecting:
-            try:
-                await asyncio.to_thread(self._prepare)
-            except (OSError, TimeoutError, ValueError, RuntimeError) as error:
-                await asyncio.to_thread(self.close)
-                raise SchedulerUnavailable(f"The Dask scheduler cannot be used: {error}") from error
+        """The cluster, connected and every worker prepared; raises SchedulerUnavailable.
+
+        One preparation runs at a time and goes on when a study that waits for it is refused at its deadline.
+        """
+        if self._preparation is None or self._preparation.done():
+            self._preparation = asyncio.create_task(self._prepared_or_closed())
+        try:
+            async with asyncio.timeout(self._deadline_s):
+                await asyncio.shield(self._preparation)
+        except TimeoutError:
+            raise SchedulerUnavailable("The workers of the Dask cluster are still being prepared") from None
         return self
+
+    async def _prepared_or_closed(self) -> None:
+        try:
+            await asyncio.to_thread(self._prepare)
+        except (OSError, TimeoutError, ValueError, RuntimeError) as error:
+            await asyncio.to_thread(self.close)
+            reason = str(error) or f"it did not answer within {CONNECT_S:g} s"
+            raise SchedulerUnavailable(f"The Dask scheduler cannot be used: {reason}") from error
 
     def _prepare(self) -> None:
         """Connect; compare versions and warm kernels on every worker that is new. Blocks."""
         if self._client is None or self._client.status != "running":
             self.close()
             self._client = Client(self._address, timeout=CONNECT_S, set_as_default=False)
-        threads = self._client.nthreads()
+        assert self._client.scheduler is not None
+        threads = self._client.sync(self._client.scheduler.ncores, callback_timeout=CONNECT_S)
         if not threads:
             raise ValueError("it has no workers")
         new = set(threads) - self._prepared
-        calls = [self._client.submit(prepare, workers=[each], pure=False, retries=0) for each in new]
-        for theirs in self._client.gather(calls):
-            if theirs != versions():
-                raise ValueError(f"its workers run {theirs}, the service {versions()}")
+        calls = {each: self._client.submit(prepare, workers=[each], pure=False, retries=0) for each in new}
+        for worker, call in calls.items():
+            if (theirs := call.result(timeout=WARM_S)) != versions():
+                raise ValueError(f"its worker {worker} runs {theirs}, the service {versions()}")
         self._prepared |= new
         self.slots = sum(threads.values())
 
@@ -66,7 +81,7 @@ class DaskCluster:
         client = self._client
         if client is None or client.status != "running":
             raise PoolLost(LOST)
-        future = client.get_executor(pure=False, retries=0).submit(function, *arguments)
+        future = client.get_executor(pure=False, retries=0).submit(solved_with, SOURCES, function, *arguments)
         try:
             while not future.done():
                 await asyncio.wait({asyncio.wrap_future(future)}, timeout=WATCH_S)
@@ -91,6 +106,16 @@ def prepare() -> dict[str, str]:
     for stage in STAGES:
         warm(stage)
     return versions()
+
+
+def solved_with(sources: str, function: Callable[..., Any], *arguments: Any) -> Any:
+    """The call's result; runs in a worker, perhaps one that joined during the study.
+
+    Raises OtherSources where the worker's solvers are not those whose digest the answers carry.
+    """
+    if sources != SOURCES:
+        raise OtherSources(f"a Dask worker has the solvers' sources {SOURCES}, the service {sources}; update it")
+    return function(*arguments)
 
 
 def versions() -> dict[str, str]:

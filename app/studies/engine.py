@@ -30,7 +30,15 @@ class Pool(Protocol):
 
 
 class PoolLost(Exception):
-    """The pool is gone for good: no further point can be solved."""
+    """The processes that solve points are gone; `code` names the reason in the line that ends the study."""
+
+    code = "scheduler_lost"
+
+
+class OtherSources(PoolLost):
+    """A worker has other sources of the solvers than the service."""
+
+    code = "other_sources"
 
 
 @dataclass(frozen=True, slots=True)

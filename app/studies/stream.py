@@ -79,7 +79,7 @@ def _outcome(upcoming: asyncio.Future[list[Line] | None], clock: Clock) -> tuple
     try:
         group = upcoming.result()
     except PoolLost as error:
-        return [clock.error("scheduler_lost", str(error))], True
+        return [clock.error(error.code, str(error))], True
     except Exception:
         logger.exception("a study failed")
         return [clock.error("internal_error", "something went wrong in the service; the log has the cause")], True

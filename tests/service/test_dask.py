@@ -2,16 +2,20 @@
 
 import asyncio
 import json
+import shutil
+import signal
 import subprocess
 import threading
 import time
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
 
 from app.examples import examples
+from app.sources import sources_of
 from app.studies.examples import SPECTRUM_EXAMPLES
 from app.studies.spectrum import spectrum_study
 from app.studies.stream import Clock
@@ -19,7 +23,7 @@ from app.studies.study import Study
 from app.studies.sweep import sweep_study
 from tests.support.dask_cluster import DaskProcesses, running_cluster
 from tests.support.pools import InlinePool
-from tests.support.server import free_port, running_server
+from tests.support.server import ROOT, free_port, running_server
 
 pytestmark = pytest.mark.service
 
@@ -145,6 +149,54 @@ def assert_unavailable(address: str) -> None:
     assert refused.status_code == 503
     assert refused.json()["type"].endswith("scheduler_unavailable")
     assert int(refused.headers["retry-after"]) >= 1
+
+
+@pytest.fixture
+def edited(tmp_path: Path) -> Path:
+    """The project's sources with one constant of the solvers changed."""
+    for package in ("app", "solvers"):
+        shutil.copytree(ROOT / package, tmp_path / package, ignore=shutil.ignore_patterns("__pycache__"))
+    checks = tmp_path / "solvers" / "coupling" / "checks.py"
+    text = checks.read_text("utf-8")
+    assert text.count("MAX_CONTACT_WIDTH = 0.1\n") == 1
+    checks.write_text(text.replace("MAX_CONTACT_WIDTH = 0.1\n", "MAX_CONTACT_WIDTH = 0.11\n"), "utf-8")
+    return tmp_path
+
+
+def test_a_worker_with_other_sources_is_refused_before_the_study_and_during_it(edited: Path) -> None:
+    theirs = sources_of(edited / "solvers")
+    with (
+        running_cluster(1) as cluster,
+        running_server(workers=1, scheduler=cluster.address, log_level="error") as (_, address),
+    ):
+        with httpx.stream("POST", f"{address}/v1/sweep", json=loads(2500), timeout=PREPARED_S) as response:
+            found = response.iter_lines()
+            header = next(found)
+            cluster.add_worker(edited)
+            cluster.wait()
+            *_, last = map(json.loads, found)
+        assert (last["type"], last["code"]) == ("error", "other_sources")
+        assert theirs in last["message"]
+        assert json.loads(header)["sources"] in last["message"]
+        refused = httpx.post(f"{address}/v1/sweep", json=loads(2), timeout=PREPARED_S)
+        assert refused.status_code == 503
+        assert theirs in refused.json()["detail"]
+        assert json.loads(header)["sources"] in refused.json()["detail"]
+
+
+def test_a_frozen_scheduler_is_told_in_time_and_used_again_when_it_answers() -> None:
+    with (
+        running_cluster(1) as cluster,
+        running_server(workers=1, scheduler=cluster.address, log_level="error") as (_, address),
+    ):
+        assert sweep(address, loads(2))[-1]["type"] == "end"
+        cluster.scheduler.send_signal(signal.SIGSTOP)
+        for _ in range(2):
+            started = time.monotonic()
+            assert_unavailable(address)
+            assert time.monotonic() - started < 50.0
+        cluster.scheduler.send_signal(signal.SIGCONT)
+        assert sweep(address, loads(2))[-1]["type"] == "end"
 
 
 def test_without_a_scheduler_studies_wait_and_single_requests_do_not() -> None:

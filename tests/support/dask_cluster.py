@@ -6,6 +6,7 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from pathlib import Path
 
 from distributed import Client
 
@@ -13,7 +14,6 @@ from tests.support.server import ROOT, free_port
 
 ENVIRONMENT = {
     **os.environ,
-    "PYTHONPATH": str(ROOT),
     "OMP_NUM_THREADS": "1",
     "OPENBLAS_NUM_THREADS": "1",
     "NUMBA_NUM_THREADS": "1",
@@ -22,9 +22,13 @@ START_S = 60.0
 
 
 @contextmanager
-def _process(*arguments: str) -> Iterator[subprocess.Popen[bytes]]:
+def _process(*arguments: str, root: Path = ROOT) -> Iterator[subprocess.Popen[bytes]]:
     process = subprocess.Popen(
-        [sys.executable, "-m", *arguments], env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        [sys.executable, "-m", *arguments],
+        env={**ENVIRONMENT, "PYTHONPATH": str(root)},
+        cwd=root,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
     )
     try:
         yield process
@@ -47,10 +51,12 @@ class DaskProcesses:
         self.scheduler = stack.enter_context(_process("distributed.cli.dask_scheduler", *options))
         self.workers: list[subprocess.Popen[bytes]] = []
 
-    def add_worker(self) -> None:
-        """One more worker process of one thread, without a nanny that would start it again."""
+    def add_worker(self, root: Path = ROOT) -> None:
+        """One more worker process of one thread with the sources in `root`, without a nanny to start it again."""
         options = ("--nthreads", "1", "--no-nanny", "--no-dashboard", "--host", "127.0.0.1", "--death-timeout", "60")
-        self.workers.append(self._stack.enter_context(_process("distributed.cli.dask_worker", self.address, *options)))
+        self.workers.append(
+            self._stack.enter_context(_process("distributed.cli.dask_worker", self.address, *options, root=root))
+        )
 
     def wait(self) -> None:
         """Until every worker is there."""
