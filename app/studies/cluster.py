@@ -16,7 +16,8 @@ from app.sources import SOURCES
 from app.studies.engine import OtherSources, PoolLost
 from app.workers.stages import STAGES, warm
 
-CONNECT_S = 10.0  # within which a scheduler answers
+CONNECT_S = 10.0  # for one call to the scheduler
+ANSWER_S = 15.0  # for both, to connect and to name the workers
 WARM_S = 600.0  # within which workers load their kernels, compiled if need be
 WATCH_S = 0.5
 PACKAGES = ("tribodrive", "numpy", "scipy", "numba", "pydantic")  # what the numbers depend on
@@ -32,20 +33,25 @@ class DaskCluster:
         self._client: Client | None = None
         self._prepared: set[str] = set()
         self._preparation: asyncio.Task[None] | None = None
+        self._answered = False
         self.slots = 1
 
     async def ready(self) -> "DaskCluster":
         """The cluster, connected and every worker prepared; raises SchedulerUnavailable.
 
-        One preparation runs at a time and goes on when a study that waits for it is refused at its deadline.
+        One preparation runs at a time and goes on when a study that waits for it is refused: calls to a scheduler that
+        does not answer cannot be taken back.
         """
         if self._preparation is None or self._preparation.done():
+            self._answered = False
             self._preparation = asyncio.create_task(self._prepared_or_closed())
-        try:
-            async with asyncio.timeout(self._deadline_s):
-                await asyncio.shield(self._preparation)
-        except TimeoutError:
-            raise SchedulerUnavailable("The workers of the Dask cluster are still being prepared") from None
+        await asyncio.wait({self._preparation}, timeout=ANSWER_S)
+        if not self._preparation.done() and not self._answered:
+            raise SchedulerUnavailable(f"The Dask scheduler did not answer within {ANSWER_S:g} s")
+        await asyncio.wait({self._preparation}, timeout=self._deadline_s)
+        if not self._preparation.done():
+            raise SchedulerUnavailable("The workers of the Dask cluster are still being prepared")
+        self._preparation.result()
         return self
 
     async def _prepared_or_closed(self) -> None:
@@ -63,6 +69,7 @@ class DaskCluster:
             self._client = Client(self._address, timeout=CONNECT_S, set_as_default=False)
         assert self._client.scheduler is not None
         threads = self._client.sync(self._client.scheduler.ncores, callback_timeout=CONNECT_S)
+        self._answered = True
         if not threads:
             raise ValueError("it has no workers")
         new = set(threads) - self._prepared
