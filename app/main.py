@@ -59,6 +59,7 @@ def create_app() -> FastAPI:
         description=DESCRIPTION,
         version=MODEL_VERSION,
         lifespan=lifespan,
+        docs_url=None,  # app.http.routes.service has the page
         redoc_url=None,
         redirect_slashes=False,  # its redirects would name the host that the client claims to ask
     )

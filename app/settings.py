@@ -63,6 +63,7 @@ class Settings(BaseSettings):
     )
     shutdown_s: int = Field(30, ge=0, description="time for requests in flight to finish at shutdown")
     log_level: str = Field("info", pattern="^(debug|info|warning|error)$", description="least level that is logged")
+    log_clients: bool = Field(True, description="whether the log names the address of the client of each request")
 
     @field_validator("hosts", mode="before")
     @classmethod

@@ -181,7 +181,8 @@ class LimitedProtocol(HttpToolsProtocol):
         seconds = time.perf_counter() - self._began
         identifier = request_id()
         if self._answered:
-            record(identifier, "-", "unparsed", int(status), seconds)
+            client = self.client if self._limits.log_clients else None
+            record(identifier, client, "-", "unparsed", int(status), seconds)
         else:  # the application waits for the rest of this request and will log it
             identifier = cycle.scope.get("state", {}).get("request_id", identifier)
             cycle.scope.setdefault("state", {})["answered"] = int(status)

@@ -1,6 +1,7 @@
 """The outermost layer, pure ASGI: request id, limits on bodies, security headers, timing, log, metrics, the 500."""
 
 import asyncio
+import json
 import logging
 import re
 import time
@@ -21,7 +22,7 @@ from app.settings import Settings
 ACCEPTABLE_ID = re.compile(rb"[A-Za-z0-9._-]{1,128}")
 CONTENT_POLICY = (
     b"default-src 'self'; img-src 'self' data:; style-src 'self' 'unsafe-inline'; "
-    b"script-src 'self' 'unsafe-inline'; frame-ancestors 'none'"
+    b"base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
 )
 SECURITY_HEADERS = (
     (b"x-content-type-options", b"nosniff"),
@@ -31,8 +32,11 @@ SECURITY_HEADERS = (
     (b"content-security-policy", CONTENT_POLICY),
 )
 
-# Written by hand: nothing in it needs escaping.
-LOG_LINE = '{"time": %.3f, "request_id": "%s", "method": "%s", "endpoint": "%s", "status": %d, "duration_ms": %.3f}'
+# Written by hand: nothing in it needs escaping but the client's address, which a proxy may tell.
+LOG_LINE = (
+    '{"time": %.3f, "request_id": "%s", "client": %s, "method": "%s", "endpoint": "%s", "status": %d, '
+    '"duration_ms": %.3f}'
+)
 
 logger = logging.getLogger(REQUEST_LOG)
 
@@ -48,13 +52,17 @@ def own_headers(identifier: str, seconds: float) -> list[tuple[bytes, bytes]]:
     return [(b"x-request-id", identifier.encode()), (b"server-timing", timing), *SECURITY_HEADERS]
 
 
-def record(identifier: str, method: str, endpoint: str, status: int, seconds: float) -> None:
-    """One log line and the metrics of a finished request."""
+def record(
+    identifier: str, client: tuple[str, int] | None, method: str, endpoint: str, status: int, seconds: float
+) -> None:
+    """One log line and the metrics of a finished request; `client` is None where its address is not to be logged."""
     requests, duration = _meters(endpoint, status)
     requests.inc()
     duration.observe(seconds)
     if logger.isEnabledFor(logging.INFO):
-        logger.info(LOG_LINE, time.time(), identifier, method, endpoint, status, seconds * 1e3)
+        logger.info(
+            LOG_LINE, time.time(), identifier, json.dumps(client and client[0]), method, endpoint, status, seconds * 1e3
+        )
 
 
 @lru_cache(maxsize=1024)
@@ -89,6 +97,27 @@ def _below(prefix: str, scope: Scope) -> Scope:
     return {**scope, "root_path": root, "path": f"{root}/" if path == root else path}
 
 
+class _Whole:
+    """An answer to HTTP/1.0, which knows no chunks: kept until it is whole, and sent with its length."""
+
+    def __init__(self) -> None:
+        self._start: Message = {}
+        self._body = bytearray()
+
+    def ready(self, message: Message) -> list[Message]:
+        """What can be sent once this message of the application is there."""
+        if message["type"] == "http.response.start":
+            self._start = message
+            return []
+        self._body += message.get("body", b"")
+        if message.get("more_body", False):
+            return []
+        headers = self._start["headers"]
+        if self._start["status"] not in {204, 304} and all(name.lower() != b"content-length" for name, _ in headers):
+            headers = [*headers, (b"content-length", b"%d" % len(self._body))]
+        return [{**self._start, "headers": headers}, {**message, "body": bytes(self._body)}]
+
+
 class _Request:
     """One request on its way through the layer."""
 
@@ -109,6 +138,7 @@ class _Request:
         self._due = asyncio.get_running_loop().time() + self._limits.body_deadline_s
         self._received = 0
         self._complete = False
+        self._unsent = _Whole() if scope["http_version"] == "1.0" else None
 
     async def serve(self, application: ASGIApp) -> None:
         """Answer, whatever happens, and log and count it."""
@@ -126,7 +156,8 @@ class _Request:
         finally:
             endpoint = getattr(self._scope.get("route"), "path", "unmatched")
             status = self._state.get("answered", self._status)  # by the protocol, in our place
-            record(self._identifier, self._method, endpoint, status, time.perf_counter() - self._started)
+            client = self._scope.get("client") if self._limits.log_clients else None
+            record(self._identifier, client, self._method, endpoint, status, time.perf_counter() - self._started)
 
     async def _say_goodbye(self) -> None:
         if self._status == CLIENT_GONE:
@@ -140,7 +171,8 @@ class _Request:
             said = {name.lower() for name, _ in given}
             own = own_headers(self._identifier, time.perf_counter() - self._started)
             message["headers"] = [*given, *(header for header in own if header[0] not in said)]
-        await self._send(message)
+        for each in [message] if self._unsent is None else self._unsent.ready(message):
+            await self._send(each)
 
     def _refusal(self) -> JSONResponse | None:
         """The answer to a request that announces too much."""

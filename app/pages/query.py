@@ -164,7 +164,7 @@ def _value(model: type[Documented], name: str, text: str) -> Any:
 
 def _scalar(leaf: Leaf, text: str) -> Any:
     if leaf.options:
-        return next((option for option in leaf.options if text_of(option) == text), text)
+        return next((option for option in leaf.options if option in (text, number_of(text))), text)
     if leaf.kind == "boolean":
         return {"true": True, "false": False}.get(text, text)
     return number_of(text) if leaf.kind in {"number", "integer"} else text

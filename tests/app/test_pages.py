@@ -399,6 +399,37 @@ def test_pages_answer_by_get_with_their_policies(client: httpx.Client) -> None:
         assert head.content == b""
 
 
+def test_an_example_of_another_model_is_refused(client: httpx.Client) -> None:
+    answer = client.get("/coupling?example=milian-case-1")
+    assert answer.status_code == 400
+    assert "milian-case-1 is an example of /pumping" in answer.text
+
+
+def test_a_chosen_number_may_have_decimals_in_a_query_as_in_json() -> None:
+    model = BY_PATH["/v1/scuffing/line-contact"].request
+    assert body_of(model, [("lubricant.iso_vg", "46.0")]) == {"lubricant": {"iso_vg": 46}}
+    assert body_of(model, [("lubricant.iso_vg", "47")]) == {"lubricant": {"iso_vg": "47"}}
+
+
+def test_other_sites_start_no_studies(client: httpx.Client) -> None:
+    address = "/coupling/vary?coupling.teeth=52"
+    assert client.get(address, headers={"Sec-Fetch-Site": "cross-site"}).status_code == 403
+    assert client.get(address, headers={"Sec-Fetch-Site": "same-origin"}).status_code != 403
+    assert client.get("/coupling/vary", headers={"Sec-Fetch-Site": "cross-site"}).status_code == 200
+
+
+def test_no_policy_allows_scripts_in_the_page_or_another_base(client: httpx.Client) -> None:
+    query = link("", pairs_of(examples()["pahl-axial-displacement"].request))
+    figure = client.post("/v1/coupling/figures/losses.svg", json=examples()["pahl-axial-displacement"].request)
+    pages = [client.get(path) for path in ("/", "/healthz", "/docs", f"/coupling/report{query}")]
+    for answer in (figure, *pages):
+        policy = answer.headers["content-security-policy"]
+        scripts = [part for part in policy.split("; ") if part.startswith("script-src")]
+        assert "base-uri 'none'" in policy
+        assert "form-action" in policy
+        assert not any("unsafe-inline" in part for part in scripts)
+
+
 def test_empty_fields_are_dropped_by_a_redirect(client: httpx.Client) -> None:
     answer = client.get("/coupling?coupling.teeth=52&coupling.module_mm=&theme=dark&pick:x=y")
     assert answer.status_code == 303

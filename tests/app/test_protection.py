@@ -1,5 +1,6 @@
 """Limits, headers and identification of requests."""
 
+import json
 import socket
 import time
 from urllib.parse import urlsplit
@@ -9,6 +10,24 @@ import pytest
 
 from app.examples import examples
 from app.settings import Settings
+
+
+def test_an_old_client_gets_no_chunks(client: httpx.Client) -> None:
+    request = examples()["pahl-axial-displacement"]
+    axis = {"path": "operation.speed_rpm", "start": 100, "stop": 200, "count": 5}
+    body = json.dumps({"endpoint": request.endpoint, "request": request.request, "vary": [axis]}).encode()
+    head = b"POST /v1/sweep HTTP/1.0\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n" % len(body)
+    target = urlsplit(str(client.base_url))
+    answer = b""
+    with socket.create_connection((target.hostname, target.port), timeout=60) as connection:
+        connection.sendall(head + body)
+        while piece := connection.recv(65536):
+            answer += piece
+    headers, _, content = answer.partition(b"\r\n\r\n")
+    assert b" 200 " in headers
+    assert b"transfer-encoding" not in headers.lower()
+    assert b"content-length: %d" % len(content) in headers.lower()
+    assert json.loads(content.splitlines()[-1])["type"] == "end"
 
 
 def test_a_decent_request_id_is_kept(client: httpx.Client) -> None:

@@ -37,10 +37,19 @@ def test_one_json_line_a_request(tmp_path: Path) -> None:
         ("GET", "unmatched", 404),
         ("HEAD", "/healthz", 200),
     ]
+    assert {line["client"] for line in mine} == {"127.0.0.1"}
     assert [line["request_id"] for line in mine[:2]] == ["first", "second"]
     assert all(float(str(line["duration_ms"])) >= 0 for line in mine)
     assert "secret" not in log.read_text("utf-8")
     assert "hidden" not in log.read_text("utf-8")
+
+
+def test_the_address_of_clients_may_be_left_out(tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    with running_server(log=log, workers=1, log_clients=False) as (_, address):
+        httpx.get(f"{address}/healthz")
+    assert [line["client"] for line in lines_of(log)] == [None]
+    assert "127.0.0.1" not in log.read_text("utf-8").partition("/docs")[2]
 
 
 def test_internal_and_parser_errors_are_logged_and_counted(tmp_path: Path) -> None:

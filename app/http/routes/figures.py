@@ -19,7 +19,7 @@ Theme = Literal["light", "dark"]
 FORMATS: tuple[Format, ...] = get_args(Format)
 THEMES: tuple[Theme, ...] = get_args(Theme)
 # A figure fetched alone runs nothing and loads nothing; its styles and images are its own.
-ALONE = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
+ALONE = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
 _FIGURES = {each.path: {figure.name: figure for figure in each.figures} for each in CALCULATIONS}
 
 router = APIRouter(tags=["figures"])

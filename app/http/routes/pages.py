@@ -7,7 +7,7 @@ from urllib.parse import quote
 from fastapi import APIRouter, HTTPException, Request, Response
 from fastapi.responses import RedirectResponse
 
-from app.calculations import CALCULATIONS, Calculation
+from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import PROBLEMS, Unreadable
 from app.examples import examples
 from app.figures.rendering import MEDIA_TYPES
@@ -128,6 +128,8 @@ async def asked_of(http: Request, calculation: Calculation) -> tuple[views.Asked
     sent, looks = split_views(pairs_of_query(text))
     given = {name: value for name, value in looks.items() if value}
     if (example := examples().get(dict(sent).get("example", ""))) is not None:
+        if example.endpoint != calculation.path:
+            raise Unreadable(f"{example.name} is an example of {page_path(BY_PATH[example.endpoint])}")
         sent = pairs_of_query(example_link(calculation, example).partition("?")[2])
         return views.Asked(page_path(calculation), sent, given, root=root_of(http)), False
     pairs = normalised(calculation.request, sent)

@@ -6,7 +6,7 @@ from contextlib import aclosing
 from functools import partial
 from typing import Any
 
-from fastapi import APIRouter, HTTPException, Request, Response
+from fastapi import APIRouter, Depends, HTTPException, Request, Response
 
 from app.calculations import CALCULATIONS, Calculation
 from app.errors import ClientGone, DeadlineExceeded, StudyEnded, WorkerLost
@@ -41,7 +41,14 @@ NOT_DRAWN = (
     b'<span class="ready" hidden></span></div>'
 )
 
-router = APIRouter(include_in_schema=False)
+
+def not_from_another_site(http: Request) -> None:
+    """403 where a page of another site asks for a study: what minutes of every core go into is asked for here."""
+    if http.url.query and http.headers.get("sec-fetch-site") == "cross-site":
+        raise HTTPException(403, "Studies are not started from the pages of other sites; open the address by itself")
+
+
+router = APIRouter(include_in_schema=False, dependencies=[Depends(not_from_another_site)])
 
 
 def _add(calculation: Calculation, own: StudyPage) -> None:
