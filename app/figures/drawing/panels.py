@@ -104,7 +104,10 @@ def _end(axes: Axes, panel: Panel) -> None:
         drawn = [each.dataLim for each in axes.get_shared_x_axes().get_siblings(axes)]
         low, high = Bbox.union([box for box in drawn if np.isfinite(box.intervalx).all()]).intervalx
         reach = high - low or 1.0
-        axes.set_xlim(low - 0.35 * reach if low < -SHORT * reach else low, high + 0.04 * reach)
+        axes.set_xlim(
+            low - 0.35 * reach if low < -SHORT * reach else low,
+            high + (0.2 if any(row.parts for row in panel.rows) else 0.04) * reach,
+        )
         return
     axes.margins(y=0.0 if panel.map else 0.16 if panel.marks else 0.08)
     axes.set_xlim(panel.x.limits)
