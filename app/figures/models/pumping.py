@@ -204,8 +204,7 @@ def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves)
     limit = number(inputs.search_limit / RPM, "1/min")
     onsets = (f"not up to {limit}" if at is None else f"from {number(at, '1/min')}" for at in speeds.values())
     texts = (f"{name} {onset}" for name, onset in zip(speeds, onsets, strict=True))
-    why = "a curve is the largest over ends and stroke, with a kink where another takes over"
-    return Figure(f"sonic: {', '.join(texts)}; {why}", panels, unsolved=int(np.isnan(mach).sum()))
+    return Figure(f"sonic: {', '.join(texts)}", panels, unsolved=int(np.isnan(mach).sum()))
 
 
 def _choking(result: ChokingSpeeds) -> tuple[tuple[str, float | None], ...]:
