@@ -15,5 +15,5 @@ USER nobody
 ENV PATH=/opt/tribodrive/bin:$PATH PYTHONDONTWRITEBYTECODE=1 TRIBODRIVE_HOST=0.0.0.0
 WORKDIR /opt/tribodrive
 EXPOSE 8000
-HEALTHCHECK --start-period=60s CMD ["python", "-c", "import httpx; httpx.get('http://127.0.0.1:8000/readyz').raise_for_status()"]
+HEALTHCHECK --start-period=60s CMD ["python", "-c", "import os, httpx; httpx.get(f'http://127.0.0.1:{os.environ.get(\"TRIBODRIVE_PORT\", 8000)}/readyz').raise_for_status()"]
 CMD ["python", "-m", "app"]

@@ -144,7 +144,8 @@ def _wrong(fault: ErrorDetails) -> str:
 
 def _listener(limits: Settings) -> socket.socket:
     family, _, _, _, address = socket.getaddrinfo(limits.host, limits.port, type=socket.SOCK_STREAM)[0]
-    return socket.create_server(address[:2], family=family, backlog=1024)
+    both = family == socket.AF_INET6 and socket.has_dualstack_ipv6()  # so that `::` serves IPv4 as well
+    return socket.create_server(address[:2], family=family, backlog=1024, dualstack_ipv6=both)
 
 
 def _documentation() -> str:

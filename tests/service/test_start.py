@@ -1,5 +1,6 @@
 """The first start: open at once, coupling first, stoppable at any moment; and a cache in every state of disrepair."""
 
+import json
 import os
 import signal
 import socket
@@ -109,6 +110,29 @@ def test_port_in_use_is_said_at_once() -> None:
     assert outcome.returncode == 1
     assert outcome.stderr == f"tribodrive: cannot listen on port {port} of 127.0.0.1: Address already in use\n"
     assert outcome.stdout == ""
+
+
+def test_the_image_checks_the_port_it_serves() -> None:
+    instruction = next(
+        line for line in (ROOT / "Dockerfile").read_text().splitlines() if line.startswith("HEALTHCHECK")
+    )
+    program, *arguments = json.loads(instruction.partition(" CMD ")[2])
+    assert program == "python"
+    with running_server() as (_, address):
+        served = {**os.environ, "TRIBODRIVE_PORT": address.rpartition(":")[2]}
+        assert subprocess.run([sys.executable, *arguments], env=served, check=False).returncode == 0
+        silent = {**os.environ, "TRIBODRIVE_PORT": str(free_port())}
+        assert (
+            subprocess.run([sys.executable, *arguments], env=silent, check=False, stderr=subprocess.DEVNULL).returncode
+            == 1
+        )
+
+
+@pytest.mark.skipif(not socket.has_dualstack_ipv6(), reason="no IPv6 here")
+def test_the_unspecified_address_serves_both_families() -> None:
+    with started_server(host="::") as (_, address):
+        wait_until_open(address)
+        wait_until_open(address.replace("127.0.0.1", "[::1]"))
 
 
 def answer_after_a_start(cache: Path, log: Path, seconds: float = 120) -> bytes:
