@@ -62,7 +62,7 @@ class Oil(SheetOil, of=OilChoice):
     """The oil of a lubricated contact: by grade, by data sheet or by its viscosity; nothing names none."""
 
     exclusive: ClassVar = (
-        ("viscosity_pa_s", "iso_vg", "kinematic_viscosity_40_mm2_per_s"),
+        ("iso_vg", "viscosity_pa_s", "kinematic_viscosity_40_mm2_per_s"),
         ("reference_temperature_c", "iso_vg", "kinematic_viscosity_40_mm2_per_s"),
     )
 
@@ -126,7 +126,7 @@ _WITH_VISCOSITY = tuple(
 class CouplingLubricant(SheetOil, of=CouplingOil):
     """Oil at the teeth."""
 
-    exclusive: ClassVar = (("viscosity_pa_s", "iso_vg", "kinematic_viscosity_40_mm2_per_s"),)
+    exclusive: ClassVar = (("iso_vg", "viscosity_pa_s", "kinematic_viscosity_40_mm2_per_s"),)
 
     @model_validator(mode="before")
     @classmethod
