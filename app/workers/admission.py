@@ -10,6 +10,8 @@ from app.settings import Settings
 from app.workers.pool import Pool
 from app.workers.shares import Job
 
+GRACE_S = 0.5  # after a study has ended: calculations about to finish save their worker
+
 
 class Runner:
     """Single calculations, each for the client of a request."""
@@ -57,9 +59,17 @@ class StudyPool:
         self.slots = pool.size
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
-        """The function's result; cancelled, the call ends at once.
+        """The function's result; cancelled, the call ends at once if it waits, and else after GRACE_S.
 
         The future raises WorkerLost, DeadlineExceeded, and what the function raises.
         """
         job = Job(self, self, self._deadline_s, of_study=True)
-        return asyncio.create_task(self._pool.run(job, function, *arguments))
+        call = asyncio.create_task(self._pool.run(job, function, *arguments))
+        outcome = asyncio.shield(call)
+
+        def end(_: object) -> None:
+            if outcome.cancelled():
+                asyncio.get_running_loop().call_later(GRACE_S if job.worker else 0.0, call.cancel)
+
+        outcome.add_done_callback(end)
+        return outcome

@@ -171,7 +171,7 @@ def test_from_a_data_sheet_to_a_safety_factor_in_one_request() -> None:
             "/v1/scuffing",
             PAIR,
             {"lubricant": {"iso_vg": 220, "viscosity_pa_s": 0.1}},
-            "viscosity_pa_s and iso_vg are both given; keep one",
+            "iso_vg and viscosity_pa_s are both given; keep one",
         ),
         (
             "/v1/scuffing",
