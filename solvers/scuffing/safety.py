@@ -101,13 +101,13 @@ def _checked_line(inputs: ScuffingInputs, distribution: LoadDistribution) -> Fea
             psi,
         )
 
-    survey = _closed_form_path(inputs, line_at(np.linspace(0.0, 1.0, SURVEY_POINTS)))
+    survey = line_at(np.linspace(0.0, 1.0, SURVEY_POINTS))
     psi = [*np.linspace(0.0, 1.0, inputs.path_points)]
-    for curve, extreme in ((survey.blok_flash, np.nanargmax), (survey.dowson_higginson, np.nanargmin)):
-        if "ok" in survey.status and np.isfinite(curve).any():
+    for curve, extreme in ((blok_flash(given, survey), np.nanargmax), (_film(inputs, survey), np.nanargmin)):
+        if np.isfinite(curve[survey.in_contact]).any():
             psi.append(survey.psi[extreme(curve)])
-    if "refused" in survey.status:
-        psi.append(survey.psi[survey.status.index("refused")])
+    if survey.undefined.any():
+        psi.append(survey.psi[np.argmax(survey.undefined)])
     return line_at(np.unique(psi))
 
 
@@ -144,27 +144,32 @@ def _closed_form_path(inputs: ScuffingInputs, line: FeatureLine) -> ScuffingPath
 
     A loaded point too near a base circle has neither: it is "refused". Without an oil there is no film.
     """
-    given, lubricant, bulk = inputs.distribution, inputs.lubricant, inputs.temperatures.bulk
-    pinion, wheel = given.pinion_material, given.wheel_material
-    defined = line.in_contact
-    film = np.full(line.psi.size, np.nan)
-    speed_1, speed_2, load = line.pinion_speed[defined], line.wheel_speed[defined], line.line_load[defined]
-    if lubricant is not None and bulk is not None:
-        film[defined] = dowson_higginson_minimum(
-            viscosity=lubricant.viscosity_at(0.0, bulk),
-            pressure_viscosity=lubricant.pressure_viscosity,
-            mean_speed=(speed_1 + speed_2) / 2,
-            radius=line.radius[defined],
-            line_load=load,
-            modulus=reduced_modulus(pinion, wheel),
-        )
+    pinion, wheel = inputs.distribution.pinion_material, inputs.distribution.wheel_material
+    film = _film(inputs, line)
     return ScuffingPath(
         psi=line.psi,
-        status=tuple(np.where(defined, "ok", np.where(line.undefined, "refused", "unloaded")).tolist()),
-        blok_flash=frozen(blok_flash(given, line)),
+        status=tuple(np.where(line.in_contact, "ok", np.where(line.undefined, "refused", "unloaded")).tolist()),
+        blok_flash=frozen(blok_flash(inputs.distribution, line)),
         dowson_higginson=frozen(film),
         thickness_ratio=frozen(thickness_ratio(film, pinion.roughness, wheel.roughness)),
     )
+
+
+def _film(inputs: ScuffingInputs, line: FeatureLine) -> FloatArray:
+    """Minimum film [m] along the feature line (Eq. 27); NaN without an oil and where nothing is in contact."""
+    given, lubricant, bulk = inputs.distribution, inputs.lubricant, inputs.temperatures.bulk
+    film = np.full(line.psi.size, np.nan)
+    if lubricant is not None and bulk is not None:
+        defined = line.in_contact
+        film[defined] = dowson_higginson_minimum(
+            viscosity=lubricant.viscosity_at(0.0, bulk),
+            pressure_viscosity=lubricant.pressure_viscosity,
+            mean_speed=(line.pinion_speed[defined] + line.wheel_speed[defined]) / 2,
+            radius=line.radius[defined],
+            line_load=line.line_load[defined],
+            modulus=reduced_modulus(given.pinion_material, given.wheel_material),
+        )
+    return film
 
 
 def _with_thermal(inputs: ScuffingInputs, path: ScuffingPath, thermal: ThermalPath) -> ScuffingPath:
