@@ -105,7 +105,7 @@ class Bars:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A part of a row's value."""
+    """A part of a row's value, or one of its values."""
 
     title: str
     value: float
@@ -116,7 +116,8 @@ class Part:
 class Row:
     """A named value drawn as a horizontal bar, with its bounds where it is indeterminate; or the sum of its parts.
 
-    NaN is a value that was not calculated, and is said to be that.
+    NaN is a value that was not calculated, and is said to be that. Instead of the bar `dots` are points on a line, each
+    with its title.
     """
 
     name: str
@@ -125,6 +126,7 @@ class Row:
     bounds: tuple[float, float] | None = None
     role: Role = Role.RESULT
     parts: tuple[Part, ...] = ()
+    dots: tuple[Part, ...] = ()
 
 
 class Scale(StrEnum):

@@ -1,6 +1,6 @@
 """Figures of a load spectrum: the output of every case against its limit, probabilities, what decides, mean losses."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -98,7 +98,7 @@ class Limited:
 
 def overlap(found: Limited) -> Figure:
     """The densities of the worst case and of the limit, and below them the band of every case."""
-    axis = Axis(found.output.title, found.output.unit, magnitude=False)
+    axis = replace(found.output, magnitude=False)
     cases = [each for each in found.cases if each.band is not None]
     if not cases:
         raise NoFigure("no_solution", "no case has a solution")

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from app.figures.data import (
+    NO_BREAK,
     ORDER,
     Axis,
     Critical,
@@ -17,6 +18,7 @@ from app.figures.data import (
     Map,
     Mark,
     Panel,
+    Part,
     Ribbon,
     Role,
     Row,
@@ -229,6 +231,7 @@ def _best_of_curve(grid: Grid) -> tuple[Mark, ...]:
 
 MOST_ROWS = 12
 NAMED = 3  # in the finding
+STAR = f"{NO_BREAK}*"
 
 
 @dataclass(frozen=True, slots=True)
@@ -242,15 +245,20 @@ class Influence:
 
 
 def influence(output: Axis, value: float, found: list[Influence]) -> Figure:
-    """Horizontal bars, the most influential input first; in a second hue where the slope depends on the side."""
+    """Horizontal bars in the hue of their sign, the most influential input first; a star where the sides differ."""
     moving = [each for each in found if each.change][:MOST_ROWS]
     rows = tuple(
-        Row(f"{each.name}, {each.step}", each.change, Hue.VERMILLION if each.kink else Hue.BLUE) for each in moving
+        Row(
+            f"{each.name}, {each.step.replace(' ', NO_BREAK)}{STAR if each.kink else ''}",
+            each.change,
+            Hue.BLUE if each.change > 0.0 else Hue.VERMILLION,
+        )
+        for each in moving
     )
     title = f"What moves the {output.title} most"
     if not rows:
         return Figure("nothing does", (), title=title)
-    kinks = "; where the bar is red, up and down differ" if any(each.kink for each in moving) else ""
+    kinks = f";{STAR} a step down changes it by another amount" if any(each.kink for each in moving) else ""
     finding = f"{number(value, output.unit or '')} now; {listed([each.name for each in moving[:NAMED]])} first{kinks}"
     axis = Axis(f"change of the {output.title} by one step up, from the steeper side", output.unit)
     return Figure(finding, (Panel(x=axis, y=axis, rows=rows),), title=title)
@@ -258,23 +266,31 @@ def influence(output: Axis, value: float, found: list[Influence]) -> Figure:
 
 @dataclass(frozen=True, slots=True)
 class Uncertain:
-    """An uncertain input at one of its values: the worst output with it, and whether the worst corner of all has it."""
+    """An uncertain input: for each of its values the worst output with it; `decides` is that of the worst corner."""
 
     name: str
-    choice: str
-    worst: float
-    decides: bool
+    worst: dict[str, float]
+    decides: str
 
 
-def corners(output: Axis, found: list[Uncertain]) -> Figure:
-    """Horizontal bars, input by input; those that meet in the worst corner in a second hue."""
+def corners(output: Axis, found: list[Uncertain], nominal: float | None) -> Figure:
+    """A line for each input, from the worst output with one of its values to that with another; the case as it is."""
+    unit = output.unit or ""
     rows = tuple(
-        Row(f"{each.name} {each.choice}", each.worst, Hue.VERMILLION if each.decides else Hue.BLUE) for each in found
+        Row(
+            each.name,
+            each.worst[each.decides],
+            dots=tuple(
+                Part(text, worst, Hue.VERMILLION if text == each.decides else Hue.BLUE)
+                for text, worst in each.worst.items()
+            ),
+        )
+        for each in found
     )
-    worst = next(each.worst for each in found if each.decides)
-    finding = f"worst {number(worst, output.unit or '')}, where the red values meet"
-    panel = Panel(x=output, y=Axis("uncertain input"), rows=rows)
-    return Figure(finding, (panel,), title="The worst that each value of an uncertain input can lead to")
+    levels = () if nominal is None else (Level(nominal, f"as described {number(nominal, unit)}", vertical=True),)
+    finding = f"worst {number(rows[0].value, unit)}, where the values in red meet"
+    panel = Panel(x=replace(output, magnitude=False), y=Axis("uncertain input"), rows=rows, levels=levels)
+    return Figure(finding, (panel,), title="The worst that each uncertain input can lead to")
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,7 +6,7 @@ from io import StringIO
 
 import numpy as np
 
-from app.figures.data import Axis, Figure, Map, Panel, Role, Values
+from app.figures.data import Axis, Figure, Map, Panel, Role, Row, Values
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,6 +75,8 @@ def _columns(panel: Panel) -> list[Column]:
 
 def _row_columns(panel: Panel, prefix: str) -> list[Column]:
     own = [row for row in panel.rows if row.role is not Role.VARIANT]
+    if any(row.dots for row in own):
+        own = [Row(f"{row.name} {dot.title}", dot.value) for row in own for dot in row.dots]
     columns: list[Column] = [
         Column(f"{prefix}name", [row.name for row in own]),
         Column(prefix + _header(panel.x), np.array([row.value for row in own])),

@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from app.figures.data import Axis
+from app.schema.fields import Leaf
 from solvers.quantity import UNITS, Quantity, quantities
 
 T = TypeVar("T")
@@ -29,6 +30,11 @@ def axis(kind: Any, name: str, title: str = "", **known: Any) -> Axis:
     declared = quantities(kind)[name]
     unit = UNITS[declared.unit].symbol if declared.unit else None
     return Axis(title or declared.title, unit, symbol=declared.symbol or "", **known)
+
+
+def axis_of(leaf: Leaf, **known: Any) -> Axis:
+    """The axis of a field of a request or of an answer."""
+    return Axis(leaf.title, leaf.unit, symbol=leaf.declared.symbol or "", **known)
 
 
 def _converted(value: Any, declared: Quantity | None) -> Any:

@@ -22,6 +22,7 @@ from app.examples import Example, examples
 from app.figures.data import Axis, Figure, Hue, Level, Line, Map, Mark, NoFigure, Panel, Row, ThemeName, values
 from app.figures.drawing.image import draw, laid_out, places
 from app.figures.drawing.style import THEMES, WIDTH, settings
+from app.figures.studies import Influence, Uncertain, corners, influence
 
 X = np.linspace(0.0, 1.0, 41)
 PEAK = 4.0 * X * (1.0 - X)
@@ -144,6 +145,20 @@ def test_maps_side_by_side_name_a_common_ordinate_once() -> None:
     for panels, count in (((first, first), 1), ((other, first), 1), ((first, other, first), 2)):
         image = draw(Figure("", panels, title="maps", beside=True), "svg").decode()
         assert image.count(">profile (0: A, 1: E)<") == count
+
+
+def test_rows_of_long_names_are_whole_and_in_the_hue_of_their_sign() -> None:
+    output = Axis("scuffing safety on the flank by Blok", symbol="S_B")
+    steps = [
+        Influence(f"radial clearance of the bearing {each}, wheel shaft", "+15 µm", change, kink=True)
+        for each, change in enumerate((0.26, -0.087, 0.079, -0.0378))
+    ]
+    bars = influence(output, 2.19, steps)
+    assert not list(faults(bars))
+    (panel,) = bars.panels
+    assert [row.hue for row in panel.rows] == [Hue.BLUE, Hue.VERMILLION, Hue.BLUE, Hue.VERMILLION]
+    found = [Uncertain(each.name, {"165, 135 µm": 1.62, "135, 165 µm": 1.87}, "165, 135 µm") for each in steps]
+    assert not list(faults(corners(output, found, 2.19)))
 
 
 ONES = values([1.0, 1.0, 1.0])

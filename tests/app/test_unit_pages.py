@@ -94,10 +94,13 @@ def test_the_worst_corner_is_that_of_least_safety_and_its_load_is_drawn() -> Non
     result = CORNERS.result(study, lines)
     assert set(result.figures) <= set(CORNERS.figures)
     assert [row[2] for row in rows_of(page, "The worst corner")] == [shown(value) for value in changed.values()]
-    bars = result.figures["corners"].panels[0].rows
-    assert len(bars) == sum(len(axis["values"]) for axis in lines[0]["axes"])
-    assert min(bar.value for bar in bars) == worst["out"][0]
-    assert sum(bar.hue == "vermillion" for bar in bars) == len(lines[0]["axes"])
+    (panel,) = result.figures["corners"].panels
+    assert [len(row.dots) for row in panel.rows] == [len(axis["values"]) for axis in lines[0]["axes"]]
+    for row in panel.rows:
+        assert min(dot.value for dot in row.dots) == worst["out"][0] == row.value
+        assert [dot.value for dot in row.dots if dot.hue == "vermillion"] == [row.value]
+    nominal = case_at(study.asked, {}, [SAFETY]).response.safety.blok_flank
+    assert [(level.value, level.vertical) for level in panel.levels] == [(nominal, True)]
     curves = result.figures["face-load"].panels[0].lines
     assert [(line.title, line.role) for line in curves] == [("worst corner", "result"), ("as described", "variant")]
     for line, changes in zip(curves, (changed, {}), strict=True):

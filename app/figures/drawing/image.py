@@ -14,7 +14,7 @@ from matplotlib.figure import Figure as Sheet
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from app.figures.data import Figure, Panel, ThemeName
-from app.figures.drawing.panels import draw_panel, place_texts
+from app.figures.drawing.panels import ROW_NAME_LENGTH, draw_panel, place_texts
 from app.figures.drawing.style import DPI, TEXT, THEMES, TITLE, WIDTH, Theme, settings
 
 EDGE = 0.1  # inches around everything
@@ -22,7 +22,7 @@ TITLE_LINE, FINDING_LINE = 1.3 * TITLE / 72.0, 1.3 * TEXT / 72.0
 TITLE_LENGTH, FINDING_LENGTH = 58, 84  # characters of a line
 HEIGHTS = {1: 2.6, 2: 1.65, 3: 1.3}  # inches, of panels above each other
 PLANE_HEIGHT = 3.3
-ROW_HEIGHT = 0.26
+ROW_HEIGHT, WRAPPED_ROW_HEIGHT = 0.26, 0.34
 ABSCISSA_LENGTH = 30  # characters of a line below axes that stand beside others
 ABSCISSA = 0.45  # inches, ticks and name
 CANVASES = {"svg": FigureCanvasSVG, "png": FigureCanvasAgg, "pdf": FigureCanvasPdf}
@@ -133,7 +133,9 @@ def _body_height(figure: Figure) -> float:
 def _height(panel: Panel, figure: Figure) -> float:
     """Height of a panel without what stands below it, in inches."""
     if panel.rows:
-        return ROW_HEIGHT * (len({row.name for row in panel.rows}) + (1 if panel.levels or panel.title else 0.3))
+        names = {row.name for row in panel.rows}
+        height = WRAPPED_ROW_HEIGHT if any(len(name) > ROW_NAME_LENGTH for name in names) else ROW_HEIGHT
+        return height * (len(names) + (1 if panel.levels or panel.title else 0.3))
     if panel.equal or panel.areas:
         return PLANE_HEIGHT
     return HEIGHTS[1 if figure.beside else min(len(figure.panels), max(HEIGHTS))]

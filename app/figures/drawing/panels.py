@@ -22,7 +22,7 @@ from app.figures.drawing.style import DASHES, LETTER, LIMIT_DASHES, LINE_HEIGHT,
 from app.figures.wording import number
 
 FARTHEST_LEVEL = 4.0  # a limit beyond so many times the values is named at the edge instead of flattening them
-NAME_LENGTH = 17  # characters of a line of a name beside the axes
+NAME_LENGTH, ROW_NAME_LENGTH = 17, 36  # characters of a line of a name at the right of the axes, and of a row's
 BAR_SHARE = 0.8  # of the spacing
 FAINT = 0.6  # of bars beside the extreme one
 RING = 5  # pixels
@@ -32,7 +32,8 @@ COLOURS = {Scale.MAGNITUDE: "cividis", Scale.RATIO: "RdBu_r", Scale.SIGNED: "RdB
 RATIO_TICKS = (0.1, 0.2, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 LINEAR_RATIO = 1.3  # up to which a ratio's ticks are evenly spaced
 CROWDED = 0.05  # of the colour bar: a tick nearer to a critical value gives way
-SHORT = 0.02  # of the longest bar: the value of a shorter one stands at its right, negative or not
+LONG_LABEL = 40  # characters beyond which the name of an abscissa may be wider than its axes
+DOTS_MARGINS = 0.55, 0.4  # of the reach of dots, for their titles
 WIDE = 0.15  # of the longest bar: bounds farther apart have their values at their ends
 NOISE = 1e-9  # of the values: what varies by less is rounding error
 STEPS = (1, 2, 2.5, 5, 10)
@@ -74,7 +75,8 @@ def draw_panel(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
         axes.axvspan(span.start, span.stop, facecolor=theme.shade, edgecolor="none", zorder=2 if panel.map else 0)
         _name(axes, span.name, ((span.start + span.stop) / 2, 1.0), theme.muted, theme, axes.get_xaxis_transform())
     _end(axes, panel)
-    axes.set(xlabel=panel.x.label, title=panel.title or "")
+    axes.set(title=panel.title or "")
+    axes.set_xlabel(panel.x.label, loc="right" if len(panel.x.label) > LONG_LABEL else "center")
     if not panel.rows:
         axes.set_ylabel(fill(panel.y.label, max(round(height / LETTER), 10)))
     _name_beside(axes, panel, levels, theme, height)
@@ -103,11 +105,10 @@ def _end(axes: Axes, panel: Panel) -> None:
     if panel.rows:
         drawn = [each.dataLim for each in axes.get_shared_x_axes().get_siblings(axes)]
         low, high = Bbox.union([box for box in drawn if np.isfinite(box.intervalx).all()]).intervalx
+        dots, named = any(row.dots for row in panel.rows), any(row.parts or row.bounds for row in panel.rows)
+        left, right = DOTS_MARGINS if dots else (0.35 * (low < 0.0) * named, 0.2 if named else 0.04)
         reach = high - low or 1.0
-        axes.set_xlim(
-            low - 0.35 * reach if low < -SHORT * reach else low,
-            high + (0.2 if any(row.parts for row in panel.rows) else 0.04) * reach,
-        )
+        axes.set_xlim(low - left * reach, high + right * reach)
         return
     axes.margins(y=0.0 if panel.map else 0.16 if panel.marks else 0.08)
     axes.set_xlim(panel.x.limits)
@@ -147,33 +148,34 @@ def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
     scale = max((abs(row.value) for row in panel.rows if np.isfinite(row.value)), default=0.0)
     axes.grid(visible=False, axis="y")
     axes.spines["left"].set_visible(False)
-    axes.axvline(0.0, color=theme.frame, linewidth=0.9)
+    if not any(row.dots for row in panel.rows):
+        axes.axvline(0.0, color=theme.frame, linewidth=0.9)
     for row in (row for row in panel.rows if row.name in own):
         color, place = theme.drawing[row.hue], names.index(row.name)
         outline: Style = {"facecolor": "none", "edgecolor": color, "linestyle": DASHES[row.role]}
         if row.parts:
             _draw_parts(axes, place, row, theme)
+        elif row.dots:
+            _draw_dots(axes, place, row, theme)
         else:
             axes.barh(
                 place, np.nan_to_num(row.value), 0.52, **(outline if row.role is Role.VARIANT else {"color": color})
             )
         if row.bounds is not None and row.bounds[0] < row.bounds[1]:
             axes.plot(row.bounds, [place, place], color=theme.ink, linewidth=1.2, marker="|", markersize=7)
-    for place, (name, row) in enumerate(own.items()):
+    for place, (name, row) in enumerate((name, row) for name, row in own.items() if not row.dots):
         ends = [0.0, *(end for each in panel.rows if each.name == name for end in (each.value, *(each.bounds or ())))]
-        right = not row.value < -SHORT * scale
-        tip, side = (max(ends), "left") if right else (min(ends), "right")
         style: Style = {"va": "center_baseline", "bbox": _patch(theme), "textcoords": "offset points"}
         offset = 4.0
         if row.bounds is not None and row.bounds[1] - row.bounds[0] > WIDE * scale:
             low, high = (number(end, panel.x.unit or "") for end in row.bounds)
             axes.annotate(low, (row.bounds[0], place), (-5, 0), color=theme.muted, ha="right", **style)
             axes.annotate(high, (row.bounds[1], place), (5, 0), color=theme.muted, ha="left", **style)
-            offset += 8.0 + 72.0 * LETTER * len(high if right else low)
+            offset += 8.0 + 72.0 * LETTER * len(high)
         text = _value(row.value, scale, panel.x.unit or "")
         style |= {"fontsize": TEXT, "fontweight": "bold"}
-        axes.annotate(text, (tip, place), (offset if right else -offset, 0), ha=side, **style)
-    axes.set_yticks(range(len(own)), names)
+        axes.annotate(text, (max(ends), place), (offset, 0), ha="left", **style)
+    axes.set_yticks(range(len(own)), [fill(name, ROW_NAME_LENGTH) for name in names])
     axes.set_ylim(len(own) - 0.5, -1.2 if panel.levels else -0.5)
     for label, row in zip(axes.get_yticklabels(), own.values(), strict=True):
         label.set_color(theme.writing[row.hue])
@@ -192,6 +194,17 @@ def _draw_parts(axes: Axes, place: int, row: Row, theme: Theme) -> None:
     for part in row.parts:
         axes.barh(place, part.value, 0.52, left=left, color=theme.drawing[part.hue])
         left += part.value
+
+
+def _draw_dots(axes: Axes, place: int, row: Row, theme: Theme) -> None:
+    """The values of a row on a line with titles at its ends."""
+    dots = sorted(row.dots, key=lambda dot: dot.value)
+    axes.plot([dot.value for dot in dots], [place] * len(dots), color=theme.frame, linewidth=3.0, zorder=1)
+    for dot in dots:
+        axes.plot(dot.value, place, "o", color=theme.drawing[dot.hue], markersize=7)
+    style: Style = {"va": "center_baseline", "textcoords": "offset points"}
+    for dot, offset, side in ((dots[0], -7, "right"), (dots[-1], 7, "left")):
+        axes.annotate(dot.title, (dot.value, place), (offset, 0), ha=side, color=theme.writing[dot.hue], **style)
 
 
 def _draw_area(axes: Axes, area: Area, theme: Theme) -> None:

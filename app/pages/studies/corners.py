@@ -4,9 +4,10 @@ from dataclasses import replace
 from typing import Any
 
 from app.figures.comparison import compared
-from app.figures.data import Axis, Figure, NoFigure
+from app.figures.data import Figure, NoFigure
 from app.figures.models.drive_train import LOAD_ALONE
 from app.figures.studies import Uncertain, corners
+from app.figures.units import axis_of
 from app.figures.wording import listed, number
 from app.pages import study_links
 from app.pages.cases import Case
@@ -111,7 +112,7 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     worst = extremes[output.path][worst_end(output)]["at"]
     outputs = [each["path"] for each in header["outputs"]]
     case, other = case_at(study.asked, {}, outputs), case_at(study.asked, worst, outputs)
-    found = {"corners": corners(Axis(output.title, output.unit), _uncertain(study, lines, worst))}
+    found = {"corners": corners(axis_of(output), _uncertain(study, lines, worst), value_at(case.response, output.path))}
     found |= load_figure(other, case, "worst corner", "worst corner and, dashed, as described: ")
     return Result(
         progress,
@@ -176,18 +177,16 @@ def _uncertain(study: PageStudy, lines: list[Line], worst: Overrides) -> list[Un
         titles = dict.fromkeys(
             scalar_at(study.asked.calculation.request, path, "", "unknown_path").title for path in paths
         )
+        reached, decides = dict[str, float](), ""
         for value in axis["values"]:
             known = [line["out"][0] for line in points if line["at"][place] == value and line["out"][0] is not None]
+            each = value if isinstance(value, list) else [value] * len(paths)
+            text = _choice(each, axis["unit"])
             if known:
-                each = value if isinstance(value, list) else [value] * len(paths)
-                found.append(
-                    Uncertain(
-                        name=listed(list(titles)),
-                        choice=_choice(each, axis["unit"]),
-                        worst=pick(known),
-                        decides=all(worst[path] == own for path, own in zip(paths, each, strict=True)),
-                    )
-                )
+                reached[text] = pick(known)
+            if all(worst[path] == own for path, own in zip(paths, each, strict=True)):
+                decides = text
+        found.append(Uncertain(listed(list(titles)), reached, decides))
     return found
 
 

@@ -4,9 +4,10 @@ from math import inf
 from typing import Any, NamedTuple
 
 from app.figures.comparison import compared
-from app.figures.data import Axis, Figure, NoFigure, values
+from app.figures.data import Figure, NoFigure, values
 from app.figures.models.drive_train import GAP
 from app.figures.studies import LeadTrace, Tried, lead_chart, search
+from app.figures.units import axis_of
 from app.pages import study_links
 from app.pages.cases import Case
 from app.pages.query import LOWER, TRIALS, UPPER, body_of, number_of, text_of
@@ -100,7 +101,7 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     tried = [
         Tried(inf if line["objective"] is None else line["objective"], line["objective"] is not None) for line in trials
     ]
-    figure = {"search": search(Axis(output.title, output.unit), tried, greatest=greatest)}
+    figure = {"search": search(axis_of(output), tried, greatest=greatest)}
     if end["type"] != "end":
         best = (max if greatest else min)(solved, key=lambda line: line["objective"])
         lead = Lead("Open the unit ground so", address_at(asked, best["at"]))

@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from app.figures.data import Axis
 from app.figures.studies import Influence, influence
+from app.figures.units import axis_of
 from app.pages import study_links
 from app.pages.query import body_of, link
 from app.pages.studies.declaration import Cell, PageStudy, Result, StudyPage, Table
@@ -39,7 +39,7 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
             Influence(_name(inputs[line["path"]]), _step(line, inputs), line["change"], bool(line["kink"]))
             for line in moved
         ]
-        figure = influence(Axis(output.title, output.unit), float(value), steps)
+        figure = influence(axis_of(output), float(value), steps)
         if figure.panels:
             figures["influence"] = figure
         else:

@@ -6,8 +6,9 @@ from typing import Any
 
 from app.calculations import Calculation
 from app.errors import Unprocessable
-from app.figures.data import Axis, Figure, NoFigure
+from app.figures.data import Figure, NoFigure
 from app.figures.spectrum import Band, Chance, Limited, SpectrumCase, chances, deciding, losses, overlap
+from app.figures.units import axis_of
 from app.figures.wording import percent
 from app.pages.form import FieldView
 from app.pages.query import SCATTERING, Pairs, body_of, link, number_of, pairs_of, text_of
@@ -287,7 +288,7 @@ def _limited(study: PageStudy, header: Line, end: Line, found: Line) -> Limited:
     titles = {each["path"]: each["title"] for each in (header["tolerances"] or {"inputs": []})["inputs"]}
     known = {titles[path]: value for path, value in (found["rank_correlation"] or {}).items() if value is not None}
     return Limited(
-        output=Axis(output.title, output.unit),
+        output=axis_of(output),
         above=found["side"] == "above",
         mean=found["mean"],
         deviation=found["deviation"],

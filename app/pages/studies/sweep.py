@@ -10,8 +10,9 @@ import numpy as np
 
 from app.calculations import Calculation
 from app.errors import InvalidBody, Unprocessable
-from app.figures.data import Axis, Figure, values
+from app.figures.data import Figure, values
 from app.figures.studies import Coordinate, Grid, figures_of
+from app.figures.units import axis_of
 from app.pages.form import FieldView
 from app.pages.query import Pairs, body_of, link, number_of
 from app.pages.studies.declaration import (
@@ -309,7 +310,7 @@ def _grid(study: PageStudy, points: PointSet, fields: list[VariedField], receive
     return Grid(
         x=coordinates[0],
         y=coordinates[1] if len(coordinates) > 1 else None,
-        output=Axis(study.output.title, study.output.unit),
+        output=axis_of(study.output),
         values=values(found.reshape([len(each) for each in axes])[np.ix_(*orders)]),
         greatest=_is_greatest_best(study.asked, study.output),
         limit=_limit(study),
@@ -324,13 +325,13 @@ def _coordinate(field: VariedField, listed: list[Scalar | list[Scalar]]) -> tupl
     leaf = field.leaf
     if not all(isinstance(each, int | float) and not isinstance(each, bool) for each in listed):
         texts = tuple(("yes" if each else "no") if isinstance(each, bool) else words(str(each)) for each in listed)
-        return Coordinate(Axis(leaf.title), values(list(range(len(listed)))), texts), list(range(len(listed)))
+        return Coordinate(axis_of(leaf), values(list(range(len(listed)))), texts), list(range(len(listed)))
     numbers = np.array(listed, dtype=np.float64)
     order = np.argsort(numbers, kind="stable")
     rising = values(numbers[order])
     log = field.axis.get("scale") == "log"
     limits = (float(rising[0]), float(rising[-1])) if log else None
-    axis = Axis(leaf.title, leaf.unit, log=log, magnitude=False, limits=limits)
+    axis = axis_of(leaf, log=log, magnitude=False, limits=limits)
     scatters = leaf.declared.tolerance is not None
     return Coordinate(axis, rising, own=field.own, scatters=scatters), order.tolist()
 
