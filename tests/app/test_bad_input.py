@@ -116,6 +116,7 @@ def test_the_input_is_not_echoed(client: httpx.Client) -> None:
     assert secret not in response.text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
 def test_nothing_gives_500(client: httpx.Client, calculation: Calculation) -> None:
     for path in number_fields(calculation.request):

@@ -45,10 +45,12 @@ def test_a_file_and_the_standard_input_are_solved(tmp_path: Path) -> None:
     assert run("solve", "/v1/coupling", "-", text=json.dumps(COUPLING)).stdout == solved.stdout
 
 
+@pytest.mark.slow
 def test_the_exit_status_tells_warnings() -> None:
     assert run("solve", "/v1/coupling", "-", text=json.dumps(TILTED)).returncode == 3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("endpoint", "text", "message"),
     [

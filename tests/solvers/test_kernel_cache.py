@@ -68,6 +68,7 @@ def test_an_edit_of_a_called_kernel_is_seen(package: Path) -> None:
     assert outcome(package)[:2] == (6.0, False)
 
 
+@pytest.mark.slow
 def test_a_moved_module_is_compiled_again_without_complaint(package: Path) -> None:
     assert outcome(package) == (3.0, False, "")
     (package / "part").mkdir()
@@ -77,6 +78,7 @@ def test_a_moved_module_is_compiled_again_without_complaint(package: Path) -> No
     assert outcome(package, module="solvers.part.outer") == (3.0, True, "")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [0, 20])
 @pytest.mark.parametrize("kind", ["nbi", "nbc"])
 def test_broken_files_are_compiled_again_with_a_word(package: Path, kind: str, size: int) -> None:
@@ -99,6 +101,7 @@ def marked_complete(package: Path) -> None:
     subprocess.run([sys.executable, "-c", program], cwd=package.parent, env=environment, check=True)
 
 
+@pytest.mark.slow
 def test_a_flipped_bit_in_a_complete_cache_is_noticed(package: Path) -> None:
     marked_complete(package)
     assert outcome(package) == (3.0, True, "")
@@ -112,6 +115,7 @@ def test_a_flipped_bit_in_a_complete_cache_is_noticed(package: Path) -> None:
     assert outcome(package) == (3.0, True, "")
 
 
+@pytest.mark.slow
 def test_a_kernel_compiled_after_the_cache_was_complete_is_no_damage(package: Path) -> None:
     marked_complete(package)
     program = PROGRAM.replace("outer(1.0)", "outer(1)")
@@ -119,6 +123,7 @@ def test_a_kernel_compiled_after_the_cache_was_complete_is_no_damage(package: Pa
     assert outcome(package) == (3.0, True, "")
 
 
+@pytest.mark.slow
 def test_code_from_the_cache_is_linked_and_raises(package: Path) -> None:
     inner = "def inner(x):\n    if x < 0.0:\n        raise ValueError('below zero')\n    return 2.0 * x\n"
     (package / "inner.py").write_text(f"from solvers.compiled import kernel\n@kernel\n{inner}")
@@ -146,6 +151,7 @@ print(outer(1.0), len(outer.stats.cache_hits), outer(1), len(outer.stats.cache_h
 """
 
 
+@pytest.mark.slow
 def test_a_read_only_folder_is_read_and_what_it_lacks_is_kept_elsewhere(package: Path) -> None:
     outcome(package)
     kept = package / "__pycache__" / "kernels"
@@ -160,6 +166,7 @@ def test_a_read_only_folder_is_read_and_what_it_lacks_is_kept_elsewhere(package:
     assert {file: file.read_bytes() for file in kept.rglob("*.nb?")} == before
 
 
+@pytest.mark.slow
 def test_kernels_of_others_are_left_to_numba(package: Path) -> None:
     (package.parent / "other.py").write_text(
         "import solvers.outer\nimport numba\n@numba.njit(cache=True)\ndef outer(x):\n    return x + 2.0\n"
@@ -168,5 +175,6 @@ def test_kernels_of_others_are_left_to_numba(package: Path) -> None:
     assert list((package.parent / "__pycache__").glob("other.outer-*.nbi"))
 
 
+@pytest.mark.slow
 def test_without_any_place_kernels_live_in_memory(package: Path) -> None:
     assert outcome(package, "/proc/no-such-place") == (3.0, False, "")
