@@ -15,7 +15,7 @@ from app.calculations import BY_PATH
 from app.examples import examples
 from app.studies.design import design_study
 from app.studies.drive_train import usual_corners
-from app.studies.examples import DESIGN_EXAMPLES
+from app.studies.examples import EXAMPLES
 from app.studies.stream import Clock
 from app.studies.study import Study
 from app.studies.sweep import corners_study
@@ -59,7 +59,7 @@ def corners() -> None:
 
 def search() -> None:
     """The example's design search: 12 corners, 3 variables."""
-    run(design_study, {**DESIGN_EXAMPLES["robust"]["value"], "request": REQUEST})
+    run(design_study, {**EXAMPLES["/v1/drive-train/design"]["robust"]["value"], "request": REQUEST})
 
 
 def run(study_of: Callable[[bytes, int, float], Study], body: dict[str, Any]) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 
 import httpx
 
-from app.studies.examples import SPECTRUM_EXAMPLES
+from app.studies.examples import EXAMPLES
 from tests.support.server import running_server
 
 
@@ -19,7 +19,7 @@ def main() -> None:
     """Print when the header, the first progress and the end came, and the probability."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=128, help="machines of each of the 8 replicates")
-    body: dict[str, Any] = copy.deepcopy(SPECTRUM_EXAMPLES["scuffing"]["value"])
+    body: dict[str, Any] = copy.deepcopy(EXAMPLES["/v1/spectrum"]["scuffing"]["value"])
     body["tolerances"] |= {"count": parser.parse_args().count, "replicates": 8}
     with running_server(workers=2, log_level="error") as (_, address):
         wait(address)

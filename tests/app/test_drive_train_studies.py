@@ -11,7 +11,7 @@ import pytest
 from app.calculations import BY_PATH
 from app.examples import examples
 from app.studies.design import design_study
-from app.studies.examples import CORNERS_EXAMPLES, DESIGN_EXAMPLES
+from app.studies.examples import EXAMPLES
 from app.studies.fields import set_value, value_at
 from app.studies.sweep import corners_study
 
@@ -43,7 +43,7 @@ def test_corners_on_the_workers(post: Post) -> None:
 
 
 def test_a_design_on_the_workers(post: Post) -> None:
-    body = copy.deepcopy({**DESIGN_EXAMPLES["robust"]["value"], "evaluations": 1})
+    body = copy.deepcopy({**EXAMPLES["/v1/drive-train/design"]["robust"]["value"], "evaluations": 1})
     body["request"] |= {"friction_coefficient": 0.04}
     body["request"]["temperatures"] |= {"bulk_c": 95.0}
     header, trial, end = lines(post(DESIGN, body))
@@ -52,12 +52,16 @@ def test_a_design_on_the_workers(post: Post) -> None:
     assert 1.6 < trial["objective"] < 1.63, "the nominal correction of the worked example: 1.609 with full sliding"
 
 
-@pytest.mark.parametrize("example", CORNERS_EXAMPLES.values(), ids=list(CORNERS_EXAMPLES))
+@pytest.mark.parametrize(
+    "example", EXAMPLES["/v1/drive-train/corners"].values(), ids=list(EXAMPLES["/v1/drive-train/corners"])
+)
 def test_examples_of_corners_are_accepted(example: dict[str, Any]) -> None:
     assert corners_study(json.dumps(example["value"]).encode(), 2500, 30.0).total in {12, 128}
 
 
-@pytest.mark.parametrize("example", DESIGN_EXAMPLES.values(), ids=list(DESIGN_EXAMPLES))
+@pytest.mark.parametrize(
+    "example", EXAMPLES["/v1/drive-train/design"].values(), ids=list(EXAMPLES["/v1/drive-train/design"])
+)
 def test_examples_of_designs_are_accepted(example: dict[str, Any]) -> None:
     assert design_study(json.dumps(example["value"]).encode(), 2500, 30.0).total == 720
 
@@ -80,7 +84,10 @@ def test_refused_before_the_first_line(post: Post, path: str, parts: dict[str, A
 
 @pytest.mark.parametrize(
     ("path", "schema", "known"),
-    [(CORNERS, "CornersRequest", CORNERS_EXAMPLES), (DESIGN, "DesignRequest", DESIGN_EXAMPLES)],
+    [
+        (CORNERS, "CornersRequest", EXAMPLES["/v1/drive-train/corners"]),
+        (DESIGN, "DesignRequest", EXAMPLES["/v1/drive-train/design"]),
+    ],
 )
 def test_documented(client: httpx.Client, path: str, schema: str, known: dict[str, Any]) -> None:
     document = client.get("/openapi.json").json()

@@ -19,7 +19,7 @@ from app.pages.studies.declaration import PageStudy
 from app.pages.studies.spectrum import SPECTRUM, address_of, cases_of, table_of
 from app.pages.templating import page_path
 from app.pages.views import Asked
-from app.studies.examples import SPECTRUM_EXAMPLES
+from app.studies.examples import EXAMPLES
 from app.studies.spectrum import Spectrum, spectrum_study
 from app.studies.stream import Clock
 from tests.support.pools import InlinePool
@@ -72,10 +72,10 @@ def test_a_table_that_cannot_be_read(text: str, message: str) -> None:
     assert message in caught.value.message
 
 
-@pytest.mark.parametrize("name", SPECTRUM_EXAMPLES)
+@pytest.mark.parametrize("name", EXAMPLES["/v1/spectrum"])
 def test_ready_studies_are_those_of_the_interface(name: str) -> None:
     """The query of a starter makes the machines and cases of the example."""
-    body = SPECTRUM_EXAMPLES[name]["value"]
+    body = EXAMPLES["/v1/spectrum"][name]["value"]
     calculation = BY_PATH[body["endpoint"]]
     path, _, query = address_of(calculation, pairs_of(body["request"]), body).partition("?")
     study = checked(Asked(path.removesuffix("/spectrum"), *split_views(pairs_of_query(query)))).study

@@ -12,7 +12,7 @@ import pytest
 from app.calculations import BY_PATH
 from app.examples import examples
 from app.schema.fields import headlines
-from app.studies.examples import SENSITIVITY_EXAMPLES, SPECTRUM_EXAMPLES, SWEEP_EXAMPLES
+from app.studies.examples import EXAMPLES
 from app.studies.fields import set_value, value_at
 
 Post = Callable[[str, object], httpx.Response]
@@ -148,25 +148,25 @@ def test_table_has_the_numbers_of_the_lines(post: Post) -> None:
     assert [float(row[3]) for row in rows] == [point["out"][0] for point in points]
 
 
-@pytest.mark.parametrize("name", SWEEP_EXAMPLES)
+@pytest.mark.parametrize("name", EXAMPLES["/v1/sweep"])
 def test_examples_of_sweeps(post: Post, name: str) -> None:
-    *_, end = lines(post("/v1/sweep", SWEEP_EXAMPLES[name]["value"]))
+    *_, end = lines(post("/v1/sweep", EXAMPLES["/v1/sweep"][name]["value"]))
     assert end["type"] == "end"
     assert end["counts"].get("ok", 0) + end["counts"].get("ok_with_warnings", 0) == end["points"]
 
 
-@pytest.mark.parametrize("name", SENSITIVITY_EXAMPLES)
+@pytest.mark.parametrize("name", EXAMPLES["/v1/sensitivity"])
 def test_examples_of_sensitivities(post: Post, name: str) -> None:
-    *found, end = lines(post("/v1/sensitivity", SENSITIVITY_EXAMPLES[name]["value"]))
+    *found, end = lines(post("/v1/sensitivity", EXAMPLES["/v1/sensitivity"][name]["value"]))
     assert end["type"] == "end"
     expected = {(output["path"], each["path"]) for output in end["outputs"] for each in end["inputs"]}
     assert {(line["output"], line["path"]) for line in found if line["type"] == "sensitivity"} == expected
     assert len(expected) > 15
 
 
-@pytest.mark.parametrize("name", SPECTRUM_EXAMPLES)
+@pytest.mark.parametrize("name", EXAMPLES["/v1/spectrum"])
 def test_examples_of_spectra(post: Post, name: str) -> None:
-    header, *_, end = lines(post("/v1/spectrum", SPECTRUM_EXAMPLES[name]["value"]))
+    header, *_, end = lines(post("/v1/spectrum", EXAMPLES["/v1/spectrum"][name]["value"]))
     assert header["type"] == "spectrum"
     assert end["counts"].get("ok", 0) + end["counts"].get("ok_with_warnings", 0) == header["total"]
     assert len(end["limits"]) == 1
@@ -179,5 +179,5 @@ def test_documents(client: httpx.Client) -> None:
     assert sweep["requestBody"]["content"]["application/json"]["schema"] == {
         "$ref": "#/components/schemas/SweepRequest"
     }
-    assert set(sweep["requestBody"]["content"]["application/json"]["examples"]) == set(SWEEP_EXAMPLES)
+    assert set(sweep["requestBody"]["content"]["application/json"]["examples"]) == set(EXAMPLES["/v1/sweep"])
     assert "422" in document["paths"]["/v1/sensitivity"]["post"]["responses"]

@@ -16,7 +16,7 @@ import pytest
 
 from app.examples import examples
 from app.sources import sources_of
-from app.studies.examples import SPECTRUM_EXAMPLES
+from app.studies.examples import EXAMPLES
 from app.studies.spectrum import spectrum_study
 from app.studies.stream import Clock
 from app.studies.study import Study
@@ -62,7 +62,7 @@ SWEEPS: dict[str, dict[str, Any]] = {
 }
 
 
-SPECTRUM = {**SPECTRUM_EXAMPLES["coupling"]["value"], "points": True}
+SPECTRUM = {**EXAMPLES["/v1/spectrum"]["coupling"]["value"], "points": True}
 
 
 def lines(text: str) -> list[dict[str, Any]]:

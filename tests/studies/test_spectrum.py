@@ -14,7 +14,7 @@ from app.calculations import BY_PATH
 from app.errors import InvalidBody, Unprocessable, faults_of
 from app.evaluate import evaluate
 from app.examples import examples
-from app.studies.examples import SPECTRUM_EXAMPLES
+from app.studies.examples import EXAMPLES
 from app.studies.fields import value_at
 from app.studies.spectrum import Spectrum, spectrum_study
 from app.studies.stream import Clock, encoded, guarded, json_line
@@ -222,7 +222,7 @@ def test_means_energy_and_extremes() -> None:
 
 
 def scuffing() -> dict[str, Any]:
-    body: dict[str, Any] = copy.deepcopy(SPECTRUM_EXAMPLES["scuffing"]["value"])
+    body: dict[str, Any] = copy.deepcopy(EXAMPLES["/v1/spectrum"]["scuffing"]["value"])
     body["tolerances"] |= {"count": 2, "replicates": 2}
     return body
 
@@ -291,7 +291,7 @@ def test_replicates_are_independent_samples() -> None:
 
 
 def test_a_gear_unit_with_temperatures_of_its_own_in_each_case() -> None:
-    body = copy.deepcopy(SPECTRUM_EXAMPLES["drive_train"]["value"])
+    body = copy.deepcopy(EXAMPLES["/v1/spectrum"]["drive_train"]["value"])
     body["tolerances"] |= {"count": 2, "replicates": 2}
     header, *points, end = solved({**body, "points": True})
     contact = [each["path"] for each in header["outputs"]].index("flash.contact_max_c")

@@ -1,7 +1,7 @@
 """Studies: one request at many points, answered as a stream."""
 
 import asyncio
-from collections.abc import AsyncGenerator, Callable
+from collections.abc import AsyncGenerator, Callable, Coroutine
 from contextlib import ExitStack, aclosing
 from functools import partial
 from typing import Annotated, Any, Literal
@@ -15,13 +15,7 @@ from app.http.problems import documented
 from app.settings import Settings
 from app.studies import design, sensitivity, spectrum, sweep
 from app.studies.admission import StudyAdmission
-from app.studies.examples import (
-    CORNERS_EXAMPLES,
-    DESIGN_EXAMPLES,
-    SENSITIVITY_EXAMPLES,
-    SPECTRUM_EXAMPLES,
-    SWEEP_EXAMPLES,
-)
+from app.studies.examples import EXAMPLES
 from app.studies.requests import CornersRequest, DesignRequest, SensitivityRequest, SpectrumRequest, SweepRequest
 from app.studies.stream import PROGRESS_S, Clock, Line, Lines, encoded, guarded, json_line
 from app.studies.study import Study
@@ -29,6 +23,7 @@ from app.workers.start_up import StartUp
 
 Format = Literal["ndjson", "csv"]
 MEDIA_TYPES: dict[Format, str] = {"ndjson": "application/x-ndjson", "csv": "text/csv"}
+Handler = Callable[..., Coroutine[Any, Any, Response]]
 READING_S = 10.0  # beyond the study's deadline, for a client that reads slowly
 
 
@@ -120,25 +115,35 @@ router = APIRouter(
 )
 
 
-def _streams(what: str, *formats: Format) -> dict[int | str, dict[str, Any]]:
-    return {
-        200: {
-            "description": what,
-            "content": {MEDIA_TYPES[each]: {"schema": {"type": "string"}} for each in formats},
-        }
-    }
+def _study(
+    path: str, name: str, summary: str, lines: str, formats: tuple[Format, ...] = ("ndjson",)
+) -> Callable[[Handler], Handler]:
+    """The route of a study that answers these `lines`."""
+    content = {MEDIA_TYPES[each]: {"schema": {"type": "string"}} for each in formats}
+    return router.post(
+        path,
+        operation_id=name,
+        summary=summary,
+        response_class=Response,
+        responses={200: {"description": lines, "content": content}},
+    )
 
 
-@router.post(
+def _examples(path: str) -> Any:
+    """The body parameter of a study, with its examples on the docs page."""
+    return Body(openapi_examples=EXAMPLES[path])
+
+
+@_study(
     sweep.PATH,
-    operation_id="sweep",
-    summary="One request at many points: a grid, a list of cases, a random sample",
-    response_class=Response,
-    responses=_streams("a line for the sweep, one for each point in order, one for the end", "ndjson", "csv"),
+    "sweep",
+    "One request at many points: a grid, a list of cases, a random sample",
+    "a line for the sweep, one for each point in order, one for the end",
+    ("ndjson", "csv"),
 )
 async def run_sweep(
     http: Request,
-    _body: Annotated[SweepRequest, Body(openapi_examples=SWEEP_EXAMPLES)],
+    _body: Annotated[SweepRequest, _examples(sweep.PATH)],
     written_as: Annotated[
         Format, Query(alias="format", description="JSON a line, or a table; the Accept header can choose it too")
     ] = "ndjson",
@@ -153,17 +158,13 @@ async def run_sweep(
     return await started(http, sweep.sweep_study, wanted_format(http, written_as))
 
 
-@router.post(
+@_study(
     sensitivity.PATH,
-    operation_id="sensitivity",
-    summary="What moves each output most",
-    response_class=Response,
-    responses=_streams("a line for each output and input, the most influential first, and one for the end", "ndjson"),
+    "sensitivity",
+    "What moves each output most",
+    "a line for each output and input, the most influential first, and one for the end",
 )
-async def run_sensitivity(
-    http: Request,
-    _body: Annotated[SensitivityRequest, Body(openapi_examples=SENSITIVITY_EXAMPLES)],
-) -> Response:
+async def run_sensitivity(http: Request, _body: Annotated[SensitivityRequest, _examples(sensitivity.PATH)]) -> Response:
     """Differences of the outputs for every number of the case, moved by its tolerance, else by 1 % (1 K, 1).
 
     `change` is what one step does to the output, `elasticity` per cent of the output for a per cent of the input;
@@ -173,17 +174,13 @@ async def run_sensitivity(
     return await started(http, sensitivity.sensitivity_study)
 
 
-@router.post(
+@_study(
     spectrum.PATH,
-    operation_id="spectrum",
-    summary="A machine with its tolerances over its load spectrum: probabilities, losses, what decides",
-    response_class=Response,
-    responses=_streams("a line for the spectrum, one for each point if asked for, and one for the end", "ndjson"),
+    "spectrum",
+    "A machine with its tolerances over its load spectrum: probabilities, losses, what decides",
+    "a line for the spectrum, one for each point if asked for, and one for the end",
 )
-async def run_spectrum(
-    http: Request,
-    _body: Annotated[SpectrumRequest, Body(openapi_examples=SPECTRUM_EXAMPLES)],
-) -> Response:
+async def run_spectrum(http: Request, _body: Annotated[SpectrumRequest, _examples(spectrum.PATH)]) -> Response:
     """Machines are drawn from the tolerances; each runs every case, and its worst case meets the limits.
 
     The end tells the probability of each limit with its 90 % interval, over the spectrum and of each case alone, which
@@ -196,19 +193,13 @@ async def run_spectrum(
     return await started(http, spectrum.spectrum_study, most=settings.spectrum_solves)
 
 
-@router.post(
+@_study(
     sweep.CORNERS_PATH,
-    operation_id="drive_train_corners",
-    summary="A gear unit at every combination of its uncertain inputs",
-    response_class=Response,
-    responses=_streams(
-        "a line for the ranges, each corner, the extremes of each output, and one for the end", "ndjson"
-    ),
+    "drive_train_corners",
+    "A gear unit at every combination of its uncertain inputs",
+    "a line for the ranges, each corner, the extremes of each output, and one for the end",
 )
-async def run_corners(
-    http: Request,
-    _body: Annotated[CornersRequest, Body(openapi_examples=CORNERS_EXAMPLES)],
-) -> Response:
+async def run_corners(http: Request, _body: Annotated[CornersRequest, _examples(sweep.CORNERS_PATH)]) -> Response:
     """Every corner is the unit's own answer, up to 256 of them; `extremes` say where each output is least and largest.
 
     Where no output needs the thermal film, corners leave it out, which makes them twenty times as fast and their
@@ -217,17 +208,13 @@ async def run_corners(
     return await started(http, sweep.corners_study)
 
 
-@router.post(
+@_study(
     design.PATH,
-    operation_id="drive_train_design",
-    summary="The correction of a gear unit that is best at its worst corner",
-    response_class=Response,
-    responses=_streams("a line for the search, one for each correction tried, and one for the end", "ndjson"),
+    "drive_train_design",
+    "The correction of a gear unit that is best at its worst corner",
+    "a line for the search, one for each correction tried, and one for the end",
 )
-async def run_design(
-    http: Request,
-    _body: Annotated[DesignRequest, Body(openapi_examples=DESIGN_EXAMPLES)],
-) -> Response:
+async def run_design(http: Request, _body: Annotated[DesignRequest, _examples(design.PATH)]) -> Response:
     """COBYQA from the request's own correction, each judged at every operating point and corner.
 
     The objective of a correction is that of its worst corner. `safety.minimum` counts the thermal film, a second a

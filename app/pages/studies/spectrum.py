@@ -30,7 +30,7 @@ from app.pages.templating import page_path
 from app.pages.typesetting import shown
 from app.pages.views import Asked
 from app.schema.fields import Leaf, leaf_at
-from app.studies.examples import SPECTRUM_EXAMPLES
+from app.studies.examples import EXAMPLES
 from app.studies.fields import NUMBERS, scalar_at, value_at
 from app.studies.requests import DRIVE_TRAIN
 from app.studies.spectrum import SCUFFING, Spectrum, spectrum_study
@@ -420,7 +420,7 @@ def _starters(_: StudyPage, asked: Asked) -> list[Starter]:
     calculation = asked.calculation
     return [
         Starter(each["summary"], "example", address_of(calculation, pairs_of(each["value"]["request"]), each["value"]))
-        for each in SPECTRUM_EXAMPLES.values()
+        for each in EXAMPLES["/v1/spectrum"].values()
         if each["value"]["endpoint"] == calculation.path and not asked.pairs
     ]
 
