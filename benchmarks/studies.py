@@ -65,7 +65,7 @@ MAP = {
 
 def in_process(body: dict[str, Any]) -> float:
     """Seconds of all points one after another in this process."""
-    study = sweep_study(json.dumps(body).encode(), 10**6, 30.0)
+    study = sweep_study(body, 10**6, 30.0)
     question = Question(body["endpoint"], body["request"], paths_of(study.outputs), 30.0)
     solve_point(question, study.points.overrides(0))
     started = time.perf_counter()
@@ -82,7 +82,7 @@ def in_two_processes(body: dict[str, Any]) -> float:
 
 def single_requests(client: httpx.Client, body: dict[str, Any]) -> float:
     """Seconds of all points as requests of their own, two at a time."""
-    points = sweep_study(json.dumps(body).encode(), 10**6, 30.0).points
+    points = sweep_study(body, 10**6, 30.0).points
     overrides = [points.overrides(index) for index in range(points.total)]
     return asyncio.run(_single_requests(str(client.base_url), body, overrides))
 

@@ -8,24 +8,16 @@ from typing import Any
 
 from app.errors import Unprocessable
 from app.schema.fields import Leaf
-from app.schema.reading import read
-from app.studies.drive_train import MOST_CORNERS, reduced_request
+from app.schema.reading import validated
+from app.studies.base_request import BaseRequest, check_count, check_distinct, check_value
+from app.studies.drive_train import MOST_CORNERS
 from app.studies.engine import Pool, twice_if_lost
 from app.studies.fields import NUMBERS, value_at
 from app.studies.minimax import next_place
-from app.studies.point_sets import BaseRequest, check_count, check_distinct, check_value, grid, listed
-from app.studies.points import Question
+from app.studies.point_sets import common_unit, grid, listed
 from app.studies.requests import DesignRequest, Overrides, Variable
 from app.studies.stream import Clock, Line, Lines
-from app.studies.study import (
-    Study,
-    calculation_of,
-    case_of_study,
-    checked_base,
-    output_at,
-    output_header,
-    paths_of,
-)
+from app.studies.study import Study, case_of_study, output_header, paths_of
 
 PATH = "/v1/drive-train/design"
 
@@ -52,9 +44,12 @@ class DesignVariable:
 
     def header(self) -> Line:
         """The variable in the first line."""
-        units = {leaf.unit for leaf in self.leaves}
-        unit = units.pop() if len(units) == 1 else None
-        return {"path": paths_of(self.leaves), "unit": unit, "min": self.low, "max": self.high}
+        return {
+            "path": paths_of(self.leaves),
+            "unit": common_unit(self.leaves),
+            "min": self.low,
+            "max": self.high,
+        }
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +131,7 @@ class Design(Study):
             leaf.path: value for variable, value in zip(self.variables, values, strict=True) for leaf in variable.leaves
         }
         objectives: list[float] = []
-        runs = self.solve(pool, clock, lambda index: {**at, **self.cases[index]}, len(self.cases))
+        runs = self.solve(pool, clock, lambda index: {**at, **self.cases[index]}, range(len(self.cases)))
         async with aclosing(runs):
             async for indices, points in runs:
                 for index, point in zip(indices, points, strict=True):
@@ -164,30 +159,27 @@ class Design(Study):
         }
 
 
-def design_study(body: bytes, most: int, deadline_s: float) -> Design:
+def design_study(content: Any, most: int, deadline_s: float) -> Design:
     """The search in a body, of at most `most` points; runs in a worker.
 
-    Raises Unreadable, InvalidBody and Unprocessable, with locations in the body.
+    `content` is the body as JSON's objects, or validated. Raises InvalidBody and Unprocessable, with locations in it.
     """
-    request = read(DesignRequest, body)
-    calculation = calculation_of(request)
-    objective = output_at(calculation, request.objective, "objective")
+    request = validated(DesignRequest, content)
+    base = BaseRequest.of(request)
+    objective = base.output(request.objective, "objective")
     if objective.kind not in NUMBERS:
         raise Unprocessable("unknown_output", f"{request.objective} is no number", "objective")
-    varied = BaseRequest(calculation.request, request.request)
-    variables = tuple(_variable(each, varied, f"variables.{place}") for place, each in enumerate(request.variables))
-    cases = _cases(request, varied)
-    base = checked_base(calculation, request.request, cases[0]).model_dump()
+    variables = tuple(_variable(each, base, f"variables.{place}") for place, each in enumerate(request.variables))
+    cases = _cases(request, base)
+    case = base.checked(cases[0]).model_dump()
     study = Design(
-        question=Question(
-            calculation.path, reduced_request(request.request, [objective.path]), [objective.path], deadline_s
-        ),
+        question=base.question([objective.path], deadline_s, reduced=True),
         outputs=(objective,),
         case=case_of_study(PATH, request),
         variables=variables,
         cases=cases,
         sign=_sign(request, objective),
-        start=tuple(_share(variable, base) for variable in variables),
+        start=tuple(_share(variable, case) for variable in variables),
         evaluations=request.evaluations,
     )
     check_count(study.total, most, "evaluations")

@@ -15,34 +15,26 @@ CUT = 4.0  # deviations
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
-def anchors(scatter: Range | Scatter) -> tuple[float, ...]:
+def anchors(scatter: Range | Scatter) -> dict[str, float]:
     """The values of a distribution that its field has to take, in rising order."""
-    match scatter:
-        case Normal():
-            return (scatter.mean,)
-        case Lognormal():
-            return (scatter.median,)
-        case Triangular():
-            return scatter.min, scatter.mode, scatter.max
-        case _:
-            return scatter.min, scatter.max
+    return {name: getattr(scatter, name) for name in ("min", "mode", "mean", "median", "max") if hasattr(scatter, name)}
 
 
 class Cut(NamedTuple):
-    """The ends of a distribution, their cumulative probabilities, and its law; None where both ends are equal."""
+    """The ends of a distribution, their cumulative probabilities, and its law in scipy; None where it is uniform."""
 
     low: float
     high: float
-    shares: tuple[float, float]
-    law: Any
+    shares: tuple[float, float] = (0.0, 1.0)
+    law: Any = None
 
     def drawn(self, share: Array) -> Array:
         """Values at shares of the distribution between its ends."""
-        if self.law is None:
-            return np.full(share.shape, self.low)
         low, high = self.shares
-        values: Array = np.clip(self.law.ppf(low + (high - low) * share), self.low, self.high)
-        return values
+        values = (
+            self.low + (self.high - self.low) * share if self.law is None else self.law.ppf(low + (high - low) * share)
+        )
+        return np.clip(values, self.low, self.high)
 
     @property
     def cut_off(self) -> float:
@@ -51,30 +43,22 @@ class Cut(NamedTuple):
 
 
 def cut(scatter: Range | Scatter, leaf: Leaf) -> Cut:
-    """A distribution between four deviations and the ends of its field."""
+    """A distribution between its ends: four deviations, and the range of its field."""
     from scipy import stats  # noqa: PLC0415  half a second that only random samples need
 
     law: Any
     match scatter:
         case Normal():
-            reach = CUT * scatter.deviation
             law = stats.norm(scatter.mean, scatter.deviation)
-            low, high = scatter.mean - reach, scatter.mean + reach
+            low, high = scatter.mean - CUT * scatter.deviation, scatter.mean + CUT * scatter.deviation
         case Lognormal():
             law = stats.lognorm(log(scatter.factor), scale=scatter.median)
             low, high = scatter.median / scatter.factor**CUT, scatter.median * scatter.factor**CUT
-        case _ if scatter.min == scatter.max:
-            return Cut(scatter.min, scatter.max, (0.0, 1.0), None)
-        case Triangular():
-            width = scatter.max - scatter.min
-            return Cut(
-                scatter.min,
-                scatter.max,
-                (0.0, 1.0),
-                stats.triang((scatter.mode - scatter.min) / width, scatter.min, width),
-            )
+        case Triangular() if (width := scatter.max - scatter.min) > 0.0:
+            law = stats.triang((scatter.mode - scatter.min) / width, scatter.min, width)
+            return Cut(scatter.min, scatter.max, law=law)
         case _:
-            return Cut(scatter.min, scatter.max, (0.0, 1.0), stats.uniform(scatter.min, scatter.max - scatter.min))
+            return Cut(scatter.min, scatter.max)
     bounds = leaf.declared.bounds
     low = max(low, bounds.get("ge", -LARGEST), bounds.get("gt", -LARGEST))
     high = min(high, bounds.get("le", LARGEST), bounds.get("lt", LARGEST))
@@ -83,9 +67,8 @@ def cut(scatter: Range | Scatter, leaf: Leaf) -> Cut:
 
 def drawn(scatters: Sequence[Range | Scatter], leaves: Sequence[Leaf], cube: Array) -> Array:
     """Values of the fields, a column each, at points of the unit cube."""
-    return np.column_stack(
-        [cut(each, leaf).drawn(cube[:, place]) for place, (each, leaf) in enumerate(zip(scatters, leaves, strict=True))]
-    )
+    columns = (cut(each, leaf).drawn(share) for each, leaf, share in zip(scatters, leaves, cube.T, strict=True))
+    return np.column_stack(list(columns))
 
 
 def unit_cube(method: Method, count: int, dimensions: int, seed: Any, place: str) -> Array:

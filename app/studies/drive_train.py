@@ -1,21 +1,12 @@
-"""Studies of a gear unit: its uncertain inputs by the names of the request, requests without unused results."""
+"""The uncertain inputs of a gear unit by the names of the request, and the warning about corners without solution."""
 
-import copy
-from collections.abc import Sequence
-from typing import Any
-
-from app.calculations import BY_PATH
 from app.schema.base import Request
 from app.schema.fields import field_path
 from app.schema.quantities import split_unit
-from app.studies.fields import set_value
-from app.studies.requests import DRIVE_TRAIN, Axis, Scalar
+from app.studies.requests import Axis, Scalar
 from solvers.drive_train.uncertainty import MOST_CORNERS, no_convergence, uncertain_inputs
 
-__all__ = ["MOST_CORNERS", "needs_film_or_state", "reduced_request", "unsolved_corners", "usual_corners"]
-
-COLD = "states.cold."
-BY_FILM = frozenset({"safety.minimum", "safety.thermal_ehl_feature", "safety.thermal_ehl_profile"})
+__all__ = ["MOST_CORNERS", "unsolved_corners", "usual_corners"]
 
 
 def usual_corners(request: Request) -> dict[str, Axis]:
@@ -41,18 +32,3 @@ def unsolved_corners(count: int) -> list[dict[str, str]]:
     """The warning about corners without solution, if there are any."""
     notice = no_convergence(count)
     return [{"rank": notice.rank, "code": notice.code, "message": notice.message}] if count else []
-
-
-def needs_film_or_state(output: str) -> bool:
-    """Whether an output needs the thermal film or another state, which cost more than everything else."""
-    return output.startswith(COLD) or output in BY_FILM
-
-
-def reduced_request(request: dict[str, Any], outputs: Sequence[str]) -> dict[str, Any]:
-    """The request without thermal film and other states where no output needs them; the outputs are the same."""
-    light = copy.deepcopy(request)
-    if not BY_FILM & {path.removeprefix(COLD) for path in outputs}:
-        set_value(BY_PATH[DRIVE_TRAIN].request, light, "model.lubrication", "closed_form")
-    if not any(path.startswith(COLD) for path in outputs):
-        light.pop("states", None)
-    return light

@@ -4,8 +4,7 @@ import asyncio
 import time
 from collections import deque
 from collections.abc import AsyncGenerator, Callable
-from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from app.errors import DeadlineExceeded, WorkerLost
 from app.studies.points import CHUNK_SECONDS, Chunk, Point, Question, solve_chunk
@@ -41,17 +40,20 @@ class OtherSources(PoolLost):
     code = "other_sources"
 
 
-@dataclass(frozen=True, slots=True)
-class Work:
-    """The points to solve."""
+class Work(NamedTuple):
+    """The points to solve: those at `indices`, and what each changes in the question's request."""
 
     question: Question
     overrides: Callable[[int], Overrides]
-    total: int
+    indices: range
 
     def begin(self, pool: Pool, indices: range) -> asyncio.Future[Chunk]:
         """Send points to the pool."""
         return pool.submit(solve_chunk, self.question, [self.overrides(index) for index in indices])
+
+    def late(self) -> Point:
+        """A point that took too long."""
+        return self.question.failed("deadline_exceeded", "the point took longer than one calculation may")
 
 
 async def twice_if_lost(pool: Pool, function: Callable[..., Any], *arguments: Any) -> Any:
@@ -68,43 +70,34 @@ async def in_order(pool: Pool, work: Work) -> AsyncGenerator[tuple[range, list[P
     Leaving the iteration takes back the chunks that have not begun and waits for none.
     """
     pending: deque[tuple[range, asyncio.Future[Chunk]]] = deque()
-    size, begun = 1, 0
+    size, left = 1, work.indices
     try:
-        while begun < work.total or pending:
-            while begun < work.total and len(pending) < CHUNKS_PER_SLOT * pool.slots:
-                indices = range(begun, begun + _fair(size, work.total - begun, pool.slots))
-                pending.append((indices, work.begin(pool, indices)))
-                begun = indices.stop
+        while left or pending:
+            while left and len(pending) < CHUNKS_PER_SLOT * pool.slots:
+                # Smaller chunks towards the end, so that all processes finish together.
+                fair = max(1, min(size, -(-len(left) // (2 * pool.slots))))
+                pending.append((left[:fair], work.begin(pool, left[:fair])))
+                left = left[fair:]
             indices, future = pending.popleft()
             try:
                 chunk = await future
             except (WorkerLost, DeadlineExceeded) as error:
                 chunk = await _solved_singly(pool, work, indices, error)
-            done, left = indices[: len(chunk.points)], indices[len(chunk.points) :]
-            if left:
-                pending.appendleft((left, work.begin(pool, left)))
-            size = _next_size(len(done), chunk.seconds)
+            done, rest = indices[: len(chunk.points)], indices[len(chunk.points) :]
+            if rest:
+                pending.appendleft((rest, work.begin(pool, rest)))
+            seconds = max(chunk.seconds / len(done), CHUNK_SECONDS / MOST_POINTS_IN_A_CHUNK)  # of a point
+            size = max(1, round(CHUNK_SECONDS / seconds))
             yield done, chunk.points
     finally:
         for _, future in pending:
             future.cancel()
 
 
-def _next_size(points: int, seconds: float) -> int:
-    """As many points as take about a chunk's time."""
-    each = max(seconds / points, CHUNK_SECONDS / MOST_POINTS_IN_A_CHUNK)
-    return max(1, round(CHUNK_SECONDS / each))
-
-
-def _fair(size: int, left: int, slots: int) -> int:
-    """Smaller chunks towards the end, so that all processes finish together."""
-    return max(1, min(size, -(-left // (2 * slots))))
-
-
 async def _solved_singly(pool: Pool, work: Work, indices: range, error: Exception) -> Chunk:
     """The points of a lost chunk one by one, each up to twice; a single point that took too long is not repeated."""
     if len(indices) == 1 and isinstance(error, DeadlineExceeded):
-        return Chunk([_late(work)], CHUNK_SECONDS)
+        return Chunk([work.late()], CHUNK_SECONDS)
     started = time.perf_counter()
     points: list[Point] = []
     for index in indices:
@@ -114,9 +107,5 @@ async def _solved_singly(pool: Pool, work: Work, indices: range, error: Exceptio
         except WorkerLost:
             points.append(work.question.failed("worker_lost", "the worker process died each time it solved the point"))
         except DeadlineExceeded:
-            points.append(_late(work))
+            points.append(work.late())
     return Chunk(points, time.perf_counter() - started)
-
-
-def _late(work: Work) -> Point:
-    return work.question.failed("deadline_exceeded", "the point took longer than one calculation may")

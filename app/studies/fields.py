@@ -1,33 +1,20 @@
 """The single values of requests and answers that a study names by their dotted paths."""
 
+import copy
 import operator
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import replace
 from difflib import get_close_matches
-from functools import lru_cache
-from typing import Any, NamedTuple
+from functools import lru_cache, reduce
+from typing import Any
 
 from app.errors import Unprocessable
 from app.schema.fields import ITEM, Leaf, leaf_at, leaves
 from app.schema.model import Documented
 from app.studies.requests import Scalar
+from solvers.quantity import allowed
 
 NUMBERS = frozenset({"number", "integer"})
-
-
-class _Bound(NamedTuple):
-    """A kind of bound: whether a value keeps it, and in words."""
-
-    holds: Callable[[float, float], bool]
-    words: str
-
-
-BOUNDS = {
-    "ge": _Bound(operator.ge, "at least"),
-    "gt": _Bound(operator.gt, "above"),
-    "le": _Bound(operator.le, "at most"),
-    "lt": _Bound(operator.lt, "below"),
-}
 
 
 def scalar_at(model: type[Documented], path: str, place: str, unknown: str) -> Leaf:
@@ -79,79 +66,60 @@ def _number_fault(leaf: Leaf, value: bool | float | str) -> tuple[str, str] | No
         return "out_of_range", "give a number"
     if leaf.kind == "integer" and value != int(value):
         return "not_integer", f"{value:g} is not a whole number"
-    bounds = leaf.declared.bounds
-    if all(BOUNDS[key].holds(value, bound) for key, bound in bounds.items()):
+    if all(getattr(operator, name)(value, bound) for name, bound in leaf.declared.bounds.items()):
         return None
-    allowed = " and ".join(f"{BOUNDS[key].words} {bound:g}" for key, bound in bounds.items())
-    return "out_of_range", f"{value:g} is not {allowed}"
+    return "out_of_range", f"{value:.12g} is out of range; allowed {allowed(leaf.declared)}"
 
 
-def value_at(answer: Any, path: str) -> Any:
-    """The value at a dotted path of an answer; None where a group or a place on the way is missing."""
-    for part in path.split("."):
-        if answer is None:
-            return None
-        if isinstance(answer, list | tuple):
-            answer = answer[int(part)] if int(part) < len(answer) else None
-        else:
-            answer = answer.get(part) if isinstance(answer, dict) else getattr(answer, part)
-    return answer
+def value_at(content: Any, path: str) -> Any:
+    """The value at a dotted path of a request or answer; None where a section or a place on the way is missing."""
+    return reduce(_step, path.split("."), content)
+
+
+def _step(here: Any, part: str) -> Any:
+    if isinstance(here, list | tuple):
+        return here[int(part)] if part.isdecimal() and int(part) < len(here) else None
+    return here.get(part) if isinstance(here, dict) else getattr(here, part, None)
 
 
 def is_reachable(model: type[Documented], body: dict[str, Any], path: str) -> bool:
-    """Whether a value can be set at this path: the lists on the way, given or by default, are long enough.
-
-    What is no section where one belongs is left to the request's own validation.
-    """
-    here: Any = body
-    parts = path.split(".")
-    for place, part in enumerate(parts):
-        if part.isdecimal():
-            if here is None:
-                here = _default_list(model, parts[:place])
-            if here is None or (isinstance(here, list) and int(part) >= len(here)):
-                return False
-            here = here[int(part)] if isinstance(here, list) else {}
-        else:
-            here = here.get(part) if isinstance(here, dict) else None
+    """Whether a value can be set at this path: the lists on the way, given or by default, are long enough."""
+    try:
+        set_value(model, copy.deepcopy(body), path, None)
+    except IndexError:
+        return False
     return True
 
 
 def set_value(model: type[Documented], body: dict[str, Any], path: str, value: Scalar) -> None:
-    """Set the value at a dotted path of a request; sections and lists left to their defaults are filled in."""
-    *way, last = path.split(".")
+    """Set the value at a dotted path of a request; sections and lists left to their defaults are filled in.
+
+    Raises IndexError where a list is too short. What is neither section nor list where one belongs is left to the
+    request's own validation.
+    """
+    parts = path.split(".")
     here: Any = body
-    for place, part in enumerate(way, start=1):
-        if isinstance(here, dict) and here.get(part) is None:
-            here[part] = _default_list(model, way[:place]) or {}
-        here = _step(here, part)
-    if isinstance(here, list):
-        here[int(last)] = value
-    elif isinstance(here, dict):
-        here[last] = value
-
-
-def _default_list(model: type[Documented], way: list[str]) -> list[Any] | None:
-    """The list of values that a field holds where nothing is given; None where it is no such list."""
-    leaf = leaf_at(model, ".".join(way))
-    return list(leaf.default) if leaf is not None and isinstance(leaf.default, list) else None
+    for place, part in enumerate(parts):
+        if isinstance(here, list) != part.isdecimal() or not isinstance(here, list | dict):
+            return
+        key: Any = int(part) if isinstance(here, list) else part
+        if place == len(parts) - 1:
+            here[key] = value
+        elif isinstance(here, dict) and here.get(part) is None:
+            leaf = leaf_at(model, ".".join(parts[: place + 1]))
+            given = list(leaf.default) if leaf is not None and isinstance(leaf.default, list) else []
+            here[part] = given if parts[place + 1].isdecimal() else {}
+            here = here[part]
+        else:
+            here = here[key]
 
 
 def clear(body: dict[str, Any], path: str) -> None:
     """Take a field out of a request, if it is there."""
-    *way, last = path.split(".")
-    here: Any = body
-    for part in way:
-        here = _step(here, part)
+    section, _, name = path.rpartition(".")
+    here = value_at(body, section) if section else body
     if isinstance(here, dict):
-        here.pop(last, None)
-
-
-def _step(here: Any, part: str) -> Any:
-    """One step down a request; None where it has another shape."""
-    if isinstance(here, list):
-        return here[int(part)] if part.isdecimal() else None
-    return here.get(part) if isinstance(here, dict) else None
+        here.pop(name, None)
 
 
 @lru_cache(maxsize=1024)

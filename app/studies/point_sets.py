@@ -2,17 +2,23 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import prod
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from app.errors import Unprocessable
 from app.schema.fields import Leaf
-from app.schema.model import Documented
+from app.studies.base_request import BaseRequest, check_count, check_distinct, check_value
 from app.studies.distributions import anchors, drawn, unit_cube
-from app.studies.fields import fault, is_reachable, scalar_at
-from app.studies.requests import Axis, Overrides, Range, Sample, Scalar, Scatter, SweepRequest, Triangular
+from app.studies.requests import Axis, Overrides, Range, Sample, Scalar, Scatter, SweepRequest
+
+
+def common_unit(leaves: Sequence[Leaf]) -> str | None:
+    """The unit of fields that take one value; None where they differ."""
+    units = {leaf.unit for leaf in leaves}
+    return units.pop() if len(units) == 1 else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,9 +30,8 @@ class CheckedAxis:
     values: list[Scalar | list[Scalar]] | None
 
     def header(self) -> dict[str, Any]:
-        """The axis in the first line of a study; fields of different units have no common one."""
-        units = {leaf.unit for leaf in self.leaves}
-        return {"path": self.path, "unit": units.pop() if len(units) == 1 else None, "values": self.values}
+        """The axis in the first line of a study."""
+        return {"path": self.path, "unit": common_unit(self.leaves), "values": self.values}
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,20 +78,6 @@ def _each(value: Scalar | list[Scalar], leaves: tuple[Leaf, ...]) -> list[Scalar
     return value if isinstance(value, list) else [value] * len(leaves)
 
 
-class BaseRequest(NamedTuple):
-    """The request that a study varies, and its model."""
-
-    model: type[Documented]
-    base: dict[str, Any]
-
-    def leaf(self, path: str, place: str) -> Leaf:
-        """The single value at a path; Unprocessable at `place` of the study where it cannot be set."""
-        leaf = scalar_at(self.model, path, place, "unknown_path")
-        if not is_reachable(self.model, self.base, path):
-            raise Unprocessable("unknown_path", f"the request has no {path}: its list is shorter", place)
-        return leaf
-
-
 def points_of(sweep: SweepRequest, base: BaseRequest, most: int) -> PointSet:
     """The points of a sweep; at most `most`.
 
@@ -105,32 +96,8 @@ def grid(axes: list[Axis], base: BaseRequest, most: int, place: str) -> PointSet
     check_count(prod(_length(axis, f"{place}.{number}") for number, axis in enumerate(axes)), most, place)
     check_distinct([path for axis in axes for path in axis.paths], place)
     found = [_axis(axis, base, f"{place}.{number}") for number, axis in enumerate(axes)]
-    return PointSet(found, prod(len(axis.values or ()) for axis in found), _fields(found))
-
-
-def _fields(axes: list[CheckedAxis]) -> tuple[Leaf, ...]:
-    return tuple(leaf for axis in axes for leaf in axis.leaves)
-
-
-def check_count(count: int, most: int, place: str) -> None:
-    """Refuse a study of too many points."""
-    if count > most:
-        raise Unprocessable("too_many_points", f"the study has {count} points; at most {most} are allowed", place)
-
-
-def check_distinct(paths: list[str], place: str) -> None:
-    """Refuse a field that is varied twice."""
-    for path in paths:
-        if paths.count(path) > 1:
-            raise Unprocessable("duplicate_path", f"{path} is varied twice", place)
-
-
-def check_value(leaf: Leaf, value: Scalar, place: str) -> None:
-    """Refuse a value that the field's schema does not take."""
-    found = fault(leaf, value)
-    if found is not None:
-        code, message = found
-        raise Unprocessable(code, f"{leaf.path}: {message}", place)
+    varied = tuple(leaf for axis in found for leaf in axis.leaves)
+    return PointSet(found, prod(len(axis.values or ()) for axis in found), varied)
 
 
 def listed(cases: list[Overrides], base: BaseRequest, most: int, place: str) -> PointSet:
@@ -205,16 +172,10 @@ def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: st
         leaf = base.leaf(each.path, f"{here}.path")
         if leaf.kind == "integer":
             raise Unprocessable("not_integer", f"{each.path} takes whole numbers; vary it or list cases", here)
-        for value in anchors(each):
+        for value in anchors(each).values():
             check_value(leaf, value, here)
-        if list(anchors(each)) != sorted(anchors(each)):
-            raise Unprocessable("out_of_range", f"{each.path}: {' is above '.join(_order(each))}", here)
+        for (low, least), (high, greatest) in pairwise(anchors(each).items()):
+            if least > greatest:
+                raise Unprocessable("out_of_range", f"{each.path}: {low} is above {high}", here)
         leaves.append(leaf)
     return leaves
-
-
-def _order(scatter: Range | Scatter) -> tuple[str, str]:
-    """Which two values stand the wrong way round."""
-    if isinstance(scatter, Triangular):
-        return ("min", "mode") if scatter.min > scatter.mode else ("mode", "max")
-    return "min", "max"

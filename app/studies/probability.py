@@ -26,6 +26,7 @@ class Limit(NamedTuple):
     side: Side
     mean: float
     deviation: float
+    output: str = ""
 
     def exceeded(self, output: Array) -> Array:
         """The probability that each value is beyond the limit; NaN where there is no value."""

@@ -6,20 +6,19 @@ at half of it.
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from app.calculations import Calculation
 from app.errors import Unprocessable
 from app.schema.fields import ITEM, Leaf, leaves
-from app.schema.reading import read
+from app.schema.reading import validated
+from app.studies.base_request import BaseRequest, check_count, check_distinct
 from app.studies.engine import Pool
 from app.studies.fields import NUMBERS, fault, scalar_at, value_at
-from app.studies.point_sets import check_count
-from app.studies.points import Point, Question
+from app.studies.points import Point
 from app.studies.requests import Overrides, SensitivityRequest
 from app.studies.stream import Clock, Line, Lines
-from app.studies.study import Study, calculation_of, case_of_study, checked_base, output_header, outputs_at, paths_of
+from app.studies.study import Study, case_of_study, output_header, paths_of
 
 PATH = "/v1/sensitivity"
 RELATIVE_STEP = 0.01
@@ -137,7 +136,7 @@ class Sensitivity(Study):
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
         """A line for each output and input, the most influential input of an output first; then the end."""
         overrides, points = self._points(), list[Point]()
-        async for _, found in self.solve(pool, clock, overrides.__getitem__, len(overrides)):
+        async for _, found in self.solve(pool, clock, overrides.__getitem__, range(len(overrides))):
             points += found
         yield [line for column in range(len(self.outputs)) for line in self._ranked(column, points)]
         yield [self._end(points, clock)]
@@ -189,22 +188,19 @@ def _number(value: Any) -> float | None:
     return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
 
 
-def sensitivity_study(body: bytes, most: int, deadline_s: float) -> Sensitivity:
+def sensitivity_study(content: Any, most: int, deadline_s: float) -> Sensitivity:
     """The sensitivity in a body, of at most `most` points; runs in a worker.
 
-    Raises Unreadable, InvalidBody and Unprocessable, with locations in the body.
+    `content` is the body as JSON's objects, or validated. Raises InvalidBody and Unprocessable, with locations in it.
     """
-    request = read(SensitivityRequest, body)
-    calculation = calculation_of(request)
-    outputs = outputs_at(calculation, request.outputs)
-    case = checked_base(calculation, request.request, {}).model_dump()
-    if request.inputs is None:
-        inputs = _every_number(calculation, case)
-    else:
-        inputs = [_named(calculation, case, request.inputs, place) for place in range(len(request.inputs))]
+    request = validated(SensitivityRequest, content)
+    base = BaseRequest.of(request)
+    outputs = base.outputs(request.outputs)
+    case = base.checked({}).model_dump()
+    inputs = _every_number(base, case) if request.inputs is None else _named(base, case, request.inputs)
     perturbations = [each for leaf in inputs if (each := perturbation(leaf, value_at(case, leaf.path))).places]
     study = Sensitivity(
-        question=Question(calculation.path, request.request, paths_of(outputs), deadline_s),
+        question=base.question(paths_of(outputs), deadline_s),
         outputs=outputs,
         case=case_of_study(PATH, request),
         perturbations=perturbations,
@@ -213,40 +209,33 @@ def sensitivity_study(body: bytes, most: int, deadline_s: float) -> Sensitivity:
     return study
 
 
-def _every_number(calculation: Calculation, case: dict[str, Any]) -> list[Leaf]:
+def _every_number(base: BaseRequest, case: dict[str, Any]) -> list[Leaf]:
     """Every number that the case has, assumed ones included, options of model and resolution not."""
     return [
-        scalar_at(calculation.request, path, "inputs", "unknown_path")
-        for leaf in leaves(calculation.request)
+        replace(leaf, path=path, dimensions=0)
+        for leaf in leaves(base.calculation.request)
         if leaf.dimensions < 2 and leaf.kind in NUMBERS and not leaf.advanced
-        for path in _numbers_at(leaf, case)
+        for path in places(leaf.path if leaf.is_scalar else f"{leaf.path}.{ITEM}", case)
         if value_at(case, path) is not None
     ]
 
 
-def _numbers_at(leaf: Leaf, case: dict[str, Any]) -> list[str]:
-    """The paths of a field's numbers: every item of a list."""
-    paths = places(leaf.path, case)
-    if leaf.is_scalar:
-        return paths
-    return [f"{path}.{index}" for path in paths for index in range(len(value_at(case, path) or ()))]
-
-
 def places(path: str, case: dict[str, Any]) -> list[str]:
     """The path with every index that its lists have."""
-    before, star, after = path.partition(f".{ITEM}.")
+    before, star, after = path.partition(f".{ITEM}")
     if not star:
         return [path]
     items = range(len(value_at(case, before) or ()))
-    return [place for index in items for place in places(f"{before}.{index}.{after}", case)]
+    return [place for index in items for place in places(f"{before}.{index}{after}", case)]
 
 
-def _named(calculation: Calculation, case: dict[str, Any], paths: list[str], place: int) -> Leaf:
-    path, where = paths[place], f"inputs.{place}"
-    if path in paths[:place]:
-        raise Unprocessable("duplicate_path", f"{path} stands here twice", where)
-    leaf = scalar_at(calculation.request, path, where, "unknown_path")
-    value = value_at(case, path)
-    if leaf.kind not in NUMBERS or value is None:
-        raise Unprocessable("not_scalar", f"{path} has no number in this case", where)
-    return leaf
+def _named(base: BaseRequest, case: dict[str, Any], paths: list[str]) -> list[Leaf]:
+    """The numbers at these paths; raises Unprocessable."""
+    check_distinct(paths, "inputs", numbered=True)
+    named = [
+        scalar_at(base.calculation.request, path, f"inputs.{place}", "unknown_path") for place, path in enumerate(paths)
+    ]
+    for place, leaf in enumerate(named):
+        if leaf.kind not in NUMBERS or value_at(case, leaf.path) is None:
+            raise Unprocessable("not_scalar", f"{leaf.path} has no number in this case", f"inputs.{place}")
+    return named

@@ -1,4 +1,4 @@
-"""What all studies share: the checks of a body, the first line, the solution of points in order."""
+"""What all studies share: the first line, the solution of points in order."""
 
 from abc import ABC, abstractmethod
 from collections.abc import AsyncGenerator, Callable, Iterable
@@ -6,15 +6,12 @@ from contextlib import aclosing
 from dataclasses import dataclass
 from typing import Any
 
-from app.calculations import BY_PATH, Calculation
-from app.errors import InvalidBody, Unprocessable
-from app.schema.base import MODEL_VERSION, Request
-from app.schema.fields import Leaf, headlines
-from app.schema.reading import validated
+from app.errors import Unprocessable
+from app.schema.base import MODEL_VERSION
+from app.schema.fields import Leaf
 from app.sources import SOURCES, case_of
 from app.studies.engine import Pool, Work, in_order
-from app.studies.fields import scalar_at
-from app.studies.points import Point, Question, with_overrides
+from app.studies.points import Point, Question
 from app.studies.requests import DriveTrainStudy, Overrides, StudyRequest
 from app.studies.stream import Clock, Line, Lines
 
@@ -48,14 +45,13 @@ class Study(ABC):
         }
 
     async def solve(
-        self, pool: Pool, clock: Clock, overrides: Callable[[int], Overrides], total: int
+        self, pool: Pool, clock: Clock, overrides: Callable[[int], Overrides], indices: range
     ) -> AsyncGenerator[tuple[range, list[Point]], None]:
         """Runs of points with their indices, in order."""
-        before = clock.done
-        async with aclosing(in_order(pool, Work(self.question, overrides, total))) as runs:
-            async for indices, points in runs:
-                clock.done = before + indices.stop
-                yield indices, points
+        async with aclosing(in_order(pool, Work(self.question, overrides, indices))) as runs:
+            async for solved, points in runs:
+                clock.done += len(points)
+                yield solved, points
 
 
 def output_header(leaf: Leaf) -> Line:
@@ -66,43 +62,6 @@ def output_header(leaf: Leaf) -> Line:
 def paths_of(leaves: Iterable[Leaf]) -> list[str]:
     """The dotted paths of fields."""
     return [leaf.path for leaf in leaves]
-
-
-def calculation_of(body: StudyRequest | DriveTrainStudy) -> Calculation:
-    """The calculation that a study is about."""
-    if body.endpoint not in BY_PATH:
-        raise Unprocessable("unknown_endpoint", f"there are {', '.join(BY_PATH)}", "endpoint")
-    return BY_PATH[body.endpoint]
-
-
-def outputs_at(calculation: Calculation, wanted: list[str] | None) -> tuple[Leaf, ...]:
-    """The outputs at these paths, by default the headline numbers; raises Unprocessable."""
-    if wanted is None:
-        return headlines(calculation.response)
-    for place, path in enumerate(wanted):
-        if path in wanted[:place]:
-            raise Unprocessable("duplicate_path", f"{path} is asked for twice", f"outputs.{place}")
-    return tuple(output_at(calculation, path, f"outputs.{place}") for place, path in enumerate(wanted))
-
-
-def output_at(calculation: Calculation, path: str, place: str) -> Leaf:
-    """The single value of an answer at a path; raises Unprocessable at `place` of the study."""
-    leaf = scalar_at(calculation.response, path, place, "unknown_output")
-    if leaf.detail != "summary":
-        raise Unprocessable("not_scalar", f"{path} belongs to a curve or field, which a study does not tell", place)
-    return leaf
-
-
-def checked_base(calculation: Calculation, base: dict[str, Any], first: Overrides) -> Request:
-    """The base request with the first point inserted; raises InvalidBody with pointers into the study.
-
-    A request that the schema allows and the solver refuses is a refused point.
-    """
-    try:
-        return validated(calculation.request, with_overrides(calculation, base, first))
-    except InvalidBody as error:
-        found = [fault._replace(pointer=f"/request{fault.pointer}") for fault in error.faults]
-        raise InvalidBody(found) from None
 
 
 def case_of_study(path: str, body: StudyRequest | DriveTrainStudy) -> str:

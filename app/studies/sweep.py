@@ -1,29 +1,20 @@
 """Sweeps: a line a point, then extremes and statistics. Corners are a sweep over uncertain inputs."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from app.errors import Unprocessable
 from app.schema.fields import Leaf
-from app.schema.reading import read
-from app.studies.drive_train import MOST_CORNERS, reduced_request, unsolved_corners, usual_corners
+from app.schema.reading import validated
+from app.studies.base_request import BaseRequest
+from app.studies.drive_train import MOST_CORNERS, unsolved_corners, usual_corners
 from app.studies.engine import Pool, twice_if_lost
 from app.studies.fields import did_you_mean
-from app.studies.point_sets import BaseRequest, PointSet, grid, points_of
-from app.studies.points import Question
+from app.studies.point_sets import PointSet, grid, points_of
 from app.studies.requests import Best, CornersRequest, SweepRequest
 from app.studies.stream import Clock, Line, Lines, Table, point_line
-from app.studies.study import (
-    Study,
-    calculation_of,
-    case_of_study,
-    checked_base,
-    output_header,
-    outputs_at,
-    paths_of,
-)
-from app.studies.summary import NO_STATISTICS, Extreme, Summary, statistics
+from app.studies.study import Study, case_of_study, output_header, paths_of
+from app.studies.summary import NO_STATISTICS, Summary, statistics
 
 PATH = "/v1/sweep"
 CORNERS_PATH = "/v1/drive-train/corners"
@@ -59,14 +50,11 @@ class Sweep(Study):
             )
         ]
         summary = Summary(self.points, paths_of(self.outputs), self.best, self.first)
-        remaining = range(self.first, self.points.total)
-        async for indices, points in self.solve(
-            pool, clock, lambda index: self.points.overrides(remaining[index]), len(remaining)
-        ):
+        indices = range(self.first, self.points.total)
+        async for solved, points in self.solve(pool, clock, self.points.overrides, indices):
             for point in points:
                 summary.add(point)
-            places = (remaining[index] for index in indices)
-            yield [point_line(place, self.points.at(place), each) for place, each in zip(places, points, strict=True)]
+            yield [point_line(index, self.points.at(index), each) for index, each in zip(solved, points, strict=True)]
         yield await self.closing(summary, pool, clock)
 
     async def closing(self, summary: Summary, pool: Pool, clock: Clock) -> list[Line]:
@@ -75,7 +63,7 @@ class Sweep(Study):
         if self.points.sample is not None:
             inputs, outputs = paths_of(self.points.varied), paths_of(self.outputs)
             sample = self.points.sample[self.first :]
-            found = await twice_if_lost(pool, statistics, sample, summary.values, inputs, outputs)
+            found = await twice_if_lost(pool, statistics, sample, summary.tally.values, inputs, outputs)
         return [summary.line(found, clock.elapsed_s)]
 
 
@@ -87,32 +75,33 @@ class Corners(Sweep):
 
     async def closing(self, summary: Summary, pool: Pool, clock: Clock) -> list[Line]:  # noqa: ARG002
         """The extremes of every output, and a warning where corners have no solution."""
-        warnings = unsolved_corners(self.total - summary.answered)
-        return [*self._extremes(summary), {**summary.line(NO_STATISTICS, clock.elapsed_s), "warnings": warnings}]
+        extremes = [
+            {
+                "type": "extremes",
+                "output": path,
+                **{end: {"value": each.value, "at": self.points.overrides(each.point)} for end, each in found.items()},
+            }
+            for path, found in summary.extremes.items()
+        ]
+        warnings = unsolved_corners(self.total - summary.tally.answered)
+        return [*extremes, {**summary.line(NO_STATISTICS, clock.elapsed_s), "warnings": warnings}]
 
-    def _extremes(self, summary: Summary) -> Iterator[Line]:
-        for path, found in summary.extremes.items():
-            yield {"type": "extremes", "output": path, **{end: self._corner(each) for end, each in found.items()}}
 
-    def _corner(self, extreme: Extreme) -> Line:
-        return {"value": extreme.value, "at": self.points.overrides(extreme.point)}
-
-
-def sweep_study(body: bytes, most: int, deadline_s: float) -> Sweep:
+def sweep_study(content: Any, most: int, deadline_s: float) -> Sweep:
     """The sweep in a body, of at most `most` points; runs in a worker.
 
-    Raises Unreadable, InvalidBody and Unprocessable, with locations in the body.
+    `content` is the body as JSON's objects, or validated. Raises InvalidBody and Unprocessable, with locations in it.
     """
-    request = read(SweepRequest, body)
-    calculation = calculation_of(request)
-    outputs = outputs_at(calculation, request.outputs)
+    request = validated(SweepRequest, content)
+    base = BaseRequest.of(request)
+    outputs = base.outputs(request.outputs)
     if request.best is not None:
         _check_best(request.best, outputs)
-    points = points_of(request, BaseRequest(calculation.request, request.request), most)
+    points = points_of(request, base, most)
     _check_first(request.from_index, points)
-    checked_base(calculation, request.request, points.overrides(0))
+    base.checked(points.overrides(0))
     return Sweep(
-        question=Question(calculation.path, request.request, paths_of(outputs), deadline_s),
+        question=base.question(paths_of(outputs), deadline_s),
         outputs=outputs,
         case=case_of_study(PATH, request),
         points=points,
@@ -121,22 +110,19 @@ def sweep_study(body: bytes, most: int, deadline_s: float) -> Sweep:
     )
 
 
-def corners_study(body: bytes, most: int, deadline_s: float) -> Corners:
+def corners_study(content: Any, most: int, deadline_s: float) -> Corners:
     """The corners of a gear unit in a body; arguments and errors as of `sweep_study`."""
-    request = read(CornersRequest, body)
-    calculation = calculation_of(request)
-    outputs = outputs_at(calculation, request.outputs)
-    ranges = request.ranges
-    if ranges is None:
-        ranges = list(usual_corners(checked_base(calculation, request.request, {})).values())
+    request = validated(CornersRequest, content)
+    base = BaseRequest.of(request)
+    outputs = base.outputs(request.outputs)
+    ranges = list(usual_corners(base.checked({})).values()) if request.ranges is None else request.ranges
     if not ranges:
         raise Unprocessable("no_corners", "nothing is uncertain here; name what is", "ranges")
-    points = grid(ranges, BaseRequest(calculation.request, request.request), min(most, MOST_CORNERS), "ranges")
+    points = grid(ranges, base, min(most, MOST_CORNERS), "ranges")
     _check_first(request.from_index, points)
-    checked_base(calculation, request.request, points.overrides(0))
-    base = reduced_request(request.request, paths_of(outputs))
+    base.checked(points.overrides(0))
     return Corners(
-        question=Question(calculation.path, base, paths_of(outputs), deadline_s),
+        question=base.question(paths_of(outputs), deadline_s, reduced=True),
         outputs=outputs,
         case=case_of_study(CORNERS_PATH, request),
         points=points,

@@ -43,7 +43,7 @@ def test_corners_on_the_workers(post: Post) -> None:
 
 
 def test_a_design_on_the_workers(post: Post) -> None:
-    body = copy.deepcopy({**EXAMPLES["/v1/drive-train/design"]["robust"]["value"], "evaluations": 1})
+    body = copy.deepcopy({**EXAMPLES[DESIGN]["robust"]["value"], "evaluations": 1})
     body["request"] |= {"friction_coefficient": 0.04}
     body["request"]["temperatures"] |= {"bulk_c": 95.0}
     header, trial, end = lines(post(DESIGN, body))
@@ -52,18 +52,14 @@ def test_a_design_on_the_workers(post: Post) -> None:
     assert 1.6 < trial["objective"] < 1.63, "the nominal correction of the worked example: 1.609 with full sliding"
 
 
-@pytest.mark.parametrize(
-    "example", EXAMPLES["/v1/drive-train/corners"].values(), ids=list(EXAMPLES["/v1/drive-train/corners"])
-)
+@pytest.mark.parametrize("example", EXAMPLES[CORNERS].values(), ids=list(EXAMPLES[CORNERS]))
 def test_examples_of_corners_are_accepted(example: dict[str, Any]) -> None:
-    assert corners_study(json.dumps(example["value"]).encode(), 2500, 30.0).total in {12, 128}
+    assert corners_study(example["value"], 2500, 30.0).total in {12, 128}
 
 
-@pytest.mark.parametrize(
-    "example", EXAMPLES["/v1/drive-train/design"].values(), ids=list(EXAMPLES["/v1/drive-train/design"])
-)
+@pytest.mark.parametrize("example", EXAMPLES[DESIGN].values(), ids=list(EXAMPLES[DESIGN]))
 def test_examples_of_designs_are_accepted(example: dict[str, Any]) -> None:
-    assert design_study(json.dumps(example["value"]).encode(), 2500, 30.0).total == 720
+    assert design_study(example["value"], 2500, 30.0).total == 720
 
 
 @pytest.mark.parametrize(
@@ -85,8 +81,8 @@ def test_refused_before_the_first_line(post: Post, path: str, parts: dict[str, A
 @pytest.mark.parametrize(
     ("path", "schema", "known"),
     [
-        (CORNERS, "CornersRequest", EXAMPLES["/v1/drive-train/corners"]),
-        (DESIGN, "DesignRequest", EXAMPLES["/v1/drive-train/design"]),
+        (CORNERS, "CornersRequest", EXAMPLES[CORNERS]),
+        (DESIGN, "DesignRequest", EXAMPLES[DESIGN]),
     ],
 )
 def test_documented(client: httpx.Client, path: str, schema: str, known: dict[str, Any]) -> None:

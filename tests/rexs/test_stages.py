@@ -150,9 +150,9 @@ def test_a_load_spectrum_is_ready_to_be_asked() -> None:
     (stage,) = answer(unit)["stages"]
     for endpoint in ("/v1/scuffing", "/v1/drive-train", LOAD):
         body = {"endpoint": endpoint, "request": stage["requests"][endpoint], "cases": stage["spectra"][endpoint]}
-        study = spectrum_study(json.dumps(body).encode(), 20_000, 30.0)
-        assert study.shares == pytest.approx([0.3, 0.7])
-        low, high = ([value for path, value in case.items() if "torque" in path] for case in study.cases)
+        study = spectrum_study(body, 20_000, 30.0)
+        assert [case.share for case in study.cases] == pytest.approx([0.3, 0.7])
+        low, high = ([value for path, value in case.set.items() if "torque" in path] for case in study.cases)
         assert high == pytest.approx([1.8 * torque for torque in low])
 
 

@@ -75,7 +75,7 @@ def local(body: dict[str, Any], plan: Callable[..., Study] = sweep_study) -> lis
     """The lines of a study calculated in this process."""
 
     async def run() -> list[Any]:
-        study = plan(json.dumps(body).encode(), 20_000, 30.0)
+        study = plan(body, 20_000, 30.0)
         groups = [group async for group in study.lines(InlinePool(), Clock(study.total))]
         return [line for group in groups for line in group]
 

@@ -13,12 +13,13 @@ from app.calculations import BY_PATH
 from app.errors import InvalidBody, Unprocessable, faults_of
 from app.evaluate import evaluate
 from app.examples import examples
+from app.studies.base_request import reduced_request
 from app.studies.design import design_study
-from app.studies.drive_train import reduced_request
 from app.studies.engine import Pool
 from app.studies.fields import value_at
 from app.studies.minimax import next_place, search
 from app.studies.points import with_overrides
+from app.studies.requests import DRIVE_TRAIN
 from app.studies.stream import Clock, encoded, guarded, json_line
 from app.studies.sweep import corners_study, sweep_study
 from solvers.arrays import FloatArray
@@ -39,7 +40,7 @@ Planner = Callable[[bytes, int, float], Any]
 
 
 def lines_of(planner: Planner, pool: Pool | None = None, **body: Any) -> list[dict[str, Any]]:
-    study = planner(json.dumps({"request": CLOSED, **body}).encode(), 2500, 30.0)
+    study = planner({"request": CLOSED, **body}, 2500, 30.0)
 
     async def run() -> bytes:
         clock = Clock(study.total)
@@ -97,7 +98,7 @@ def test_studies_say_the_same_on_any_number_of_processes() -> None:
 
 
 def test_the_usual_corners() -> None:
-    points = corners_study(json.dumps({"request": TURBO}).encode(), 2500, 30.0).points
+    points = corners_study({"request": TURBO}, 2500, 30.0).points
     assert points.total == 128
     assert [(axis.path, axis.values) for axis in points.axes] == [
         ("thermal.wall_response", [0.3, 1.0]),
@@ -108,7 +109,7 @@ def test_the_usual_corners() -> None:
         ("couplings.0.thrust_fraction", [0.0, 1.0]),
     ]
     generator = examples()["starter-generator-gear-drive-train"].request
-    named = [axis.path for axis in corners_study(json.dumps({"request": generator}).encode(), 2500, 30.0).points.axes]
+    named = [axis.path for axis in corners_study({"request": generator}, 2500, 30.0).points.axes]
     assert not [path for path in named if "clearance" in str(path)], "springs have no clearance"
 
 
@@ -136,11 +137,11 @@ def test_only_what_is_asked_is_calculated() -> None:
         (["states.cold.safety.blok_flank"], "closed_form", ["hot", "cold"]),
         (["states.cold.safety.thermal_ehl_feature"], "thermal_ehl", ["hot", "cold"]),
     ):
-        light = reduced_request(both, outputs)
+        light = reduced_request(DRIVE_TRAIN, both, outputs)
         assert light["model"] == {"lubrication": film, "feature_points": 21}
         assert light.get("states") == states
     assert both["states"] == ["hot", "cold"], "the request itself stays"
-    light = reduced_request({**TURBO, "states": ["hot", "cold"]}, [K, SAFETY])
+    light = reduced_request(DRIVE_TRAIN, {**TURBO, "states": ["hot", "cold"]}, [K, SAFETY])
     assert answered({}, [K, SAFETY], light) == answered({}, [K, SAFETY], TURBO)
 
 
@@ -355,7 +356,7 @@ REFUSED: dict[str, tuple[tuple[Planner, dict[str, Any]], str, str]] = {
 def test_refused_with_place_and_code(case: str) -> None:
     (planner, parts), pointer, code = REFUSED[case]
     with pytest.raises((Unprocessable, InvalidBody)) as caught:
-        planner(json.dumps({"request": CLOSED, **parts}).encode(), 1999, 30.0)
+        planner({"request": CLOSED, **parts}, 1999, 30.0)
     fault = faults_of(caught.value)[0]
     assert (fault["pointer"], fault["code"]) == (pointer, code)
 

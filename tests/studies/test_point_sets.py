@@ -27,7 +27,7 @@ def loads(**parts: Any) -> dict[str, Any]:
 
 
 def study_of(body: object, most: int = 2500) -> Sweep:
-    return sweep_study(json.dumps(body).encode(), most, 30.0)
+    return sweep_study(body, most, 30.0)
 
 
 def fault_of(body: object, most: int = 2500) -> tuple[str, str, str]:
@@ -56,6 +56,11 @@ def sample(count: int = 8, method: str = "latin_hypercube", *ranges: tuple[str, 
 
 REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
     "misspelt": (vary(axis("operation.speed_rmp", 1)), "/vary/0/path", "unknown_path"),
+    "list for a section": (
+        {**vary(SPEED), "request": {**COUPLING.request, "operation": [1]}},
+        "/request/operation",
+        "model_type",
+    ),
     "strange path": (vary(axis("operation..x", 1)), "/vary/0/path", "path_type"),
     "no path": (vary(axis("", 1)), "/vary/0/path", "path_type"),
     "section": (vary(SPEED, axis("coupling", 1)), "/vary/1/path", "not_scalar"),
@@ -288,10 +293,10 @@ def test_equal_sweeps_are_one_case_and_others_are_not() -> None:
 )
 def test_inputs_of_a_sensitivity(inputs: list[str], pointer: str, code: str) -> None:
     with pytest.raises((Unprocessable, InvalidBody)) as caught:
-        sensitivity_study(json.dumps(sweep(inputs=inputs)).encode(), 2500, 30.0)
+        sensitivity_study(sweep(inputs=inputs), 2500, 30.0)
     assert tuple(faults_of(caught.value)[0].values())[:2] == (pointer, code)
 
 
 def test_a_sensitivity_counts_its_points_too() -> None:
     with pytest.raises(Unprocessable, match="too_many_points"):
-        sensitivity_study(json.dumps(sweep()).encode(), 10, 30.0)
+        sensitivity_study(sweep(), 10, 30.0)

@@ -22,7 +22,7 @@ UNIT = examples()["starter-turbo-gear-drive-train"]
 
 def sensitivities(endpoint: str, request: dict[str, Any], **parts: Any) -> list[dict[str, Any]]:
     body = {"endpoint": endpoint, "request": request, **parts}
-    study = sensitivity_study(json.dumps(body).encode(), 2500, 30.0)
+    study = sensitivity_study(body, 2500, 30.0)
 
     async def run() -> bytes:
         clock = Clock(study.total)
@@ -105,7 +105,7 @@ def test_every_number_is_moved_sorted_by_influence() -> None:
 def test_places_of_lists_are_moved() -> None:
     example = examples()["milian-case-1-groove"]
     body = {"endpoint": example.endpoint, "request": example.request}
-    study = sensitivity_study(json.dumps(body).encode(), 2500, 30.0)
+    study = sensitivity_study(body, 2500, 30.0)
     paths = [each.leaf.path for each in study.perturbations]
     count = len(example.request["grooves"])
     assert [path for path in paths if path.startswith("grooves")] == [
@@ -280,7 +280,7 @@ def test_a_step_that_is_too_large_says_so() -> None:
 
 def points_of(sweep: dict[str, Any]) -> list[dict[str, Any]]:
     """The points of a sweep: a list that the request leaves to its default is reachable here too."""
-    study = sweep_study(json.dumps(sweep).encode(), 2500, 30.0)
+    study = sweep_study(sweep, 2500, 30.0)
 
     async def run() -> list[dict[str, Any]]:
         found = study.lines(InlinePool(), Clock(study.total))

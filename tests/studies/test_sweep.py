@@ -29,9 +29,7 @@ FILM = "lubrication.load_capacity_coefficient"
 
 def swept(slots: int = 1, **parts: Any) -> list[dict[str, Any]]:
     """The lines of a sweep over a coupling."""
-    study = sweep_study(
-        json.dumps({"endpoint": COUPLING.endpoint, "request": COUPLING.request, **parts}).encode(), 2500, 30.0
-    )
+    study = sweep_study({"endpoint": COUPLING.endpoint, "request": COUPLING.request, **parts}, 2500, 30.0)
 
     async def run() -> bytes:
         clock = Clock(study.total)
@@ -201,7 +199,7 @@ def test_table() -> None:
         {"operation.torque_n_m": 4500},
         {"model.sleeve": "floating", "operation.torque_n_m": None},
     ]
-    study = sweep_study(json.dumps({**body, "cases": cases[:1]}).encode(), 10, 30.0)
+    study = sweep_study({**body, "cases": cases[:1]}, 10, 30.0)
     points = PointSet([], 2, study.points.varied, cases=cases)
     _, point, end = swept(cases=cases[:1], outputs=body["outputs"])
     refused = {**point, "index": 1, "status": "refused", "out": [None, "=1+1"], "warnings": ["a", "b"]}
@@ -232,7 +230,7 @@ def test_words_that_a_spreadsheet_would_compute_are_quoted(text: str) -> None:
 
 def test_a_table_of_a_study_that_ended_early_ends_with_a_row_that_says_so() -> None:
     body = {"endpoint": COUPLING.endpoint, "request": COUPLING.request, "outputs": [THRUST]}
-    study = sweep_study(json.dumps({**body, "cases": [{"operation.torque_n_m": 4500}]}).encode(), 10, 30.0)
+    study = sweep_study({**body, "cases": [{"operation.torque_n_m": 4500}]}, 10, 30.0)
     error = {"type": "error", "code": "study_deadline", "message": "the study took longer than 1 s", "done": 0}
     heading, row = table_of([{"type": "sweep"}, error], study.points, study.outputs)
     assert dict(zip(heading, row, strict=True)) == {
@@ -274,5 +272,5 @@ def test_a_study_whose_connection_was_lost_goes_on_with_the_same_lines(points: d
 def test_a_study_does_not_go_on_behind_its_last_point() -> None:
     body = {"endpoint": COUPLING.endpoint, "request": COUPLING.request, "cases": [{}, {}], "from_index": 2}
     with pytest.raises(Unprocessable) as caught:
-        sweep_study(json.dumps(body).encode(), 10, 30.0)
+        sweep_study(body, 10, 30.0)
     assert (caught.value.code, caught.value.path) == ("out_of_range", "from_index")

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Body, Query, Request, Response
 from fastapi.responses import StreamingResponse
+from pydantic import BaseModel
 from starlette.types import Receive, Scope, Send
 
 from app.http.json_route import JsonRoute
@@ -82,14 +83,15 @@ async def streamed(
 
 async def started(
     http: Request,
-    planner: Callable[[bytes, int, float], Study],
+    planner: Callable[[Any, int, float], Study],
+    body: BaseModel,
     written_as: Format = "ndjson",
     most: int | None = None,
 ) -> Response:
     """The stream of a study of at most `most` points, which is checked in a worker before the first line."""
     start_up: StartUp = http.app.state.start_up
     start_up.require_any()
-    study: Study = await planned(http, partial(planner, await http.body()), most)
+    study: Study = await planned(http, partial(planner, body), most)
     start_up.require(study.question.endpoint)
     encode = encoder(study, written_as)
     return await streamed(http, study, lambda lines, _: encoded(lines, encode), MEDIA_TYPES[written_as])
@@ -143,7 +145,7 @@ def _examples(path: str) -> Any:
 )
 async def run_sweep(
     http: Request,
-    _body: Annotated[SweepRequest, _examples(sweep.PATH)],
+    body: Annotated[SweepRequest, _examples(sweep.PATH)],
     written_as: Annotated[
         Format, Query(alias="format", description="JSON a line, or a table; the Accept header can choose it too")
     ] = "ndjson",
@@ -155,7 +157,7 @@ async def run_sweep(
     cut off: with `from_index` the study goes on, with the same points and lines from there.
     The end of a sample tells 5, 50 and 95 % quantiles and in `quantile_bounds` what holds each with 90 % confidence.
     """
-    return await started(http, sweep.sweep_study, wanted_format(http, written_as))
+    return await started(http, sweep.sweep_study, body, wanted_format(http, written_as))
 
 
 @_study(
@@ -164,14 +166,14 @@ async def run_sweep(
     "What moves each output most",
     "a line for each output and input, the most influential first, and one for the end",
 )
-async def run_sensitivity(http: Request, _body: Annotated[SensitivityRequest, _examples(sensitivity.PATH)]) -> Response:
+async def run_sensitivity(http: Request, body: Annotated[SensitivityRequest, _examples(sensitivity.PATH)]) -> Response:
     """Differences of the outputs for every number of the case, moved by its tolerance, else by 1 % (1 K, 1).
 
     `change` is what one step does to the output, `elasticity` per cent of the output for a per cent of the input;
     `kink` says that the two sides differ by more than 10 %, `curved` that half the step gives another derivative by
     more than 10 %; it is null where the step is none of a tolerance.
     """
-    return await started(http, sensitivity.sensitivity_study)
+    return await started(http, sensitivity.sensitivity_study, body)
 
 
 @_study(
@@ -180,7 +182,7 @@ async def run_sensitivity(http: Request, _body: Annotated[SensitivityRequest, _e
     "A machine with its tolerances over its load spectrum: probabilities, losses, what decides",
     "a line for the spectrum, one for each point if asked for, and one for the end",
 )
-async def run_spectrum(http: Request, _body: Annotated[SpectrumRequest, _examples(spectrum.PATH)]) -> Response:
+async def run_spectrum(http: Request, body: Annotated[SpectrumRequest, _examples(spectrum.PATH)]) -> Response:
     """Machines are drawn from the tolerances; each runs every case, and its worst case meets the limits.
 
     The end tells the probability of each limit with its 90 % interval, over the spectrum and of each case alone, which
@@ -190,7 +192,7 @@ async def run_spectrum(http: Request, _body: Annotated[SpectrumRequest, _example
     `progress` come every half second.
     """
     settings: Settings = http.app.state.settings
-    return await started(http, spectrum.spectrum_study, most=settings.spectrum_solves)
+    return await started(http, spectrum.spectrum_study, body, most=settings.spectrum_solves)
 
 
 @_study(
@@ -199,13 +201,13 @@ async def run_spectrum(http: Request, _body: Annotated[SpectrumRequest, _example
     "A gear unit at every combination of its uncertain inputs",
     "a line for the ranges, each corner, the extremes of each output, and one for the end",
 )
-async def run_corners(http: Request, _body: Annotated[CornersRequest, _examples(sweep.CORNERS_PATH)]) -> Response:
+async def run_corners(http: Request, body: Annotated[CornersRequest, _examples(sweep.CORNERS_PATH)]) -> Response:
     """Every corner is the unit's own answer, up to 256 of them; `extremes` say where each output is least and largest.
 
     Where no output needs the thermal film, corners leave it out, which makes them twenty times as fast and their
     warnings fewer. The end warns `no_convergence_of_corner` where corners have no answer; their lines say why.
     """
-    return await started(http, sweep.corners_study)
+    return await started(http, sweep.corners_study, body)
 
 
 @_study(
@@ -214,11 +216,11 @@ async def run_corners(http: Request, _body: Annotated[CornersRequest, _examples(
     "The correction of a gear unit that is best at its worst corner",
     "a line for the search, one for each correction tried, and one for the end",
 )
-async def run_design(http: Request, _body: Annotated[DesignRequest, _examples(design.PATH)]) -> Response:
+async def run_design(http: Request, body: Annotated[DesignRequest, _examples(design.PATH)]) -> Response:
     """COBYQA from the request's own correction, each judged at every operating point and corner.
 
     The objective of a correction is that of its worst corner. `safety.minimum` counts the thermal film, a second a
     corner; with `safety.blok_flank`, or `model.lubrication` in closed form, the search is twenty times as fast. Where
     variables have a `step`, `rounded` in the end is the best correction in whole steps, judged like the others.
     """
-    return await started(http, design.design_study)
+    return await started(http, design.design_study, body)

@@ -27,11 +27,11 @@ from app.pages.studies.declaration import (
 from app.pages.typesetting import shown
 from app.pages.views import REFUSED, Asked
 from app.schema.fields import Leaf, headlines
-from app.studies.drive_train import needs_film_or_state, usual_corners
+from app.studies.base_request import COLD, BaseRequest, needs_film
+from app.studies.drive_train import usual_corners
 from app.studies.fields import scalar_at, value_at
-from app.studies.requests import USUAL_RANGES, Overrides
+from app.studies.requests import DRIVE_TRAIN, USUAL_RANGES, Overrides
 from app.studies.stream import Line
-from app.studies.study import checked_base
 from app.studies.sweep import corners_study
 
 OUTPUT = "safety.blok_flank"
@@ -44,7 +44,7 @@ def ranges_of(asked: Asked, left_alone: tuple[str, ...] = ()) -> dict[str, dict[
     """
     calculation = asked.calculation
     try:
-        usual = usual_corners(checked_base(calculation, body_of(calculation.request, asked.pairs), {}))
+        usual = usual_corners(BaseRequest(calculation, body_of(calculation.request, asked.pairs)).checked({}))
     except REFUSED:
         return {}
     found = {}
@@ -91,7 +91,8 @@ def _controls(form: Form) -> tuple[Controls, ...]:
 
 def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
     """The corners as typed or usual, and beside the output what decides and costs no film."""
-    deciding = [leaf.path for leaf in headlines(asked.calculation.response) if not needs_film_or_state(leaf.path)]
+    paths = [leaf.path for leaf in headlines(asked.calculation.response)]
+    deciding = [path for path in paths if not (needs_film(DRIVE_TRAIN, path) or path.startswith(COLD))]
     return {
         "request": body_of(asked.calculation.request, asked.pairs),
         "ranges": list(ranges_of(asked).values()) or None,

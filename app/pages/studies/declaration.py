@@ -15,7 +15,7 @@ from app.pages.typesetting import symbol
 from app.pages.views import Asked
 from app.schema.fields import Leaf
 from app.sources import SHORT_SOURCES
-from app.studies.drive_train import reduced_request
+from app.studies.base_request import reduced_request
 from app.studies.points import with_overrides
 from app.studies.requests import Overrides
 from app.studies.stream import Line
@@ -59,7 +59,7 @@ def address_at(asked: Asked, overrides: Overrides, below: str = "") -> str:
 def case_at(asked: Asked, overrides: Overrides, outputs: list[str]) -> Case:
     """The case at a point with its answer, no more of it calculated than these outputs need."""
     body = body_of(asked.calculation.request, pairs_at(asked, overrides))
-    return solved(asked.calculation, pairs_of(reduced_request(body, outputs)), None)
+    return solved(asked.calculation, pairs_of(reduced_request(asked.calculation.path, body, outputs)), None)
 
 
 class Choice(NamedTuple):
@@ -242,7 +242,7 @@ class StudyPage:
     about: str
     figures: tuple[str, ...]
     body: Callable[[Asked, Leaf], dict[str, Any]]
-    plan: Callable[[bytes, int, float], Study]
+    plan: Callable[[dict[str, Any], int, float], Study]
     result: Callable[[PageStudy, list[Line]], Result]
     outputs: tuple[str, ...] = ()
     controls: Callable[[Form], tuple[Controls, ...]] = _no_controls

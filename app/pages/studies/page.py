@@ -1,6 +1,5 @@
 """The page of a study before, while and after its lines come, and its figures as files; runs in workers."""
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -65,8 +64,7 @@ def opened(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Opene
 def checked(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> PageStudy:
     """The study that is asked for; raises what refuses it, with paths into the study."""
     output = _output(page, asked.calculation, asked.views)
-    body = json.dumps(page.body(asked, output)).encode()
-    return PageStudy(page, asked, output, page.plan(body, most, deadline_s))
+    return PageStudy(page, asked, output, page.plan(page.body(asked, output), most, deadline_s))
 
 
 def _output(page: StudyPage, calculation: Calculation, views: dict[str, str]) -> Leaf:

@@ -329,7 +329,7 @@ def _cases_table(study: PageStudy, end: Line, found: Line | None) -> Table:
         decides = [] if found is None else ["–" if found["decides"] is None else percent(found["decides"][index])]
         rows.append(
             (
-                Cell(each["name"], address_at(study.asked, spectrum.cases[index])),
+                Cell(each["name"], address_at(study.asked, spectrum.cases[index].set)),
                 *(Cell(text, right=True) for text in (percent(each["share"]), *chance, *decides)),
                 *(Cell(shown(value, 4), right=True) for value in known),
                 Cell(percent(each["unsolved"]), right=True),
