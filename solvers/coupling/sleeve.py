@@ -10,6 +10,7 @@ equations remain for the force, Phi(g) = g, solved by Newton's method with the e
 
 from dataclasses import dataclass
 from math import cos, hypot, pi
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from solvers.compiled import kernel
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.losses import RotorSamples, rotor_samples, without_rounding
 from solvers.coupling.results import Geometry
-from solvers.coupling.teeth.balance import ALONG_X, ALONG_Y, ROTATION, SHIFT_X, SHIFT_Y, float_sleeve, solve_loaded
+from solvers.coupling.teeth.balance import Hessian, Motion, Places, float_sleeve, solve_loaded
 from solvers.coupling.teeth.kinematics import MeshMotion, flank_normals, mesh_motion, relative_velocity
 from solvers.coupling.teeth.loads import coaxial_limit, elastic_rotation, interference_at_rest
 from solvers.errors import NoSolution
@@ -30,35 +31,37 @@ FORCE_TOLERANCE = 1e-9  # in units of T/r_o, chosen
 _LIMIT_MARGIN = 0.9999  # of the force that the teeth can hold, chosen
 
 
+class Unbalance(NamedTuple):
+    """Phi(g) - g along x and y, its amount, and g - Phi(g) differentiated by g: `xy` is that of x by y."""
+
+    size: float
+    x: float
+    y: float
+    xx: float
+    xy: float
+    yx: float
+    yy: float
+
+
 @kernel
 def add_friction_moment(
-    ahead: FloatArray,
-    normal: FloatArray,
-    arm: FloatArray,
-    hessian: FloatArray,
-    sense: float,
-    moment: FloatArray,
-    slope: FloatArray,
-) -> None:
-    """Add sum F_t sgn(v_r) e_r of one mesh to `moment` (2), and its slope by the force on the left mesh to `slope`.
+    moment: float, ahead: FloatArray, normal: FloatArray, arm: FloatArray, hessian: Hessian
+) -> tuple[float, float, float]:
+    """`moment` and sum F_t sgn(v_r) e_r of one mesh along one axis; slopes of the sum by the force (x, y) on the mesh.
 
-    `arm` (2, teeth) holds sgn(v_r) e_r; `ahead` and `hessian` the mesh as float_sleeve left it; `sense` is +1 or -1
-    where the mesh feels the force or its opposite.
+    `arm` (teeth) holds sgn(v_r) e_r; `ahead` and `hessian` the mesh as float_sleeve left it.
     """
-    weighted = np.zeros((2, 3))
-    row, free = np.empty(3), np.empty(2)
+    normal_x, normal_y = normal
+    torque, x, y = 0.0, 0.0, 0.0
     for i in range(ahead.size):
         if ahead[i] > 0.0:
-            for axis in range(2):
-                moment[axis] += arm[axis, i] * ahead[i]
-                weighted[axis, ROTATION] += arm[axis, i]
-                weighted[axis, SHIFT_X] -= arm[axis, i] * normal[ALONG_X, i]
-                weighted[axis, SHIFT_Y] -= arm[axis, i] * normal[ALONG_Y, i]
-    for axis in range(2):
-        # The Hessian is symmetric: its inverse times the weights is the derivative by (torque, force).
-        solve_loaded(hessian, weighted[axis], row, free)
-        slope[axis, ALONG_X] += sense * row[SHIFT_X]
-        slope[axis, ALONG_Y] += sense * row[SHIFT_Y]
+            moment += arm[i] * ahead[i]
+            torque += arm[i]
+            x -= arm[i] * normal_x[i]
+            y -= arm[i] * normal_y[i]
+    # The Hessian is symmetric: its inverse times the weights is the derivative by (torque, force).
+    slope, _, _ = solve_loaded(hessian, Motion(torque, x, y))
+    return moment, slope.x, slope.y
 
 
 @kernel
@@ -68,30 +71,28 @@ def unbalanced_force(
     arm: FloatArray,
     lever: float,
     force: FloatArray,
-    state: FloatArray,
+    places: Places,
     ahead: FloatArray,
-    gap: FloatArray,
-    slope: FloatArray,
-) -> float:
-    """Phi(g) - g into `gap` (2), g - Phi(g) differentiated by g into `slope` (2, 2); returns |gap|.
+) -> Unbalance:
+    """What the force g on the left mesh, its opposite on the right one, lacks to be that of friction.
 
-    Balances both meshes under the force g and its opposite, from and into `state` (2, 3), with the interference left
-    in `ahead` (2, teeth); inf where one cannot hold it.
+    Balances both meshes from and into their `places`, with the interference left in `ahead` (2, teeth); the size is
+    inf where one cannot hold the force.
     """
-    hessian = np.empty((3, 3))
-    gap[:] = 0.0
-    slope[:, :] = 0.0
+    moment_x, moment_y, xx, xy, yx, yy = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for mesh in range(2):
         sense = 1.0 - 2.0 * mesh
-        met = float_sleeve(interference[mesh], normal[mesh], sense * force, state[mesh], ahead[mesh], hessian)
+        teeth, normals, (arm_x, arm_y) = ahead[mesh], normal[mesh], arm[mesh]
+        met, hessian = float_sleeve(interference[mesh], normals, sense * force, places, mesh, teeth)
         if met < 0:
-            return np.inf
-        add_friction_moment(ahead[mesh], normal[mesh], arm[mesh], hessian, sense, gap, slope)
-    gap[:] = lever * gap - force
-    slope *= -lever
-    slope[ALONG_X, ALONG_X] += 1.0
-    slope[ALONG_Y, ALONG_Y] += 1.0
-    return hypot(gap[ALONG_X], gap[ALONG_Y])
+            return Unbalance(np.inf, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        moment_x, by_x, by_y = add_friction_moment(moment_x, teeth, normals, arm_x, hessian)
+        xx, xy = xx + sense * by_x, xy + sense * by_y
+        moment_y, by_x, by_y = add_friction_moment(moment_y, teeth, normals, arm_y, hessian)
+        yx, yy = yx + sense * by_x, yy + sense * by_y
+    force_x, force_y = force
+    x, y = lever * moment_x - force_x, lever * moment_y - force_y
+    return Unbalance(hypot(x, y), x, y, 1.0 - lever * xx, -lever * xy, -lever * yx, 1.0 - lever * yy)
 
 
 @kernel
@@ -102,19 +103,20 @@ def balance_sleeve(
     lever: float,
     force_limit: float,
     force: FloatArray,
-    state: FloatArray,
+    places: Places,
     ahead: FloatArray,
 ) -> float:
-    """Solve Phi(g) = g at one rotor angle from and into `force` g (2) and `state` (2, 3); returns |Phi(g) - g|.
+    """Solve Phi(g) = g at one rotor angle from and into `force` g (2) and the meshes' `places`; returns |Phi(g) - g|.
 
     interference and ahead (2, teeth), normal and arm (2, 2, teeth); `lever` is (mu/cos alpha)(r_o/l_H). Newton's
     method with steps shortened until the residual falls; some damped substitutions where that fails, for Phi is
     piecewise linear (teeth come under load) and Newton may cycle between its pieces. Eq. C22.
     """
-    gap, step, accepted, slope = np.empty(2), np.zeros(2), np.zeros(2), np.empty((2, 2))
+    accepted_x, accepted_y, step_x, step_y = 0.0, 0.0, 0.0, 0.0
     accepted_residual, length, substitutions = np.inf, 1.0, 0
     for _ in range(MAX_ITERATIONS):
-        residual = unbalanced_force(interference, normal, arm, lever, force, state, ahead, gap, slope)
+        found = unbalanced_force(interference, normal, arm, lever, force, places, ahead)
+        residual = found.size
         if residual < FORCE_TOLERANCE or residual == np.inf:
             return residual
         if substitutions > 0 or residual <= (1.0 - 0.1 * length) * accepted_residual:
@@ -124,20 +126,18 @@ def balance_sleeve(
             if length < SHORTEST_STEP:
                 substitutions = SUBSTITUTIONS
         if length == 1.0 or substitutions > 0:
-            accepted[:], accepted_residual = force, residual
-            (xx, xy), (yx, yy) = slope
-            determinant = xx * yy - xy * yx
+            (accepted_x, accepted_y), accepted_residual = force, residual
+            determinant = found.xx * found.yy - found.xy * found.yx
             if substitutions > 0 or abs(determinant) < 1e-6:
                 substitutions = max(0, substitutions - 1)
                 length = 0.5
-                step[:] = gap
+                step_x, step_y = found.x, found.y
             else:
-                step[ALONG_X] = (yy * gap[ALONG_X] - xy * gap[ALONG_Y]) / determinant
-                step[ALONG_Y] = (xx * gap[ALONG_Y] - yx * gap[ALONG_X]) / determinant
-        force[:] = accepted + length * step
-        size = hypot(force[ALONG_X], force[ALONG_Y])
-        if size > force_limit:
-            force *= force_limit / size
+                step_x = (found.yy * found.x - found.xy * found.y) / determinant
+                step_y = (found.xx * found.y - found.yx * found.x) / determinant
+        x, y = accepted_x + length * step_x, accepted_y + length * step_y
+        shortened = min(1.0, force_limit / hypot(x, y))
+        force[:] = shortened * x, shortened * y
     return accepted_residual
 
 
@@ -155,15 +155,16 @@ def balance_rows(
     Leaves the tooth forces in `share` (rows, 2, teeth). Returns the largest residual, that of the first angle without
     balance if there is one: no later angle is tried.
     """
-    force, state = np.zeros(2), np.zeros((2, 3))
+    force, places = np.zeros(2), Places(np.zeros(2), np.zeros(2), np.zeros(2))
     largest = 0.0
     for row in range(interference.shape[0]):
         tooth, flank, friction = interference[row], normal[row], arm[row]
-        residual = balance_sleeve(tooth, flank, friction, lever, force_limit, force, state, share[row])
+        residual = balance_sleeve(tooth, flank, friction, lever, force_limit, force, places, share[row])
         if residual >= FORCE_TOLERANCE:
             force[:] = 0.0
-            state[:, :] = 0.0
-            residual = balance_sleeve(tooth, flank, friction, lever, force_limit, force, state, share[row])
+            places.x[:] = 0.0
+            places.y[:] = 0.0
+            residual = balance_sleeve(tooth, flank, friction, lever, force_limit, force, places, share[row])
         largest = max(largest, residual)
         if residual >= FORCE_TOLERANCE:
             break

@@ -16,7 +16,6 @@ from solvers.scuffing.modification import Gap, gap_at
 COINCIDENT = 1e-9  # base pitches; breakpoints nearer than this are one
 LEAST_STEPS = 8  # between two breakpoints, however close
 MOST_LINES = 100  # at once; no gear has a tenth of it
-LOW, HIGH = range(2)  # columns of zones
 MOST_ZONES = 12  # of one line; what more there were joins the last
 LEAST_SAMPLES = 8  # of a smooth part
 BISECTIONS = 45  # 2^-45 of a sample: beyond the digits of a gap
@@ -184,9 +183,10 @@ def _note(zones: FloatArray, count: int, low: float, high: float) -> int:
     if high <= low:
         return count
     if count == MOST_ZONES:
-        zones[count - 1, HIGH] = high
+        low, _ = zones[count - 1]
+        zones[count - 1] = low, high
         return count
-    zones[count, LOW], zones[count, HIGH] = low, high
+    zones[count] = low, high
     return count + 1
 
 

@@ -11,9 +11,7 @@ from solvers.compiled import inlined_kernel, kernel
 from solvers.gears.pair import ContactPlane, reduced_radius
 from solvers.scuffing.contact_lines import (
     COINCIDENT,
-    HIGH,
     LEAST_SAMPLES,
-    LOW,
     MOST_ZONES,
     gap_on_line,
     line_count,
@@ -120,13 +118,13 @@ def _parts(
         if high <= low:
             continue
         if reach == np.inf:
-            zones[count, LOW], zones[count, HIGH] = low, high
+            zones[count] = low, high
             found = 1
         else:
             samples = max(LEAST_SAMPLES, ceil(slices * (high - low) / (last_y - first_y)))
             found = loaded_zones(mesh.gap, mesh.plane, line, (low, high), samples, reach, zones[count:])
-        for zone in zones[count : count + found]:
-            length += zone[HIGH] - zone[LOW]
+        for start, end in zones[count : count + found]:
+            length += end - start
         count += found
     return count, length
 
@@ -147,7 +145,8 @@ def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, tab
         stretches, loaded = _parts(mesh, line, (low, high), slices, reach, zones)
         length += loaded / plane.cos_base_helix
         for zone in zones[:stretches]:
-            pieces = ceil(slices * (zone[HIGH] - zone[LOW]) / loaded - 1e-9)
+            start, end = zone
+            pieces = ceil(slices * (end - start) / loaded - 1e-9)
             first, count = count, _cut(mesh, line, j, zone, max(pieces, 1), table, count)
             lowest, highest = _range(mesh, line, zone, table, first, count)
             least, most = min(least, lowest), max(most, highest)

@@ -8,24 +8,32 @@ from solvers.arrays import FloatArray
 from solvers.compiled import inlined_kernel, kernel
 from solvers.contact.ehl.linear_algebra import row_product
 from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.reynolds import BY_G, BY_H, BY_P
 from solvers.contact.ehl.shear import Film
 
-HEATING = 0  # the response to the mid-film stress; the others are BY_P, BY_G, BY_H
+
+class Responses(NamedTuple):
+    """Derivative of the residual by the mid-film stress (n, k), and right-hand sides of the response to p, G, h.
+
+    G = h dp/dx. Once solved for they are the responses of the temperature.
+    """
+
+    heating: FloatArray
+    by_p: FloatArray
+    by_g: FloatArray
+    by_h: FloatArray
 
 
 class ColumnSystem(NamedTuple):
     """The linear system of every column: its factored tridiagonal part (pivot: inverse) and residual (n, k).
 
-    responses (n, k, 4): derivative of the residual by the mid-film stress (the rank-one part), and right-hand sides of
-    the response to p, G = h dp/dx and h; once solved for, those of the temperature. sherman 1/(1 + v x) (n,).
+    The rank-one part is the response to the mid-film stress; sherman is 1/(1 + v x) (n,).
     """
 
     lower: FloatArray
     pivot: FloatArray
     upper: FloatArray
     residual: FloatArray
-    responses: FloatArray
+    responses: Responses
     sherman: FloatArray
 
 
@@ -76,7 +84,7 @@ def heat_arrays(nodes: int, film_nodes: int) -> Heat:
     lower, pivot, upper, residual, from_left, from_right = np.zeros((6, nodes, film_nodes))
     sherman, fluid_fraction, generated, compression = np.zeros((4, nodes))
     return Heat(
-        ColumnSystem(lower, pivot, upper, residual, np.zeros((nodes, film_nodes, 4)), sherman),
+        ColumnSystem(lower, pivot, upper, residual, Responses(*np.zeros((4, nodes, film_nodes))), sherman),
         Convection(from_left, from_right, np.zeros((nodes, film_nodes + 1))),
         Surfaces(*np.zeros((len(Surfaces._fields), nodes))),
         fluid_fraction,
@@ -134,7 +142,7 @@ def transport(problem: Problem, i: int, width: float, temperature: FloatArray, h
         column.lower[i, k], column.upper[i, k] = lower, upper
         column.pivot[i, k] = from_left + from_right + lower + upper
         column.residual[i, k] = residual
-        column.responses[i, k, BY_H] = conduction * per_h
+        column.responses.by_h[i, k] = conduction * per_h
 
 
 @inlined_kernel
@@ -161,10 +169,10 @@ def dissipation(i: int, h: float, film: Film, heat: Heat) -> None:
         total += sources
         column.residual[i, k] -= sources
         column.pivot[i, k] -= warmed
-        column.responses[i, k, HEATING] = -stressed
-        column.responses[i, k, BY_P] = by_pressure + stressed * by_p
-        column.responses[i, k, BY_G] = by_tilt + stressed * by_g
-        column.responses[i, k, BY_H] += sources * per_h + stressed * by_h
+        column.responses.heating[i, k] = -stressed
+        column.responses.by_p[i, k] = by_pressure + stressed * by_p
+        column.responses.by_g[i, k] = by_tilt + stressed * by_g
+        column.responses.by_h[i, k] += sources * per_h + stressed * by_h
     heat.generated[i] = total
 
 
@@ -183,8 +191,8 @@ def compress(problem: Problem, i: int, temperature: FloatArray, g: float, h: flo
         total += source
         column.residual[i, k] -= source
         column.pivot[i, k] -= squeeze * g
-        column.responses[i, k, BY_G] += squeeze * temperature[i, k]
-        column.responses[i, k, BY_H] -= source * per_h
+        column.responses.by_g[i, k] += squeeze * temperature[i, k]
+        column.responses.by_h[i, k] -= source * per_h
     heat.compression[i] = total
 
 
@@ -222,8 +230,10 @@ def column_balance(
         column.lower[i, k] *= gain
         column.upper[i, k] *= gain
         column.pivot[i, k] = 1.0 + gain * (column.pivot[i, k] + 0.5 * inertia)
-        for c in range(4):
-            column.responses[i, k, c] *= gain
+        column.responses.heating[i, k] *= gain
+        column.responses.by_p[i, k] *= gain
+        column.responses.by_g[i, k] *= gain
+        column.responses.by_h[i, k] *= gain
     column.residual[i, 0] += temperature[i, 0] - problem.bulk_1 - surfaces.history_1[i]
     column.residual[i, m] += temperature[i, m] - problem.bulk_2 - surfaces.history_2[i]
 
@@ -246,18 +256,20 @@ def factor_column(i: int, film: Film, heat: Heat) -> None:
         inverse = 1.0 / (pivot[i, k] - passed_on * upper[i, k - 1])
         upper[i, k - 1] *= pivot[i, k - 1]
         lower[i, k], pivot[i, k] = passed_on, inverse
-        for c in range(4):
-            responses[i, k, c] += passed_on * responses[i, k - 1, c]
+        responses.heating[i, k] += passed_on * responses.heating[i, k - 1]
+        responses.by_p[i, k] += passed_on * responses.by_p[i, k - 1]
+        responses.by_g[i, k] += passed_on * responses.by_g[i, k - 1]
+        responses.by_h[i, k] += passed_on * responses.by_h[i, k - 1]
     heating, p, g, h = 0.0, 0.0, 0.0, 0.0
     shared, by_p, by_g, by_h = 1.0, 0.0, 0.0, 0.0
     for k in range(m, -1, -1):
         inverse, passed_back = pivot[i, k], upper[i, k]
-        heating = responses[i, k, HEATING] * inverse + passed_back * heating
-        p = responses[i, k, BY_P] * inverse + passed_back * p
-        g = responses[i, k, BY_G] * inverse + passed_back * g
-        h = responses[i, k, BY_H] * inverse + passed_back * h
-        responses[i, k, HEATING], responses[i, k, BY_P] = heating, p
-        responses[i, k, BY_G], responses[i, k, BY_H] = g, h
+        heating = responses.heating[i, k] * inverse + passed_back * heating
+        p = responses.by_p[i, k] * inverse + passed_back * p
+        g = responses.by_g[i, k] * inverse + passed_back * g
+        h = responses.by_h[i, k] * inverse + passed_back * h
+        responses.heating[i, k], responses.by_p[i, k] = heating, p
+        responses.by_g[i, k], responses.by_h[i, k] = g, h
         shared += by_temperature[i, k] * heating
         by_p += by_temperature[i, k] * p
         by_g += by_temperature[i, k] * g
@@ -265,10 +277,10 @@ def factor_column(i: int, film: Film, heat: Heat) -> None:
     sherman = 1.0 / shared
     column.sherman[i] = sherman
     for k in range(m + 1):
-        heating = responses[i, k, HEATING] * sherman
-        responses[i, k, BY_P] -= heating * by_p
-        responses[i, k, BY_G] -= heating * by_g
-        responses[i, k, BY_H] -= heating * by_h
+        heating = responses.heating[i, k] * sherman
+        responses.by_p[i, k] -= heating * by_p
+        responses.by_g[i, k] -= heating * by_g
+        responses.by_h[i, k] -= heating * by_h
 
 
 @inlined_kernel
@@ -288,4 +300,4 @@ def solve_column(i: int, film: Film, heat: Heat, vector: FloatArray) -> None:
         shared += by_temperature[i, k] * value
     shared *= column.sherman[i]
     for k in range(m + 1):
-        vector[i, k] -= responses[i, k, HEATING] * shared
+        vector[i, k] -= responses.heating[i, k] * shared

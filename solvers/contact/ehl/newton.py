@@ -3,18 +3,15 @@
 import numpy as np
 
 from solvers.arrays import BoolArray, FloatArray, IntArray
-from solvers.compiled import kernel
+from solvers.compiled import inlined_kernel, kernel
 from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.heat import factor_column
 from solvers.contact.ehl.linear_algebra import combine_basis, dot, extend_basis, factor, solved, substitute
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.reynolds import (
-    BY_G,
-    BY_H,
-    BY_P,
     PATIENCE,
     RUPTURE_TOLERANCE,
-    VALUE,
+    FlowCoefficients,
     add_flux_changes,
     apply_pressure_step,
     assemble_faces,
@@ -41,9 +38,9 @@ SHORT_STEP = 3e-3  # of P, behind which the Jacobian still holds
 SHRINKING = 0.1  # what the next step is of such a one, if it does
 
 
-@kernel
-def uniform_film(problem: Problem, p: float, g: float, h: float, log_a: FloatArray, b: FloatArray) -> float:
-    """Coefficients of one column at the inlet temperature, into log_a and b (5,); returns the mid-film stress [Pa].
+@inlined_kernel
+def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coefficients: FlowCoefficients) -> float:
+    """Flow coefficients of column i at the inlet temperature; returns the mid-film stress [Pa].
 
     `g` is h dp/dx. Newtonian: A = rho/(12 eta). Ree-Eyring with s = g/(2 tau0): sinh a = eta du s/(tau0 h sinh s) and
     A = rho/(12 eta) cosh a 3 (s cosh s - sinh s)/s^3, the mid-film stress being tau0 a.
@@ -54,10 +51,10 @@ def uniform_film(problem: Problem, p: float, g: float, h: float, log_a: FloatArr
     by_p = eta_slope * term_slope
     rho, rho_slope, _ = density(laws, p, problem.inlet)
     um, du = 0.5 * (problem.speed_1 + problem.speed_2), problem.speed_2 - problem.speed_1
-    log_a[:] = 0.0
-    b[:] = 0.0
-    b[VALUE], b[BY_P] = rho * um, rho_slope * um
-    log_a[VALUE], log_a[BY_P] = np.log(rho / 12.0) - log_eta, rho_slope / rho - by_p
+    log_a, b = coefficients.log_a, coefficients.b
+    log_a.by_g[i], log_a.by_h[i], b.by_g[i], b.by_h[i] = 0.0, 0.0, 0.0, 0.0
+    b.value[i], b.by_p[i] = rho * um, rho_slope * um
+    log_a.value[i], log_a.by_p[i] = np.log(rho / 12.0) - log_eta, rho_slope / rho - by_p
     if problem.newtonian == 1:
         return float(np.exp(log_eta) * du / h)
     tau0 = problem.eyring_stress
@@ -72,10 +69,10 @@ def uniform_film(problem: Problem, p: float, g: float, h: float, log_a: FloatArr
         log_phi, phi_slope = np.log(3.0 * moment / s**3), s * sinh / moment - 3.0 / s
     sinh_a = np.exp(log_eta + log_sigma) * du / (tau0 * h)
     share = sinh_a * sinh_a / (1.0 + sinh_a * sinh_a)
-    log_a[VALUE] += 0.5 * np.log1p(sinh_a * sinh_a) + log_phi
-    log_a[BY_P] += share * by_p
-    log_a[BY_H] = -share / h
-    log_a[BY_G] = (share * sigma_slope + phi_slope) * np.sign(g) / (2.0 * tau0)
+    log_a.value[i] += 0.5 * np.log1p(sinh_a * sinh_a) + log_phi
+    log_a.by_p[i] += share * by_p
+    log_a.by_h[i] = -share / h
+    log_a.by_g[i] = (share * sigma_slope + phi_slope) * np.sign(g) / (2.0 * tau0)
     return float(tau0 * np.arcsinh(sinh_a))
 
 
@@ -89,8 +86,7 @@ def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) 
     for i in range(grid.x.size):
         h = work.height[i] * problem.gap_scale
         p, g = state.pressure[i] * problem.maximum_pressure, h * work.gradient[i] * slope
-        coefficients = work.coefficients
-        work.film.mid.stress[i] = uniform_film(problem, p, g, h, coefficients.log_a[i], coefficients.b[i])
+        work.film.mid.stress[i] = uniform_film(problem, i, p, g, h, work.coefficients)
     assemble_faces(
         problem, grid.x, state.pressure, work.height, work.gradient, state.cavitated, work.coefficients, work.faces
     )
@@ -140,10 +136,10 @@ def include_temperature(work: Work) -> None:
     a_slopes, b_slopes = work.film.flow.log_a_by_temperature, work.film.flow.b_by_temperature
     n, nodes = a_slopes.shape
     for i in range(1, n):
-        a_by_p, a_by_g, a_by_h = log_a[i, BY_P], log_a[i, BY_G], log_a[i, BY_H]
-        b_by_p, b_by_g, b_by_h = b[i, BY_P], b[i, BY_G], b[i, BY_H]
+        a_by_p, a_by_g, a_by_h = log_a.by_p[i], log_a.by_g[i], log_a.by_h[i]
+        b_by_p, b_by_g, b_by_h = b.by_p[i], b.by_g[i], b.by_h[i]
         for k in range(nodes):
-            p, g, h = responses[i, k, BY_P], responses[i, k, BY_G], responses[i, k, BY_H]
+            p, g, h = responses.by_p[i, k], responses.by_g[i, k], responses.by_h[i, k]
             a_by_p, a_by_g, a_by_h = (
                 a_by_p + a_slopes[i, k] * p,
                 a_by_g + a_slopes[i, k] * g,
@@ -154,8 +150,8 @@ def include_temperature(work: Work) -> None:
                 b_by_g + b_slopes[i, k] * g,
                 b_by_h + b_slopes[i, k] * h,
             )
-        log_a[i, BY_P], log_a[i, BY_G], log_a[i, BY_H] = a_by_p, a_by_g, a_by_h
-        b[i, BY_P], b[i, BY_G], b[i, BY_H] = b_by_p, b_by_g, b_by_h
+        log_a.by_p[i], log_a.by_g[i], log_a.by_h[i] = a_by_p, a_by_g, a_by_h
+        b.by_p[i], b.by_g[i], b.by_h[i] = b_by_p, b_by_g, b_by_h
 
 
 @kernel
@@ -191,7 +187,7 @@ def pressure_responses(
         dh = (change[i] - 0.5 * grid.x[i] ** 2) * problem.gap_scale
         dg = slope * (slopes[i] * work.height[i] * problem.gap_scale + work.gradient[i] * dh)
         for k in range(given.shape[1]):
-            given[i, k] = responses[i, k, BY_P] * dp + responses[i, k, BY_G] * dg + responses[i, k, BY_H] * dh
+            given[i, k] = responses.by_p[i, k] * dp + responses.by_g[i, k] * dg + responses.by_h[i, k] * dh
 
 
 @kernel

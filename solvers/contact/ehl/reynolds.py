@@ -11,21 +11,28 @@ from solvers.contact.ehl.linear_algebra import multiply
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.shear import Film, Shear, shear_eyring, shear_newtonian, stress_response, viscosities
 
-# Columns of the coefficient arrays: value, and derivatives by p, by G = h dp/dx and by h.
-VALUE, BY_P, BY_G, BY_H = 0, 1, 2, 3
 PATIENCE = 10  # iterations before the rupture tolerance counts
 RUPTURE_TOLERANCE = 5e-3  # of the flux
 HALVINGS = 12  # a step of 1/4096 of Newton's no longer helps
 
 
+class Coefficient(NamedTuple):
+    """A coefficient at each node (n,) with its derivatives by p, by G = h dp/dx and by h."""
+
+    value: FloatArray
+    by_p: FloatArray
+    by_g: FloatArray
+    by_h: FloatArray
+
+
 class FlowCoefficients(NamedTuple):
-    """Of the mass flux m = B h - A h^3 dp/dx at each node: ln A and B with their derivatives, (n, 4) each.
+    """Of the mass flux m = B h - A h^3 dp/dx at each node: ln A and B.
 
     Derivatives are total ones: where temperature is unknown they include its response.
     """
 
-    log_a: FloatArray
-    b: FloatArray
+    log_a: Coefficient
+    b: Coefficient
 
 
 class FaceFluxes(NamedTuple):
@@ -44,7 +51,7 @@ class FaceFluxes(NamedTuple):
 
 def flow_coefficients(nodes: int) -> FlowCoefficients:
     """Room for the coefficients of `nodes` nodes."""
-    return FlowCoefficients(np.zeros((nodes, 4)), np.zeros((nodes, 4)))
+    return FlowCoefficients(Coefficient(*np.zeros((4, nodes))), Coefficient(*np.zeros((4, nodes))))
 
 
 def face_fluxes(nodes: int) -> FaceFluxes:
@@ -127,18 +134,18 @@ def assemble_faces(
         for side in range(2):
             node, weight = (i, 1.0 + ratio) if side == 0 else (other, -ratio)
             scale = weight * couette_scale
-            flux += scale * b[node, VALUE] * film[node]
+            flux += scale * b.value[node] * film[node]
             faces.by_b[i, side] = scale * film[node]
-            by_g = scale * film[node] * b[node, BY_G] * slope
+            by_g = scale * film[node] * b.by_g[node] * slope
             left, right, factor = gradient_stencil(x, node, cavitated)
             h = film[node] * h_scale
-            faces.by_pressure[i, node - i + 2] += scale * film[node] * b[node, BY_P] * p_scale
+            faces.by_pressure[i, node - i + 2] += scale * film[node] * b.by_p[node] * p_scale
             faces.by_pressure[i, right - i + 2] += by_g * h * factor
             faces.by_pressure[i, left - i + 2] -= by_g * h * factor
             faces.by_film[i, node - i + 1] += scale * (
-                b[node, VALUE] + film[node] * h_scale * (b[node, BY_H] + b[node, BY_G] * slope * gradient[node])
+                b.value[node] + film[node] * h_scale * (b.by_h[node] + b.by_g[node] * slope * gradient[node])
             )
-        mean, share = _log_mean(log_a[i, VALUE], log_a[i + 1, VALUE])
+        mean, share = _log_mean(log_a.value[i], log_a.value[i + 1])
         height = 0.5 * (film[i] + film[i + 1])
         conductance = poiseuille_scale * mean * height**3 / (x[i + 1] - x[i])
         poiseuille = conductance * (pressure[i + 1] - pressure[i])
@@ -151,11 +158,11 @@ def assemble_faces(
             faces.by_log_a[i, side] = scale
             left, right, factor = gradient_stencil(x, node, cavitated)
             h = film[node] * h_scale
-            faces.by_pressure[i, node - i + 2] += scale * log_a[node, BY_P] * p_scale
+            faces.by_pressure[i, node - i + 2] += scale * log_a.by_p[node] * p_scale
             if right - i + 2 < 5:
-                faces.by_pressure[i, right - i + 2] += scale * log_a[node, BY_G] * slope * h * factor
-            faces.by_pressure[i, left - i + 2] -= scale * log_a[node, BY_G] * slope * h * factor
-            by_h = log_a[node, BY_H] + log_a[node, BY_G] * slope * gradient[node]
+                faces.by_pressure[i, right - i + 2] += scale * log_a.by_g[node] * slope * h * factor
+            faces.by_pressure[i, left - i + 2] -= scale * log_a.by_g[node] * slope * h * factor
+            by_h = log_a.by_h[node] + log_a.by_g[node] * slope * gradient[node]
             faces.by_film[i, node - i + 1] += scale * h_scale * by_h - 1.5 * poiseuille / height
         faces.flux[i] = flux
 
@@ -241,10 +248,10 @@ def flow(
         flows.log_a_by_temperature[i, k] += a_by_stress * mid.by_temperature[i, k]
         flows.b_by_temperature[i, k] += b_by_stress * mid.by_temperature[i, k]
     log_a, b = coefficients.log_a, coefficients.b
-    log_a[i, VALUE], b[i, VALUE] = np.log(a), problem.speed_1 * total + (problem.speed_2 - problem.speed_1) * mass
-    log_a[i, BY_P], b[i, BY_P] = a_by_p + a_by_stress * mid.by_p[i], b_by_p + b_by_stress * mid.by_p[i]
-    log_a[i, BY_G], b[i, BY_G] = a_by_g + a_by_stress * mid.by_g[i], b_by_g + b_by_stress * mid.by_g[i]
-    log_a[i, BY_H], b[i, BY_H] = a_by_stress * mid.by_h[i], b_by_stress * mid.by_h[i]
+    log_a.value[i], b.value[i] = np.log(a), problem.speed_1 * total + (problem.speed_2 - problem.speed_1) * mass
+    log_a.by_p[i], b.by_p[i] = a_by_p + a_by_stress * mid.by_p[i], b_by_p + b_by_stress * mid.by_p[i]
+    log_a.by_g[i], b.by_g[i] = a_by_g + a_by_stress * mid.by_g[i], b_by_g + b_by_stress * mid.by_g[i]
+    log_a.by_h[i], b.by_h[i] = a_by_stress * mid.by_h[i], b_by_stress * mid.by_h[i]
 
 
 @inlined_kernel

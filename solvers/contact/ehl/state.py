@@ -10,7 +10,6 @@ from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.heat import Heat, column_balance, face_edges, heat_arrays, surface_history
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.reynolds import (
-    VALUE,
     FaceFluxes,
     FlowCoefficients,
     assemble_faces,
@@ -93,7 +92,7 @@ def fluid_fractions(problem: Problem, state: State, work: Work) -> float:
     """
     flux = work.faces.flux[state.pressure.argmax()] * problem.flux_scale
     for i in range(state.pressure.size):
-        drag = work.coefficients.b[i, VALUE] * work.height[i] * problem.gap_scale
+        drag = work.coefficients.b.value[i] * work.height[i] * problem.gap_scale
         work.heat.fluid_fraction[i] = min(flux / drag, 1.0) if state.cavitated[i] else 1.0
     return float(flux)
 

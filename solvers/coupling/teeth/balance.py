@@ -14,6 +14,7 @@ of a tooth force that is small against how far the teeth are ahead.
 """
 
 from math import atan2, cos, hypot, pi, sin
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,8 +29,32 @@ STIFF = 1e-12
 FLAT = 1e-12
 """Slope along a step over the slope at its start that counts as none: the lowest energy is reached."""
 
-ROTATION, SHIFT_X, SHIFT_Y = range(3)  # of states, of the forces that belong to them, of the energy's hessian
-ALONG_X, ALONG_Y = range(2)  # of lateral forces and normals
+
+class Motion(NamedTuple):
+    """Common rotation of the teeth and displacement of the sleeve; or the torque and lateral force that act on them."""
+
+    rotation: float
+    x: float
+    y: float
+
+
+class Places(NamedTuple):
+    """Rotation psi and sleeve displacement (e_x, e_y) of balanced meshes, an array each."""
+
+    rotation: FloatArray
+    x: FloatArray
+    y: FloatArray
+
+
+class Hessian(NamedTuple):
+    """Second derivatives of the energy: over loaded teeth the sums of 1, -d_x, -d_y, d_x^2, d_x d_y and d_y^2."""
+
+    loaded: float
+    x: float
+    y: float
+    xx: float
+    xy: float
+    yy: float
 
 
 @kernel
@@ -91,75 +116,69 @@ def centred_rows(ahead: FloatArray, unit: float, unit_force: float, rotation: Fl
 
 
 @kernel
-def add_up(ahead: FloatArray, normal: FloatArray, held: FloatArray, hessian: FloatArray) -> None:
-    """Sum of loaded teeth: torque and lateral force in `held` (3), upper triangle of the energy's `hessian` (3, 3)."""
-    held[:] = 0.0
-    hessian[:, :] = 0.0
+def add_up(ahead: FloatArray, normal: FloatArray) -> tuple[Motion, Hessian]:
+    """Torque and lateral force that the loaded teeth hold, and the energy's second derivatives."""
+    normal_x, normal_y = normal
+    torque, force_x, force_y = 0.0, 0.0, 0.0
+    loaded, x, y, xx, xy, yy = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(ahead.size):
         u = ahead[i]
         if u > 0.0:
-            nx, ny = normal[ALONG_X, i], normal[ALONG_Y, i]
-            held[ROTATION] += u
-            held[SHIFT_X] -= u * nx
-            held[SHIFT_Y] -= u * ny
-            hessian[ROTATION, ROTATION] += 1.0
-            hessian[ROTATION, SHIFT_X] -= nx
-            hessian[ROTATION, SHIFT_Y] -= ny
-            hessian[SHIFT_X, SHIFT_X] += nx * nx
-            hessian[SHIFT_X, SHIFT_Y] += nx * ny
-            hessian[SHIFT_Y, SHIFT_Y] += ny * ny
+            nx, ny = normal_x[i], normal_y[i]
+            torque += u
+            force_x -= u * nx
+            force_y -= u * ny
+            loaded += 1.0
+            x -= nx
+            y -= ny
+            xx += nx * nx
+            xy += nx * ny
+            yy += ny * ny
+    return Motion(torque, force_x, force_y), Hessian(loaded, x, y, xx, xy, yy)
 
 
 @kernel
-def solve_loaded(hessian: FloatArray, right: FloatArray, solution: FloatArray, free: FloatArray) -> None:
-    """Solve hessian solution = right as far as the loaded teeth are stiff, and leave in `free` (2) what they are not.
+def solve_loaded(hessian: Hessian, right: Motion) -> tuple[Motion, float, float]:
+    """Solve hessian motion = right as far as the loaded teeth are stiff, and return the lateral force they are not.
 
     The rotation is eliminated. What is left, the scatter of the loaded flank normals, is solved along its principal
     directions: fewer than three loaded teeth have no stiffness in one or both of them, and the sleeve stays there.
-    `free` is the lateral part of `right` in those directions.
+    The force (x, y) returned is the lateral part of `right` in those directions.
     """
-    (loaded, sum_x, sum_y), (_, sum_xx, sum_xy), (_, _, sum_yy) = hessian
-    loaded = max(loaded, 1.0)
-    mean_x, mean_y = sum_x / loaded, sum_y / loaded
-    xx, xy = sum_xx - sum_x * mean_x, sum_xy - sum_x * mean_y
-    yy = sum_yy - sum_y * mean_y
-    x, y = right[SHIFT_X] - right[ROTATION] * mean_x, right[SHIFT_Y] - right[ROTATION] * mean_y
+    loaded = max(hessian.loaded, 1.0)
+    mean_x, mean_y = hessian.x / loaded, hessian.y / loaded
+    xx, xy = hessian.xx - hessian.x * mean_x, hessian.xy - hessian.x * mean_y
+    yy = hessian.yy - hessian.y * mean_y
+    x, y = right.x - right.rotation * mean_x, right.y - right.rotation * mean_y
     angle = 0.5 * atan2(2.0 * xy, xx - yy)
     half_sum, half_difference = 0.5 * (xx + yy), 0.5 * hypot(2.0 * xy, xx - yy)
-    solution[:] = 0.0
-    free[:] = 0.0
+    shift_x, shift_y, free_x, free_y = 0.0, 0.0, 0.0, 0.0
     for turn, stiffness in ((0.0, half_sum + half_difference), (0.5 * pi, half_sum - half_difference)):
         nx, ny = cos(angle + turn), sin(angle + turn)
         component = nx * x + ny * y
         if stiffness > STIFF * loaded:
-            solution[SHIFT_X] += component / stiffness * nx
-            solution[SHIFT_Y] += component / stiffness * ny
+            shift_x += component / stiffness * nx
+            shift_y += component / stiffness * ny
         else:
-            free[ALONG_X] += component * nx
-            free[ALONG_Y] += component * ny
-    solution[ROTATION] = right[ROTATION] / loaded - mean_x * solution[SHIFT_X] - mean_y * solution[SHIFT_Y]
+            free_x += component * nx
+            free_y += component * ny
+    rotation = right.rotation / loaded - mean_x * shift_x - mean_y * shift_y
+    return Motion(rotation, shift_x, shift_y), free_x, free_y
 
 
 @kernel
-def next_step(hessian: FloatArray, missing: FloatArray, step: FloatArray) -> float:
-    """Newton's step towards the forces that are `missing`; returns how fast the energy falls along it.
+def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
+    """Newton's step towards the forces that are `missing`, and how fast the energy falls along it.
 
     Where most of what is missing acts in a direction without stiffness, the step is one along that direction instead,
     by which the loaded teeth stay loaded as they are: the next tooth that meets the sleeve stops it.
     """
-    free = np.empty(2)
-    solve_loaded(hessian, missing, step, free)
-    unheld = hypot(free[ALONG_X], free[ALONG_Y])
-    if unheld > 0.5 * (abs(missing[ROTATION]) + abs(missing[SHIFT_X]) + abs(missing[SHIFT_Y])):
-        loaded = max(hessian[ROTATION, ROTATION], 1.0)
-        step[SHIFT_X], step[SHIFT_Y] = free[ALONG_X] / unheld, free[ALONG_Y] / unheld
-        step[ROTATION] = (
-            -(hessian[ROTATION, SHIFT_X] * step[SHIFT_X] + hessian[ROTATION, SHIFT_Y] * step[SHIFT_Y]) / loaded
-        )
-    fall: float = (
-        missing[ROTATION] * step[ROTATION] + missing[SHIFT_X] * step[SHIFT_X] + missing[SHIFT_Y] * step[SHIFT_Y]
-    )
-    return fall
+    step, free_x, free_y = solve_loaded(hessian, missing)
+    unheld = hypot(free_x, free_y)
+    if unheld > 0.5 * (abs(missing.rotation) + abs(missing.x) + abs(missing.y)):
+        x, y = free_x / unheld, free_y / unheld
+        step = Motion(-(hessian.x * x + hessian.y * y) / max(hessian.loaded, 1.0), x, y)
+    return step, missing.rotation * step.rotation + missing.x * step.x + missing.y * step.y
 
 
 @kernel
@@ -205,41 +224,36 @@ def length_to_lowest(ahead: FloatArray, change: FloatArray, start: float) -> flo
 
 @kernel
 def float_sleeve(
-    interference: FloatArray,
-    normal: FloatArray,
-    force: FloatArray,
-    state: FloatArray,
-    ahead: FloatArray,
-    hessian: FloatArray,
-) -> int:
-    """Balance a floating sleeve under unit torque and an external `force` (2), from and into `state` (psi, e_x, e_y).
+    interference: FloatArray, normal: FloatArray, force: FloatArray, places: Places, k: int, ahead: FloatArray
+) -> tuple[int, Hessian]:
+    """Balance a floating sleeve under unit torque and an external `force` (2), from and into place `k`.
 
-    Returns the number of iterations, negative if the balance was not met. Leaves u_i in `ahead` (teeth) and the
-    `hessian` (3, 3) of the loaded teeth at the balance. Eq. C9.
+    Returns the number of iterations, negative if the balance was not met, and the second derivatives at the balance.
+    Leaves u_i in `ahead` (teeth). Eq. C9.
     """
-    held, missing, step = np.empty(3), np.empty(3), np.empty(3)
+    normal_x, normal_y = normal
+    force_x, force_y = force
     change = np.empty(ahead.size)
     for i in range(ahead.size):
-        ahead[i] = interference[i] - state[SHIFT_X] * normal[ALONG_X, i] - state[SHIFT_Y] * normal[ALONG_Y, i]
-    _, state[ROTATION] = turn_to_torque(ahead, 1.0)
+        ahead[i] = interference[i] - places.x[k] * normal_x[i] - places.y[k] * normal_y[i]
+    _, places.rotation[k] = turn_to_torque(ahead, 1.0)
     for iteration in range(1, MAX_ITERATIONS + 1):
-        add_up(ahead, normal, held, hessian)
-        missing[ROTATION] = 1.0 - held[ROTATION]
-        missing[SHIFT_X] = force[ALONG_X] - held[SHIFT_X]
-        missing[SHIFT_Y] = force[ALONG_Y] - held[SHIFT_Y]
-        if abs(missing[ROTATION]) + abs(missing[SHIFT_X]) + abs(missing[SHIFT_Y]) < BALANCE_TOLERANCE:
-            return iteration
-        descent = next_step(hessian, missing, step)
+        held, hessian = add_up(ahead, normal)
+        missing = Motion(1.0 - held.rotation, force_x - held.x, force_y - held.y)
+        if abs(missing.rotation) + abs(missing.x) + abs(missing.y) < BALANCE_TOLERANCE:
+            return iteration, hessian
+        step, descent = next_step(hessian, missing)
         for i in range(ahead.size):
-            change[i] = step[ROTATION] - step[SHIFT_X] * normal[ALONG_X, i] - step[SHIFT_Y] * normal[ALONG_Y, i]
+            change[i] = step.rotation - step.x * normal_x[i] - step.y * normal_y[i]
         length = length_to_lowest(ahead, change, -descent)
         if length >= LONGEST_STEP:
             break
         for i in range(ahead.size):
             ahead[i] += length * change[i]
-        for axis in range(3):
-            state[axis] += length * step[axis]
-    return -MAX_ITERATIONS
+        places.rotation[k] += length * step.rotation
+        places.x[k] += length * step.x
+        places.y[k] += length * step.y
+    return -MAX_ITERATIONS, hessian
 
 
 @kernel
@@ -248,17 +262,17 @@ def floating_rows(
     normal: FloatArray,
     force: FloatArray,
     share: FloatArray,
-    state: FloatArray,
+    places: Places,
     iterations: IntArray,
 ) -> None:
-    """Shares and states (rows, 3) of a floating sleeve under `force` (rows, 2), each row started from the one before.
+    """Shares and places of a floating sleeve under `force` (rows, 2), each row started from the one before.
 
     A row without balance, its iterations negative, ends it: later rows stay untouched.
     """
-    hessian = np.empty((3, 3))
     for row in range(interference.shape[0]):
-        state[row] = state[max(row - 1, 0)]
-        iterations[row] = float_sleeve(interference[row], normal[row], force[row], state[row], share[row], hessian)
+        before = max(row - 1, 0)
+        places.x[row], places.y[row] = places.x[before], places.y[before]
+        iterations[row], _ = float_sleeve(interference[row], normal[row], force[row], places, row, share[row])
         for i in range(interference.shape[1]):
             share[row, i] = max(0.0, share[row, i])
         if iterations[row] < 0:

@@ -13,7 +13,7 @@ import numpy as np
 from solvers.arrays import FloatArray, IntArray
 from solvers.coupling.inputs import Coupling, CouplingInputs
 from solvers.coupling.results import Geometry, Limits
-from solvers.coupling.teeth.balance import ROTATION, SHIFT_X, centred_rows, floating_rows
+from solvers.coupling.teeth.balance import Places, centred_rows, floating_rows
 from solvers.coupling.teeth.kinematics import (
     MeshMotion,
     ToothPositions,
@@ -97,9 +97,11 @@ def floating_loads(
     interference = interference_at_rest(coupling, mesh, teeth) / unit
     normal = flank_normals(mesh, teeth)
     rows = interference.shape[0]
-    share, state, iterations = np.zeros_like(interference), np.zeros((rows, 3)), np.zeros(rows, dtype=np.int64)
-    floating_rows(interference, normal, force / unit_force, share, state, iterations)
-    return ToothLoads(unit_force * share, unit * state[:, ROTATION], unit * state[:, SHIFT_X:], iterations)
+    share, iterations = np.zeros_like(interference), np.zeros(rows, dtype=np.int64)
+    places = Places(*np.zeros((3, rows)))
+    floating_rows(interference, normal, force / unit_force, share, places, iterations)
+    displacement = unit * np.stack((places.x, places.y), axis=1)
+    return ToothLoads(unit_force * share, unit * places.rotation, displacement, iterations)
 
 
 def mesh_loads(

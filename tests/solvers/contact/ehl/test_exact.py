@@ -13,7 +13,7 @@ from solvers.contact.ehl.heat import column_balance, factor_column, heat_arrays,
 from solvers.contact.ehl.linear_algebra import factor, substitute
 from solvers.contact.ehl.newton import uniform_film
 from solvers.contact.ehl.problem import Problem, groups, problem
-from solvers.contact.ehl.reynolds import VALUE, evaluate_column, flow_coefficients
+from solvers.contact.ehl.reynolds import evaluate_column, flow_coefficients
 from solvers.contact.ehl.shear import film_arrays
 from solvers.lubricants import Lubricant
 
@@ -112,10 +112,10 @@ def test_column_at_one_temperature_is_the_closed_form(rheology: str, p: float, g
     given_ = constants(Lubricant(), rheology)
     film, coefficients = film_arrays(1, 201), flow_coefficients(1)
     evaluate_column(given_, 0, np.full((1, 201), 360.0), p, g, h, film, coefficients)
-    log_a, b = np.zeros(4), np.zeros(4)
-    stress = uniform_film(given_, p, g, h, log_a, b)
-    numeric = coefficients.b[0, VALUE] - exp(coefficients.log_a[0, VALUE]) * h * g
-    assert numeric == pytest.approx(b[VALUE] - exp(log_a[VALUE]) * h * g, rel=5e-4)
+    closed = flow_coefficients(1)
+    stress = uniform_film(given_, 0, p, g, h, closed)
+    numeric, exact = (each.b.value[0] - exp(each.log_a.value[0]) * h * g for each in (coefficients, closed))
+    assert numeric == pytest.approx(exact, rel=5e-4)
     assert film.mid.stress[0] == pytest.approx(stress, rel=5e-4)
 
 
@@ -130,11 +130,11 @@ def test_derivatives_of_a_column(rheology: str) -> None:
         shifted = t.copy()
         shifted[7] += warmer
         evaluate_column(given_, 0, shifted[None, :], p, g, h, film, coefficients)
-        return np.array([coefficients.log_a[0, VALUE], coefficients.b[0, VALUE], film.mid.stress[0]])
+        return np.array([coefficients.log_a.value[0], coefficients.b.value[0], film.mid.stress[0]])
 
     at = np.array([0.9e9, 3e7, 0.5e-6, 0.0])
     value(*at)
-    exact = np.column_stack([coefficients.log_a[0, 1:], coefficients.b[0, 1:]])
+    exact = np.column_stack([coefficients.log_a[1:], coefficients.b[1:]])
     stress = [film.mid.by_p[0], film.mid.by_g[0], film.mid.by_h[0], film.mid.by_temperature[0, 7]]
     by_t = [film.flow.log_a_by_temperature[0, 7], film.flow.b_by_temperature[0, 7]]
     for k, width in enumerate((1e4, 3e2, 5e-12, 1e-3)):
