@@ -1,4 +1,4 @@
-"""Solids and lubricants, and the laws they follow."""
+"""Solids."""
 
 from solvers.quantity import quantity, record
 from solvers.sources import XUE
@@ -33,8 +33,3 @@ class Solid:
         text="arithmetic mean roughness",
         assumed="ground flanks; the paper gives none",
     )
-
-    @property
-    def plane_strain_compliance(self) -> float:
-        """(1 - nu^2) / E [1/Pa]."""
-        return (1.0 - self.poisson_ratio**2) / self.youngs_modulus

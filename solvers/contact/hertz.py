@@ -10,9 +10,14 @@ from solvers.materials import Solid
 Real = TypeVar("Real", float, FloatArray)
 
 
+def plane_strain_compliance(solid: Solid) -> float:
+    """(1 - nu^2) / E [1/Pa]."""
+    return (1.0 - solid.poisson_ratio**2) / solid.youngs_modulus
+
+
 def reduced_modulus(solid_1: Solid, solid_2: Solid) -> float:
     """E' = 2 / [(1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2] [Pa], the convention of the film formulas (Eq. E1)."""
-    return 2.0 / (solid_1.plane_strain_compliance + solid_2.plane_strain_compliance)
+    return 2.0 / (plane_strain_compliance(solid_1) + plane_strain_compliance(solid_2))
 
 
 def half_width(line_load: Real, radius: Real, modulus: float) -> Real:

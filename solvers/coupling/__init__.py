@@ -1,7 +1,7 @@
 """Gear couplings after Pahl.
 
-Data flows inputs, checks -> teeth (geometry, motion, shares of the load) -> lubrication, losses -> sleeve, thrust ->
-load_distribution, notices; `model.solve` calls them all. The sleeve's orbit needs the teeth alone; crowning calls the
+Data flows inputs -> kinematics -> tooth_loads -> lubrication -> sleeve (two meshes) -> friction (thrust, losses) ->
+notices; `model.solve` calls them all. The sleeve's orbit needs kinematics and tooth loads alone; crowning calls the
 model to recommend a crowning ratio. Inputs built by hand are in SI; the functions here refuse what lies outside the
 declared ranges, naming the argument.
 """

@@ -15,13 +15,18 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 from solvers.arrays import FloatArray, frozen
-from solvers.coupling.checks import MAX_CONTACT_PRESSURE, MAX_CONTACT_WIDTH, MAX_MISALIGNMENT, check_inputs
-from solvers.coupling.inputs import Coupling, CouplingInputs, RecommendationInputs
-from solvers.coupling.lubrication import film_state
+from solvers.coupling.inputs import (
+    MAX_MISALIGNMENT,
+    Coupling,
+    CouplingInputs,
+    RecommendationInputs,
+    check_inputs,
+)
+from solvers.coupling.kinematics import max_contact_travel, mesh_motion, tooth_geometry
+from solvers.coupling.lubrication import MAX_CONTACT_PRESSURE, MAX_CONTACT_WIDTH, film_state
 from solvers.coupling.model import solve
 from solvers.coupling.results import CouplingResult, Geometry
-from solvers.coupling.teeth.kinematics import max_contact_travel, mesh_motion, tooth_geometry
-from solvers.coupling.teeth.loads import SLIDING_VELOCITY_LIMIT
+from solvers.coupling.tooth_loads import SLIDING_VELOCITY_LIMIT
 from solvers.errors import InvalidInput
 from solvers.notices import Notice
 from solvers.quantity import quantity, record

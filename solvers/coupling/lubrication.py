@@ -8,7 +8,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.compiled import kernel
-from solvers.contact.hertz import half_width, maximum_pressure
+from solvers.contact.hertz import half_width, maximum_pressure, reduced_modulus
 from solvers.coupling.inputs import (
     Coupling,
     CouplingInputs,
@@ -17,8 +17,7 @@ from solvers.coupling.inputs import (
     MixedFrictionTable,
     ModelOptions,
 )
-from solvers.coupling.results import Geometry, Regime
-from solvers.coupling.teeth.kinematics import (
+from solvers.coupling.kinematics import (
     MeshMotion,
     ToothPositions,
     displacement_peak,
@@ -28,9 +27,14 @@ from solvers.coupling.teeth.kinematics import (
     revolution,
     tooth_positions,
 )
-from solvers.coupling.teeth.loads import largest_value, mesh_loads
+from solvers.coupling.results import Geometry, Regime
+from solvers.coupling.tooth_loads import largest_value, mesh_loads
+from solvers.errors import InvalidInput
 from solvers.materials import Solid
 
+MAX_CONTACT_PRESSURE = 2e9  # Pa, chosen: the model is elastic, hardened steel yields near it
+MAX_CONTACT_WIDTH = 0.1
+"""Half contact width over flank radius beyond which a cylinder is no half space."""
 UNBOUNDED_LOAD = 0.20395702057972376
 """W of an infinitely long inlet, whose exit lies at tan g = 0.47513; 12 of it is Pahl's 2.447."""
 OVERLAP_BOUNDARIES = (1.0, 2.0)  # Pahl, regimes of Figs 9 to 11
@@ -101,7 +105,7 @@ def _largest_forces(inputs: CouplingInputs, mesh: MeshMotion, teeth: ToothPositi
 def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -> tuple[float, float]:
     """Half width a_HZ [m] and pressure [Pa] of a cylinder R_e on a plane over the tooth height (Eq. C12)."""
     steel = Solid(youngs_modulus=coupling.youngs_modulus, poisson_ratio=coupling.poisson_ratio)
-    modulus = 1.0 / steel.plane_strain_compliance
+    modulus = reduced_modulus(steel, steel)
     line_load, radius = normal_force / coupling.tooth_height, geometry.normal_flank_radius
     return float(half_width(line_load, radius, modulus)), float(maximum_pressure(line_load, radius, modulus))
 
@@ -299,3 +303,19 @@ def static_friction(friction: Friction) -> float:
     if friction.static_coefficient is not None:
         return friction.static_coefficient
     return friction_coefficient(friction, overlap=inf, load_capacity_coefficient=0.0, sliding_velocity=0.0)
+
+
+def check_contact(film: FilmState, geometry: Geometry) -> None:
+    """Raise InvalidInput hertz_pressure (> 2 GPa) or contact_width (a_HZ > 0.1 R_e)."""
+    if film.contact_pressure > MAX_CONTACT_PRESSURE:
+        raise InvalidInput(
+            "hertz_pressure",
+            f"the Hertz pressure of {film.contact_pressure / 1e9:.3g} GPa exceeds 2 GPa; lower the torque",
+            "torque",
+        )
+    if film.contact_half_width > MAX_CONTACT_WIDTH * geometry.normal_flank_radius:
+        raise InvalidInput(
+            "contact_width",
+            "the contact is wider than a tenth of the flank radius; raise the crowning ratio",
+            "crowning_ratio",
+        )

@@ -2,16 +2,13 @@
 
 from math import isfinite
 
-from solvers.coupling.checks import check_contact, check_inputs
-from solvers.coupling.inputs import CouplingInputs
-from solvers.coupling.load_distribution import load_distribution
-from solvers.coupling.losses import loaded_mesh, losses
-from solvers.coupling.lubrication import FilmState, film_state, friction_coefficient, friction_regime
+from solvers.coupling.friction import axial_thrust, loaded_mesh, losses
+from solvers.coupling.inputs import CouplingInputs, check_inputs
+from solvers.coupling.kinematics import kinematics, mesh_motion, tooth_geometry
+from solvers.coupling.lubrication import FilmState, check_contact, film_state, friction_coefficient, friction_regime
 from solvers.coupling.notices import contact_notices, load_notices, motion_notices
 from solvers.coupling.results import CouplingResult, Lubrication
-from solvers.coupling.teeth.kinematics import kinematics, mesh_motion, tooth_geometry
-from solvers.coupling.teeth.loads import limits
-from solvers.coupling.thrust import axial_thrust
+from solvers.coupling.tooth_loads import limits, load_distribution
 
 
 def solve(inputs: CouplingInputs) -> CouplingResult:

@@ -4,12 +4,11 @@ from collections.abc import Iterator
 from math import degrees
 
 from solvers import plausibility
-from solvers.coupling.checks import MAX_MISALIGNMENT
-from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
-from solvers.coupling.losses import equal_loads_friction_moment
+from solvers.coupling.friction import equal_loads_friction_moment
+from solvers.coupling.inputs import MAX_MISALIGNMENT, CouplingInputs, RecommendationInputs
 from solvers.coupling.lubrication import UNSTABLE_AREA
 from solvers.coupling.results import AxialThrust, Geometry, Kinematics, Limits, LoadDistribution, Lubrication
-from solvers.coupling.teeth.loads import SLIDING_VELOCITY_LIMIT
+from solvers.coupling.tooth_loads import SLIDING_VELOCITY_LIMIT
 from solvers.notices import Notice
 
 ORBIT_RESOLUTION = 0.01

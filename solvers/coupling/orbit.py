@@ -7,12 +7,8 @@ from math import cos, pi
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
-from solvers.coupling.checks import check_inputs
-from solvers.coupling.inputs import CouplingInputs
-from solvers.coupling.load_distribution import LOADED
-from solvers.coupling.notices import orbit_notices
-from solvers.coupling.results import Geometry, InertiaForce, Orbit, OrbitResult
-from solvers.coupling.teeth.kinematics import (
+from solvers.coupling.inputs import CouplingInputs, check_inputs
+from solvers.coupling.kinematics import (
     MeshMotion,
     mesh_motion,
     pitch_radius,
@@ -20,7 +16,9 @@ from solvers.coupling.teeth.kinematics import (
     tooth_geometry,
     tooth_positions,
 )
-from solvers.coupling.teeth.loads import floating_loads, largest_value
+from solvers.coupling.notices import orbit_notices
+from solvers.coupling.results import Geometry, InertiaForce, Orbit, OrbitResult
+from solvers.coupling.tooth_loads import LOADED, floating_loads, largest_value
 from solvers.errors import InvalidInput, NoSolution
 
 MAX_SWEEPS = 50  # limit; a path that has not settled by then does not

@@ -1,6 +1,6 @@
 """Equilibrium of a floating sleeve between two misaligned hubs, parallel offset (Z) or angular (M) (Fig. 13).
 
-Units as in teeth.balance. First index of a pair: the mesh, left (0) or right (1).
+Units as in tooth_loads. First index of a pair: the mesh, left (0) or right (1).
 
 Six equations in (psi, e_x, e_y) of each mesh: the torque at both, the sleeve's two lateral forces and its two moments.
 The direction of friction at a tooth does not depend on the unknowns. So friction's moments ask the meshes for a
@@ -17,11 +17,26 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.coupling.inputs import CouplingInputs
-from solvers.coupling.losses import RotorSamples, rotor_samples, without_rounding
+from solvers.coupling.kinematics import (
+    MeshMotion,
+    RotorSamples,
+    flank_normals,
+    mesh_motion,
+    relative_velocity,
+    rotor_samples,
+)
 from solvers.coupling.results import Geometry
-from solvers.coupling.teeth.balance import Hessian, Motion, Places, float_sleeve, solve_loaded
-from solvers.coupling.teeth.kinematics import MeshMotion, flank_normals, mesh_motion, relative_velocity
-from solvers.coupling.teeth.loads import coaxial_limit, elastic_rotation, interference_at_rest
+from solvers.coupling.tooth_loads import (
+    Hessian,
+    Motion,
+    Places,
+    coaxial_limit,
+    elastic_rotation,
+    float_sleeve,
+    interference_at_rest,
+    solve_loaded,
+    without_rounding,
+)
 from solvers.errors import NoSolution
 
 MAX_ITERATIONS = 150  # limit; an equilibrium that is not found by then is not

@@ -15,7 +15,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import inlined_kernel, kernel
-from solvers.contact.hertz import reduced_modulus
+from solvers.contact.hertz import plane_strain_compliance, reduced_modulus
 from solvers.errors import InvalidInput
 from solvers.gears.gear import Gear, virtual_gear
 from solvers.gears.inputs import GearTeeth
@@ -228,7 +228,7 @@ def pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Mod
 
 def linear_contact_compliance(pinion: Solid, wheel: Solid) -> float:
     """c_PV = (2/pi) [(1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2] [1/Pa]; printed with one E (Eq. 6)."""
-    return 2 / pi * (pinion.plane_strain_compliance + wheel.plane_strain_compliance)
+    return 2 / pi * (plane_strain_compliance(pinion) + plane_strain_compliance(wheel))
 
 
 def _member(gear: Gear, section: Gear, roll_length: FloatArray, material: Solid) -> Member:
@@ -246,10 +246,10 @@ def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tu
     modulus = reduced_modulus(members[0].material, members[1].material)
     radius = np.maximum(reduced_radius(path.plane, x), LEAST_RADIUS * path.pair.inputs.normal_module)
     log_square = np.log(8 * radius / (pi * modulus))  # of b_H at 1 N/m
-    slope = sum(member.material.plane_strain_compliance for member in members) / pi
+    slope = sum(plane_strain_compliance(member.material) for member in members) / pi
     offset, least = np.zeros_like(x), 0.0
     for member in members:
-        own = member.material.plane_strain_compliance / pi
+        own = plane_strain_compliance(member.material) / pi
         poisson = member.material.poisson_ratio / (1 - member.material.poisson_ratio)
         depth = load_points(member.gear, member.radius).depth  # in the transverse section
         offset += own * (2 * np.log(2 * depth) - log_square - poisson)

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from solvers.coupling.inputs import KinematicModel, ModelOptions, SleeveSupport
+from solvers.coupling.kinematics import displacement_peak, mesh_motion, tooth_geometry, tooth_positions
 from solvers.coupling.lubrication import max_normal_force
 from solvers.coupling.model import solve
 from solvers.coupling.orbit import solve_orbit
 from solvers.coupling.results import KinematicCurves, OrbitResult
-from solvers.coupling.teeth.kinematics import displacement_peak, mesh_motion, tooth_geometry, tooth_positions
-from solvers.coupling.teeth.loads import centred_loads
+from solvers.coupling.tooth_loads import centred_loads
 from solvers.published.pahl import PITCH_RADIUS, TEETH, harmonic_pitch_errors, pahl_coupling
 from tests.support.couplings import random_pitch_errors
 

@@ -12,13 +12,12 @@ from unittest.mock import patch
 import numpy as np
 from numpy.random import Generator
 
-from solvers.coupling import crowning, losses
+from solvers.coupling import crowning, kinematics
 from solvers.coupling.crowning import recommend
 from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
 from solvers.coupling.model import solve
 from solvers.coupling.orbit import solve_orbit
 from solvers.coupling.results import CouplingResult
-from solvers.coupling.teeth import kinematics
 from solvers.errors import SolverError
 from tests.support.couplings import random_inputs
 
@@ -78,7 +77,7 @@ def check_power_and_moments(random: Generator) -> None:
 def finer() -> ExitStack:
     """Every internal resolution of one operating point doubled."""
     stack = ExitStack()
-    stack.enter_context(patch.object(losses, "_PITCH_NODES", 2 * losses._PITCH_NODES))
+    stack.enter_context(patch.object(kinematics, "_PITCH_NODES", 2 * kinematics._PITCH_NODES))
     stack.enter_context(patch.object(kinematics, "_LEAST_ROTOR_POSITIONS", 2 * kinematics._LEAST_ROTOR_POSITIONS))
     return stack
 

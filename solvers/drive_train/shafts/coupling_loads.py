@@ -19,12 +19,11 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.coupling import model as gear_coupling
-from solvers.coupling.checks import check_contact, check_inputs
-from solvers.coupling.inputs import CouplingInputs, Operation
-from solvers.coupling.losses import loaded_mesh, losses
-from solvers.coupling.lubrication import film_state, friction_coefficient
-from solvers.coupling.teeth.kinematics import mesh_motion, pitch_radius, tooth_geometry
-from solvers.coupling.teeth.loads import coaxial_limit
+from solvers.coupling.friction import loaded_mesh, losses
+from solvers.coupling.inputs import CouplingInputs, Operation, check_inputs
+from solvers.coupling.kinematics import mesh_motion, pitch_radius, tooth_geometry
+from solvers.coupling.lubrication import check_contact, film_state, friction_coefficient
+from solvers.coupling.tooth_loads import coaxial_limit
 from solvers.drive_train.inputs import CouplingFriction, UnitCoupling
 from solvers.errors import InvalidInput
 from solvers.notices import Notice

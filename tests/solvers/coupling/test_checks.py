@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from numpy.random import Generator
 
+from solvers.coupling import kinematics
 from solvers.coupling.inputs import CouplingInputs, SleeveSupport
 from solvers.coupling.model import solve
 from solvers.coupling.orbit import solve_orbit
-from solvers.coupling.teeth import kinematics
 from tests.support.coupling_checks import CHECKS, check_resolution_of, finer
 from tests.support.couplings import random_inputs
 from tests.support.stored import stored

@@ -8,13 +8,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solvers.coupling import orbit
+from solvers.coupling import kinematics, orbit
 from solvers.coupling.inputs import CouplingInputs
+from solvers.coupling.kinematics import flank_normals, mesh_motion, tooth_geometry, tooth_positions
 from solvers.coupling.model import solve
 from solvers.coupling.orbit import solve_orbit
-from solvers.coupling.teeth import kinematics
-from solvers.coupling.teeth.kinematics import flank_normals, mesh_motion, tooth_geometry, tooth_positions
-from solvers.coupling.teeth.loads import ToothLoads, floating_loads
+from solvers.coupling.tooth_loads import ToothLoads, floating_loads
 from solvers.errors import InvalidInput, NoSolution
 from solvers.published.pahl import TEETH, harmonic_pitch_errors, pahl_coupling
 from tests.support.coupling_checks import check_orbit_resolution_of

@@ -10,10 +10,9 @@ from hypothesis import strategies as st
 from scipy.optimize import root
 
 from solvers.coupling.inputs import Arrangement, CouplingInputs, KinematicModel, ModelOptions, OperatingPoint
-from solvers.coupling.losses import rotor_samples
+from solvers.coupling.kinematics import rotor_samples, tooth_geometry
 from solvers.coupling.model import solve
 from solvers.coupling.sleeve import sleeve_equilibrium, two_meshes
-from solvers.coupling.teeth.kinematics import tooth_geometry
 from solvers.errors import NoSolution
 from solvers.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from tests.support.couplings import random_pitch_errors

@@ -11,10 +11,9 @@ from hypothesis.extra.numpy import arrays
 from scipy.optimize import brentq, minimize
 
 from solvers.coupling.inputs import Coupling, CouplingInputs, ModelOptions, Operation
+from solvers.coupling.kinematics import MeshMotion, flank_normals, mesh_motion, tooth_geometry, tooth_positions
 from solvers.coupling.model import solve
-from solvers.coupling.teeth.balance import turn_to_torque
-from solvers.coupling.teeth.kinematics import MeshMotion, flank_normals, mesh_motion, tooth_geometry, tooth_positions
-from solvers.coupling.teeth.loads import ToothLoads, floating_loads
+from solvers.coupling.tooth_loads import ToothLoads, floating_loads, turn_to_torque
 from solvers.published.pahl import PITCH_RADIUS, TEETH, harmonic_pitch_errors, pahl_coupling
 from tests.support.couplings import random_pitch_errors
 from tests.support.properties import examples

@@ -9,7 +9,7 @@ import pytest
 
 from solvers.arrays import FloatArray
 from solvers.coupling.inputs import Friction
-from solvers.coupling.teeth.kinematics import pitch_radius
+from solvers.coupling.kinematics import pitch_radius
 from solvers.drive_train.inputs import Alignment, UnitCoupling
 from solvers.drive_train.shafts.coupling_loads import (
     CouplingPort,

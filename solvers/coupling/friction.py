@@ -1,24 +1,23 @@
-"""Friction power and the moments that bend the hub, one mesh, means over one tooth pitch or one revolution."""
+"""What friction on the teeth of one mesh does: axial thrust, losses and the moments that bend the hub.
+
+Means over one tooth pitch, or over one revolution with pitch errors. Thrust: Figs 14 to 16, and the closed forms of two
+meshes, Figs 13 and 17.
+"""
 
 from dataclasses import dataclass
-from functools import cache, lru_cache
-from math import asin, cos, hypot, pi, tan
+from math import asin, copysign, cos, hypot, pi, tan
 from typing import NamedTuple
 
 import numpy as np
 
-from solvers.arrays import FloatArray, frozen
+from solvers.arrays import FloatArray
 from solvers.compiled import kernel
-from solvers.coupling.inputs import Coupling, CouplingInputs
-from solvers.coupling.results import Geometry, Losses
-from solvers.coupling.teeth.kinematics import MeshMotion, ToothPositions, positions_per_pitch, tooth_positions
-from solvers.coupling.teeth.loads import mesh_loads
-
-ROUNDING = 1e-12
-"""Share of what its parts may add up to below which a sum is their rounding."""
-_PITCH_PARTS = 3  # chosen: parts of a pitch, with a Gauss rule of _PITCH_NODES each
-_PITCH_NODES = 8  # chosen: 24 angles a pitch, and exact for polynomials up to degree 15 in each part
-_gauss_rule = cache(np.polynomial.legendre.leggauss)
+from solvers.coupling.inputs import Coupling, CouplingInputs, Operation
+from solvers.coupling.kinematics import MeshMotion, rotor_samples
+from solvers.coupling.lubrication import static_friction
+from solvers.coupling.results import AxialThrust, Geometry, Losses, SelfInducedThrust
+from solvers.coupling.sleeve import sleeve_equilibrium
+from solvers.coupling.tooth_loads import coaxial_limit, mesh_loads, without_rounding
 
 
 class ToothSums(NamedTuple):
@@ -66,66 +65,12 @@ def tooth_sums(
     return ToothSums(load, axial, still, tilting, pivoting, power, tilted, mixed, pivoted)
 
 
-def without_rounding(value: float, scale: float) -> float:
-    """The value, or zero where it is below 1e-12 of what its parts may add up to: the rounding of their sum."""
-    return 0.0 if abs(value) < ROUNDING * abs(scale) else value
-
-
-@dataclass(frozen=True, slots=True)
-class RotorSamples:
-    """Quadrature over rotor angles: `weight` (rows) adds up to one, `teeth` are all tooth positions (rows, teeth)."""
-
-    weight: FloatArray
-    teeth: ToothPositions
-
-
 @dataclass(frozen=True, slots=True)
 class LoadedMesh:
     """One mesh over a pitch: its motion, and what loads and friction of its teeth add up to."""
 
     motion: MeshMotion
     sums: ToothSums
-
-
-def friction_reversals(mesh: MeshMotion, axial_velocity: float) -> list[float]:
-    """Tooth angles [rad] at which the sliding velocity equals 0 or + or - the axial velocity."""
-    angles = [0.0, pi]
-    if abs(axial_velocity) < abs(mesh.sliding):
-        reversal = asin(axial_velocity / mesh.sliding)
-        angles += [reversal, pi - reversal, -reversal, pi + reversal]
-    return angles
-
-
-def rotor_samples(coupling: Coupling, mesh: MeshMotion, axial_velocity: float) -> RotorSamples:
-    """Gauss points between the rotor angles at which friction reverses at some tooth.
-
-    Friction jumps where a tooth's relative velocity changes sign; breaking the pitch there leaves an integrand that
-    is continuous, with kinks only where a tooth comes under load. Several hundred midpoints do no better.
-    """
-    uneven = coupling.pitch_errors is not None
-    return _samples(coupling.teeth, uneven, tuple(friction_reversals(mesh, axial_velocity)))
-
-
-@lru_cache(maxsize=4)
-def _samples(teeth: int, uneven: bool, reversals: tuple[float, ...]) -> RotorSamples:
-    """The same points at any misalignment while nothing moves along the axis."""
-    pitch = 2.0 * pi / teeth
-    breaks = [angle % pitch for angle in reversals]
-    if uneven:
-        nodes, weights = _gauss_rule(positions_per_pitch(teeth))
-        turns = teeth
-    else:
-        breaks += [pitch * part / _PITCH_PARTS for part in range(_PITCH_PARTS)]
-        nodes, weights = _gauss_rule(_PITCH_NODES)
-        turns = 1
-    edges = np.array(sorted({0.0, pitch, *breaks}))
-    middle, half = (edges[1:] + edges[:-1]) / 2.0, (edges[1:] - edges[:-1]) / 2.0
-    keep = half > 1e-12 * pitch
-    one_pitch = (middle[keep, None] + half[keep, None] * nodes).ravel()
-    weight = (half[keep, None] * weights).ravel() / (pitch * turns)
-    angles = (one_pitch + pitch * np.arange(turns)[:, None]).ravel()
-    found = tooth_positions(angles, teeth)
-    return RotorSamples(frozen(np.tile(weight, turns)), ToothPositions(frozen(found.sine), frozen(found.cosine)))
 
 
 def loaded_mesh(inputs: CouplingInputs, mesh: MeshMotion) -> LoadedMesh:
@@ -142,6 +87,98 @@ def loaded_mesh(inputs: CouplingInputs, mesh: MeshMotion) -> LoadedMesh:
         inputs.operation.axial_velocity,
     )
     return LoadedMesh(mesh, sums)
+
+
+def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> tuple[float, float]:
+    """F_ax = sum mu F_n sgn(v_r), the paper's general expression, and its slack [N], both averaged over rotor angles.
+
+    A tooth without relative velocity may carry any friction between -mu F_n and mu F_n: it counts as zero, and as
+    mu F_n towards the slack. Without axial velocity the force is zero: half a turn later every tooth meets the same
+    load under the opposite sliding. Eq. C19.
+    """
+    scale, sums = friction / cos(loaded.motion.pressure_angle), loaded.sums
+    force = without_rounding(sums.axial, sums.load) if axial_velocity != 0.0 else 0.0
+    return scale * force, scale * sums.still
+
+
+def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocity: float) -> float:
+    """F_max (2/pi) asin(v_ax/v_Gmax) [N], F_max once v_ax exceeds v_Gmax: equal tooth loads, many teeth (Eq. C21).
+
+    An upper bound for a centred sleeve without pitch errors, if the whole load is where sliding is fastest.
+    """
+    if axial_velocity == 0.0:
+        return 0.0
+    if abs(axial_velocity) >= max_sliding_velocity:
+        return copysign(limit, axial_velocity)
+    return limit * 2.0 / pi * asin(axial_velocity / max_sliding_velocity)
+
+
+def customary_thrust(operation: Operation) -> float | None:
+    """0.25 T/D [N] with the shaft diameter D, None without one (API 617 and 671 practice, quoted from memory)."""
+    return None if operation.shaft_diameter is None else 0.25 * operation.torque / operation.shaft_diameter
+
+
+def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: float, factor: float) -> float:
+    """Thrust of the parallel offset with one tooth pair a mesh, 2 kappa mu^2 T/(l_H cos alpha) [N] (Fig. 13; Eq. C23).
+
+    Each tooth carries T/(d_o cos alpha); friction overturns the sleeve by M_2 = 2 F_R d_o, held by F_1 = M_2/l_H. The
+    paper does not say which share kappa of F_1 becomes a difference of normal forces.
+    """
+    return 2.0 * factor * friction**2 * torque / (coupling.hub_distance * cos(coupling.pressure_angle))
+
+
+def uniform_self_induced_thrust(coupling: Coupling, torque: float, friction: float) -> float:
+    """Thrust of the parallel offset with every tooth loaded, (16/pi^2) mu^2 T tan(alpha)/l_H [N] (Eq. C24).
+
+    M_2 = (4/pi) mu T/cos alpha, and a sleeve on isotropic tooth springs turns it into kappa = (4/pi) sin alpha.
+    """
+    return 16.0 / pi**2 * friction**2 * torque * tan(coupling.pressure_angle) / coupling.hub_distance
+
+
+def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, friction: float) -> AxialThrust:
+    """Thrust of one mesh, or of two on one sleeve, with its limits and closed forms."""
+    coupling, operation = inputs.coupling, inputs.operation
+    limit = coaxial_limit(coupling, operation.torque, friction)
+    force, slack = mesh_thrust(loaded, friction, operation.axial_velocity)
+    induced = None
+    if operation.arrangement != "single":
+        induced = self_induced_thrust(inputs, geometry, friction)
+        force = induced.force
+        if operation.axial_velocity != 0.0:
+            force = sleeve_equilibrium(inputs, geometry, friction, operation.axial_velocity).thrust
+    breakaway = coaxial_limit(coupling, operation.torque, static_friction(inputs.friction))
+    return AxialThrust(
+        force=force,
+        coaxial_limit=limit,
+        breakaway_force=breakaway,
+        design_force=max(abs(force), breakaway),
+        customary_force=customary_thrust(operation),
+        fraction_of_limit=force / limit if limit > 0.0 else None,
+        uniform_load_force=uniform_load_thrust(limit, operation.axial_velocity, abs(loaded.motion.sliding)),
+        lower_bound=force - slack,
+        upper_bound=force + slack,
+        indeterminate=slack > 0.0,
+        self_induced=induced,
+    )
+
+
+def self_induced_thrust(inputs: CouplingInputs, geometry: Geometry, friction: float) -> SelfInducedThrust:
+    """Thrust of two meshes without axial velocity, beside the closed forms.
+
+    Those are zero in the angular arrangement: one tooth pair a mesh or equal loads make opposite moments of friction in
+    both meshes, and the sleeve asks the teeth for nothing (the paper's "for reasons of symmetry").
+    """
+    coupling, torque = inputs.coupling, inputs.operation.torque
+    equilibrium = sleeve_equilibrium(inputs, geometry, friction, 0.0)
+    offset = inputs.operation.arrangement == "parallel_offset"
+    simple = simple_self_induced_thrust(coupling, torque, friction, inputs.model.simple_thrust_factor)
+    uniform = uniform_self_induced_thrust(coupling, torque, friction)
+    return SelfInducedThrust(
+        force=equilibrium.thrust,
+        overturning_moment=equilibrium.overturning_moment,
+        simple_model_force=simple if offset else 0.0,
+        uniform_load_force=uniform if offset else 0.0,
+    )
 
 
 def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, friction: float) -> Losses:

@@ -1,1 +1,0 @@
-"""The teeth of one mesh: geometry -> kinematics -> limits; balance -> loads."""
