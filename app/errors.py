@@ -23,12 +23,16 @@ def pointer(location: Iterable[str | int]) -> str:
     return "".join("/" + part.replace("~", "~0").replace("/", "~1") for part in parts)
 
 
-class Unreadable(Exception):
-    """The body is no JSON that can be read."""
+class ServiceError(Exception):
+    """An exception of `PROBLEMS`; `detail` says what happened this time, where that is known."""
 
-    def __init__(self, detail: str) -> None:
+    def __init__(self, detail: str = "") -> None:
         super().__init__(detail)
         self.detail = detail
+
+
+class Unreadable(ServiceError):
+    """The body is no JSON that can be read."""
 
 
 class InvalidBody(Exception):
@@ -57,47 +61,35 @@ def faults_of(error: InvalidBody | Unprocessable) -> list[dict[str, str]]:
     return [fault._asdict() for fault in error.faults]
 
 
-class QueueFull(Exception):
+class QueueFull(ServiceError):
     """More requests wait than the settings allow."""
 
 
-class StudiesFull(Exception):
+class StudiesFull(ServiceError):
     """As many studies run as the settings allow."""
 
 
-class StudyEnded(Exception):
+class StudyEnded(ServiceError):
     """A study ended before the figure that was asked for could be drawn."""
 
-    def __init__(self, detail: str) -> None:
-        super().__init__(detail)
-        self.detail = detail
 
-
-class SchedulerUnavailable(Exception):
+class SchedulerUnavailable(ServiceError):
     """The cluster for studies cannot be used."""
 
-    def __init__(self, detail: str) -> None:
-        super().__init__(detail)
-        self.detail = detail
 
-
-class DeadlineExceeded(Exception):
+class DeadlineExceeded(ServiceError):
     """The calculation took longer than the settings allow; its worker was ended."""
 
 
-class WorkerLost(Exception):
+class WorkerLost(ServiceError):
     """The worker process died while it computed."""
 
 
-class WarmingUp(Exception):
+class WarmingUp(ServiceError):
     """The kernels of this calculation are still being compiled."""
 
-    def __init__(self, detail: str) -> None:
-        super().__init__(detail)
-        self.detail = detail
 
-
-class ClientGone(Exception):
+class ClientGone(ServiceError):
     """The client closed the connection; its calculation was ended."""
 
 
@@ -109,8 +101,14 @@ class Kind(NamedTuple):
     title: str
     retry_after_s: int | None = None
 
+    @property
+    def headers(self) -> dict[str, str]:
+        """When to try again."""
+        return {} if self.retry_after_s is None else {"Retry-After": str(self.retry_after_s)}
+
 
 PROBLEMS: dict[type[Exception], Kind] = {
+    Unreadable: Kind(400, "bad_request", "The request cannot be read"),
     WarmingUp: Kind(503, "warming_up", "The kernels of this calculation are still being compiled; try again", 2),
     QueueFull: Kind(503, "queue_full", "Too many calculations are waiting; try again later", 1),
     StudiesFull: Kind(503, "studies_full", "Other studies are running; try again later", 5),
@@ -121,3 +119,8 @@ PROBLEMS: dict[type[Exception], Kind] = {
     DeadlineExceeded: Kind(504, "deadline_exceeded", "The calculation took too long; make it smaller"),
     ClientGone: Kind(499, "client_gone", "The client closed the connection"),
 }
+
+
+def kind_of(error: Exception) -> Kind:
+    """The kind of problem that an exception of the table, or of a class derived from one, is."""
+    return next(PROBLEMS[base] for base in type(error).__mro__ if base in PROBLEMS)

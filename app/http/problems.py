@@ -12,7 +12,7 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 from starlette.exceptions import HTTPException
 
-from app.errors import PROBLEMS, InvalidBody, Unprocessable, Unreadable, faults_of, pointer
+from app.errors import PROBLEMS, InvalidBody, Unprocessable, faults_of, kind_of, pointer
 from app.schema.quantities import Output
 from app.schema.reading import MOST_FAULTS
 
@@ -62,13 +62,8 @@ def documented(*statuses: int) -> dict[int | str, dict[str, Any]]:
 
 def install(app: FastAPI) -> None:
     """Answer every exception with a problem document."""
-    app.add_exception_handler(RequestValidationError, _invalid_request)
-    app.add_exception_handler(InvalidBody, _invalid_body)
-    app.add_exception_handler(Unreadable, _unreadable)
-    app.add_exception_handler(Unprocessable, _unprocessable)
-    app.add_exception_handler(HTTPException, _http_exception)
-    for kind in PROBLEMS:
-        app.add_exception_handler(kind, _known_problem)
+    for kind in (RequestValidationError, InvalidBody, Unprocessable, HTTPException, *PROBLEMS):
+        app.add_exception_handler(kind, _answer)
     app.openapi = _with_problems(app.openapi)  # type: ignore[method-assign]
 
 
@@ -113,13 +108,29 @@ def problem(
     return JSONResponse(document, status, headers, media_type=MEDIA_TYPE)
 
 
-def _invalid_request(request: Request, error: Exception) -> JSONResponse:
-    assert isinstance(error, RequestValidationError)
-    errors = [
-        {"pointer": pointer(item["loc"][1:]), "code": item["type"], "message": _message(item)}
-        for item in error.errors()[:MOST_FAULTS]  # of an address: those of a body are InvalidBody
-    ]
-    return _unprocessable_response(request, "invalid_request", errors)
+def _answer(request: Request, error: Exception) -> JSONResponse:
+    """The problem document of an exception."""
+    instance = str(request.state.request_id)
+    match error:
+        case RequestValidationError():  # of an address: the faults of a body are InvalidBody
+            faults = [
+                {"pointer": pointer(item["loc"][1:]), "code": item["type"], "message": _message(item)}
+                for item in error.errors()[:MOST_FAULTS]
+            ]
+            return _refusal(instance, "invalid_request", faults)
+        case InvalidBody():
+            return _refusal(instance, "invalid_request", faults_of(error))
+        case Unprocessable():
+            return _refusal(instance, error.code, faults_of(error))
+        case HTTPException():
+            phrase = HTTPStatus(error.status_code).phrase
+            code = phrase.lower().replace(" ", "_").replace("-", "_")
+            headers = dict(error.headers or {})
+            return problem(instance, error.status_code, code, phrase, detail=str(error.detail), headers=headers)
+        case _:
+            kind = kind_of(error)
+            detail = getattr(error, "detail", None)
+            return problem(instance, kind.status, kind.code, kind.title, detail=detail, headers=kind.headers)
 
 
 def _message(item: dict[str, Any]) -> str:
@@ -128,47 +139,13 @@ def _message(item: dict[str, Any]) -> str:
     return str(item["msg"])
 
 
-def _invalid_body(request: Request, error: Exception) -> JSONResponse:
-    assert isinstance(error, InvalidBody)
-    return _unprocessable_response(request, "invalid_request", faults_of(error))
-
-
-def _unreadable(request: Request, error: Exception) -> JSONResponse:
-    assert isinstance(error, Unreadable)
-    return problem(_instance(request), 400, "bad_request", "Bad Request", detail=error.detail)
-
-
-def _unprocessable(request: Request, error: Exception) -> JSONResponse:
-    assert isinstance(error, Unprocessable)
-    return _unprocessable_response(request, error.code, faults_of(error))
-
-
-def _unprocessable_response(request: Request, code: str, errors: list[dict[str, str]]) -> JSONResponse:
+def _refusal(instance: str, code: str, errors: list[dict[str, str]]) -> JSONResponse:
     first = errors[0]
     detail = f"{first['pointer'] or 'request'}: {first['message']}"
-    return problem(_instance(request), 422, code, "The input cannot be computed", detail=detail, errors=errors)
-
-
-def _http_exception(request: Request, error: Exception) -> JSONResponse:
-    assert isinstance(error, HTTPException)
-    phrase = HTTPStatus(error.status_code).phrase
-    code = phrase.lower().replace(" ", "_").replace("-", "_")
-    headers = dict(error.headers) if error.headers else None
-    return problem(_instance(request), error.status_code, code, phrase, detail=str(error.detail), headers=headers)
-
-
-def _known_problem(request: Request, error: Exception) -> JSONResponse:
-    kind = next(PROBLEMS[base] for base in type(error).__mro__ if base in PROBLEMS)
-    headers = {"Retry-After": str(kind.retry_after_s)} if kind.retry_after_s is not None else None
-    detail = getattr(error, "detail", None)
-    return problem(_instance(request), kind.status, kind.code, kind.title, detail=detail, headers=headers)
+    return problem(instance, 422, code, "The input cannot be computed", detail=detail, errors=errors)
 
 
 def internal_error(instance: str, error: Exception) -> JSONResponse:
     """The answer to what nobody expected; the log has the cause."""
     logger.error("request %s failed", instance, exc_info=error)
     return problem(instance, 500, "internal_error", "Something went wrong in the service; the log has the cause")
-
-
-def _instance(request: Request) -> str:
-    return str(request.state.request_id)

@@ -64,9 +64,19 @@ Overrides = dict[str, Scalar]
 
 
 class Part(BaseModel):
-    """A part of a study: unknown fields are refused, numbers are finite."""
+    """A part of a study: unknown fields are refused, numbers are finite, and one of `exactly_one` is given."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    exactly_one: ClassVar[tuple[str, ...]] = ()
+
+    @model_validator(mode="after")
+    def one_is_given(self) -> Self:
+        """Refuse none and several of the fields that exclude each other."""
+        *names, last = self.exactly_one or ("",)
+        if names and sum(getattr(self, name) is not None for name in self.exactly_one) != 1:
+            known = ", ".join(names)
+            raise PydanticCustomError(f"{'_'.join(names)}_or_{last}", f"Give exactly one of {known} and {last}")
+        return self
 
 
 class FieldsTogether(Part):
@@ -157,6 +167,7 @@ COUNT = Input("number of points", text="how many points; a power of two for Sobo
 class Sample(Part):
     """Points at random: evenly over ranges, or by distributions."""
 
+    exactly_one = ("ranges", "inputs")
     method: Annotated[Method, METHOD] = "latin_hypercube"
     count: Annotated[int, COUNT]
     seed: Seed = 1
@@ -164,13 +175,6 @@ class Sample(Part):
         list[Range] | None, Field(min_length=1, max_length=50), Input("ranges", text="the fields and their ranges")
     ] = None
     inputs: Annotated[Inputs | None, Input("distributions", text="the fields and their distributions")] = None
-
-    @model_validator(mode="after")
-    def one_kind(self) -> Self:
-        """Refuse none and both of ranges and distributions."""
-        if (self.ranges is None) == (self.inputs is None):
-            raise PydanticCustomError("ranges_or_inputs", "Give either ranges or inputs")
-        return self
 
     @property
     def scatters(self) -> tuple[str, Sequence[Range | Scatter]]:
@@ -189,16 +193,10 @@ class Bound(Part):
 class Best(Part):
     """Which point is the best one."""
 
+    exactly_one = ("minimise", "maximise")
     minimise: Annotated[FieldPath | None, Input("output to minimise")] = None
     maximise: Annotated[FieldPath | None, Input("output to maximise")] = None
     where: Annotated[list[Bound], Field(max_length=20), Input("limits", text="limits that the best point keeps")] = []
-
-    @model_validator(mode="after")
-    def one_direction(self) -> Self:
-        """Refuse both directions and neither."""
-        if (self.minimise is None) == (self.maximise is None):
-            raise PydanticCustomError("minimise_or_maximise", "Give either minimise or maximise")
-        return self
 
     @property
     def output(self) -> str:
@@ -237,6 +235,7 @@ class StudyRequest(Part):
 class SweepRequest(StudyRequest):
     """One request at many points: a grid, a list of cases or a random sample."""
 
+    exactly_one = ("vary", "cases", "sample")
     vary: Annotated[list[Axis] | None, Field(min_length=1, max_length=3), Input("axes of a grid")] = None
     cases: Annotated[
         list[dict[str, Value]] | None, Field(min_length=1), Input("cases", text="what each case changes")
@@ -244,13 +243,6 @@ class SweepRequest(StudyRequest):
     sample: Annotated[Sample | None, Input("random sample")] = None
     best: Annotated[Best | None, Input("best point", text="which point to pick at the end")] = None
     from_index: FromIndex = 0
-
-    @model_validator(mode="after")
-    def one_kind(self) -> Self:
-        """Refuse none and several of grid, list and sample."""
-        if sum(part is not None for part in (self.vary, self.cases, self.sample)) != 1:
-            raise PydanticCustomError("vary_cases_or_sample", "Give exactly one of vary, cases and sample")
-        return self
 
 
 class Case(Part):
@@ -294,16 +286,10 @@ class Threshold(Part):
 class SpectrumLimit(Part):
     """A limit on one output of every case."""
 
+    exactly_one = ("above", "below")
     output: Annotated[FieldPath, Input("limited output", text="dotted path of a single number of the answer")]
     above: Annotated[Threshold | None, Input("upper limit", text="it is bad to be above")] = None
     below: Annotated[Threshold | None, Input("lower limit", text="it is bad to be below")] = None
-
-    @model_validator(mode="after")
-    def one_side(self) -> Self:
-        """Refuse both sides and neither."""
-        if (self.above is None) == (self.below is None):
-            raise PydanticCustomError("above_or_below", "Give either above or below")
-        return self
 
 
 class SpectrumRequest(StudyRequest):

@@ -8,7 +8,7 @@ from fastapi import APIRouter, HTTPException, Request, Response
 from fastapi.responses import RedirectResponse
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
-from app.errors import PROBLEMS, Unreadable
+from app.errors import PROBLEMS, Unreadable, kind_of
 from app.examples import examples
 from app.figures.rendering import MEDIA_TYPES
 from app.pages import views
@@ -29,7 +29,7 @@ HTML = "text/html; charset=utf-8"
 FORM = "application/x-www-form-urlencoded"
 FOREVER = "public, max-age=31536000, immutable"
 METHODS = ["GET", "POST"]
-TROUBLES: tuple[type[Exception], ...] = (*PROBLEMS, Unreadable)
+TROUBLES: tuple[type[Exception], ...] = tuple(PROBLEMS)
 
 router = APIRouter(include_in_schema=False)
 
@@ -167,12 +167,9 @@ async def _shown(
 
 def trouble_page(http: Request, error: Exception) -> Response:
     """A page that says what happened, for whoever reads pages."""
-    root = root_of(http)
-    if isinstance(error, Unreadable):
-        return html(problem_page(root, 400, "The case cannot be read", error.detail), 400)
-    kind = next(PROBLEMS[base] for base in type(error).__mro__ if base in PROBLEMS)
-    headers = {"Retry-After": str(kind.retry_after_s)} if kind.retry_after_s is not None else {}
-    return html(problem_page(root, kind.status, kind.title, getattr(error, "detail", "")), kind.status, headers)
+    kind = kind_of(error)
+    detail = getattr(error, "detail", "")
+    return html(problem_page(root_of(http), kind.status, kind.title, detail), kind.status, kind.headers)
 
 
 def root_of(http: Request) -> str:
