@@ -92,6 +92,16 @@ class Ribbon:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Shape:
+    """A polygon, filled; shapes of one title are named once."""
+
+    title: str
+    x: Values
+    y: Values
+    hue: Hue = Hue.BLUE
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Bars:
     """Bars side by side over an abscissa; those of `strong` are the extreme ones."""
 
@@ -231,6 +241,7 @@ class Panel:
     title: str | None = None
     lines: tuple[Line, ...] = ()
     ribbons: tuple[Ribbon, ...] = ()
+    shapes: tuple[Shape, ...] = ()
     bars: tuple[Bars, ...] = ()
     rows: tuple[Row, ...] = ()
     map: Map | None = None

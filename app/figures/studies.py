@@ -145,6 +145,8 @@ def chart(grid: Grid, y: Coordinate) -> Figure:
         across, up = grid.best
         text = number(float(grid.values[across, up]), unit or "")
         marks = (Mark(float(grid.x.values[across]), float(y.values[up]), text),)
+    if grid.x.own is not None and y.own is not None:
+        marks = (*marks, Mark(grid.x.own, y.own, "as described", Hue.VERMILLION))
     panel = Panel(x=grid.x.axis, y=y.axis, map=colours, marks=marks)
     return _figure(grid, f"{grid.output.title} over {grid.x.axis.title} and {y.axis.title}", panel)
 

@@ -54,6 +54,7 @@ def _columns(panel: Panel) -> list[Column]:
     columns: list[Column] = []
     series = [(bars.title, bars.role, bars.x, bars.height) for bars in panel.bars]
     series += [(line.title, line.role, line.x, line.y) for line in panel.lines]
+    series += [(shape.title, Role.RESULT, shape.x, shape.y) for shape in panel.shapes]
     for title, role, abscissa, ordinate in series:
         name = title if title == panel.y.title else f"{title}: {panel.y.title}"
         variant = " (variant)" if role is Role.VARIANT else ""

@@ -11,6 +11,7 @@ from typing import Any
 import httpx
 import numpy as np
 import pytest
+from shapely import Polygon
 
 from app.calculations import BY_PATH, CALCULATIONS
 from app.evaluate import evaluate
@@ -22,6 +23,7 @@ from app.figures.drawing.image import draw
 from app.figures.models import drive_train
 from app.figures.tables import table
 from app.schema.model import Documented
+from solvers.gears.pair import gear_pair
 from solvers.scuffing.safety_results import ThermalPath
 
 Post = Callable[[str, object], httpx.Response]
@@ -44,6 +46,7 @@ FIGURES = {
     },
     "/v1/pumping/choking-speed": {"choking"},
     "/v1/scuffing/load-distribution": {
+        "section",
         "flank-load",
         "flank-pressure",
         "modification",
@@ -58,6 +61,8 @@ FIGURES = {
     "/v1/scuffing": {"contact-temperature", "safety", "film", "friction"},
     "/v1/scuffing/line-contact": {"contact", "film-temperature", "heat"},
     "/v1/drive-train": {
+        "shafts",
+        "section",
         "shaft-lines",
         "gap",
         "slope-parts",
@@ -91,7 +96,7 @@ WITHOUT = {
     ("starter-generator-gear-drive-train", "journals"): "no_plain_bearing",
 }
 # Figures of what follows from the answer; each has a test of its own.
-DERIVED = {"safety", "contact-line-load", "modification-traces", "journals"}
+DERIVED = {"safety", "contact-line-load", "modification-traces", "journals", "section", "shafts"}
 # Figures that closed form, and flanks without modification, leave out.
 BY_CASE = {"friction": "closed_form", "modification": "no_modification", "modification-traces": "no_modification"}
 QUICK = sorted(name for name in examples() if not name.endswith(("-thermal", "-choking")))
@@ -549,12 +554,59 @@ def test_the_worst_contact_line_has_the_largest_load_and_leans_at_the_base_helix
     assert along[-1] == pytest.approx(min(place.face_fraction * 40.0 + place.profile_fraction * reach, 40.0), abs=0.5)
 
 
-def test_traces_of_profile_and_helix_are_cuts_through_the_modification() -> None:
-    _, answer = solved("xue-pair-4-helix-slope-40")
-    profile, helix = (panel.lines[0] for panel in figure("xue-pair-4-helix-slope-40", "modification-traces").panels)
-    grid = np.array(answer.flank.modification_um)
-    assert np.allclose(profile.y, grid[:, grid.shape[1] // 2], rtol=1e-12)
-    assert np.allclose(helix.y, grid[grid.shape[0] // 2], rtol=1e-12)
+def test_charts_of_each_gear_are_cuts_through_the_modification() -> None:
+    request, answer = solved("xue-pair-4-helix-slope-40")
+    pinion, wheel, helix = figure("xue-pair-4-helix-slope-40", "modification-traces").panels
+    removed = -np.array(answer.flank.modification_um)
+    for panel in (pinion, wheel):
+        assert np.allclose(panel.lines[0].y, removed[:, removed.shape[1] // 2], rtol=1e-12)
+    assert np.allclose(helix.lines[0].y, removed[removed.shape[0] // 2], rtol=1e-12)
+    # The pinion's tip meets at E, the wheel's at A.
+    gears = request.inputs().gears
+    tips = [2e3 * gear.tip_radius for gear in (gear_pair(gears).pinion, gear_pair(gears).wheel)]
+    assert pinion.lines[0].x[-1] == pytest.approx(tips[0])
+    assert wheel.lines[0].x[0] == pytest.approx(tips[1])
+    assert {level.name: level.value for level in pinion.levels}["E"] == pytest.approx(tips[0])
+
+
+@pytest.mark.parametrize("name", ["fzg-type-a", "xue-pair-4-helix-slope-40", "starter-industrial-gear-loads"])
+def test_teeth_of_the_transverse_section_touch_and_do_not_overlap(name: str) -> None:
+    request, answer = solved(name)
+    (panel,) = figure(name, "section").panels
+    pinion, wheel = (Polygon(np.column_stack([shape.x, shape.y])).buffer(0.0) for shape in panel.shapes)
+    assert pinion.intersection(wheel).area < 1e-3 * request.inputs().gears.normal_module ** 2 * 1e6
+    assert pinion.distance(wheel) < 1e-3
+    places = {mark.text: np.hypot(mark.x, mark.y) * np.sign(mark.x) for mark in panel.marks}
+    assert places["C"] == 0.0
+    assert places["E"] - places["A"] == pytest.approx(answer.geometry.path_of_contact_mm)
+    assert places["D"] - places["A"] == pytest.approx(answer.geometry.transverse_base_pitch_mm)
+    usable = [line for line in panel.lines if line.title == "usable flanks"]
+    pair = gear_pair(request.inputs().gears)
+    for line, gear, radius in zip(
+        usable, (pair.pinion, pair.wheel), (pair.pinion_working_radius, -pair.wheel_working_radius), strict=True
+    ):
+        ends = np.hypot(line.x, line.y + 1e3 * radius)[[0, -1]]
+        assert ends == pytest.approx([1e3 * gear.form_radius, 1e3 * gear.tip_radius])
+
+
+def test_the_sketch_of_the_shafts_is_to_scale() -> None:
+    request, answer = solved("starter-turbo-gear-drive-train")
+    (panel,) = figure("starter-turbo-gear-drive-train", "shafts").panels
+    spans = {
+        (shape.title, *(round(float(each), 6) for each in (shape.x.min(), shape.x.max(), np.ptp(shape.y))))
+        for shape in panel.shapes
+    }
+    marks = {(mark.text, mark.x, round(mark.y, 6)) for mark in panel.marks}
+    heights = (0.0, round(answer.derived.centre_distance_mm, 6))
+    for shaft, height in zip((request.pinion_shaft, request.wheel_shaft), heights, strict=True):
+        for place, each in enumerate(shaft.bearings, 1):
+            at, half = each.position_mm, each.width_mm / 2
+            assert (f"{place}", at, height) in marks
+            assert ("plain bearings", at - half, at + half, 1.3 * each.diameter_mm) in spans
+        ends = np.cumsum([shaft.start_mm, *(each.length_mm for each in shaft.sections)])
+        for start, end, section in zip(ends, ends[1:], shaft.sections, strict=False):
+            assert ("shafts", start, end, section.outer_diameter_mm) in spans
+    assert {span[1:3] for span in spans if span[0] == "gears"} == {(320.0, 520.0)}
 
 
 def test_journals_lie_at_their_eccentricity_on_the_curve_of_their_load() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backend_bases import RendererBase
-from matplotlib.colors import LogNorm, Normalize
+from matplotlib.colors import LogNorm, Normalize, to_rgba
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from matplotlib.path import Path
@@ -63,10 +63,7 @@ def draw_panel(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
         _draw_map(axes, panel, panel.map, theme)
     for bars in panel.bars:
         _draw_bars(axes, bars, [each for each in panel.bars if each.role is bars.role], theme)
-    for ribbon in panel.ribbons:
-        color = theme.drawing[ribbon.hue]
-        axes.fill_between(ribbon.x, ribbon.low, ribbon.high, facecolor=color, alpha=0.22, linewidth=0)
-        axes.plot(ribbon.x, np.column_stack([ribbon.low, ribbon.high]), color=color, linewidth=0.8)
+    _draw_fills(axes, panel, theme)
     for line in panel.lines:
         _draw_line(axes, line, theme)
     _draw_marks(axes, panel, theme)
@@ -99,8 +96,10 @@ def _scale(axes: Axes, which: str, quantity: Axis) -> None:
 def _end(axes: Axes, panel: Panel) -> None:
     """The ends of the axes where they are asked for; no axis shows rounding errors."""
     if panel.equal:
-        axes.set_aspect("equal", adjustable="datalim")
+        axes.set_aspect("equal", adjustable="box" if panel.x.limits else "datalim")
         axes.margins(0.08)
+        if panel.x.limits:
+            axes.set(xlim=panel.x.limits, ylim=panel.y.limits)
         return
     if panel.rows:
         drawn = [each.dataLim for each in axes.get_shared_x_axes().get_siblings(axes)]
@@ -116,6 +115,17 @@ def _end(axes: Axes, panel: Panel) -> None:
     widest = max(abs(low), abs(high))
     noise = 0.5 * widest if high - low <= NOISE * widest else 0.0
     axes.set_ylim(low - noise, high + noise)
+
+
+def _draw_fills(axes: Axes, panel: Panel, theme: Theme) -> None:
+    """Bands between curves, and polygons."""
+    for ribbon in panel.ribbons:
+        color = theme.drawing[ribbon.hue]
+        axes.fill_between(ribbon.x, ribbon.low, ribbon.high, facecolor=color, alpha=0.22, linewidth=0)
+        axes.plot(ribbon.x, np.column_stack([ribbon.low, ribbon.high]), color=color, linewidth=0.8)
+    for shape in panel.shapes:
+        color = theme.drawing[shape.hue]
+        axes.fill(shape.x, shape.y, facecolor=to_rgba(color, 0.2), edgecolor=color, linewidth=1.0)
 
 
 def _draw_line(axes: Axes, line: Line, theme: Theme) -> None:
@@ -338,6 +348,9 @@ def _names(axes: Axes, panel: Panel, levels: list[tuple[Level, Line2D]], theme: 
             handle = Line2D([], [], color=theme.drawing[line.hue], linestyle=DASHES[line.role])
             at = end(line.y[np.isfinite(line.y)][-1])
             yield Name(at, fill(line.title, NAME_LENGTH), theme.writing[line.hue], handle)
+    for title, hue in {shape.title: shape.hue for shape in panel.shapes}.items():
+        color = theme.drawing[hue]
+        yield Name(1.0, title, theme.writing[hue], Rectangle((0, 0), 1, 1, fc=to_rgba(color, 0.2), ec=color))
     bars = [each for each in panel.bars if each.role is not Role.VARIANT]
     for each in bars if len(bars) > 1 else []:
         patch = Rectangle((0, 0), 1, 1, facecolor=theme.drawing[each.hue])

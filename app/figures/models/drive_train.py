@@ -13,7 +13,6 @@ from app.figures.data import (
     Hue,
     Level,
     Line,
-    Map,
     Mark,
     NoFigure,
     Panel,
@@ -24,80 +23,43 @@ from app.figures.data import (
     values,
 )
 from app.figures.declaration import Declaration
-from app.figures.models.load_distribution import PROFILE, face
-from app.figures.units import MM
+from app.figures.models.load_distribution import face, over_flank, section
+from app.figures.sketches import shafts
+from app.figures.units import MM, axis
 from app.figures.wording import number, percent
 from solvers.drive_train import solve
 from solvers.drive_train.inputs import DriveTrainInputs, Effects, JournalBearing, Shaft, Vector2
-from solvers.drive_train.results import DriveTrainResult, ShaftResult
+from solvers.drive_train.results import DriveTrainResult, FlankMaps, GapCurves, Misalignment, ShaftResult
 from solvers.drive_train.shafts.bearings import attitude_angle
 
 
 def flank_load(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Line load over the flank under the gap that all parts agreed on."""
-    flank, load, width = result.flank, result.load, face_width(inputs) / MM
-    x = face(face_width(inputs))
-    grid = flank.line_load
-    chart = Map(
-        "line load",
-        "N/mm",
-        values(flank.face_fraction * width),
-        values(flank.profile_fraction),
-        grid,
-        range=(0.0, max(float(grid.max()), load.max_line_load) or 1.0),
-    )
-    row, column = np.unravel_index(int(np.argmax(grid)), grid.shape)
-    mark = Mark(
-        flank.face_fraction[column] * face_width(inputs) / MM,
-        flank.profile_fraction[row],
-        number(load.max_line_load, "N/mm"),
-    )
-    factor = load.face_load_factor
+    flank, load, shown = result.flank, result.load, axis(FlankMaps, "line_load")
+    panel = over_flank(face_width(inputs), flank, shown, flank.line_load, load.max_line_load, None)
     finding = f"highest {number(load.max_line_load, 'N/mm')}; {percent(load.contact_fraction)} of the flank carries"
-    if factor is None:
-        return Figure("no load", (Panel(x=x, y=PROFILE, map=chart),))
-    return Figure(f"{finding}, K_Hβ = {number(factor)}", (Panel(x=x, y=PROFILE, map=chart, marks=(mark,)),))
+    factor = "" if load.face_load_factor is None else f", K_Hβ = {number(load.face_load_factor)}"
+    return Figure(f"{finding}{factor}" if factor else "no load", (panel,))
 
 
 def contact_temperature(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Contact temperature by Blok over the flank; the corners that a feature line never meets count."""
-    flank, width, x = result.flank, face_width(inputs) / MM, face(face_width(inputs))
-    grid = flank.contact_temperature
+    flank, shown = result.flank, axis(FlankMaps, "contact_temperature", "contact temperature")
+    grid, limit = flank.contact_temperature, result.derived.temperatures.scuffing
     if result.derived.temperatures.bulk is None:
         raise NoFigure("no_oil", "Without an oil and a bulk temperature there is no contact temperature", "lubricant")
     if not np.isfinite(grid).all():
         raise NoFigure(
             "no_temperature", "The loaded path reaches a base circle, where there is no temperature", "gears"
         )
-    limit = result.derived.temperatures.scuffing
     low, high = float(grid.min()), float(grid.max())
+    panel = over_flank(face_width(inputs), flank, shown, grid, high if high > low else None, None)
+    assert panel.map is not None
     critical = (Critical(limit, "scuffing"),) if limit is not None and low < limit < high else ()
-    chart = Map(
-        "contact temperature",
-        "°C",
-        values(flank.face_fraction * width),
-        values(flank.profile_fraction),
-        grid,
-        critical=critical,
-        range=(low, high if high > low else low + 1.0),
-    )
-    row, column = np.unravel_index(int(np.argmax(grid)), grid.shape)
-    hottest = number(high, "°C", digits=4)
-    mark = Mark(flank.face_fraction[column] * width, flank.profile_fraction[row], hottest)
+    colours = replace(panel.map, critical=critical, range=(low, high if high > low else low + 1.0))
     safety = result.safety.blok_flank if result.safety is not None else None
-    finding = f"up to {hottest}" + ("" if safety is None else f", safety against scuffing {number(safety)} by Blok")
-    return Figure(finding, (Panel(x=x, y=PROFILE, map=chart, marks=(mark,) if high > low else ()),))
-
-
-MAPS = (
-    Declaration("flank-load", "Line load on the flank", "Xue 2020, Fig. 11", flank_load),
-    Declaration(
-        "contact-temperature",
-        "Contact temperature on the flank",
-        "Xue 2020, Eq. 25",
-        contact_temperature,
-    ),
-)
+    finding = "" if safety is None else f", safety against scuffing {number(safety)} by Blok"
+    return Figure(f"up to {number(high, '°C', digits=4)}{finding}", (replace(panel, map=colours),))
 
 
 OWN = "own derivation"
@@ -119,15 +81,15 @@ PARTS = (
 
 def shaft_lines(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Displaced axes of both shafts in both planes, with the reactions of their bearings."""
-    shafts = result.shafts
+    states = result.shafts
     given = (inputs.pinion_shaft, inputs.wheel_shaft)
-    z = np.concatenate([state.curves.z for state in shafts])
+    z = np.concatenate([state.curves.z for state in states])
     axis = Axis("position along Z", "mm", magnitude=False, limits=(float(z.min()), float(z.max())))
     panels = tuple(
         _shaft(inputs, name, own, state, axis)
-        for name, own, state in zip(("pinion", "wheel"), given, shafts, strict=True)
+        for name, own, state in zip(("pinion", "wheel"), given, states, strict=True)
     )
-    loads = [hypot(*bearing.reaction) for state in shafts for bearing in state.bearings]
+    loads = [hypot(*bearing.reaction) for state in states for bearing in state.bearings]
     finding = f"bearings carry {number(min(loads) / NEWTONS)} to {number(max(loads) / NEWTONS, 'kN')}"
     return Figure(f"{finding}; marks are their reactions", panels)
 
@@ -178,17 +140,17 @@ def gap(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
         Line("as ground", y, values(curves.modification), Hue.GREEN),
         Line("in all", y, values(curves.total), Hue.PURPLE),
     )
-    axis = Axis("gap, positive where the flanks part", "µm", magnitude=False, symbol="Δ")
-    shafts, heat = (
+    opened = axis(GapCurves, "total", "gap, positive where the flanks part", magnitude=False)
+    tilt, heat = (
         _felt(slope, span)
         for slope, span in (
             (found.shaft_slope, found.shaft_range),
             (found.thermal_slope, found.thermal_range),
         )
     )
-    slopes = f"shafts {number(shafts)}, heat {number(heat, 'µm')} over the face"
+    slopes = f"shafts {number(tilt)}, heat {number(heat, 'µm')} over the face"
     wanted = f"first estimate of the helix slope to grind {number(found.recommended_helix_slope, 'µm')}"
-    return Figure(f"{slopes}; {wanted}", (Panel(x=face(face_width(inputs)), y=axis, lines=lines),))
+    return Figure(f"{slopes}; {wanted}", (Panel(x=face(face_width(inputs)), y=opened, lines=lines),))
 
 
 def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
@@ -203,10 +165,10 @@ def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     shown = tuple(row for row in rows if row.value != 0.0)
     if not shown:
         raise NoFigure("no_misalignment", "Neither shafts nor heat open a gap, so there is nothing to draw", "effects")
-    axis = Axis("slope of the gap over the face", "µm", magnitude=False)
+    slope = axis(Misalignment, "total_slope", "slope of the gap over the face", magnitude=False)
     largest = max(rows[: len(PARTS)], key=lambda row: abs(row.value))
     finding = f"most by the {largest.name}: {number(largest.value, 'µm')}" if largest.value else "heat alone"
-    return Figure(finding, (Panel(x=axis, y=Axis("cause"), rows=shown),))
+    return Figure(finding, (Panel(x=slope, y=Axis("cause"), rows=shown),))
 
 
 def effects_apart(inputs: DriveTrainInputs, _: DriveTrainResult) -> dict[str, Values]:
@@ -245,7 +207,7 @@ def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[s
     place = f"at {percent(load.face_load_at)} of the face"
     panel = Panel(
         x=face(face_width(inputs)),
-        y=Axis("transverse force per face, mean over the roll", "N/mm"),
+        y=axis(GapCurves, "line_force", "transverse force per face, mean over the roll"),
         lines=tuple(lines),
     )
     return Figure(f"K_Hβ = {number(load.face_load_factor)} {place}", (panel,))
@@ -289,7 +251,7 @@ def _locus(x: float, y: float, reaction: Vector2) -> tuple[Values, Values]:
 
 def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Axial load of both shafts between the bounds that the couplings' friction leaves."""
-    shafts = result.shafts
+    states = result.shafts
     rows = tuple(
         Row(
             f"{name} shaft",
@@ -299,7 +261,7 @@ def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
             if state.thrust.lower is None or state.thrust.upper is None
             else (state.thrust.lower, state.thrust.upper),
         )
-        for name, state in zip(("pinion", "wheel"), shafts, strict=True)
+        for name, state in zip(("pinion", "wheel"), states, strict=True)
     )
     given = (("pinion", inputs.pinion_shaft.ultimate_thrust), ("wheel", inputs.wheel_shaft.ultimate_thrust))
     usable = {name: 0.5 * ultimate for name, ultimate in given if ultimate is not None}
@@ -311,10 +273,12 @@ def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
         )
         for sign in (1.0, -1.0)
     ]
-    turning = [name for name, state in zip(("pinion", "wheel"), shafts, strict=True) if state.thrust.reverses]
+    turning = [name for name, state in zip(("pinion", "wheel"), states, strict=True) if state.thrust.reverses]
     finding = f"friction can turn the load of the {turning[0]} round" if turning else "no load turns round"
     panel = Panel(
-        x=Axis("axial load towards +Z: of the mesh, and its bounds with the couplings", "N", magnitude=False),
+        x=Axis(
+            "axial load towards +Z: of the mesh, and its bounds with the couplings", "N", magnitude=False, symbol="F_a"
+        ),
         y=Axis("shaft"),
         rows=rows,
         levels=tuple(levels),
@@ -341,19 +305,22 @@ def losses(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
         finding = f"{number(found.total / NEWTONS, 'kW')} in all{efficiency}" + (
             "" if plain else "; without the bearings"
         )
-    return Figure(finding, (Panel(x=Axis("power lost", "W"), y=Axis("where"), rows=rows),))
+    return Figure(finding, (Panel(x=Axis("power lost", "W", symbol="P"), y=Axis("where"), rows=rows),))
 
 
 LOAD_ALONE = Declaration("face-load", "Load along the face", OWN, partial(face_load, others={}))
 GAP = Declaration("gap", "Gap over the face by parts", OWN, gap)
 FIGURES = (
+    Declaration("shafts", "Shafts, bearings and couplings", "as described", shafts),
+    section(lambda inputs: inputs.mesh.distribution.gears),
     Declaration("shaft-lines", "Displaced shafts in both planes", OWN, shaft_lines),
     GAP,
     Declaration("slope-parts", "Where the misalignment comes from", OWN, slope_parts),
     Declaration(
         "face-load", "Load along the face, with and without each effect", OWN, face_load, compute=effects_apart
     ),
-    *MAPS,
+    Declaration("flank-load", "Line load on the flank", "Xue 2020, Fig. 11", flank_load),
+    Declaration("contact-temperature", "Contact temperature on the flank", "Xue 2020, Eq. 25", contact_temperature),
     Declaration("journals", "Journals in the clearances of the plain bearings", "Ocvirk 1953", journals),
     Declaration("thrust", "Axial load of the shafts", "API 613, 5th ed.", thrust),
     Declaration("losses", "Losses of the unit", OWN, losses),

@@ -1,18 +1,20 @@
 """Figures of the check against scuffing along the path of contact."""
 
 from dataclasses import replace
+from itertools import groupby
 
 import numpy as np
 
-from app.figures.data import Axis, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Role, Span, Values, values
+from app.figures.data import Axis, Figure, Hue, Level, Line, NoFigure, Panel, Role, Span, Values, values
 from app.figures.declaration import Build, Declaration, present
 from app.figures.models import load_distribution
 from app.figures.models.load_distribution import PATH, path_points, unnamed
-from app.figures.units import UM
+from app.figures.parts import curve, extreme
+from app.figures.units import UM, axis
 from app.figures.wording import number
 from solvers.quantity import UNITS
 from solvers.scuffing.inputs import ScuffingInputs
-from solvers.scuffing.safety_results import Scuffing, ScuffingPath
+from solvers.scuffing.safety_results import Safety, Scuffing, ThermalPath
 
 UNSOLVED = {"no_solution", "refused"}
 WARNED = "outside validity"
@@ -24,31 +26,50 @@ def _of_distribution(build: Build) -> Build:
     return lambda inputs, result: build(inputs.distribution, result.distribution)
 
 
-def contact_temperature(_: ScuffingInputs, result: Scuffing) -> Figure:
+def contact_temperature(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """Bulk and flash of both flanks by thermal EHL beside Blok, against the scuffing temperature."""
     _with_oil(result)
-    path, bulk = result.path, present(result.contact_temperature).bulk
-    psi = values(path.psi)
-    lines = []
-    if path.thermal is not None:
-        lines.append(Line("pinion", psi, bulk + path.thermal.pinion_flash, Hue.BLUE))
-        lines.append(Line("wheel", psi, bulk + path.thermal.wheel_flash, Hue.VERMILLION))
-    thermal = bool(lines)
-    role = Role.REFERENCE if thermal else Role.RESULT
-    lines.append(Line("Blok", psi, bulk + values(path.blok_flash), Hue.GREY if thermal else Hue.BLUE, role))
+    bulk = present(result.contact_temperature).bulk
+    lines = [replace(line, y=values(bulk + line.y)) for line in _flashes(result)]
     levels = [Level(bulk, f"bulk {number(bulk, '°C', digits=4)}")]
     if result.safety is not None:
         limit = result.safety.scuffing
         levels.append(Level(limit, f"scuffing temperature {number(limit, '°C')}", limit=True))
+    y = Axis("contact temperature, bulk and flash", "°C", magnitude=False, symbol="θ_B")
+    return _along(inputs, result, y, lines, levels, _safety(result), marked=lines[:-1] or lines)
+
+
+def _flashes(result: Scuffing) -> list[Line]:
+    """Flash temperatures along the path: of both flanks where they are known, and by Blok."""
+    path, psi, lines = result.path, values(result.path.psi), []
+    if path.thermal is not None:
+        lines.append(Line("pinion", psi, path.thermal.pinion_flash, Hue.BLUE))
+        lines.append(Line("wheel", psi, path.thermal.wheel_flash, Hue.VERMILLION))
+    hue, role = (Hue.GREY, Role.REFERENCE) if lines else (Hue.BLUE, Role.RESULT)
+    return [*lines, Line("Blok", psi, values(path.blok_flash), hue, role)]
+
+
+def _along(
+    inputs: ScuffingInputs,
+    result: Scuffing,
+    y: Axis,
+    lines: list[Line],
+    levels: list[Level],
+    finding: str,
+    *,
+    marked: list[Line],
+    least: bool = False,
+) -> Figure:
+    """Lines along the path of contact with an extreme of those marked, and the range in which the check holds."""
     panel = Panel(
         x=PATH,
-        y=Axis("contact temperature, bulk and flash", "°C", magnitude=False, symbol="θ"),
+        y=y,
         lines=tuple(lines),
-        levels=(*levels, *_points(result)),
-        spans=_warned(path),
-        marks=_hottest(lines[:-1] or lines),
+        levels=(*levels, *_points(inputs, result)),
+        spans=_warned(result),
+        marks=extreme(marked, y.unit, least=least),
     )
-    return Figure(_safety(result), (panel,), unsolved=_unsolved(path))
+    return Figure(finding, (panel,), unsolved=_unsolved(result))
 
 
 def _with_oil(result: Scuffing) -> None:
@@ -76,80 +97,46 @@ def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     _with_oil(result)
     if result.safety is None:
         raise NoFigure("no_scuffing_temperature", "Safety needs a scuffing temperature", "temperatures")
-    path, bulk = result.path, present(result.contact_temperature).bulk
     oil = inputs.temperatures.oil - UNITS["c"].offset
-    flashes = [("Blok", path.blok_flash, Hue.BLUE if path.thermal is None else Hue.GREY)]
-    if path.thermal is not None:
-        hotter = np.fmax(path.thermal.pinion_flash, path.thermal.wheel_flash)
-        flashes.insert(0, ("thermal EHL", hotter, Hue.VERMILLION))
-    lines = []
-    for title, flash, hue in flashes:
-        rise = bulk + flash - oil
-        factor = np.where(rise > 0.0, (result.safety.scuffing - oil) / np.where(rise > 0.0, rise, 1.0), np.nan)
-        lines.append(Line(title, values(path.psi), values(factor), hue))
-    known = [line for line in lines if np.isfinite(line.y).any()]
-    if not known:
+    above_oil, reserve = present(result.contact_temperature).bulk - oil, result.safety.scuffing - oil
+    *flanks, blok = _flashes(result)
+    flashes = [replace(blok, role=Role.RESULT)]
+    if flanks:
+        hotter = values(np.fmax(*(line.y for line in flanks)))
+        flashes.insert(0, Line("thermal EHL", blok.x, hotter, Hue.VERMILLION))
+    rises = [(line, np.where(above_oil + line.y > 0.0, above_oil + line.y, np.nan)) for line in flashes]
+    lines = [replace(line, y=values(reserve / rise)) for line, rise in rises if np.isfinite(rise).any()]
+    if not lines:
         raise NoFigure("no_rise", "The contact is nowhere hotter than the oil, so no safety is defined", "temperatures")
-    least = min(known, key=lambda line: float(np.nanmin(line.y)))
-    at = int(np.nanargmin(least.y))
-    value = float(least.y[at])
-    top = max(1.5, min(SHOWN_SAFETIES * value, *(1.1 * float(np.nanmax(line.y)) for line in known)))
-    panel = Panel(
-        x=PATH,
-        y=Axis("safety against scuffing", symbol="S_B", limits=(0.0, top)),
-        lines=tuple(known),
-        levels=(Level(1.0, "scuffing below 1", limit=True), *_points(result)),
-        spans=_warned(path),
-        marks=(Mark(float(least.x[at]), value, number(value), least.hue),),
+    (mark,) = extreme(lines, least=True)
+    top = max(1.5, min(SHOWN_SAFETIES * mark.y, *(1.1 * float(np.nanmax(line.y)) for line in lines)))
+    method = next(line.title for line in lines if line.hue is mark.hue)
+    finding = f"least {number(mark.y)} by {method}, at Ψ = {number(mark.x)}"
+    y, limit = (
+        axis(Safety, "blok_factor", "scuffing safety", limits=(0.0, top)),
+        Level(1.0, "scuffing below 1", limit=True),
     )
-    finding = f"least {number(value)} by {least.title}, at Ψ = {number(float(least.x[at]))}"
-    return Figure(finding, (panel,), unsolved=_unsolved(path))
-
-
-def _hottest(lines: list[Line]) -> tuple[Mark, ...]:
-    """The hottest point of all lines."""
-    known = [line for line in lines if np.isfinite(line.y).any()]
-    if not known:
-        return ()
-    line = max(known, key=lambda each: float(np.nanmax(each.y)))
-    at = int(np.nanargmax(line.y))
-    return (Mark(float(line.x[at]), float(line.y[at]), number(float(line.y[at]), "°C"), line.hue),)
+    return _along(inputs, result, y, lines, [limit], finding, marked=lines, least=True)
 
 
 def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """Minimum and central film, the formula, and the film that is as thick as the roughness."""
     _with_oil(result)
-    path, thinnest = result.path, present(result.film)
-    psi = values(path.psi)
-    formula = values(path.dowson_higginson)
+    path, thinnest, psi = result.path, present(result.film), values(result.path.psi)
     lines = []
     if path.thermal is not None:
         lines.append(Line("minimum", psi, path.thermal.minimum_film))
         lines.append(Line("central", psi, path.thermal.central_film, Hue.SKY))
-    thermal = bool(lines)
-    hue, role = (Hue.GREY, Role.REFERENCE) if thermal else (Hue.BLUE, Role.RESULT)
-    lines.append(Line("Dowson-Higginson", psi, formula, hue, role))
-    marks: tuple[Mark, ...] = ()
-    if np.isfinite(lines[0].y).any():
-        at = int(np.nanargmin(lines[0].y))
-        marks = (Mark(float(psi[at]), float(lines[0].y[at]), number(float(lines[0].y[at]), "µm"), lines[0].hue),)
-    panel = Panel(
-        x=PATH,
-        y=Axis("film thickness", "µm", symbol="h"),
-        lines=tuple(lines),
-        levels=(
-            Level(roughness(inputs), "λ = 1, film as thick as the roughness", limit=True),
-            *_points(result),
-        ),
-        spans=_warned(path),
-        marks=marks,
-    )
+    hue, role = (Hue.GREY, Role.REFERENCE) if lines else (Hue.BLUE, Role.RESULT)
+    lines.append(Line("Dowson-Higginson", psi, values(path.dowson_higginson), hue, role))
     if thinnest.thickness_ratio is None:
-        finding = "no film is known everywhere" if _unsolved(path) else "no load"
+        finding = "no film is known everywhere" if _unsolved(result) else "no load"
     else:
         regime = present(thinnest.thickness_regime).replace("_", " ")
         finding = f"λ = {number(thinnest.thickness_ratio)} at the thinnest: {regime}"
-    return Figure(finding, (panel,), unsolved=_unsolved(path))
+    limit = Level(roughness(inputs), "λ = 1, film as thick as the roughness", limit=True)
+    y = Axis("film thickness", "µm", symbol="h")
+    return _along(inputs, result, y, lines, [limit], finding, marked=lines[:1], least=True)
 
 
 def roughness(inputs: ScuffingInputs) -> float:
@@ -158,73 +145,62 @@ def roughness(inputs: ScuffingInputs) -> float:
     return float(np.hypot(pair.pinion_material.roughness, pair.wheel_material.roughness)) / UM
 
 
-def friction(_: ScuffingInputs, result: Scuffing) -> Figure:
+def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """Coefficient of friction and film pressure along the path, from thermal EHL, beside the mean one in force."""
     _with_oil(result)
-    path = result.path
-    thermal = path.thermal
+    path, thermal, mean = result.path, result.path.thermal, result.distribution.friction_loss.coefficient
     if thermal is None:
         raise NoFigure(
             "closed_form", "Friction along the path comes from the thermal EHL solution only", "model.lubrication"
         )
-    psi, friction_line = values(path.psi), values(thermal.friction_coefficient)
-    points = _points(result)
+    points, warned = _points(inputs, result), _warned(result)
+    # The coefficient that Blok's flash temperature and the losses take.
+    means = () if mean is None else (Level(mean, f"mean of the formulas {number(mean)}"),)
+    coefficient = axis(ThermalPath, "friction_coefficient", "coefficient of friction")
     panels = (
-        Panel(
-            x=PATH,
-            y=Axis("coefficient of friction", symbol="μ"),
-            lines=(Line("friction", psi, friction_line, named=False),),
-            levels=(*points, *_mean_friction(result)),
-            spans=_warned(path),
-            marks=_largest(psi, friction_line, "", Hue.BLUE),
+        curve(
+            PATH,
+            coefficient,
+            path.psi,
+            thermal.friction_coefficient,
+            marked=True,
+            levels=(*points, *means),
+            spans=warned,
         ),
-        Panel(
-            x=PATH,
-            y=Axis("largest pressure in the film", "MPa", symbol="p_max"),
-            lines=(Line("pressure", psi, values(thermal.max_pressure), Hue.VERMILLION, named=False),),
+        curve(
+            PATH,
+            axis(ThermalPath, "max_pressure"),
+            path.psi,
+            thermal.max_pressure,
+            Hue.VERMILLION,
+            marked=True,
             levels=unnamed(points),
-            spans=tuple(Span(span.start, span.stop, "") for span in _warned(path)),
-            marks=_largest(psi, values(thermal.max_pressure), "MPa", Hue.VERMILLION),
+            spans=tuple(replace(span, name="") for span in warned),
         ),
     )
-    known = friction_line[np.isfinite(friction_line)]
+    known = thermal.friction_coefficient[np.isfinite(thermal.friction_coefficient)]
     finding = f"μ from {number(float(known.min()))} to {number(float(known.max()))}" if known.size else "nowhere known"
-    return Figure(finding, panels, unsolved=_unsolved(path))
+    return Figure(finding, panels, unsolved=_unsolved(result))
 
 
-def _mean_friction(result: Scuffing) -> tuple[Level, ...]:
-    """The coefficient that Blok's flash temperature and the losses take."""
-    mean = result.distribution.friction_loss.coefficient
-    return () if mean is None else (Level(mean, f"mean of the formulas {number(mean)}"),)
+def _points(inputs: ScuffingInputs, result: Scuffing) -> tuple[Level, ...]:
+    return path_points(inputs.distribution.gears) if len(result.path.psi) > 1 else ()
 
 
-def _largest(psi: Values, y: Values, unit: str, hue: Hue) -> tuple[Mark, ...]:
-    if not np.isfinite(y).any():
-        return ()
-    at = int(np.nanargmax(y))
-    return (Mark(float(psi[at]), float(y[at]), number(float(y[at]), unit), hue),)
+def _unsolved(result: Scuffing) -> int:
+    return sum(status in UNSOLVED for status in result.path.status)
 
 
-def _points(result: Scuffing) -> tuple[Level, ...]:
-    return path_points(result.distribution) if len(result.path.psi) > 1 else ()
-
-
-def _unsolved(path: ScuffingPath) -> int:
-    return sum(status in UNSOLVED for status in path.status)
-
-
-def _warned(path: ScuffingPath) -> tuple[Span, ...]:
+def _warned(result: Scuffing) -> tuple[Span, ...]:
     """Stretches of the path whose points carry warnings, to the middle between points."""
-    psi, spans = values(path.psi), list[Span]()
+    psi: Values = values(result.path.psi)
     edges = np.concatenate([psi[:1], (psi[:-1] + psi[1:]) / 2.0, psi[-1:]])
-    start: float | None = None
-    for index, status in enumerate((*path.status, "ok")):
-        if status == "ok_with_warnings" and start is None:
-            start = float(edges[index])
-        elif status != "ok_with_warnings" and start is not None:
-            spans.append(Span(start, float(edges[index]), "" if spans else WARNED))
-            start = None
-    return tuple(spans)
+    runs = groupby(range(psi.size), key=lambda index: result.path.status[index] == "ok_with_warnings")
+    places = [list(group) for warned, group in runs if warned]
+    return tuple(
+        Span(float(edges[each[0]]), float(edges[each[-1] + 1]), "" if place else WARNED)
+        for place, each in enumerate(places)
+    )
 
 
 FIGURES = (

@@ -91,6 +91,14 @@ STUDIES = (
         | {"show": "safety.blok_factor", "best": "greatest"},
     ),
     StudyExample(
+        "How safe is it, over speed and power?",
+        "scuffing safety by Blok as a map of 9 by 9 pairs",
+        "starter-industrial-scuffing",
+        _axis("x", "load.pinion_speed_rpm", 500, 2500, 9)
+        | _axis("y", "load.power_kw", 200, 800, 9)
+        | {"show": "safety.blok_factor", "best": "greatest"},
+    ),
+    StudyExample(
         "How thin does the film get, over speed?",
         "minimum film thickness over the speed of a flank",
         "starter-line-contact",
@@ -101,6 +109,14 @@ STUDIES = (
         "scuffing safety of the hot unit over power",
         "starter-turbo-gear-drive-train",
         _axis("x", "operation.power_kw", 4000, 16000, 7) | {"show": "safety.minimum", "best": "greatest"},
+    ),
+    StudyExample(
+        "How safe is it, over speed and power?",
+        "scuffing safety of the hot unit as a map of 9 by 9 units",
+        "starter-turbo-gear-drive-train",
+        _axis("x", "operation.pinion_speed_rpm", 4000, 12000, 9)
+        | _axis("y", "operation.power_kw", 4000, 16000, 9)
+        | {"show": "safety.minimum", "best": "greatest"},
     ),
     StudyExample(
         "How evenly does the face carry, over speed and power?",
