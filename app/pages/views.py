@@ -19,6 +19,7 @@ from app.pages.links import IMAGE_FORMATS, Links, example_link, examples_of
 from app.pages.manual import chapter_of
 from app.pages.query import Pairs, ambiguity, normalised, pairs_of_query, split_views
 from app.pages.results import assumptions, cards, entries, groups, resolved
+from app.pages.studies.sweep_examples import studies_of_case
 from app.pages.study_links import study_links
 from app.pages.templating import page_path, rendered
 from app.pages.typesetting import NO_VALUE
@@ -109,6 +110,7 @@ def page(asked: Asked) -> Shown:
         derived=_derived(case),
         charts=figures,
         missing=missing,
+        ready=studies_of_case(asked.calculation, asked.pairs, case.response.inputs),
         compared=before is not None,
         trouble=trouble,
         curves=_curves(case),

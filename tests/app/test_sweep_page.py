@@ -390,6 +390,26 @@ def test_ready_questions_on_the_page_of_a_case_are_asked_of_this_case() -> None:
     assert total(Asked(own.path, pairs, said)) == 17 * 11
 
 
+def test_the_result_links_the_map_of_safety_over_speed_and_power_of_its_case(client: httpx.Client) -> None:
+    own = asked("starter-turbo-gear-drive-train")
+    page = unescape(client.get(own.links.page).text)
+    (link,) = re.findall(r'<a href="([^"]+)">How safe is it, over speed and power', page)
+    pairs, said = split_views(pairs_of_query(link.partition("?")[2]))
+    assert pairs == own.pairs
+    varied = {name: text for name, text in said.items() if name[0] in "xy"}
+    speed, power = "operation.pinion_speed_rpm", "operation.power_kw"
+    assert varied == {"x": speed, "x.count": "9", "y": power, "y.count": "9"}, "around its own values"
+    assert total(Asked(own.path, pairs, said)) == 81
+
+
+def test_a_map_marks_the_case_and_the_best_point() -> None:
+    x = Coordinate(Axis("speed"), values([1.0, 2.0, 3.0]), own=2.0)
+    y = Coordinate(Axis("power"), values(np.linspace(1.0, 3.0, 9)), own=2.5)
+    safety = values(np.add.outer([1.0, 2.0, 3.0], np.arange(9.0)))
+    (panel,) = figures_of(Grid(x, y, Axis("safety"), safety, greatest=True))["map"].panels
+    assert [(mark.x, mark.y, mark.text) for mark in panel.marks] == [(3.0, 3.0, "11"), (2.0, 2.5, "as described")]
+
+
 def test_the_names_of_a_study_are_those_of_its_form() -> None:
     varied_one, unit = asked(COUPLING, x="operation.torque_n_m"), asked("starter-turbo-gear-drive-train")
     scattering = asked(COUPLING, **{"t9": "friction.coefficient", "t9.by": "0.01"})

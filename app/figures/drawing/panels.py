@@ -32,7 +32,6 @@ COLOURS = {Scale.MAGNITUDE: "cividis", Scale.RATIO: "RdBu_r", Scale.SIGNED: "RdB
 RATIO_TICKS = (0.1, 0.2, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 LINEAR_RATIO = 1.3  # up to which a ratio's ticks are evenly spaced
 CROWDED = 0.05  # of the colour bar: a tick nearer to a critical value gives way
-LONG_LABEL = 40  # characters beyond which the name of an abscissa may be wider than its axes
 DOTS_MARGINS = 0.55, 0.4  # of the reach of dots, for their titles
 WIDE = 0.15  # of the longest bar: bounds farther apart have their values at their ends
 NOISE = 1e-9  # of the values: what varies by less is rounding error
@@ -73,7 +72,7 @@ def draw_panel(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
         _name(axes, span.name, ((span.start + span.stop) / 2, 1.0), theme.muted, theme, axes.get_xaxis_transform())
     _end(axes, panel)
     axes.set(title=panel.title or "")
-    axes.set_xlabel(panel.x.label, loc="right" if len(panel.x.label) > LONG_LABEL else "center")
+    axes.set_xlabel(panel.x.label, loc="right" if panel.rows else "center")  # which may be wider than the axes of rows
     if not panel.rows:
         axes.set_ylabel(fill(panel.y.label, max(round(height / LETTER), 10)))
     _name_beside(axes, panel, levels, theme, height)

@@ -14,7 +14,7 @@ from app.figures.data import Figure, values
 from app.figures.studies import Coordinate, Grid, figures_of
 from app.figures.units import axis_of
 from app.pages.form import FieldView
-from app.pages.query import Pairs, body_of, link, number_of
+from app.pages.query import Pairs, body_of, number_of
 from app.pages.studies.declaration import (
     Cell,
     Choice,
@@ -28,7 +28,7 @@ from app.pages.studies.declaration import (
     address_at,
     ended,
 )
-from app.pages.studies.sweep_examples import studies_of
+from app.pages.studies.sweep_examples import studies_of, studies_of_case
 from app.pages.study_links import VARY
 from app.pages.typesetting import shown, words
 from app.pages.views import Asked
@@ -408,20 +408,10 @@ def _is_varied(asked: Asked) -> bool:
 
 def _starters(_: StudyPage, asked: Asked) -> list[Starter]:
     """The ready studies of examples; with a case of one's own they are asked of it, around its own values."""
-    studies = studies_of(asked.calculation)
     if not asked.pairs:
-        return [Starter(each.title, each.source, each.address) for each in studies]
+        return [Starter(each.title, each.source, each.address) for each in studies_of(asked.calculation)]
     case = case_of(asked.calculation, asked.pairs)
-    return [
-        Starter(each.title, "", link(f"{asked.path}/{VARY.name}", asked.pairs, **_around_own(each.study, case)))
-        for each in studies
-    ]
-
-
-def _around_own(study: dict[str, str], case: dict[str, Any]) -> dict[str, str]:
-    """A ready study without the ranges of fields that have a value in this case."""
-    own = {name for name in AXES if name in study and value_at(case, study[name])}
-    return {name: text for name, text in study.items() if not (name[0] in own and name[1:] in {".from", ".to"})}
+    return [Starter(title, "", to) for title, to in studies_of_case(asked.calculation, asked.pairs, case)]
 
 
 SWEEP = StudyPage(
