@@ -245,7 +245,7 @@ class SweepRequest(StudyRequest):
     from_index: FromIndex = 0
 
 
-class Case(Part):
+class LoadCase(Part):
     """A part of the operating time, and what it changes in the request."""
 
     name: Annotated[str | None, Field(max_length=100), Input("name", default_text="its number")] = None
@@ -296,7 +296,9 @@ class SpectrumRequest(StudyRequest):
     """A machine with its tolerances over the cases of its load spectrum."""
 
     cases: Annotated[
-        list[Case], Field(min_length=1, max_length=100), Input("cases", text="what each case changes, and its share")
+        list[LoadCase],
+        Field(min_length=1, max_length=100),
+        Input("cases", text="what each case changes, and its share"),
     ]
     tolerances: Annotated[Tolerances | None, Input("tolerances", default_text="the nominal machine alone")] = None
     limits: Annotated[

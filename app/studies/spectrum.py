@@ -18,7 +18,7 @@ from app.studies.fields import NUMBERS
 from app.studies.point_sets import check_case, scattering
 from app.studies.points import Point, Question, solve_point
 from app.studies.probability import Array, Limit
-from app.studies.requests import DRIVE_TRAIN, Case, Overrides, SpectrumLimit, SpectrumRequest, Tolerances
+from app.studies.requests import DRIVE_TRAIN, LoadCase, Overrides, SpectrumLimit, SpectrumRequest, Tolerances
 from app.studies.stream import Clock, Line, Lines, point_line
 from app.studies.study import Study, case_of_study, output_header, paths_of
 from app.studies.summary import Tally
@@ -78,7 +78,7 @@ class Spectrum(Study):
     Where no limits are given, the columns behind the outputs hold the scuffing temperature.
     """
 
-    cases: list[Case]
+    cases: list[LoadCase]
     scattering: Scattering | None
     limits: list[Limit] | None
     hours_per_year: float | None
@@ -304,7 +304,7 @@ def _limit(given: SpectrumLimit) -> Limit:
     return Limit("above" if given.above else "below", mean, threshold.deviation or 0.0, given.output)
 
 
-def _with_shares(cases: Sequence[Case]) -> list[Case]:
+def _with_shares(cases: Sequence[LoadCase]) -> list[LoadCase]:
     """The cases with their names and their shares of the operating time, whose sum is 1; raises Unprocessable."""
     given = [each.share for each in cases if each.share is not None]
     if given and len(given) < len(cases):
