@@ -154,6 +154,8 @@ class _Study:
                 self._show(line["done"], line["total"])
             case "end":
                 self.end = line
+                if total := self.header.get("total"):
+                    self._show(total, total)
             case _ if "case" in line and "outputs" in line:
                 self.header = line
             case kind:
@@ -173,8 +175,10 @@ class _Study:
             self._bar.update(done - self._bar.n)
 
     def _table(self, results: list[Json]) -> "DataFrame":
-        from pandas import DataFrame  # noqa: PLC0415  only tables need it
+        from pandas import DataFrame, json_normalize  # noqa: PLC0415  only tables need it
 
+        if not results:
+            return json_normalize(self.end.get("cases", []))
         if "axes" not in self.header:
             return DataFrame(results)
         points = [line for line in results if line["type"] == "point"]
@@ -207,7 +211,10 @@ class Study(_Study):
             time.sleep(_wait_s(response, give_up))
 
     def frame(self) -> "DataFrame":
-        """All results as a pandas table, a row each; those of a sweep with a column for each input and output."""
+        """All results as a pandas table, a row each; those of a sweep with a column for each input and output.
+
+        A spectrum has a row for each case, unless its points are asked for.
+        """
         return self._table(list(self))
 
 
@@ -236,7 +243,10 @@ class AsyncStudy(_Study):
             await asyncio.sleep(_wait_s(response, give_up))
 
     async def frame(self) -> "DataFrame":
-        """All results as a pandas table, a row each; those of a sweep with a column for each input and output."""
+        """All results as a pandas table, a row each; those of a sweep with a column for each input and output.
+
+        A spectrum has a row for each case, unless its points are asked for.
+        """
         return self._table([line async for line in self])
 
 

@@ -97,15 +97,30 @@ def of_case(outputs: Array, limit: Limit) -> Estimate:
 
 
 def _chances(chances: Array, limit: Limit) -> Mean:
-    """The mean with its interval inside 0 to 1; of a fixed limit that all draws keep, or none, a one-sided bound."""
+    """The mean with its interval inside 0 to 1.
+
+    Draws beyond a fixed limit are counted. Where fewer of them than replicates are beyond it, or within it, or all
+    replicates count the same, the scatter of the replicates says nothing: the interval is that of the count.
+    """
     found, draws = mean_over_replicates(chances), chances.size
-    if limit.deviation == 0.0 and draws > 1 and found.mean in (0.0, 1.0):
-        reach = 1.0 - (1.0 - CONFIDENCE) ** (1.0 / draws)
-        return found._replace(interval=(0.0, reach) if found.mean == 0.0 else (1.0 - reach, 1.0))
+    if limit.deviation == 0.0 and draws > 1:
+        events = round(found.mean * draws)
+        if min(events, draws - events) < len(chances) or not found.standard_error:
+            return found._replace(interval=_interval_of_count(events, draws))
     if found.interval is None:
         return found
     low, high = found.interval
     return found._replace(interval=(max(low, 0.0), min(high, 1.0)))
+
+
+def _interval_of_count(events: int, draws: int) -> tuple[float, float]:
+    """Clopper and Pearson's 90 % interval of a share; one-sided where none or all count, 1 - 0.1^(1/draws)."""
+    from scipy.stats import binomtest  # noqa: PLC0415  half a second that only studies need
+
+    side: Literal["less", "greater", "two-sided"]
+    side = "less" if events == 0 else "greater" if events == draws else "two-sided"
+    interval = binomtest(events, draws, alternative=side).proportion_ci(CONFIDENCE)
+    return float(interval.low), float(interval.high)
 
 
 def risk(probability: float) -> Risk:

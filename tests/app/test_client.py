@@ -83,6 +83,17 @@ def test_a_sensitivity_is_a_table(service: Tribodrive) -> None:
     assert {"output", "path", "derivative", "elasticity"} <= set(table.columns)
 
 
+def test_a_spectrum_is_a_table_of_its_cases(service: Tribodrive) -> None:
+    """Its bar ends at the last solution, although the last line of progress comes before it."""
+    cases = [{"name": "full"}, {"name": "half", "set": {"operation.torque_n_m": 1500}}]
+    request = {key: SWEEP[key] for key in ("endpoint", "request", "outputs")} | {"cases": cases}
+    spectrum = service.spectrum(request, progress=True)
+    table = spectrum.frame()
+    assert list(table["name"]) == ["full", "half"]
+    assert "means.axial_thrust.force_n" in table.columns
+    assert spectrum._bar.n == spectrum._bar.total == 2
+
+
 def test_the_asynchronous_client_answers_the_same(server: str, service: Tribodrive) -> None:
     async def ask() -> tuple[object, list[float]]:
         async with AsyncTribodrive(server) as client:

@@ -1,16 +1,15 @@
 """Probabilities against laws that are known in closed form."""
 
 from dataclasses import replace
-from math import exp, hypot, inf, log, sqrt
+from math import exp, inf, log, sqrt
 
 import numpy as np
 import pytest
-from scipy.stats import norm
+from scipy.stats import binom, norm
 
-from app.calculations import BY_PATH
-from app.schema.fields import Leaf, leaves
+from app.schema.fields import Leaf
 from app.schema.quantities import Input
-from app.studies.distributions import cut, drawn, unit_cube
+from app.studies.distributions import cut, drawn
 from app.studies.probability import (
     Limit,
     Side,
@@ -24,8 +23,7 @@ from app.studies.probability import (
     weighted_mean,
 )
 from app.studies.requests import Lognormal, Method, Normal, Range, Triangular, Uniform
-
-FRICTION = next(leaf for leaf in leaves(BY_PATH["/v1/coupling"].request) if leaf.path == "friction.coefficient")
+from tests.support.coverage import FRICTION, coverage
 
 
 def array(*cases: list[float]) -> np.ndarray:
@@ -73,6 +71,24 @@ def test_no_event_has_a_one_sided_bound() -> None:
     outputs = np.zeros((8, 128, 1))
     assert of_spectrum(outputs, Limit("above", 1.0, 0.0)).interval == pytest.approx((0.0, 0.0022460921))
     assert of_spectrum(outputs, Limit("above", -1.0, 0.0)).interval == pytest.approx((1.0 - 0.0022460921, 1.0))
+
+
+def test_few_events_have_the_interval_of_their_count() -> None:
+    """5 of 1024, and 3 in each of 8 replicates: Clopper and Pearson's limits, by the sums of binomial probabilities."""
+    few = np.zeros((8, 128))
+    few[:5, 0] = 1.0
+    equal = np.zeros((8, 128))
+    equal[:, :3] = 1.0
+    for outputs, events in ((few, 5), (equal, 24)):
+        found = of_case(outputs, Limit("above", 0.5, 0.0))
+        assert found.probability == events / 1024
+        assert found.interval is not None
+        assert binom.sf(events - 1, 1024, found.interval[0]) == pytest.approx(0.05)
+        assert binom.cdf(events, 1024, found.interval[1]) == pytest.approx(0.05)
+    few[:, :1] = 1.0
+    few[0, 1] = 1.0
+    scattered = of_case(few, Limit("above", 0.5, 0.0))
+    assert scattered.interval == pytest.approx(mean_over_replicates(few).interval)
 
 
 def test_an_unsolved_draw_is_never_lost() -> None:
@@ -184,29 +200,25 @@ class TestDistributions:
         assert self.value(huge, 1.0, replace(FRICTION, declared=Input("free"))) < inf
 
 
-LINEAR = 3000.0  # N per unit of friction
-SPREAD = 0.02 * LINEAR
-LIMIT_SPREAD = 0.5 * SPREAD
+@pytest.mark.slow
+@pytest.mark.parametrize("tolerances", [1, 6])
+@pytest.mark.parametrize(("method", "least", "most"), [("sobol", 0.80, 0.96), ("latin_hypercube", 0.85, 0.95)])
+def test_the_interval_covers_the_truth(method: Method, least: float, most: float, tolerances: int) -> None:
+    """A linear output of normal inputs against a normal limit: P = Phi((mu - m) / sqrt(s_y^2 + s^2)).
+
+    At probabilities of 31, 16, 6.7, 2.3 and 0.62 % over 400 seeds. At 0.13 % the means of the replicates are skewed,
+    and 90 % intervals cover 75 to 82 %, which the study says.
+    """
+    *usual, rare = coverage(method, tolerances, 0.5).values()
+    for each in usual:
+        assert least <= each.covered <= most, each
+    assert 0.70 <= rare.covered <= 0.90
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("method", "least", "most"), [("sobol", 0.80, 0.96), ("latin_hypercube", 0.85, 0.95)])
-@pytest.mark.parametrize("distance", [0.5, 1.5, 2.5])
-def test_the_interval_covers_the_truth(method: Method, least: float, most: float, distance: float) -> None:
-    """A linear output of a normal input against a normal limit: P = Phi((mu - m) / sqrt(s_y^2 + s^2)).
-
-    Probabilities of 31, 6.7 and 0.6 %. Below it means of replicates are skewed, and 90 % intervals cover some 77 %.
-    """
-    scatter = [Normal(path="x", distribution="normal", mean=0.2, deviation=0.02)]
-    limit = Limit("above", 0.2 * LINEAR + distance * hypot(SPREAD, LIMIT_SPREAD), LIMIT_SPREAD)
-    truth = float(norm.sf(distance))
-    covered = 0
-    for seed in range(400):
-        cubes = [
-            unit_cube(method, 128, 1, np.random.default_rng(each), "") for each in np.random.SeedSequence(seed).spawn(8)
-        ]
-        outputs = LINEAR * drawn(scatter, [FRICTION], np.concatenate(cubes)).reshape(8, 128)
-        interval = of_case(outputs, limit).interval
-        assert interval is not None
-        covered += interval[0] <= truth <= interval[1]
-    assert least <= covered / 400 <= most
+@pytest.mark.parametrize("tolerances", [1, 6])
+@pytest.mark.parametrize("method", ["sobol", "latin_hypercube"])
+def test_the_interval_of_a_fixed_limit_covers_the_truth(method: Method, tolerances: int) -> None:
+    """One tolerance is stratified: at 2.3 % half of the studies count 3 of 128 in every replicate, without scatter."""
+    for each in coverage(method, tolerances, 0.0).values():
+        assert each.covered >= 0.85, each

@@ -135,6 +135,16 @@ def test_a_linear_output_of_a_normal_input() -> None:
     assert (low, high) == pytest.approx((nominal - 1.645 * deviation, nominal + 1.645 * deviation), rel=3e-3)
 
 
+def test_the_interval_of_a_rare_event_is_said_to_cover_less() -> None:
+    limits = [above(COAXIAL, 1.5e4, 1e3)]
+    *_, rare = solved(coupling(tolerances=friction(count=16, replicates=4), limits=limits))
+    assert 0.0 < rare["limits"][0]["probability"] < 0.005
+    assert "below 0.5 %" in rare["notes"][0]
+    *_, usual = solved(coupling(tolerances=friction(count=16, replicates=4), limits=[above(COAXIAL, 9000, 1e3)]))
+    assert usual["limits"][0]["probability"] > 0.005
+    assert usual["notes"] == []
+
+
 def test_a_case_listed_twice_changes_nothing_but_who_decides() -> None:
     one = {"name": "a", "share": 0.6, "set": {"operation.torque_n_m": 2000}}
     other = {"name": "b", "share": 0.4, "set": {"operation.torque_n_m": 3000}}
