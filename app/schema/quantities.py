@@ -10,7 +10,7 @@ from typing import Any, Literal
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.fields import FieldInfo
 from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+from pydantic_core import CoreSchema, core_schema
 
 from solvers.quantity import UNITS, Quantity, Unit
 
@@ -50,11 +50,14 @@ class Input(Quantity):
 
     def _strict(self, schema: CoreSchema) -> CoreSchema:
         match schema["type"]:
-            case "float" | "int":
-                number: Any = {**schema, **self.bounds}
-                if schema["type"] == "float":
-                    number["allow_inf_nan"] = False
-                return core_schema.no_info_before_validator_function(_number, number)
+            case "float" | "int" as kind:
+                # Strict: text and booleans are no numbers. 3.0 is a whole number, which a strict int would not take.
+                bounds: Any = self.bounds
+                number = core_schema.float_schema(strict=True, allow_inf_nan=False, **bounds)
+                if kind == "float":
+                    return number
+                whole = core_schema.chain_schema([number, core_schema.int_schema()])
+                return core_schema.json_or_python_schema(core_schema.int_schema(strict=True, **bounds), whole)
             case "bool":
                 return core_schema.bool_schema(strict=True)
             case "union":
@@ -134,13 +137,6 @@ def split_unit(name: str) -> tuple[str, Unit | None]:
 def _kinds(choices: list[Any]) -> list[CoreSchema]:
     """The kinds of a union, without the names that may stand beside them."""
     return [choice[0] if isinstance(choice, tuple) else choice for choice in choices]
-
-
-def _number(value: object) -> object:
-    """Let numbers pass; text and booleans are none, whatever Python thinks."""
-    if isinstance(value, (bool, str)):
-        raise PydanticCustomError("number_type", "Input should be a number")
-    return value
 
 
 def _documented(schema: JsonSchemaValue, meaning: Input | Output) -> JsonSchemaValue:

@@ -25,7 +25,7 @@ MOST_FAULTS = 100
 _NAME = re.compile(r"[A-Za-z0-9_]{1,40}")
 _NUMBER = re.compile(r"[+-]?\d{1,20}([.,]\d{1,20})?")
 _RANGE_TYPES = {"greater_than", "greater_than_equal", "less_than", "less_than_equal"}
-_NUMBER_TYPES = {"float_type", "int_type", "float_parsing", "int_parsing", "number_type"}
+_NUMBER_TYPES = {"float_type", "int_type"}
 _SECTION_TYPES = {"model_type", "model_attributes_type", "dict_type", "dataclass_type"}
 
 
@@ -83,7 +83,9 @@ def faults(model: type[BaseModel], items: Iterable[dict[str, Any]]) -> list[Faul
     found = []
     for item, _ in zip(items, range(MOST_FAULTS), strict=False):
         loc = _fields_only(model, item["loc"])
-        found.append(Fault(pointer(loc), str(item["type"]), _message(model, loc, item)))
+        no_number = item["type"] in _NUMBER_TYPES and isinstance(item.get("input"), bool | str)
+        code = "number_type" if no_number else str(item["type"])
+        found.append(Fault(pointer(loc), code, _message(model, loc, item)))
     return found
 
 
