@@ -11,7 +11,6 @@ from app.figures.models import line_contact as line_contact_figures
 from app.figures.models import load_distribution as load_figures
 from app.figures.models import pumping as pumping_figures
 from app.figures.models import scuffing as scuffing_figures
-from app.schema.base import Request, Response
 from app.schema.coupling import (
     CouplingRequest,
     CouplingResponse,
@@ -23,6 +22,7 @@ from app.schema.coupling import (
 from app.schema.drive_train import DriveTrainRequest, DriveTrainResponse
 from app.schema.line_contact import LineContactRequest, LineContactResponse
 from app.schema.load_distribution import LoadDistributionRequest, LoadDistributionResponse
+from app.schema.model import Request, Response
 from app.schema.pumping import ChokingSpeedRequest, ChokingSpeedResponse, PumpingRequest, PumpingResponse
 from app.schema.scuffing import ScuffingRequest, ScuffingResponse
 from solvers import coupling, drive_train, pumping, scuffing

@@ -10,9 +10,8 @@ from app.errors import Unprocessable
 from app.figures import rendering
 from app.figures.data import ThemeName
 from app.figures.declaration import Declaration
-from app.schema.base import MODEL_VERSION, Notice, Request, Response, Section
 from app.schema.fields import field_path
-from app.schema.model import above, from_si, group_of
+from app.schema.model import MODEL_VERSION, Notice, Request, Response, Section, above, from_si, group_of
 from app.schema.quantities import Input
 from app.schema.reading import validated
 from app.sources import SOURCES, case_of

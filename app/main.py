@@ -13,7 +13,7 @@ from app.http import problems
 from app.http.middleware import Protection
 from app.http.routes import calculations, figures, manual, pages, rexs, service, studies, study_pages
 from app.pages.answers import Answers
-from app.schema.base import MODEL_VERSION
+from app.schema.model import MODEL_VERSION
 from app.settings import MEBIBYTE, settings
 from app.studies.admission import StudyAdmission
 from app.workers.admission import Runner

@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 from app.figures.data import Figure, NoFigure
 from app.figures.units import shown
-from app.schema.base import Request, Response
+from app.schema.model import Request, Response
 
 T = TypeVar("T")
 Build = Callable[..., Figure]

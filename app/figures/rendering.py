@@ -6,7 +6,7 @@ from app.errors import Unprocessable
 from app.figures.data import Figure, NoFigure, ThemeName
 from app.figures.declaration import Declaration
 from app.figures.tables import table
-from app.schema.base import Request
+from app.schema.model import Request
 
 Format = Literal["svg", "png", "pdf", "csv"]
 MEDIA_TYPES: dict[Format, str] = {

@@ -9,7 +9,7 @@ from app.calculations import Calculation
 from app.errors import InvalidBody, Unprocessable
 from app.evaluate import response_to, solve
 from app.pages.query import Pairs, body_of
-from app.schema.base import Request
+from app.schema.model import Request
 from app.schema.reading import validated
 
 COMPRESSION = 1

@@ -5,8 +5,8 @@ from collections.abc import Iterable
 from io import StringIO
 from typing import Any
 
-from app.schema.base import Response
 from app.schema.fields import Leaf, leaf_at, leaves
+from app.schema.model import Response
 
 
 def values(rows: Iterable[tuple[str, str, Any, str]]) -> bytes:

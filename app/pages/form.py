@@ -10,8 +10,8 @@ from markupsafe import Markup
 
 from app.pages.query import MATRIX, PICK, PRESENT, SIDE, text_of
 from app.pages.typesetting import cited, symbol, words
-from app.schema.base import Request
 from app.schema.fields import ITEM, Branch, Leaf, tree
+from app.schema.model import Request
 from app.schema.quantities import split_unit
 
 Widget = Literal["number", "text", "list", "select", "table"]

@@ -7,9 +7,8 @@ from typing import Any, NamedTuple
 from markupsafe import Markup
 
 from app.pages.typesetting import cited, percent_change, shown, symbol, words
-from app.schema.base import Assumption, Response
 from app.schema.fields import Branch, Leaf, headlines, leaf_at, tree
-from app.schema.model import Documented
+from app.schema.model import Assumption, Documented, Response
 
 NOT_RESULTS = frozenset(
     {"status", "warnings", "residuals", "assumptions", "model_version", "sources", "model", "derived", "inputs", "case"}

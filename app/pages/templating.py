@@ -10,7 +10,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from app.calculations import CALCULATIONS, Calculation
 from app.pages.form import anchor
 from app.pages.typesetting import shown, symbol, typeset, words
-from app.schema.base import MODEL_VERSION
+from app.schema.model import MODEL_VERSION
 
 ASSETS = {
     "style.css": "text/css; charset=utf-8",

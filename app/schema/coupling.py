@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any, ClassVar
 
-from app.schema.base import Derived, Group, Request, Response, Section
+from app.schema.model import Derived, Group, Request, Response, Section
 from app.schema.oil import CouplingLubricant
 from app.schema.quantities import Input, View
 from solvers.coupling import crowning, results

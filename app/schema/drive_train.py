@@ -6,11 +6,10 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from app.schema.base import Group, Response, Section
 from app.schema.coupling import CouplingFriction, CrownedCoupling
 from app.schema.gears import BacklashGears, GearMaterials
 from app.schema.load_distribution import FlankModifications, MeshDerived, ScuffingLoad
-from app.schema.model import declared, to_si
+from app.schema.model import Group, Response, Section, declared, to_si
 from app.schema.oil import CouplingLubricant, Oil
 from app.schema.pumping import GearGroove, Mist, PumpingOptions
 from app.schema.quantities import Input, View

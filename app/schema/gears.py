@@ -2,8 +2,7 @@
 
 from typing import Annotated
 
-from app.schema.base import Section
-from app.schema.model import declared
+from app.schema.model import Section, declared
 from app.schema.quantities import Input
 from solvers.gears.inputs import RACK_A, GearPairInputs, GearTeeth
 from solvers.materials import Solid

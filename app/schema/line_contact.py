@@ -2,8 +2,8 @@
 
 from typing import Annotated, Any, ClassVar
 
-from app.schema.base import Group, Request, Response, Section
 from app.schema.gears import Surface
+from app.schema.model import Group, Request, Response, Section
 from app.schema.oil import Oil, OilDerived
 from app.schema.quantities import Input, View
 from solvers.contact import ehl

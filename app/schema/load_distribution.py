@@ -2,9 +2,8 @@
 
 from typing import Annotated, Any, ClassVar
 
-from app.schema.base import Derived, Group, Request, Response, Section
 from app.schema.gears import GearMaterials, ScuffingGears
-from app.schema.model import declared
+from app.schema.model import Derived, Group, Request, Response, Section, declared
 from app.schema.quantities import Input, View
 from solvers.gears.inputs import GearPairInputs
 from solvers.materials import Solid

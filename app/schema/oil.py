@@ -5,7 +5,7 @@ from typing import Any, ClassVar, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from app.schema.base import Derived, Section
+from app.schema.model import Derived, Section
 from solvers.coupling.inputs import CouplingOil
 from solvers.coupling.inputs import Lubricant as CouplingLubricantInUse
 from solvers.lubricants import Lubricant, OilInUse

@@ -3,9 +3,8 @@
 from dataclasses import replace
 from typing import Annotated, Any, ClassVar
 
-from app.schema.base import Derived, Group, Request, Response, Section
 from app.schema.gears import PumpingGears
-from app.schema.model import to_si
+from app.schema.model import Derived, Group, Request, Response, Section, to_si
 from app.schema.quantities import Input, View
 from solvers.pumping import inputs as si
 from solvers.pumping import lead_correction, pulsation, results

@@ -6,7 +6,6 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from app.schema.base import Group, Request, Section
 from app.schema.line_contact import FilmModel
 from app.schema.load_distribution import (
     FRICTION_COEFFICIENT,
@@ -16,6 +15,7 @@ from app.schema.load_distribution import (
     ScuffingDerived,
     distribution_inputs,
 )
+from app.schema.model import Group, Request, Section
 from app.schema.oil import Oil
 from app.schema.quantities import Input, View
 from solvers.contact import ehl

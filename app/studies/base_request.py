@@ -6,8 +6,8 @@ from typing import Any, NamedTuple, Self
 
 from app.calculations import BY_PATH, Calculation
 from app.errors import InvalidBody, Unprocessable
-from app.schema.base import Request
 from app.schema.fields import Leaf, headlines
+from app.schema.model import Request
 from app.schema.reading import validated
 from app.studies.fields import fault, is_reachable, scalar_at, set_value
 from app.studies.points import Question, with_overrides

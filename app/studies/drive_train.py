@@ -1,7 +1,7 @@
 """The uncertain inputs of a gear unit by the names of the request, and the warning about corners without solution."""
 
-from app.schema.base import Request
 from app.schema.fields import field_path
+from app.schema.model import Request
 from app.schema.quantities import split_unit
 from app.studies.requests import Axis, Scalar
 from solvers.drive_train.uncertainty import MOST_CORNERS, no_convergence, uncertain_inputs

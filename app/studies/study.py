@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.errors import Unprocessable
-from app.schema.base import MODEL_VERSION
 from app.schema.fields import Leaf
+from app.schema.model import MODEL_VERSION
 from app.sources import SOURCES, case_of
 from app.studies.engine import Pool, Work, in_order
 from app.studies.points import Point, Question

@@ -11,8 +11,8 @@ import pytest
 from app.calculations import CALCULATIONS, Calculation
 from app.evaluate import evaluate, written
 from app.examples import examples
-from app.schema.base import Request
 from app.schema.fields import field_path
+from app.schema.model import Request
 from app.sources import SOURCES
 
 BY_PATH = {each.path: each for each in CALCULATIONS}

@@ -7,9 +7,9 @@ import pytest
 from pydantic import ValidationError
 
 from app.errors import Fault
-from app.schema.base import Request
 from app.schema.coupling import CouplingRequest
 from app.schema.load_distribution import LoadDistributionRequest
+from app.schema.model import Request
 from app.schema.reading import faults
 
 COUPLING: dict[str, Any] = {

@@ -23,9 +23,8 @@ from app.pages import csv
 from app.pages.form import FieldView, State, form
 from app.pages.results import entries
 from app.pages.templating import page_path
-from app.schema.base import Group, Request, Response, Section
 from app.schema.fields import leaf_at
-from app.schema.model import from_si
+from app.schema.model import Group, Request, Response, Section, from_si
 from app.schema.quantities import Input, View
 from app.schema.reading import validated
 from app.settings import settings

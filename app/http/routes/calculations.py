@@ -10,7 +10,7 @@ from app.evaluate import json_answer, refuse_endless
 from app.examples import examples
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
-from app.schema.base import Request as Model
+from app.schema.model import Request as Model
 from app.settings import Settings
 from app.workers.admission import Runner
 from app.workers.start_up import StartUp

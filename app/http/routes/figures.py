@@ -12,7 +12,7 @@ from app.figures.rendering import MEDIA_TYPES, Format
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
 from app.http.routes.calculations import body_of, calculated
-from app.schema.base import Request as Model
+from app.schema.model import Request as Model
 from app.schema.quantities import Output
 
 Theme = Literal["light", "dark"]
