@@ -68,8 +68,7 @@ def print_answer(endpoint: str, file: Path) -> int:
     """
     from app.calculations import BY_PATH  # noqa: PLC0415
     from app.errors import InvalidBody, Unprocessable, Unreadable, faults_of  # noqa: PLC0415
-    from app.evaluate import answer  # noqa: PLC0415
-    from app.schema.reading import content_of  # noqa: PLC0415
+    from app.evaluate import answer, content_of  # noqa: PLC0415
 
     if endpoint not in BY_PATH:
         print(f"tribodrive: there is no {endpoint}; there are {', '.join(BY_PATH)}", file=sys.stderr)  # noqa: T201

@@ -1,12 +1,13 @@
-"""From a validated request to its answer: every view starts from here."""
+"""From the bytes of a request to its answer, and to the bytes of that: every view starts from here."""
 
 import json
 from collections.abc import Iterator
 from functools import cache, reduce
+from hashlib import sha256
 from typing import Any
 
 from app.calculations import BY_PATH, Calculation
-from app.errors import Unprocessable
+from app.errors import Fault, InvalidBody, Unprocessable, Unreadable
 from app.figures import rendering
 from app.figures.data import ThemeName
 from app.figures.declaration import Declaration
@@ -14,12 +15,47 @@ from app.schema.fields import field_path
 from app.schema.model import MODEL_VERSION, Notice, Request, Response, Section, above, from_si, group_of
 from app.schema.quantities import Input
 from app.schema.reading import validated
-from app.sources import SOURCES, case_of
+from app.sources import SOURCES
 from solvers import notices
 from solvers.errors import InvalidInput, NoSolution
 from solvers.quantity import Detail
 
+MOST_MEMBERS = 1000  # fields of one object, chosen: no section has nearly as many
+MOST_OBJECTS = 10_000  # in a body, chosen: no study within its limits names nearly as many
 _COMMON = frozenset(Response.model_fields)
+_CANONICAL = json.JSONEncoder(sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+
+
+def content_of(body: bytes) -> Any:
+    """What the JSON of a body says."""
+    if not body:
+        raise InvalidBody([Fault("", "missing", "the request needs a body")])
+    try:
+        return json.loads(body, object_pairs_hook=_Objects().members)
+    except json.JSONDecodeError as error:
+        message = f"the body is no JSON: {error.msg} at position {error.pos}"
+        raise InvalidBody([Fault("", "json_invalid", message)]) from None
+    except (ValueError, RecursionError):  # bytes that are no text, numbers without end, brackets without end
+        raise Unreadable("The body cannot be read as JSON") from None
+
+
+class _Objects:
+    """The objects of a body: not more than any request could need, nor more fields in one, and no name twice."""
+
+    def __init__(self) -> None:
+        self._count = 0
+
+    def members(self, pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        """One object."""
+        self._count += 1
+        if self._count > MOST_OBJECTS:
+            raise InvalidBody([Fault("", "too_many_objects", f"the body has more than {MOST_OBJECTS} objects")])
+        if len(pairs) > MOST_MEMBERS:
+            raise InvalidBody([Fault("", "too_many_fields", f"an object has more than {MOST_MEMBERS} fields")])
+        members = dict(pairs)
+        if len(members) < len(pairs):
+            raise Unreadable("A name stands twice in one object of the body")
+        return members
 
 
 def refuse_endless(calculation: Calculation, request: Request, deadline_s: float) -> None:
@@ -132,6 +168,12 @@ def response_to(calculation: Calculation, request: Request, result: Any) -> Resp
         "case": case_of(calculation.path, inputs, SOURCES),
     }
     return calculation.response.model_validate(content).read_from(result)
+
+
+def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
+    """SHA-256 in hex of the case's JSON: sorted keys, no blanks, shortest floats, UTF-8."""
+    content = {"endpoint": endpoint, "inputs": inputs, "sources": sources}
+    return sha256(_CANONICAL.encode(content).encode()).hexdigest()
 
 
 def _notice(request: Request, warning: notices.Notice) -> Notice:

@@ -16,9 +16,8 @@ from app.pages.answers import Answers
 from app.schema.model import MODEL_VERSION
 from app.settings import MEBIBYTE, settings
 from app.studies.admission import StudyAdmission
-from app.workers.admission import Runner
 from app.workers.control import Template
-from app.workers.pool import Pool
+from app.workers.pool import Pool, Runner
 from app.workers.start_up import StartUp
 
 DESCRIPTION = """Tribology of high-speed drive trains: gear couplings (Pahl), air-oil pumping between gear teeth

@@ -1,12 +1,10 @@
-"""The identity of a case and of the solvers' sources, and what the changelog says about their results."""
+"""The identity of the solvers' sources, and what the changelog says about their results."""
 
 import ast
-import json
 import re
 from hashlib import sha256
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
 
 import solvers
 
@@ -15,8 +13,6 @@ NO_CALCULATION = "published"
 DECLARE = frozenset({"quantity", "Quantity"})
 LABELS = frozenset({"title", "symbol", "source", "text", "default_text", "assumed", "index"})
 """What the declaration of a quantity says in words, beside its positional arguments."""
-
-_CANONICAL = json.JSONEncoder(sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
 
 
 def sources_of(package: Path) -> str:
@@ -52,12 +48,6 @@ def _is_text(statement: ast.stmt) -> bool:
         and isinstance(statement.value, ast.Constant)
         and isinstance(statement.value.value, str)
     )
-
-
-def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
-    """SHA-256 in hex of the case's JSON: sorted keys, no blanks, shortest floats, UTF-8."""
-    content = {"endpoint": endpoint, "inputs": inputs, "sources": sources}
-    return sha256(_CANONICAL.encode(content).encode()).hexdigest()
 
 
 def changes_since(sources: str) -> list[str]:

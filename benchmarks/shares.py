@@ -27,7 +27,7 @@ from app.errors import QueueFull
 from app.examples import examples
 from app.main import create_app
 from app.workers import pool
-from app.workers.shares import Job, Shares
+from app.workers.pool import Job, Shares
 from tests.support.server import running_server
 
 WORKERS = 2

@@ -10,7 +10,8 @@ from pydantic import BaseModel
 from starlette.exceptions import HTTPException
 
 from app.errors import InvalidBody, Unreadable
-from app.schema.reading import content_of, faults
+from app.evaluate import content_of
+from app.schema.reading import faults
 
 
 class _StrictRequest(Request):

@@ -7,13 +7,13 @@ from pydantic import BaseModel
 
 from app.calculations import BY_PATH
 from app.errors import Unprocessable
-from app.evaluate import evaluate, refuse_endless
+from app.evaluate import content_of, evaluate, refuse_endless
 from app.pages.rexs import unit_page
 from app.rexs import document
 from app.rexs.results import TABLES, write_results
 from app.rexs.unit import gear_unit
 from app.schema.quantities import Output
-from app.schema.reading import read as read_request
+from app.schema.reading import validated
 
 PATH = "/v1/rexs"
 
@@ -146,7 +146,7 @@ def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | N
         body = request
         endpoint = "/v1/drive-train" if b'"pinion_shaft"' in request else "/v1/scuffing"
     calculation = BY_PATH[endpoint]
-    asked = read_request(calculation.request, body)
+    asked = validated(calculation.request, content_of(body))
     refuse_endless(calculation, asked, deadline_s)
     answer = evaluate(calculation, asked).model_dump(mode="json", exclude_unset=True)
     write_results(file, stage, endpoint, answer)

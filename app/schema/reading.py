@@ -1,9 +1,8 @@
-"""From the bytes of a body to a validated request, or to what is wrong with it, field by field, in an engineer's words.
+"""From the content of a body to a validated request, or to what is wrong with it, field by field, in plain words.
 
 Numbers, digit-only text and field names of at most 40 letters may be repeated; nothing else of the input is.
 """
 
-import json
 import re
 from collections.abc import Iterable
 from difflib import get_close_matches
@@ -12,29 +11,19 @@ from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
-from app.errors import Fault, InvalidBody, Unreadable, pointer
+from app.errors import Fault, InvalidBody, pointer
 from app.schema.model import Documented
 from app.schema.quantities import Input, meaning_of
 from solvers.quantity import allowed
 
 M = TypeVar("M", bound=BaseModel)
 Models = tuple[type[BaseModel], ...]
-MOST_MEMBERS = 1000
-MOST_OBJECTS = 10_000
 MOST_FAULTS = 100
 _NAME = re.compile(r"[A-Za-z0-9_]{1,40}")
 _NUMBER = re.compile(r"[+-]?\d{1,20}([.,]\d{1,20})?")
 _RANGE_TYPES = {"greater_than", "greater_than_equal", "less_than", "less_than_equal"}
 _NUMBER_TYPES = {"float_type", "int_type"}
 _SECTION_TYPES = {"model_type", "model_attributes_type", "dict_type", "dataclass_type"}
-
-
-def read(model: type[M], body: bytes) -> M:
-    """The request in the body.
-
-    Raises Unreadable and InvalidBody.
-    """
-    return validated(model, content_of(body))
 
 
 def validated(model: type[M], content: Any) -> M:
@@ -44,38 +33,6 @@ def validated(model: type[M], content: Any) -> M:
     except ValidationError as error:
         found = error.errors(include_url=False)
         raise InvalidBody(faults(model, found)) from None  # type: ignore[arg-type]
-
-
-def content_of(body: bytes) -> Any:
-    """What the JSON of a body says."""
-    if not body:
-        raise InvalidBody([Fault("", "missing", "the request needs a body")])
-    try:
-        return json.loads(body, object_pairs_hook=_Objects().members)
-    except json.JSONDecodeError as error:
-        message = f"the body is no JSON: {error.msg} at position {error.pos}"
-        raise InvalidBody([Fault("", "json_invalid", message)]) from None
-    except (ValueError, RecursionError):  # bytes that are no text, numbers without end, brackets without end
-        raise Unreadable("The body cannot be read as JSON") from None
-
-
-class _Objects:
-    """The objects of a body: not more than any request could need, nor more fields in one, and no name twice."""
-
-    def __init__(self) -> None:
-        self._count = 0
-
-    def members(self, pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-        """One object."""
-        self._count += 1
-        if self._count > MOST_OBJECTS:
-            raise InvalidBody([Fault("", "too_many_objects", f"the body has more than {MOST_OBJECTS} objects")])
-        if len(pairs) > MOST_MEMBERS:
-            raise InvalidBody([Fault("", "too_many_fields", f"an object has more than {MOST_MEMBERS} fields")])
-        members = dict(pairs)
-        if len(members) < len(pairs):
-            raise Unreadable("A name stands twice in one object of the body")
-        return members
 
 
 def faults(model: type[BaseModel], items: Iterable[dict[str, Any]]) -> list[Fault]:

@@ -10,8 +10,8 @@ from app.errors import SchedulerUnavailable, StudiesFull
 from app.log import STUDIES
 from app.settings import Settings
 from app.studies.engine import Pool
-from app.workers.admission import StudyPool
 from app.workers.pool import Pool as WorkerPool
+from app.workers.pool import StudyPool
 
 if TYPE_CHECKING:
     from app.studies.cluster import DaskCluster

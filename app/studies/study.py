@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.errors import Unprocessable
+from app.evaluate import case_of
 from app.schema.fields import Leaf
 from app.schema.model import MODEL_VERSION
-from app.sources import SOURCES, case_of
+from app.sources import SOURCES
 from app.studies.engine import Pool, Work, in_order
 from app.studies.points import Point, Question
 from app.studies.requests import DriveTrainStudy, Overrides, StudyRequest

@@ -3,9 +3,8 @@
 stages     what is compiled and loaded one after the other
 template   the process that loads everything once and is forked; what its copies do
 control    the service's end of these processes
-shares     which call gets the next worker, which one is refused or interrupted
-pool       carries out calls; a worker that dies, stops or is not wanted any more is replaced
-admission  calls of single requests and of studies: client, deadline, a client that leaves
+pool       which call gets the next worker, is refused or interrupted; carries out calls of single requests and of
+           studies; a worker that dies, stops or is not wanted any more is replaced
 start_up   compiles and loads stage after stage while the port is open
 
 multiprocessing's own fork server loads modules before its first fork only, and blocks when it is stopped, so the

@@ -28,6 +28,7 @@ class StartUp:
     def __init__(self, pool: Pool) -> None:
         self._pool = pool
         self._warm: list[Stage] = []
+        self.closed = set(BY_PATH)  # endpoints whose kernels are not there yet
         self._compiled: Counter[Stage] = Counter()  # kernels so far
         self._missing = 0  # kernels that were not found on disk when they were loaded
         self._deaths: Counter[Stage] = Counter()  # of the template while it loaded a stage
@@ -60,15 +61,16 @@ class StartUp:
 
     def require(self, endpoint: str) -> None:
         """Raise WarmingUp if the endpoint's kernels are not there yet."""
-        if not self.complete and BY_PATH[endpoint].stage not in self._warm:
-            raise self._warming_up()
+        if endpoint in self.closed:
+            raise self.warming_up()
 
     def require_any(self) -> None:
         """Raise WarmingUp if there is no worker yet that could look at a request."""
         if not self._warm:
-            raise self._warming_up()
+            raise self.warming_up()
 
-    def _warming_up(self) -> WarmingUp:
+    def warming_up(self) -> WarmingUp:
+        """The error that says how far everything is."""
         return WarmingUp(f"Kernels are being compiled, once after installation: {self.report()}")
 
     def _share(self, stage: Stage) -> float:
@@ -138,6 +140,7 @@ class StartUp:
             self._pool.renew()
             if stage not in self._warm:
                 self._warm.append(stage)
+                self.closed = {path for path in self.closed if BY_PATH[path].stage is not stage}
                 if not sys.stderr.isatty():
                     logger.info("tribodrive: %s is warm", stage.name)
             self._show()

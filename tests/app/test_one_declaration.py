@@ -33,7 +33,8 @@ from solvers.arrays import FloatArray
 from solvers.coupling.inputs import Coupling, CouplingDesign
 from solvers.errors import InvalidInput
 from solvers.notices import Notice
-from solvers.quantity import checked, quantities, quantity, record
+from solvers.plausibility import checked
+from solvers.quantity import quantities, quantity, record
 
 
 @record
@@ -241,11 +242,10 @@ def test_an_input_at_the_root_is_one_declaration_too() -> None:
 class _AtOnce:
     """Runs what a worker would run, and finds every kernel warm."""
 
+    closed: frozenset[str] = frozenset()
+
     async def run(self, _http: object, function: Callable[..., bytes], *arguments: Any) -> bytes:
         return function(*arguments)
-
-    def require(self, _endpoint: str) -> None:
-        pass
 
 
 def test_an_endpoint_is_one_row_and_its_solver(monkeypatch: pytest.MonkeyPatch) -> None:

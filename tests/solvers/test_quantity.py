@@ -11,7 +11,8 @@ from app.calculations import BY_PATH
 from app.examples import examples
 from solvers.coupling.inputs import CouplingDesign
 from solvers.errors import InvalidInput
-from solvers.quantity import checked, quantity, record, to_dict
+from solvers.plausibility import checked
+from solvers.quantity import quantity, record, to_dict
 
 NAMES = (
     "pahl-heavily-crowned",

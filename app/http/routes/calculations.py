@@ -12,7 +12,7 @@ from app.http.json_route import JsonRoute
 from app.http.problems import documented
 from app.schema.model import Request as Model
 from app.settings import Settings
-from app.workers.admission import Runner
+from app.workers.pool import Runner
 from app.workers.start_up import StartUp
 
 
@@ -30,7 +30,8 @@ def body_of(endpoint: str) -> Any:
 async def calculated(http: Request, path: str, function: Callable[..., bytes], request: Model) -> bytes:
     """What the function makes of the calculation at `path` and its request, in a worker."""
     start_up: StartUp = http.app.state.start_up
-    start_up.require(path)
+    if path in start_up.closed:
+        raise start_up.warming_up()
     limits: Settings = http.app.state.settings
     refuse_endless(BY_PATH[path], request, limits.deadline_s)
     runner: Runner = http.app.state.runner

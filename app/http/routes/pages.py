@@ -19,7 +19,7 @@ from app.pages.query import link, normalised, pairs_of_query, split_views
 from app.pages.templating import ASSETS, asset, page_path
 from app.settings import Settings
 from app.sources import SHORT_SOURCES
-from app.workers.admission import Runner
+from app.workers.pool import Runner
 from app.workers.start_up import StartUp
 
 PAGE_POLICY = "default-src 'self'; img-src 'self' data:; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"

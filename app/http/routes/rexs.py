@@ -10,7 +10,7 @@ from app.http.routes.pages import TROUBLES, html, root_of, trouble_page
 from app.pages.overview import problem_page
 from app.rexs import answer
 from app.settings import MEBIBYTE, Settings
-from app.workers.admission import Runner
+from app.workers.pool import Runner
 
 TYPES = ("application/xml", "text/xml", "application/json", "application/zip", "application/octet-stream")
 FORM = "multipart/form-data"

@@ -30,7 +30,7 @@ from app.pages.study_links import study_links
 from app.pages.templating import page_path
 from app.studies.engine import twice_if_lost
 from app.studies.stream import Clock, Line, Lines, encoded
-from app.workers.admission import disconnected
+from app.workers.pool import disconnected
 
 FIRST_FRAME_S = 0.3
 FRAME_SHARE = 0.3  # of the time a study has run passes until its page is drawn again

@@ -1,0 +1,83 @@
+"""How many modules one request passes: what somebody reads who follows it from its route to the bytes of its answer."""
+
+import asyncio
+import pickle
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from types import FrameType
+from typing import Any
+
+import httpx
+import pytest
+
+from app import calculations, main
+from app.examples import examples
+from app.settings import Settings
+from app.workers import start_up, template
+from app.workers.control import Worker
+
+ROOT = Path(__file__).parents[2]
+AROUND_EVERY_REQUEST = {"app/http/middleware.py", "app/log.py", "app/settings.py"}
+COUPLING = examples()["pahl-axial-displacement"]
+
+
+def modules_entered(work: Callable[[], object]) -> set[str]:
+    """The project's modules in which a function is called."""
+    entered = set()
+
+    def note(frame: FrameType, event: str, _argument: object) -> None:
+        if event == "call":
+            entered.add(frame.f_code.co_filename)
+
+    sys.setprofile(note)
+    try:
+        work()
+    finally:
+        sys.setprofile(None)
+    paths = (Path(name) for name in entered if name.startswith((f"{ROOT}/app/", f"{ROOT}/solvers/")))
+    return {str(path.relative_to(ROOT)) for path in paths}
+
+
+def test_a_coupling_request_passes_at_most_20_modules(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(main, "settings", lambda: Settings(workers=1, log_level="error"))
+    monkeypatch.setattr(start_up, "STAGES", (calculations.COUPLING,))
+    monkeypatch.setattr(start_up, "is_complete", lambda _content: True)
+    monkeypatch.setattr(start_up, "mark_complete", lambda _content, *, complete: complete)
+    app = main.create_app()
+    calls: list[bytes] = []
+    call = Worker.call
+
+    async def noted(self: Worker, function: Callable[..., Any], *arguments: Any) -> Any:
+        calls.append(pickle.dumps((function, arguments)))
+        return await call(self, function, *arguments)
+
+    with asyncio.Runner() as runner:
+        lifespan = app.router.lifespan_context(app)
+        runner.run(lifespan.__aenter__())
+
+        async def post() -> None:
+            async with httpx.AsyncClient(transport=httpx.ASGITransport(app=app), base_url="http://test") as client:
+                answer = await client.post(COUPLING.endpoint, json=COUPLING.request, timeout=30)
+                assert answer.json()["status"] == "ok"
+
+        async def warm() -> None:
+            async with asyncio.timeout(60):
+                while not app.state.start_up.complete:  # noqa: ASYNC110  nothing tells when
+                    await asyncio.sleep(0.05)
+            await post()
+
+        try:
+            runner.run(warm())
+            service = modules_entered(lambda: runner.run(post()))
+            monkeypatch.setattr(Worker, "call", noted)
+            runner.run(post())
+        finally:
+            runner.run(lifespan.__aexit__(None, None, None))
+            app.state.pool.template._control.close()
+    template._outcome(calls[0])  # a warm worker has looked up every name and unit once
+    worker = modules_entered(lambda: template._outcome(calls[0]))
+    assert {"app/workers/pool.py", "app/http/json_route.py"} <= service
+    assert {"app/workers/template.py", "solvers/coupling/model.py"} <= worker
+    passed = (service | worker) - AROUND_EVERY_REQUEST
+    assert len(passed) <= 20, sorted(passed)
