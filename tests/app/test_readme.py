@@ -4,6 +4,9 @@ import re
 from pathlib import Path
 from typing import Any
 
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+
 README = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
 SNIPPETS = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
 ADDRESS = "http://127.0.0.1:8000"
@@ -41,6 +44,9 @@ def test_a_sweep_into_pandas(server: str) -> None:
 
 def test_a_flash_temperature_without_a_server() -> None:
     (snippet,) = (each for each in SNIPPETS if "GearPairInputs" in each)
-    flash = run(snippet, ADDRESS)["flash"]
-    assert flash.path.blok_flash.max() == flash.flash.blok_max
-    assert 20.0 < flash.flash.blok_max < 60.0
+    mpl.use("agg")  # a window would wait to be closed
+    found = run(snippet, ADDRESS)["found"]
+    assert found.path.blok_flash.max() == found.flash.blok_max
+    assert 20.0 < found.flash.blok_max < 60.0
+    (drawn,) = plt.gca().lines
+    assert drawn.get_ydata().max() == found.flash.blok_max
