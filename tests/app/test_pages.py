@@ -416,6 +416,8 @@ def test_other_sites_start_no_studies(client: httpx.Client) -> None:
     assert client.get(address, headers={"Sec-Fetch-Site": "cross-site"}).status_code == 403
     assert client.get(address, headers={"Sec-Fetch-Site": "same-origin"}).status_code != 403
     assert client.get("/coupling/vary", headers={"Sec-Fetch-Site": "cross-site"}).status_code == 200
+    form = {"Sec-Fetch-Site": "cross-site", "Content-Type": "application/x-www-form-urlencoded"}
+    assert client.post("/coupling/vary", content=address.partition("?")[2], headers=form).status_code == 403
 
 
 def test_no_policy_allows_scripts_in_the_page_or_another_base(client: httpx.Client) -> None:

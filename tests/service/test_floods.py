@@ -159,6 +159,30 @@ def test_many_unknown_fields_do_not_hold_up_the_others(small: tuple[subprocess.P
     assert slowest < 0.5
 
 
+def test_bodies_in_pieces_of_a_byte_do_not_hold_up_the_others(small: tuple[subprocess.Popen[str], str]) -> None:
+    _, address = small
+    opening = CHUNKED.replace(b"/v1/coupling", b"/v1/rexs").replace(b"json", b"xml")
+    answers, slowest = [], 0.0
+
+    def load() -> None:
+        with connected(address) as connection:
+            with suppress(OSError):
+                connection.sendall(opening + b"1\r\n \r\n" * 400_000)
+            answers.append(answer_to(connection)[:12])
+
+    loads = [threading.Thread(target=load) for _ in range(20)]
+    with httpx.Client(base_url=address) as client:
+        client.get("/healthz")
+        for each in loads:
+            each.start()
+        while any(each.is_alive() for each in loads):
+            started = time.monotonic()
+            client.get("/healthz")
+            slowest = max(slowest, time.monotonic() - started)
+    assert set(answers) <= {b"HTTP/1.1 400", b""}  # a client that goes on sending may lose its answer to a reset
+    assert slowest < 0.5
+
+
 def test_pipelined_requests_are_bounded(small: tuple[subprocess.Popen[str], str]) -> None:
     process, address = small
     before = memory_mb(process.pid)

@@ -44,7 +44,8 @@ NOT_DRAWN = (
 
 def not_from_another_site(http: Request) -> None:
     """403 where a page of another site asks for a study: what minutes of every core go into is asked for here."""
-    if http.url.query and http.headers.get("sec-fetch-site") == "cross-site":
+    asks = http.url.query or http.method == "POST"
+    if asks and http.headers.get("sec-fetch-site") == "cross-site":
         raise HTTPException(403, "Studies are not started from the pages of other sites; open the address by itself")
 
 
