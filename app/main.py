@@ -48,7 +48,9 @@ def create_app() -> FastAPI:
         with log.running(limits.log_level):
             if served_by_another:
                 logger.warning(
-                    "served by another server: limits of headers, connections and unread answers are its own"
+                    "served by another server with %d workers: limits of headers, connections and unread answers are "
+                    "its own",
+                    limits.workers,
                 )
             async with app.state.pool.running(), app.state.start_up.running(), app.state.studies.open():
                 yield

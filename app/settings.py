@@ -2,6 +2,7 @@
 
 import os
 import resource
+from argparse import ArgumentParser
 from functools import lru_cache
 from typing import Annotated
 
@@ -12,6 +13,13 @@ MEBIBYTE = 2**20
 CLUSTER_POINTS = 100_000
 REXS_PATHS = frozenset({"/v1/rexs", "/v1/rexs/results", "/rexs"})
 RESERVED_DESCRIPTORS = 96  # for workers, files and sockets of the service itself
+
+
+def _share_of_cores() -> int:
+    """Cores for each process of the server: uvicorn and gunicorn have their number in the same places."""
+    number = ArgumentParser(add_help=False, allow_abbrev=False)
+    number.add_argument("-w", "--workers", type=int, default=os.environ.get("WEB_CONCURRENCY", "1"))
+    return max(1, (os.cpu_count() or 2) // max(1, number.parse_known_args()[0].workers))
 
 
 class Settings(BaseSettings):
@@ -29,7 +37,7 @@ class Settings(BaseSettings):
     hosts: Annotated[tuple[str, ...], NoDecode] = Field(
         (), description="host names, with commas between them, that reports may print; others are left out"
     )
-    workers: int = Field(os.cpu_count() or 2, ge=1, le=256, description="worker processes that solve")
+    workers: int = Field(default_factory=_share_of_cores, ge=1, le=256, description="worker processes that solve")
     queue: int = Field(64, ge=0, description="requests that may wait for a worker; one more is answered 503")
     client_header: str | None = Field(
         None, description="header in which a proxy names the client, for fair shares; without it the address counts"

@@ -18,7 +18,7 @@ from contextlib import contextmanager, suppress
 import httpx
 from fastapi import FastAPI
 
-from app.__main__ import serve
+from app.command import serve
 from app.examples import Example, examples
 from app.http.routes.service import Health
 from app.main import create_app

@@ -22,7 +22,7 @@ from unittest.mock import patch
 import httpx
 from fastapi import FastAPI
 
-from app.__main__ import serve
+from app.command import serve
 from app.errors import QueueFull
 from app.examples import examples
 from app.main import create_app

@@ -96,6 +96,7 @@ ROOMS = (
     "http",
     "client",
     "main",
+    "command",
     "__main__",
 )
 """The entries of `app`: each imports those above it only."""

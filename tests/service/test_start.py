@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
@@ -19,6 +20,7 @@ from tests.support.caches import copy_of_cache
 from tests.support.server import (
     ROOT,
     children,
+    command_line,
     descendants,
     free_port,
     is_alive,
@@ -128,6 +130,36 @@ def test_the_image_checks_the_port_it_serves() -> None:
         )
 
 
+def test_interrupts_of_the_start_say_nothing(tmp_path: Path) -> None:
+    """Ctrl-C reaches all processes of the terminal's foreground group. Counted from the first import of the service."""
+    for after_s in (0.0, 0.05, 0.2, 0.5, 1.0, 2.0):
+        log = tmp_path / "log"
+        command = [sys.executable, "-X", "importtime", "-m", "app"]
+        with started_server(command, log=log, log_level="error") as (process, _):
+            end = time.monotonic() + 20
+            while " argparse" not in log.read_text():
+                assert time.monotonic() < end
+                time.sleep(0.002)
+            time.sleep(after_s)
+            family = descendants(process.pid)
+            os.killpg(process.pid, signal.SIGINT)
+            assert process.wait(unhurried(2.5)) == 130
+            assert [line for line in log.read_text().splitlines() if not line.startswith("import time:")] == []
+            time.sleep(0.1)
+            assert not any(map(is_alive, family))
+
+
+@pytest.mark.parametrize("closed", [">&-", "<&- >&- 2>&-", "> >(head -n 1)"])
+def test_runs_on_without_standard_streams(closed: str, tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    command = ["bash", "-c", f"exec {sys.executable} -m app {closed}"]
+    with started_server(command, log=log) as (process, address):
+        wait_until_warm(process, address, 60)
+        for _ in range(3):
+            assert httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=20).status_code == 200
+    assert "Traceback" not in log.read_text()
+
+
 @pytest.mark.skipif(not socket.has_dualstack_ipv6(), reason="no IPv6 here")
 def test_the_unspecified_address_serves_both_families() -> None:
     with started_server(host="::") as (_, address):
@@ -234,19 +266,48 @@ def test_read_only_cache_is_used(tmp_path: Path) -> None:
     assert sorted(path.relative_to(cache) for path in cache.rglob("*")) == files_before
 
 
-@pytest.mark.parametrize("options", [[], ["--workers", "2"]])
-def test_uvicorn_serves_the_application_like_any_other(options: list[str], tmp_path: Path) -> None:
-    port, log = free_port(), tmp_path / "log"
-    command = [sys.executable, "-m", "uvicorn", "app.main:app", "--port", str(port), *options]
-    with started_server(command, log=log) as (process, _):
+SERVERS = {
+    "uvicorn": ["uvicorn", "app.main:app", "--port", "PORT"],
+    "uvicorn, two processes": ["uvicorn", "app.main:app", "--port", "PORT", "--workers", "2"],
+    "uvicorn, Unix socket": ["uvicorn", "app.main:app", "--uds", "SOCKET"],
+    "gunicorn": ["gunicorn", "app.main:app", "-k", "uvicorn_worker.UvicornWorker", "-b", "127.0.0.1:PORT", "-w", "2"],
+}
+
+
+@pytest.mark.parametrize("server", SERVERS)
+def test_other_servers_serve_the_application(server: str, tmp_path: Path) -> None:
+    log, path = tmp_path / "log", tmp_path / "socket" if "SOCKET" in SERVERS[server] else None
+    port = free_port()
+    arguments = [word.replace("PORT", str(port)).replace("SOCKET", str(path)) for word in SERVERS[server]]
+    processes = 2 if arguments[-1] == "2" else 1
+    with started_server([sys.executable, "-m", *arguments], log=log) as (process, _):
         address = f"http://127.0.0.1:{port}"
-        wait_until_warm(process, address, 120)
-        assert httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=60).status_code == 200
+        while path and "running on" not in log.read_text():  # httpx leaves sockets open that cannot be connected
+            time.sleep(0.1)
+        wait_until_warm(process, address, 120, path)
+
+        def ask(method: str, place: str, **options: Any) -> httpx.Response:
+            """An answer on a connection of its own, to whichever server process takes it."""
+            with httpx.Client(transport=httpx.HTTPTransport(uds=str(path) if path else None), timeout=60) as client:
+                return client.request(method, address + place, **options)
+
+        starts = set()
+        end = time.monotonic() + 20
+        while len(starts) < processes:
+            assert time.monotonic() < end
+            starts |= {line for line in ask("GET", "/metrics").text.splitlines() if "process_start_time_seconds " in line}
+        answers = {ask("POST", COUPLING.endpoint, json=COUPLING.request).status_code for _ in range(4)}
+        assert answers <= {200, 503}  # the other process may still be loading
+        assert 200 in answers
         family = descendants(process.pid)
+        templates = [pid for pid in family if len(children(pid)) and "app.workers.template" in command_line(pid)]
+        assert len(templates) == processes
+        assert sum(len(children(pid)) for pid in templates) <= max(processes, os.cpu_count() or 2)
         process.terminate()
         process.wait(20)
         time.sleep(0.5)
         assert not any(map(is_alive, family))
     text = log.read_text("utf-8")
-    assert "served by another server" in text
+    workers_each = max(1, (os.cpu_count() or 2) // processes)
+    assert text.count(f"served by another server with {workers_each} workers: limits of headers, conn") == processes
     assert "Traceback" not in text

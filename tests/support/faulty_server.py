@@ -9,7 +9,7 @@ from unittest.mock import patch
 import numpy as np
 from fastapi import FastAPI, Request
 
-from app.__main__ import serve
+from app.command import serve
 from app.main import create_app
 from app.studies import engine
 from app.studies.points import Chunk, Question, solve_chunk

@@ -44,6 +44,7 @@ def started_server(
         stdout=output,
         stderr=output if log else None,
         text=True,
+        process_group=0,
     )
     try:
         yield process, f"http://127.0.0.1:{port}"
@@ -72,9 +73,13 @@ def unhurried(seconds: float) -> float:
     return seconds * max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1))
 
 
-def wait_until_warm(process: subprocess.Popen[str], address: str, seconds: float = START_UP_S) -> None:
+def wait_until_warm(
+    process: subprocess.Popen[str], address: str, seconds: float = START_UP_S, socket: Path | None = None
+) -> None:
     end = time.monotonic() + seconds
-    with httpx.Client(base_url=address, timeout=seconds) as client:  # a new one each time would take part of a core
+    transport = httpx.HTTPTransport(uds=str(socket) if socket else None)
+    # A new client each time would take part of a core.
+    with httpx.Client(base_url=address, timeout=seconds, transport=transport) as client:
         while time.monotonic() < end and process.poll() is None:
             with suppress(httpx.TransportError):
                 if client.get("/readyz").status_code == httpx.codes.OK:

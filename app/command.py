@@ -1,0 +1,160 @@
+"""The command line: start the service, or solve one request; --help lists every setting."""
+
+import argparse
+import gc
+import json
+import os
+import socket
+import sys
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from app.settings import MEBIBYTE, Settings, settings
+from app.workers.control import Template
+
+REFUSED = 1
+EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 2 is that of wrong arguments
+STANDARD_INPUT = Path("-")
+
+
+def main() -> None:
+    """Serve until told to stop."""
+    open_standard_streams()
+    parser = argparse.ArgumentParser(
+        prog="python -m app",
+        description="Serve the tribodrive calculations.",
+        epilog=_documentation(),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    commands = parser.add_subparsers(dest="command", metavar="command", required=False)
+    rexs = commands.add_parser("rexs", help="print the requests of a gear unit's file (REXS) instead of serving")
+    rexs.add_argument("file", type=Path, help="a .rexs, .rexsj or .rexsz file")
+    solve = commands.add_parser("solve", help="print the answer to a request instead of serving")
+    solve.add_argument("endpoint", help="address of the calculation, such as /v1/coupling")
+    solve.add_argument("file", type=Path, help="the request as JSON; - reads the standard input")
+    asked = parser.parse_args()
+    if asked.command == "rexs":
+        sys.exit(print_unit(asked.file))
+    if asked.command == "solve":
+        sys.exit(print_answer(asked.endpoint, asked.file))
+    serve("app.main:app")
+
+
+def print_unit(file: Path) -> int:
+    """Print what /v1/rexs answers to a file; the exit status is 1 where the file cannot be read."""
+    from app.errors import Unprocessable  # noqa: PLC0415  the service starts without this
+    from app.rexs.answer import unit_of  # noqa: PLC0415
+
+    try:
+        found = unit_of(file.read_bytes(), settings().rexs_mb * MEBIBYTE)
+    except (OSError, Unprocessable) as error:
+        reason = error.message if isinstance(error, Unprocessable) else error.strerror
+        print(f"tribodrive: {file}: {reason}", file=sys.stderr)  # noqa: T201  a command's output
+        return REFUSED
+    _print_json(found)
+    return 0
+
+
+def print_answer(endpoint: str, file: Path) -> int:
+    """Print the answer of an endpoint to the request in a file.
+
+    The exit status is 0 with `ok`, 3 with `ok_with_warnings`, 4 with `no_solution`; 1 where the request is refused.
+    """
+    from app.calculations import BY_PATH  # noqa: PLC0415
+    from app.errors import InvalidBody, Unprocessable, Unreadable, faults_of  # noqa: PLC0415
+    from app.evaluate import answer, content_of  # noqa: PLC0415
+
+    if endpoint not in BY_PATH:
+        print(f"tribodrive: there is no {endpoint}; there are {', '.join(BY_PATH)}", file=sys.stderr)  # noqa: T201
+        return REFUSED
+    try:
+        body = sys.stdin.buffer.read() if file == STANDARD_INPUT else file.read_bytes()
+        found = answer(endpoint, content_of(body))
+    except OSError as error:
+        print(f"tribodrive: {file}: {error.strerror}", file=sys.stderr)  # noqa: T201
+        return REFUSED
+    except Unreadable as error:
+        print(f"tribodrive: {error.detail}", file=sys.stderr)  # noqa: T201
+        return REFUSED
+    except (InvalidBody, Unprocessable) as error:
+        for fault in faults_of(error):
+            print(f"tribodrive: {fault['pointer'] or 'request'}: {fault['message']}", file=sys.stderr)  # noqa: T201
+        return REFUSED
+    _print_json(found)
+    return EXIT_STATUS[found["status"]]
+
+
+def _print_json(content: dict[str, Any]) -> None:
+    try:
+        print(json.dumps(content, indent=1, ensure_ascii=False), flush=True)  # noqa: T201
+    except BrokenPipeError:  # whoever reads has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def serve(application: str) -> None:
+    """Run the application at `application` ("module:attribute") with the template process of its workers.
+
+    The port is open before anything is loaded, and the template loads what it needs beside the service.
+    """
+    os.environ.pop("WEB_CONCURRENCY", None)  # which is for servers of several processes
+    limits = checked_settings()
+    try:
+        listener = _listener(limits)
+    except OSError as error:
+        reason = error.strerror if isinstance(error, socket.gaierror) else os.strerror(error.errno or 0)
+        sys.exit(f"tribodrive: cannot listen on port {limits.port} of {limits.host}: {reason}")
+    gc.disable()  # `run` enables it: imports leave no garbage, and looking for it takes a third of their time
+    template = Template(application.partition(":")[0])
+    try:
+        from app.http.server import run  # noqa: PLC0415  seconds of imports, for which port and template need not wait
+
+        run(application, listener, template)
+    finally:
+        template.close()
+
+
+def open_standard_streams() -> None:
+    """Open the null device where the standard streams are closed: a socket would get the number of one of them."""
+    for name in ("stdin", "stdout", "stderr"):
+        if getattr(sys, name) is None:
+            stream = Path(os.devnull).open("r+")  # the lowest free number, and these are 0 to 2
+            os.set_inheritable(stream.fileno(), True)
+            setattr(sys, name, stream)
+
+
+def checked_settings() -> Settings:
+    """The settings; those that are wrong end the process with a line each, and unknown variables are warned of."""
+    known = [f"TRIBODRIVE_{name.upper()}" for name in Settings.model_fields]
+    for name in sorted(os.environ):
+        if name.startswith("TRIBODRIVE_") and name not in known:
+            nearest = get_close_matches(name, known, 1)
+            meant = f"; did you mean {nearest[0]}?" if nearest else ""
+            sys.stderr.write(f"tribodrive: there is no setting {name}{meant}\n")
+    try:
+        return settings()
+    except ValidationError as error:
+        sys.exit("\n".join(f"tribodrive: {_wrong(fault)}" for fault in error.errors()))
+
+
+def _wrong(fault: ErrorDetails) -> str:
+    name = f"TRIBODRIVE_{str(fault['loc'][0]).upper()}"
+    return f"{name} is {fault['input']!r}: {fault['msg'][0].lower()}{fault['msg'][1:]}"
+
+
+def _listener(limits: Settings) -> socket.socket:
+    family, _, _, _, address = socket.getaddrinfo(limits.host, limits.port, type=socket.SOCK_STREAM)[0]
+    both = family == socket.AF_INET6 and socket.has_dualstack_ipv6()  # so that `::` serves IPv4 as well
+    return socket.create_server(address[:2], family=family, backlog=1024, dualstack_ipv6=both)
+
+
+def _documentation() -> str:
+    """The settings, one line each."""
+    rows = ["environment variables:"]
+    for name, field in Settings.model_fields.items():
+        default = field.get_default(call_default_factory=True)
+        rows.append(f"  TRIBODRIVE_{name.upper():<18} {field.description} (default {default})")
+    return "\n".join(rows)
