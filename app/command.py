@@ -103,7 +103,7 @@ def serve(application: str) -> None:
     os.environ.pop("WEB_CONCURRENCY", None)  # which is for servers of several processes
     limits = checked_settings()
     try:
-        listener = _listener(limits)
+        listeners = _listeners(limits)
     except OSError as error:
         reason = error.strerror if isinstance(error, socket.gaierror) else os.strerror(error.errno or 0)
         sys.exit(f"tribodrive: cannot listen on port {limits.port} of {limits.host}: {reason}")
@@ -112,7 +112,7 @@ def serve(application: str) -> None:
     try:
         from app.http.server import run  # noqa: PLC0415  seconds of imports, for which port and template need not wait
 
-        run(application, listener, template)
+        run(application, listeners, template)
     finally:
         template.close()
 
@@ -121,7 +121,7 @@ def open_standard_streams() -> None:
     """Open the null device where the standard streams are closed: a socket would get the number of one of them."""
     for name in ("stdin", "stdout", "stderr"):
         if getattr(sys, name) is None:
-            stream = Path(os.devnull).open("r+")  # the lowest free number, and these are 0 to 2
+            stream = Path(os.devnull).open("r+")  # noqa: SIM115  the lowest free number, and these are 0 to 2
             os.set_inheritable(stream.fileno(), True)
             setattr(sys, name, stream)
 
@@ -145,10 +145,13 @@ def _wrong(fault: ErrorDetails) -> str:
     return f"{name} is {fault['input']!r}: {fault['msg'][0].lower()}{fault['msg'][1:]}"
 
 
-def _listener(limits: Settings) -> socket.socket:
-    family, _, _, _, address = socket.getaddrinfo(limits.host, limits.port, type=socket.SOCK_STREAM)[0]
-    both = family == socket.AF_INET6 and socket.has_dualstack_ipv6()  # so that `::` serves IPv4 as well
-    return socket.create_server(address[:2], family=family, backlog=1024, dualstack_ipv6=both)
+def _listeners(limits: Settings) -> list[socket.socket]:
+    """The open ports; `::` has one for each family, so that addresses of IPv4 clients look as they do elsewhere."""
+    found = []
+    for host in ("::", "0.0.0.0") if limits.host == "::" else (limits.host,):  # noqa: S104
+        family, _, _, _, address = socket.getaddrinfo(host, limits.port, type=socket.SOCK_STREAM)[0]
+        found.append(socket.create_server(address[:2], family=family, backlog=1024))
+    return found
 
 
 def _documentation() -> str:

@@ -19,7 +19,8 @@ def _share_of_cores() -> int:
     """Cores for each process of the server: uvicorn and gunicorn have their number in the same places."""
     number = ArgumentParser(add_help=False, allow_abbrev=False)
     number.add_argument("-w", "--workers", type=int, default=os.environ.get("WEB_CONCURRENCY", "1"))
-    return max(1, (os.cpu_count() or 2) // max(1, number.parse_known_args()[0].workers))
+    processes: int = number.parse_known_args()[0].workers
+    return max(1, (os.cpu_count() or 2) // max(1, processes))
 
 
 class Settings(BaseSettings):

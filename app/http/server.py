@@ -37,8 +37,8 @@ class Server(uvicorn.Server):
         super().handle_exit(sig, frame)
 
 
-def run(address: str, listener: socket.socket, template: Template) -> None:
-    """Serve on the open port until told to stop."""
+def run(address: str, listeners: list[socket.socket], template: Template) -> None:
+    """Serve on the open ports until told to stop."""
     limits = settings()
     application = import_from_string(address)
     application.state.template = template
@@ -56,4 +56,4 @@ def run(address: str, listener: socket.socket, template: Template) -> None:
         log_config=None,
         timeout_graceful_shutdown=limits.shutdown_s,
     )
-    Server(config).run([listener])
+    Server(config).run(listeners)

@@ -45,6 +45,26 @@ def test_a_cluster_takes_larger_studies_unless_told_otherwise() -> None:
     assert Settings(scheduler=address, study_points=7).most_study_points == 7
 
 
+@pytest.mark.parametrize(
+    ("command", "variable", "workers"),
+    [
+        ("uvicorn app.main:app", "", 8),
+        ("uvicorn app.main:app --workers 2", "", 4),
+        ("uvicorn --workers=3 app.main:app", "2", 2),
+        ("gunicorn app.main:app -w 20", "", 1),
+        ("gunicorn app.main:app", "4", 2),
+    ],
+)
+def test_processes_of_a_server_share_the_cores(
+    monkeypatch: pytest.MonkeyPatch, command: str, variable: str, workers: int
+) -> None:
+    monkeypatch.setattr(sys, "argv", command.split())
+    monkeypatch.setattr(os, "cpu_count", lambda: 8)
+    if variable:
+        monkeypatch.setenv("WEB_CONCURRENCY", variable)
+    assert Settings().workers == workers
+
+
 @pytest.mark.parametrize(("variable", "value"), [("WORKERS", "0"), ("PORT", "x"), ("DEADLINE_S", "-1")])
 def test_nonsense_settings_are_refused(monkeypatch: pytest.MonkeyPatch, variable: str, value: str) -> None:
     monkeypatch.setenv(f"TRIBODRIVE_{variable}", value)

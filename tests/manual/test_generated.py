@@ -21,7 +21,11 @@ from solvers.published import STATEMENTS, Row
 FOLDER = Path(__file__).parents[2] / "app" / "manual"
 BLOCK = re.compile(r"<!-- generated: ([\w -]+) -->\n(.*?)<!-- end -->", re.DOTALL)
 ROUNDING = 1e-9
-DEFAULTS = {"workers": "one per core, divided by the server's processes", "max_connections": "by the descriptor limit", "scheduler": "none: the workers"}
+DEFAULTS = {
+    "workers": "one per core, divided by the server's processes",
+    "max_connections": "by the descriptor limit",
+    "scheduler": "none: the workers",
+}
 
 
 def table(header: tuple[str, ...], rows: Iterator[tuple[str, ...]]) -> str:
