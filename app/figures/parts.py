@@ -1,6 +1,6 @@
-"""Parts that figures of several models have: a curve with its extreme marked, a map with its greatest value."""
+"""Parts that figures of several models have: a curve that its ordinate names, the extremes of curves and maps."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -29,8 +29,9 @@ def curve(
     return Panel(x=x, y=y, lines=(line,), marks=marks, **panel)
 
 
-def chart(x: Axis, y: Axis, shown: Map, *, mark: bool = True) -> Panel:
-    """A panel of a map with its greatest value marked."""
-    row, column = np.unravel_index(int(np.nanargmax(shown.values)), shown.values.shape)
-    at = float(shown.x[column]), float(shown.y[row]), number(float(shown.values[row, column]), shown.unit or "", 4)
-    return Panel(x=x, y=y, map=shown, marks=(Mark(*at),) if mark else ())
+def extreme_of_map(chart: Map, wording: Callable[[float, str], str] = number, *, least: bool = False) -> Mark:
+    """The greatest value of a map or the least, marked with it."""
+    at = int(np.nanargmin(chart.values) if least else np.nanargmax(chart.values))
+    row, column = np.unravel_index(at, chart.values.shape)
+    text = wording(float(chart.values[row, column]), chart.unit or "")
+    return Mark(float(chart.x[column]), float(chart.y[row]), text)

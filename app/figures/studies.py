@@ -26,6 +26,7 @@ from app.figures.data import (
     Values,
     values,
 )
+from app.figures.parts import extreme, extreme_of_map
 from app.figures.wording import listed, number
 
 MOST_CURVES = 6  # beyond it two fields make a map
@@ -107,7 +108,7 @@ def curve(grid: Grid) -> Figure:
         lines=(line,),
         levels=(*_limit(grid), *_own(grid.x)),
         spans=_invalid(grid),
-        marks=(*_doubtful(grid), *_best_of_curve(grid)),
+        marks=(*_doubtful(grid), *extreme([line], grid.output.unit, least=not grid.greatest)),
     )
     return _figure(grid, f"{grid.output.title} over {grid.x.axis.title}", panel)
 
@@ -118,10 +119,7 @@ def family(grid: Grid, y: Coordinate) -> Figure:
         Line(y.named(index), grid.x.values, values(grid.values[:, index]), ORDER[index % len(ORDER)])
         for index in range(y.values.size)
     )
-    best = grid.best
-    marks = _best_of_curve(grid)
-    if best is not None:
-        marks = tuple(replace(mark, hue=lines[best[1]].hue) for mark in marks)
+    marks = extreme(lines, grid.output.unit, least=not grid.greatest)
     panel = Panel(x=grid.x.axis, y=_ordinate(grid), lines=lines, levels=_limit(grid), marks=marks)
     return _figure(grid, f"{grid.output.title} over {grid.x.axis.title}, by {y.axis.title}", panel)
 
@@ -140,11 +138,7 @@ def chart(grid: Grid, y: Coordinate) -> Figure:
         critical=() if grid.limit is None else (Critical(grid.limit, f"limit {number(grid.limit)}"),),
         range=ends if ends[1] > ends[0] else (ends[0] - 0.5, ends[0] + 0.5),
     )
-    marks: tuple[Mark, ...] = ()
-    if grid.best is not None:
-        across, up = grid.best
-        text = number(float(grid.values[across, up]), unit or "")
-        marks = (Mark(float(grid.x.values[across]), float(y.values[up]), text),)
+    marks = () if grid.best is None else (extreme_of_map(colours, least=not grid.greatest),)
     if grid.x.own is not None and y.own is not None:
         marks = (*marks, Mark(grid.x.own, y.own, "as described", Hue.VERMILLION))
     panel = Panel(x=grid.x.axis, y=y.axis, map=colours, marks=marks)
@@ -158,14 +152,11 @@ def worst(grid: Grid, y: Coordinate) -> Figure:
     lines = [Line("worst", y.values, reached, ORDER[1])]
     if x.own is not None and (at := np.flatnonzero(np.isclose(x.values, x.own))).size:
         lines.append(Line(f"at {x.named(int(at[0]))}", y.values, values(grid.values[at[0]]), ORDER[0]))
-    marks: tuple[Mark, ...] = ()
-    finding = ""
-    if np.isfinite(reached).any():
-        index = int(np.nanargmax(reached) if grid.greatest else np.nanargmin(reached))
-        bound = number(float(reached[index]), unit)
-        marks = (Mark(float(y.values[index]), float(reached[index]), bound, ORDER[1]),)
+    marks, finding = extreme(lines[:1], unit, least=not grid.greatest), ""
+    for mark in marks:
         side = "above" if grid.greatest else "below"
-        finding = f"{y.axis.title} {y.named(index)} keeps {grid.output.title} {side} {bound}"
+        place = y.named(int(np.flatnonzero(y.values == mark.x)[0]))
+        finding = f"{y.axis.title} {place} keeps {grid.output.title} {side} {mark.text}"
     panel = Panel(x=y.axis, y=_ordinate(grid), lines=tuple(lines), levels=_limit(grid), marks=marks)
     title = f"Which {y.axis.title} forgives {x.axis.title} from {x.span}?"
     return Figure(finding, (panel,), title=title, unsolved=grid.unsolved)
@@ -222,13 +213,6 @@ def _invalid(grid: Grid) -> tuple[Span, ...]:
             spans.append(Span(float(x[start]), float(x[stop - 1]), reason))
         start = stop
     return tuple(spans)
-
-
-def _best_of_curve(grid: Grid) -> tuple[Mark, ...]:
-    if grid.best is None:
-        return ()
-    value = float(grid.values[grid.best])
-    return (Mark(float(grid.x.values[grid.best[0]]), value, number(value, grid.output.unit or "")),)
 
 
 MOST_ROWS = 12

@@ -26,10 +26,10 @@ def shown(data: T) -> T:
 
 
 def axis(kind: Any, name: str, title: str = "", **known: Any) -> Axis:
-    """The axis of a declared quantity: its unit and symbol, and its title unless another is given."""
+    """The axis of a declared quantity: its unit, its title unless another is given, its symbol likewise."""
     declared = quantities(kind)[name]
     unit = UNITS[declared.unit].symbol if declared.unit else None
-    return Axis(title or declared.title, unit, symbol=declared.symbol or "", **known)
+    return Axis(title or declared.title, unit, **{"symbol": declared.symbol or "", **known})
 
 
 def axis_of(leaf: Leaf, **known: Any) -> Axis:

@@ -35,9 +35,9 @@ def percent(fraction: float) -> str:
     return number(0.0 if abs(fraction) < 1e-9 else 100.0 * fraction, "%")
 
 
-def ratio(value: float) -> str:
+def ratio(value: float, unit: str = "") -> str:
     """A ratio around 1, with as many digits as show how far from it."""
-    return number(value, digits=3 if abs(value - 1.0) > 0.01 else 6)
+    return number(value, unit, digits=3 if abs(value - 1.0) > 0.01 else 6)
 
 
 def listed(names: list[str]) -> str:

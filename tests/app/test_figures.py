@@ -24,6 +24,7 @@ from app.figures.models import drive_train
 from app.figures.tables import table
 from app.schema.model import Documented
 from solvers.gears.pair import gear_pair
+from solvers.pumping.spaces import flow_at, prepare
 from solvers.scuffing.safety_results import ThermalPath
 
 Post = Callable[[str, object], httpx.Response]
@@ -34,6 +35,7 @@ FIGURES = {
     "/v1/coupling/sleeve-orbit": {"orbit", "inertia-force", "orders"},
     "/v1/coupling/recommendation": {"crowning-scan"},
     "/v1/pumping": {
+        "section",
         "stroke",
         "heating",
         "peak-pressure",
@@ -300,6 +302,19 @@ def test_choking_scan_repeats_the_pumping_endpoint_and_crosses_its_limits_at_the
     spaces = evaluate(pumping, pumping.request.model_validate({**body, "detail": "summary"}))
     peaks = [spaces.pinion_spaces.peak_pressure_ratio, spaces.wheel_spaces.peak_pressure_ratio]
     assert pressure.y[3] == pytest.approx(max(peaks), rel=1e-9)
+
+
+def test_the_curve_of_choking_bends_where_gas_reaches_an_end_supersonic() -> None:
+    """It does at every resolution tried; below, the Mach number that the ambient pressure asks for rises steadily."""
+    request, answer = solved("starter-choking-speed")
+    (declaration,) = BY_PATH["/v1/pumping/choking-speed"].figures
+    assert "bend" in declaration.figure(request, answer).finding
+    mesh = prepare(request.inputs().setup)
+    speeds = np.array([9300.0, 9500.0, 9900.0, 10100.0]) * np.pi / 30
+    flows = [flow_at(mesh, mesh.spaces[1], speed, 100) for speed in speeds]
+    assert [flow.largest_mach > 1.0 + 1e-9 for flow in flows] == [False, False, True, True]
+    demand = [flow.exit_demand for flow in flows]
+    assert demand[3] - demand[2] < 0.5 * (demand[1] - demand[0])
 
 
 def partly_unsolved() -> tuple[Any, Any]:

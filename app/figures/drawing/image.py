@@ -36,9 +36,8 @@ METADATA: dict[str, dict[str, str | None]] = {
 
 def draw(figure: Figure, image_format: str, theme_name: ThemeName = "light") -> bytes:
     """The image as svg, png or pdf."""
-    theme = THEMES[theme_name]
     with rc_context(settings(theme_name)):
-        sheet, _ = laid_out(figure, theme)
+        sheet, _ = laid_out(figure, THEMES[theme_name])
         sheet.set_dpi(DPI[image_format])
         image, metadata = BytesIO(), METADATA[image_format] | {"Title": figure.title}
         canvas: Any = CANVASES[image_format](sheet)
@@ -69,18 +68,18 @@ def places(figure: Figure) -> list[Place]:
 
 def size(figure: Figure) -> tuple[float, float]:
     """Width and height of the image in inches."""
-    title, finding = _head(figure)
-    lines = TITLE_LINE * (1 + title.count("\n")) + FINDING_LINE * (1 + finding.count("\n"))
-    return WIDTH, 2 * EDGE + lines + _body_height(figure)
+    return WIDTH, EDGE + _head(figure)[2] + _body_height(figure)
 
 
-def _head(figure: Figure) -> tuple[str, str]:
-    return fill(figure.title, TITLE_LENGTH), fill(figure.subtitle, FINDING_LENGTH)
+def _head(figure: Figure) -> tuple[str, str, float]:
+    """Title and finding in lines, and the height down to the panels."""
+    title, finding = fill(figure.title, TITLE_LENGTH), fill(figure.subtitle, FINDING_LENGTH)
+    return title, finding, EDGE + TITLE_LINE * (1 + title.count("\n")) + FINDING_LINE * (1 + finding.count("\n"))
 
 
 def laid_out(figure: Figure, theme: Theme) -> tuple[Sheet, list[Axes]]:
     """The sheet with everything on it at its place, and the axes of the panels; inside the theme's settings."""
-    (title, finding), (width, height) = _head(figure), size(figure)
+    (title, finding, _), (width, height) = _head(figure), size(figure)
     engine = ConstrainedLayoutEngine(rect=(0, 0, 1, _body_height(figure) / height), w_pad=EDGE, h_pad=EDGE / 2)
     sheet = Sheet(figsize=(width, height), dpi=DPI["svg"], layout=engine)
     canvas: Any = FigureCanvasAgg(sheet)
@@ -93,7 +92,7 @@ def laid_out(figure: Figure, theme: Theme) -> tuple[Sheet, list[Axes]]:
         draw_panel(each, panel, theme, _height(panel, figure))
         if figure.beside:
             each.set_xlabel(fill(panel.x.label, ABSCISSA_LENGTH))
-    sheet.align_ylabels(axes)
+    sheet.align_ylabels([each for each, panel in zip(axes, figure.panels, strict=True) if not panel.rows])
     if axes:
         engine.execute(sheet)
     sheet.set_layout_engine("none")
@@ -103,22 +102,23 @@ def laid_out(figure: Figure, theme: Theme) -> tuple[Sheet, list[Axes]]:
 
 
 def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
-    """Axes above or beside each other; of those above each other with one abscissa only the lowest names it."""
-    count = len(figure.panels)
+    """Axes above or beside each other; an axis that two share is named once."""
+    panels, axes = figure.panels, list[Axes]()
     if figure.beside:
-        axes = [sheet.add_subplot(1, count, index + 1) for index in range(count)]
-        for each, (left, panel) in zip(axes[1:], pairwise(figure.panels), strict=True):
-            each.yaxis.label.set_visible(panel.y.label != left.y.label)
-        return axes
-    heights = [_height(panel, figure) for panel in figure.panels]
-    grid = sheet.add_gridspec(max(count, 1), 1, height_ratios=heights or None)
-    axes = []
-    for index, panel in enumerate(figure.panels):
-        above = axes[-1] if index and figure.panels[index - 1].x == panel.x else None
-        axes.append(sheet.add_subplot(grid[index], sharex=above))
-        if above is not None and not panel.rows:
-            above.tick_params(labelbottom=False)
-            above.xaxis.label.set_visible(False)
+        grid = sheet.add_gridspec(1, max(len(panels), 1))
+    else:
+        grid = sheet.add_gridspec(
+            max(len(panels), 1), 1, height_ratios=[_height(each, figure) for each in panels] or None
+        )
+    for index, panel in enumerate(panels):
+        before = panels[index - 1] if index else None
+        shared = axes[-1] if before and not figure.beside and before.x == panel.x else None
+        axes.append(sheet.add_subplot(grid[index], sharex=shared))
+        if figure.beside and before:
+            axes[-1].yaxis.label.set_visible(panel.y.label != before.y.label)
+        if shared is not None and not panel.rows:
+            shared.tick_params(labelbottom=False)
+            shared.xaxis.label.set_visible(False)
     return axes
 
 
@@ -126,8 +126,8 @@ def _body_height(figure: Figure) -> float:
     heights = [_height(panel, figure) for panel in figure.panels]
     if figure.beside:
         return max(heights) + ABSCISSA
-    named = [panel.rows or panel.x != below.x for panel, below in pairwise(figure.panels)]
-    return sum(heights) + ABSCISSA * (1 + sum(map(bool, named)))
+    named = sum(bool(panel.rows) or panel.x != below.x for panel, below in pairwise(figure.panels))
+    return sum(heights) + ABSCISSA * (1 + named)
 
 
 def _height(panel: Panel, figure: Figure) -> float:
@@ -137,5 +137,5 @@ def _height(panel: Panel, figure: Figure) -> float:
         height = WRAPPED_ROW_HEIGHT if any(len(name) > ROW_NAME_LENGTH for name in names) else ROW_HEIGHT
         return height * (len(names) + (1 if panel.levels or panel.title else 0.3))
     if panel.equal or panel.areas:
-        return PLANE_HEIGHT
+        return PLANE_HEIGHT / 1.5 if figure.beside else PLANE_HEIGHT
     return HEIGHTS[1 if figure.beside else min(len(figure.panels), max(HEIGHTS))]

@@ -1,7 +1,8 @@
-"""Draws what stands in one pair of axes: lines, bars, rows, maps, areas, their limits, spans, marks and names."""
+"""Draws what stands in one pair of axes: curves, bars, rows, maps, polygons, limits, spans, marks and names."""
 
 from collections.abc import Iterator
-from itertools import pairwise
+from itertools import pairwise, takewhile
+from math import log
 from textwrap import fill
 from typing import Any, NamedTuple
 
@@ -17,17 +18,25 @@ from matplotlib.text import Text
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.transforms import Bbox, BboxBase
 
-from app.figures.data import Area, Axis, Bars, Level, Line, Map, Panel, Role, Row, Scale, Values
-from app.figures.drawing.style import DASHES, LETTER, LIMIT_DASHES, LINE_HEIGHT, REFERENCE_DASHES, TEXT, Theme
+from app.figures.data import Area, Axis, Bars, Hue, Level, Line, Map, Panel, Part, Role, Row, Scale, Values
+from app.figures.drawing.style import (
+    DASHES,
+    LETTER,
+    LIMIT_DASHES,
+    LINE_HEIGHT,
+    REFERENCE_DASHES,
+    TEXT,
+    Theme,
+)
 from app.figures.wording import number
 
 FARTHEST_LEVEL = 4.0  # a limit beyond so many times the values is named at the edge instead of flattening them
 NAME_LENGTH, ROW_NAME_LENGTH = 17, 36  # characters of a line of a name at the right of the axes, and of a row's
-BAR_SHARE = 0.8  # of the spacing
-FAINT = 0.6  # of bars beside the extreme one
+BAR_SHARE, FAINT, TINT = 0.8, 0.6, 0.2  # of the spacing; opacity of bars beside the extreme one, and of fills
+ROW = 0.52  # height of a row's bar
+AREAS_WIDTH, NARROW = 4.8, 0.85  # inches of axes with areas; width of their texts over the mean
 RING = 5  # pixels
-# Texts whose place is found when the layout is known; those of points are tried above them first, or below.
-AREA, SIDES = "area", {"above": 1, "below": -1}
+SIDES = {"above": 1, "below": -1}  # of a point, on which its text is tried first; other texts stay where they are
 COLOURS = {Scale.MAGNITUDE: "cividis", Scale.RATIO: "RdBu_r", Scale.SIGNED: "RdBu_r"}
 RATIO_TICKS = (0.1, 0.2, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 LINEAR_RATIO = 1.3  # up to which a ratio's ticks are evenly spaced
@@ -51,18 +60,16 @@ class Name(NamedTuple):
 
 
 def draw_panel(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
-    """Everything of a panel of a height in inches; the texts inside the axes stay for `place_texts`."""
+    """Everything of a panel of a height in inches; the texts of points stay for `place_texts`."""
     for which, quantity in (("x", panel.x), ("y", panel.y)):
         _scale(axes, which, quantity)
-    for area in panel.areas:
-        _draw_area(axes, area, theme)
+    _draw_fills(axes, panel, theme, height)
     if panel.rows:
         _draw_rows(axes, panel, theme)
     if panel.map is not None:
         _draw_map(axes, panel, panel.map, theme)
     for bars in panel.bars:
         _draw_bars(axes, bars, [each for each in panel.bars if each.role is bars.role], theme)
-    _draw_fills(axes, panel, theme)
     for line in panel.lines:
         _draw_line(axes, line, theme)
     _draw_marks(axes, panel, theme)
@@ -71,8 +78,8 @@ def draw_panel(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
         axes.axvspan(span.start, span.stop, facecolor=theme.shade, edgecolor="none", zorder=2 if panel.map else 0)
         _name(axes, span.name, ((span.start + span.stop) / 2, 1.0), theme.muted, theme, axes.get_xaxis_transform())
     _end(axes, panel)
-    axes.set(title=panel.title or "")
-    axes.set_xlabel(panel.x.label, loc="right" if panel.rows else "center")  # which may be wider than the axes of rows
+    axes.set_title(panel.title or "")
+    axes.set_xlabel(panel.x.label, loc="right" if panel.rows else "center")  # it may be wider than the axes of rows
     if not panel.rows:
         axes.set_ylabel(fill(panel.y.label, max(round(height / LETTER), 10)))
     _name_beside(axes, panel, levels, theme, height)
@@ -116,15 +123,35 @@ def _end(axes: Axes, panel: Panel) -> None:
     axes.set_ylim(low - noise, high + noise)
 
 
-def _draw_fills(axes: Axes, panel: Panel, theme: Theme) -> None:
-    """Bands between curves, and polygons."""
+def _tinted(color: str) -> Style:
+    return {"facecolor": to_rgba(color, TINT), "edgecolor": color}
+
+
+def _draw_fills(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
+    """Areas with their texts, bands between curves, and polygons."""
+    for area in panel.areas:
+        axes.grid(visible=False)
+        style = _tinted(theme.drawing[area.hue]) | {"edgecolor": "none"}
+        axes.add_patch(Rectangle((area.left, area.bottom), area.right - area.left, area.top - area.bottom, **style))
+        middle = (area.left * area.right) ** 0.5, (area.bottom * area.top) ** 0.5
+        axes.text(*middle, _fitting(area, panel, height), color=theme.muted, ha="center", va="center", in_layout=False)
     for ribbon in panel.ribbons:
         color = theme.drawing[ribbon.hue]
-        axes.fill_between(ribbon.x, ribbon.low, ribbon.high, facecolor=color, alpha=0.22, linewidth=0)
+        axes.fill_between(ribbon.x, ribbon.low, ribbon.high, facecolor=color, alpha=TINT, linewidth=0)
         axes.plot(ribbon.x, np.column_stack([ribbon.low, ribbon.high]), color=color, linewidth=0.8)
     for shape in panel.shapes:
-        color = theme.drawing[shape.hue]
-        axes.fill(shape.x, shape.y, facecolor=to_rgba(color, 0.2), edgecolor=color, linewidth=1.0)
+        axes.fill(shape.x, shape.y, linewidth=1.0, **_tinted(theme.drawing[shape.hue]))
+
+
+def _fitting(area: Area, panel: Panel, height: float) -> str:
+    """As many lines of the text of an area as it has room for; both axes are logarithmic."""
+    assert panel.x.limits is not None
+    assert panel.y.limits is not None
+    (left, right), (bottom, top) = panel.x.limits, panel.y.limits
+    width = AREAS_WIDTH * log(area.right / area.left) / log(right / left)
+    room = height * log(area.top / area.bottom) / log(top / bottom) / LINE_HEIGHT
+    lines = area.text.split("\n")[: int(room)]
+    return "\n".join(takewhile(lambda line: NARROW * LETTER * len(line) < width, lines))
 
 
 def _draw_line(axes: Axes, line: Line, theme: Theme) -> None:
@@ -137,72 +164,66 @@ def _draw_line(axes: Axes, line: Line, theme: Theme) -> None:
         axes.plot(line.x[alone], line.y[alone], "o", color=color, markersize=2.6)
 
 
+def _bar_style(role: Role, color: str) -> Style:
+    """Filled, or the dashed outline of a variant."""
+    if role is Role.VARIANT:
+        return {"facecolor": "none", "edgecolor": color, "linestyle": DASHES[role]}
+    return {"facecolor": color}
+
+
 def _draw_bars(axes: Axes, bars: Bars, beside: list[Bars], theme: Theme) -> None:
-    """Bars of one of the series that stand beside each other; those of a variant are dashed outlines."""
+    """Bars of one of the series that stand beside each other."""
     pitch = float(np.diff(bars.x).min()) if len(bars.x) > 1 else 1.0
-    width, color = BAR_SHARE * pitch / len(beside), theme.drawing[bars.hue]
+    width = BAR_SHARE * pitch / len(beside)
     left = bars.x - BAR_SHARE * pitch / 2 + beside.index(bars) * width
-    style: Style = {"facecolor": color, "alpha": 1.0 if bars.strong is None else FAINT}
-    if bars.role is Role.VARIANT:
-        style = {"facecolor": "none", "edgecolor": color, "linestyle": DASHES[bars.role]}
+    style = _bar_style(bars.role, theme.drawing[bars.hue])
     drawn = axes.bar(left, np.nan_to_num(bars.height), width, align="edge", **style)
-    if bars.strong is not None:
-        drawn.patches[bars.strong].set_alpha(1.0)
+    for index, patch in enumerate(drawn.patches if bars.strong is not None else ()):
+        patch.set_alpha(1.0 if index == bars.strong else FAINT)
 
 
 def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
-    """Horizontal bars with names and values; a thin line from bound to bound, a dashed outline for a variant."""
+    """Horizontal bars, of one part or several, or dots on a line; with names, values and bounds."""
     own = {row.name: row for row in panel.rows if row.role is not Role.VARIANT}
     names = list(own)
-    scale = max((abs(row.value) for row in panel.rows if np.isfinite(row.value)), default=0.0)
     axes.grid(visible=False, axis="y")
     axes.spines["left"].set_visible(False)
     if not any(row.dots for row in panel.rows):
         axes.axvline(0.0, color=theme.frame, linewidth=0.9)
-    for row in (row for row in panel.rows if row.name in own):
-        color, place = theme.drawing[row.hue], names.index(row.name)
-        outline: Style = {"facecolor": "none", "edgecolor": color, "linestyle": DASHES[row.role]}
-        if row.parts:
-            _draw_parts(axes, place, row, theme)
-        elif row.dots:
-            _draw_dots(axes, place, row, theme)
-        else:
-            axes.barh(
-                place, np.nan_to_num(row.value), 0.52, **(outline if row.role is Role.VARIANT else {"color": color})
-            )
+    for row in (row for row in panel.rows if row.name in own and not row.dots):
+        left, place = 0.0, names.index(row.name)
+        for part in row.parts or (Part("", float(np.nan_to_num(row.value)), row.hue),):
+            axes.barh(place, part.value, ROW, left=left, **_bar_style(row.role, theme.drawing[part.hue]))
+            left += part.value
         if row.bounds is not None and row.bounds[0] < row.bounds[1]:
             axes.plot(row.bounds, [place, place], color=theme.ink, linewidth=1.2, marker="|", markersize=7)
-    for place, (name, row) in enumerate((name, row) for name, row in own.items() if not row.dots):
-        ends = [0.0, *(end for each in panel.rows if each.name == name for end in (each.value, *(each.bounds or ())))]
-        style: Style = {"va": "center_baseline", "bbox": _patch(theme), "textcoords": "offset points"}
-        offset = 4.0
-        if row.bounds is not None and row.bounds[1] - row.bounds[0] > WIDE * scale:
-            low, high = (number(end, panel.x.unit or "") for end in row.bounds)
-            axes.annotate(low, (row.bounds[0], place), (-5, 0), color=theme.muted, ha="right", **style)
-            axes.annotate(high, (row.bounds[1], place), (5, 0), color=theme.muted, ha="left", **style)
-            offset += 8.0 + 72.0 * LETTER * len(high)
-        text = _value(row.value, scale, panel.x.unit or "")
-        style |= {"fontsize": TEXT, "fontweight": "bold"}
-        axes.annotate(text, (max(ends), place), (offset, 0), ha="left", **style)
+    for place, row in enumerate(own.values()):
+        if row.dots:
+            _draw_dots(axes, place, row, theme)
+        else:
+            _value_row(axes, place, row, panel, theme)
     axes.set_yticks(range(len(own)), [fill(name, ROW_NAME_LENGTH) for name in names])
     axes.set_ylim(len(own) - 0.5, -1.2 if panel.levels else -0.5)
     for label, row in zip(axes.get_yticklabels(), own.values(), strict=True):
         label.set_color(theme.writing[row.hue])
 
 
-def _value(value: float, scale: float, unit: str) -> str:
-    """A row's value as it stands beside its bar; rounding errors beside the longest bar are zero."""
-    if np.isnan(value):
-        return "not calculated"
-    return number(0.0 if abs(value) <= NOISE * scale else value, unit)
-
-
-def _draw_parts(axes: Axes, place: int, row: Row, theme: Theme) -> None:
-    """The parts of a row one after the other."""
-    left = 0.0
-    for part in row.parts:
-        axes.barh(place, part.value, 0.52, left=left, color=theme.drawing[part.hue])
-        left += part.value
+def _value_row(axes: Axes, place: int, row: Row, panel: Panel, theme: Theme) -> None:
+    """The value of a row at its right, and those of its bounds at their ends; rounding errors are zero."""
+    scale = max((abs(each.value) for each in panel.rows if np.isfinite(each.value)), default=0.0)
+    alike = [each for each in panel.rows if each.name == row.name]
+    tip = max([0.0, *(end for each in alike for end in (each.value, *(each.bounds or ())) if np.isfinite(end))])
+    unit, offset = panel.x.unit or "", 4.0
+    style: Style = {"va": "center_baseline", "bbox": _patch(theme), "textcoords": "offset points"}
+    if row.bounds is not None and row.bounds[1] - row.bounds[0] > WIDE * scale:
+        low, high = (number(end, unit) for end in row.bounds)
+        axes.annotate(low, (row.bounds[0], place), (-5, 0), color=theme.muted, ha="right", **style)
+        axes.annotate(high, (row.bounds[1], place), (5, 0), color=theme.muted, ha="left", **style)
+        offset += 8.0 + 72.0 * LETTER * len(high)
+    text = "not calculated"
+    if np.isfinite(row.value):
+        text = number(0.0 if abs(row.value) <= NOISE * scale else row.value, unit)
+    axes.annotate(text, (tip, place), (offset, 0), ha="left", fontsize=TEXT, fontweight="bold", **style)
 
 
 def _draw_dots(axes: Axes, place: int, row: Row, theme: Theme) -> None:
@@ -216,22 +237,13 @@ def _draw_dots(axes: Axes, place: int, row: Row, theme: Theme) -> None:
         axes.annotate(dot.title, (dot.value, place), (offset, 0), ha=side, color=theme.writing[dot.hue], **style)
 
 
-def _draw_area(axes: Axes, area: Area, theme: Theme) -> None:
-    """A tinted rectangle and its text."""
-    axes.grid(visible=False)
-    style: Style = {"facecolor": theme.drawing[area.hue], "edgecolor": theme.background, "linewidth": 2.0, "alpha": 0.2}
-    axes.add_patch(Rectangle((area.left, area.bottom), area.right - area.left, area.top - area.bottom, **style))
-    axes.text(0.5, 0.5, area.text, color=theme.muted, ha="center", va="center", gid=AREA, in_layout=False)
-
-
 def _draw_map(axes: Axes, panel: Panel, chart: Map, theme: Theme) -> None:
     """Colours with their bar, thin contours at the bar's values, a dashed one at each critical value."""
     low, high = chart.ends
     norm = LogNorm(low, high) if chart.scale is Scale.RATIO else Normalize(low, high)
     x, y = _stretched(chart.x, panel.x), _stretched(chart.y, panel.y)
     shown = np.ma.masked_invalid(np.broadcast_to(chart.values, (y.size, x.size)))
-    style: Style = {"norm": norm, "shading": "gouraud", "rasterized": True}
-    colors = axes.pcolormesh(x, y, shown, cmap=COLOURS[chart.scale], **style)
+    colors = axes.pcolormesh(x, y, shown, cmap=COLOURS[chart.scale], norm=norm, shading="gouraud", rasterized=True)
     axes.grid(visible=False)
     critical = {each.value: each.name for each in chart.critical if low <= each.value <= high}
     linear = chart.scale is not Scale.RATIO or high <= LINEAR_RATIO
@@ -265,12 +277,12 @@ def _stretched(coordinate: Values, axis: Axis) -> Values:
 def _draw_marks(axes: Axes, panel: Panel, theme: Theme) -> None:
     """Rings with texts, the lowest first; in the hues of their curves where there are several."""
     several = len({mark.hue for mark in panel.marks}) > 1
-    highest = max(panel.marks, key=lambda mark: mark.y, default=None)
-    for mark in sorted(panel.marks, key=lambda mark: mark.y):
+    rising = sorted(panel.marks, key=lambda mark: mark.y)
+    for mark in rising:
         style: Style = {"markersize": 5.5, "color": theme.background, "mec": theme.drawing[mark.hue], "mew": 1.6}
         axes.plot(mark.x, mark.y, "o", clip_on=False, zorder=5, **style)
         color = theme.writing[mark.hue] if several else theme.ink
-        side = "above" if mark is highest else "below"
+        side = "above" if mark is rising[-1] else "below"
         _name(axes, mark.text, (mark.x, mark.y), color, theme, gid=side, fontsize=TEXT, fontweight="bold")
 
 
@@ -279,20 +291,18 @@ def _draw_levels(axes: Axes, panel: Panel, theme: Theme) -> list[tuple[Level, Li
     if panel.map is None and not panel.rows and not panel.y.log and panel.y.limits is None:
         low, high = axes.dataLim.intervaly
         if panel.y.magnitude or low < 0.0 < high:
-            zero = axes.axhline(0.0, color=theme.frame, linewidth=0.8, zorder=1)
-            zero.sticky_edges.y.append(0.0)
+            axes.axhline(0.0, color=theme.frame, linewidth=0.8, zorder=1).sticky_edges.y.append(0.0)
     drawn = []
     ends = {True: axes.dataLim.intervalx.copy(), False: axes.dataLim.intervaly.copy()}
     for level in panel.levels:
         low, high = ends[level.vertical]
         reach = FARTHEST_LEVEL * (high - low)
         color, dashes = (theme.limit, LIMIT_DASHES) if level.limit else (theme.muted, REFERENCE_DASHES)
-        line = Line2D([], [], color=color, linestyle=dashes, linewidth=1.3 if level.limit else 1.0)
-        log = panel.x.log if level.vertical else panel.y.log
-        if log or low - reach <= level.value <= high + reach:
-            draw = axes.axvline if level.vertical else axes.axhline
-            draw(level.value, color=color, linestyle=dashes, linewidth=line.get_linewidth())
-        drawn.append((level, line))
+        style: Style = {"color": color, "linestyle": dashes, "linewidth": 1.3 if level.limit else 1.0}
+        if (panel.x if level.vertical else panel.y).log or low - reach <= level.value <= high + reach:
+            drawn.append((level, (axes.axvline if level.vertical else axes.axhline)(level.value, **style)))
+        else:
+            drawn.append((level, Line2D([], [], **style)))
         if level.vertical:
             _name(axes, level.name, (level.value, 1.0), color, theme, axes.get_xaxis_transform())
     return drawn
@@ -307,23 +317,21 @@ def _name(
         axes.annotate(text, xy, (0, 0), xycoords, color=color, bbox=_patch(theme), annotation_clip=False, **style)
 
 
-def _patch(theme: Theme) -> dict[str, Any]:
+def _patch(theme: Theme) -> Style:
     return {"facecolor": theme.background, "alpha": 0.78, "linewidth": 0, "pad": 0.8}
 
 
 def _name_beside(axes: Axes, panel: Panel, levels: list[tuple[Level, Line2D]], theme: Theme, height: float) -> None:
     """Names at the right of the axes: where lines and levels end if these ends are apart, else in a legend."""
-    names = sorted(_names(axes, panel, levels, theme), key=lambda each: -each.end)
+    names = list(_names(axes, panel, levels, theme))
+    if not panel.equal:
+        names.sort(key=lambda each: -each.end)
     halves = [(1 + each.text.count("\n")) * LINE_HEIGHT / 2 / height for each in names]
     ends = [min(max(each.end, half), 1.0 - half) for each, half in zip(names, halves, strict=True)]
-    collide = any(
-        upper - one < lower + other for (upper, one), (lower, other) in pairwise(zip(ends, halves, strict=True))
-    )
-    if panel.equal or collide:
+    near = (upper - one < lower + other for (upper, one), (lower, other) in pairwise(zip(ends, halves, strict=True)))
+    if panel.equal or any(near):
         entries = [each.handle for each in names], [each.text for each in names]
-        legend = axes.legend(*entries, loc="upper left", bbox_to_anchor=(1.02, 1.0))
-        for text, name in zip(legend.get_texts(), names, strict=True):
-            text.set_color(name.color)
+        axes.legend(*entries, loc="upper left", bbox_to_anchor=(1.02, 1.0), labelcolor=[each.color for each in names])
         return
     style: Style = {"xycoords": "axes fraction", "textcoords": "offset points", "va": "center"}
     for name, end in zip(names, ends, strict=True):
@@ -331,7 +339,7 @@ def _name_beside(axes: Axes, panel: Panel, levels: list[tuple[Level, Line2D]], t
 
 
 def _names(axes: Axes, panel: Panel, levels: list[tuple[Level, Line2D]], theme: Theme) -> Iterator[Name]:
-    """Horizontal levels, lines, bars that stand beside others, and the parts of rows."""
+    """Horizontal levels, lines, and what is filled: polygons, bars that stand beside others, the parts of rows."""
 
     def end(value: float) -> float:
         point = axes.transData.transform((axes.get_xlim()[0], value))
@@ -347,22 +355,18 @@ def _names(axes: Axes, panel: Panel, levels: list[tuple[Level, Line2D]], theme: 
             handle = Line2D([], [], color=theme.drawing[line.hue], linestyle=DASHES[line.role])
             at = end(line.y[np.isfinite(line.y)][-1])
             yield Name(at, fill(line.title, NAME_LENGTH), theme.writing[line.hue], handle)
-    for title, hue in {shape.title: shape.hue for shape in panel.shapes}.items():
-        color = theme.drawing[hue]
-        yield Name(1.0, title, theme.writing[hue], Rectangle((0, 0), 1, 1, fc=to_rgba(color, 0.2), ec=color))
-    bars = [each for each in panel.bars if each.role is not Role.VARIANT]
-    for each in bars if len(bars) > 1 else []:
-        patch = Rectangle((0, 0), 1, 1, facecolor=theme.drawing[each.hue])
-        yield Name(0.0, fill(each.title, NAME_LENGTH), theme.writing[each.hue], patch)
-    for title, hue in {part.title: part.hue for row in panel.rows for part in row.parts}.items():
-        yield Name(0.0, fill(title, NAME_LENGTH), theme.writing[hue], Rectangle((0, 0), 1, 1, color=theme.drawing[hue]))
+    bars = {each.title: each.hue for each in panel.bars if each.role is not Role.VARIANT}
+    filled: dict[str, Hue] = {shape.title: shape.hue for shape in panel.shapes}
+    filled |= bars if len(bars) > 1 else {}
+    filled |= {part.title: part.hue for row in panel.rows for part in row.parts}
+    for title, hue in filled.items():
+        style: Style = _tinted(theme.drawing[hue]) if panel.shapes else {"color": theme.drawing[hue]}
+        yield Name(0.0, fill(title, NAME_LENGTH), theme.writing[hue], Rectangle((0, 0), 1, 1, **style))
 
 
 def place_texts(axes: Axes, panel: Panel, renderer: RendererBase) -> None:
-    """Put the texts of areas into them, and those of points beside them, off other texts and off curves."""
-    for text, area in zip((text for text in axes.texts if text.get_gid() == AREA), panel.areas, strict=True):
-        _fit(axes, text, area, renderer)
-    fixed = [text for text in axes.texts if text.get_visible() and text.get_gid() not in SIDES]
+    """Put the texts of points beside them, off other texts and off curves."""
+    fixed = [text for text in axes.texts if text.get_gid() not in SIDES]
     taken: list[BboxBase] = [text.get_window_extent(renderer) for text in fixed]
     rings = (axes.transData.transform((mark.x, mark.y)) for mark in panel.marks)
     taken += [Bbox([ring - RING, ring + RING]) for ring in rings]
@@ -372,23 +376,6 @@ def place_texts(axes: Axes, panel: Panel, renderer: RendererBase) -> None:
     for text in axes.texts:
         if text.get_gid() in SIDES:
             taken.append(_place(axes.bbox, text, taken, curves, renderer))
-
-
-def _fit(axes: Axes, text: Text, area: Area, renderer: RendererBase) -> None:
-    """Centre the text in what the axes show of the area, with as many of its lines as fit."""
-    (left, bottom), (right, top) = axes.transData.transform([(area.left, area.bottom), (area.right, area.top)])
-    left, right = max(left, axes.bbox.x0), min(right, axes.bbox.x1)
-    bottom, top = max(bottom, axes.bbox.y0), min(top, axes.bbox.y1)
-    x, y = axes.transAxes.inverted().transform(((left + right) / 2, (bottom + top) / 2))
-    text.set(transform=axes.transAxes, position=(x, y))
-    lines = area.text.split("\n")
-    while lines:
-        text.set_text("\n".join(lines))
-        extent = text.get_window_extent(renderer)
-        if extent.width < right - left and extent.height < top - bottom:
-            return
-        lines.pop()
-    text.set_visible(False)
 
 
 def _place(axes: BboxBase, text: Text, taken: list[BboxBase], curves: list[Path], renderer: RendererBase) -> BboxBase:

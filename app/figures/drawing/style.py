@@ -16,15 +16,15 @@ LETTER = 0.58 * SMALL / 72.0  # mean width of a character, in inches
 LINE_HEIGHT = 1.3 * SMALL / 72.0  # inches
 DASHES: dict[Role, Any] = {Role.RESULT: "solid", Role.REFERENCE: (0, (1.2, 1.8)), Role.VARIANT: (0, (4.5, 2.2))}
 LIMIT_DASHES, REFERENCE_DASHES = (0, (5.0, 2.5)), (0, (1.0, 2.0))
-
-OKABE_ITO = {
-    Hue.BLUE: "#0072B2",
-    Hue.VERMILLION: "#D55E00",
-    Hue.GREEN: "#009E73",
-    Hue.SKY: "#56B4E9",
-    Hue.ORANGE: "#E69F00",
-    Hue.PURPLE: "#CC79A7",
-    Hue.GREY: "#6B7280",
+# Hues of Okabe and Ito: how they are drawn and written on light, and on dark.
+HUES = {
+    Hue.BLUE: ("#0072B2", "#0068A3", "#3D9BDC", "#5AAEE8"),
+    Hue.VERMILLION: ("#D55E00", "#B34F00", "#D55E00", "#F08A3C"),
+    Hue.GREEN: ("#009E73", "#00795A", "#1DB58A", "#2CC79A"),
+    Hue.SKY: ("#56B4E9", "#1C74AC", "#9AD2F7", "#9AD2F7"),
+    Hue.ORANGE: ("#E69F00", "#8F6200", "#E69F00", "#F0B429"),
+    Hue.PURPLE: ("#CC79A7", "#A64C7D", "#CC79A7", "#E19BC1"),
+    Hue.GREY: ("#6B7280", "#5B6472", "#9AA4B2", "#A3ADBB"),
 }
 
 
@@ -43,45 +43,13 @@ class Theme:
     writing: dict[Hue, str]
 
 
+def _hues(column: int) -> dict[Hue, str]:
+    return {hue: shades[column] for hue, shades in HUES.items()}
+
+
 THEMES: dict[ThemeName, Theme] = {
-    "light": Theme(
-        background="#FFFFFF",
-        ink="#1F2937",
-        muted="#5B6472",
-        frame="#9CA3AF",
-        grid="#E5E7EB",
-        shade="#E8ECF2",
-        limit="#C22525",
-        drawing=OKABE_ITO,
-        writing={
-            Hue.BLUE: "#0068A3",
-            Hue.VERMILLION: "#B34F00",
-            Hue.GREEN: "#00795A",
-            Hue.SKY: "#1C74AC",
-            Hue.ORANGE: "#8F6200",
-            Hue.PURPLE: "#A64C7D",
-            Hue.GREY: "#5B6472",
-        },
-    ),
-    "dark": Theme(
-        background="#12171F",
-        ink="#E5E9F0",
-        muted="#A3ADBB",
-        frame="#5A6575",
-        grid="#28303C",
-        shade="#202936",
-        limit="#FF7B72",
-        drawing=OKABE_ITO | {Hue.BLUE: "#3D9BDC", Hue.SKY: "#9AD2F7", Hue.GREY: "#9AA4B2", Hue.GREEN: "#1DB58A"},
-        writing={
-            Hue.BLUE: "#5AAEE8",
-            Hue.VERMILLION: "#F08A3C",
-            Hue.GREEN: "#2CC79A",
-            Hue.SKY: "#9AD2F7",
-            Hue.ORANGE: "#F0B429",
-            Hue.PURPLE: "#E19BC1",
-            Hue.GREY: "#A3ADBB",
-        },
-    ),
+    "light": Theme("#FFFFFF", "#1F2937", "#5B6472", "#9CA3AF", "#E5E7EB", "#E8ECF2", "#C22525", _hues(0), _hues(1)),
+    "dark": Theme("#12171F", "#E5E9F0", "#A3ADBB", "#5A6575", "#28303C", "#202936", "#FF7B72", _hues(2), _hues(3)),
 }
 
 

@@ -1,5 +1,6 @@
 """Figures of the couplings: friction map, loads, motion, thrust and losses; sleeve orbit; recommended crowning."""
 
+from dataclasses import replace
 from math import degrees, exp, inf, log
 
 import numpy as np
@@ -23,55 +24,50 @@ from app.figures.data import (
     values,
 )
 from app.figures.declaration import Declaration, present
+from app.figures.parts import curve
 from app.figures.units import UM, axis
 from app.figures.wording import number, percent
-from solvers.coupling.crowning import Recommendation
-from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
+from solvers.coupling.crowning import CrowningScan, Recommendation
+from solvers.coupling.inputs import CouplingDesign, CouplingInputs, RecommendationInputs
 from solvers.coupling.lubrication import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES, friction_regime
-from solvers.coupling.results import CouplingResult, KinematicCurves, LoadCurves, OrbitResult
+from solvers.coupling.results import (
+    AxialThrust,
+    CouplingResult,
+    InertiaForce,
+    KinematicCurves,
+    LoadCurves,
+    Lubrication,
+    Orbit,
+    OrbitResult,
+)
 
+TINTS = {"full": Hue.GREEN, "unstable": Hue.PURPLE, "transition": Hue.ORANGE, "boundary": Hue.VERMILLION}
 MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}
 
 
 def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
     """Supply of oil against strength of film, with the nine areas and the distance to the next."""
     lubrication = result.lubrication
-    regime = lubrication.regime
-    overlap, capacity = _shown(lubrication.contact_overlap), _shown(lubrication.load_capacity_coefficient)
-    x = Axis(
-        "contact surface overlap Pu (right: worse supply of oil)",
-        log=True,
-        limits=_around("overlap", overlap),
-        ticks=_ticks(*OVERLAP_BOUNDARIES),
-    )
-    y = Axis(
-        "load capacity coefficient Tr (up: stronger film)",
-        log=True,
-        limits=_around("capacity", capacity),
-        ticks=_ticks(*CAPACITY_BOUNDARIES),
-    )
-    assert x.limits is not None
-    assert y.limits is not None
-    at = min(max(overlap, x.limits[0]), x.limits[1]), min(max(capacity, y.limits[0]), y.limits[1])
+    regime, found = lubrication.regime, (lubrication.contact_overlap, lubrication.load_capacity_coefficient)
+    overlap, capacity = (inf if each is None else each for each in found)  # at the edge of the map
+    across, up = _around("overlap", overlap), _around("capacity", capacity)
+    x = axis(Lubrication, "contact_overlap", log=True, limits=across, ticks=_ticks(*OVERLAP_BOUNDARIES))
+    y = axis(Lubrication, "load_capacity_coefficient", log=True, limits=up, ticks=_ticks(*CAPACITY_BOUNDARIES))
+    x = replace(x, title=f"{x.title} (right: worse supply of oil)")
+    y = replace(y, title=f"{y.title} (up: stronger film)")
+    at = min(max(overlap, across[0]), across[1]), min(max(capacity, up[0]), up[1])
     distance = regime.distance_to_boundary
     away = "" if distance is None else f", a factor {number(exp(distance))} from the next area"
-    return Figure(
-        finding=f"area {regime.area}, {regime.name}{away}; μ = {number(lubrication.friction_coefficient)}",
-        panels=(
-            Panel(
-                x=x,
-                y=y,
-                areas=_areas(x.limits, y.limits),
-                lines=() if distance is None else (_way_out(*at, distance),),
-                marks=(Mark(*at, _at(lubrication.contact_overlap, lubrication.load_capacity_coefficient)),),
-            ),
-        ),
+    texts = ("∞" if value is None else number(value) for value in found)
+    panel = Panel(
+        x=x,
+        y=y,
+        areas=_areas(across, up),
+        lines=() if distance is None else (_way_out(*at, distance),),
+        marks=(Mark(*at, "Pu = {}\nTr = {}".format(*texts)),),
     )
-
-
-def _shown(coordinate: float | None) -> float:
-    """A coordinate without an end stands at the edge of the map."""
-    return inf if coordinate is None else coordinate
+    finding = f"area {regime.area}, {regime.name}{away}; μ = {number(lubrication.friction_coefficient)}"
+    return Figure(finding, (panel,))
 
 
 def _around(which: str, value: float) -> tuple[float, float]:
@@ -89,11 +85,6 @@ def _ticks(low: float, high: float) -> tuple[float, ...]:
     return tuple(sorted({low, high, *far}))
 
 
-def _at(overlap: float | None, capacity: float | None) -> str:
-    texts = ("∞" if value is None else number(value) for value in (overlap, capacity))
-    return "Pu = {}\nTr = {}".format(*texts)
-
-
 def _areas(x: tuple[float, float], y: tuple[float, float]) -> tuple[Area, ...]:
     """The nine areas with what the model itself says of each."""
     columns = list(zip((x[0], *OVERLAP_BOUNDARIES), (*OVERLAP_BOUNDARIES, x[1]), strict=True))
@@ -103,10 +94,11 @@ def _areas(x: tuple[float, float], y: tuple[float, float]) -> tuple[Area, ...]:
 
 def _one_area(x: tuple[float, float], y: tuple[float, float]) -> Area:
     regime = friction_regime((x[0] * x[1]) ** 0.5, (y[0] * y[1]) ** 0.5)
-    band = _band(regime.friction_min, regime.friction_max)
     words = {"transition from mixed to boundary lubrication": "transition", "mixed lubrication, unstable": "unstable"}
     name = words.get(regime.name, regime.name.replace(" lubrication", "").replace("predominantly ", ""))
-    return Area(*x, *y, "\n".join([regime.area, *name.split(" or ", 1)[:1], band]).strip(), _tint(regime.name))
+    texts = (regime.area, name.partition(" or ")[0], _band(regime.friction_min, regime.friction_max))
+    hue = next((hue for word, hue in TINTS.items() if word in regime.name), Hue.SKY)
+    return Area(*x, *y, "\n".join(texts).strip(), hue)
 
 
 def _band(low: float | None, high: float | None) -> str:
@@ -115,18 +107,6 @@ def _band(low: float | None, high: float | None) -> str:
     if low is None or high is None:
         return f"μ < {high:g}" if high is not None else f"μ > {low:g}"
     return f"μ ≈ {low:g}" if low == high else f"μ {low:g} to {high:g}"
-
-
-def _tint(name: str) -> Hue:
-    for word, hue in (
-        ("full", Hue.GREEN),
-        ("unstable", Hue.PURPLE),
-        ("transition", Hue.ORANGE),
-        ("boundary", Hue.VERMILLION),
-    ):
-        if word in name:
-            return hue
-    return Hue.SKY
 
 
 def _way_out(overlap: float, capacity: float, distance: float) -> Line:
@@ -142,9 +122,10 @@ def _reference(x: list[float], y: list[float]) -> Line:
     return Line("to the next area", values(x), values(y), Hue.GREY, Role.REFERENCE, named=False)
 
 
-ROTOR = Axis(
-    "rotor angle θ", "°", limits=(0.0, 360.0), ticks=(0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0, 360.0)
-)
+QUARTERS = tuple(45.0 * each for each in range(9))
+ROTOR = axis(Orbit, "rotor_angle", limits=(0.0, 360.0), ticks=QUARTERS)
+TOOTH = Axis("tooth position (tilt at 90° and 270°)", "°", limits=(0.0, 360.0), ticks=QUARTERS, symbol="φ")
+TILTS = (Span(82.0, 98.0, ""), Span(262.0, 278.0, ""))
 ORBIT_SOURCE = "Pahl 1978, Fig. 5"
 CONSTRAINTS = {
     "contact_overlap": "the overlap cannot fall below 1",
@@ -157,39 +138,32 @@ CONSTRAINTS = {
 
 def orbit(_: CouplingInputs, result: OrbitResult) -> Figure:
     """Path of the sleeve centre in equal axes."""
-    path = result.orbit
+    path, largest = result.orbit, number(result.max_displacement, "µm")
     x, y = values([*path.x, path.x[0]]), values([*path.y, path.y[0]])
     farthest = int(np.argmax(np.hypot(x, y)))
-    largest = result.max_displacement
     panel = Panel(
-        x=Axis("displacement in the pivot direction at θ = 0", "µm", magnitude=False),
-        y=Axis("displacement along the tilt axis", "µm", magnitude=False),
+        x=axis(Orbit, "x", magnitude=False),
+        y=axis(Orbit, "y", magnitude=False),
         lines=(Line("path", x, y, named=False),),
-        marks=(Mark(float(x[farthest]), float(y[farthest]), number(largest, "µm")),),
+        marks=(Mark(float(x[farthest]), float(y[farthest]), largest),),
         levels=(Level(0.0, ""), Level(0.0, "", vertical=True)),
         equal=True,
     )
-    finding = f"the centre strays up to {number(largest, 'µm')} from the axis"
-    return Figure(finding, (panel,))
+    return Figure(f"the centre strays up to {largest} from the axis", (panel,))
 
 
 def inertia_force(_: CouplingInputs, result: OrbitResult) -> Figure:
     """Inertia force of the sleeve in both directions over the revolution."""
     path, force = result.orbit, result.inertia_force
     angle = values([*path.rotor_angle, path.rotor_angle[0] + 360.0])
-    lines = []
-    for title, items, hue in (("along x", force.x, Hue.BLUE), ("along y", force.y, Hue.VERMILLION)):
-        curve = items
-        lines.append(Line(title, angle, values([*curve, curve[0]]), hue))
+    directions = (("along x", force.x, Hue.BLUE), ("along y", force.y, Hue.VERMILLION))
+    lines = [Line(title, angle, values([*curve, curve[0]]), hue) for title, curve, hue in directions]
     strongest = max(lines, key=lambda line: float(np.abs(line.y).max()))
     at = int(np.argmax(np.abs(strongest.y)))
     value = float(strongest.y[at])
-    panel = Panel(
-        x=ROTOR,
-        y=Axis("inertia force of the sleeve mass of one mesh", "N", magnitude=False),
-        lines=tuple(lines),
-        marks=(Mark(float(angle[at]), value, number(value, "N"), strongest.hue),),
-    )
+    y = axis(InertiaForce, "x", "inertia force of the sleeve mass of one mesh", magnitude=False, symbol="F")
+    mark = Mark(float(angle[at]), value, number(value, "N"), strongest.hue)
+    panel = Panel(x=ROTOR, y=y, lines=tuple(lines), marks=(mark,))
     return Figure(f"up to {number(abs(value), 'N')} {strongest.title}", (panel,))
 
 
@@ -202,8 +176,8 @@ def orders(_: CouplingInputs, result: OrbitResult) -> Figure:
         Bars("along y", order, values(force.harmonics_y), Hue.VERMILLION),
     )
     panel = Panel(
-        x=Axis("order of the revolution (0: the mean)", magnitude=False, ticks=tuple(order.tolist())),
-        y=Axis("amplitude of the inertia force", "N"),
+        x=Axis("order of the revolution (0: the mean)", magnitude=False, ticks=tuple(order.tolist()), symbol="k"),
+        y=Axis("amplitude of the inertia force", "N", symbol="F_k"),
         bars=series,
     )
     both = np.hypot(series[0].height, series[1].height)[1:]
@@ -216,28 +190,27 @@ def crowning_scan(inputs: RecommendationInputs, result: Recommendation) -> Figur
     scan = result.scan
     if not scan.crowning_ratio.size:
         raise NoFigure("no_contact_to_scan", "No crowning ratio gives a contact that can be computed")
-    ratio, feasible = values(scan.crowning_ratio), values([float(each) for each in scan.feasible])
-    x = Axis("crowning ratio ε (left: heavily, right: slightly crowned)", log=True)
-    best = result.crowning_ratio
-    capacity, overlap = values(scan.min_load_capacity_coefficient), values(scan.max_contact_overlap)
-    window = _window(ratio, feasible, best)
+    ratio, best = values(scan.crowning_ratio), result.crowning_ratio
+    x = axis(CrowningScan, "crowning_ratio", "crowning ratio (left: heavily, right: slightly crowned)", log=True)
+    inside = [*ratio[np.array(scan.feasible, dtype=bool)].tolist(), *([] if best is None else [best])]
+    window = (Span(min(inside), max(inside), "feasible"),) if inside else ()
     choice = () if best is None else (Level(best, "", vertical=True),)
+    capacity = axis(CrowningScan, "min_load_capacity_coefficient", log=True)
+    capacity = replace(capacity, limits=_decades_shown(values(scan.min_load_capacity_coefficient)))
+    overlap = axis(CrowningScan, "max_contact_overlap", log=True)
     boundaries = tuple(Level(each, f"Tr = {each:g}") for each in CAPACITY_BOUNDARIES)
+    supply = Level(OVERLAP_BOUNDARIES[0], "Pu = 1: supply of oil ends", limit=True)
+    least = curve(x, capacity, ratio, scan.min_load_capacity_coefficient, levels=(*boundaries, *choice), spans=window)
     panels = (
-        Panel(
-            x=x,
-            y=Axis("least load capacity coefficient Tr over the range", log=True, limits=_decades_shown(capacity)),
-            lines=(Line("least Tr", ratio, capacity, named=False),),
-            levels=(*boundaries, *choice),
-            spans=window,
-            marks=_chosen(best, result.min_load_capacity_coefficient),
-        ),
-        Panel(
-            x=x,
-            y=Axis("largest overlap Pu over the range", log=True),
-            lines=(Line("largest Pu", ratio, overlap, Hue.GREEN, named=False),),
-            levels=(Level(OVERLAP_BOUNDARIES[0], "Pu = 1: supply of oil ends", limit=True), *choice),
-            spans=tuple(Span(span.start, span.stop, "") for span in window),
+        replace(least, marks=_chosen(best, result.min_load_capacity_coefficient)),
+        curve(
+            x,
+            overlap,
+            ratio,
+            scan.max_contact_overlap,
+            Hue.GREEN,
+            levels=(supply, *choice),
+            spans=tuple(replace(span, name="") for span in window),
         ),
     )
     low, high = degrees(inputs.min_misalignment), degrees(inputs.max_misalignment)
@@ -248,11 +221,6 @@ def _chosen(best: float | None, capacity: float | None) -> tuple[Mark, ...]:
     if best is None or capacity is None:
         return ()
     return (Mark(best, capacity, f"ε = {number(best)}, Tr = {number(capacity)}"),)
-
-
-def _window(ratio: Values, feasible: Values, best: float | None) -> tuple[Span, ...]:
-    inside = [*ratio[feasible > 0.0].tolist(), *([] if best is None else [best])]
-    return (Span(min(inside), max(inside), "feasible"),) if inside else ()
 
 
 def _decades_shown(capacity: Values) -> tuple[float, float]:
@@ -280,37 +248,28 @@ RECOMMENDATION_FIGURES = (
 )
 
 
-QUARTERS = (0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0, 360.0)
-TOOTH = Axis("tooth position φ (tilt at 90° and 270°)", "°", limits=(0.0, 360.0), ticks=QUARTERS, magnitude=False)
-TILTS = (Span(82.0, 98.0, ""), Span(262.0, 278.0, ""))
-
-
-def _tilt_deg(inputs: CouplingInputs) -> float:
-    """Tilt of hub against sleeve [°], given or by the offset of the shafts."""
-    return degrees(inputs.operation.misalignment)
-
-
 def tooth_loads(inputs: CouplingInputs, result: CouplingResult) -> Figure:
     """Tangential force of each tooth, mean and largest; the pitch errors behind it."""
     load = result.load_distribution
     curves = load.curves
     angle, force = values(curves.angle), values(curves.tangential_force)
-    largest = int(np.argmax(force))
+    largest, mean = int(np.argmax(force)), load.mean_tangential_force
     teeth = f"{load.loaded_teeth} of {force.size} teeth carry"
-    tilt = f"at {number(abs(_tilt_deg(inputs)))}° tilt"
+    tilt = f"at {number(abs(degrees(inputs.operation.misalignment)))}° tilt"
+    bars = Bars("tangential force", angle, force, Hue.BLUE, strong=largest)
     panels = [
         Panel(
             x=TOOTH,
             y=axis(LoadCurves, "tangential_force", "tangential force"),
-            bars=(Bars("tangential force", angle, force, Hue.BLUE, strong=largest),),
-            levels=(Level(load.mean_tangential_force, f"mean {number(load.mean_tangential_force, 'N')}"),),
+            bars=(bars,),
+            levels=(Level(mean, f"mean {number(mean, 'N')}"),),
             marks=(Mark(float(angle[largest]), float(force[largest]), number(float(force[largest]), "N")),),
         )
     ]
     if inputs.coupling.pitch_errors is not None:
-        error = Axis("pitch error (positive: carries more)", "µm", magnitude=False)
-        bars = Bars("pitch error", angle, values(np.array(inputs.coupling.pitch_errors) / UM), Hue.VERMILLION)
-        panels.append(Panel(x=TOOTH, y=error, bars=(bars,)))
+        error = axis(CouplingDesign, "pitch_errors", "pitch error (positive: carries more)", magnitude=False)
+        errors = Bars("pitch error", angle, values(np.array(inputs.coupling.pitch_errors) / UM), Hue.VERMILLION)
+        panels.append(Panel(x=TOOTH, y=error, bars=(errors,)))
     concentration = load.load_concentration
     share = "" if concentration is None else f"; the highest loaded takes {number(concentration)} times the mean {tilt}"
     return Figure(f"{teeth}{share}", tuple(panels))
@@ -318,33 +277,31 @@ def tooth_loads(inputs: CouplingInputs, result: CouplingResult) -> Figure:
 
 def tooth_motion(_: CouplingInputs, result: CouplingResult) -> Figure:
     """What wears, what builds the film and what loads a tooth over a revolution."""
-    kinematics, limits = result.kinematics, result.limits
-    curves = kinematics.curves
-    angle, limit = values(curves.angle), limits.sliding_velocity_limit
-    sliding = values(curves.sliding_velocity)
-    share = kinematics.max_sliding_velocity / limit
-    top = int(np.argmax(sliding))
-    panels = (
-        Panel(
-            x=TOOTH,
-            y=axis(KinematicCurves, "sliding_velocity", "sliding velocity, that wears"),
-            lines=(Line("sliding velocity", angle, sliding, Hue.VERMILLION, named=False),),
-            levels=(Level(limit, f"lasting limit {number(limit, 'm/s')}", limit=True),),
-            marks=(Mark(float(angle[top]), float(sliding[top]), number(float(sliding[top]), "m/s"), Hue.VERMILLION),),
+    kinematics, limit = result.kinematics, result.limits.sliding_velocity_limit
+    panels = tuple(
+        curve(
+            TOOTH,
+            axis(KinematicCurves, name, title),
+            kinematics.curves.angle,
+            getattr(kinematics.curves, name),
+            hue,
+            marked=bool(levels),
+            levels=levels,
             spans=TILTS,
-        ),
-        _motion("hydrodynamic velocity, that builds the film", "m/s", angle, curves.hydrodynamic_velocity, Hue.BLUE),
-        _motion(
-            "tangential displacement, that loads the tooth", "µm", angle, curves.tangential_displacement, Hue.GREEN
-        ),
+        )
+        for name, title, hue, levels in (
+            (
+                "sliding_velocity",
+                "sliding velocity, that wears",
+                Hue.VERMILLION,
+                (Level(limit, f"lasting limit {number(limit, 'm/s')}", limit=True),),
+            ),
+            ("hydrodynamic_velocity", "hydrodynamic velocity, that builds the film", Hue.BLUE, ()),
+            ("tangential_displacement", "tangential displacement, that loads the tooth", Hue.GREEN, ()),
+        )
     )
-    finding = f"sliding reaches {percent(share)} of its lasting limit; least film velocity near the tilt positions"
-    return Figure(finding, panels)
-
-
-def _motion(title: str, unit: str, angle: Values, items: Values, hue: Hue) -> Panel:
-    line = Line(title.split(",", maxsplit=1)[0], angle, values(items), hue, named=False)
-    return Panel(x=TOOTH, y=Axis(title, unit), lines=(line,), spans=TILTS)
+    share = percent(kinematics.max_sliding_velocity / limit)
+    return Figure(f"sliding reaches {share} of its lasting limit; least film velocity near the tilt positions", panels)
 
 
 def contact_track(_: CouplingInputs, result: CouplingResult) -> Figure:
@@ -356,7 +313,7 @@ def contact_track(_: CouplingInputs, result: CouplingResult) -> Figure:
     reach = float(np.abs(position).max()) + half
     panel = Panel(
         x=TOOTH,
-        y=Axis("position on the hub tooth from its middle", "mm", magnitude=False),
+        y=axis(KinematicCurves, "contact_position", "position on the hub tooth from its middle", magnitude=False),
         lines=(Line("middle", angle, position, Hue.BLUE),),
         ribbons=(Ribbon("contact", angle, position - half, position + half),),
         levels=(Level(edge, "edge of the face", limit=True), Level(-edge, "edge of the face", limit=True)),
@@ -386,7 +343,7 @@ def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
     limit = Level(thrust.coaxial_limit, "coaxial limit", limit=True, vertical=True)
     motion = Panel(
         x=TOOTH,
-        y=Axis("velocity along the tooth", "m/s"),
+        y=axis(KinematicCurves, "sliding_velocity", "velocity along the tooth"),
         lines=(Line("sliding by tilt", values(curves.angle), sliding, Hue.VERMILLION),),
         levels=(Level(axial, f"axial velocity {number(axial * 1e3, 'mm/s')}"),) if axial else (),
     )
@@ -403,7 +360,7 @@ def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
     finding = f"{share}; {state}" if axial or thrust.indeterminate else share
     return Figure(
         finding,
-        (Panel(x=Axis("thrust", "N", symbol="F_ax"), y=Axis("thrust"), rows=tuple(rows), levels=(limit,)), motion),
+        (Panel(x=axis(AxialThrust, "force", "thrust"), y=Axis("thrust"), rows=tuple(rows), levels=(limit,)), motion),
     )
 
 
@@ -419,8 +376,8 @@ def losses(_: CouplingInputs, result: CouplingResult) -> Figure:
     bending = number(loss.hub_bending_moment, "N m")
     finding = f"{number(loss.friction_power, 'W')} of heat and {bending} of bending in one mesh"
     panels = (
-        Panel(x=Axis("moment", "N m"), y=Axis("moment"), rows=moments),
-        Panel(x=Axis("power", "W"), y=Axis("power"), rows=power),
+        Panel(x=Axis("moment", "N m", symbol="M"), y=Axis("moment"), rows=moments),
+        Panel(x=Axis("power", "W", symbol="P"), y=Axis("power"), rows=power),
     )
     return Figure(finding, panels)
 

@@ -64,6 +64,7 @@ def contact_temperature(inputs: DriveTrainInputs, result: DriveTrainResult) -> F
 
 OWN = "own derivation"
 ROUND = np.linspace(0.0, 2.0 * pi, 181)
+WALLS = -1.05, 1.05  # of the clearance, with some room
 NEWTONS = 1e3  # per kilonewton
 NOISE = 1e-9
 PARTS = (
@@ -224,11 +225,15 @@ def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
                 continue
             x, y = (float(each) / given.radial_clearance for each in bearing.displacement)
             hue = (Hue.BLUE, Hue.VERMILLION)[index]
-            lines.append(Line(f"bearing {index + 1}", *_locus(x, y, bearing.reaction), hue))
+            named = name == "wheel"  # beside it
+            lines.append(Line(f"bearing {index + 1}", *_locus(x, y, bearing.reaction), hue, named=named))
             marks.append(Mark(x, y, f"ε = {number(bearing.eccentricity_ratio)}", hue))
         if lines:
             wall = Line("clearance", values(np.cos(ROUND)), values(np.sin(ROUND)), Hue.GREY, named=False)
-            across, up = (Axis(f"displacement over clearance, along {way}", magnitude=False) for way in "XY")
+            across, up = (
+                Axis(f"displacement over clearance, along {way}", magnitude=False, limits=WALLS, symbol=symbol)
+                for way, symbol in (("X", "u_B/c"), ("Y", "v_B/c"))
+            )
             panels.append(
                 Panel(x=across, y=up, title=f"{name} shaft", lines=(wall, *lines), marks=tuple(marks), equal=True)
             )

@@ -1,11 +1,14 @@
 """Figures of one lubricated line contact."""
 
-import numpy as np
+from dataclasses import replace
 
-from app.figures.data import Axis, Figure, Hue, Line, Map, Mark, NoFigure, Panel, Role, Row, Span, values
+from app.figures.data import Axis, Figure, Hue, Line, Map, NoFigure, Panel, Role, Row, Span, values
 from app.figures.declaration import Declaration, present
+from app.figures.parts import curve, extreme, extreme_of_map
+from app.figures.units import axis
 from app.figures.wording import number, percent
 from solvers.contact.ehl import LineContactInputs, LineContactResult
+from solvers.contact.ehl.results import ContactCurves, ContactField
 
 ACROSS = "position across the contact, along the flow"
 THICK = 3.0  # film beyond so many central films is inlet and outlet, not contact
@@ -13,38 +16,20 @@ THICK = 3.0  # film beyond so many central films is inlet and outlet, not contac
 
 def contact(_: LineContactInputs, result: LineContactResult) -> Figure:
     """Pressure with Hertz, film and temperatures across the contact."""
-    curves, film, hertz = present(result.curves), result.film, result.hertz
-    x_mm = values(curves.x)
-    x = Axis(ACROSS, "mm", magnitude=False)
-    zone = (Span(-hertz.half_width, hertz.half_width, "Hertz contact"),)
-    plain = (Span(-hertz.half_width, hertz.half_width, ""),)
-    thickness, central = values(curves.film), present(film.central)
-    thinnest = int(np.argmin(thickness))
-    ceiling = THICK * central
+    curves, film, half = present(result.curves), result.film, result.hertz.half_width
+    x_mm, x = values(curves.x), axis(ContactCurves, "x", ACROSS, magnitude=False)
+    zone = Span(-half, half, "Hertz contact")
+    plain = (replace(zone, name=""),)
+    central = present(film.central)
+    thickness = axis(ContactCurves, "film", "film thickness", limits=(0.0, THICK * central))
+    pressures = (
+        Line("film", x_mm, values(curves.pressure)),
+        Line("Hertz", x_mm, values(curves.hertz_pressure), Hue.GREY, Role.REFERENCE),
+    )
+    gap = curve(x, thickness, curves.x, curves.film, Hue.GREEN, spans=plain)
     panels = [
-        Panel(
-            x=x,
-            y=Axis("pressure", "MPa", symbol="p"),
-            lines=(
-                Line("film", x_mm, values(curves.pressure)),
-                Line("Hertz", x_mm, values(curves.hertz_pressure), Hue.GREY, Role.REFERENCE),
-            ),
-            spans=zone,
-        ),
-        Panel(
-            x=x,
-            y=Axis("film thickness", "µm", symbol="h", limits=(0.0, ceiling)),
-            lines=(Line("film thickness", x_mm, thickness, Hue.GREEN, named=False),),
-            marks=(
-                Mark(
-                    float(x_mm[thinnest]),
-                    float(thickness[thinnest]),
-                    number(float(thickness[thinnest]), "µm"),
-                    Hue.GREEN,
-                ),
-            ),
-            spans=plain,
-        ),
+        Panel(x=x, y=axis(ContactCurves, "pressure", "pressure"), lines=pressures, spans=(zone,)),
+        replace(gap, marks=extreme(gap.lines, thickness.unit, least=True)),
     ]
     finding = f"film {number(central, 'µm')} in the middle, {number(present(film.minimum), 'µm')} at the thinnest"
     if result.temperature is not None:
@@ -56,7 +41,14 @@ def contact(_: LineContactInputs, result: LineContactResult) -> Figure:
                 ("surface 2", curves.surface_2_temperature, Hue.SKY),
             )
         )
-        panels.append(Panel(x=x, y=Axis("temperature", "°C", symbol="θ", magnitude=False), lines=lines, spans=plain))
+        panels.append(
+            Panel(
+                x=x,
+                y=axis(ContactCurves, "mid_film_temperature", "temperature", magnitude=False, symbol="θ"),
+                lines=lines,
+                spans=plain,
+            )
+        )
         finding += f"; up to {number(result.temperature.film_max, '°C')}"
     if result.friction is not None:
         finding += f"; μ = {number(result.friction.coefficient)}"
@@ -68,23 +60,18 @@ def film_temperature(_: LineContactInputs, result: LineContactResult) -> Figure:
     field = result.field
     if field is None or result.temperature is None:
         raise _isothermal()
-    grid = field.temperature.T
-    row, column = np.unravel_index(int(np.argmax(grid)), grid.shape)
-    hottest = float(grid[row, column])
+    grid, shown = field.temperature.T, axis(ContactField, "temperature", "temperature")
     chart = Map(
-        "temperature",
-        "°C",
+        shown.title,
+        shown.unit,
         values(field.x),
         values(field.film_fraction),
         grid,
-        range=(float(grid.min()), hottest),
+        range=(float(grid.min()), float(grid.max())),
     )
-    panel = Panel(
-        x=Axis(ACROSS, "mm", magnitude=False),
-        y=Axis("height in the film (0: surface 1, 1: surface 2)"),
-        map=chart,
-        marks=(Mark(float(chart.x[column]), float(chart.y[row]), number(hottest, "°C")),),
-    )
+    x = axis(ContactField, "x", ACROSS, magnitude=False)
+    y = axis(ContactField, "film_fraction", "height in the film (0: surface 1, 1: surface 2)")
+    panel = Panel(x=x, y=y, map=chart, marks=(extreme_of_map(chart),))
     surfaces = result.temperature
     finding = (
         f"film to {number(surfaces.film_max, '°C')}, surface 1 to {number(surfaces.surface_1_max, '°C')}, "
@@ -109,7 +96,8 @@ def heat(_: LineContactInputs, result: LineContactResult) -> Figure:
         Row("carried out by the oil", books.convected, Hue.GREEN),
     )
     ends = [0.0, *(row.value for row in (*source, *sink))]
-    x = Axis("heat per length of contact", unit, limits=(min(ends), max(ends)) if max(ends) > min(ends) else None)
+    limits = (min(ends), max(ends)) if max(ends) > min(ends) else None
+    x = Axis("heat per length of contact", unit, symbol="q", limits=limits)
     made = books.generated + books.compression
     shares = [row.value / made for row in sink[:2]] if made else [0.0, 0.0]
     taken = f"surface 1 takes {percent(shares[0])}, surface 2 {percent(shares[1])}"

@@ -26,7 +26,7 @@ from app.figures.data import (
     values,
 )
 from app.figures.declaration import Declaration, present
-from app.figures.parts import curve, extreme
+from app.figures.parts import curve, extreme, extreme_of_map
 from app.figures.sketches import points_of_contact, transverse_section
 from app.figures.units import MM, axis
 from app.figures.wording import number, percent
@@ -73,11 +73,10 @@ def over_flank(
     mapped = Map(shown.title, shown.unit, y, values(flank.profile_fraction), grid, range=ends)
     marks: tuple[Mark, ...] = ()
     if largest:
-        row, column = np.unravel_index(int(np.nanargmax(grid)), grid.shape)
-        place = (float(y[column]), float(flank.profile_fraction[row]))
+        mark = replace(extreme_of_map(mapped), text=number(largest, shown.unit or ""))
         if at is not None:
-            place = at.face_fraction * width / MM, at.profile_fraction
-        marks = (Mark(*place, number(largest, shown.unit or "")),)
+            mark = replace(mark, x=at.face_fraction * width / MM, y=at.profile_fraction)
+        marks = (mark,)
     return Panel(x=face(width), y=PROFILE, map=mapped, marks=marks)
 
 

@@ -1,6 +1,5 @@
 """Figures of pumping between the teeth: over the stroke, along the face, over face and angle; over the speed."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -25,11 +24,13 @@ from app.figures.data import (
     values,
 )
 from app.figures.declaration import Declaration, present
-from app.figures.models.load_distribution import face
-from app.figures.units import MM, RPM
+from app.figures.models.load_distribution import face, section
+from app.figures.parts import curve, extreme, extreme_of_map
+from app.figures.units import MM, RPM, axis
 from app.figures.wording import number, ratio
-from solvers.pumping.inputs import ChokingInputs, PumpingInputs, PumpingSetup
-from solvers.pumping.results import ChokingCurves, ChokingSpeeds, GasField, PumpingResult, SpacesResult
+from solvers.pumping.inputs import ChokingInputs, Flow, PumpingInputs, PumpingSetup
+from solvers.pumping.results import ChokingCurves, ChokingSpeeds, FaceProfile, GasField, PumpingResult, SpacesResult
+from solvers.pumping.space.stroke import StrokeTable
 from solvers.pumping.speed_scan import speed_scan
 
 
@@ -47,126 +48,60 @@ def critical_ratio(setup: PumpingSetup) -> float:
 
 def pressure_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
     """Pressure over ambient pressure; the ratio at which clearances become sonic."""
-    panels = _panels(
-        inputs,
-        result,
-        lambda field: field.pressure_ratio,
-        title="pressure ratio",
-        scale=Scale.RATIO,
-        critical=(Critical(critical_ratio(inputs.setup), f"sonic {number(critical_ratio(inputs.setup))}"),),
-    )
+    sonic = critical_ratio(inputs.setup)
+    panels = _maps(inputs, result, "pressure_ratio", Scale.RATIO, (Critical(sonic, f"sonic {number(sonic)}"),))
     peak = max(space.peak_pressure_ratio for _, space in spaces(result))
     least = min(space.min_pressure_ratio for _, space in spaces(result))
-    finding = f"highest {ratio(peak)}, lowest {ratio(least)} of ambient pressure"
-    return Figure(finding, panels, beside=True)
+    return Figure(f"highest {ratio(peak)}, lowest {ratio(least)} of ambient pressure", panels, beside=True)
 
 
 def mach_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
     """Axial Mach number, signed towards the end that meshes last; sonic both ways."""
-    panels = _panels(
-        inputs,
-        result,
-        lambda field: field.axial_mach,
-        title="axial Mach number",
-        scale=Scale.SIGNED,
-        critical=(Critical(1.0, "sonic"), Critical(-1.0, "sonic")),
-    )
+    panels = _maps(inputs, result, "axial_mach", Scale.SIGNED, (Critical(1.0, "sonic"), Critical(-1.0, "sonic")))
     peak = max(space.peak_axial_mach for _, space in spaces(result))
     choked = [gear for gear, space in spaces(result) if space.axial_choked]
     state = f"an end of the {' and '.join(choked)} becomes sonic" if choked else "no end becomes sonic"
-    finding = f"up to {number(peak)} with the exit faces; {state}"
-    return Figure(finding, panels, beside=True)
+    return Figure(f"up to {number(peak)} with the exit faces; {state}", panels, beside=True)
 
 
 def temperature_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
     """Stagnation temperature above ambient."""
-    panels = _panels(
-        inputs, result, lambda field: field.temperature_rise, title="temperature rise", unit="K", scale=Scale.SIGNED
-    )
+    panels = _maps(inputs, result, "temperature_rise", Scale.SIGNED)
     peak = max(float(np.nanmax(panel.map.values)) for panel in panels if panel.map is not None)
     finding = f"up to {number(peak, 'K')} above ambient for a moment; the teeth see the mean over the stroke"
     return Figure(finding, panels, beside=True)
 
 
-def _panels(
-    inputs: PumpingInputs,
-    result: PumpingResult,
-    read: Callable[[GasField], Values | None],
-    *,
-    title: str,
-    scale: Scale,
-    unit: str | None = None,
-    critical: tuple[Critical, ...] = (),
+def _maps(
+    inputs: PumpingInputs, result: PumpingResult, name: str, scale: Scale, critical: tuple[Critical, ...] = ()
 ) -> tuple[Panel, ...]:
-    """A map for each gear's spaces, all in the same colours, extremes marked."""
+    """A map of a part of the field for each gear's spaces, all in the same colours, extremes marked."""
     fields = [(gear, space.field) for gear, space in spaces(result)]
-    grids = {gear: grid for gear, field in fields if (grid := read(field)) is not None}
-    if len(grids) < len(fields):
+    grids: list[Values] = [getattr(field, name) for _, field in fields]
+    if any(grid is None for grid in grids):
         raise _without_temperatures()
-    ends = min(float(grid.min()) for grid in grids.values()), max(float(grid.max()) for grid in grids.values())
+    shown, width = axis(GasField, name), face(inputs.setup.gears.face_width)
+    # Of a ratio the smallest value tells as much as the largest.
+    wording, ends = (ratio, (False, True)) if scale is Scale.RATIO else (number, (False,))
     panels = []
-    for gear, field in fields:
-        chart = Map(
-            title=title,
-            unit=unit,
-            x=values(field.position),
-            y=values(field.angle),
-            values=grids[gear],
-            scale=scale,
-            critical=critical,
-            range=_around(scale, *ends),
-            bar=gear == fields[-1][0],
+    for (gear, field), grid in zip(fields, grids, strict=True):
+        chart = Map(shown.title, shown.unit, values(field.position), values(field.angle), grid, scale, critical)
+        chart = replace(chart, range=replace(chart, values=np.array(grids).ravel()).ends, bar=gear == fields[-1][0])
+        panel = Panel(
+            x=width,
+            y=axis(GasField, "angle", f"angle of the {gear}", magnitude=False),
+            title=f"spaces of the {gear}",
+            map=chart,
+            marks=tuple(extreme_of_map(chart, wording, least=least) for least in ends),
+            spans=tuple(replace(groove, name="") for groove in _grooves(inputs)),
         )
-        panels.append(
-            Panel(
-                x=face(inputs.setup.gears.face_width),
-                y=Axis(f"angle of the {gear}", "°", magnitude=False),
-                title=f"spaces of the {gear}",
-                map=chart,
-                marks=_extremes(chart, scale),
-                spans=tuple(replace(groove, name="") for groove in _grooves(inputs)),
-            )
-        )
+        panels.append(panel)
     return tuple(panels)
-
-
-def _around(scale: Scale, low: float, high: float) -> tuple[float, float]:
-    """Ends of the colours: as far below as above 1 by ratio or 0 by difference."""
-    if scale is Scale.RATIO:
-        reach = max(high, 1.0 / max(low, 1e-3), 1.0001)
-        return 1.0 / reach, reach
-    reach = max(abs(low), abs(high), 1e-12)
-    return -reach, reach
-
-
-def _extremes(chart: Map, scale: Scale) -> tuple[Mark, ...]:
-    """The largest value, and the smallest of a ratio."""
-    places = [int(np.argmax(chart.values))] + ([int(np.argmin(chart.values))] if scale is Scale.RATIO else [])
-    marks = []
-    for place in places:
-        row, column = np.unravel_index(place, chart.values.shape)
-        value = float(chart.values[row, column])
-        text = ratio(value) if scale is Scale.RATIO else number(value, chart.unit or "")
-        marks.append(Mark(float(chart.x[column]), float(chart.y[row]), text))
-    return tuple(marks)
-
-
-MAPS = (
-    Declaration("pressure-map", "Pressure in the tooth spaces", "Milian 2004, Eqs. 1-4", pressure_map),
-    Declaration("mach-map", "Axial flow in the tooth spaces", "Milian 2004, Eq. 7", mach_map),
-    Declaration(
-        "temperature-map",
-        "Temperature in the tooth spaces",
-        "Milian 2004, Figs. 5, 6",
-        temperature_map,
-    ),
-)
 
 
 SPEEDS = 24
 BEYOND = 1.5  # times the highest choking speed, where the scan ends
 LOWEST = 0.25  # of that, where it starts
-TITLE, SOURCE = "Speeds at which the flow becomes sonic", "Milian 2004, Eq. 7"
 
 
 def scan(inputs: ChokingInputs, result: ChokingSpeeds) -> ChokingCurves:
@@ -179,32 +114,34 @@ def scan(inputs: ChokingInputs, result: ChokingSpeeds) -> ChokingCurves:
 
 
 def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves) -> Figure:
-    """Both against the limits of sonic flow, choking speeds marked."""
-    x = Axis("pinion speed", "1/min", magnitude=False, symbol="n₁")
-    speed, critical = values(curves.pinion_speed / RPM), critical_ratio(inputs.setup)
-    pressure, mach = values(curves.peak_pressure_ratio), values(curves.exit_mach)
-    speeds = dict(_choking(result))
+    """Both against the limits of sonic flow, choking speeds marked.
+
+    Gas dynamics: where the gas in the outermost slice is itself supersonic, its own Mach number stands in place of the
+    one that an expansion to ambient pressure would ask for, and which is larger. The curve bends there.
+    """
+    critical, speeds = critical_ratio(inputs.setup), dict(_choking(result))
+    speed, mach = values(curves.pinion_speed / RPM), values(curves.exit_mach)
+    x = axis(ChokingCurves, "pinion_speed", "pinion speed", magnitude=False)
+    demand = axis(ChokingCurves, "exit_mach", "Mach number that the ambient pressure asks for at the ends")
+    pressure = axis(ChokingCurves, "peak_pressure_ratio", "peak pressure over ambient pressure")
+    sonic = Level(1.0, "ends sonic", limit=True), Level(critical, f"clearances sonic, {number(critical)}", limit=True)
     panels = (
-        Panel(
-            x=x,
-            y=Axis("Mach number that the ambient pressure asks for at the ends"),
-            lines=(Line("exit Mach number", speed, mach, named=False),),
-            levels=(Level(1.0, "ends sonic", limit=True), *_at("ends", speeds["ends"])),
-        ),
-        Panel(
-            x=x,
-            y=Axis("peak pressure over ambient pressure", symbol="p/p₀"),
-            lines=(Line("peak pressure", speed, pressure, Hue.VERMILLION, named=False),),
-            levels=(
-                Level(critical, f"clearances sonic, {number(critical)}", limit=True),
-                *_at("clearances", speeds["clearances"]),
-            ),
+        curve(x, demand, speed, mach, levels=(sonic[0], *_at("ends", speeds["ends"]))),
+        curve(
+            x,
+            pressure,
+            speed,
+            curves.peak_pressure_ratio,
+            Hue.VERMILLION,
+            levels=(sonic[1], *_at("clearances", speeds["clearances"])),
         ),
     )
     limit = number(inputs.search_limit / RPM, "1/min")
     onsets = (f"not up to {limit}" if at is None else f"from {number(at, '1/min')}" for at in speeds.values())
-    texts = (f"{name} {onset}" for name, onset in zip(speeds, onsets, strict=True))
-    return Figure(f"sonic: {', '.join(texts)}", panels, unsolved=int(np.isnan(mach).sum()))
+    texts = ", ".join(f"{name} {onset}" for name, onset in zip(speeds, onsets, strict=True))
+    bend = inputs.setup.model.flow is Flow.GAS_DYNAMICS and np.nanmax(mach, initial=0.0) > 1.0
+    finding = f"sonic: {texts}" + ("; a bend above 1: from there the gas reaches an end supersonic" if bend else "")
+    return Figure(finding, panels, unsolved=int(np.isnan(mach).sum()))
 
 
 def _choking(result: ChokingSpeeds) -> tuple[tuple[str, float | None], ...]:
@@ -215,7 +152,9 @@ def _at(name: str, speed: float | None) -> tuple[Level, ...]:
     return () if speed is None else (Level(speed, f"{name}: {number(speed, '1/min')}", vertical=True),)
 
 
-CHOKING_FIGURES = (Declaration("choking", TITLE, SOURCE, choking, compute=scan),)
+CHOKING_FIGURES = (
+    Declaration("choking", "Speeds at which the flow becomes sonic", "Milian 2004, Eq. 7", choking, compute=scan),
+)
 
 
 HUES = {"pinion": Hue.BLUE, "wheel": Hue.VERMILLION}
@@ -225,30 +164,21 @@ NO_FLOW = 1e-9  # g/s
 def stroke(_: PumpingInputs, result: PumpingResult) -> Figure:
     """Section left by the mating tooth and its clearances; flanks in contact shaded."""
     gear, first = spaces(result)[0]
-    curves = first.stroke.curves
-    angle, area = values(curves.angle), values(curves.area)
-    contact = first.stroke.contact_start, first.stroke.contact_end
-    least = int(np.argmin(area))
-    x = Axis(f"angle of the {gear} from the line of centres", "°", magnitude=False)
-    section = Panel(
-        x=x,
-        y=Axis("area left by the mating tooth", "mm²", symbol="S_A"),
-        lines=(Line("area", angle, area, named=False),),
-        spans=(Span(*contact, "driving flanks in contact"),),
-        marks=(Mark(float(angle[least]), float(area[least]), number(float(area[least]), "mm²")),),
+    found, curves = first.stroke, first.stroke.curves
+    x = axis(StrokeTable, "angle", f"angle of the {gear} from the line of centres", magnitude=False)
+    area = axis(StrokeTable, "area", "area left by the mating tooth")
+    contact = Span(found.contact_start, found.contact_end, "driving flanks in contact")
+    section = curve(x, area, curves.angle, curves.area, spans=(contact,))
+    lines = (
+        Line("behind, L₁", values(curves.angle), values(curves.clearance_left), Hue.VERMILLION),
+        Line("ahead, L₂", values(curves.angle), values(curves.clearance_right), Hue.GREEN),
     )
-    clearances = Panel(
-        x=x,
-        y=Axis("radial clearance", "mm"),
-        lines=(
-            Line("behind, L₁", angle, values(curves.clearance_left), Hue.VERMILLION),
-            Line("ahead, L₂", angle, values(curves.clearance_right), Hue.GREEN),
-        ),
-        spans=(Span(*contact, ""),),
+    panels = (
+        replace(section, marks=extreme(section.lines, area.unit, least=True)),
+        Panel(x=x, y=Axis("radial clearance", "mm", symbol="L"), lines=lines, spans=(replace(contact, name=""),)),
     )
-    ends = f"{number(first.stroke.max_area)} to {number(first.stroke.min_area, 'mm²')}"
-    finding = f"the {gear}'s space shrinks from {ends}"
-    return Figure(finding, (section, clearances))
+    ends = f"{number(found.max_area)} to {number(found.min_area, 'mm²')}"
+    return Figure(f"the {gear}'s space shrinks from {ends}", panels)
 
 
 def heating(inputs: PumpingInputs, result: PumpingResult) -> Figure:
@@ -265,7 +195,7 @@ def heating(inputs: PumpingInputs, result: PumpingResult) -> Figure:
         texts.append(f"{gear} {number(space.max_temperature_rise, 'K')} at {number(hottest, 'mm')}")
     panel = Panel(
         x=face(inputs.setup.gears.face_width),
-        y=Axis("temperature rise above ambient", "K"),
+        y=axis(FaceProfile, "temperature_rise", "temperature rise above ambient"),
         lines=tuple(lines),
         marks=tuple(marks),
         spans=_grooves(inputs),
@@ -286,7 +216,7 @@ def peak_pressure(inputs: PumpingInputs, result: PumpingResult) -> Figure:
     critical = critical_ratio(inputs.setup)
     panel = Panel(
         x=face(inputs.setup.gears.face_width),
-        y=Axis("largest pressure over ambient pressure", symbol="p/p₀"),
+        y=axis(FaceProfile, "peak_pressure_ratio", "largest pressure over ambient pressure"),
         lines=tuple(lines),
         marks=tuple(marks),
         levels=(Level(critical, f"clearances sonic from {number(critical)}", limit=True), Level(1.0, "ambient")),
@@ -307,7 +237,7 @@ def lead_correction(inputs: PumpingInputs, result: PumpingResult) -> Figure:
     curves = lead.curves
     panel = Panel(
         x=face(inputs.setup.gears.face_width),
-        y=Axis("normal to the flank of the pinion", "µm", magnitude=False),
+        y=Axis("normal to the flank of the pinion", "µm", magnitude=False, symbol="C"),
         lines=(
             _along(inputs, "growth", curves.position, curves.growth, Hue.VERMILLION),
             replace(
@@ -334,7 +264,7 @@ def pulsation(_: PumpingInputs, result: PumpingResult) -> Figure:
     frequency = number(total.meshing_frequency, "Hz")
     panel = Panel(
         x=Axis(f"multiple of the meshing frequency of {frequency}", magnitude=False, ticks=tuple(orders.tolist())),
-        y=Axis("amplitude of the mass flow", "g/s"),
+        y=Axis("amplitude of the mass flow", "g/s", symbol="m_k"),
         bars=series,
     )
     peak = max(float(each.height.max()) for each in series)
@@ -345,7 +275,7 @@ def mass_flow(_: PumpingInputs, result: PumpingResult) -> Figure:
     """What leaves and enters the tooth spaces of each gear at the ends, and the net flow out by exit."""
     exits = {gear: _exits(space) for gear, space in spaces(result)}
     still = all(abs(row.value) < NO_FLOW for rows in exits.values() for row in rows)
-    x = Axis("mass flow (net: out; negative: in)", "g/s", limits=(0.0, 1.0) if still else None)
+    x = Axis("mass flow (net: out; negative: in)", "g/s", limits=(0.0, 1.0) if still else None, symbol="m")
     panels = tuple(Panel(x=x, y=Axis("exit"), title=f"spaces of the {gear}", rows=rows) for gear, rows in exits.items())
     flows = [space.mass_flow for _, space in spaces(result)]
     net = sum(flow.front + flow.rear for flow in flows)
@@ -389,10 +319,13 @@ def _without_temperatures() -> NoFigure:
 
 
 FIGURES = (
+    section(lambda inputs: inputs.setup.gears),
     Declaration("stroke", "One stroke of a tooth space", "Milian 2004, Fig. 3", stroke),
     Declaration("heating", "Where along the face the mist heats the teeth", "Milian 2004, Figs. 5, 6", heating),
     Declaration("peak-pressure", "Highest pressure along the face", "Milian 2004, Eq. 7", peak_pressure),
-    *MAPS,
+    Declaration("pressure-map", "Pressure in the tooth spaces", "Milian 2004, Eqs. 1-4", pressure_map),
+    Declaration("mach-map", "Axial flow in the tooth spaces", "Milian 2004, Eq. 7", mach_map),
+    Declaration("temperature-map", "Temperature in the tooth spaces", "Milian 2004, Figs. 5, 6", temperature_map),
     Declaration("lead-correction", "Lead correction against thermal growth", "Milian 2004", lead_correction),
     Declaration("pulsation", "Pulsating flow at the ends of the face", "Milian 2004", pulsation),
     Declaration("mass-flow", "Where the mist leaves and enters the tooth spaces", "Milian 2004", mass_flow),
