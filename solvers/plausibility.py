@@ -1,7 +1,7 @@
 """Guards of a solver's inputs: values outside their declared range are refused, unusual ones are warned of.
 
-A warning names the input and the likely slip, often of a unit. Each solver adds those of its inputs and results to its
-warnings (`guarded`).
+A warning names the input and the likely mistake, often a wrong unit. Each solver adds those of its inputs and results
+to its warnings (`guarded`).
 """
 
 from collections.abc import Callable, Iterator
@@ -21,7 +21,7 @@ I = TypeVar("I")
 P = ParamSpec("P")
 R = TypeVar("R")
 T = TypeVar("T")
-Slips = Iterator[Notice]
+Notices = Iterator[Notice]
 
 # Chosen limits, with what lies beyond them.
 THIN_AIR = 20e3  # Pa; nearly a vacuum
@@ -36,8 +36,10 @@ LEAST_LOAD = 1e3  # N/m
 THICK_OIL = 1.0  # Pa s at operating temperature
 
 
-def guarded(solve: Callable[Concatenate[I, P], R], slips: Callable[[I, R], Slips]) -> Callable[Concatenate[I, P], R]:
-    """The solver as users call it: it refuses inputs outside their declared ranges and warns of what looks like a slip.
+def guarded(
+    solve: Callable[Concatenate[I, P], R], unusual: Callable[[I, R], Notices]
+) -> Callable[Concatenate[I, P], R]:
+    """The solver as users call it: inputs outside their declared ranges are refused, unusual values warned of.
 
     Raises InvalidInput (out_of_range) with the dotted name of the field, beside what the solver raises.
     """
@@ -45,7 +47,7 @@ def guarded(solve: Callable[Concatenate[I, P], R], slips: Callable[[I, R], Slips
     @wraps(solve)
     def solved(inputs: I, /, *args: P.args, **kwargs: P.kwargs) -> R:
         result = solve(checked(inputs), *args, **kwargs)
-        found = tuple(slips(inputs, result))
+        found = tuple(unusual(inputs, result))
         if not found:
             return result
         known: Any = result
@@ -107,76 +109,81 @@ def _check(value: Any, ends: _Ends | None, name: str) -> None:
         checked(value, f"{name}.")
 
 
-def slip(field: str, message: str) -> Notice:
-    """The notice of a value of an input that looks like a slip."""
+def unusual_value(field: str, message: str) -> Notice:
+    """The warning of an unusual value of an input."""
     return Notice("unusual_value", message, field)
 
 
-def thick_oil(viscosity: float | None, field: str = "lubricant.viscosity") -> Slips:
+def thick_oil(viscosity: float | None, field: str = "lubricant.viscosity") -> Notices:
     """A viscosity [Pa s] at operating temperature that few machines run with."""
     if viscosity is not None and viscosity > THICK_OIL:
-        yield slip(field, f"{viscosity:.4g} Pa s at operating temperature is very thick; mPa s?")
+        yield unusual_value(field, f"{viscosity:.4g} Pa s at operating temperature is very thick; was mPa s meant?")
 
 
-def hot_oil(oil: float, bulk: float | None) -> Slips:
+def hot_oil(oil: float, bulk: float | None) -> Notices:
     """Oil [K] that is hotter than the teeth [K]."""
     if bulk is not None and oil > bulk:
-        message = f"the oil at {oil - 273.15:g} °C is hotter than the teeth at {bulk - 273.15:g} °C; exchanged?"
-        yield slip("temperatures.oil", message)
+        message = f"the oil at {oil - 273.15:g} °C is hotter than the teeth at {bulk - 273.15:g} °C"
+        message += "; are they exchanged?"
+        yield unusual_value("temperatures.oil", message)
 
 
-def thin_air(pressure: float) -> Slips:
+def thin_air(pressure: float) -> Notices:
     """An ambient pressure [Pa] that is nearly none."""
     if pressure < THIN_AIR:
-        yield slip("ambient.pressure", f"{pressure / 1e3:g} kPa is nearly a vacuum; bar?")
+        yield unusual_value("ambient.pressure", f"{pressure / 1e3:g} kPa is nearly a vacuum; was bar meant?")
 
 
-def tall_tooth(height: float, module: float, section: str = "coupling") -> Slips:
+def tall_tooth(height: float, module: float, section: str = "coupling") -> Notices:
     """A coupling's tooth [m]."""
     if height > TALLEST_TOOTH * module:
-        message = f"{height * 1e3:g} mm is beyond {TALLEST_TOOTH:g} modules; a diameter?"
-        yield slip(f"{section}.tooth_height", message)
+        message = f"{height * 1e3:g} mm is beyond {TALLEST_TOOTH:g} modules; is it a diameter?"
+        yield unusual_value(f"{section}.tooth_height", message)
 
 
-def gears(pair: GearPairInputs, pinion_speed: float | None = None) -> Slips:
+def gears(pair: GearPairInputs, pinion_speed: float | None = None) -> Notices:
     """Face width, and pitch-line velocity at a speed of the pinion [rad/s]."""
     diameter, width = pitch_diameter(pair), pair.face_width
     if width > WIDEST_FACE * diameter:
-        message = f"{width * 1e3:g} mm is beyond {WIDEST_FACE:g} pitch diameters of the pinion; cm?"
-        yield slip("gears.face_width", message)
+        message = f"{width * 1e3:g} mm is beyond {WIDEST_FACE:g} pitch diameters of the pinion; was cm meant?"
+        yield unusual_value("gears.face_width", message)
     if width < NARROWEST_FACE * pair.module:
-        yield slip("gears.face_width", f"{width * 1e3:g} mm is below half a module; cm or inches?")
+        yield unusual_value("gears.face_width", f"{width * 1e3:g} mm is below half a module; were cm or inches meant?")
     if pinion_speed is not None and (velocity := pinion_speed * diameter / 2) > FASTEST:
-        message = f"the pitch-line velocity is {velocity:.4g} m/s, beyond {FASTEST:g}; the speed of another shaft?"
-        yield slip("pinion_speed", message)
+        message = f"the pitch-line velocity is {velocity:.4g} m/s, beyond {FASTEST:g}"
+        message += "; is it the speed of another shaft?"
+        yield unusual_value("pinion_speed", message)
 
 
-def modifications(depths: dict[str, float], curve: tuple[float, ...] = ()) -> Slips:
+def modifications(depths: dict[str, float], curve: tuple[float, ...] = ()) -> Notices:
     """Depths of modifications by name, and gaps of a lead curve [m]."""
     for name, value in depths.items():
         if 0.0 < abs(value) < LEAST_MODIFICATION:
-            yield slip(f"modifications.{name}", f"{value * 1e6:g} µm is less than can be ground; mm?")
+            message = f"{value * 1e6:g} µm is less than can be ground; was mm meant?"
+            yield unusual_value(f"modifications.{name}", message)
     highest = max(map(abs, curve), default=0.0)
     if 0.0 < highest < LEAST_MODIFICATION:
-        message = f"{highest * 1e6:g} µm is less than can be ground; mm?"
-        yield slip("modifications.lead_curve.gap", message)
+        message = f"{highest * 1e6:g} µm is less than can be ground; was mm meant?"
+        yield unusual_value("modifications.lead_curve.gap", message)
 
 
-def high_pressure(pressure: float | None, field: str = "pinion_torque") -> Slips:
+def high_pressure(pressure: float | None, field: str = "pinion_torque") -> Notices:
     """A Hertz pressure [Pa]."""
     if pressure is not None and pressure > HIGHEST_PRESSURE:
-        message = f"the Hertz pressure of {pressure / 1e6:.4g} MPa is beyond what steel carries; too much load?"
-        yield slip(field, message)
+        message = f"the Hertz pressure of {pressure / 1e6:.4g} MPa is beyond what steel carries; is the load too high?"
+        yield unusual_value(field, message)
 
 
-def tooth_load(pair: GearPairInputs, torque: float, line_load: float) -> Slips:
+def tooth_load(pair: GearPairInputs, torque: float, line_load: float) -> Notices:
     """The transmitted torque of the pinion [N m] and the largest line load [N/m]."""
     root = 2 * torque / pitch_diameter(pair) / (pair.face_width * pair.module)
     if root > HIGHEST_ROOT_LOAD:
-        message = f"the tooth force of {root / 1e6:.4g} N per mm of face and module breaks a tooth of steel; W or N mm?"
-        yield slip("pinion_torque", message)
+        message = f"the tooth force of {root / 1e6:.4g} N per mm of face and module breaks a tooth of steel"
+        message += "; were W or N mm meant?"
+        yield unusual_value("pinion_torque", message)
     if 0.0 < line_load < LEAST_LOAD:
-        yield slip("pinion_torque", f"the line load is {line_load / 1e3:.3g} N/mm at most; kW or kN m?")
+        message = f"the line load is {line_load / 1e3:.3g} N/mm at most; were kW or kN m meant?"
+        yield unusual_value("pinion_torque", message)
 
 
 def pitch_diameter(pair: GearPairInputs) -> float:

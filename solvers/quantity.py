@@ -1,4 +1,4 @@
-"""What is known of a quantity, declared once on the dataclass that holds it.
+"""Declarations of quantities (title, symbol, source, unit, range) on the dataclass fields that hold them.
 
     @record
     class Coupling:

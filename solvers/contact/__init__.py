@@ -1,1 +1,1 @@
-"""Line contacts: dry (Hertz), lubricated by formula, and lubricated by solution (ehl)."""
+"""Line contacts: dry (Hertz), lubricated by film formulas, and lubricated with a numerical solution (ehl)."""

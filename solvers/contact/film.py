@@ -1,4 +1,4 @@
-"""Film thickness of a lubricated line contact by formula, and what it means against roughness."""
+"""Film thickness of a lubricated line contact by formula, and its ratio to the roughness."""
 
 from math import hypot
 from typing import Literal, TypeVar, cast

@@ -24,13 +24,13 @@ from solvers.coupling.inputs import (
     Operation,
     RecommendationInputs,
 )
-from solvers.coupling.notices import slips
+from solvers.coupling.notices import unusual_values
 from solvers.coupling.results import CouplingResult, OrbitResult
 from solvers.plausibility import guarded
 
-solve = guarded(model.solve, slips)
-solve_orbit = guarded(orbit.solve_orbit, slips)
-recommend = guarded(crowning.recommend, slips)
+solve = guarded(model.solve, unusual_values)
+solve_orbit = guarded(orbit.solve_orbit, unusual_values)
+recommend = guarded(crowning.recommend, unusual_values)
 
 __all__ = [
     "Coupling",

@@ -1,4 +1,4 @@
-"""What friction on the teeth of one mesh does: axial thrust, losses and the moments that bend the hub.
+"""Effects of friction on the teeth of one mesh: axial thrust, losses and the moments that bend the hub.
 
 Means over one tooth pitch, or over one revolution with pitch errors. Thrust: Figs 14 to 16, and the closed forms of two
 meshes, Figs 13 and 17.

@@ -1,4 +1,4 @@
-"""What describes a gear coupling, its operation and the choices of the model.
+"""Inputs of a gear coupling: the coupling, its operation and the options of the model.
 
 Attributes are in SI; declarations give range and default in the unit shown.
 """

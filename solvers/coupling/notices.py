@@ -123,7 +123,7 @@ def orbit_notices(
         yield Notice("orbit_resolution", message, "misalignment")
 
 
-def slips(inputs: CouplingInputs | RecommendationInputs, _result: object) -> Iterator[Notice]:
-    """What looks like a slip in the description of a coupling."""
+def unusual_values(inputs: CouplingInputs | RecommendationInputs, _result: object) -> Iterator[Notice]:
+    """Unusual values in the description of a coupling."""
     coupling = (inputs.design if isinstance(inputs, RecommendationInputs) else inputs).coupling
     return plausibility.tall_tooth(coupling.tooth_height, coupling.module)

@@ -1,4 +1,4 @@
-"""What the coupling model answers at one operating point, in SI, arrays read-only.
+"""Results of the coupling model at one operating point, in SI, arrays read-only.
 
 Lengths [m], angles [rad], forces [N], moments [N m]. A value that has no meaning is None, and a notice in `warnings`
 says why.

@@ -1,9 +1,9 @@
-"""A gear unit whole: coupling, shafts in bearings, pumped heat and mesh agree on one gap over the face.
+"""A complete gear unit: couplings, shafts in bearings, pumping heat and mesh, solved for one gap over the face.
 
-Data flows inputs, checks -> shafts (with bearings and couplings one system, known by its ports) -> gap (its balance
-with the mesh, and what it comes from) -> elements, losses, safety; all called, with notices, by `model.solve`, for
-the hot unit and the cold one by `states.solve`. On top stand studies of many units.
-Own derivation; sources stand with the equations.
+Data flows inputs, checks -> shafts (shafts, bearings and couplings as one flexibility matrix) -> gap (its equilibrium
+with the mesh, and its parts by cause) -> elements, losses, safety. `model.solve` calls all of these and notices;
+`states.solve` calls `model.solve` for the hot and for the cold unit. Own derivation; sources are given with the
+equations.
 """
 
 from solvers.drive_train import states
@@ -21,11 +21,11 @@ from solvers.drive_train.inputs import (
     ShaftSection,
     UnitCoupling,
 )
-from solvers.drive_train.notices import slips
+from solvers.drive_train.notices import unusual_values
 from solvers.drive_train.results import DriveTrainResult
 from solvers.plausibility import guarded
 
-solve = guarded(states.solve, slips)
+solve = guarded(states.solve, unusual_values)
 
 __all__ = [
     "Alignment",

@@ -1,4 +1,4 @@
-"""What no drive train can be made of."""
+"""Checks of the inputs of a drive train; they raise InvalidInput."""
 
 import numpy as np
 
@@ -42,7 +42,7 @@ def _check_sections(inputs: DriveTrainInputs, path: PathOfContact, index: int, n
             raise InvalidInput("section_diameter", message, f"{field}.inner_diameter")
         under_face = position < end - COINCIDENT and position + section.length > start + COINCIDENT
         if under_face and section.outer_diameter > tip:
-            message = f"section {k} under the teeth is thicker than their tips; give the reference diameter"
+            message = f"section {k} under the teeth has a larger diameter than their tips; give the reference diameter"
             raise InvalidInput("section_diameter", message, f"{field}.outer_diameter")
         position += section.length
 

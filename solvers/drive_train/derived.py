@@ -1,4 +1,4 @@
-"""What follows from the description of a unit before any physics, in groups of the same names."""
+"""Quantities that follow from the description of a unit alone: geometry, speeds, estimated temperatures."""
 
 from solvers.coupling.inputs import Coupling
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft, ShaftName

@@ -73,7 +73,7 @@ class LinearBearing:
 
 @dataclass(frozen=True, slots=True)
 class RigidBearing:
-    """A bearing that does not yield."""
+    """A rigid bearing."""
 
     position: float
     offset: Vector2 = (0.0, 0.0)
@@ -495,12 +495,12 @@ class Effects:
 class DriveTrainInputs:
     """The unit: its mesh, the gas pumped in it, shafts, couplings, heat.
 
-    The mesh and the pumped spaces are of one pair; only the radius of the rack's tip may differ. `face_start` [m] is
-    the end of the common face with the lower Z. The load factors of the mesh raise the load of its contacts only.
-    A thrust collar of `collar_radius` [m] on the pinion takes the place of the pinion's thrust bearing.
-    `local_bulk` adds the local pumping heat to the contact's bulk temperature, which is that of the cold unit too where
-    `bulk_given`, and else there the reference temperature. The answer is of the hot unit, with
-    that of the cold one beside it where `states` holds it.
+    The mesh and the pumped spaces belong to one gear pair; only the tip radius of the rack may differ. `face_start`
+    [m] is the end of the common face with the lower Z. The load factors of the mesh raise the load of its contacts
+    only. A thrust collar of `collar_radius` [m] on the pinion takes the place of the pinion's thrust bearing.
+    `local_bulk` adds the local pumping heat to the contact's bulk temperature. The cold unit has the same bulk
+    temperature where `bulk_given`, else the reference temperature. The result is that of the hot unit; where
+    `states` names the cold one, it holds that as well.
     """
 
     mesh: ScuffingInputs

@@ -1,4 +1,4 @@
-"""What a drive train has to say about its own validity."""
+"""Warnings of a drive train: ranges that are left, assumptions that matter, inputs that look wrong."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -15,7 +15,7 @@ from solvers.drive_train.results import (
     TrainSafety,
 )
 from solvers.notices import Notice
-from solvers.scuffing.notices import modification_slips
+from solvers.scuffing.notices import unusual_modifications
 
 SHORT_BEARING = 0.7  # width over diameter
 ROUNDING = 1e-9  # of lengths that come from other units
@@ -105,8 +105,8 @@ def coupling_notices(
             yield replace(notice, code=code, field=where)
 
 
-def slips(inputs: DriveTrainInputs, result: DriveTrainResult) -> Iterator[Notice]:
-    """What looks like a slip in oils, temperatures, ambient, couplings, gears, modifications and load."""
+def unusual_values(inputs: DriveTrainInputs, result: DriveTrainResult) -> Iterator[Notice]:
+    """Unusual values of oils, temperatures, ambient, couplings, gears, modifications and load."""
     derived, mesh, load = result.derived, inputs.mesh.distribution, result.load
     yield from plausibility.thick_oil(derived.lubricant.viscosity if derived.lubricant else None)
     for name, shaft in zip(NAMES, (derived.pinion_shaft, derived.wheel_shaft), strict=True):
@@ -117,6 +117,6 @@ def slips(inputs: DriveTrainInputs, result: DriveTrainResult) -> Iterator[Notice
     for k, each in enumerate(inputs.couplings):
         yield from plausibility.tall_tooth(each.coupling.tooth_height, each.coupling.module, f"couplings.{k}.coupling")
     yield from plausibility.gears(mesh.gears, mesh.load.pinion_speed)
-    yield from modification_slips(mesh.modifications)
+    yield from unusual_modifications(mesh.modifications)
     yield from plausibility.high_pressure(load.max_pressure)
     yield from plausibility.tooth_load(mesh.gears, mesh.load.torque, load.max_line_load)

@@ -1,4 +1,4 @@
-"""What a drive train says; SI units, read-only arrays. Vectors are (X, Y), gaps positive where the flanks part."""
+"""Results of a drive train; SI units, read-only arrays. Vectors are (X, Y), gaps positive where the flanks part."""
 
 from solvers.arrays import FloatArray
 from solvers.drive_train.derived import Derived

@@ -1,4 +1,4 @@
-"""Scuffing over the whole flank: a load at one end is hottest in a corner that the feature line never meets."""
+"""Scuffing over the whole flank: with the load at one end the hottest point lies in a corner, off the feature line."""
 
 from dataclasses import dataclass, replace
 

@@ -1,4 +1,4 @@
-"""The coupling of Pahl's figures (1978): 52 teeth of module 3 mm, and the numbers its figures tell."""
+"""The coupling of Pahl's figures (1978): 52 teeth of module 3 mm, and the numbers read from its figures."""
 
 from dataclasses import replace
 from functools import cache

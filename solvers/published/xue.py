@@ -1,4 +1,4 @@
-"""Xue, Zhang and Wang 2020: the four gear pairs, the contact at A, and the numbers the figures tell."""
+"""Xue, Zhang and Wang 2020: the four gear pairs, the contact at A, and the numbers read from its figures."""
 
 from dataclasses import replace
 from functools import cache

@@ -19,11 +19,11 @@ from solvers.pumping.inputs import (
     PumpingSetup,
     Spaces,
 )
-from solvers.pumping.notices import slips
+from solvers.pumping.notices import unusual_values
 from solvers.pumping.results import ChokingSpeeds, PumpingResult
 
-solve = guarded(model.solve, slips)
-choking_speeds = guarded(choking.choking_speeds, slips)
+solve = guarded(model.solve, unusual_values)
+choking_speeds = guarded(choking.choking_speeds, unusual_values)
 
 
 __all__ = [

@@ -1,4 +1,4 @@
-"""What describes a pumping calculation."""
+"""Inputs of a pumping calculation."""
 
 from enum import StrEnum
 from math import pi

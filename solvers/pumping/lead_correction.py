@@ -1,11 +1,11 @@
 """Thermal growth of the pinion's flanks along the face, and the lead correction that undoes it (own derivation).
 
-A hot body is a similar body: every point moves by eps times its distance from the axis and from the end z = 0, and no
-angle changes. Along the transverse line of action that is
+Heating enlarges a body in proportion: every point moves by eps times its distance from the axis and from the end z = 0,
+and no angle changes. Along the transverse line of action that is
 
  d(z) = eps(z) s_C + tan(beta_b) integral_0^z eps dz',    eps = alpha_L dT,    s_C = r_w sin(alpha_wt).
 
-The first term is the larger radius. The second is the longer body, which turns its own helix.
+The first term is the growth of the radius, the second the growth in length, which shifts the helix.
 """
 
 from math import sin, tan

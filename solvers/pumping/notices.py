@@ -129,8 +129,8 @@ def speed_notices(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]
     return []
 
 
-def slips(inputs: PumpingInputs | ChokingInputs, _result: object) -> Iterator[Notice]:
-    """What looks like a slip in ambient, gears and speed."""
+def unusual_values(inputs: PumpingInputs | ChokingInputs, _result: object) -> Iterator[Notice]:
+    """Unusual values of ambient, gears and speed."""
     yield from plausibility.thin_air(inputs.setup.ambient.pressure)
     speed = inputs.pinion_speed if isinstance(inputs, PumpingInputs) else None
     yield from plausibility.gears(inputs.setup.gears, speed)

@@ -2,14 +2,15 @@
 
 The kinks of a stroke leave numbers of first order in the width of the slices. For two grids and first order Roache's
 grid convergence index states three times their difference as the uncertainty of the finer one (J. Fluids Eng. 116,
-1994, 405). Extremes wander between the slices, and two grids may agree on one by luck: a third with a quarter of the
-resolution has a say, a fifth is added, and so are places that are not the highest yet but rise with the resolution. Of
-800 random pairs, one then moves by more than it states with twice the slices, by a hundredth more.
+1994, 405). Extremes move between the slices, and two grids may agree on one by chance: a third grid with a quarter of
+the resolution is compared as well, a fifth is added to the estimate, and places count that are not the highest yet but
+rise with the resolution. Of 800 random pairs, one then changed by more than the stated uncertainty with twice the
+slices, by a hundredth more.
 
 Grids may also agree on an extreme while the pressure around it differs, because they damp its waves alike: what they
 differ by close to it counts as well. And where the meshing line moves along the face about as fast as sound, its own
-waves leave it within a layer too thin for the slices of the coarser grids. These see none of it and agree among
-themselves; nothing is then deduced from how fast they converge.
+waves leave it within a layer too thin for the slices of the coarser grids. These do not resolve it and agree among
+themselves; the rate of convergence is then not used.
 """
 
 from math import expm1

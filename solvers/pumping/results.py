@@ -1,4 +1,4 @@
-"""What a pumping calculation gives back, SI."""
+"""Results of a pumping calculation, in SI."""
 
 from solvers.arrays import FloatArray
 from solvers.notices import Notice

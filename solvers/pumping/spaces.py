@@ -29,7 +29,7 @@ _ANGLES = 201  # at which fields are recorded, enough for figures
 
 @dataclass(frozen=True, slots=True)
 class Space:
-    """The spaces of one gear: its speed per pinion speed, the lag of the stroke per metre of face [rad/m]."""
+    """The tooth spaces of one gear: ratio of its speed to the pinion's, lag of the stroke per metre of face [rad/m]."""
 
     of_pinion: bool
     table: StrokeTable

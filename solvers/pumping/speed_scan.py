@@ -1,6 +1,6 @@
-"""Peak pressure and flow at the ends over the pinion speed, as the choking search sees them at full resolution.
+"""Peak pressure and flow at the ends over the pinion speed, with the resolution of the choking search.
 
-A scan costs no more than the dearest single solution may: slow speeds that would take longer get fewer slices.
+A scan takes no longer than the longest single solution allowed: low speeds, which take longer, get fewer slices.
 """
 
 import numpy as np

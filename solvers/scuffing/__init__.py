@@ -23,12 +23,12 @@ from solvers.scuffing.inputs import (
     ScuffingTest,
     Temperatures,
 )
-from solvers.scuffing.notices import load_slips, scuffing_slips
+from solvers.scuffing.notices import unusual_load_values, unusual_scuffing_values
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.safety_results import Scuffing
 
-solve_load_distribution = guarded(model.solve, load_slips)
-solve_scuffing = guarded(safety.solve_scuffing, scuffing_slips)
+solve_load_distribution = guarded(model.solve, unusual_load_values)
+solve_scuffing = guarded(safety.solve_scuffing, unusual_scuffing_values)
 
 __all__ = [
     "GearPairInputs",

@@ -1,4 +1,4 @@
-"""What a load distribution is computed from."""
+"""Inputs of a load distribution and of a scuffing check."""
 
 from dataclasses import field
 from math import pi

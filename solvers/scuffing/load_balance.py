@@ -3,7 +3,7 @@
 Each line is cut into slices at whose middles w = k max(TE - Delta, 0) is summed (Eq. 9 with one TE for all points of a
 roll position, slices dl = dy / cos beta_b, and w per length of contact line, so that the sum is F_bn). Lines that are
 loaded in part are cut again, each time only where the last TE loads them, until TE settles: however small a contact
-is, it has all the slices. Roll positions are added where TE is not straight between them. The paper's
+is, it is covered by all slices. Roll positions are added where TE is not straight between them. The paper's
 iteration (Eq. 10) converges only while the mean relief in contact stays below TE/2; here F(TE), which is convex and
 increasing, is solved by Newton steps. With linear contact these end exactly after finitely many.
 """

@@ -138,15 +138,15 @@ def load_notices(balance: LoadBalance) -> list[Notice]:
     return notices
 
 
-def load_slips(inputs: LoadDistributionInputs, result: LoadDistribution) -> Iterator[Notice]:
-    """What looks like a slip in gears, modifications and load."""
+def unusual_load_values(inputs: LoadDistributionInputs, result: LoadDistribution) -> Iterator[Notice]:
+    """Unusual values of gears, modifications and load."""
     yield from plausibility.gears(inputs.gears, inputs.load.pinion_speed)
-    yield from modification_slips(inputs.modifications)
+    yield from unusual_modifications(inputs.modifications)
     yield from plausibility.high_pressure(result.pressure.max)
     yield from plausibility.tooth_load(inputs.gears, inputs.load.torque, result.load.max_line_load)
 
 
-def modification_slips(modifications: Modifications) -> Iterator[Notice]:
+def unusual_modifications(modifications: Modifications) -> Iterator[Notice]:
     """Modifications that cannot be ground."""
     depths = {
         name: getattr(modifications, name) for name, each in quantities(Modifications).items() if each.unit == "um"
@@ -154,9 +154,9 @@ def modification_slips(modifications: Modifications) -> Iterator[Notice]:
     return plausibility.modifications(depths, modifications.lead_curve.gap)
 
 
-def scuffing_slips(inputs: ScuffingInputs, result: Scuffing) -> Iterator[Notice]:
-    """What looks like a slip in oil, temperatures, gears, modifications and load."""
+def unusual_scuffing_values(inputs: ScuffingInputs, result: Scuffing) -> Iterator[Notice]:
+    """Unusual values of oil, temperatures, gears, modifications and load."""
     oil, hottest = result.derived.oil, result.contact_temperature
     yield from plausibility.thick_oil(oil.viscosity if oil else None)
     yield from plausibility.hot_oil(inputs.temperatures.oil, hottest.bulk if hottest else None)
-    yield from load_slips(inputs.distribution, result.distribution)
+    yield from unusual_load_values(inputs.distribution, result.distribution)

@@ -1,4 +1,4 @@
-"""What a load distribution says; SI units, read-only arrays.
+"""Results of a load distribution; SI units, read-only arrays.
 
 x runs along the path from A to E, y along the face from the end that meshes first; gamma is the profile parameter.
 """

@@ -1,4 +1,4 @@
-"""What the scuffing check adds to a load distribution; SI units, read-only arrays, temperatures in kelvin."""
+"""Results of the scuffing check beside those of the load distribution; SI units, arrays read-only."""
 
 from typing import Literal
 

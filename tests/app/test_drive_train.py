@@ -559,13 +559,13 @@ def test_the_feature_line_s_maximum_is_that_of_any_number_of_points(post: Post) 
 # Guards
 
 
-THICK = "Pa s at operating temperature is very thick; mPa s?"
+THICK = "Pa s at operating temperature is very thick; was mPa s meant?"
 
 
 @pytest.mark.parametrize(
     ("path", "value", "message"),
     [
-        ("temperatures.oil_c", 120, "the oil at 120 °C is hotter than the teeth at 95 °C; exchanged?"),
+        ("temperatures.oil_c", 120, "the oil at 120 °C is hotter than the teeth at 95 °C; are they exchanged?"),
         ("pinion_shaft.bearings.0.viscosity_pa_s", 14, f"14 {THICK}"),
         ("wheel_shaft.bearings.1.viscosity_pa_s", 18, f"18 {THICK}"),
         ("lubricant.viscosity_pa_s", 9.5, f"9.5 {THICK}"),
@@ -573,17 +573,17 @@ THICK = "Pa s at operating temperature is very thick; mPa s?"
         (
             "operation.power_kw",
             120e3,
-            "the tooth force of 799.8 N per mm of face and module breaks a tooth of steel; W or N mm?",
+            "the tooth force of 799.8 N per mm of face and module breaks a tooth of steel; were W or N mm meant?",
         ),
-        ("operation.power_kw", 0.01, "the line load is 0.605 N/mm at most; kW or kN m?"),
-        ("couplings.0.coupling.tooth_height_mm", 13, "13 mm is beyond 4 modules; a diameter?"),
-        ("ambient.pressure_kpa", 1.01, "1.01 kPa is nearly a vacuum; bar?"),
-        ("modifications.helix_slope_um", 0.05, "0.05 µm is less than can be ground; mm?"),
-        ("gears.face_width_mm", 2, "2 mm is below half a module; cm or inches?"),
+        ("operation.power_kw", 0.01, "the line load is 0.605 N/mm at most; were kW or kN m meant?"),
+        ("couplings.0.coupling.tooth_height_mm", 13, "13 mm is beyond 4 modules; is it a diameter?"),
+        ("ambient.pressure_kpa", 1.01, "1.01 kPa is nearly a vacuum; was bar meant?"),
+        ("modifications.helix_slope_um", 0.05, "0.05 µm is less than can be ground; was mm meant?"),
+        ("gears.face_width_mm", 2, "2 mm is below half a module; were cm or inches meant?"),
         (
             "operation.pinion_speed_rpm",
             25000,
-            "the pitch-line velocity is 312.6 m/s, beyond 250; the speed of another shaft?",
+            "the pitch-line velocity is 312.6 m/s, beyond 250; is it the speed of another shaft?",
         ),
         (
             "modifications.tip_relief_length_mm",
@@ -592,7 +592,7 @@ THICK = "Pa s at operating temperature is very thick; mPa s?"
         ),
     ],
 )
-def test_slips_are_named(post: Post, path: str, value: float, message: str) -> None:
+def test_unusual_values_are_named(post: Post, path: str, value: float, message: str) -> None:
     said = [
         one for one in answered(post, changed(request(), {path: value}))["warnings"] if one["code"] == "unusual_value"
     ]
@@ -632,7 +632,7 @@ def test_a_cold_unit_without_solution_is_a_warning(post: Post) -> None:
     assert [one["field"] for one in said] == ["states"]
 
 
-def test_the_example_has_no_slip(post: Post) -> None:
+def test_the_example_has_no_unusual_value(post: Post) -> None:
     found = answered(post, request())
     assert not [one for one in found["warnings"] if one["code"] in {"unusual_value", "losses_exceed_power"}]
     assert found["losses"]["efficiency"] == pytest.approx(0.9858, abs=0.0001)

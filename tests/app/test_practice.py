@@ -1,4 +1,4 @@
-"""What an engineer has at hand: an oil by grade or data sheet, an FZG stage, factors; and guards against slips."""
+"""What an engineer has at hand: an oil by grade or data sheet, an FZG stage, factors; warnings of unusual values."""
 
 from dataclasses import replace
 from math import pi
@@ -217,63 +217,63 @@ def test_what_excludes_what(endpoint: str, body: dict[str, Any], changes: dict[s
             PAIR,
             {"lubricant.viscosity_pa_s": 25},
             "lubricant.viscosity_pa_s",
-            "25 Pa s at operating temperature is very thick; mPa s?",
+            "25 Pa s at operating temperature is very thick; was mPa s meant?",
         ),
         (
             "/v1/pumping",
             MIST,
             {"ambient.pressure_kpa": 1.01},
             "ambient.pressure_kpa",
-            "1.01 kPa is nearly a vacuum; bar?",
+            "1.01 kPa is nearly a vacuum; was bar meant?",
         ),
         (
             "/v1/scuffing/load-distribution",
             PAIR | {"model": {}},
             {"modifications.tip_relief_um": 0.03},
             "modifications.tip_relief_um",
-            "0.03 µm is less than can be ground; mm?",
+            "0.03 µm is less than can be ground; was mm meant?",
         ),
         (
             "/v1/scuffing/load-distribution",
             PAIR | {"model": {}},
             {"gears.face_width_mm": 1.2},
             "gears.face_width_mm",
-            "1.2 mm is below half a module; cm or inches?",
+            "1.2 mm is below half a module; were cm or inches meant?",
         ),
         (
             "/v1/scuffing/load-distribution",
             PAIR | {"model": {}},
             {"gears.face_width_mm": 250},
             "gears.face_width_mm",
-            "250 mm is beyond 3 pitch diameters of the pinion; cm?",
+            "250 mm is beyond 3 pitch diameters of the pinion; was cm meant?",
         ),
         (
             "/v1/scuffing/load-distribution",
             PAIR | {"model": {}},
             {"load.power_kw": 900},
             "load.power_kw",
-            "the Hertz pressure of 5917 MPa is beyond what steel carries; too much load?",
+            "the Hertz pressure of 5917 MPa is beyond what steel carries; is the load too high?",
         ),
         (
             "/v1/coupling",
             COUPLING,
             {"coupling.tooth_height_mm": 13},
             "coupling.tooth_height_mm",
-            "13 mm is beyond 4 modules; a diameter?",
+            "13 mm is beyond 4 modules; is it a diameter?",
         ),
         (
             "/v1/scuffing",
             PAIR,
             {"lubricant": {"iso_vg": 220}, "temperatures": {"oil_c": 95, "bulk_c": 86.85}},
             "temperatures.oil_c",
-            "the oil at 95 °C is hotter than the teeth at 86.85 °C; exchanged?",
+            "the oil at 95 °C is hotter than the teeth at 86.85 °C; are they exchanged?",
         ),
         (
             "/v1/scuffing/load-distribution",
             PAIR | {"model": {}},
             {"load.pinion_speed_rpm": 100000},
             "load.pinion_speed_rpm",
-            "the pitch-line velocity is 366.6 m/s, beyond 250; the speed of another shaft?",
+            "the pitch-line velocity is 366.6 m/s, beyond 250; is it the speed of another shaft?",
         ),
         (
             "/v1/scuffing/load-distribution",
@@ -287,11 +287,11 @@ def test_what_excludes_what(endpoint: str, body: dict[str, Any], changes: dict[s
             PAIR | {"model": {}},
             {"load.power_kw": 0.05},
             "load.power_kw",
-            "the line load is 0.367 N/mm at most; kW or kN m?",
+            "the line load is 0.367 N/mm at most; were kW or kN m meant?",
         ),
     ],
 )
-def test_slips_are_named(
+def test_unusual_values_are_named(
     endpoint: str, body: dict[str, Any], changes: dict[str, Any], field: str, message: str
 ) -> None:
     result = solved(endpoint, body, changes)

@@ -9,12 +9,12 @@ from solvers.contact.ehl import model
 from solvers.contact.ehl.checks import check, lightest
 from solvers.contact.ehl.inputs import Contact, LineContactInputs, Model, Rheology, Temperatures
 from solvers.contact.ehl.model import warm_up
-from solvers.contact.ehl.notices import slips
+from solvers.contact.ehl.notices import unusual_values
 from solvers.contact.ehl.path import solve_path
 from solvers.contact.ehl.results import LineContactResult, Stage
 from solvers.plausibility import guarded
 
-solve = guarded(model.solve, slips)
+solve = guarded(model.solve, unusual_values)
 
 __all__ = [
     "Contact",

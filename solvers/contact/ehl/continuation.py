@@ -1,4 +1,4 @@
-"""From nothing to a converged contact: resolution and step budget, nested meshes, and retries when a step fails."""
+"""Solution of a contact without a neighbour: resolution, limit of steps, nested meshes, retries when a step fails."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What a lubricated line contact is given, in SI units."""
+"""Inputs of a lubricated line contact, in SI units."""
 
 from dataclasses import dataclass, field
 from typing import Literal

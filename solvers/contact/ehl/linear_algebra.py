@@ -1,7 +1,7 @@
 """Dense linear algebra for systems of about a hundred unknowns: LU decomposition, products, a few steps of GMRES.
 
-At this size a threaded BLAS can spend ten times the arithmetic on waking its threads. Rows are named by their index
-rather than handed over as views: at this size counting who holds a view takes as long as the arithmetic, too.
+At this size a threaded BLAS can spend ten times as long on starting its threads as on the arithmetic. Functions take
+row indices instead of views of rows, because the reference counting of views takes as long as the arithmetic too.
 """
 
 import numpy as np

@@ -101,7 +101,7 @@ def failure_notice(convergence: Convergence) -> Notice:
     return Notice("not_converged", message, "nodes", rank="invalid")
 
 
-def slips(_inputs: LineContactInputs, result: LineContactResult) -> Iterator[Notice]:
-    """What looks like a slip in oil and load."""
+def unusual_values(_inputs: LineContactInputs, result: LineContactResult) -> Iterator[Notice]:
+    """Unusual values of oil and load."""
     yield from plausibility.thick_oil(result.derived.viscosity)
     yield from plausibility.high_pressure(result.hertz.max_pressure, "line_load")

@@ -1,4 +1,4 @@
-"""A sequence of contacts, as along the flank of a gear: each solved from its neighbour."""
+"""A sequence of contacts, as along the flank of a gear: each starts from its neighbour."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -27,31 +27,31 @@ from solvers.contact.ehl.results import LineContactResult
 from solvers.contact.ehl.state import State, no_steps
 from solvers.errors import InvalidInput
 
-# For a guess to lead to its contact. Where pressure falls steeply between two nodes, the discrete film has a solution
-# for each pair of nodes that the fall may stand between. A guess that takes longer has lost its own, and where it ends
-# would depend on where it began: such a contact is solved from nothing, as it is alone.
+# Most steps from a start extrapolated from the neighbours. Where pressure falls steeply between two nodes, the discrete
+# equations have one solution for each pair of nodes between which the fall can lie. A start that needs more steps tends
+# to end in a neighbouring one of these, so the contact is solved again from no start, as it is alone.
 STEPS_FROM_NEIGHBOURS = 5.0
 MOST_KNOWN = 5  # states that are extrapolated: more only add the errors that they were left with
-HOPELESS = 12  # contacts that fail one after the other, even from nothing; those behind them hardly do better
-SHARE_WITHOUT_HOPE = 0.1  # of the steps of a contact alone, for each of those: enough for an easy one
+HOPELESS = 12  # failures in a row, from no start too; the contacts after them rarely converge
+SHARE_WITHOUT_HOPE = 0.1  # of the steps of a contact alone, for each contact after that many failures
 
 
 @dataclass(slots=True)
 class _Walk:
-    """Where the path has got to: the states solved last, their mesh, contacts failed in a row."""
+    """The last solved states of the path, their mesh, and the number of failures in a row."""
 
     known: list[State] = field(default_factory=list)
     grid: Grid | None = None
     failures: int = 0
 
     def move_to(self, grid: Grid) -> None:
-        """Interpolate the known states onto another mesh, where it is another."""
+        """Interpolate the known states onto a mesh, unless it is theirs."""
         if self.grid is not None and self.grid is not grid:
             self.known = [interpolate(state, self.grid.x, grid.x) for state in self.known]
         self.grid = grid
 
     def arrive(self, solved: State | None) -> None:
-        """Go on from a contact, solved or not."""
+        """Record a contact as solved, or as failed (None)."""
         self.known = [] if solved is None else [*self.known[1 - MOST_KNOWN :], solved]
         self.failures = self.failures + 1 if solved is None else 0
 
@@ -59,9 +59,9 @@ class _Walk:
 def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]:
     """Solve neighbouring contacts, each on its own mesh; each result is that of the contact solved alone.
 
-    The first starts from nothing, the others from the pressures, temperatures and separation of those before,
-    extrapolated. What does not converge so at once is solved as if it were alone; what fails then too neither stops
-    its neighbours nor is filled in. Behind many that fail one after the other, each is given fewer steps, until one
+    Each contact but the first starts from pressures, temperatures and separation extrapolated from those before it.
+    One that does not converge from there within a few steps is solved as if it were alone. One that fails then as well
+    has no result and does not stop the others. After many failures in a row each contact has fewer steps until one
     converges.
 
     Raises InvalidInput as `check` does, and mixed_models unless all contacts share one model.
@@ -75,7 +75,7 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
 
 
 def _solve_next(inputs: LineContactInputs, walk: _Walk) -> LineContactResult:
-    """From the neighbours if there are any, else, or if that fails, from nothing; the next contact starts from here."""
+    """Solve a contact from its neighbours; without them, or where that fails, from no start."""
     constants = problem(inputs, groups(inputs))
     resolution = resolution_for(inputs)
     spent = Budget(inf)

@@ -1,4 +1,4 @@
-"""One contact in numbers: dimensionless groups, published film formulas, and the parameters the kernels take."""
+"""The constants of one contact: dimensionless groups, published film formulas, and the parameters the kernels take."""
 
 from dataclasses import dataclass
 from functools import lru_cache

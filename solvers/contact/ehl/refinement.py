@@ -1,8 +1,8 @@
 """Accuracy of a finished contact: the error estimated from half as many nodes, and balances checked by separate code.
 
 Only what is reported enters: curves, field and inputs in SI units. The temperature of each surface must be that of its
-bulk plus what the heat fluxes into it make of it, the oil must enter as warm as it was said to, and nothing may be
-colder than all that surrounds it by more than the decompression of the oil takes.
+bulk plus the rise caused by the heat flux into it, the oil must enter at the given temperature, and no point may be
+colder than the coldest of surfaces and inlet by more than the decompression of the oil explains.
 """
 
 from dataclasses import dataclass, replace
@@ -122,7 +122,7 @@ def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """A contact and the same on half the nodes: numbers in parts, by the names of `MeshError`.
+    """The results of a contact and of the same contact on half the nodes, in groups named as in `MeshError`.
 
     With the steepest fall of P from one node to the next and the kinks of the surfaces' temperatures [K].
     """

@@ -1,4 +1,4 @@
-"""What a solved line contact is, in SI units."""
+"""Results of a line contact, in SI units."""
 
 from dataclasses import dataclass, fields
 from typing import Literal

@@ -31,7 +31,7 @@ class Shear(NamedTuple):
 
 
 class Flow(NamedTuple):
-    """What flows between surface 1 and every node, and how the column's flow answers to the node's heat (n, m + 1).
+    """Flow between surface 1 and every node, and its derivatives by nodal temperature, (n, m + 1).
 
     stream (function) [kg/(m s)], couette (its part without pressure gradient), poiseuille (the shape, from 0 to 1, of
     its part with it); derivatives of the flow coefficients ln A and B by nodal temperature.

@@ -42,7 +42,7 @@ def no_steps() -> FloatArray:
 
 
 class Work(NamedTuple):
-    """What a state implies: film H and dP/dX (n,), flow, film and heat of every column."""
+    """Quantities that follow from a state: film H and dP/dX (n,); flow, film and heat of every column."""
 
     height: FloatArray
     gradient: FloatArray

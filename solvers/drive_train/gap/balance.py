@@ -1,10 +1,11 @@
-"""Mesh against shafts: the gap over the face at which the load it leaves bends the shafts into just that gap.
+"""The gap over the face at which mesh and shafts are in equilibrium.
 
-Unknown is the gap g at the stations; the residual is g minus what shafts, bearings and couplings make of the load it
-leaves. Newton's step is (I - D B) dg = -R with B = dQ/dg of the mesh (mean over a base pitch: the mesh frequency lies
-far above any bending or film frequency, so the shafts follow the mean) and D the derivative of the gap by Q, the
-couplings' answer included. The mean of the gap belongs to the transmission error and is taken out. Most of the way is
-gone on a coarse mesh of roll positions and slices.
+A gap distributes the load over the face, and that load bends the shafts into a gap: the two have to be equal. Unknown
+is the gap g at the stations; the residual is g minus the gap that shafts, bearings and couplings have under the load
+that g gives. Newton's step is (I - D B) dg = -R with B = dQ/dg of the mesh (mean over a base pitch: the mesh frequency
+lies far above any bending or film frequency, so the shafts follow the mean) and D the derivative of the gap by Q, the
+couplings included. The mean of the gap belongs to the transmission error and is taken out. The iteration starts on a
+coarse mesh of roll positions and slices, where most of its steps are made.
 """
 
 from dataclasses import dataclass, replace

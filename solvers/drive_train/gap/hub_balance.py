@@ -1,4 +1,4 @@
-"""The couplings' share of the balance: tilts of the hubs that cause just the loads which cause them.
+"""Tilts of the coupling hubs in equilibrium with the loads of the couplings.
 
 A hub's tilt x = rest + lever (motion of the hub) bends the shaft by loads p(x), and these move the hub. Newton's step
 on x has the matrix I - lever D dp/dx, D the derivative of the hubs' motion by their loads.

@@ -1,9 +1,9 @@
 """Lead and profile errors of gears that are warmer than their drawings: heat, and the gas they pump.
 
-A hot body is a similar body: every point moves by eps = alpha_L dT times its distance from the axis and along it. Along
-the line of action that is the excess eps_1 (s_A + x) + tan beta_b int_0^y eps_1 of the pinion and
-eps_2 (N - s_A - x) - tan beta_b int_0^y eps_2 of the wheel. Both hot alike, nothing is left along a contact line but
-the base pitch. Own derivation, checked against a brute-force helicoid.
+Heating enlarges a body in proportion: every point moves by eps = alpha_L dT times its distance from the axis and along
+it. Along the line of action that is the excess eps_1 (s_A + x) + tan beta_b int_0^y eps_1 of the pinion and eps_2 (N -
+s_A - x) - tan beta_b int_0^y eps_2 of the wheel. Both hot alike, nothing is left along a contact line but the base
+pitch. Own derivation, checked against a brute-force helicoid.
 """
 
 from dataclasses import dataclass

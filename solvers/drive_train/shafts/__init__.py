@@ -1,1 +1,1 @@
-"""What yields: frame, shaft, bearings, coupling_loads -> thrust_budget -> influence, one system with few ports."""
+"""Elastic parts: frame, shaft, bearings, coupling_loads -> thrust_budget -> influence (their flexibility matrix)."""

@@ -1,4 +1,4 @@
-"""How bearings yield: the short plain bearing's film (DuBois and Ocvirk, NACA 1157, 1953), springs, rigid ones."""
+"""Stiffness of bearings: the short plain bearing's film (DuBois and Ocvirk, NACA 1157, 1953), springs, rigid ones."""
 
 from dataclasses import dataclass
 from math import atan2, cos, hypot, pi, sin, sqrt

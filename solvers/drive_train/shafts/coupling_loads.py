@@ -1,13 +1,13 @@
-"""What a gear coupling does to the shaft it sits on: moments and forces by the tilts of both its hubs.
+"""Moments and forces of a gear coupling on its shaft, as functions of the tilts of both its hubs.
 
 Hub A is the unit's, hub B the machine's; the machine lies on the side `towards` (+1 along Z) at the hub distance l. The
 sleeve's slope is (c_B - c_A) / (towards l), and the tilt of a hub is its slope minus the sleeve's, a vector d = delta e
 in the planes X and Y. Loads are conjugate to slopes, m = -Z x M: with a = M_s + M_e and M_l
     on the hub       m = -a e + s (M_l - s_d T delta / 2) Z x e
     on its shaft     f = -a e / l + s (M_l + s_d T delta / 2) Z x e / l     times `towards`, of both hubs
-M_l dissipates, M_s and M_e straighten; s is the sense of rotation, s_d = +1 where the hub drives the sleeve. The sign
-of T delta / 2 differs between hub and sleeve because the torque bisects their axes. Along Z the shaft is pushed by the
-part tau of the friction limit, which is the smaller one of both hubs.
+M_l is the frictional moment, M_s and M_e act against the tilt; s is the sense of rotation, s_d = +1 where the hub
+drives the sleeve. The sign of T delta / 2 differs between hub and sleeve because the torque bisects their axes. Along Z
+the shaft is pushed by the part tau of the friction limit, which is the smaller one of both hubs.
 """
 
 from collections.abc import Iterator

@@ -1,7 +1,7 @@
-"""Shafts, bearings and couplings as one system with few ports: the gap at stations of the face, the couplings' hubs.
+"""Shafts, bearings and couplings as one elastic system: gap at stations of the face, motion of the hubs.
 
-A station's transverse force Q loads both shafts by force, tilting moment and torque; the same coefficients read the gap
-off their motions. So with A the coefficients and C the shafts' flexibility the elastic gap is A^T C A Q, symmetric and
+A station's transverse force Q loads both shafts by force, tilting moment and torque; the same coefficients give the gap
+from their motions. So with A the coefficients and C the shafts' flexibility the elastic gap is A^T C A Q, symmetric and
 never negative, and Q A^T C A Q is twice the strain energy. The bearings are ports as well: they take L q and, displaced
 by u, move the ports by L^T u.
 """

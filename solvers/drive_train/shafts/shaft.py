@@ -1,4 +1,4 @@
-"""Shafts in two bearings: how their nodes yield to nodal loads, by statics and strain energy.
+"""Shafts in two bearings: displacements of their nodes under nodal loads, by statics and strain energy.
 
 Two bearings are statically determinate: shear V and bending moment M of every element follow from the loads alone, V
 constant and M linear between nodes. So the flexibility is the second derivative of the strain energy

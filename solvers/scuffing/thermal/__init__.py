@@ -1,1 +1,1 @@
-"""How hot the contact runs: practice, blok -> temperatures -> thermal_path -> verdict."""
+"""Temperatures of the contact: practice, blok -> temperatures -> thermal_path -> verdict."""

@@ -1,7 +1,7 @@
-"""What ISO/TR 13989-1 adds in practice: mean friction, scuffing temperature of an FZG stage, bulk temperature, risk.
+"""Estimates of ISO/TR 13989-1: mean friction, scuffing temperature of an FZG stage, bulk temperature, risk.
 
-The standard's formulas are taken as a public implementation of it reads, its load factors and the bound of 50 m/s on
-the speed too; the bound of 150 N/mm on the line load is quoted from memory.
+The formulas, load factors and the bound of 50 m/s on the speed follow a public implementation of the standard; the
+bound of 150 N/mm on the line load is quoted from memory.
 """
 
 from typing import Literal

@@ -1,6 +1,6 @@
-"""What a scuffing check takes for granted once a request leaves it to practice: friction, bulk, oil, its limit.
+"""Values of a scuffing check that are estimated where the inputs leave them out: friction, bulk, oil, scuffing limit.
 
-Nothing iterates: friction takes the oil at the oil temperature, only the film's oil follows the bulk.
+There is no iteration: friction uses the viscosity at the oil temperature, the film that at the bulk temperature.
 """
 
 from collections.abc import Iterator

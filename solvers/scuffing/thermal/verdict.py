@@ -1,6 +1,6 @@
-"""What a path says as a whole: its largest flash temperature and thinnest film, or why it may not say them.
+"""Largest flash temperature and thinnest film of a path, or the reason why they are not stated.
 
-A maximum over the points that happened to be solved is none: points without numbers must be shown not to matter.
+They are stated only if points without a solution cannot be hotter or thinner; bounds at these points show that.
 """
 
 from dataclasses import replace
@@ -15,7 +15,7 @@ from solvers.scuffing.safety_results import ContactTemperature, Film, Flash, Saf
 
 
 def unknown_points(thermal: ThermalPath, bulk: float | FloatArray) -> int:
-    """Points without numbers, unless bounds show that the hottest and the thinnest are elsewhere; bulk [K]."""
+    """Number of unsolved points that may be the hottest or the thinnest by their bounds; bulk temperature [K]."""
     missing = np.isin(thermal.status, ("no_solution", "refused"))
     if not _any_number(thermal.minimum_film):
         return int(missing.sum())
@@ -60,7 +60,7 @@ def thinnest_film(path: ScuffingPath) -> Film:
 
 
 def without_thermal(flash: Flash, film: Film) -> tuple[Flash, Film]:
-    """What is left of extremes over a path on which points unknown may decide: those by formula."""
+    """The extremes by formula alone, for a path on which unsolved points may be the hottest or thinnest."""
     return Flash(flash.blok_max, flash.blok_at_psi), Film(dowson_higginson_min=film.dowson_higginson_min)
 
 
@@ -69,7 +69,7 @@ def _any_number(values: FloatArray) -> bool:
 
 
 def _what_leaves_no_film(distribution: LoadDistribution) -> str:
-    """The input to blame: without load or motion that, else only modifications can lift a flank off its mate."""
+    """The input that leaves no film: load or speed where zero, else the modifications, which separate the flanks."""
     if distribution.balance.force == 0.0:
         return "pinion_torque"
     return "modifications" if np.any(distribution.feature_line.pinion_speed > 0.0) else "pinion_speed"
@@ -82,7 +82,7 @@ def path_notices(
     safety: Safety | None,
     unknown: int,
 ) -> tuple[Notice, ...]:
-    """Points without a film, a path without a verdict, and a safety without a meaning."""
+    """Warnings: points without a film, unsolved points that may decide, a safety factor without a meaning."""
     notices = []
     if "unloaded" in path.status:
         message = "there is no film where the feature line is not loaded or does not move"
