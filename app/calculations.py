@@ -1,4 +1,4 @@
-"""The one table of what the service calculates: an endpoint is a row of it and its solver."""
+"""The table of calculations: a row here and its solver make an endpoint."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -54,8 +54,8 @@ class Stage:
 class Calculation:
     """One endpoint.
 
-    It answers as soon as the kernels of its `stage` are compiled. `figures` can be drawn of its answers. `cost` tells
-    what a request takes where the schema allows more than can be finished, from measured times of one core.
+    It answers as soon as the kernels of its `stage` are compiled. `figures` are drawn from its answers. `cost`
+    estimates the time of a request on one core, where the schema allows requests that take too long.
     """
 
     path: str
@@ -197,7 +197,7 @@ CALCULATIONS = (
     Calculation(
         path="/v1/drive-train",
         title="Drive train",
-        summary="A gear unit whole: couplings, shafts in bearings, pumped heat, load along the face and scuffing",
+        summary="A complete gear unit: couplings, shafts in bearings, pumped heat, load along the face and scuffing",
         source="own derivation on Pahl 1978, Milian 2004 and Xue 2020",
         request=DriveTrainRequest,
         solve=drive_train.solve,

@@ -101,7 +101,7 @@ class _Endpoints(ABC, Generic[Answer, Stream]):
         return self.solve("/v1/scuffing/line-contact", request)
 
     def drive_train(self, request: Json) -> Answer:
-        """A gear unit whole."""
+        """A complete gear unit: couplings, shafts, bearings, mesh."""
         return self.solve("/v1/drive-train", request)
 
     def sweep(self, request: Json, *, progress: bool = False) -> Stream:

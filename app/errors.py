@@ -1,4 +1,4 @@
-"""Why a request gets no answer: the exceptions of the service.
+"""The exceptions of the service: reasons why a request has no answer.
 
 `PROBLEMS` is the one table from exception to status, code and title.
 """

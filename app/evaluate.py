@@ -1,4 +1,4 @@
-"""From the bytes of a request to its answer, and to the bytes of that: every view starts from here."""
+"""Reads and solves a request and writes its answer, for JSON, pages, figures and studies alike."""
 
 import json
 from collections.abc import Iterator
@@ -117,7 +117,7 @@ def drawn(
 
 
 def evaluate(calculation: Calculation, request: Request) -> Response:
-    """The answer to a request, whatever will be made of it.
+    """The answer to a request.
 
     Raises Unprocessable where the solver finds the input impossible, and a validation error (never an answer) where
     a result is not finite.
@@ -137,7 +137,7 @@ def solve(calculation: Calculation, request: Request) -> Any:
 
 
 def response_to(calculation: Calculation, request: Request, result: Any) -> Response:
-    """The answer that a result, or the lack of a solution, makes; raises a validation error if it is not finite."""
+    """The answer made of a result or of a NoSolution; raises a validation error if a number is not finite."""
     if isinstance(result, NoSolution):
         failure, result = result, None
         warning = Notice(rank="invalid", code=failure.code, message=failure.message)
@@ -184,7 +184,7 @@ def _notice(request: Request, warning: notices.Notice) -> Notice:
 def _assumptions(
     section: Section, unused: frozenset[str], derived: dict[str, Any], prefix: str = ""
 ) -> Iterator[dict[str, Any]]:
-    """The defaults marked as ours that the result rests on, with the value used where `derived` tells it.
+    """The assumed defaults that the result depends on, with the value used where `derived` holds it.
 
     `derived` holds such values under their names, or in groups and lists of the sections' own names.
     """
@@ -204,14 +204,14 @@ def _assumptions(
 
 
 def _model_assumptions(request: Request) -> Iterator[dict[str, Any]]:
-    """What the options in force take for granted."""
+    """The assumptions of the chosen model options."""
     for path, reason in request.assumed_by_the_model().items():
         yield {"field": path, "value": reduce(getattr, path.split("."), request), "reason": reason}
 
 
 @cache
 def _reasons(section: type[Section]) -> dict[str, str | None]:
-    """The reason behind each default that is ours, and the sections that may hold more."""
+    """The reason of each assumed default by field; None for sections, which may hold more."""
     reasons = {}
     for name, info in section.model_fields.items():
         reason = next((item.assumed for item in info.metadata if isinstance(item, Input)), None)

@@ -1,7 +1,8 @@
-"""What the service says of itself: log and counters.
+"""Log and metrics of the service.
 
-The log is written by a thread of its own: a reader that stalls costs lines, which are counted, never a request. Lines
-of answered requests go to the standard output, everything else to the standard error.
+A thread of its own writes the log, so that a reader of it that stops never delays a request; lines that do not fit into
+the queue are dropped and counted. Lines of answered requests go to the standard output, all others to the standard
+error.
 """
 
 import logging
@@ -30,7 +31,7 @@ STUDIES = Gauge("tribodrive_studies", "Studies running")
 STUDIES_UNFINISHED = Counter("tribodrive_studies_unfinished", "Studies that ended with an error, as by their deadline")
 WORKERS_LOST = Counter("tribodrive_workers_lost", "Worker processes that died while they computed")
 DEADLINES_MISSED = Counter("tribodrive_deadlines_missed", "Calculations ended at their deadline")
-LINES_DROPPED = Counter("tribodrive_log_lines_dropped", "Log lines lost because nobody read the log fast enough")
+LINES_DROPPED = Counter("tribodrive_log_lines_dropped", "Log lines dropped because the log was not read fast enough")
 
 
 class _Handler(QueueHandler):
@@ -46,7 +47,7 @@ class _Handler(QueueHandler):
             LINES_DROPPED.inc()
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  logging's name
-        """What cannot be formatted must not harm the caller."""
+        """Count a record that cannot be formatted as lost."""
         del record
         LINES_DROPPED.inc()
 
@@ -77,7 +78,7 @@ class _Listener(QueueListener):
 
 @contextmanager
 def running(level: str) -> Iterator[None]:
-    """Send what is logged through the queue while the context is open, unless the server of another has a log."""
+    """Send log records through the queue while the context is open, except the root logger's if it has handlers."""
     lines: queue.SimpleQueue[logging.LogRecord | None] = queue.SimpleQueue()
     handler = _Handler(lines)
     listener = _Listener(lines, _Output())  # type: ignore[arg-type]  # anything that handles records

@@ -1,4 +1,4 @@
-"""Wires the application together."""
+"""Creates the FastAPI application."""
 
 import logging
 from collections.abc import AsyncIterator

@@ -9,10 +9,10 @@ from pathlib import Path
 import solvers
 
 NO_CALCULATION = "published"
-"""The package of what was printed and is compared with; nothing is calculated there."""
+"""The package of published numbers for comparison, which does not affect results."""
 DECLARE = frozenset({"quantity", "Quantity"})
 LABELS = frozenset({"title", "symbol", "source", "text", "default_text", "assumed", "index"})
-"""What the declaration of a quantity says in words, beside its positional arguments."""
+"""Arguments of a declaration that are text and do not affect results, beside the positional ones."""
 
 
 def sources_of(package: Path) -> str:
@@ -51,7 +51,7 @@ def _is_text(statement: ast.stmt) -> bool:
 
 
 def changes_since(sources: str) -> list[str]:
-    """What the changelog says to somebody whose results are of other sources; nothing where they are these.
+    """The newest entries of the changelog for results of other sources; empty for results of the present ones.
 
     `sources` is the hash or its beginning, and empty where it is not known.
     """
@@ -67,4 +67,4 @@ def recent_changes() -> list[str]:
 
 SOURCES = sources_of(Path(solvers.__file__).parent)
 SHORT_SOURCES = SOURCES[:16]
-"""What links say of the sources."""
+"""The part of the hash that links carry."""

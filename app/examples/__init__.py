@@ -35,7 +35,7 @@ class Example(ExampleSummary):
 
 @lru_cache(maxsize=1)
 def examples() -> dict[str, Example]:
-    """Every example by name: the starters first, those outside the limits last of these, then in alphabetical order."""
+    """Every example by name: starters, starters outside the limits, the others; each in alphabetical order."""
     stored = [path for path in files("app.examples").iterdir() if path.name.endswith(".json")]
     texts = {path.name.removesuffix(".json"): path.read_text("utf-8") for path in stored}
     read = [Example(name=name, **json.loads(text)) for name, text in sorted(texts.items())]

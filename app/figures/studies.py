@@ -222,7 +222,7 @@ STAR = f"{NO_BREAK}*"
 
 @dataclass(frozen=True, slots=True)
 class Influence:
-    """What one step of an input changes, and whether the two sides disagree."""
+    """The change of an output by one step of an input, and whether the slopes below and above the value differ."""
 
     name: str
     step: str
@@ -318,7 +318,7 @@ def lead_chart(trace: LeadTrace, before: tuple[float, float], ends: tuple[str, s
 
 
 class Tried(NamedTuple):
-    """What a correction reached at its worst corner, and whether it has a solution there."""
+    """The objective of a correction at its worst corner, and whether that corner has a solution."""
 
     reached: float
     solved: bool

@@ -1,9 +1,9 @@
-"""The service as HTTP: what stands between the network and the routes, and the routes.
+"""The service over HTTP.
 
 server      uvicorn as `python -m app` runs it
-connection  limits where bytes arrive: headers, connections, time
-middleware  limits on bodies; what every answer carries and leaves behind: request id, headers, a log line, metrics
-json_route  bodies of JSON
-problems    errors as problem documents
+connection  uvicorn's protocol with limits on headers, connections and time
+middleware  limits on bodies; request id, headers, log line and metrics of every answer
+json_route  routes with a JSON body
+problems    exceptions as problem documents
 routes      the endpoints and the pages
 """

@@ -15,7 +15,7 @@ from app.schema.reading import faults
 
 
 class _StrictRequest(Request):
-    """A request whose JSON has unique names, and not too many of them."""
+    """A request whose JSON objects have unique names, and a limited number of them."""
 
     async def json(self) -> Any:
         """What the body says; raises Unreadable and InvalidBody."""
@@ -23,7 +23,7 @@ class _StrictRequest(Request):
 
 
 class JsonRoute(APIRoute):
-    """A route with a body: 415 unless it is declared as JSON, 400 where a name stands twice, faults in our words."""
+    """A route with a JSON body: 415 for other types, 400 where a name occurs twice, messages by `schema.reading`."""
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         """What answers a request."""

@@ -147,7 +147,7 @@ class _Request:
         except ClientDisconnect:
             pass
         except asyncio.CancelledError:  # the server stops and waits no longer; this task ends with its answer
-            await self._say_goodbye()
+            await self._answer_shutdown()
         except Exception as error:
             answer = internal_error(self._identifier, error)
             if self._status != CLIENT_GONE:
@@ -159,7 +159,7 @@ class _Request:
             client = self._scope.get("client") if self._limits.log_clients else None
             record(self._identifier, client, self._method, endpoint, status, time.perf_counter() - self._started)
 
-    async def _say_goodbye(self) -> None:
+    async def _answer_shutdown(self) -> None:
         if self._status == CLIENT_GONE:
             answer = problem(self._identifier, 503, "shutting_down", "The service stops", headers={"Retry-After": "5"})
             await answer(self._scope, self._receive, self._send_decorated)

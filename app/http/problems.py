@@ -146,6 +146,6 @@ def _refusal(instance: str, code: str, errors: list[dict[str, str]]) -> JSONResp
 
 
 def internal_error(instance: str, error: Exception) -> JSONResponse:
-    """The answer to what nobody expected; the log has the cause."""
+    """The problem document of an unexpected exception, which is logged."""
     logger.error("request %s failed", instance, exc_info=error)
     return problem(instance, 500, "internal_error", "Something went wrong in the service; the log has the cause")

@@ -1,4 +1,4 @@
-"""uvicorn as this service runs it: own protocol, own log, an end that does not keep anybody waiting."""
+"""uvicorn as this service runs it: with its own protocol, its own log and a short shutdown."""
 
 import gc
 import logging

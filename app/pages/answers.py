@@ -18,5 +18,5 @@ class Answers(LRUCache[str, bytes]):
 
 
 def key_of(path: str, pairs: list[tuple[str, str]]) -> str:
-    """What tells cases apart: the endpoint and its fields, in whatever order."""
+    """The key of a case: its endpoint and fields, whatever their order."""
     return sha256(repr((path, sorted(pairs))).encode()).hexdigest()

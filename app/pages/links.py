@@ -42,7 +42,7 @@ class Links:
 
     @property
     def page(self) -> str:
-        """The case and what it is compared with."""
+        """The page of the case, beside the case that it is compared with."""
         return link(self.path, self.pairs, ref=self.ref, theme=self.theme, sources=SHORT_SOURCES)
 
     @property

@@ -274,7 +274,7 @@ def _variant(asked: Asked) -> tuple[Case | None, str]:
 
 
 def _by_field(faults: list[Fault]) -> dict[str, str]:
-    """Messages by path; several of one field in one line."""
+    """Messages by the path of their field; several messages of one field are joined."""
     found: dict[str, str] = {}
     for fault in faults:
         if fault.path:

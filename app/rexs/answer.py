@@ -42,7 +42,7 @@ class SpectrumCase(BaseModel):
 
 
 class MissingValue(BaseModel):
-    """What a calculation needs and the file does not tell."""
+    """A field that a calculation needs and the file does not contain."""
 
     field: Annotated[str, Output("dotted path of the field, or the endpoint that cannot be asked")]
     component: Annotated[int | None, Output("component in the file that could tell it")]

@@ -39,7 +39,7 @@ class Draft:
         self.assumed[path] = Assumed(path, value, reason)
 
     def lacks(self, path: str, component: Component | None, attribute: str | None, message: str) -> None:
-        """Note that the file does not tell a field that has no default."""
+        """Record that the file does not contain a field without a default."""
         self.missing.setdefault(path, Missing(path, component.id if component else None, attribute, message))
 
     def take(self, row: Row, component: Component, prefix: str = "", case: LoadCase | None = None) -> float | None:

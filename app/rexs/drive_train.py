@@ -42,7 +42,7 @@ def add_drive_train(stage: StageDraft, draft: Draft) -> bool:
 
 
 def _obstacles(stage: StageDraft) -> list[tuple[Component, str]]:
-    """Why the drive train cannot be formed."""
+    """The reasons why the file does not describe a drive train that can be calculated."""
     found = []
     for place, shaft in enumerate(stage.shafts):
         gears = [each for each in stage.reading.model.parts_of(shaft.id) if "gear" in each.type.split("_")]

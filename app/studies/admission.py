@@ -37,7 +37,7 @@ class StudyAdmission:
 
     @contextmanager
     def place(self) -> Iterator[None]:
-        """A study's place among the few; raises StudiesFull."""
+        """Count a study among the running ones while the context is open; raises StudiesFull."""
         if self._running >= self._most:
             raise StudiesFull
         self._running += 1
@@ -49,7 +49,7 @@ class StudyAdmission:
             STUDIES.set(self._running)
 
     def own(self) -> Pool:
-        """The service's own workers for one study, where its figures are drawn whoever solves its points."""
+        """The service's own workers for one study; its figures are drawn there, even if a cluster solves its points."""
         return StudyPool(self._settings, self._workers)
 
     async def pool(self) -> Pool:
@@ -60,7 +60,7 @@ class StudyAdmission:
 
     @asynccontextmanager
     async def open(self) -> AsyncIterator[None]:
-        """A cluster is prepared from the beginning, so that the first study need not wait; afterwards it is left."""
+        """Prepare the cluster in the background while the context is open, so that the first study need not wait."""
         if self._cluster is None:
             yield
             return

@@ -1,4 +1,4 @@
-"""Points of a study, solved one after another in a worker process: each is the endpoint's own answer."""
+"""Solves points of a study in a worker process; each point is the endpoint's own answer to its request."""
 
 import copy
 import logging
@@ -44,7 +44,7 @@ class Question(NamedTuple):
     deadline_s: float
 
     def failed(self, code: str, message: str) -> Point:
-        """A point that could not be solved for no fault of its request."""
+        """A point that failed for a reason outside its request."""
         return Point("failed", self._nothing, [], {"pointer": "", "code": code, "message": message})
 
     def refused(self, error: InvalidBody | Unprocessable) -> Point:

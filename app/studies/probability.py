@@ -129,7 +129,7 @@ def risk(probability: float) -> Risk:
 
 
 def deciding(outputs: Array, limit: Limit) -> list[float] | None:
-    """How often each case is the worst, of the draws that are solved in all; equal cases share. None without such."""
+    """How often each case is the worst, of draws solved in all cases; ties are shared. None without such draws."""
     solved = outputs[~np.isnan(outputs).any(axis=-1)]
     if not solved.size:
         return None

@@ -80,7 +80,7 @@ class Part(BaseModel):
 
 
 class FieldsTogether(Part):
-    """Fields that take a value each, or all the same one."""
+    """Fields that are varied together."""
 
     path: FieldPaths
 
@@ -110,29 +110,29 @@ class Axis(FieldsTogether):
 
 
 class Spread(Part):
-    """How one field scatters."""
+    """The distribution of one field."""
 
     path: Annotated[FieldPath, Input("field that scatters", text="dotted path of the field")]
 
 
 class Range(Spread):
-    """Every value between two ends alike."""
+    """A uniform distribution between two ends."""
 
     min: Annotated[float, Input("lower end")]
     max: Annotated[float, Input("upper end")]
 
 
-KIND = Input("distribution", source="scipy.stats", text="which one it is")
+KIND = Input("distribution", source="scipy.stats", text="name of the distribution")
 
 
 class Uniform(Range):
-    """Every value between two ends alike."""
+    """A uniform distribution between two ends."""
 
     distribution: Annotated[Literal["uniform"], KIND]
 
 
 class Triangular(Range):
-    """A density that rises from both ends to the most frequent value."""
+    """A triangular distribution: its density rises linearly from both ends to the most frequent value."""
 
     distribution: Annotated[Literal["triangular"], KIND]
     mode: Annotated[float, Input("most frequent value")]
@@ -208,8 +208,8 @@ FromIndex = Annotated[
     int,
     Input(
         "index of the first point",
-        text="where to go on with a study whose connection was lost; lines of points are the same from there on, the "
-        "end summarises these points",
+        text="where to continue a study whose connection was lost; the lines of its points are the same from there "
+        "on, and the last line summarises these points alone",
         ge=0,
     ),
 ]
@@ -223,7 +223,7 @@ Outputs = Annotated[
 
 
 class StudyRequest(Part):
-    """What every study is about: one endpoint, one request."""
+    """The endpoint and the request of a study."""
 
     endpoint: Annotated[str, Input("endpoint", text="the endpoint that is asked, as in GET /v1/examples")]
     request: Annotated[
@@ -256,13 +256,13 @@ class LoadCase(Part):
 
 
 class Tolerances(Part):
-    """How the fields of a machine scatter, and how many machines are drawn."""
+    """The distributions of the fields of a machine, and how many machines are drawn."""
 
     method: Annotated[Method, METHOD] = "sobol"
     count: Annotated[int, COUNT] = 128
     replicates: Annotated[
         int,
-        Input("replicates", text="independent samples of as many machines, whose scatter is the error", ge=1, le=1000),
+        Input("replicates", text="independent samples; the scatter of their means is the error", ge=1, le=1000),
     ] = 8
     seed: Seed = 1
     inputs: Annotated[Inputs, Input("distributions", text="the fields and their distributions")]
@@ -288,8 +288,8 @@ class SpectrumLimit(Part):
 
     exactly_one = ("above", "below")
     output: Annotated[FieldPath, Input("limited output", text="dotted path of a single number of the answer")]
-    above: Annotated[Threshold | None, Input("upper limit", text="it is bad to be above")] = None
-    below: Annotated[Threshold | None, Input("lower limit", text="it is bad to be below")] = None
+    above: Annotated[Threshold | None, Input("upper limit", text="values above it exceed the limit")] = None
+    below: Annotated[Threshold | None, Input("lower limit", text="values below it exceed the limit")] = None
 
 
 class SpectrumRequest(StudyRequest):
@@ -304,10 +304,15 @@ class SpectrumRequest(StudyRequest):
     limits: Annotated[
         list[SpectrumLimit] | None,
         Field(max_length=20),
-        Input("limits", text="what must not happen", default_text="the scuffing temperature, where there is one"),
+        Input(
+            "limits",
+            text="values that an output must not exceed",
+            default_text="the scuffing temperature, where there is one",
+        ),
     ] = None
     hours_per_year: Annotated[
-        float | None, Input("hours per year", text="for the energy that powers add up to", gt=0.0, le=8784.0)
+        float | None,
+        Input("hours per year", text="operating time, to turn mean powers into energies", gt=0.0, le=8784.0),
     ] = None
     points: Annotated[bool, Input("points", text="whether every solved point is a line of the answer")] = False
 

@@ -31,7 +31,8 @@ NOISE = 1e-7  # relative change of an output that an iteration may leave
 class Perturbation:
     """An input, its value and the step by which it is moved.
 
-    A step of a tolerance need not be small; it is checked at half of it, which is None for other steps.
+    The step is the tolerance where the field has one; as that need not be small, the slope is compared with that over
+    `half` of it, which is None for other steps.
     """
 
     leaf: Leaf

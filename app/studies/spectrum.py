@@ -154,7 +154,7 @@ class Spectrum(Study):
 
 
 def evaluated(study: Spectrum, values: Array) -> Line:
-    """What the answer's end says of the outputs `[replicate, draw, case, output]`; runs in a worker."""
+    """The content of the last line, from the outputs `[replicate, draw, case, output]`; runs in a worker."""
     columns = {path: values[..., place] for place, path in enumerate(study.question.outputs)}
     limits, assumptions, notes = _limits(study, columns)
     limited = [_of_limit(study, each, columns[each.output]) for each in limits]
@@ -181,7 +181,7 @@ def evaluated(study: Spectrum, values: Array) -> Line:
 
 
 def _limits(study: Spectrum, columns: dict[str, Array]) -> tuple[list[Limit], list[Line], list[str]]:
-    """The limits in force, those assumed for want of others, and what is to be said of them."""
+    """The limits used, the assumption where the default limit is used, and notes."""
     if study.limits is not None:
         return study.limits, [], []
     paths = SCUFFING[study.question.endpoint]
@@ -199,7 +199,7 @@ def _limits(study: Spectrum, columns: dict[str, Array]) -> tuple[list[Limit], li
 
 
 def _of_limit(study: Spectrum, limit: Limit, outputs: Array) -> Line:
-    """The probability of the spectrum, what decides it, and which tolerance matters."""
+    """The probability over the spectrum, how often each case is the worst, the correlation with each tolerance."""
     worst = limit.worst(outputs)
     edges, density = probability.histogram(worst)
     solved = ~np.isnan(outputs).any(axis=-1).ravel()
@@ -340,7 +340,7 @@ def _machines(tolerances: Tolerances, leaves: Sequence[Leaf]) -> Array:
 
 
 def _too_many(question: Question, overrides: Overrides, total: int, most: int) -> str:
-    """What a study of too many points would take, by one of them."""
+    """The refusal of a study with too many points, with an estimate of its time from one of them."""
     solve_point(question, overrides)  # the first one may load kernels
     started = perf_counter()
     solve_point(question, overrides)

@@ -123,7 +123,7 @@ class Table:
         self._heading = ["index", *inputs, "status", *results, "warnings", "error"]
 
     def encode(self, line: Line) -> bytes:
-        """The row of a line; those of progress and end have none, and one that ends the study early says why."""
+        """The row of a line: none for progress and end; an error has a row with its message."""
         match line["type"]:
             case "sweep":
                 return _row(self._heading)

@@ -42,7 +42,7 @@ class Tally:
 
     @property
     def values(self) -> Array:
-        """The numbers kept, a row a point, NaN where there is none."""
+        """The numbers kept, one row per point, NaN where there is none."""
         return np.array(self._numbers).reshape(-1, self._outputs)
 
     @property

@@ -1,4 +1,4 @@
-"""The service's end of the template process and of its copies."""
+"""The template process and its copies as objects of the service: commands, calls and their results."""
 
 import asyncio
 import os

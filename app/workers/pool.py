@@ -229,7 +229,7 @@ class Pool:
             job.turn.set_result(None)
 
     def _release(self, job: Job) -> None:
-        """Take a call out of the queue, or back its worker; a worker whose call has no outcome is ended."""
+        """Remove a call from the queue, or free its worker; a worker whose call has no outcome is ended."""
         worker, job.worker = job.worker, None
         self._shares.remove(job, _now(), finished=worker is not None and not worker.busy)
         if worker is not None:

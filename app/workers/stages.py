@@ -40,7 +40,7 @@ logger = logging.getLogger("tribodrive")
 
 
 def content() -> str:
-    """What a cache holds that is complete."""
+    """Names of the examples whose kernels a complete cache holds."""
     return " ".join(name for stage in STAGES for name in stage.examples)
 
 
@@ -83,7 +83,7 @@ def warm(stage: Stage, notify: Callable[[], object] = lambda: None) -> int:
 
 
 def _calculate_with(compilations: _Compilations, name: str) -> None:
-    """Answer one example though kernels cannot be written: numba raises then, but keeps what it has compiled."""
+    """Answer one example; again where numba raises as a kernel cannot be written to disk, it keeps that in memory."""
     while True:
         before = compilations.count
         try:

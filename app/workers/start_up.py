@@ -1,4 +1,7 @@
-"""From an empty cache to everything warm while the port is open: compile beside, load, open stage after stage."""
+"""Start-up while the port is open: kernels are compiled in other processes and loaded stage by stage.
+
+The endpoints of a stage answer as soon as it is loaded.
+"""
 
 import asyncio
 import logging
@@ -23,7 +26,7 @@ logger = logging.getLogger("tribodrive")
 
 
 class StartUp:
-    """What is warm, what is not, and the work that changes it."""
+    """Which stages are loaded, and the tasks that compile and load them."""
 
     def __init__(self, pool: Pool) -> None:
         self._pool = pool
@@ -136,7 +139,7 @@ class StartUp:
                     break
                 except ProcessDied:
                     await self._pool.template_restarted.wait()
-                    await self._mend(loading)
+                    await self._recompile_after_deaths(loading)
             self._pool.renew()
             if stage not in self._warm:
                 self._warm.append(stage)
@@ -145,11 +148,15 @@ class StartUp:
                     logger.info("tribodrive: %s is warm", stage.name)
             self._show()
 
-    async def _mend(self, stage: Stage) -> None:
-        """The template has died over a stage: where it is not the first time the kernels on disk may be damaged."""
+    async def _recompile_after_deaths(self, stage: Stage) -> None:
+        """After the second death of the template over a stage: its kernels on disk may be damaged."""
         self._deaths[stage] += 1
         if self._deaths[stage] == MOST_DEATHS:
-            logger.error("%s is not loaded: %d processes died of it; its first callers wait", stage.name, MOST_DEATHS)
+            logger.error(
+                "%s is not loaded: %d processes died while they loaded it; its first calls compile it",
+                stage.name,
+                MOST_DEATHS,
+            )
         elif self._deaths[stage] > 1:
             logger.warning("two processes died while they loaded %s: its kernels are compiled again", stage.name)
             discard_kernels(stage)
@@ -159,7 +166,7 @@ class StartUp:
                         pass
 
     def _show(self) -> None:
-        """On a terminal a bar, which is drawn over the one before."""
+        """Draw a progress bar over the one before, on a terminal."""
         if sys.stderr.isatty() and self._compiled:
             share = sum(self._share(stage) * stage.kernels for stage in STAGES) / sum(stage.kernels for stage in STAGES)
             at_work = ", ".join(stage.name for stage in STAGES if self._compiled[stage] and stage not in self._warm)

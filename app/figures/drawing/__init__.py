@@ -1,1 +1,1 @@
-"""Draws the data of a figure with matplotlib: `style` its look, `panels` what stands in axes, `image` the sheet."""
+"""Draws a figure's data with matplotlib: `style` has colours and fonts, `panels` fills axes, `image` writes files."""

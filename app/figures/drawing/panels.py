@@ -269,7 +269,7 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map, theme: Theme) -> None:
 
 
 def _stretched(coordinate: Values, axis: Axis) -> Values:
-    """The values of a coordinate; where there is only one, which stands for all, the ends of its axis."""
+    """The values of a coordinate; for a single value, which holds everywhere, the ends of its axis."""
     middle = float(coordinate[0])
     return coordinate if coordinate.size > 1 else np.array(axis.limits or (middle - 0.5, middle + 0.5))
 

@@ -43,7 +43,7 @@ def flank_load(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def contact_temperature(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Contact temperature by Blok over the flank; the corners that a feature line never meets count."""
+    """Contact temperature by Blok over the whole flank, with its corners."""
     flank, shown = result.flank, axis(FlankMaps, "contact_temperature", "contact temperature")
     grid, limit = flank.contact_temperature, result.derived.temperatures.scuffing
     if result.derived.temperatures.bulk is None:
@@ -107,7 +107,7 @@ def _shaft(inputs: DriveTrainInputs, name: str, given: Shaft, state: ShaftResult
         for bearing, found in zip(given.bearings, state.bearings, strict=True):
             place = bearing.position / MM
             height = float(np.interp(place, z, line.y))
-            reaction = _felt(found.reaction[plane], hypot(*found.reaction)) / NEWTONS
+            reaction = _without_rounding(found.reaction[plane], hypot(*found.reaction)) / NEWTONS
             marks.append(Mark(place, height, number(reaction, "kN"), hue))
     hubs = [Level(each.position / MM, "hub", vertical=True) for each in inputs.couplings if each.shaft == name]
     return Panel(
@@ -125,8 +125,8 @@ def face_width(inputs: DriveTrainInputs) -> float:
     return inputs.mesh.distribution.gears.face_width
 
 
-def _felt(value: float, whole: float) -> float:
-    """The value; what is rounding error beside the whole is zero."""
+def _without_rounding(value: float, whole: float) -> float:
+    """The value; zero where it is rounding error relative to the whole."""
     return 0.0 if abs(value) < NOISE * abs(whole) else value
 
 
@@ -143,7 +143,7 @@ def gap(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     )
     opened = axis(GapCurves, "total", "gap, positive where the flanks part", magnitude=False)
     tilt, heat = (
-        _felt(slope, span)
+        _without_rounding(slope, span)
         for slope, span in (
             (found.shaft_slope, found.shaft_range),
             (found.thermal_slope, found.thermal_range),
@@ -215,7 +215,7 @@ def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[s
 
 
 def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Journals of the plain bearings in their clearances, and where they go as the load changes (Ocvirk)."""
+    """Journal positions of the plain bearings in their clearances, and their paths as the load changes (Ocvirk)."""
     panels = []
     used = (result.derived.pinion_shaft, result.derived.wheel_shaft)
     for name, state, known in zip(("pinion", "wheel"), result.shafts, used, strict=True):

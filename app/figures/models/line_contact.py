@@ -81,7 +81,7 @@ def film_temperature(_: LineContactInputs, result: LineContactResult) -> Figure:
 
 
 def heat(_: LineContactInputs, result: LineContactResult) -> Figure:
-    """What shear and compression make, and where it goes."""
+    """Heat from shear and compression, and the heat that leaves by surfaces and flow."""
     books = result.heat
     if books is None:
         raise _isothermal()

@@ -28,7 +28,7 @@ def body_of(endpoint: str) -> Any:
 
 
 async def calculated(http: Request, path: str, function: Callable[..., bytes], request: Model) -> bytes:
-    """What the function makes of the calculation at `path` and its request, in a worker."""
+    """The result of `function(path, request)` in a worker; raises WarmingUp, Unprocessable for endless requests."""
     start_up: StartUp = http.app.state.start_up
     if path in start_up.closed:
         raise start_up.warming_up()

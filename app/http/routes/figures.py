@@ -1,4 +1,4 @@
-"""The figures of every endpoint: what there is, and each as an image or as numbers."""
+"""The figures of every endpoint: a list of them, and each as an image or as numbers."""
 
 from functools import partial
 from typing import Annotated, Any, Literal, cast, get_args
@@ -18,7 +18,7 @@ from app.schema.quantities import Output
 Theme = Literal["light", "dark"]
 FORMATS: tuple[Format, ...] = get_args(Format)
 THEMES: tuple[Theme, ...] = get_args(Theme)
-# A figure fetched alone runs nothing and loads nothing; its styles and images are its own.
+# A figure needs no script and no other address: styles and images are inside it.
 ALONE = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
 _FIGURES = {each.path: {figure.name: figure for figure in each.figures} for each in CALCULATIONS}
 
@@ -54,7 +54,7 @@ def _add(calculation: Calculation) -> None:
     names = list(_FIGURES[calculation.path])
 
     async def known(http: Request) -> None:
-        """404 for what there is not, whatever the body."""
+        """404 for an unknown figure or format, before the body is validated."""
         if http.path_params["name"] not in names or http.path_params["format"] not in FORMATS:
             raise HTTPException(404, f"There are {', '.join(names)}, each as {', '.join(FORMATS)}")
 

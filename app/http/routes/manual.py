@@ -15,7 +15,7 @@ router = APIRouter(include_in_schema=False)
 
 @router.get("/manual")
 def contents(http: Request) -> Response:
-    """What the manual holds."""
+    """The table of contents."""
     return html(contents_page(root_of(http)))
 
 
@@ -35,7 +35,7 @@ def chapter(http: Request, name: str) -> Response:
 
 @router.get("/{model}/about")
 def about(http: Request, model: str) -> Response:
-    """Where the text about a model was before it was a chapter."""
+    """Redirect from the former address of a chapter."""
     if model not in NAMES:
         raise HTTPException(404, f"There is no {model} to tell about")
     return RedirectResponse(f"{root_of(http)}/manual/{model}", 308)

@@ -29,14 +29,14 @@ HTML = "text/html; charset=utf-8"
 FORM = "application/x-www-form-urlencoded"
 FOREVER = "public, max-age=31536000, immutable"
 METHODS = ["GET", "POST"]
-TROUBLES: tuple[type[Exception], ...] = tuple(PROBLEMS)
+KNOWN_ERRORS: tuple[type[Exception], ...] = tuple(PROBLEMS)
 
 router = APIRouter(include_in_schema=False)
 
 
 @router.get("/")
 async def start(http: Request) -> Response:
-    """What the models answer, and where to begin."""
+    """The start page."""
     return html(start_page(root_of(http)))
 
 
@@ -95,7 +95,7 @@ async def _answer(
     view: Callable[..., views.Shown],
     *arguments: Any,
 ) -> Response:
-    """One view of the case in the query or the form; a query with empty fields is sent on to one without."""
+    """One view of the case in the query or the form; a query with empty fields is redirected to one without."""
     is_page = media == HTML
     try:
         asked, clean = await asked_of(http, calculation)
@@ -105,21 +105,21 @@ async def _answer(
         if asked.pairs:
             start_up.require(calculation.path)
         shown = await _shown(http, asked, view, arguments)
-    except TROUBLES as error:
+    except KNOWN_ERRORS as error:
         if is_page:
-            return trouble_page(http, error)
+            return error_page(http, error)
         raise
     return Response(shown.content, shown.status, media_type=media, headers={"Content-Security-Policy": policy})
 
 
 def redirected(place: str, asked: views.Asked) -> Response:
-    """To the address that says the same in fewer words, and names the sources of the answer."""
+    """Redirect to the shortest address of the same case, with the hash of the solvers' sources."""
     looks = {**asked.views, "sources": asked.views.get("sources", SHORT_SOURCES)} if asked.pairs else asked.views
     return RedirectResponse(quote(asked.root + link(place, asked.pairs, **looks), safe="/?&=%,:.*+-_~"), 303)
 
 
 async def asked_of(http: Request, calculation: Calculation) -> tuple[views.Asked, bool]:
-    """The case asked for, and whether its query was free of what says nothing."""
+    """The case asked for, and whether its query was in the shortest form, without empty fields."""
     text = http.url.query
     if http.scope["method"] == "POST":
         if http.headers.get("content-type", "").partition(";")[0].strip() != FORM:
@@ -165,8 +165,8 @@ async def _shown(
     return shown
 
 
-def trouble_page(http: Request, error: Exception) -> Response:
-    """A page that says what happened, for whoever reads pages."""
+def error_page(http: Request, error: Exception) -> Response:
+    """The page about an error."""
     kind = kind_of(error)
     detail = getattr(error, "detail", "")
     return html(problem_page(root_of(http), kind.status, kind.title, detail), kind.status, kind.headers)

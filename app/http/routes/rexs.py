@@ -6,7 +6,7 @@ from fastapi import APIRouter, HTTPException, Query, Request, Response
 
 from app.errors import Unprocessable
 from app.http.problems import documented
-from app.http.routes.pages import TROUBLES, html, root_of, trouble_page
+from app.http.routes.pages import KNOWN_ERRORS, error_page, html, root_of
 from app.pages.overview import problem_page
 from app.rexs import answer
 from app.settings import MEBIBYTE, Settings
@@ -84,8 +84,8 @@ async def show_unit(http: Request) -> Response:
         return html(await _runner(http).run(http, answer.unit_html, root_of(http), content, _most_bytes(http)))
     except Unprocessable as error:
         return html(problem_page(root_of(http), 422, "The file cannot be read", error.message), 422)
-    except TROUBLES as error:
-        return trouble_page(http, error)
+    except KNOWN_ERRORS as error:
+        return error_page(http, error)
 
 
 async def _upload(http: Request) -> tuple[bytes, bytes | None]:

@@ -24,13 +24,13 @@ router = APIRouter(tags=["service"])
 
 
 class Health(BaseModel):
-    """That the service lives."""
+    """The service answers."""
 
     status: Annotated[Literal["ok"], Output("always ok: an answer is the message")] = "ok"
 
 
 class Readiness(BaseModel):
-    """What is ready."""
+    """Which calculations are ready, and how many workers."""
 
     status: Annotated[Literal["ok"], Output("always ok: an answer is the message")] = "ok"
     warm: Annotated[list[str], Output("models, or parts of them, whose kernels are loaded")]

@@ -52,13 +52,13 @@ class StudyStream(StreamingResponse):
 
 
 async def planned(http: Request, planner: Callable[[int, float], Any], most: int | None = None) -> Any:
-    """What a worker makes of a study's request, of at most `most` points with the service's deadline each."""
+    """The result of `planner` in a worker, for at most `most` points with the service's deadline each."""
     limits: Settings = http.app.state.settings
     return await http.app.state.runner.run(http, planner, most or limits.most_study_points, limits.deadline_s)
 
 
 async def begun(http: Request, study: Study, progress_s: float = PROGRESS_S) -> tuple[Lines, Clock]:
-    """The lines of a study, which has a place among those that run, and its clock."""
+    """The lines of a study that counts among the running ones, and its clock."""
     admission: StudyAdmission = http.app.state.studies
     limits: Settings = http.app.state.settings
     clock = Clock(study.total)
@@ -73,7 +73,7 @@ async def streamed(
     headers: dict[str, str] | None = None,
     progress_s: float = PROGRESS_S,
 ) -> Response:
-    """What is written of the lines of a study, which takes its place among those that run."""
+    """The response made of the lines of a study, which counts among the running ones until it ends."""
     with ExitStack() as stack:
         stack.enter_context(http.app.state.studies.place())
         content = pieces(*await begun(http, study, progress_s))
@@ -155,7 +155,7 @@ async def run_sweep(
     Lines are `sweep`, then `point` in order with the first axis slowest, `progress` when nothing else was sent for two
     seconds, and `end`; or `error`, which ends a study early and is the last row of a table. A stream without either was
     cut off: with `from_index` the study goes on, with the same points and lines from there.
-    The end of a sample tells 5, 50 and 95 % quantiles and in `quantile_bounds` what holds each with 90 % confidence.
+    The end of a sample has the 5, 50 and 95 % quantiles, and in `quantile_bounds` their 90 % confidence intervals.
     """
     return await started(http, sweep.sweep_study, body, wanted_format(http, written_as))
 
@@ -167,11 +167,13 @@ async def run_sweep(
     "a line for each output and input, the most influential first, and one for the end",
 )
 async def run_sensitivity(http: Request, body: Annotated[SensitivityRequest, _examples(sensitivity.PATH)]) -> Response:
-    """Differences of the outputs for every number of the case, moved by its tolerance, else by 1 % (1 K, 1).
+    """Derivatives of the outputs by every number of the case, from differences with its tolerance as step.
+
+    A field without a tolerance is moved by 1 %, a temperature by 1 K, an integer by 1.
 
     `change` is what one step does to the output, `elasticity` per cent of the output for a per cent of the input;
     `kink` says that the two sides differ by more than 10 %, `curved` that half the step gives another derivative by
-    more than 10 %; it is null where the step is none of a tolerance.
+    more than 10 %; it is null for fields without a tolerance.
     """
     return await started(http, sensitivity.sensitivity_study, body)
 
@@ -183,13 +185,13 @@ async def run_sensitivity(http: Request, body: Annotated[SensitivityRequest, _ex
     "a line for the spectrum, one for each point if asked for, and one for the end",
 )
 async def run_spectrum(http: Request, body: Annotated[SpectrumRequest, _examples(spectrum.PATH)]) -> Response:
-    """Machines are drawn from the tolerances; each runs every case, and its worst case meets the limits.
+    """Machines are drawn from the tolerances; each runs every case, and its worst case is compared with the limits.
 
-    The end tells the probability of each limit with its 90 % interval, over the spectrum and of each case alone, which
-    case decides and which tolerance matters (rank correlation), and of every output the mean over the operating time,
-    the extremes, and 5, 50 and 95 % quantiles a case. Draws without solution are counted: where there are any, a
-    probability is stated between its `bounds`. Where no output needs the thermal film, it is left out. Lines of
-    `progress` come every half second.
+    The last line has the probability of exceeding each limit with its 90 % interval, for the spectrum and for each case
+    alone; how often each case is the worst (`decides`); the rank correlation with each tolerance; and of every output
+    the mean over the operating time, the extremes, and the 5, 50 and 95 % quantiles in each case. Draws without
+    solution are counted: where there are any, the probability is only known between its `bounds`. Where no output needs
+    the thermal film, it is not calculated. Lines of `progress` come every half second.
     """
     settings: Settings = http.app.state.settings
     return await started(http, spectrum.spectrum_study, body, most=settings.spectrum_solves)
@@ -202,10 +204,10 @@ async def run_spectrum(http: Request, body: Annotated[SpectrumRequest, _examples
     "a line for the ranges, each corner, the extremes of each output, and one for the end",
 )
 async def run_corners(http: Request, body: Annotated[CornersRequest, _examples(sweep.CORNERS_PATH)]) -> Response:
-    """Every corner is the unit's own answer, up to 256 of them; `extremes` say where each output is least and largest.
+    """Every corner is the endpoint's own answer, up to 256 of them; `extremes` are the least and largest values.
 
-    Where no output needs the thermal film, corners leave it out, which makes them twenty times as fast and their
-    warnings fewer. The end warns `no_convergence_of_corner` where corners have no answer; their lines say why.
+    Where no output needs the thermal film, it is not calculated: corners are twenty times as fast and have fewer
+    warnings. The last line warns `no_convergence_of_corner` where corners have no solution; their own lines say why.
     """
     return await started(http, sweep.corners_study, body)
 
@@ -217,10 +219,11 @@ async def run_corners(http: Request, body: Annotated[CornersRequest, _examples(s
     "a line for the search, one for each correction tried, and one for the end",
 )
 async def run_design(http: Request, body: Annotated[DesignRequest, _examples(design.PATH)]) -> Response:
-    """COBYQA from the request's own correction, each judged at every operating point and corner.
+    """A search with COBYQA that starts from the request's own correction.
 
-    The objective of a correction is that of its worst corner. `safety.minimum` counts the thermal film, a second a
-    corner; with `safety.blok_flank`, or `model.lubrication` in closed form, the search is twenty times as fast. Where
-    variables have a `step`, `rounded` in the end is the best correction in whole steps, judged like the others.
+    The objective of a correction is its value at the worst operating point and corner. `safety.minimum` needs the
+    thermal film, a second a corner; with `safety.blok_flank`, or `model.lubrication` in closed form, the search is
+    twenty times as fast. Where variables have a `step`, `rounded` in the last line is the best correction in whole
+    steps, calculated like the others.
     """
     return await started(http, design.design_study, body)

@@ -1,4 +1,4 @@
-"""Pages of the studies of a case, written while the lines of a study come, and their files."""
+"""Pages of studies, which are sent while the lines of the study arrive, and their files."""
 
 import asyncio
 from collections.abc import AsyncGenerator, Callable, Coroutine
@@ -14,14 +14,14 @@ from app.figures.rendering import MEDIA_TYPES as IMAGE_TYPES
 from app.http.routes.pages import (
     DOCUMENT_POLICY,
     HTML,
+    KNOWN_ERRORS,
     METHODS,
     PAGE_POLICY,
-    TROUBLES,
     asked_of,
+    error_page,
     html,
     printed_host,
     redirected,
-    trouble_page,
 )
 from app.http.routes.studies import MEDIA_TYPES, begun, encoder, planned, streamed
 from app.pages.studies import page as pages
@@ -43,7 +43,7 @@ NOT_DRAWN = (
 
 
 def not_from_another_site(http: Request) -> None:
-    """403 where a page of another site asks for a study: what minutes of every core go into is asked for here."""
+    """403 where a page of another site asks for a study, which would occupy every core for minutes."""
     asks = http.url.query or http.method == "POST"
     if asks and http.headers.get("sec-fetch-site") == "cross-site":
         raise HTTPException(403, "Studies are not started from the pages of other sites; open the address by itself")
@@ -60,8 +60,8 @@ def _add(calculation: Calculation, own: StudyPage) -> None:
     async def page(http: Request) -> Response:
         try:
             return await _page(http, calculation, own, path)
-        except TROUBLES as error:
-            return trouble_page(http, error)
+        except KNOWN_ERRORS as error:
+            return error_page(http, error)
 
     async def lines(http: Request, media: str) -> Response:
         kind = {str(name): kind for name, kind in MEDIA_TYPES.items() if name in own.files}.get(media)
@@ -83,8 +83,8 @@ def _add(calculation: Calculation, own: StudyPage) -> None:
         try:
             study = await _checked(http, calculation, own)
             return Response(await _made(http, study, pages.report, printed_host(http)), media_type=HTML, headers=policy)
-        except TROUBLES as error:
-            return trouble_page(http, error)
+        except KNOWN_ERRORS as error:
+            return error_page(http, error)
 
     router.add_api_route(path, page, methods=METHODS)
     router.add_api_route(f"{path}.{{media}}", lines, methods=METHODS)
@@ -135,7 +135,7 @@ async def _pieces(http: Request, opened: pages.Opened, lines: Lines, clock: Cloc
 
 
 async def _part(http: Request, view: Callable[..., bytes], *arguments: Any) -> bytes:
-    """What a worker makes of the lines, or that it could not."""
+    """The result of a view in a worker, or a note that it failed."""
     try:
         made: bytes = await twice_if_lost(http.app.state.studies.own(), view, *arguments)
     except (WorkerLost, DeadlineExceeded):
@@ -144,14 +144,14 @@ async def _part(http: Request, view: Callable[..., bytes], *arguments: Any) -> b
 
 
 async def _made(http: Request, study: PageStudy, view: Callable[..., bytes | str], *arguments: Any) -> bytes:
-    """What a worker makes of a study, when its last line has come; ends when the client leaves."""
+    """The result of a view of a finished study in a worker; the study ends when the client leaves."""
     with http.app.state.studies.place():
         lines, _ = await begun(http, study.study)
         return await _unless_gone(http, _whole(http, lines, partial(view, study), *arguments))
 
 
 async def _whole(http: Request, lines: Lines, view: Callable[..., bytes | str], *arguments: Any) -> bytes:
-    """What a worker makes of all lines, or 404 with the reason why it cannot; raises StudyEnded at an error."""
+    """The result of a view of all lines in a worker; 404 where it is a reason instead, StudyEnded at an error."""
     async with aclosing(lines):
         received = [line async for group in lines for line in group if line["type"] != "progress"]
     if received[-1]["type"] == "error":

@@ -134,7 +134,7 @@ def worst_end(output: Leaf) -> str:
 
 
 def load_figure(case: Case, reference: Case, name: str, finding: str) -> dict[str, Figure]:
-    """Load along the face of a case, and dashed that of the case as described; nothing without load."""
+    """Load along the face at a corner (solid) and for the case as entered (dashed); None where there is no load."""
     try:
         own, given = (LOAD_ALONE.figure(each.request, each.response) for each in (case, reference))
     except NoFigure:

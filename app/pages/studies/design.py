@@ -213,7 +213,7 @@ def _sheet(study: PageStudy, case: Case, at: Overrides) -> Table:
 
 
 def _length(case: Case, path: str) -> str:
-    """How far a relief reaches, where the case says it."""
+    """The length of a relief, where the case gives it."""
     length = value_at(case.response.inputs, path.replace("_um", "_length_mm"))
     return "" if length is None else f", {shown(length)} mm along the line of action"
 
