@@ -156,10 +156,10 @@ def edited(tmp_path: Path) -> Path:
     """The project's sources with one constant of the solvers changed."""
     for package in ("app", "solvers"):
         shutil.copytree(ROOT / package, tmp_path / package, ignore=shutil.ignore_patterns("__pycache__"))
-    checks = tmp_path / "solvers" / "coupling" / "checks.py"
-    text = checks.read_text("utf-8")
+    module = tmp_path / "solvers" / "coupling" / "lubrication.py"
+    text = module.read_text("utf-8")
     assert text.count("MAX_CONTACT_WIDTH = 0.1\n") == 1
-    checks.write_text(text.replace("MAX_CONTACT_WIDTH = 0.1\n", "MAX_CONTACT_WIDTH = 0.11\n"), "utf-8")
+    module.write_text(text.replace("MAX_CONTACT_WIDTH = 0.1\n", "MAX_CONTACT_WIDTH = 0.11\n"), "utf-8")
     return tmp_path
 
 
