@@ -89,9 +89,10 @@ def _isotropic(value: Any) -> Any:
 
 
 Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
+Matrix = Annotated[list[Pair], Field(min_length=2, max_length=2)]
 Stiffness = Annotated[
-    Annotated[list[Pair], Field(min_length=2, max_length=2)],
-    BeforeValidator(_isotropic, json_schema_input_type=float | list[list[float]]),
+    Matrix,
+    BeforeValidator(_isotropic, json_schema_input_type=float | Matrix),
 ]
 
 

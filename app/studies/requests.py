@@ -211,6 +211,7 @@ FromIndex = Annotated[
         text="where to continue a study whose connection was lost; the lines of its points are the same from there "
         "on, and the last line summarises these points alone",
         ge=0,
+        le=1_000_000,
     ),
 ]
 

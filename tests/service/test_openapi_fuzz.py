@@ -13,24 +13,26 @@ ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.service
 
 
-def test_every_operation() -> None:
-    """With all phases and more examples: `schemathesis run --checks all --max-examples 1000 ADDRESS/openapi.json`.
-
-    Studies end after a second here: a thousand of a minute each would say nothing more.
-    """
-    command: list[str | Path] = [
-        Path(sys.executable).with_name("schemathesis"),
-        "run",
-        "--checks",
-        "all",
-        "--phases",
-        "examples,fuzzing",
-        "--max-examples",
-        "5",
-        "--generation-deterministic",
-    ]
+def schemathesis(*options: str) -> subprocess.CompletedProcess[str]:
+    """A run against a service whose studies end after a second: a thousand of a minute each would say nothing more."""
+    program = Path(sys.executable).with_name("schemathesis")
     with running_server(study_points=16, spectrum_solves=16, study_deadline_s=1) as (_, address):
-        outcome = subprocess.run(
-            [*command, f"{address}/openapi.json"], cwd=ROOT, capture_output=True, text=True, check=False
+        return subprocess.run(
+            [program, "run", "--checks", "all", "--generation-deterministic", *options, f"{address}/openapi.json"],
+            cwd=ROOT,
+            capture_output=True,
+            text=True,
+            check=False,
         )
+
+
+def test_every_operation() -> None:
+    """With all phases and more examples: `schemathesis run --checks all --max-examples 1000 ADDRESS/openapi.json`."""
+    outcome = schemathesis("--phases", "examples,fuzzing", "--max-examples", "5")
+    assert outcome.returncode == 0, outcome.stdout[-10_000:]
+
+
+def test_requests_that_fit_the_schema_are_answered_or_refused_by_a_known_rule() -> None:
+    """Valid requests get most of the time: refusals that nobody needs are found by many of them only."""
+    outcome = schemathesis("--mode", "positive", "--phases", "fuzzing", "--max-examples", "60", "--workers", "2")
     assert outcome.returncode == 0, outcome.stdout[-10_000:]

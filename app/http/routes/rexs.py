@@ -15,12 +15,13 @@ from app.workers.pool import Runner
 TYPES = ("application/xml", "text/xml", "application/json", "application/zip", "application/octet-stream")
 FORM = "multipart/form-data"
 FILE = {"type": "string", "format": "binary"}
+FORM_OF_FILE = {"type": "object", "required": ["file"], "additionalProperties": False}
 UPLOAD: dict[str, Any] = {
     "requestBody": {
         "required": True,
         "content": {
             **{each: {"schema": FILE} for each in TYPES[:1] + TYPES[2:4]},
-            FORM: {"schema": {"type": "object", "required": ["file"], "properties": {"file": FILE}}},
+            FORM: {"schema": {**FORM_OF_FILE, "properties": {"file": FILE}}},
         },
     }
 }
@@ -30,8 +31,7 @@ UPLOAD_WITH_REQUEST: dict[str, Any] = {
         "content": {
             FORM: {
                 "schema": {
-                    "type": "object",
-                    "required": ["file"],
+                    **FORM_OF_FILE,
                     "properties": {
                         "file": FILE,
                         "request": {"type": "string", "description": "the stage's request as edited, JSON"},
