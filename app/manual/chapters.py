@@ -5,7 +5,17 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
-NAMES = ("coupling", "pumping", "load-distribution", "line-contact", "scuffing", "drive-train", "practice", "service")
+NAMES = (
+    "coupling",
+    "pumping",
+    "load-distribution",
+    "line-contact",
+    "scuffing",
+    "drive-train",
+    "practice",
+    "spectrum",
+    "service",
+)
 
 _FIGURE = re.compile(r"\]\(figures/([\w-]+)\.([\w-]+)\.png\)")
 
@@ -39,9 +49,12 @@ class Chapter:
     @property
     def figures(self) -> list[tuple[str, str]]:
         """Example and figure of every picture; the file is named after both."""
-        return [
-            (example, figure) for example, figure in re.findall(r"\]\(figures/([\w-]+)\.([\w-]+)\.png\)", self.text)
-        ]
+        return _FIGURE.findall(self.text)
+
+    @property
+    def studies(self) -> list[str]:
+        """The name of every picture of a study; `studies.json` says of which."""
+        return re.findall(r"\]\(studies/([\w-]+)\.png\)", self.text)
 
 
 @cache

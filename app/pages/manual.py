@@ -1,9 +1,11 @@
 """Chapters as pages: Markdown to HTML, equations to MathML, pictures to the figures of the running service."""
 
+import json
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
+from importlib.resources import files
 from typing import Any
 
 from latex2mathml.converter import convert
@@ -15,12 +17,12 @@ from markupsafe import Markup
 from mdit_py_plugins.anchors import anchors_plugin
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
-from app.calculations import CALCULATIONS, Calculation
+from app.calculations import BY_PATH, Calculation
 from app.examples import examples
 from app.manual.chapters import Chapter, chapters
 from app.manual.equations import anchor, equations, functions
 from app.pages.links import example_link
-from app.pages.query import link
+from app.pages.query import Pairs, link, pairs_of
 from app.pages.templating import model_of, page_path, rendered
 
 _FUNCTION = re.compile(r"\\(?:arc)?(?:sin|cos|tan|ln|exp|sinh|cosh|tanh|operatorname\{\w+\})(?![a-z])(?:\^\{?\w+\}?)?")
@@ -86,8 +88,36 @@ def method_of(calculation: Calculation) -> Method:
         lead=_plain(chapter.lead),
         equations=[(each.number, Markup(_mathml(each.text, "inline"))) for each in numbered],  # noqa: S704  our own
         misprints=_plain(chapter.section("Misprints and how they were decided")),
-        limits=_plain(chapter.section("Limits of validity")),
+        limits=_plain(chapter.section("Limits of validity").partition("\n\n![")[0]),
     )
+
+
+@dataclass(frozen=True, slots=True)
+class ShownStudy:
+    """A study of an example that a chapter shows: its case, its page with the controls, and one of its figures."""
+
+    title: str
+    path: str
+    pairs: Pairs
+    page: str
+    controls: dict[str, str]
+    figure: str
+
+    def address(self, file: str = "", **views: str) -> str:
+        """The page, or a file below it."""
+        return link(f"{self.path}/{self.page}{file}", self.pairs, **self.controls, **views)
+
+
+@cache
+def shown_studies() -> dict[str, ShownStudy]:
+    """By the name of the picture."""
+    found = {}
+    for name, each in json.loads(files("app.manual").joinpath("studies.json").read_text("utf-8")).items():
+        example = examples()[each["example"]]
+        pairs = [*(dict(pairs_of(example.request)) | each["set"]).items()]
+        path = page_path(BY_PATH[example.endpoint])
+        found[name] = ShownStudy(each["title"], path, pairs, each["page"], each["controls"], each["figure"])
+    return found
 
 
 def _html(text: str, root: str) -> Markup:
@@ -158,21 +188,27 @@ def _math_block(_self: RendererHTML, tokens: Sequence[Token], place: int, *_: An
 def _image(
     renderer: RendererHTML, tokens: Sequence[Token], place: int, options: OptionsDict, environment: dict[str, Any]
 ) -> str:
-    """The figure of an example, drawn by the service, with a link to the case."""
+    """The figure of an example or of a study, drawn by the service, with a link to the case or the study."""
     token = tokens[place]
-    name, figure, _ = str(token.attrs["src"]).removeprefix("figures/").split(".")
-    example = examples()[name]
-    calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
-    title = next(each.title for each in calculation.figures if each.name == figure)
-    light, dark = (
-        link(f"{page_path(calculation)}/figures/{figure}.svg", [("example", name)], theme=theme)
-        for theme in ("light", "dark")
-    )
+    folder, _, file = str(token.attrs["src"]).removesuffix(".png").partition("/")
+    if folder == "studies":
+        study = shown_studies()[file]
+        title, page, lead = study.title, study.address(), "The study"
+        drawn = {theme: study.address(f"/figures/{study.figure}.svg", theme=theme) for theme in ("light", "dark")}
+    else:
+        name, _, figure = file.partition(".")
+        example = examples()[name]
+        calculation = BY_PATH[example.endpoint]
+        title = next(each.title for each in calculation.figures if each.name == figure)
+        page, lead, image = example_link(calculation, example), "The case", f"/figures/{figure}.svg"
+        drawn = {
+            theme: link(page_path(calculation) + image, [("example", name)], theme=theme) for theme in ("light", "dark")
+        }
     caption = renderer.renderInline(token.children or [], options, environment)
-    case = Markup('<a href="{}">The case</a>').format(example_link(calculation, example))
-    source = Markup('<source srcset="{}" media="(prefers-color-scheme: dark)">').format(dark)
-    image = Markup('<img src="{}" alt="{}" loading="lazy">').format(light, title)
-    return f"<figure><picture>{source}{image}</picture><figcaption>{caption} {case}.</figcaption></figure>\n"
+    to_page = Markup('<a href="{}">{}</a>').format(page, lead)
+    source = Markup('<source srcset="{}" media="(prefers-color-scheme: dark)">').format(drawn["dark"])
+    shown = Markup('<img src="{}" alt="{}" loading="lazy">').format(drawn["light"], title)
+    return f"<figure><picture>{source}{shown}</picture><figcaption>{caption} {to_page}.</figcaption></figure>\n"
 
 
 def _link_open(

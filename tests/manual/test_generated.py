@@ -4,6 +4,7 @@ In a chapter a table stands between `<!-- generated: NAME -->` and `<!-- end -->
 and one of its figures; they are for readers of the repository, the service draws its own.
 """
 
+import asyncio
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,12 +16,18 @@ from app.evaluate import drawn
 from app.examples import examples
 from app.main import app
 from app.manual.chapters import chapters
+from app.pages.manual import shown_studies
+from app.pages.studies.page import PAGES, checked, file
+from app.pages.views import Asked
 from app.settings import Settings
+from app.studies.stream import Clock, Line
 from solvers.published import STATEMENTS, Row
+from tests.support.pools import InlinePool
 
 FOLDER = Path(__file__).parents[2] / "app" / "manual"
 BLOCK = re.compile(r"<!-- generated: ([\w -]+) -->\n(.*?)<!-- end -->", re.DOTALL)
 ROUNDING = 1e-9
+STUDY_POINTS, DEADLINE_S = 1000, 30.0
 DEFAULTS = {
     "workers": "one per core, divided by the server's processes",
     "max_connections": "by the descriptor limit",
@@ -118,11 +125,40 @@ def _renewed(block: re.Match[str]) -> str:
     return f"<!-- generated: {block[1]} -->\n{generated(block[1])}<!-- end -->"
 
 
-def renew_figures() -> None:
-    folder = FOLDER / "figures"
+def study_figure(name: str) -> bytes:
+    """The picture of a study."""
+    shown = shown_studies()[name]
+    page = next(each for link, each in PAGES.items() if link.name == shown.page)
+    asked = Asked(shown.path, shown.pairs, {**shown.controls, "theme": "light"})
+    study = checked(page, asked, STUDY_POINTS, DEADLINE_S)
+
+    async def lines() -> list[Line]:
+        clock = Clock(study.study.total)
+        found = [line async for some in study.study.lines(InlinePool(), clock) for line in some]
+        return [line for line in found if line["type"] != "progress"]
+
+    image = file(study, asyncio.run(lines()), shown.figure, "png")
+    assert isinstance(image, bytes), image
+    return image
+
+
+def renew_studies() -> None:
+    folder = emptied("studies")
+    for chapter in chapters().values():
+        for name in chapter.studies:
+            (folder / f"{name}.png").write_bytes(study_figure(name))
+
+
+def emptied(name: str) -> Path:
+    folder = FOLDER / name
     folder.mkdir(exist_ok=True)
     for old in folder.iterdir():
         old.unlink()
+    return folder
+
+
+def renew_figures() -> None:
+    folder = emptied("figures")
     for name, shown in sorted({each for chapter in chapters().values() for each in chapter.figures}):
         example = examples()[name]
         calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
@@ -134,3 +170,4 @@ def renew_figures() -> None:
 if __name__ == "__main__":
     renew_tables()
     renew_figures()
+    renew_studies()

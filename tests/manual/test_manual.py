@@ -13,7 +13,7 @@ from app.calculations import CALCULATIONS, Calculation
 from app.examples import examples
 from app.manual.chapters import NAMES, chapters
 from app.manual.equations import anchor, equations, functions, module_of
-from app.pages.manual import method_of
+from app.pages.manual import method_of, shown_studies
 from tests.manual.citations import cited, declared
 
 FOLDER = Path(__file__).parents[2] / "app" / "manual"
@@ -86,6 +86,24 @@ def test_figures_are_there(name: str) -> None:
     assert shown == {path.name for path in (FOLDER / "figures").iterdir()}
 
 
+def test_every_model_shows_where_it_fails() -> None:
+    """In its limits of validity, by a study of the running service that can be opened."""
+    for name in set(NAMES) - {"spectrum", "service"}:
+        assert f"](studies/{name}.png)" in chapters()[name].section("Limits of validity")
+    names = sorted(name for each in chapters().values() for name in each.studies)
+    assert names == sorted(shown_studies()) == sorted(path.stem for path in (FOLDER / "studies").iterdir())
+    for name in names:
+        assert (FOLDER / "studies" / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_study_of_a_limit_is_drawn_by_the_service(client: httpx.Client, pages: dict[str, str]) -> None:
+    (address,) = re.findall(r'<img src="(/coupling/vary/[^"]+)"', pages["/manual/coupling"])
+    drawn = client.get(address.replace("&amp;", "&"))
+    assert drawn.status_code == 200
+    assert "edge contact" in drawn.text
+    assert "a limit of validity" in drawn.text
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_examples_run(name: str) -> None:
     parsed = doctest.DocTestParser().get_doctest(chapters()[name].text, {}, name, f"{name}.md", 0)
@@ -130,7 +148,7 @@ def test_pages_hold_the_equations_as_mathml_without_scripts(pages: dict[str, str
 
 def test_figures_are_drawn_by_the_service(client: httpx.Client, pages: dict[str, str]) -> None:
     addresses = re.findall(r'<img src="([^"]+)"', pages["/manual/coupling"])
-    assert len(addresses) == len(chapters()["coupling"].figures)
+    assert len(addresses) == len(chapters()["coupling"].figures + chapters()["coupling"].studies)
     drawn = client.get(addresses[0].replace("&amp;", "&"), follow_redirects=True)
     assert drawn.headers["content-type"].startswith("image/svg+xml")
 
