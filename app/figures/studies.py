@@ -329,17 +329,17 @@ def search(output: Axis, tried: list[Tried], *, greatest: bool) -> Figure:
     reached = np.array([each.reached if each.solved else np.nan for each in tried])
     so_far = np.fmax.accumulate(reached) if greatest else np.fmin.accumulate(reached)
     order = values(np.arange(1, reached.size + 1, dtype=np.float64))
-    best = int(np.nanargmax(reached) if greatest else np.nanargmin(reached))
     unit = output.unit or ""
+    lines = (
+        Line("tried", order, values(reached), Hue.GREY, Role.REFERENCE),
+        Line("best so far", order, values(so_far), Hue.BLUE),
+    )
     panel = Panel(
         x=Axis("correction tried", magnitude=False),
-        y=Axis(f"{output.title} at the worst corner", output.unit, magnitude=False),
-        lines=(
-            Line("tried", order, values(reached), Hue.GREY, Role.REFERENCE),
-            Line("best so far", order, values(so_far), Hue.BLUE),
-        ),
-        marks=(Mark(best + 1.0, float(reached[best]), number(float(reached[best]), unit)),),
+        y=replace(output, title=f"{output.title} at the worst corner", magnitude=False),
+        lines=lines,
+        marks=tuple(replace(mark, hue=Hue.BLUE) for mark in extreme(lines[:1], unit, least=not greatest)),
     )
-    finding = f"from {number(float(reached[0]), unit)} to {number(float(reached[best]), unit, digits=4)}"
+    finding = f"from {number(float(reached[0]), unit)} to {number(float(so_far[-1]), unit, digits=4)}"
     unsolved = sum(not each.solved for each in tried)
     return Figure(finding, (panel,), title="What the search reached at the worst corner", unsolved=unsolved)

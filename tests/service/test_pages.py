@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
@@ -303,3 +304,27 @@ def test_reports_print_on_nine_pages(visit: Callable[..., Page], name: str, tmp_
         page.pdf(path=file, format=paper)
         pages = len(re.findall(rb"/Type\s*/Page\b", file.read_bytes()))
         assert 1 <= pages <= MOST_PAGES
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", sorted(examples()))
+def test_texts_of_figures_are_seven_points_high_in_a_printed_report(
+    visit: Callable[..., Page], name: str, tmp_path: Path
+) -> None:
+    example = examples()[name]
+    page = visit(link(f"{example.endpoint.removeprefix('/v1')}/report", pairs_of(example.request)))
+    page.evaluate("document.body.replaceChildren(...document.querySelectorAll('figure'))")
+    figures = page.evaluate("document.images.length")
+    file = tmp_path / "report.pdf"
+    page.pdf(path=file, format="A4")
+    found = dict[str, float]()
+
+    def measure(text: str, page_matrix: list[float], text_matrix: list[float], _: object, size: float) -> None:
+        up = np.array(text_matrix[2:4]) @ np.reshape(page_matrix[:4], (2, 2))
+        if text.strip():
+            found[text.strip()] = min(found.get(text.strip(), np.inf), size * float(np.linalg.norm(up)))
+
+    for sheet in pytest.importorskip("pypdf").PdfReader(file).pages:
+        sheet.extract_text(visitor_text=measure)
+    assert len(found) > 5 * figures > 0
+    assert {text: height for text, height in found.items() if height < 7.0} == {}

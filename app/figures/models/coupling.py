@@ -111,15 +111,9 @@ def _band(low: float | None, high: float | None) -> str:
 
 def _way_out(overlap: float, capacity: float, distance: float) -> Line:
     """From the point to the nearest boundary, along an axis."""
-    for boundary in OVERLAP_BOUNDARIES:
-        if 0.0 < overlap < inf and abs(abs(log(overlap / boundary)) - distance) < 1e-9:
-            return _reference([overlap, boundary], [capacity, capacity])
-    nearest = min(CAPACITY_BOUNDARIES, key=lambda boundary: abs(abs(log(capacity / boundary)) - distance))
-    return _reference([overlap, overlap], [capacity, nearest])
-
-
-def _reference(x: list[float], y: list[float]) -> Line:
-    return Line("to the next area", values(x), values(y), Hue.GREY, Role.REFERENCE, named=False)
+    ways = [(each, capacity) for each in OVERLAP_BOUNDARIES] + [(overlap, each) for each in CAPACITY_BOUNDARIES]
+    x, y = min(ways, key=lambda way: abs(abs(log(way[0] / overlap)) + abs(log(way[1] / capacity)) - distance))
+    return Line("to the next area", values([overlap, x]), values([capacity, y]), Hue.GREY, Role.REFERENCE, named=False)
 
 
 QUARTERS = tuple(45.0 * each for each in range(9))

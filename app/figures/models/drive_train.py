@@ -29,7 +29,7 @@ from app.figures.units import MM, axis
 from app.figures.wording import number, percent
 from solvers.drive_train import solve
 from solvers.drive_train.inputs import DriveTrainInputs, Effects, JournalBearing, Shaft, Vector2
-from solvers.drive_train.results import DriveTrainResult, FlankMaps, GapCurves, Misalignment, ShaftResult
+from solvers.drive_train.results import DriveTrainResult, FlankMaps, GapCurves, Misalignment, ShaftCurves, ShaftResult
 from solvers.drive_train.shafts.bearings import attitude_angle
 
 
@@ -83,19 +83,20 @@ PARTS = (
 def shaft_lines(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Displaced axes of both shafts in both planes, with the reactions of their bearings."""
     states = result.shafts
-    given = (inputs.pinion_shaft, inputs.wheel_shaft)
     z = np.concatenate([state.curves.z for state in states])
-    axis = Axis("position along Z", "mm", magnitude=False, limits=(float(z.min()), float(z.max())))
+    along = axis(
+        ShaftCurves, "z", "position along Z", magnitude=False, symbol="", limits=(float(z.min()), float(z.max()))
+    )
     panels = tuple(
-        _shaft(inputs, name, own, state, axis)
-        for name, own, state in zip(("pinion", "wheel"), given, states, strict=True)
+        _shaft(inputs, name, own, state, along)
+        for name, own, state in zip(("pinion", "wheel"), inputs.shafts, states, strict=True)
     )
     loads = [hypot(*bearing.reaction) for state in states for bearing in state.bearings]
     finding = f"bearings carry {number(min(loads) / NEWTONS)} to {number(max(loads) / NEWTONS, 'kN')}"
     return Figure(f"{finding}; marks are their reactions", panels)
 
 
-def _shaft(inputs: DriveTrainInputs, name: str, given: Shaft, state: ShaftResult, axis: Axis) -> Panel:
+def _shaft(inputs: DriveTrainInputs, name: str, given: Shaft, state: ShaftResult, along: Axis) -> Panel:
     curves = state.curves
     z = values(curves.z)
     lines, marks = [], []
@@ -111,8 +112,8 @@ def _shaft(inputs: DriveTrainInputs, name: str, given: Shaft, state: ShaftResult
             marks.append(Mark(place, height, number(reaction, "kN"), hue))
     hubs = [Level(each.position / MM, "hub", vertical=True) for each in inputs.couplings if each.shaft == name]
     return Panel(
-        x=axis,
-        y=Axis(f"displacement of the {name} shaft", "µm", magnitude=False),
+        x=along,
+        y=axis(ShaftCurves, "x", f"displacement of the {name} shaft", magnitude=False, symbol="u, v"),
         lines=tuple(lines),
         marks=tuple(marks),
         levels=tuple(hubs),
@@ -256,36 +257,30 @@ def _locus(x: float, y: float, reaction: Vector2) -> tuple[Values, Values]:
 
 def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Axial load of both shafts between the bounds that the couplings' friction leaves."""
-    states = result.shafts
-    rows = tuple(
-        Row(
-            f"{name} shaft",
-            state.thrust.mesh,
-            Hue.BLUE if state.thrust.lower is not None else Hue.GREY,
-            None
-            if state.thrust.lower is None or state.thrust.upper is None
-            else (state.thrust.lower, state.thrust.upper),
-        )
-        for name, state in zip(("pinion", "wheel"), states, strict=True)
-    )
-    given = (("pinion", inputs.pinion_shaft.ultimate_thrust), ("wheel", inputs.wheel_shaft.ultimate_thrust))
-    usable = {name: 0.5 * ultimate for name, ultimate in given if ultimate is not None}
+    named = tuple(zip(("pinion", "wheel"), inputs.shafts, result.shafts, strict=True))
+    rows = []
+    for name, _, state in named:
+        low, high = state.thrust.lower, state.thrust.upper
+        known = None if low is None or high is None else (low, high)
+        rows.append(Row(f"{name} shaft", state.thrust.mesh, Hue.GREY if known is None else Hue.BLUE, known))
+    usable = {name: 0.5 * shaft.ultimate_thrust for name, shaft, _ in named if shaft.ultimate_thrust is not None}
     alike = len(set(usable.values())) == 1
+    limits = {
+        load: "half the ultimate load" if alike else f"half the ultimate, {name}" for name, load in usable.items()
+    }
     levels = [
         Level(sign * load, text if sign > 0.0 else "", limit=True, vertical=True)
-        for load, text in dict.fromkeys(
-            (load, "half the ultimate load" if alike else f"half the ultimate, {name}") for name, load in usable.items()
-        )
+        for load, text in limits.items()
         for sign in (1.0, -1.0)
     ]
-    turning = [name for name, state in zip(("pinion", "wheel"), states, strict=True) if state.thrust.reverses]
+    turning = [name for name, _, state in named if state.thrust.reverses]
     finding = f"friction can turn the load of the {turning[0]} round" if turning else "no load turns round"
     panel = Panel(
         x=Axis(
             "axial load towards +Z: of the mesh, and its bounds with the couplings", "N", magnitude=False, symbol="F_a"
         ),
         y=Axis("shaft"),
-        rows=rows,
+        rows=tuple(rows),
         levels=tuple(levels),
     )
     return Figure(finding, (panel,))
