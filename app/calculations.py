@@ -96,6 +96,7 @@ def _choking_search(request: Any) -> Cost:
     return Cost(0.05 * pockets + 3e-4 * pockets**2, "model.slices")
 
 
+# Numbers of kernels as counted at a start from an empty cache.
 COUPLING = Stage("coupling", 7, ("pahl-axial-displacement",))
 SLEEVE = Stage("coupling sleeve", 58, ("pahl-sleeve-orbit", "pahl-z-arrangement"))
 LOADS = Stage("load distribution", 63, ("fzg-type-a",))

@@ -28,7 +28,7 @@ Stream = TypeVar("Stream")
 
 ADDRESS = "http://127.0.0.1:8000"
 TIMEOUT_S = 60.0  # beyond the default deadline of a calculation, 30 s
-PATIENCE_S = 120.0
+PATIENCE_S = 120.0  # in all for an answer, chosen: four times the service's deadline
 
 
 class ProblemError(Exception):

@@ -6,7 +6,7 @@
 from collections.abc import Iterable
 from typing import NamedTuple
 
-LONGEST_POINTER_PART = 100
+LONGEST_POINTER_PART = 100  # characters; no field has as many
 
 
 class Fault(NamedTuple):

@@ -16,8 +16,8 @@ from logging.handlers import QueueHandler, QueueListener
 
 from prometheus_client import Counter, Gauge, Histogram
 
-LINES_KEPT = 10_000
-LAST_LINES_S = 1.0
+LINES_KEPT = 10_000  # for a reader that stalls; lines beyond are counted, not kept
+LAST_LINES_S = 1.0  # for what is left to be written at the end
 REQUEST_LOG = "tribodrive.requests"
 
 # At /metrics, in the Prometheus text format.

@@ -9,8 +9,8 @@ from typing import Annotated
 from pydantic import Field, field_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
-MEBIBYTE = 2**20
-CLUSTER_POINTS = 100_000
+MEBIBYTE = 2**20  # bytes
+CLUSTER_POINTS = 100_000  # of a study that other machines solve, chosen
 REXS_PATHS = frozenset({"/v1/rexs", "/v1/rexs/results", "/rexs"})
 RESERVED_DESCRIPTORS = 96  # for workers, files and sockets of the service itself
 

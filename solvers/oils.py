@@ -86,6 +86,7 @@ class KindOfOil:
     thermal_conductivity: float
 
 
+# Typical values; Gold's coefficients are quoted from memory.
 KINDS: dict[OilKind, KindOfOil] = {
     "mineral": KindOfOil(9.904, 0.1390, 880.0, 2000.0, 0.14),
     "pao": KindOfOil(7.382, 0.1335, 840.0, 2150.0, 0.15),

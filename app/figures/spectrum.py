@@ -24,7 +24,7 @@ from app.figures.wording import number, percent
 
 BAND = 1.6448536  # deviations from 5 to 50 %
 REACH = 3.5  # deviations of a limit that are drawn
-CURVE_POINTS = 141
+CURVE_POINTS = 141  # of a bell curve, chosen: it looks smooth
 SPECTRUM = "whole spectrum"
 NAMED = 8  # tolerances
 

@@ -70,7 +70,7 @@ def _meters(endpoint: str, status: int) -> tuple[Counter, Histogram]:
     return REQUESTS.labels(endpoint, status), DURATION.labels(endpoint)
 
 
-CLIENT_GONE = 499
+CLIENT_GONE = 499  # nginx's status of a client that left; seen in the log only
 
 
 class Protection:

@@ -14,7 +14,7 @@ from app.log import REQUEST_LOG
 from app.settings import settings
 from app.workers.control import Template
 
-INTERRUPT_S = 0.5
+INTERRUPT_S = 0.5  # for requests in flight after Ctrl-C
 
 log = logging.getLogger(REQUEST_LOG)  # which goes to the standard output
 

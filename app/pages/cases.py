@@ -12,7 +12,7 @@ from app.pages.query import Pairs, body_of
 from app.schema.model import Request
 from app.schema.reading import validated
 
-COMPRESSION = 1
+COMPRESSION = 1  # the fastest level of zlib
 
 
 class Fault(NamedTuple):

@@ -16,8 +16,8 @@ from app.figures.tables import columns_of
 from app.pages.cases import Case
 
 VARIANT = "variant A"
-MOST_LINES = 200
-DIGITS = 6
+MOST_LINES = 200  # of a table on a page; the file has all
+DIGITS = 6  # more than any solver's tolerance leaves
 PIXELS = 100  # of an inch
 
 

@@ -11,7 +11,7 @@ from app.pages.query import Pairs, link, pairs_of
 from app.pages.templating import page_path
 from app.sources import SHORT_SOURCES
 
-LONGEST_QUERY = 6000
+LONGEST_QUERY = 6000  # characters: common proxies refuse a request line beyond 8 KiB
 IMAGE_FORMATS = ("svg", "png", "pdf", "csv")
 
 

@@ -28,10 +28,10 @@ REPORT_NAMES = frozenset({"paper", "project", "part", "author", "checker", "note
 VIEW_NAMES = STUDY_NAMES | REPORT_NAMES | {"ref", "theme", "sources", "curve"}
 PICK = "pick:"
 """Before the name of a choice between fields that exclude each other; its value is the field that counts."""
-MOST_FIELDS = 1000
-DEEPEST = 12
-LONGEST_NAME = 100
-LONGEST_INDEX = 10
+MOST_FIELDS = 1000  # chosen: far beyond the longest form
+DEEPEST = 12  # parts of a name; no field lies as deep
+LONGEST_NAME = 100  # characters of a name; no field's has as many
+LONGEST_INDEX = 10  # digits; a list is far shorter
 MATRIX = 2  # dimensions
 SIDE = 2  # of a matrix: the two directions across a shaft
 PRESENT = "on"

@@ -164,7 +164,7 @@ def _assumed(each: Assumption, leaf: Leaf | None) -> Assumed:
     return Assumed(each.field, leaf.title, symbol(leaf.declared.symbol), _text(each.value), unit, reason)
 
 
-DIGITS = 3
+DIGITS = 3  # of a headline
 NEAR = 0.8  # of an upper limit
 WELL_ABOVE = 2.0  # times a lower limit
 

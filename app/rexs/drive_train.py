@@ -15,10 +15,10 @@ from app.rexs.model import Component
 from app.rexs.reading import Vector
 from app.rexs.stages import StageDraft, shaft_axis
 
-MOST_SECTIONS = 40
+MOST_SECTIONS = 40  # of a shaft, as the request allows
 LONGEST_PIECE = 10.0  # mm of a cone that one cylinder stands for
 SHORTEST_SECTION = 0.1  # mm
-RIGID_FROM_N_PER_UM = 1e5
+RIGID_FROM_N_PER_UM = 1e5  # chosen: some hundred times a plain bearing's stiffness
 NAMES = ("pinion_shaft", "wheel_shaft")
 
 

@@ -15,7 +15,7 @@ from app.rexs.model import Component, LoadCase
 from app.rexs.reading import Reading
 from app.rexs.units import REVOLUTION_PER_MINUTE
 
-MOST_SHAFTS = 200
+MOST_SHAFTS = 200  # chosen: far beyond any gear unit
 BALANCE = 0.02  # of the largest torque: what files with efficiencies leave unbalanced without being wrong
 
 

@@ -14,8 +14,8 @@ from app.rexs.reading import Reading
 from solvers.gears.gear import involute
 from solvers.gears.pair import inverse_involute
 
-ISO_53_A = {"addendum": 1.0, "dedendum": 1.25, "rack_tip_radius": 0.38}
-SAME = 1e-6
+ISO_53_A = {"addendum": 1.0, "dedendum": 1.25, "rack_tip_radius": 0.38}  # in modules
+SAME = 1e-6  # chosen: numbers stated twice that differ by less are equal
 ROLES = ("pinion", "wheel")
 
 

@@ -12,9 +12,9 @@ from app.rexs.power import Flow, Mesh, power_flow
 from app.rexs.reading import Reading, rows
 from app.rexs.stages import Pair, StageDraft, pairs, related_components, requests_of, shaft_axis
 
-MOST_FINDINGS = 1000
-MOST_STAGES = 50
-MOST_CASES = 200
+MOST_FINDINGS = 1000  # that an answer lists; who wrote the file sees the pattern earlier
+MOST_STAGES = 50  # chosen: far beyond any unit
+MOST_CASES = 200  # of a spectrum in the file that are read
 LONGEST_NAME, MOST_SPECTRUM_CASES = 100, 100  # of /v1/spectrum
 # Which field of a request a load case sets, where it is not the one of /v1/scuffing.
 SPECTRUM_FIELDS: dict[str, dict[str, str]] = {

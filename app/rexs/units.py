@@ -17,7 +17,7 @@ class Unit(NamedTuple):
 
 DEGREE = 0.017453292519943295  # rad
 REVOLUTION_PER_MINUTE = 0.10471975511965977  # rad/s
-HOUR = 3600.0
+HOUR = 3600.0  # s
 
 UNITS = {
     "": Unit("number", 1.0),

@@ -18,7 +18,7 @@ from solvers.quantity import allowed
 
 M = TypeVar("M", bound=BaseModel)
 Models = tuple[type[BaseModel], ...]
-MOST_FAULTS = 100
+MOST_FAULTS = 100  # in one answer: who reads them begins anew long before
 _NAME = re.compile(r"[A-Za-z0-9_]{1,40}")
 _NUMBER = re.compile(r"[+-]?\d{1,20}([.,]\d{1,20})?")
 _RANGE_TYPES = {"greater_than", "greater_than_equal", "less_than", "less_than_equal"}

@@ -19,7 +19,7 @@ from app.workers.stages import STAGES, warm
 CONNECT_S = 10.0  # for one call to the scheduler
 ANSWER_S = 15.0  # for both, to connect and to name the workers
 WARM_S = 600.0  # within which workers load their kernels, compiled if need be
-WATCH_S = 0.5
+WATCH_S = 0.5  # between two looks at a point that is being solved elsewhere
 PACKAGES = ("tribodrive", "numpy", "scipy", "numba", "pydantic")  # what the numbers depend on
 LOST = "the Dask scheduler is gone; start the study again"
 

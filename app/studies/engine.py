@@ -10,8 +10,8 @@ from app.errors import DeadlineExceeded, WorkerLost
 from app.studies.points import CHUNK_SECONDS, Chunk, Point, Question, solve_chunk
 from app.studies.requests import Overrides
 
-CHUNKS_PER_SLOT = 2
-MOST_POINTS_IN_A_CHUNK = 1000
+CHUNKS_PER_SLOT = 2  # one at work, one that waits, so that no worker is idle
+MOST_POINTS_IN_A_CHUNK = 1000  # however fast a point is: a chunk's answer stays small
 
 
 class Pool(Protocol):

@@ -9,7 +9,7 @@ from solvers.arrays import FloatArray
 from solvers.errors import NoSolution
 
 FIRST_STEP = 0.15  # of a variable's range
-LAST_STEP = 2e-3
+LAST_STEP = 2e-3  # of a variable's range, chosen
 LEAST_GAIN = 1e-3  # of the objective at the start; a restart that gained less is the last
 VALUE_SCALE = 0.2  # of the objective at the start: a change that counts as much as a variable's whole range
 PENALTY = 5.0  # scaled, above the worst known objective: that of a point without solution

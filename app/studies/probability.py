@@ -10,10 +10,10 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-CONFIDENCE = 0.9
-QUANTILES = (0.05, 0.5, 0.95)
-MODERATE, HIGH = 0.1, 0.3
-MOST_BINS = 40
+CONFIDENCE = 0.9  # of every bound, two-sided
+QUANTILES = (0.05, 0.5, 0.95)  # the median and the usual tails of 5 %
+MODERATE, HIGH = 0.1, 0.3  # AGMA 925-A03, classes of risk
+MOST_BINS = 40  # of a histogram that can be read
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 Side = Literal["above", "below"]

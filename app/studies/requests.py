@@ -9,8 +9,8 @@ from pydantic_core import PydanticCustomError
 
 from app.schema.quantities import Input
 
-MOST_FIELDS_TOGETHER = 50
-LARGEST = 1e300
+MOST_FIELDS_TOGETHER = 50  # that one axis moves, chosen
+LARGEST = 1e300  # of any number given: its square may overflow, itself not
 _PATH = re.compile(r"[A-Za-z0-9_]{1,60}(\.[A-Za-z0-9_]{1,60}){0,9}")
 
 

@@ -21,8 +21,8 @@ from app.studies.stream import Clock, Line, Lines
 from app.studies.study import Study, case_of_study, output_header, paths_of
 
 PATH = "/v1/sensitivity"
-RELATIVE_STEP = 0.01
-KELVIN_STEP = 1.0
+RELATIVE_STEP = 0.01  # of a value: small against its range, large against the solver's tolerance
+KELVIN_STEP = 1.0  # of a temperature, whose zero means nothing
 DISAGREEMENT = 0.1  # relative difference of two slopes
 NOISE = 1e-7  # relative change of an output that an iteration may leave
 

@@ -26,8 +26,8 @@ from app.studies.summary import Tally
 PATH = "/v1/spectrum"
 PROGRESS_S = 0.5  # between two lines that say how far a spectrum has come
 SOLVED = ("ok", "ok_with_warnings")
-KILOWATTS = {"W": 1e-3, "kW": 1.0}
-RELATIVE_DEVIATION = 0.15
+KILOWATTS = {"W": 1e-3, "kW": 1.0}  # per unit
+RELATIVE_DEVIATION = 0.15  # AGMA 925-A03, from memory
 LIMIT_VARIES = 1e-9  # relative
 SHARES_OFF = 0.01  # how far the sum of the shares may be from 1
 ASSUMED_DEVIATION = (

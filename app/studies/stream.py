@@ -18,7 +18,7 @@ from app.studies.points import Point
 
 Line = dict[str, Any]
 Lines = AsyncGenerator[list[Line], None]
-PROGRESS_S = 2.0
+PROGRESS_S = 2.0  # between lines of progress: proxies and users see that it runs
 FORMULA_SIGNS = ("=", "+", "-", "@", "\t", "\r")
 
 logger = logging.getLogger("tribodrive")

@@ -31,8 +31,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from app.calculations import Stage
 
-PR_SET_PDEATHSIG = 1
-MEBIBYTE = 2**20
+PR_SET_PDEATHSIG = 1  # linux/prctl.h
+MEBIBYTE = 2**20  # bytes
 LARGEST_COMMAND = 65536  # bytes
 
 logger = logging.getLogger("tribodrive")

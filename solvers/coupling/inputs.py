@@ -18,7 +18,7 @@ KinematicModel = Literal["tangential", "spatial"]
 SleeveSupport = Literal["centred", "floating"]
 InletModel = Literal["face", "travel", "infinite"]
 
-MAX_MISALIGNMENT = radians(6.0)
+MAX_MISALIGNMENT = radians(6.0)  # chosen: there a theory of small angles errs by half a percent
 LEAST_TORQUE = 1e-6  # N m, chosen: counts as none
 
 

@@ -38,7 +38,7 @@ MAX_CONTACT_WIDTH = 0.1
 UNBOUNDED_LOAD = 0.20395702057972376
 """W of an infinitely long inlet, whose exit lies at tan g = 0.47513; 12 of it is Pahl's 2.447."""
 OVERLAP_BOUNDARIES = (1.0, 2.0)  # Pahl, regimes of Figs 9 to 11
-CAPACITY_BOUNDARIES = (0.2, 0.8)
+CAPACITY_BOUNDARIES = (0.2, 0.8)  # Pahl, regimes of Figs 9 to 11
 UNSTABLE_AREA = "3.3"
 
 # Fig. 9: area -> name and the paper's band of friction, None where it states no end.

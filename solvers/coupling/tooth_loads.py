@@ -51,7 +51,7 @@ SLIDING_VELOCITY_LIMIT = 0.12
 """Steady sliding of gear couplings [m/s], Tribology Handbook B4.6; transients may tilt 1.6 times as far."""
 GRAVITY = 9.80665  # m/s^2, standard gravity (CGPM 1901)
 _PEAKS = 8  # highest samples around which the maximum is sought; more than one, as neighbours may hide the highest
-_FINER = np.arange(-1.0, 1.125, 0.125)
+_FINER = np.arange(-1.0, 1.125, 0.125)  # steps of the second search, an eighth of the first
 
 
 class Motion(NamedTuple):

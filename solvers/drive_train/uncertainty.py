@@ -10,9 +10,9 @@ from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft
 from solvers.notices import Notice
 
 MOST_CORNERS = 256  # eight uncertainties with two values each
-FRICTION = (0.05, 0.25)
-THRUST = (0.0, 1.0)
-RESPONSE = (0.3, 1.0)
+FRICTION = (0.05, 0.25)  # mixed lubrication at its best; the coefficient behind the customary thrust 0.25 T/D
+THRUST = (0.0, 1.0)  # of the coupling's limit: none, all of it
+RESPONSE = (0.3, 1.0)  # of the wall to the gas: cooled by oil, or as warm as the gas; chosen
 CLEARANCE = 0.1  # share of the clearance, both ways
 QUARTERS: tuple[Callable[[float, float], tuple[float, float]], ...] = (
     lambda x, y: (x, y),

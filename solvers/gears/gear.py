@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 from solvers.compiled import kernel
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)  # chosen
 
 
 def involute(angle: float) -> float:

@@ -8,7 +8,7 @@ from solvers.coupling.model import solve
 from solvers.coupling.results import CouplingResult
 
 TORQUE, DIAMETER, FACE, FRICTION = 21806.0, 0.2286, 0.033, 0.3  # N m, m, m, -
-MISALIGNMENT = radians(0.057)
+MISALIGNMENT = radians(0.057)  # 0.001 mm per mm
 END_CONTACT = FACE / 2 * tan(radians(20.0)) / (DIAMETER / 2 * MISALIGNMENT)
 """The crowning ratio whose contact just reaches the end of the face."""
 

@@ -19,7 +19,7 @@ from solvers.pumping.spaces import CELL_STEP_LIMIT, Mesh, Space, derived, flow_a
 _COARSENING = 4  # of the slices while the speeds are bracketed
 _BRACKET = log(1.1)  # around the coarse speed, logarithmic as all speeds here
 _ACCURACY = 1e-4  # of the logarithm of the speed: 0.01 %
-_STEP_DOWN, _STEPS_DOWN = log(sqrt(2.0)), 24
+_STEP_DOWN, _STEPS_DOWN = log(sqrt(2.0)), 24  # down to 1/4096 of the first speed
 _SOLVES = 8  # that together may cost as much as the dearest single one
 
 Excess = Callable[[float], float]

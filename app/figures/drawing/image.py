@@ -18,11 +18,11 @@ from app.figures.drawing.panels import ROW_NAME_LENGTH, draw_panel, place_texts
 from app.figures.drawing.style import DPI, TEXT, THEMES, TITLE, WIDTH, Theme, settings
 
 EDGE = 0.1  # inches around everything
-TITLE_LINE, FINDING_LINE = 1.3 * TITLE / 72.0, 1.3 * TEXT / 72.0
+TITLE_LINE, FINDING_LINE = 1.3 * TITLE / 72.0, 1.3 * TEXT / 72.0  # inches: 1.3 of the size of the letters
 TITLE_LENGTH, FINDING_LENGTH = 58, 84  # characters of a line
 HEIGHTS = {1: 2.6, 2: 1.65, 3: 1.3}  # inches, of panels above each other
-PLANE_HEIGHT = 3.3
-ROW_HEIGHT, WRAPPED_ROW_HEIGHT = 0.26, 0.34
+PLANE_HEIGHT = 3.3  # inches, of a field over two axes
+ROW_HEIGHT, WRAPPED_ROW_HEIGHT = 0.26, 0.34  # inches, of a row of bars with a name of one or two lines
 ABSCISSA_LENGTH = 30  # characters of a line below axes that stand beside others
 ABSCISSA = 0.45  # inches, ticks and name
 CANVASES = {"svg": FigureCanvasSVG, "png": FigureCanvasAgg, "pdf": FigureCanvasPdf}

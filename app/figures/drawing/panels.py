@@ -38,13 +38,14 @@ AREAS_WIDTH, NARROW = 4.8, 0.85  # inches of axes with areas; width of their tex
 RING = 5  # pixels
 SIDES = {"above": 1, "below": -1}  # of a point, on which its text is tried first; other texts stay where they are
 COLOURS = {Scale.MAGNITUDE: "cividis", Scale.RATIO: "RdBu_r", Scale.SIGNED: "RdBu_r"}
+# Of a ratio on a logarithmic axis.
 RATIO_TICKS = (0.1, 0.2, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 LINEAR_RATIO = 1.3  # up to which a ratio's ticks are evenly spaced
 CROWDED = 0.05  # of the colour bar: a tick nearer to a critical value gives way
 DOTS_MARGINS = 0.55, 0.4  # of the reach of dots, for their titles
 WIDE = 0.15  # of the longest bar: bounds farther apart have their values at their ends
 NOISE = 1e-9  # of the values: what varies by less is rounding error
-STEPS = (1, 2, 2.5, 5, 10)
+STEPS = (1, 2, 2.5, 5, 10)  # of ticks, times powers of ten
 NUMBERS = FuncFormatter(lambda value, _: number(value, digits=6))
 
 Style = dict[str, Any]  # of matplotlib's artists

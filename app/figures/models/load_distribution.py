@@ -46,7 +46,7 @@ from solvers.scuffing.results import (
 )
 
 MOST_LINES = 12  # of contact on either side of one
-FIFTHS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
+FIFTHS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)  # ticks of an axis from 0 to 1
 PROFILE = Axis("profile (0: A, 1: E)", limits=(0.0, 1.0), ticks=FIFTHS, symbol="ξ")
 ROLL = Axis("roll position", "base pitches", limits=(0.0, 1.0), magnitude=False, symbol="φ")
 PATH = Axis("path of contact (0: A, pinion root; 1: E, pinion tip)", limits=(0.0, 1.0), magnitude=False, symbol="Ψ")

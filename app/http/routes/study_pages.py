@@ -32,9 +32,9 @@ from app.studies.engine import twice_if_lost
 from app.studies.stream import Clock, Line, Lines, encoded
 from app.workers.pool import disconnected
 
-FIRST_FRAME_S = 0.3
+FIRST_FRAME_S = 0.3  # until a page shows its first points
 FRAME_SHARE = 0.3  # of the time a study has run passes until its page is drawn again
-LONGEST_PAUSE_S = 4.0
+LONGEST_PAUSE_S = 4.0  # between two drawings of a page, however long the study runs
 PROGRESS_S = 0.5  # between two looks at a study whose lines take longer
 NOT_DRAWN = (
     b'<div class="frame"><p class="warning">The figure could not be drawn; the files hold the points.</p>'

@@ -32,7 +32,7 @@ from app.studies.fields import scalar_at, value_at
 from app.studies.requests import Overrides
 from app.studies.stream import Line
 
-EVALUATIONS = 40
+EVALUATIONS = 40  # offered at first, chosen
 STEP_UM = 0.5  # to which a correction is rounded
 LEFT_ALONE = ("pinion clearance", "wheel clearance", "thrust fraction")  # of the uncertain inputs, for they say least
 SLOPE, CROWNING = "modifications.helix_slope_um", "modifications.lead_crowning_um"

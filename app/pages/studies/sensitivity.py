@@ -14,7 +14,7 @@ from app.schema.scuffing import GIVEN_BULK
 from app.studies.sensitivity import sensitivity_study
 from app.studies.stream import Line
 
-MOST_ROWS = 40
+MOST_ROWS = 40  # of a table that can be read; the file has all
 
 
 def _body(asked: Asked, output: Leaf) -> dict[str, Any]:

@@ -37,7 +37,7 @@ from app.studies.spectrum import SCUFFING, Spectrum, spectrum_study
 from app.studies.stream import Line
 
 NAME, SHARE = "name", "share"
-REPLICATES = 8
+REPLICATES = 8  # samples from which the page tells how certain a mean is
 MACHINES = (("", "256"), ("64", "64"), ("1024", "1024"), ("4096", "4096"))
 LAWS = (("", "normal"), ("uniform", "uniform"), ("triangular", "triangular"), ("lognormal", "lognormal"))
 SIDES = (("", "by the output"), ("above", "above is bad"), ("below", "below is bad"))
@@ -55,7 +55,7 @@ LOSSES = {
     "/v1/scuffing": ("friction_loss.power_w",),
     DRIVE_TRAIN: ("losses.coupling_w", "losses.pumping_w", "losses.mesh_w", "losses.bearings_w"),
 }
-MOST_BARS = 40
+MOST_BARS = 40  # that fit a page side by side
 
 
 def cases_of(calculation: Calculation, text: str) -> list[dict[str, Any]]:

@@ -44,12 +44,12 @@ from app.studies.sweep import Sweep, sweep_study
 AROUND = 0.5  # of a value, to both sides
 TOLERANCES = 4.0  # to both sides of zero
 INSIDE = 1e-3  # of a range, away from an end that is not allowed
-COUNTS = {"x": 21, "y": 5}
+COUNTS = {"x": 21, "y": 5}  # points offered at first: a curve that looks smooth, few curves
 AXES = ("x", "y")
 TITLES = {"x": "Vary", "y": "and, as curves or a map"}
-MOST_WHOLE = 10_000
-MOST_ROWS = 200
-MOST_REASONS = 6
+MOST_WHOLE = 10_000  # whole numbers that an axis is spread over
+MOST_ROWS = 200  # of a table on a page; the file has all
+MOST_REASONS = 6  # why points are missing, the most frequent
 
 
 class Range(NamedTuple):

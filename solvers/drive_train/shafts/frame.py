@@ -9,7 +9,7 @@ from solvers.arrays import FloatArray
 from solvers.drive_train.inputs import Arrangement
 from solvers.gears.pair import PathOfContact
 
-Z_AXIS = np.array([0.0, 0.0, 1.0])
+Z_AXIS = np.array([0.0, 0.0, 1.0])  # along the shafts
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,13 +16,13 @@ from solvers.scuffing.inputs import LoadDistributionInputs, OilSupply
 ScuffingRisk = Literal["high", "moderate", "low"]
 
 OIL_SUPPLY_FACTOR: dict[OilSupply, float] = {"spray": 1.2, "dip": 1.0, "submerged": 0.2}  # X_S
-OIL_KIND_FACTOR: dict[OilKind, float] = {"mineral": 1.0, "pao": 0.8, "polyglycol": 0.7, "ester": 1.0}
+OIL_KIND_FACTOR: dict[OilKind, float] = {"mineral": 1.0, "pao": 0.8, "polyglycol": 0.7, "ester": 1.0}  # X_L
 LEAST_LINE_LOAD = 150.0  # N/mm, of w_Bt in the friction law
 FASTEST_PITCH_LINE = 50.0  # m/s, of v_t in the friction law
 TEST_TEMPERATURE = 363.15  # K, of the oil in A/8.3/90
 FLOODED_UP_TO = 60.0  # m/s, pitch-line velocity beyond which the estimated bulk is a lower bound
 FLASH_SHARE = 0.47  # of the mean flash temperature that the bulk takes on
-HIGH_RISK_BELOW, LOW_RISK_ABOVE = 1.0, 2.0
+HIGH_RISK_BELOW, LOW_RISK_ABOVE = 1.0, 2.0  # the standard's, from memory
 
 
 def lubricant_factor(viscosity: float, kind: OilKind) -> float:
