@@ -158,7 +158,7 @@ def response_to(calculation: Calculation, request: Request, result: Any) -> Resp
     inputs = request.model_dump(exclude={"detail"})
     content |= {
         "assumptions": [
-            *_assumptions(request, request.unused_defaults(), content.get("derived", {})),
+            *_assumptions(request, content.get("derived", {})),
             *_model_assumptions(request),
         ],
         "model_version": MODEL_VERSION,
@@ -182,22 +182,24 @@ def _notice(request: Request, warning: notices.Notice) -> Notice:
 
 
 def _assumptions(
-    section: Section, unused: frozenset[str], derived: dict[str, Any], prefix: str = ""
+    section: Section, derived: dict[str, Any], prefix: str = "", unused: frozenset[str] = frozenset()
 ) -> Iterator[dict[str, Any]]:
     """The assumed defaults that the result depends on, with the value used where `derived` holds it.
 
-    `derived` holds such values under their names, or in groups and lists of the sections' own names.
+    `derived` holds such values under their names, or in groups and lists of the sections' own names. `unused` are
+    dotted names that the sections around leave out.
     """
+    unused |= {prefix + name for name in section.unused()}
     for name, reason in _reasons(type(section)).items():
         path, value = prefix + name, getattr(section, name)
         if path in unused:
             continue
         if isinstance(value, Section):
-            yield from _assumptions(value, unused, derived.get(name, derived) or {}, f"{path}.")
+            yield from _assumptions(value, derived.get(name, derived) or {}, f"{path}.", unused)
         elif isinstance(value, list) and group_of(type(section).model_fields[name].annotation):
             known = derived.get(name) or [{}] * len(value)
             for index, (item, own) in enumerate(zip(value, known, strict=True)):
-                yield from _assumptions(item, unused, own, f"{path}.{index}.")
+                yield from _assumptions(item, own, f"{path}.{index}.", unused)
         elif reason and (value is None or name not in section.model_fields_set):
             used = derived.get(name, value)
             yield {"field": path, "value": section.stands_for_null(name) if used is None else used, "reason": reason}

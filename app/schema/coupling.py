@@ -43,14 +43,11 @@ class MixedFrictionCurve(Section, of=si.MixedFrictionCurve):
 class CouplingFriction(Section, of=si.Friction):
     """Friction between the teeth."""
 
-    def unused_friction_defaults(self, section: str) -> frozenset[str]:
+    def unused(self) -> set[str]:
         """A coefficient or a table leaves the curve out, a coefficient also what holds at rest."""
-        unused = set()
-        if self.coefficient is not None or self.mixed_law is not None:
-            unused.add(f"{section}.mixed_curve")
         if self.coefficient is not None:
-            unused.add(f"{section}.static_coefficient")
-        return frozenset(unused)
+            return {"mixed_curve", "static_coefficient"}
+        return set() if self.mixed_law is None else {"mixed_curve"}
 
 
 class CouplingModel(Section, of=si.ModelOptions):
@@ -68,13 +65,9 @@ class _CouplingRequest(Request):
         CouplingModel()
     )
 
-    def options(self) -> dict[str, Any]:
-        """The model section."""
-        return self.model.model_dump()
-
-    def unused_defaults(self) -> frozenset[str]:
+    def unused(self) -> set[str]:
         """What given values replace, and what the arrangement does without."""
-        unused = {*self.friction.unused_friction_defaults("friction"), *self.lubricant.unused_defaults("lubricant")}
+        unused = set()
         if self.model.inlet_length_mm is not None:
             unused.add("model.inlet")
         offset = getattr(self.operation, "parallel_offset_mm", None)
@@ -82,7 +75,7 @@ class _CouplingRequest(Request):
             unused.add("coupling.hub_distance_mm")
         if self.operation.arrangement != "parallel_offset":
             unused.add("model.simple_thrust_factor")
-        return frozenset(unused)
+        return unused
 
     def _design(self, operation: si.Operation) -> si.CouplingInputs:
         return si.CouplingInputs(
@@ -116,10 +109,10 @@ class SleeveOrbitRequest(CouplingRequest):
         """The kinematics; the sleeve always floats."""
         return {"kinematics": self.model.kinematics, "sleeve": "floating"}
 
-    def unused_defaults(self) -> frozenset[str]:
+    def unused(self) -> set[str]:
         """All that belongs to contact, film, friction and a second mesh."""
         contact = {"face_width_mm", "tooth_height_mm", "youngs_modulus_gpa", "poisson_ratio", "hub_distance_mm"}
-        return frozenset({"lubricant", "friction", "model", *(f"coupling.{name}" for name in contact)})
+        return {"lubricant", "friction", "model", *(f"coupling.{name}" for name in contact)}
 
 
 class RecommendationRequest(_CouplingRequest):
@@ -128,9 +121,9 @@ class RecommendationRequest(_CouplingRequest):
     coupling: Annotated[CouplingDesign, Input("coupling", text="the coupling without its crowning")]
     operation: Annotated[CouplingOperationRange, Input("operating point", text="with a range of misalignment")]
 
-    def unused_defaults(self) -> frozenset[str]:
+    def unused(self) -> set[str]:
         """Also what only a result at one operating point shows: the one-pair model of thrust, breakaway."""
-        return super().unused_defaults() | {"model.simple_thrust_factor", "friction.static_coefficient"}
+        return super().unused() | {"model.simple_thrust_factor", "friction.static_coefficient"}
 
     def inputs(self) -> si.RecommendationInputs:
         """The solver's inputs."""

@@ -105,6 +105,10 @@ class ShaftBearing(Section, of=si.ShaftBearing):
 
     stiffness_n_per_um: Stiffness | None
 
+    def unused(self) -> set[str]:
+        """Clearance and oil belong to plain bearings."""
+        return set() if self.type == "journal" else {"radial_clearance_um", "viscosity_pa_s"}
+
 
 class ThrustBearing(Section):
     """What holds a shaft axially."""
@@ -131,15 +135,6 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
             **to_si(self),
         )
 
-    def unused_shaft_defaults(self, section: str) -> frozenset[str]:
-        """Clearance and oil belong to plain bearings."""
-        return frozenset(
-            f"{section}.bearings.{index}.{name}"
-            for index, bearing in enumerate(self.bearings)
-            if bearing.type != "journal"
-            for name in ("radial_clearance_um", "viscosity_pa_s")
-        )
-
 
 class ShaftAlignment(Section, of=si.Alignment):
     """How both machines grow as they warm up; with it the hub's offset is the cold one."""
@@ -162,14 +157,9 @@ class UnitCoupling(Section, of=si.UnitCoupling):
             **to_si(self),
         )
 
-    def unused_coupling_defaults(self, section: str) -> frozenset[str]:
-        """What friction leaves out; a shaft that turns never rests."""
-        unused = {f"{section}.friction.static_coefficient"}
-        unused |= self.friction.unused_friction_defaults(f"{section}.friction")
-        unused |= self.lubricant.unused_defaults(f"{section}.lubricant")
-        if self.friction.coefficient is not None:
-            unused.add(f"{section}.lubricant")
-        return frozenset(unused)
+    def unused(self) -> set[str]:
+        """Friction at rest, for the shaft rotates; with a coefficient of friction the oil."""
+        return {"friction.static_coefficient"} | (set() if self.friction.coefficient is None else {"lubricant"})
 
 
 class ToothHeat(Section, of=si.Heat):
@@ -291,21 +281,16 @@ class DriveTrainRequest(MeshInOil):
 
     def options(self) -> dict[str, Any]:
         """The model section, the number of slices filled in."""
-        return self.model.model_dump() | {"slices": self.model.si(pumping.PumpingModel).slice_count}
+        return super().options() | {"slices": self.model.si(pumping.PumpingModel).slice_count}
 
-    def unused_defaults(self) -> frozenset[str]:
-        """Also of bearings and couplings of another kind, of effects that are left out."""
-        unused = {*super().unused_defaults()}
-        unused |= self.model.unused_pumping_defaults("model")
-        unused |= self.pinion_shaft.unused_shaft_defaults("pinion_shaft")
-        unused |= self.wheel_shaft.unused_shaft_defaults("wheel_shaft")
-        for index, coupling in enumerate(self.couplings):
-            unused |= coupling.unused_coupling_defaults(f"couplings.{index}")
+    def unused(self) -> set[str]:
+        """Also what belongs to effects that are left out."""
+        unused = super().unused()
         if not (self.couplings and self.effects.shafts and self.effects.coupling):
             unused |= {"couplings", "model.coupling_friction"}
         if not self.effects.thermal:
             unused |= {"thermal.wall_response", "thermal.wall_response_wheel"}
-        return frozenset(unused)
+        return unused
 
 
 class BearingLoad(Group, of=results.BearingResult):

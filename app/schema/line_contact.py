@@ -24,9 +24,9 @@ class LineContactTemperatures(Section, of=ehl.Temperatures):
 class FilmModel(Section, of=ehl.Model, without=("thermal",)):
     """Physics and resolution of the film."""
 
-    def unused_film_defaults(self, section: str) -> frozenset[str]:
+    def unused(self) -> set[str]:
         """A Newtonian film has no Eyring stress."""
-        return frozenset({f"{section}.eyring_stress_mpa"} if self.rheology == "newtonian" else ())
+        return super().unused() | ({"eyring_stress_mpa"} if self.rheology == "newtonian" else set())
 
 
 class LineContactModel(FilmModel, of=ehl.Model):
@@ -50,12 +50,12 @@ class LineContactRequest(Request):
     def options(self) -> dict[str, Any]:
         """The model section and the laws of the oil."""
         laws = self.lubricant.model_dump(include={"pressure_viscosity_law", "compressible"})
-        return self.model.model_dump() | laws
+        return super().options() | laws
 
-    def unused_defaults(self) -> frozenset[str]:
-        """What `FilmModel` leaves out; an isothermal film does not know the temperatures of the surfaces."""
-        unused = self.model.unused_film_defaults("model") | self.lubricant.unused_defaults("lubricant")
-        return unused if self.model.thermal else unused | {"temperatures.surface_1_c", "temperatures.surface_2_c"}
+    def unused(self) -> set[str]:
+        """An isothermal film does not know the temperatures of the surfaces, one by its viscosity no kind of oil."""
+        unused = set() if self.model.thermal else {"temperatures.surface_1_c", "temperatures.surface_2_c"}
+        return unused if self.lubricant.by_sheet else unused | {"lubricant.kind"}
 
     def inputs(self) -> ehl.LineContactInputs:
         """The solver's inputs; an oil by its data sheet is what it is at the inlet.

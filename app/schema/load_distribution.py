@@ -1,6 +1,6 @@
 """How a gear pair carries its load: request and answer of /v1/scuffing/load-distribution."""
 
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 from app.schema.gears import GearMaterials, ScuffingGears
 from app.schema.model import Derived, Group, Request, Response, Section, declared
@@ -16,11 +16,11 @@ FRICTION_COEFFICIENT = declared(si.LoadDistributionInputs, "friction_coefficient
 class FlankModifications(Section, of=si.Modifications, without=("lead_curve",)):
     """Gaps along the transverse line of action, positive where material is missing."""
 
-    def unused_defaults(self, section: str) -> frozenset[str]:
+    def unused(self) -> set[str]:
         """Lengths and exponent of reliefs that are zero."""
         amplitudes = {relief: getattr(self, f"{relief}_um") for relief in ("tip_relief", "root_relief", "end_relief")}
-        unused = {f"{section}.{relief}_length_mm" for relief, value in amplitudes.items() if value == 0.0}
-        return frozenset(unused if any(amplitudes.values()) else {*unused, f"{section}.relief_exponent"})
+        unused = {f"{relief}_length_mm" for relief, value in amplitudes.items() if value == 0.0}
+        return unused if any(amplitudes.values()) else {*unused, "relief_exponent"}
 
 
 class ScuffingLoad(Section, of=si.Load):
@@ -74,14 +74,9 @@ class LoadDistributionRequest(GearPairRequest):
         """The solver's inputs."""
         return distribution_inputs(self, self.gears.si(GearPairInputs), self.load.si(si.Load))
 
-    def options(self) -> dict[str, Any]:
-        """The model section."""
-        return self.model.model_dump()
-
-    def unused_defaults(self) -> frozenset[str]:
-        """Of reliefs that are zero; roughness, which loads do not depend on."""
-        roughness = {"materials.pinion.roughness_um", "materials.wheel.roughness_um"}
-        return self.modifications.unused_defaults("modifications") | roughness
+    def unused(self) -> set[str]:
+        """Roughness, which loads do not depend on."""
+        return {"materials.pinion.roughness_um", "materials.wheel.roughness_um"}
 
 
 class ScuffingGeometry(Group, of=results.Geometry):

@@ -429,6 +429,10 @@ class Section(Documented):
         """The solver's dataclass that these fields fill, in SI."""
         return built(self, kind)
 
+    def unused(self) -> set[str]:
+        """Names, dotted below this section, of fields and sections that the values given leave out of a result."""
+        return set()
+
     def stands_for_null(self, _name: str) -> Any:
         """What a field that was left null stands for, where the section itself knows it."""
         return None
@@ -456,13 +460,10 @@ class Request(Section):
     def inputs(self) -> Any:
         """The solver's inputs, SI."""
 
-    @abstractmethod
     def options(self) -> dict[str, Any]:
         """The options in force, by their names in the contract."""
-
-    def unused_defaults(self) -> frozenset[str]:
-        """Dotted names of fields or sections that the chosen options leave out of the result."""
-        return frozenset()
+        options: dict[str, Any] = self.model.model_dump()
+        return options
 
     def assumed_by_the_model(self) -> dict[str, str]:
         """What the options in force take for granted whatever else is given: reasons by dotted names of options."""

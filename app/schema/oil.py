@@ -47,12 +47,11 @@ class SheetOil(Section, of=OilBySheet):
         sheet = self.si(OilBySheet).sheet()
         return sheet.reference_density if sheet and name == "density_15_kg_per_m3" else None
 
-    def unused_sheet_defaults(self, section: str) -> frozenset[str]:
-        """What the sheet's fields leave out of a result, by dotted names below `section`."""
+    def unused(self) -> set[str]:
+        """All of the sheet where the oil is given otherwise; the default that belongs to a grade."""
         if not self.by_sheet:
-            return frozenset(f"{section}.{name}" for name in SheetOil.model_fields)
-        both = self.iso_vg is None
-        return frozenset({f"{section}.kinematic_viscosity_100_mm2_per_s"} if both else ())
+            return set(SheetOil.model_fields)
+        return {"kinematic_viscosity_100_mm2_per_s"} if self.iso_vg is None else set()
 
 
 _PAPERS = Lubricant()
@@ -106,14 +105,13 @@ class Oil(SheetOil, of=OilChoice):
         """The solver's oil. Raises what `OilChoice.resolve` raises."""
         return self.si(OilChoice).resolve()
 
-    def unused_defaults(self, section: str, *, factor: bool = False) -> frozenset[str]:
-        """What this way of giving the oil leaves out of a result; `factor` says that its kind counts."""
+    def unused(self) -> set[str]:
+        """What this way of giving the oil leaves out of a result; whether its kind counts is the request's to say."""
         if not self.known:
-            return frozenset(f"{section}.{name}" for name in type(self).model_fields)
-        unused = self.unused_sheet_defaults(section)
+            return set(type(self).model_fields)
         if self.by_sheet:
-            return unused | {f"{section}.{name}" for name in ("reference_temperature_c", "density_kg_per_m3")}
-        return unused - {f"{section}.kind"} if factor else unused
+            return super().unused() | {"reference_temperature_c", "density_kg_per_m3"}
+        return super().unused() - {"kind"}
 
 
 _WITH_VISCOSITY = tuple(
@@ -145,10 +143,9 @@ class CouplingLubricant(SheetOil, of=CouplingOil):
         """The solver's lubricant."""
         return self.si(CouplingOil).lubricant()
 
-    def unused_defaults(self, section: str) -> frozenset[str]:
+    def unused(self) -> set[str]:
         """What this way of giving the oil leaves out of a result."""
-        own = "viscosity_pa_s" if self.by_sheet else "temperature_c"
-        return self.unused_sheet_defaults(section) | {f"{section}.{own}"}
+        return super().unused() | {"viscosity_pa_s" if self.by_sheet else "temperature_c"}
 
 
 class OilDerived(Derived, of=OilInUse):

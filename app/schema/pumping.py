@@ -32,16 +32,16 @@ class Mist(Section, of=si.Ambient):
 class PumpingOptions(Section, of=si.PumpingModel):
     """Choices where the paper leaves room."""
 
-    def unused_pumping_defaults(self, section: str) -> frozenset[str]:
+    def unused(self) -> set[str]:
         """Closure belongs to the pocket chain, wall transport to gas dynamics with contact gaps, slices to both."""
-        unused = set()
+        unused = super().unused()
         if self.flow != "pocket_chain":
-            unused.add(f"{section}.closure")
+            unused.add("closure")
         if self.flow != "gas_dynamics" or self.gap != "contact":
-            unused.add(f"{section}.wall_transport")
+            unused.add("wall_transport")
         if self.flow == "incompressible":
-            unused.add(f"{section}.slices")
-        return frozenset(unused)
+            unused.add("slices")
+        return unused
 
 
 class _PumpingSetup(Request, of=si.PumpingSetup, without=("normal_backlash",)):
@@ -52,11 +52,7 @@ class _PumpingSetup(Request, of=si.PumpingSetup, without=("normal_backlash",)):
 
     def options(self) -> dict[str, Any]:
         """The model section, the number of slices filled in."""
-        return self.model.model_dump() | {"slices": self.model.si(si.PumpingModel).slice_count}
-
-    def unused_defaults(self) -> frozenset[str]:
-        """What the flow model leaves out."""
-        return self.model.unused_pumping_defaults("model")
+        return super().options() | {"slices": self.model.si(si.PumpingModel).slice_count}
 
     def assumed_by_the_model(self) -> dict[str, str]:
         """A flow with temperatures knows one speed only."""

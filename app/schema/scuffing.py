@@ -53,11 +53,9 @@ class ContactTemperatures(Section, of=si.Temperatures):
             return {"bulk_method": "given"} | given
         return given
 
-    def unused_temperature_defaults(self, section: str, *, oil: bool) -> frozenset[str]:
-        """What the way of saying bulk and scuffing temperature leaves out of a result, or that there is no oil."""
-        if not oil:
-            return frozenset(f"{section}.{name}" for name in type(self).model_fields)
-        return frozenset({f"{section}.bulk_c"} if self.bulk_method == "estimated" else {f"{section}.oil_supply"})
+    def unused(self) -> set[str]:
+        """A bulk temperature that is estimated is not given; one that is given does not ask how the oil comes."""
+        return {"bulk_c"} if self.bulk_method == "estimated" else {"oil_supply"}
 
 
 class ScuffingTemperatures(ContactTemperatures):
@@ -128,11 +126,6 @@ class MeshInOil(Request):
             path_points=self.model.path_points,
         )
 
-    def options(self) -> dict[str, Any]:
-        """The model section."""
-        options: dict[str, Any] = self.model.model_dump()
-        return options
-
     @property
     def _lubricant_factor_asked(self) -> bool:
         """Whether friction or scuffing temperature rest on the oil's lubricant factor."""
@@ -140,14 +133,14 @@ class MeshInOil(Request):
         by_test = test is not None and test.lubricant_factor is None
         return self.lubricant.known and (self.model.friction == "iso_tr_13989" or by_test)
 
-    def unused_defaults(self) -> frozenset[str]:
-        """Of reliefs that are zero, of the film's model in closed form, of oil and bulk; roughness counts here."""
-        unused = self.modifications.unused_defaults("modifications")
-        unused |= self.lubricant.unused_defaults("lubricant", factor=self._lubricant_factor_asked)
-        unused |= self.temperatures.unused_temperature_defaults("temperatures", oil=self.lubricant.known)
+    def unused(self) -> set[str]:
+        """Without an oil its temperatures; in closed form the film's model; the oil's kind where no factor asks it."""
+        unused = set() if self.lubricant.known else {"temperatures"}
         if self.model.lubrication == "closed_form" or not self.lubricant.known:
-            return frozenset({*unused, "model.rheology", "model.eyring_stress_mpa"})
-        return frozenset(unused | self.model.unused_film_defaults("model"))
+            unused |= {"model.rheology", "model.eyring_stress_mpa"}
+        if not self.lubricant.by_sheet and not self._lubricant_factor_asked:
+            unused.add("lubricant.kind")
+        return unused
 
     def assumed_by_the_model(self) -> dict[str, str]:
         """What friction, oil and bulk temperature take for granted."""
