@@ -8,12 +8,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cache
-from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, Union, get_args, get_origin
+from types import NoneType
+from typing import Any, Literal, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
-from app.schema.model import Documented, group_of
+from app.schema.model import Documented, dimensions, group_of, kinds
 from app.schema.quantities import Input, Output, View, meaning_of
 from solvers.quantity import Detail, Quantity
 
@@ -178,7 +178,7 @@ def _members(model: type[Documented], around: _Place) -> Iterator[Leaf | Branch]
         if group is None:
             yield _leaf(model, info, meaning, place)
             continue
-        repeated = _dimensions(info.annotation) > 0
+        repeated = dimensions(info.annotation) > 0
         inside = replace(place, path=(*place.path, ITEM)) if repeated else place
         yield Branch(
             ".".join(place.path),
@@ -194,7 +194,7 @@ def _members(model: type[Documented], around: _Place) -> Iterator[Leaf | Branch]
 
 def _leaf(model: type[Documented], info: FieldInfo, meaning: Input | Output, place: _Place) -> Leaf:
     *sections, name = place.path
-    prefix, unit, kinds = ".".join(sections), model.unit_of(name), tuple(_scalars(info.annotation))
+    prefix, unit, allowed = ".".join(sections), model.unit_of(name), tuple(kinds(info.annotation))
     fellows = (each for group in model.exclusive if name in group for each in group if each != name)
     return Leaf(
         path=".".join(place.path),
@@ -203,12 +203,12 @@ def _leaf(model: type[Documented], info: FieldInfo, meaning: Input | Output, pla
         view=meaning if isinstance(meaning, Output) else View(),
         description=meaning.description,
         unit=unit.symbol if unit else None,
-        kind=next((_KINDS[kind] for kind in kinds if kind in _KINDS), "text" if _options(kinds) else "other"),
-        dimensions=_dimensions(info.annotation),
+        kind=next((_KINDS[kind] for kind in allowed if kind in _KINDS), "text" if _options(allowed) else "other"),
+        dimensions=dimensions(info.annotation),
         nullable=NoneType in get_args(info.annotation),
         required=info.is_required(),
         default=None if info.is_required() else info.get_default(call_default_factory=True),
-        options=_options(kinds),
+        options=_options(allowed),
         advanced=place.advanced,
         exclusive=tuple(_absolute(each, prefix) for each in fellows),
         detail=place.detail,
@@ -221,35 +221,14 @@ def _absolute(name: str, prefix: str) -> str:
     return name if "." in name or not prefix else f"{prefix}.{name}"
 
 
-def _scalars(annotation: Any) -> Iterator[Any]:
-    """The types of single values that an annotation allows."""
-    if get_origin(annotation) is Annotated:
-        yield from _scalars(get_args(annotation)[0])
-    elif get_origin(annotation) in {Union, UnionType, list}:
-        for kind in get_args(annotation):
-            yield from _scalars(kind)
-    elif annotation is not NoneType:
-        yield annotation
-
-
-def _options(kinds: tuple[Any, ...]) -> tuple[Any, ...]:
+def _options(allowed: tuple[Any, ...]) -> tuple[Any, ...]:
     """The words of a choice."""
-    for kind in kinds:
+    for kind in allowed:
         if get_origin(kind) is Literal:
             return get_args(kind)
         if isinstance(kind, type) and issubclass(kind, Enum):
             return tuple(member.value for member in kind)
     return ()
-
-
-def _dimensions(annotation: Any) -> int:
-    if get_origin(annotation) is Annotated:
-        return _dimensions(get_args(annotation)[0])
-    if get_origin(annotation) is list:
-        return 1 + _dimensions(get_args(annotation)[0])
-    if get_origin(annotation) in {Union, UnionType}:
-        return max(_dimensions(kind) for kind in get_args(annotation))
-    return 0
 
 
 _Names = tuple[str, ...]
@@ -288,7 +267,7 @@ def _named(model: type[Documented], theirs: _Names = (), ours: _Names = ()) -> I
     for name, info in model.model_fields.items():
         si_path, path = (*theirs, model.solver_name(name)), (*ours, name)
         yield si_path, path
-        if any(get_origin(kind) is list for kind in (info.annotation, *get_args(info.annotation))):
+        if dimensions(info.annotation):
             si_path, path = (*si_path, ITEM), (*path, ITEM)
             yield si_path, path
         if group := group_of(info.annotation):

@@ -10,11 +10,12 @@ itself is an ordinary field of pydantic: under the name of a filled field it cha
 """
 
 from abc import abstractmethod
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass, fields, is_dataclass
 from functools import cache
 from importlib.metadata import version
 from inspect import get_annotations
-from types import UnionType
+from types import NoneType, UnionType
 from typing import (
     TYPE_CHECKING,
     Annotated,
@@ -276,13 +277,31 @@ def _field(model: type[Documented], name: str, info: FieldInfo) -> _Field:
     return _Field(name, model.solver_name(name), model.unit_of(name), level, group_of(info.annotation), record, member)
 
 
+def kinds(annotation: Any) -> Iterator[Any]:
+    """The types of single values that an annotation allows, alone, as one of several or as items of a list."""
+    if get_origin(annotation) is Annotated:
+        yield from kinds(get_args(annotation)[0])
+    elif get_origin(annotation) in {Union, UnionType, list, tuple}:
+        for kind in get_args(annotation):
+            yield from kinds(kind)
+    elif annotation is not NoneType:
+        yield annotation
+
+
+def dimensions(annotation: Any) -> int:
+    """How many lists stand around a value: 0 for a scalar, 1 for a list, 2 for a matrix."""
+    if get_origin(annotation) is Annotated:
+        return dimensions(get_args(annotation)[0])
+    if get_origin(annotation) is list:
+        return 1 + dimensions(get_args(annotation)[0])
+    if get_origin(annotation) in {Union, UnionType}:
+        return max(dimensions(kind) for kind in get_args(annotation))
+    return 0
+
+
 def group_of(annotation: Any) -> type[Documented] | None:
     """The group or section that a field holds, alone, optional or as the item of a list; None for plain values."""
-    if isinstance(annotation, type) and issubclass(annotation, Documented):
-        return annotation
-    if get_origin(annotation) in {Union, UnionType, list, Annotated}:
-        return next((group for kind in get_args(annotation) if (group := group_of(kind))), None)
-    return None
+    return next((kind for kind in kinds(annotation) if isinstance(kind, type) and issubclass(kind, Documented)), None)
 
 
 def to_si(section: Documented) -> dict[str, Any]:
@@ -318,11 +337,9 @@ def _members(model: type[Documented], kind: Any) -> tuple[tuple[str, _Field, typ
     )
 
 
-def _record_in(hint: Any) -> type[Any] | None:
-    """The dataclass in a type, alone, optional or as the item of a tuple."""
-    if isinstance(hint, type) and is_dataclass(hint):
-        return hint
-    return next((found for kind in get_args(hint) if (found := _record_in(kind))), None)
+def _record_in(hint: Any) -> Any:
+    """The dataclass in a type, alone, optional or as the item of a tuple; None where there is none."""
+    return next(filter(is_dataclass, kinds(hint)), None)
 
 
 @cache
@@ -370,12 +387,8 @@ def above(group: type[Documented], detail: Detail) -> dict[str, Any]:
         if field.level > level:
             found[field.name] = True
         elif field.group is not None and (inner := above(field.group, detail)):
-            found[field.name] = {"__all__": inner} if _is_list(group.model_fields[field.name].annotation) else inner
+            found[field.name] = {"__all__": inner} if dimensions(group.model_fields[field.name].annotation) else inner
     return found
-
-
-def _is_list(annotation: Any) -> bool:
-    return any(get_origin(kind) is list for kind in (annotation, *get_args(annotation)))
 
 
 def _displayed(value: Any, unit: Unit | None) -> Any:

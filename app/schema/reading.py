@@ -6,13 +6,12 @@ Numbers, digit-only text and field names of at most 40 letters may be repeated; 
 import re
 from collections.abc import Iterable
 from difflib import get_close_matches
-from types import UnionType
-from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
+from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
 from app.errors import Fault, InvalidBody, pointer
-from app.schema.model import Documented
+from app.schema.model import Documented, kinds
 from app.schema.quantities import Input, meaning_of
 from solvers.quantity import allowed
 
@@ -46,22 +45,14 @@ def faults(model: type[BaseModel], items: Iterable[dict[str, Any]]) -> list[Faul
     return found
 
 
-def _models_of(annotation: Any) -> Models:
-    """The models that a field may hold, alone, optional, as the item of a list, or one of several."""
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return (annotation,)
-    if get_origin(annotation) in {Union, UnionType, list, Annotated}:
-        return tuple(model for kind in get_args(annotation) for model in _models_of(kind))
-    return ()
-
-
 def _below(models: Models, field: str) -> Models:
     """The models below a field of these."""
     return tuple(
         inner
         for model in models
         if field in model.model_fields
-        for inner in _models_of(model.model_fields[field].annotation)
+        for inner in kinds(model.model_fields[field].annotation)
+        if isinstance(inner, type) and issubclass(inner, BaseModel)
     )
 
 

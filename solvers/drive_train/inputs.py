@@ -21,7 +21,6 @@ Vector2 = tuple[float, float]
 CouplingFriction = Literal["elastic_plastic", "sliding"]
 ShaftName = Literal["pinion", "wheel"]
 State = Literal["hot", "cold"]
-STATIONS = 41  # chosen: every 1/40 of the face
 ASSUMED_RESPONSE = 0.5  # chosen: among the known values, 0.2 to 1
 FILM_ABOVE_OIL = 15.0  # K
 
