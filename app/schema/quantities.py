@@ -51,12 +51,13 @@ class Input(Quantity):
     def _strict(self, schema: CoreSchema) -> CoreSchema:
         match schema["type"]:
             case "float" | "int" as kind:
-                # Strict: text and booleans are no numbers. 3.0 is a whole number, which a strict int would not take.
                 bounds: Any = self.bounds
-                number = core_schema.float_schema(strict=True, allow_inf_nan=False, **bounds)
-                if kind == "float":
-                    return number
-                whole = core_schema.chain_schema([number, core_schema.int_schema()])
+                if kind == "float":  # strict: text and booleans are no numbers
+                    return core_schema.float_schema(strict=True, allow_inf_nan=False, **bounds)
+                # A strict int would not take 3.0: a number, one that has whole neighbours, a whole one in its range.
+                number = core_schema.custom_error_schema(core_schema.float_schema(strict=True), "int_type")
+                exact = core_schema.float_schema(allow_inf_nan=False, ge=-(2.0**53), le=2.0**53)
+                whole = core_schema.chain_schema([number, exact, core_schema.int_schema(**bounds)])
                 return core_schema.json_or_python_schema(core_schema.int_schema(strict=True, **bounds), whole)
             case "bool":
                 return core_schema.bool_schema(strict=True)

@@ -21,6 +21,7 @@ from app.pages.results import NOT_RESULTS
 from app.pages.templating import page_path
 from app.schema.fields import ITEM, leaves
 from app.sources import SHORT_SOURCES
+from tests.support.pages import asked
 
 CALCULATION = {each.path: each for each in CALCULATIONS}
 IDS = [each.request.__name__ for each in CALCULATIONS]
@@ -35,11 +36,6 @@ CASES = (
     "xue-line-contact-isothermal",
 )
 FORM_CALCULATION = CALCULATION["/v1/scuffing"]
-
-
-def asked(name: str, **looks: str) -> views.Asked:
-    example = examples()[name]
-    return views.Asked(page_path(CALCULATION[example.endpoint]), pairs_of(example.request), looks)
 
 
 @cache

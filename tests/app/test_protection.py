@@ -136,16 +136,3 @@ def test_metrics_count_requests(client: httpx.Client) -> None:
     client.get("/healthz")
     text = client.get("/metrics").text
     assert 'tribodrive_requests_total{endpoint="/healthz",status="200"}' in text
-
-
-@pytest.mark.slow
-def test_slow_body(server: str) -> None:
-    address = urlsplit(server)
-    started = time.monotonic()
-    with socket.create_connection((address.hostname, address.port), timeout=30) as connection:
-        connection.sendall(
-            b"POST /v1/coupling HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{"
-        )
-        answer = connection.recv(65536)
-    assert answer.startswith(b"HTTP/1.1 408")
-    assert time.monotonic() - started == pytest.approx(Settings().body_deadline_s, abs=2.0)

@@ -6,19 +6,13 @@ from html import unescape
 
 import pytest
 
-from app.calculations import BY_PATH
 from app.examples import examples
 from app.pages import views
 from app.pages.query import pairs_of
-from app.pages.templating import page_path
+from tests.support.pages import asked
 
 SCUFFING = "starter-industrial-scuffing"
 SHORT = (SCUFFING, "starter-coupling-crowning", "starter-compressor-gear", "starter-generator-gear-drive-train")
-
-
-def asked(name: str, **looks: str) -> views.Asked:
-    example = examples()[name]
-    return views.Asked(page_path(BY_PATH[example.endpoint]), pairs_of(example.request), looks)
 
 
 @cache

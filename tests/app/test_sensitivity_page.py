@@ -1,7 +1,5 @@
 """The page that says which input matters: its figure and table say what the study says, its links draw the curve."""
 
-import asyncio
-import json
 import re
 from html import unescape
 from typing import Any
@@ -9,35 +7,16 @@ from typing import Any
 import httpx
 import pytest
 
-from app.calculations import BY_PATH
-from app.examples import examples
-from app.pages.query import pairs_of, pairs_of_query, split_views
+from app.pages.query import pairs_of_query, split_views
 from app.pages.studies import page as pages
-from app.pages.studies.declaration import PageStudy
 from app.pages.studies.sensitivity import MOST_ROWS, SENSITIVITY
 from app.pages.studies.sweep import SWEEP
-from app.pages.templating import page_path
 from app.pages.typesetting import shown
 from app.pages.views import Asked
-from app.studies.stream import Clock
-from tests.support.pools import InlinePool
+from tests.support.pages import asked, lines_of
 
 MOST, DEADLINE_S = 2500, 30.0
 COUPLING = "pahl-axial-displacement"
-
-
-def asked(name: str, **said: str) -> Asked:
-    example = examples()[name]
-    return Asked(page_path(BY_PATH[example.endpoint]), pairs_of(example.request), said)
-
-
-def lines_of(study: PageStudy) -> list[dict[str, Any]]:
-    async def run() -> list[dict[str, Any]]:
-        clock = Clock(study.study.total)
-        return [line async for group in study.study.lines(InlinePool(), clock) for line in group]
-
-    found: list[dict[str, Any]] = json.loads(json.dumps(asyncio.run(run())))
-    return found
 
 
 def result_of(found: Asked) -> tuple[list[dict[str, Any]], str]:

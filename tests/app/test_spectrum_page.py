@@ -1,7 +1,5 @@
 """The page of a load spectrum: a pasted table and tolerances make the study, whose numbers and links it shows."""
 
-import asyncio
-import json
 import re
 from html import unescape
 from typing import Any
@@ -21,8 +19,7 @@ from app.pages.templating import page_path
 from app.pages.views import Asked
 from app.studies.examples import EXAMPLES
 from app.studies.spectrum import Spectrum, spectrum_study
-from app.studies.stream import Clock
-from tests.support.pools import InlinePool
+from tests.support.pages import lines_of
 
 SCUFFING = BY_PATH["/v1/scuffing"]
 MOST, DEADLINE_S = 20_000, 30.0
@@ -40,12 +37,7 @@ def checked(found: Asked) -> PageStudy:
 
 def shown(study: PageStudy) -> tuple[dict[str, Any], str]:
     """The last line of a study, and what its page shows."""
-
-    async def run() -> list[dict[str, Any]]:
-        clock = Clock(study.study.total)
-        return [line async for group in study.study.lines(InlinePool(), clock) for line in group]
-
-    lines = [line for line in json.loads(json.dumps(asyncio.run(run()))) if line["type"] != "progress"]
+    lines = [line for line in lines_of(study) if line["type"] != "progress"]
     return lines[-1], unescape(pages.whole(study, lines).decode())
 
 

@@ -19,7 +19,7 @@ from app.figures.data import Axis, values
 from app.figures.drawing.image import draw, places
 from app.figures.rendering import MEDIA_TYPES
 from app.figures.studies import MOST_CURVES, Coordinate, Grid, figures_of
-from app.pages.query import STUDY_NAMES, VIEW_NAMES, body_of, pairs_of, pairs_of_query, split_views
+from app.pages.query import STUDY_NAMES, VIEW_NAMES, body_of, pairs_of_query, split_views
 from app.pages.studies import page as pages
 from app.pages.studies.declaration import PageStudy, StudyAddresses
 from app.pages.studies.design import DESIGN
@@ -27,7 +27,6 @@ from app.pages.studies.outputs import output_choices
 from app.pages.studies.spectrum import SPECTRUM
 from app.pages.studies.sweep import SWEEP, case_of, field_choices, point_address
 from app.pages.studies.sweep_examples import STUDIES, StudyExample
-from app.pages.templating import page_path
 from app.pages.views import Asked
 from app.schema.fields import leaf_at, leaves
 from app.sources import SHORT_SOURCES
@@ -35,6 +34,7 @@ from app.studies.point_sets import PointSet
 from app.studies.points import Question, solve_point
 from app.studies.stream import Line, point_line
 from app.studies.sweep import Sweep
+from tests.support.pages import asked
 
 MOST, DEADLINE_S = 2500, 30.0
 CALCULATION = {each.path: each for each in CALCULATIONS}
@@ -44,11 +44,6 @@ SLOPE, CROWNING = "modifications.helix_slope_um", "modifications.lead_crowning_u
 MAP = {"x": SLOPE, "x.from": "-20", "x.to": "20", "x.count": "3", "y": CROWNING, "y.from": "0", "y.to": "30"}
 # One quick case of each endpoint that has one.
 QUICK = (COUPLING, "pahl-sleeve-orbit", "pahl-recommended-crowning", "milian-table-1", "fzg-type-a")
-
-
-def asked(name: str, **said: str) -> Asked:
-    example = examples()[name]
-    return Asked(page_path(CALCULATION[example.endpoint]), pairs_of(example.request), said)
 
 
 def checked(found: Asked) -> tuple[PageStudy, PointSet]:

@@ -1,6 +1,5 @@
 """Pages of a gear unit's studies: what they show is what the studies say, and every link leads to the case it names."""
 
-import asyncio
 import json
 import re
 from functools import cache
@@ -11,50 +10,33 @@ import httpx
 import pytest
 
 from app.calculations import BY_PATH
-from app.examples import examples
-from app.pages.query import pairs_of, pairs_of_query, split_views
+from app.pages.query import pairs_of_query, split_views
 from app.pages.studies import page as pages
 from app.pages.studies.corners import CORNERS
 from app.pages.studies.declaration import PageStudy, StudyPage, case_at
 from app.pages.studies.design import DESIGN
 from app.pages.studies.sensitivity import SENSITIVITY
 from app.pages.study_links import study_links
-from app.pages.templating import page_path
 from app.pages.typesetting import shown
 from app.pages.views import Asked
-from app.studies.stream import Clock
-from tests.support.pools import InlinePool
+from tests.support.pages import asked, lines_of
 
 MOST, DEADLINE_S = 2500, 30.0
 UNIT = "starter-generator-gear-drive-train"
 SAFETY, SLOPE = "safety.blok_flank", "modifications.helix_slope_um"
 
 
-def asked(name: str = UNIT, **said: str) -> Asked:
-    example = examples()[name]
-    return Asked(page_path(BY_PATH[example.endpoint]), pairs_of(example.request), said)
-
-
 def small(**said: str) -> Asked:
     """A unit with two corners."""
-    whole = asked(**said)
+    whole = asked(UNIT, **said)
     return Asked(whole.path, [*whole.pairs, ("effects.coupling", "false")], said)
-
-
-def answered(study: PageStudy) -> list[dict[str, Any]]:
-    async def run() -> list[dict[str, Any]]:
-        clock = Clock(study.study.total)
-        return [line async for group in study.study.lines(InlinePool(), clock) for line in group]
-
-    found: list[dict[str, Any]] = json.loads(json.dumps(asyncio.run(run())))
-    return found
 
 
 @cache
 def studied(page: StudyPage) -> tuple[PageStudy, list[dict[str, Any]], str]:
-    found = small(trials="5") if page is DESIGN else asked()
+    found = small(trials="5") if page is DESIGN else asked(UNIT)
     study = pages.checked(page, found, MOST, DEADLINE_S)
-    lines = answered(study)
+    lines = lines_of(study)
     return study, lines, unescape(pages.whole(study, lines).decode())
 
 
@@ -190,7 +172,7 @@ def test_corners_are_those_typed_on_both_pages() -> None:
 
 def test_ranges_and_trials_come_from_the_form() -> None:
     said = {"low.0": "-10", "high.0": "20,5", "trials": "7", "show": "load.face_load_factor"}
-    body = DESIGN.body(asked(**said), pages.checked(DESIGN, asked(**said), MOST, DEADLINE_S).output)
+    body = DESIGN.body(asked(UNIT, **said), pages.checked(DESIGN, asked(UNIT, **said), MOST, DEADLINE_S).output)
     assert body["variables"][0] == {"path": ["modifications.helix_slope_um"], "min": -10, "max": 20.5, "step": 0.5}
     assert body["variables"][1]["max"] == 20.0
     assert (body["evaluations"], body["objective"], body["direction"]) == (7, "load.face_load_factor", "minimise")
@@ -206,7 +188,7 @@ def test_ranges_and_trials_come_from_the_form() -> None:
     ],
 )
 def test_what_is_wrong_stands_at_its_control(said: dict[str, str], control: str, title: str) -> None:
-    opened = pages.opened(DESIGN, asked(**said), MOST, DEADLINE_S)
+    opened = pages.opened(DESIGN, asked(UNIT, **said), MOST, DEADLINE_S)
     assert opened.status == 422
     assert f'<a href="#f.{control}">{title}</a>' in opened.head.decode()
 
@@ -216,13 +198,13 @@ def test_a_unit_without_the_output_says_which_to_choose(page: StudyPage) -> None
     bare = small()
     without = Asked(bare.path, [pair for pair in bare.pairs if not pair[0].startswith("temperatures.scuffing")])
     study = pages.checked(page, without, MOST, DEADLINE_S)
-    text = pages.whole(study, answered(study)).decode()
+    text = pages.whole(study, lines_of(study)).decode()
     assert "choose another output" in text or "has no answer at its worst corner" in text
 
 
 @pytest.mark.parametrize("page", [SENSITIVITY, CORNERS, DESIGN], ids=lambda page: page.link.name)
 def test_a_study_that_breaks_off_says_why(page: StudyPage) -> None:
-    study = pages.checked(page, asked(), MOST, DEADLINE_S)
+    study = pages.checked(page, asked(UNIT), MOST, DEADLINE_S)
     text = pages.whole(study, [{"type": "error", "code": "study_deadline", "message": "<b>too long</b>", "done": 3}])
     assert "&lt;b&gt;too long&lt;/b&gt;" in text.decode()
 
@@ -232,7 +214,7 @@ def test_links_alone_lead_from_a_unit_to_its_worst_corner_and_to_what_to_grind(c
     for offer in study_links(BY_PATH["/v1/drive-train"]):
         assert f'href="{small().links.study(offer.name)}"' in page
     start = unescape(client.get("/drive-train/corners").text)
-    assert f'href="{asked().links.study("corners")}"' in start
+    assert f'href="{asked(UNIT).links.study("corners")}"' in start
     coupling = unescape(client.get("/coupling/corners", follow_redirects=False).text)
     assert "not found" in coupling.lower()
     found = client.get(small().links.study("corners"))
