@@ -16,7 +16,7 @@ from pydantic_core import ErrorDetails
 from app.settings import MEBIBYTE, Settings, settings
 from app.workers.control import Template
 
-REFUSED = 1
+REFUSED = 1  # exit status; `EXIT_STATUS` has those of answers
 EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 2 is that of wrong arguments
 STANDARD_INPUT = Path("-")
 

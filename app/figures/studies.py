@@ -215,7 +215,7 @@ def _invalid(grid: Grid) -> tuple[Span, ...]:
     return tuple(spans)
 
 
-MOST_ROWS = 12
+MOST_ROWS = 12  # of bars that can be read at once
 NAMED = 3  # in the finding
 STAR = f"{NO_BREAK}*"
 

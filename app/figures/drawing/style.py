@@ -15,7 +15,7 @@ TITLE, TEXT, SMALL = 11.0, 8.5, 8.0  # points; the texts of axes, as the style s
 LETTER = 0.58 * SMALL / 72.0  # mean width of a character, in inches
 LINE_HEIGHT = 1.3 * SMALL / 72.0  # inches
 DASHES: dict[Role, Any] = {Role.RESULT: "solid", Role.REFERENCE: (0, (1.2, 1.8)), Role.VARIANT: (0, (4.5, 2.2))}
-LIMIT_DASHES, REFERENCE_DASHES = (0, (5.0, 2.5)), (0, (1.0, 2.0))
+LIMIT_DASHES, REFERENCE_DASHES = (0, (5.0, 2.5)), (0, (1.0, 2.0))  # line widths on and off
 # Hues of Okabe and Ito: how they are drawn and written on light, and on dark.
 HUES = {
     Hue.BLUE: ("#0072B2", "#0068A3", "#3D9BDC", "#5AAEE8"),

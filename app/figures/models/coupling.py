@@ -42,7 +42,7 @@ from solvers.coupling.results import (
 )
 
 TINTS = {"full": Hue.GREEN, "unstable": Hue.PURPLE, "transition": Hue.ORANGE, "boundary": Hue.VERMILLION}
-MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}
+MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}  # of the axes, with room around Pahl's boundaries
 
 
 def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
@@ -119,7 +119,7 @@ def _way_out(overlap: float, capacity: float, distance: float) -> Line:
 QUARTERS = tuple(45.0 * each for each in range(9))
 ROTOR = axis(Orbit, "rotor_angle", limits=(0.0, 360.0), ticks=QUARTERS)
 TOOTH = Axis("tooth position (tilt at 90° and 270°)", "°", limits=(0.0, 360.0), ticks=QUARTERS, symbol="φ")
-TILTS = (Span(82.0, 98.0, ""), Span(262.0, 278.0, ""))
+TILTS = (Span(82.0, 98.0, ""), Span(262.0, 278.0, ""))  # marks at 90° and 270°, wide enough to be seen
 ORBIT_SOURCE = "Pahl 1978, Fig. 5"
 CONSTRAINTS = {
     "contact_overlap": "the overlap cannot fall below 1",

@@ -63,10 +63,10 @@ def contact_temperature(inputs: DriveTrainInputs, result: DriveTrainResult) -> F
 
 
 OWN = "own derivation"
-ROUND = np.linspace(0.0, 2.0 * pi, 181)
+ROUND = np.linspace(0.0, 2.0 * pi, 181)  # a circle in steps of 2°
 WALLS = -1.05, 1.05  # of the clearance, with some room
 NEWTONS = 1e3  # per kilonewton
-NOISE = 1e-9
+NOISE = 1e-9  # of a whole: a smaller part is rounding
 PARTS = (
     ("bearings of the pinion", "films_pinion", Hue.BLUE),
     ("bearings of the wheel", "films_wheel", Hue.BLUE),

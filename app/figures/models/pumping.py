@@ -99,7 +99,7 @@ def _maps(
     return tuple(panels)
 
 
-SPEEDS = 24
+SPEEDS = 24  # of the scan, chosen: the curve looks smooth
 BEYOND = 1.5  # times the highest choking speed, where the scan ends
 LOWEST = 0.25  # of that, where it starts
 
