@@ -1,6 +1,5 @@
 """What a report says beside the result: names, date, every input with where it comes from, how to repeat it."""
 
-import json
 import re
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -10,6 +9,7 @@ from unicodedata import category
 from markupsafe import Markup
 
 from app.pages.cases import Case
+from app.pages.code import body_of, for_shell
 from app.pages.manual import method_of
 from app.pages.results import flattened, resolved
 from app.pages.typesetting import cited, shown, symbol
@@ -56,18 +56,15 @@ class Table:
     rows: tuple[Row, ...]
 
 
-def context(case: Case, views: dict[str, str], endpoint: str, link: str) -> dict[str, Any]:
+def context(case: Case, views: dict[str, str], address: str, link: str) -> dict[str, Any]:
     """What the template needs beside the result; raises ValueError for a name or note that is too long."""
-    request = {name: value for name, value in case.request.model_dump(exclude_unset=True).items() if name != "detail"}
-    body = json.dumps(request)
     return {
         "longest": NAMES,
         "names": {name: _said(name, views.get(name, ""), longest) for name, longest in NAMES.items()},
         "paper": PAPERS.get(views.get("paper", ""), "A4"),
         "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
         "inputs": _inputs(case),
-        "body": body.replace("'", "\\u0027"),
-        "endpoint": endpoint,
+        "command": for_shell(address, case.calculation, body_of(case.request)),
         "link": link,
         "link_text": link if len(link) <= LONGEST_LINK else f"{link[:LONGEST_LINK]}…",
         "method": method_of(case.calculation),

@@ -14,6 +14,7 @@ from app.pages import report as reports
 from app.pages.answers import key_of
 from app.pages.cases import Case, Fault, faults_of, solved
 from app.pages.charts import Chart, charts, data_address, figure_of, linked, values_of
+from app.pages.code import body_of, for_python, for_shell
 from app.pages.form import State, anchor, form
 from app.pages.links import IMAGE_FORMATS, Links, example_link, examples_of
 from app.pages.manual import chapter_of
@@ -28,6 +29,7 @@ from app.sources import changes_since
 
 BY_PAGE = {page_path(calculation): calculation for calculation in CALCULATIONS}
 LOCAL = "http://localhost:8000"
+LANGUAGES = (("Python", for_python), ("curl", for_shell))
 REFUSED = (Unreadable, InvalidBody, Unprocessable)
 
 
@@ -114,6 +116,7 @@ def page(asked: Asked) -> Shown:
         compared=before is not None,
         trouble=trouble,
         curves=_curves(case),
+        code=[(name, write(LOCAL + asked.root, case.calculation, body_of(case.request))) for name, write in LANGUAGES],
     )
     return replace(shown, keep=_keep(asked, case, variant, by_case=links.too_long))
 
@@ -180,9 +183,8 @@ def report(asked: Asked, host: str, study: StudySection | None = None) -> Shown:
         return page(asked)
     figures, missing = charts(case, None, _printed, compute=True)
     link = "" if asked.links.too_long else host + asked.root + asked.links.alone
-    endpoint = (host or LOCAL) + asked.root + asked.calculation.path
     try:
-        context = reports.context(case, asked.views, endpoint, link)
+        context = reports.context(case, asked.views, (host or LOCAL) + asked.root, link)
     except ValueError as error:
         raise Unprocessable("too_long", str(error), None) from error
     content = rendered(

@@ -1,4 +1,4 @@
-// What pages with figures share: the link to copy, and values under pointer and arrow keys.
+// What pages with figures share: the link and code to copy, and values under pointer and arrow keys.
 "use strict";
 
 function prepareCopy(say) {
@@ -13,6 +13,19 @@ function prepareCopy(say) {
       say("The link is in the address bar.");
     }
   });
+}
+
+// Code names this service by the address under which the reader sees it, and can be copied.
+function prepareCode(say) {
+  for (const code of document.querySelectorAll("pre.code")) {
+    code.textContent = code.textContent.replace("http://localhost:8000", location.origin);
+    const button = Object.assign(document.createElement("button"), { type: "button", textContent: "Copy" });
+    button.addEventListener("click", async () => {
+      await navigator.clipboard.writeText(code.textContent);
+      say("Code copied.");
+    });
+    code.before(button);
+  }
 }
 
 // Values of a figure under pointer and arrow keys, and as a table. They are part of the page, or asked for when needed.

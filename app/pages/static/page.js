@@ -155,6 +155,7 @@ function goTo(address) {
 
 function prepareResult() {
   prepareCopy(say);
+  prepareCode(say);
   document.querySelectorAll(".plot").forEach(prepareChart);
 }
 
