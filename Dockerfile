@@ -1,15 +1,13 @@
-# Two stages: the first installs and compiles the kernels, the second serves without tools, as nobody, on a read-only root.
-FROM python:3.11-slim AS build
-WORKDIR /src
-COPY pyproject.toml constraints.txt README.md CHANGELOG.md ./
-COPY app app
-COPY solvers solvers
-RUN python -m venv /opt/tribodrive && /opt/tribodrive/bin/pip install --no-cache-dir -c constraints.txt .
-WORKDIR /
-# Beside the installed sources, where the service finds the kernels and need not write.
-RUN /opt/tribodrive/bin/python -m app.workers.stages
+# The first stage installs and compiles the kernels, the second serves without tools, as nobody, on a read-only root.
+FROM python:3.11-slim AS base
+# Kernels for every processor with AVX2 (x86-64-v3), not for the one that builds; `generic` serves any.
+ENV NUMBA_CPU_NAME=x86-64-v3 NUMBA_CPU_FEATURES=""
 
-FROM python:3.11-slim
+FROM base AS build
+COPY . /src
+RUN /src/deploy/install /opt/tribodrive
+
+FROM base
 COPY --from=build /opt/tribodrive /opt/tribodrive
 USER nobody
 ENV PATH=/opt/tribodrive/bin:$PATH PYTHONDONTWRITEBYTECODE=1 TRIBODRIVE_HOST=0.0.0.0

@@ -1,7 +1,8 @@
-"""Times of a benchmark's figures, beside those of a previous version built from git in the same run.
+"""Times of a benchmark's figures, beside those of a previous version, or of another target, in the same run.
 
 `--against REVISION` of a benchmark puts the revision's sources, with the benchmarks of today, into a folder of their
-own. One process from each answers in turn: what else the machine does meets both, and their ratio holds.
+own; `--processor NAME` compiles today's for a processor that LLVM knows by this name. One process of each answers in
+turn: what else the machine does meets both, and their ratio holds.
 """
 
 import argparse
@@ -12,7 +13,7 @@ import sys
 import tarfile
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
@@ -74,7 +75,9 @@ def _duration(run: Callable[[], object]) -> float:
 def print_times(benchmark: str, figures: Sequence[Figure | MedianFigure]) -> None:
     """Print the table of a benchmark, a module's name, as its command line asks for it."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--against", metavar="REVISION", help="print the times of a previous version too")
+    other = parser.add_mutually_exclusive_group()
+    other.add_argument("--against", metavar="REVISION", help="print the times of a previous version too")
+    other.add_argument("--processor", metavar="NAME", help="print the times of kernels for this processor too")
     parser.add_argument("--only", metavar="TEXT", default="", help="print the figures whose names hold a text")
     parser.add_argument(ANSWERS_FOR, action="store_true", dest="answers", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
@@ -82,8 +85,8 @@ def print_times(benchmark: str, figures: Sequence[Figure | MedianFigure]) -> Non
         _answer(figures)
         return
     wanted = [index for index, figure in enumerate(figures) if arguments.only in figure.name]
-    if arguments.against:
-        _print_ratios(benchmark, figures, wanted, arguments.against)
+    if arguments.against or arguments.processor:
+        _print_ratios(benchmark, figures, wanted, arguments.against, arguments.processor)
         return
     print("| figure | measured | aim |\n|---|---|---|")
     for figure in (figures[index] for index in wanted):
@@ -91,11 +94,20 @@ def print_times(benchmark: str, figures: Sequence[Figure | MedianFigure]) -> Non
 
 
 def _print_ratios(
-    benchmark: str, figures: Sequence[Figure | MedianFigure], wanted: Sequence[int], revision: str
+    benchmark: str,
+    figures: Sequence[Figure | MedianFigure],
+    wanted: Sequence[int],
+    revision: str | None,
+    processor: str | None,
 ) -> None:
     """Best times of both versions, and the median of the ratios of what was measured side by side."""
-    print(f"| figure | measured | {revision} | ratio | aim |\n|---|---|---|---|---|")
-    with _sources_of(revision) as previous, _process(benchmark, ROOT) as now, _process(benchmark, previous) as before:
+    print(f"| figure | measured | {revision or processor} | ratio | aim |\n|---|---|---|---|---|")
+    target = {"NUMBA_CPU_NAME": processor, "NUMBA_CPU_FEATURES": ""} if processor else {}
+    with (
+        _sources_of(revision) if revision else nullcontext(ROOT) as folder,
+        _process(benchmark, ROOT) as now,
+        _process(benchmark, folder, **target) as before,
+    ):
         for index in wanted:
             figure = figures[index]
             pairs = [(_asked(now, index), _asked(before, index)) for _ in range(ROUNDS)]
@@ -119,10 +131,10 @@ def _sources_of(revision: str) -> Iterator[Path]:
 
 
 @contextmanager
-def _process(benchmark: str, folder: Path) -> Iterator[subprocess.Popen[str]]:
+def _process(benchmark: str, folder: Path, **variables: str) -> Iterator[subprocess.Popen[str]]:
     """A process that answers for the sources in a folder; its kernels are kept where ours are, by what they are of."""
     command = [sys.executable, "-m", benchmark, ANSWERS_FOR]
-    environment = {**os.environ, **ONE_THREAD, "NUMBA_CACHE_DIR": str(roots()[0])}
+    environment = {**os.environ, **ONE_THREAD, "NUMBA_CACHE_DIR": str(roots()[0]), **variables}
     with subprocess.Popen(
         command, cwd=folder, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     ) as process:

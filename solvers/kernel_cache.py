@@ -156,11 +156,14 @@ def roots() -> list[Path]:
     if chosen := os.environ.get("NUMBA_CACHE_DIR"):
         return [Path(chosen)]
     home = Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))  # noqa: PTH111  raises nothing
-    private = Path(tempfile.gettempdir()) / f"tribodrive-{os.getuid()}"
     places = [PACKAGE / "__pycache__" / "kernels"]
     if home.is_absolute():
         places.append(home / "tribodrive" / "kernels")
-    return [*places, private] if _is_ours(private, 0o700) else places  # anybody can make a folder of that name
+    with suppress(FileNotFoundError):  # no temporary folder can be written
+        private = Path(tempfile.gettempdir()) / f"tribodrive-{os.getuid()}"
+        if _is_ours(private, 0o700):  # anybody can make a folder of that name
+            places.append(private)
+    return places
 
 
 @cache
@@ -194,7 +197,10 @@ def folder_name(path: Path) -> str:
 
 @cache
 def _processor() -> str:
-    return f"{platform.machine()} {get_host_cpu_name()} {get_host_cpu_features().flatten()}"
+    """What numba compiles for: this machine's processor, unless NUMBA_CPU_NAME and NUMBA_CPU_FEATURES say another."""
+    config: Any = numba.config
+    features = get_host_cpu_features().flatten() if config.CPU_FEATURES is None else config.CPU_FEATURES
+    return f"{platform.machine()} {config.CPU_NAME or get_host_cpu_name()} {features}"
 
 
 @cache

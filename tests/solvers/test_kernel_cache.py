@@ -1,6 +1,7 @@
 """Compiled kernels are never stale, whoever edits what; a broken or missing cache costs time and nothing else."""
 
 import os
+import platform
 import shutil
 import subprocess
 import sys
@@ -45,13 +46,15 @@ def package(tmp_path: Path) -> Path:
     return folder
 
 
-def outcome(package: Path, cache: str | None = None, module: str = "solvers.outer") -> tuple[float, bool, str]:
+def outcome(
+    package: Path, cache: str | None = None, module: str = "solvers.outer", head: str = "", **variables: str
+) -> tuple[float, bool, str]:
     """What the outer kernel answers, whether it came from the cache, and what was logged."""
     environment = {name: value for name, value in os.environ.items() if name not in {"NUMBA_CACHE_DIR", "PYTHONPATH"}}
     result = subprocess.run(
-        [sys.executable, "-c", PROGRAM.format(module=module)],
+        [sys.executable, "-c", head + PROGRAM.format(module=module)],
         cwd=package.parent,
-        env=environment | ({"NUMBA_CACHE_DIR": cache} if cache else {}),
+        env=environment | variables | ({"NUMBA_CACHE_DIR": cache} if cache else {}),
         check=True,
         capture_output=True,
         text=True,
@@ -66,6 +69,20 @@ def test_an_edit_of_a_called_kernel_is_seen(package: Path) -> None:
     source = package / "inner.py"
     source.write_text(source.read_text().replace("2.0", "5.0"))
     assert outcome(package)[:2] == (6.0, False)
+
+
+ON_ANOTHER_PROCESSOR = """
+import llvmlite.binding as llvm
+llvm.get_host_cpu_name = lambda: "znver1"
+llvm.get_host_cpu_features = lambda: llvm.FeatureMap(sse2=True)
+"""
+
+
+def test_code_for_a_named_processor_is_used_on_others(package: Path) -> None:
+    named = {"NUMBA_CPU_NAME": "x86-64-v2" if platform.machine() == "x86_64" else "generic", "NUMBA_CPU_FEATURES": ""}
+    assert outcome(package, **named)[:2] == (3.0, False)
+    assert outcome(package, head=ON_ANOTHER_PROCESSOR, **named)[:2] == (3.0, True)
+    assert outcome(package, head=ON_ANOTHER_PROCESSOR)[:2] == (3.0, False)
 
 
 @pytest.mark.slow
