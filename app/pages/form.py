@@ -14,6 +14,7 @@ from app.schema.fields import ITEM, Branch, Leaf, tree
 from app.schema.model import Request
 from app.schema.quantities import split_unit
 
+BESIDE = 10  # letters of an option that fit beside the label
 Widget = Literal["number", "text", "list", "select", "table"]
 
 
@@ -41,7 +42,7 @@ class State:
 
 @dataclass(frozen=True, slots=True)
 class FieldView:
-    """What the template shows of a field."""
+    """What the template shows of a field; `empty` says in a line what a field without a value stands for."""
 
     name: str
     label: str
@@ -57,12 +58,18 @@ class FieldView:
     fault: str | None
     column: str = ""
     excludes: tuple[str, ...] = ()
+    empty: str = ""
     kind: str = "field"
 
     @property
     def id(self) -> str:
         """Anchor on the page."""
         return anchor(self.name)
+
+    @property
+    def wide(self) -> bool:
+        """Whether an option is too long for a control beside its label."""
+        return any(len(label) > BESIDE for _, label in self.options)
 
 
 def anchor(path: str) -> str:
@@ -81,6 +88,7 @@ def field_view(leaf: Leaf, name: str, state: State, column: str = "") -> FieldVi
         text=state.texts.get(name, ""),
         placeholder=_placeholder(leaf, name, state),
         options=tuple(_options(leaf, state.texts.get(name, ""))),
+        empty=_empty(leaf, name, state),
         required=leaf.required,
         assumed=name in state.assumed,
         help=tuple(map(cited, _help(leaf, name, state))),
@@ -111,9 +119,13 @@ def _placeholder(leaf: Leaf, name: str, state: State) -> str:
         return " ".join(text_of(item) for item in value[:6]) + (" …" if len(value) > 6 else "")
     if value is not None and value != []:
         return f"{value:.6g}" if isinstance(value, float) else text_of(value)
-    if leaf.declared.default_text:
-        return cited(leaf.declared.default_text)
     return "paste a column" if leaf.dimensions else ""
+
+
+def _empty(leaf: Leaf, name: str, state: State) -> str:
+    """What an empty field stands for, where that is a rule and not a value yet."""
+    known = state.resolved.get(name, leaf.default) not in (None, [])
+    return "" if known or leaf.options else words(cited(leaf.declared.default_text or "").replace("`", ""))
 
 
 def _options(leaf: Leaf, text: str) -> list[tuple[str, str]]:

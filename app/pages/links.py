@@ -29,6 +29,7 @@ class Links:
     theme: str
     case: str = ""
     ref_case: str = ""
+    title: str = ""
 
     @property
     def query(self) -> str:
@@ -43,17 +44,17 @@ class Links:
     @property
     def page(self) -> str:
         """The page of the case, beside the case that it is compared with."""
-        return link(self.path, self.pairs, ref=self.ref, theme=self.theme, sources=SHORT_SOURCES)
+        return link(self.path, self.pairs, ref=self.ref, theme=self.theme, title=self.title, sources=SHORT_SOURCES)
 
     @property
     def alone(self) -> str:
         """The case without comparison."""
-        return link(self.path, self.pairs, theme=self.theme, sources=SHORT_SOURCES)
+        return link(self.path, self.pairs, theme=self.theme, title=self.title, sources=SHORT_SOURCES)
 
     @property
     def pinned(self) -> str:
         """The case compared with itself, to be changed."""
-        return link(self.path, self.pairs, ref=self.query, theme=self.theme, sources=SHORT_SOURCES)
+        return link(self.path, self.pairs, ref=self.query, theme=self.theme, title=self.title, sources=SHORT_SOURCES)
 
     def view(self, name: str, **views: str) -> str:
         """One view."""
@@ -62,11 +63,16 @@ class Links:
     @property
     def report(self) -> str:
         """The report of the case."""
-        return self.view("report", sources=SHORT_SOURCES)
+        return self.view("report", title=self.title, sources=SHORT_SOURCES)
+
+    @property
+    def file(self) -> str:
+        """The case as a file to be opened again."""
+        return self.view("case.json", title=self.title)
 
     def study(self, name: str) -> str:
         """A study of the case that has a page of its own."""
-        return self.view(name, theme=self.theme)
+        return self.view(name, theme=self.theme, title=self.title)
 
     def image(self, figure: str, image_format: str, theme: str = "") -> str:
         """One figure as a file."""

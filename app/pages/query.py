@@ -24,7 +24,7 @@ STUDY_NAMES = frozenset(
     | {f"t{place}{part}" for place in range(SCATTERING) for part in ("", ".law", ".by", ".about")}
     | {"show", "best", TRIALS, "cases", "hours", "machines", "limit", "limit.by", "limit.side"}
 )
-REPORT_NAMES = frozenset({"paper", "project", "part", "author", "checker", "notes"})
+REPORT_NAMES = frozenset({"title", "paper", "project", "part", "author", "checker", "notes"})
 VIEW_NAMES = STUDY_NAMES | REPORT_NAMES | {"ref", "theme", "sources", "curve"}
 PICK = "pick:"
 """Before the name of a choice between fields that exclude each other; its value is the field that counts."""
@@ -141,7 +141,7 @@ def pairs_of(content: Any, prefix: str = "") -> Pairs:
 
 def link(path: str, pairs: Pairs, **views: str) -> str:
     """The address of a case under `path`."""
-    query = urlencode([*pairs, *((name, text) for name, text in views.items() if text)], safe=",:")
+    query = urlencode([*pairs, *((name, text) for name, text in views.items() if text)], safe=",:", errors="replace")
     return f"{path}?{query}" if query else path
 
 

@@ -15,7 +15,7 @@ from app.pages.results import flattened, resolved
 from app.pages.typesetting import cited, shown, symbol
 from app.schema.fields import leaf_at
 
-NAMES = {"project": 200, "part": 200, "author": 200, "checker": 200, "notes": 2000}
+NAMES = {"title": 200, "project": 200, "part": 200, "author": 200, "checker": 200, "notes": 2000}
 """What a report says of its occasion, and how many characters of it at most."""
 LONGEST_LINK = 240  # as text; what it leads to is the whole
 SIDE_BY_SIDE = 4  # items of a list

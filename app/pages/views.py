@@ -58,6 +58,11 @@ class Asked:
         return next((theme for theme in get_args(ThemeName) if theme == self.views.get("theme")), None)
 
     @property
+    def title(self) -> str:
+        """What its author calls the case."""
+        return self.views.get("title", "")
+
+    @property
     def outdated(self) -> list[str]:
         """What has changed since the link was made, as far as it names the solvers' sources."""
         return changes_since(self.views.get("sources", ""))
@@ -65,7 +70,7 @@ class Asked:
     @property
     def links(self) -> Links:
         """Where the views of the case are."""
-        return Links(self.path, self.pairs, self.views.get("ref", ""), self.views.get("theme", ""))
+        return Links(self.path, self.pairs, self.views.get("ref", ""), self.views.get("theme", ""), title=self.title)
 
 
 @dataclass(frozen=True, slots=True)
@@ -253,6 +258,7 @@ def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
         sections=sections,
         outdated=asked.outdated,
         theme=asked.views.get("theme", ""),
+        case_title=asked.title,
         ref=asked.views.get("ref", ""),
         examples=[(example, example_link(calculation, example)) for example in examples_of(calculation)],
         formats=IMAGE_FORMATS,

@@ -21,6 +21,7 @@ from app.pages.results import NOT_RESULTS
 from app.pages.templating import page_path
 from app.schema.fields import ITEM, leaves
 from app.sources import SHORT_SOURCES
+from tests.support.forms import read_form
 from tests.support.pages import asked
 
 CALCULATION = {each.path: each for each in CALCULATIONS}
@@ -296,7 +297,7 @@ def test_figures_of_a_page_are_drawn_from_the_kept_answer() -> None:
 
 def long_case(torque: str) -> dict[str, str]:
     """A coupling whose pitch errors make its link too long."""
-    errors = ",".join(f"{0.123456789 * (index % 7):.12f}" for index in range(400))
+    errors = ",".join(f"{0.123456789012345 * (index % 7):.15f}" for index in range(400))
     fields = dict(pairs_of(examples()["pahl-axial-displacement"].request))
     return fields | {"coupling.teeth": "400", "coupling.pitch_errors_um": errors, "operation.torque_n_m": torque}
 
@@ -376,6 +377,57 @@ def test_csv_of_values_and_curves() -> None:
     curves = views.result(asked("pahl-axial-displacement", curve="kinematics.curves"), "csv").content.decode()
     assert curves.startswith("tooth")
     assert len(curves.splitlines()) > 50
+
+
+def test_a_case_is_saved_as_a_file_and_opened_again(client: httpx.Client) -> None:
+    example = examples()["xue-pair-1-scuffing"]
+    query = link("", pairs_of(example.request), title="Größe 2: first try")
+    page = client.get(f"/scuffing{query}").text
+    address = unescape(re.search(r'href="(/scuffing/case\.json[^"]+)"', page)[1])  # type: ignore[index]
+    saved = client.get(address)
+    assert saved.headers["content-disposition"] == "attachment; filename*=UTF-8''Gr%C3%B6%C3%9Fe%202%20first%20try.json"
+    assert saved.json() == {
+        "title": "Größe 2: first try",
+        "endpoint": "/v1/scuffing",
+        "request": example.request,
+    }
+    opened = client.post("/case", files={"file": ("case.json", saved.content)}, follow_redirects=True)
+    assert opened.status_code == 200
+    assert "<title>Größe 2: first try: " in opened.text
+    sent = [(name, text) for name, text in read_form(opened.text)[0] if name != "title"]
+    assert body_of(FORM_CALCULATION.request, normalised(FORM_CALCULATION.request, sent)) == example.request
+
+
+def test_a_long_case_is_opened_without_a_link(client: httpx.Client) -> None:
+    fields = long_case("3000")
+    saved = client.post("/coupling/case.json", data=fields)
+    opened = client.post("/case", files={"file": ("case.json", saved.content)})
+    assert opened.status_code == 200
+    assert dict(read_form(opened.text)[0])["coupling.pitch_errors_um"].startswith("0,0.123456789012345,0.24691")
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"\xff",
+        b"[" * 100_000,
+        b"[]",
+        b'{"endpoint": "/v1/coupling"}',
+        b'{"endpoint": [], "request": {}}',
+        b'{"endpoint": "/v1/none", "request": {}}',
+        b'{"endpoint": "/v1/coupling", "request": ' + b'{"a":' * 400 + b"1" + b"}" * 401,
+    ],
+)
+def test_a_file_without_a_case_is_refused_in_words(client: httpx.Client, content: bytes) -> None:
+    refused = client.post("/case", files={"file": ("case.json", content)})
+    assert refused.status_code in {303, 400}
+    assert refused.status_code == 303 or "endpoint" in refused.text
+
+
+def test_half_a_letter_in_a_file_does_no_harm(client: httpx.Client) -> None:
+    file = b'{"title": "\\ud800", "endpoint": "/v1/coupling", "request": {"\\ud800": "\\ud800"}}'
+    assert client.post("/case", files={"file": ("case.json", file)}, follow_redirects=True).status_code == 422
 
 
 def test_pages_answer_by_get_with_their_policies(client: httpx.Client) -> None:

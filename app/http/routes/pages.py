@@ -11,7 +11,7 @@ from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import PROBLEMS, Unreadable, kind_of
 from app.examples import examples
 from app.figures.rendering import MEDIA_TYPES
-from app.pages import views
+from app.pages import case_file, views
 from app.pages.answers import Answers, key_of
 from app.pages.links import example_link
 from app.pages.overview import problem_page, start_page
@@ -48,6 +48,26 @@ async def static(name: str) -> Response:
     return Response(asset(name), media_type=ASSETS[name], headers={"Cache-Control": FOREVER})
 
 
+@router.post("/case")
+async def open_case(http: Request) -> Response:
+    """The page of a case that was saved as a file; one too long for a link is answered at once."""
+    try:
+        if not http.headers.get("content-type", "").startswith("multipart/form-data"):
+            raise HTTPException(415, "Send the file of a case as multipart/form-data")
+        async with http.form(max_files=1, max_fields=0) as form:
+            sent = form.get("file")
+            if sent is None or isinstance(sent, str):
+                raise Unreadable("The form needs a part named file")
+            asked = case_file.opened(await sent.read(), root_of(http))
+        if not asked.links.too_long:
+            return redirected(asked.path, asked)
+        http.app.state.start_up.require(asked.calculation.path)
+        shown = await _shown(http, asked, views.page, ())
+    except TROUBLES as error:
+        return trouble_page(http, error)
+    return html(shown.content, shown.status)
+
+
 def _add(calculation: Calculation) -> None:
     path = page_path(calculation)
     names = [figure.name for figure in calculation.figures]
@@ -66,6 +86,12 @@ def _add(calculation: Calculation) -> None:
         place = f"{path}/result.{media}"
         return await _answer(http, calculation, place, DOCUMENT_POLICY, types[media], views.result, media)
 
+    async def saved(http: Request) -> Response:
+        asked, _ = await asked_of(http, calculation)
+        disposition = f"attachment; filename*=UTF-8''{quote(case_file.file_name(asked))}"
+        headers = {"Content-Security-Policy": DOCUMENT_POLICY, "Content-Disposition": disposition}
+        return Response(case_file.saved(asked), media_type="application/json", headers=headers)
+
     async def figure(http: Request, name: str, image_format: str) -> Response:
         kinds = {str(each): kind for each, kind in MEDIA_TYPES.items()} | {"json": "application/json"}
         if name not in names or image_format not in kinds:
@@ -81,6 +107,7 @@ def _add(calculation: Calculation) -> None:
         ("", page),
         ("/report", report),
         ("/result.{media}", result),
+        ("/case.json", saved),
         ("/figures/{name}.{image_format}", figure),
     ):
         router.add_api_route(path + below, endpoint, methods=METHODS)

@@ -125,6 +125,9 @@ function takeField(here, fresh) {
   const fault = here.querySelector(".fault");
   fault.textContent = fresh.querySelector(".fault").textContent;
   fault.hidden = !fault.textContent;
+  const empty = here.querySelector(".blank");
+  empty.textContent = fresh.querySelector(".blank").textContent;
+  empty.hidden = !empty.textContent;
   here.querySelector(".help").replaceChildren(...fresh.querySelector(".help").cloneNode(true).childNodes);
   here.querySelector(".assumed")?.remove();
   const mark = fresh.querySelector(".assumed");
