@@ -1,17 +1,47 @@
-"""An answer as CSV: its values with path, title and unit, or its curves as columns."""
+"""An answer as CSV for spreadsheets: the case, its inputs and results in lines, or its curves in columns.
+
+Results have six significant digits; JSON has all of them.
+"""
 
 import csv
 from collections.abc import Iterable
 from io import StringIO
 from typing import Any
 
+from app.pages.cases import Case
+from app.pages.query import text_of
+from app.pages.results import entries, flattened
 from app.schema.fields import Leaf, leaf_at, leaves
 from app.schema.model import Response
+from app.studies.stream import safe_cell
+
+DIGITS = 6
+COLUMNS = ("path", "title", "value", "unit", "symbol")
 
 
-def values(rows: Iterable[tuple[str, str, Any, str]]) -> bytes:
-    """Path, title, value and unit of every result."""
-    return _written([("path", "title", "value", "unit"), *rows])
+def values(case: Case, title: str) -> bytes:
+    """What the case is, every input with its default, and every single result."""
+    response = case.response
+    identity = {
+        "title": title,
+        "endpoint": case.calculation.path,
+        "model_version": response.model_version,
+        "sources": response.sources,
+        "case": response.case,
+    }
+    inputs = [
+        _line(leaf, f"inputs.{path}", text_of(value))
+        for path, value in flattened(response.inputs).items()
+        if (leaf := leaf_at(type(case.request), path)) and value is not None
+    ]
+    results = [_line(e.leaf, e.path, e.value) for _, e in entries(response) if e.leaf.is_scalar]
+    return _written(
+        [COLUMNS, *((name, name.replace("_", " "), text) for name, text in identity.items()), *inputs, *results]
+    )
+
+
+def _line(leaf: Leaf, path: str, value: Any) -> tuple[Any, ...]:
+    return path, leaf.title, value, leaf.unit or "", leaf.declared.symbol or ""
 
 
 def curve(response: Response, path: str) -> bytes | None:
@@ -52,7 +82,7 @@ def _map(response: Response, chosen: list[Leaf], axes: list[Leaf]) -> bytes:
 
 
 def _header(leaf: Leaf) -> str:
-    return f"{leaf.title} [{leaf.unit or '-'}]"
+    return f"{' '.join(filter(None, (leaf.title, leaf.declared.symbol)))} [{leaf.unit or '-'}]"
 
 
 def _at(response: Any, path: str) -> Any:
@@ -63,5 +93,7 @@ def _at(response: Any, path: str) -> Any:
 
 def _written(rows: Iterable[Iterable[Any]]) -> bytes:
     text = StringIO(newline="")
-    csv.writer(text).writerows(rows)
+    csv.writer(text).writerows(
+        [f"{cell:.{DIGITS}g}" if isinstance(cell, float) else safe_cell(cell) for cell in row] for row in rows
+    )
     return text.getvalue().encode()

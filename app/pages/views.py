@@ -137,9 +137,7 @@ def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
     if media == "json":
         content = json_written(case.response, "curves")
     elif (path := asked.views.get("curve")) is None:
-        content = csv.values(
-            (e.path, e.leaf.title, e.value, e.leaf.unit or "") for _, e in entries(case.response) if e.leaf.is_scalar
-        )
+        content = csv.values(case, asked.title)
     else:
         found = csv.curve(case.response, path)
         if found is None:
