@@ -35,9 +35,8 @@ def values(case: Case, title: str) -> bytes:
         if (leaf := leaf_at(type(case.request), path)) and value is not None
     ]
     results = [_line(e.leaf, e.path, e.value) for _, e in entries(response) if e.leaf.is_scalar]
-    return _written(
-        [COLUMNS, *((name, name.replace("_", " "), text) for name, text in identity.items()), *inputs, *results]
-    )
+    named = [(name, name.replace("_", " "), text, "", "") for name, text in identity.items()]
+    return _written([COLUMNS, *named, *inputs, *results])
 
 
 def _line(leaf: Leaf, path: str, value: Any) -> tuple[Any, ...]:

@@ -63,8 +63,8 @@ async def open_case(http: Request) -> Response:
             return redirected(asked.path, asked)
         http.app.state.start_up.require(asked.calculation.path)
         shown = await _shown(http, asked, views.page, ())
-    except TROUBLES as error:
-        return trouble_page(http, error)
+    except KNOWN_ERRORS as error:
+        return error_page(http, error)
     return html(shown.content, shown.status)
 
 
