@@ -192,9 +192,6 @@ class Verdict(NamedTuple):
 
 
 PLAIN = Verdict("plain", "")
-DOUBTS = {"bulk_lower_bound": "the bulk temperature is a lower bound"}
-"""What safety and contact temperature rest on that a warning says is not certain, by the warning's code."""
-DOUBTED = ("safety.", "contact_temperature.")
 
 
 def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> tuple[Card, ...]:
@@ -206,18 +203,18 @@ def cards(response: Documented, inputs: dict[str, Any], before: Documented | Non
         rank = leaf.view.headline or 0
         if rank not in best or _size(known.get(leaf.path)) > _size(known.get(best[rank].path)):
             best[rank] = leaf
-    doubts = [DOUBTS[each.code] for each in response.warnings if each.code in DOUBTS]
+    doubtful = any(warning.rank != "note" for warning in response.warnings)
     return tuple(
-        _card(leaf, _doubted(leaf, _verdict(response, leaf, inputs | known), doubts), known, old)
+        _card(leaf, _doubted(_verdict(response, leaf, inputs | known), doubtful=doubtful), known, old)
         for leaf in best.values()
     )
 
 
-def _doubted(leaf: Leaf, verdict: Verdict, doubts: list[str]) -> Verdict:
-    """The verdict with what makes it doubtful; a good one is good no more."""
-    if not doubts or not leaf.path.startswith(DOUBTED) or verdict == PLAIN:
+def _doubted(verdict: Verdict, *, doubtful: bool) -> Verdict:
+    """The verdict; a good one is good no more where a warning makes it doubtful."""
+    if not doubtful or verdict.level != "good":
         return verdict
-    return Verdict("near" if verdict.level == "good" else verdict.level, "; ".join([verdict.words, *doubts]))
+    return Verdict("near", f"{verdict.words}; see the warnings")
 
 
 def _size(value: Any) -> float:
@@ -245,14 +242,22 @@ def _verdict(response: Documented, leaf: Leaf, known: dict[str, Any]) -> Verdict
     limit = known.get(leaf.view.limit) if isinstance(leaf.view.limit, str) else leaf.view.limit
     if value is None:
         return Verdict("plain", "" if leaf.view.needs else _why_not(leaf.description))
+    judge = _judge(response, leaf)
+    said = None if judge is None else known.get(judge.path)
+    if judge is not None and isinstance(said, bool):
+        return Verdict("bad" if said else "good", f"{judge.title}: {'yes' if said else 'no'}")
     if leaf.view.bound is None or limit is None or isinstance(value, bool):
         return PLAIN
     name = f"{shown(limit, 4)} {leaf.unit or ''}".strip()
     verdict = _at_least(value, limit, name) if leaf.view.bound == "lower" else _at_most(abs(value), limit, name)
-    judge = leaf_at(type(response), leaf.view.verdict) if leaf.view.verdict else None
-    if judge is None or known.get(judge.path) is None:
-        return verdict
-    return Verdict(verdict.level, f"{judge.title}: {words(known[judge.path])}")
+    return verdict if judge is None or said is None else Verdict(verdict.level, f"{judge.title}: {words(said)}")
+
+
+def _judge(response: Documented, leaf: Leaf) -> Leaf | None:
+    """The result that judges another one in words."""
+    path = leaf.view.verdict or ""
+    beside = leaf.path.rpartition(".")[0]
+    return leaf_at(type(response), beside + path if path.startswith(".") else path) if path else None
 
 
 def _why_not(description: str) -> str:
@@ -263,10 +268,10 @@ def _why_not(description: str) -> str:
 
 def _at_least(value: float, limit: float, name: str) -> Verdict:
     if value < limit:
-        return Verdict("bad", f"below {name}")
+        return Verdict("bad", f"below the limit {name}")
     if value < WELL_ABOVE * limit:
-        return Verdict("near", f"above {name}, by less than a factor of {WELL_ABOVE:g}")
-    return Verdict("good", f"more than {WELL_ABOVE:g} times {name}")
+        return Verdict("near", f"above the limit {name}, with little margin")
+    return Verdict("good", f"well above the limit {name}")
 
 
 def _at_most(value: float, limit: float, name: str) -> Verdict:

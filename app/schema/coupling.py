@@ -167,7 +167,7 @@ class CouplingLubrication(Group, of=results.Lubrication):
     views: ClassVar = {
         "hertz_pressure": View(limit=2000.0, bound="upper"),
         "contact_overlap": View(limit=1.0, bound="upper"),
-        "load_capacity_coefficient": View(headline=2, limit=0.8, bound="lower"),
+        "load_capacity_coefficient": View(headline=2, limit=0.8, bound="lower", verdict=".regime.name"),
     }
 
 

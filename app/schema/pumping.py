@@ -112,9 +112,9 @@ class PumpingSpaces(Group, of=results.SpacesResult):
     """The tooth spaces of one gear."""
 
     views: ClassVar = {
-        "peak_pressure_ratio": View(headline=3),
+        "peak_pressure_ratio": View(headline=3, verdict=".radial_choked"),
         "peak_axial_mach": View(limit=1.0),
-        "max_temperature_rise": View(headline=2),
+        "max_temperature_rise": View(headline=2, verdict=".axial_choked"),
     }
 
 

@@ -75,7 +75,8 @@ class View:
 
     `limit` is the number, or the dotted field of request or answer, that bounds the value; `bound` says on which side a
     verdict finds the value safe: below an upper limit, above a lower one. `needs` is the request field without which
-    there is no value, `verdict` the field of the answer that judges it in words.
+    there is no value, `verdict` the field of the answer that judges it in words, or as a truth that is bad; beside the
+    value where it begins with a dot.
     """
 
     headline: int | None = None

@@ -197,16 +197,14 @@ class ContactTemperatureResult(Group, of=safety_results.ContactTemperature):
 class ThinnestFilm(Group, of=safety_results.Film):
     """Thinnest film; null where nothing is loaded."""
 
-    views: ClassVar = {"thickness_ratio": View(headline=3, limit=1.0, bound="lower")}
+    views: ClassVar = {"thickness_ratio": View(headline=3, limit=1.0, bound="lower", verdict=".thickness_regime")}
 
 
 class ScuffingSafety(Group, of=safety_results.Safety):
     """Safety against scuffing."""
 
     views: ClassVar = {
-        "blok_factor": View(
-            headline=1, limit=1.0, bound="lower", needs="temperatures.scuffing_c", verdict="safety.verdict"
-        ),
+        "blok_factor": View(headline=1, limit=1.0, bound="lower", needs="temperatures.scuffing_c", verdict=".verdict"),
         "thermal_ehl_factor": View(limit=1.0, bound="lower"),
     }
 

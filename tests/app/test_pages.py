@@ -2,6 +2,7 @@
 
 import json
 import re
+import shlex
 from functools import cache
 from html import unescape
 from typing import Any
@@ -365,9 +366,11 @@ def test_names_of_a_report_are_whole_or_refused() -> None:
 def test_reports_curl_is_the_request() -> None:
     example = examples()["milian-table-1"]
     html = views.report(asked("milian-table-1"), "http://host").content.decode()
-    body = re.search(r"<pre>curl -s http://host/v1/pumping .*? -d '(.*)'</pre>", html, re.DOTALL)
-    assert body
-    assert json.loads(unescape(body[1])) == example.request
+    command = re.search(r"<pre>(curl .*?)</pre>", html, re.DOTALL)
+    assert command
+    *_, address, _, _, _, body = shlex.split(unescape(command[1]))
+    assert address == "http://host/v1/pumping"
+    assert json.loads(body) == example.request
 
 
 def test_csv_of_values_and_curves() -> None:
