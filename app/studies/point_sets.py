@@ -172,8 +172,8 @@ def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: st
         leaf = base.leaf(each.path, f"{here}.path")
         if leaf.kind == "integer":
             raise Unprocessable("not_integer", f"{each.path} takes whole numbers; vary it or list cases", here)
-        for value in anchors(each).values():
-            check_value(leaf, value, here)
+        for name, value in anchors(each).items():
+            check_value(leaf, value, f"{here}.{name}")
         for (low, least), (high, greatest) in pairwise(anchors(each).items()):
             if least > greatest:
                 raise Unprocessable("out_of_range", f"{each.path}: {low} is above {high}", here)

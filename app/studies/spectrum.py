@@ -40,6 +40,8 @@ RARE_NOTE = (
     "0.1 % with 128 machines in each of 8 replicates; draw more machines"
 )
 
+NOT_USED = "not used"  # how the reason of an assumption begins whose value changes nothing
+
 NO_MEAN = {"mean": None, "standard_error": None, "interval": None}
 
 
@@ -138,6 +140,7 @@ class Spectrum(Study):
             {
                 "type": "end",
                 **statistics,
+                "notes": [*statistics["notes"], *self._ignored(tally.assumptions)],
                 "points": self.total,
                 "counts": dict(sorted(tally.counts.items())),
                 "errors": dict(sorted(tally.errors.items())),
@@ -146,6 +149,12 @@ class Spectrum(Study):
                 "elapsed_s": clock.elapsed_s,
             }
         ]
+
+    def _ignored(self, assumptions: Sequence[Line]) -> list[str]:
+        """What is to be said of tolerances that the model does not use as the request stands."""
+        drawn = paths_of(self.scattering.leaves) if self.scattering else []
+        found = {each["field"]: each["reason"] for each in assumptions if each["reason"].startswith(NOT_USED)}
+        return [f"{path} scatters without effect; {found[path]}" for path in drawn if path in found]
 
     def _line(self, index: int, point: Point) -> Line:
         draw, case = divmod(index, len(self.cases))
@@ -187,7 +196,7 @@ def _limits(study: Spectrum, columns: dict[str, Array]) -> tuple[list[Limit], li
     paths = SCUFFING[study.question.endpoint]
     known = columns[paths.limit][~np.isnan(columns[paths.limit])]
     if not known.size:
-        return [], [], ["no limit is given, and the request has no scuffing temperature"]
+        return [], [], ["no limit is given, and the request has no scuffing temperature: give one of them"]
     mean = float(known[0])
     limit = Limit("above", mean, RELATIVE_DEVIATION * abs(mean), paths.contact)
     assumption = {"field": "limits", "value": limit.deviation, "reason": ASSUMED_DEVIATION}

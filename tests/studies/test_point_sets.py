@@ -144,7 +144,11 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
         "/sample/ranges/0",
         "not_integer",
     ),
-    "sample of words": (sweep(sample=sample(8, "sobol", ("model.inlet", 0, 1))), "/sample/ranges/0", "out_of_range"),
+    "sample of words": (
+        sweep(sample=sample(8, "sobol", ("model.inlet", 0, 1))),
+        "/sample/ranges/0/min",
+        "out_of_range",
+    ),
     "sample twice": (
         sweep(sample=sample(8, "sobol", *[("operation.speed_rpm", 1, 2)] * 2)),
         "/sample/ranges",

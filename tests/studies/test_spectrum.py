@@ -274,6 +274,19 @@ def test_a_scuffing_temperature_that_differs_between_cases_is_said() -> None:
     assert "differs between the cases" in end["notes"][0]
 
 
+def test_a_tolerance_that_the_model_does_not_use_is_said() -> None:
+    """The stage takes its friction from the oil; a coefficient that scatters changes nothing."""
+    body = scuffing()
+    drawn = {"path": "friction_coefficient", "distribution": "lognormal", "median": 0.05, "factor": 1.3}
+    body["tolerances"]["inputs"].append(drawn)
+    *_, end = solved(body)
+    (note,) = end["notes"]
+    assert note.startswith("friction_coefficient scatters without effect; not used: `model.friction` asks for")
+    body["request"]["model"]["friction"] = "given"
+    *_, end = solved(body)
+    assert end["notes"] == []
+
+
 def test_no_limit_without_a_scuffing_temperature() -> None:
     body = scuffing()
     body["request"]["temperatures"].pop("scuffing_test")
@@ -339,7 +352,7 @@ def test_a_gear_unit_with_temperatures_of_its_own_in_each_case() -> None:
         ),
         (
             {"tolerances": {"inputs": [{"path": MU, "distribution": "normal", "mean": -1, "deviation": 1}]}},
-            "/tolerances/inputs/0",
+            "/tolerances/inputs/0/mean",
             "out_of_range",
         ),
         (

@@ -91,7 +91,7 @@ def field_at_fault(path: str, ranges: Sequence[str] = ()) -> str:
             name = f"{UPPER if part == 'max' else LOWER}{place}"
         case "tolerances" if place == "inputs":
             number, _, member = part.partition(".")
-            name = f"t{number}" + ("" if member == "path" else ".by")
+            name = f"t{number}" + {"path": "", "mean": ".about", "median": ".about"}.get(member, ".by")
         case "request":
             name = rest
         case _:
