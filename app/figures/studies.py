@@ -108,7 +108,7 @@ def curve(grid: Grid) -> Figure:
         lines=(line,),
         levels=(*_limit(grid), *_own(grid.x)),
         spans=_invalid(grid),
-        marks=(*_doubtful(grid), *extreme([line], grid.output.unit, least=not grid.greatest)),
+        marks=(*_doubtful(grid), *_crossings(grid), *extreme([line], grid.output.unit, least=not grid.greatest)),
     )
     return _figure(grid, f"{grid.output.title} over {grid.x.axis.title}", panel)
 
@@ -175,7 +175,9 @@ def _finding(grid: Grid) -> str:
     )
     value = number(float(grid.values[grid.best]), grid.output.unit or "")
     rings = "; orange rings: doubtful, a limit of validity is left" if any(grid.doubtful) else ""
-    return f"{'greatest' if grid.greatest else 'least'} {value} at {places}{rings}"
+    best = f"{'greatest' if grid.greatest else 'least'} {value} at {places}{rings}"
+    crossed = [each.text for each in _crossings(grid)]
+    return f"crosses its limit at {listed(crossed)}; {best}" if crossed else best
 
 
 def _ordinate(grid: Grid) -> Axis:
@@ -196,6 +198,17 @@ def _own(x: Coordinate) -> tuple[Level, ...]:
     if x.own is None or not x.values[0] <= x.own <= x.values[-1]:
         return ()
     return (Level(x.own, f"this case: {number(x.own, x.axis.unit or '')}", vertical=True),)
+
+
+def _crossings(grid: Grid) -> tuple[Mark, ...]:
+    """Where a curve crosses its limit, on straight lines between its points."""
+    if grid.limit is None or grid.y is not None or grid.x.words:
+        return ()
+    x, beyond = grid.x.values, grid.values - grid.limit
+    before = np.flatnonzero(beyond[:-1] * beyond[1:] < 0.0)
+    share = beyond[before] / (beyond[before] - beyond[before + 1])
+    places = x[before] + share * (x[before + 1] - x[before])
+    return tuple(Mark(float(place), grid.limit, number(float(place), grid.x.axis.unit or "")) for place in places)
 
 
 def _doubtful(grid: Grid) -> tuple[Mark, ...]:

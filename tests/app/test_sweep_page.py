@@ -439,3 +439,15 @@ def test_points_of_a_study_tell_the_ranks_of_their_warnings() -> None:
     point = solve_point(Question(limits.endpoint, limits.request, ["axial_thrust.force_n"], 30.0), {})
     assert point_line(0, [], point)["warnings"] == ["edge_contact", "sliding_velocity"]
     assert point_line(0, [], point)["ranks"] == ("invalid", "doubtful")
+
+
+def test_a_curve_says_where_it_crosses_its_limit() -> None:
+    power = Coordinate(Axis("power", unit="kW"), np.array([100.0, 200.0, 300.0, 400.0]))
+    safety = np.array([3.0, 2.0, 0.5, np.nan])
+    figure = figures_of(Grid(power, None, Axis("safety"), safety, greatest=True, limit=1.0))["curve"]
+    assert figure.finding == "crosses its limit at 267 kW; greatest 3 at power 100 kW"
+    (crossing,) = [mark for mark in figure.panels[0].marks if mark.text == "267 kW"]
+    assert crossing.x == pytest.approx(800.0 / 3.0)
+    assert crossing.y == 1.0
+    never = figures_of(Grid(power, None, Axis("safety"), safety, greatest=True, limit=0.1))["curve"]
+    assert never.finding == "greatest 3 at power 100 kW"
