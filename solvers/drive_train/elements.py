@@ -45,17 +45,17 @@ def coupling_results(
     results = []
     for k, (port, pair) in enumerate(zip(unit.couplings, hubs, strict=True)):
         tilts = found.hubs.tilts[TILTS * k : TILTS * (k + 1)]
-        loads = found.loads[unit.stations.size + LOADS * k :][:LOADS]
+        *force, turned_x, turned_y, thrust = map(float, found.loads[unit.stations.size + LOADS * k :][:LOADS])
         sizes = (hypot(tilts[0], tilts[1]), hypot(tilts[2], tilts[3]))
         results.append(
             CouplingResult(
                 tilt=sizes,
                 stuck=(pair[0].sticks, pair[1].sticks),
                 friction_share=(pair[0].share, pair[1].share),
-                moment=(-float(loads[3]), float(loads[2])),
-                force=_pair(loads[:2] + port.sleeve_weight),
+                moment=(-turned_y, turned_x),
+                force=_pair(np.array(force) + port.sleeve_weight),
                 friction_coefficient=min(hub.friction_coefficient for hub in pair),
-                thrust=float(loads[4]),
+                thrust=thrust,
                 thrust_limit=min(hub.thrust_limit for hub in pair),
                 friction_power=sum(hub.loss * port.speed * size for hub, size in zip(pair, sizes, strict=True)),
             )

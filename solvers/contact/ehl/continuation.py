@@ -115,7 +115,7 @@ def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Atte
 
 def _distance(attempt: Attempt) -> tuple[int, float]:
     """How far from a solution: by the mesh reached, then by the last change of pressure."""
-    change = float(attempt.state.history[1])
+    change = float(attempt.state.history[0].pressure_change)
     return -attempt.grid.x.size, change if np.isfinite(change) else np.inf
 
 
@@ -149,7 +149,7 @@ def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
     final = not resolution.thermal and resolution.nodes <= COARSEST
     tolerance = TIGHT[0] * 1e-2 if final else LOOSE[0]
     converged = bool(solve_isothermal(isothermal, grid, state, work, steps, tolerance))
-    budget.charge(resolution, grid.x.size, int(state.history[0]))
+    budget.charge(resolution, grid.x.size, int(state.history[0].iterations))
     if resolution.thermal:
         march_temperatures(problem, grid, state, work)
         budget.pay(MARCH * price(resolution, grid.x.size))
@@ -208,7 +208,7 @@ def polish(
         converged = bool(solve_coupled(problem, grid, state, work, steps, tolerances[0], tolerances[1]))
     else:
         converged = bool(solve_isothermal(problem, grid, state, work, steps, tolerances[0] * 1e-2))
-    budget.charge(resolution, grid.x.size, int(state.history[0]))
+    budget.charge(resolution, grid.x.size, int(state.history[0].iterations))
     stage: Stage = "coupling" if resolution.thermal else "isothermal"
     return Attempt(grid, state, work, converged=converged, stage=stage)
 

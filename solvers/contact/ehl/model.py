@@ -155,7 +155,10 @@ def _dimensionless(inputs: LineContactInputs, scales: Groups) -> Dimensionless:
 
 
 def _convergence(inputs: LineContactInputs, attempt: Attempt, iterations: int) -> Convergence:
-    changes = [float(change) if isfinite(change) else None for change in attempt.state.history[1:]]
+    history = attempt.state.history[0]
+    changes = [
+        float(change) if isfinite(change) else None for change in (history.pressure_change, history.temperature_change)
+    ]
     return Convergence(
         iterations=iterations,
         pressure_change=changes[0],

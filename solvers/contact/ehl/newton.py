@@ -104,7 +104,7 @@ def solve_isothermal(
     n = grid.x.size
     jacobian, residual, step = np.empty((n + 1, n + 1)), np.empty(n + 1), np.empty(n + 1)
     for iteration in range(max_iterations):
-        state.history[0] += 1.0
+        state.history[0].iterations += 1.0
         evaluate_isothermal(problem, grid, state, work)
         rupture_tolerance = 0.0 if iteration < PATIENCE else RUPTURE_TOLERANCE
         changed = release_cavitated(work.faces, state.cavitated, rupture_tolerance)
@@ -113,7 +113,7 @@ def solve_isothermal(
         if not solved(jacobian, residual, step):
             return False
         largest = np.abs(step[:n]).max()
-        state.history[1] = largest
+        state.history[0].pressure_change = largest
         scale = 1.0
         if iteration < PATIENCE:
             clip = 0.3 if iteration < EARLY else 0.5
@@ -306,7 +306,7 @@ def solve_coupled(
     pivots, step, step_t = np.empty(n + 1, np.int64), np.zeros(n + 1), np.zeros((n, nodes))
     damping, before, before_t, relaxation, near = 0.0, np.inf, np.inf, 1.0, False
     for iteration in range(max_iterations):
-        state.history[0] += 1.0
+        state.history[0].iterations += 1.0
         limited = evaluate_state(problem, grid, state, work, damping)
         tolerance = 0.0 if iteration < PATIENCE else RUPTURE_TOLERANCE
         changed = release_cavitated(work.faces, state.cavitated, tolerance)
@@ -321,7 +321,7 @@ def solve_coupled(
         last_p, last_t = np.abs(step[:n]).max(), np.abs(step_t).max()
         if not (np.isfinite(last_p) and np.isfinite(last_t) and np.isfinite(step[n])):
             return False
-        state.history[1], state.history[2] = last_p, last_t
+        state.history[0].pressure_change, state.history[0].temperature_change = last_p, last_t
         scale = min(1.0, LARGEST_PRESSURE_STEP / max(last_p, 1e-9), LARGEST_TEMPERATURE_STEP / max(last_t, 1e-9))
         if scale < 0.2 and damping < FROZEN:
             damping, near = max(10.0 * damping, FIRST_DAMPING), False

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solvers.arrays import BoolArray, FloatArray
+from solvers.arrays import BoolArray, FloatArray, RecordArray, floats, records
 from solvers.compiled import kernel
 from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.heat import Heat, column_balance, face_edges, heat_arrays, surface_history
@@ -25,20 +25,22 @@ from solvers.contact.ehl.shear import Film, film_arrays, limited_gradient
 class State(NamedTuple):
     """Unknowns at n nodes along and k across: pressure/p_H (n,), rigid separation H0 (1,), temperature (n, k) [K].
 
-    `cavitated` (n,) marks the nodes of broken film; `history` (3,) keeps iterations, last max|dP| and max|dT| [K]
-    (NaN: none).
+    `cavitated` (n,) marks the nodes of broken film; `history` (1,) keeps the number of iterations and the last changes
+    max|dP| and max|dT| [K] (NaN: none).
     """
 
     pressure: FloatArray
     separation: FloatArray
     temperature: FloatArray
     cavitated: BoolArray
-    history: FloatArray
+    history: RecordArray
 
 
-def no_steps() -> FloatArray:
-    """The history of a state that no step has been taken from (3,): no change is known."""
-    return np.array([0.0, np.nan, np.nan])
+def no_steps() -> RecordArray:
+    """The history of a state that no step has been taken from: no change is known."""
+    history = records(1, floats("iterations", "pressure_change", "temperature_change"))
+    history.pressure_change = history.temperature_change = np.nan
+    return history
 
 
 class Work(NamedTuple):

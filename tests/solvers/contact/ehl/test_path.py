@@ -86,8 +86,8 @@ def test_what_a_path_leaves_is_converged(monkeypatch: pytest.MonkeyPatch) -> Non
         attempt: Attempt = warm(problem, resolution, grid, guess, *rest)
         copy = State(*(array.copy() for array in attempt.state))
         warm(problem, resolution, grid, copy, (1e-2, 10.0), Budget(100.0))
-        assert copy.history[0] == 1
-        moved.append(copy.history[1:].copy())
+        assert copy.history[0].iterations == 1
+        moved.append([copy.history[0].pressure_change, copy.history[0].temperature_change])
         return attempt
 
     monkeypatch.setattr(path, "polish", again)
