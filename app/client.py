@@ -109,7 +109,7 @@ class _Endpoints(ABC, Generic[Answer, Stream]):
         return self.study("/v1/sweep", request, progress=progress)
 
     def spectrum(self, request: Json, *, progress: bool = False) -> Stream:
-        """A machine with its tolerances over its load spectrum; the probabilities are in the end."""
+        """A machine with its tolerances over its load spectrum; the probabilities are in the last line."""
         return self.study("/v1/spectrum", request, progress=progress)
 
     def sensitivity(self, request: Json, *, progress: bool = False) -> Stream:

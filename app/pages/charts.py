@@ -55,7 +55,7 @@ class Missing:
 
 
 def figure_of(declaration: Declaration, case: Case, variant: Case | None) -> Figure:
-    """The data of one figure, with the variant's beside it where that has the figure; raises NoFigure."""
+    """The data of one figure, and of the variant beside it, if the variant has the figure; raises NoFigure."""
     figure = declaration.figure(case.request, case.response)
     if variant is None:
         return figure

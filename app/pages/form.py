@@ -198,7 +198,7 @@ class Choice:
 
 @dataclass(frozen=True, slots=True)
 class Twins:
-    """Sections of one kind side by side: a line a field, a column a section."""
+    """Sections of one kind side by side: one line per field, one column per section."""
 
     columns: tuple[str, ...]
     rows: tuple[tuple[FieldView, ...], ...]

@@ -692,7 +692,7 @@ class Modifications:
                 if each.type == "helix_slope" and (amount := self._reading.number(each, "helix_slope", "um")):
                     sense = self._end_sense(place)
                     if sense is None:
-                        message = "the slope's sign in the mesh needs rotation and driver; left out"
+                        message = "left out: its sign needs the direction of rotation and the driver"
                         self._reading.find("modification", each, "helix_slope", message)
                         continue
                     helix += sense * amount

@@ -95,7 +95,7 @@ class PumpingMassFlow(Group, of=results.MassFlow):
 
 
 class PumpingBalance(Group, of=results.Balance):
-    """Relative errors of the books."""
+    """Relative errors of the balances of mass and energy."""
 
 
 class PumpingProfile(Group, of=results.FaceProfile):

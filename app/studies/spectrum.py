@@ -233,7 +233,7 @@ def _of_limit(study: Spectrum, limit: Limit, outputs: Array) -> Line:
 
 
 def _of_output(study: Spectrum, leaf: Leaf, column: Array) -> Line:
-    """Its mean over the spectrum, the energy that it adds up to in a year, and its extremes."""
+    """Mean of an output over the spectrum, the energy per year of a power, and the extremes."""
     mean = probability.weighted_mean(column, [case.share or 0.0 for case in study.cases])
     content: Line = mean._asdict() if mean else dict(NO_MEAN)
     scale = KILOWATTS.get(leaf.unit or "")

@@ -38,7 +38,7 @@ def _check_sections(inputs: DriveTrainInputs, path: PathOfContact, index: int, n
     for k, section in enumerate(shaft.sections):
         field = f"{name}.sections.{k}"
         if section.inner_diameter >= section.outer_diameter:
-            message = f"the bore of section {k} leaves nothing of it"
+            message = f"the bore of section {k} is not smaller than its outer diameter"
             raise InvalidInput("section_diameter", message, f"{field}.inner_diameter")
         under_face = position < end - COINCIDENT and position + section.length > start + COINCIDENT
         if under_face and section.outer_diameter > tip:
@@ -108,5 +108,5 @@ def _check_collar(inputs: DriveTrainInputs, path: PathOfContact) -> None:
     low = path.pair.pinion_working_radius
     high = low + COLLAR_BEYOND_TEETH * path.pair.inputs.normal_module
     if not low < inputs.collar_radius < high:
-        message = f"the collar meets the wheel between {low * 1e3:.2f} and {high * 1e3:.2f} mm"
+        message = f"a collar that touches the wheel has a radius between {low * 1e3:.2f} and {high * 1e3:.2f} mm"
         raise InvalidInput("thrust_collar_radius", message, "collar_radius")

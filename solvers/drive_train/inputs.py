@@ -164,7 +164,7 @@ class ShaftBearing:
     def bearing(self, oil: OilSheet | Lubricant | None, oil_temperature: float) -> Bearing:
         """The bearing of the model; without a viscosity of its own it runs in the gears' oil, at a temperature [K].
 
-        Raises InvalidInput no_oil where there is none, bearing_data where the type lacks what describes it.
+        Raises InvalidInput no_oil where there is none, bearing_data where data of its type are missing.
         """
         if self.type == "rigid":
             return RigidBearing(self.position, self.offset)

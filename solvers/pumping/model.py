@@ -162,7 +162,7 @@ def _hottest(position: FloatArray, rise: FloatArray | None) -> tuple[float | Non
 
 
 def _mass_flow(grids: Grids, frequency: float, jumped: float) -> MassFlow:
-    """Of strokes that follow one another at the meshing frequency, its uncertainty from coarser grids and jumps."""
+    """Mass flow of successive strokes at the meshing frequency; its uncertainty from coarser grids and jumps."""
     masses, ends = grids.flow.masses, grids.flow.ends
     return MassFlow(
         front=frequency * masses.front,

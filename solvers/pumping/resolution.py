@@ -69,10 +69,10 @@ def resolution(gas: Gas, spaces: list[Grids]) -> Resolution:
 
 
 def behind_jumps(resolved: Resolution, gas: Gas, flows: list[SpaceFlow], jumps: list[float]) -> Resolution:
-    """No number is known better than what a jump of the area's logarithm compresses, whatever the resolution.
+    """The uncertainties, each at least as large as the effect of the jumps of the area, which no resolution reduces.
 
-    That is a share of the pressure itself, and of the Mach number as a wave of that pressure has it; where it is as
-    large as the gauge pressure, no number is known.
+    A jump of the logarithm of the area compresses the gas by a share of its pressure, and changes the Mach number by
+    that of a wave of this pressure. Where the compression is as large as the gauge pressure, no number is certain.
     """
     peak, low, mach = resolved.peak_pressure, resolved.min_pressure, resolved.axial_mach
     shares = [compressed(gas, jump) for jump in jumps]

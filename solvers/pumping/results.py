@@ -81,7 +81,7 @@ class MassFlow:
 
 @record
 class Balance:
-    """Relative errors of the books; `energy_error` is None where the model conserves no energy."""
+    """Relative errors of the balances of mass and energy; `energy_error` is None of a model without energy."""
 
     mass_error: float = quantity("mass balance error", text="relative error of the books on mass")
     energy_error: float | None = quantity(

@@ -54,7 +54,7 @@ class Mesh:
 
 
 def prepare(setup: PumpingSetup) -> Mesh:
-    """Geometry, stroke tables and the notices they call for.
+    """Geometry and stroke tables, with warnings about them.
 
     Raises InvalidInput with the codes of `check_setup`, `meshing_path`, `tooth_space`, `stroke_table` and `stretches`.
     """

@@ -132,7 +132,7 @@ class Modifications:
     do shaft deviations over the face, in the plane of the shafts and out of it.
     tip_relief acts at E (pinion tip and gear root), root_relief at A; the caller adds the two members. Relief lengths
     run along the line of action, end relief length along the face [m]; None is the default of `modification.gap`.
-    lead_curve adds whatever else the gap does over the face.
+    lead_curve adds any further gap over the face.
     """
 
     profile_crowning: float = quantity(

@@ -45,7 +45,7 @@ class PreparedMesh:
 
 
 def mesh_of(inputs: LoadDistributionInputs) -> PreparedMesh:
-    """The mesh ready to be loaded (Eq. 1).
+    """The mesh with everything that does not depend on the load (Eq. 1).
 
     Raises InvalidInput where the pair cannot mesh (see `gear_pair`, `path_of_contact`, `contact_lengths`) or options
     exclude each other (`pair_compliance`).

@@ -1,4 +1,4 @@
-"""Draws what stands in one pair of axes: curves, bars, rows, maps, polygons, limits, spans, marks and names."""
+"""Draws the contents of one pair of axes: curves, bars, rows, maps, polygons, limits, spans, marks and names."""
 
 from collections.abc import Iterator
 from itertools import pairwise, takewhile

@@ -63,7 +63,7 @@ def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
         x=x,
         y=y,
         areas=_areas(across, up),
-        lines=() if distance is None else (_way_out(*at, distance),),
+        lines=() if distance is None else (_to_boundary(*at, distance),),
         marks=(Mark(*at, "Pu = {}\nTr = {}".format(*texts)),),
     )
     finding = f"area {regime.area}, {regime.name}{away}; μ = {number(lubrication.friction_coefficient)}"
@@ -109,7 +109,7 @@ def _band(low: float | None, high: float | None) -> str:
     return f"μ ≈ {low:g}" if low == high else f"μ {low:g} to {high:g}"
 
 
-def _way_out(overlap: float, capacity: float, distance: float) -> Line:
+def _to_boundary(overlap: float, capacity: float, distance: float) -> Line:
     """From the point to the nearest boundary, along an axis."""
     ways = [(each, capacity) for each in OVERLAP_BOUNDARIES] + [(overlap, each) for each in CAPACITY_BOUNDARIES]
     x, y = min(ways, key=lambda way: abs(abs(log(way[0] / overlap)) + abs(log(way[1] / capacity)) - distance))

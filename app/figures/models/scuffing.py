@@ -73,7 +73,7 @@ def _along(
 
 
 def _with_oil(result: Scuffing) -> None:
-    """Refuse a figure of what only an oil at its temperature makes known."""
+    """Raise NoFigure without an oil and its temperature, which the figure needs."""
     if result.path is not None and result.contact_temperature is None:
         message = (
             "Without an oil and the bulk temperature at which it enters there is neither film nor contact temperature"

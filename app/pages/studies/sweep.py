@@ -134,7 +134,7 @@ def _rounded(leaf: Leaf, found: Range) -> Range:
 
 
 def case_of(calculation: Calculation, pairs: Pairs) -> dict[str, Any]:
-    """The case with its defaults, as far as it is one: a field that is to be varied may be missing."""
+    """The case with its defaults; incomplete where a field that is varied is missing."""
     body = body_of(calculation.request, pairs)
     try:
         return validated(calculation.request, body).model_dump()

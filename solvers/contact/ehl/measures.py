@@ -149,7 +149,7 @@ def _layer_edges(stream: FloatArray) -> FloatArray:
 
 
 def curves(problem: Problem, attempt: Attempt, thermal: bool) -> ContactCurves:
-    """Everything along the contact."""
+    """Pressure, film, shear stress, temperatures and heat fluxes along the contact."""
     x, t = attempt.grid.x, attempt.state.temperature
     return ContactCurves(
         x=frozen(x * problem.half_width),

@@ -203,10 +203,10 @@ def transport_response(
     step_t: FloatArray,
     change: FloatArray,
 ) -> None:
-    """What the factored Jacobian leaves out of a step (n + 1,) in (P, H0), solved with it into `change` (n + 1,).
+    """Correction `change` (n + 1,) of a step (n + 1,) in (P, H0) for the heat that is transported downstream.
 
-    It knows how each column responds to its own pressure, not what that passes on downstream, as heat in oil and
-    surfaces. `given` and `step_t` (n, k) are room for temperatures.
+    The factored Jacobian has the response of each column to its own pressure, not the transport of heat from column to
+    column by oil and surfaces. `given` and `step_t` (n, k) are work arrays for temperatures.
     """
     pressure_responses(problem, grid, work, cavitated, step, given)
     temperature_step(problem, grid, work.film, work.heat, given, 0.0, step_t)

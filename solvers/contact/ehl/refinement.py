@@ -222,11 +222,11 @@ def _kink(attempt: Attempt, surface: int) -> float:
 
 
 def _parts(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> dict[str, tuple[float, ...]]:
-    """What is reported of a contact, but for local maxima, by the names of `MeshError`, as sums of parts.
+    """The results of a contact except local maxima, by the names of `MeshError`, as sums of parts.
 
-    Friction, heat and flash temperatures are parted where spikes begin: more nodes thicken the film, so that there is
-    less heat before, and sharpen the spikes, so that there is more behind. Their sum can stay the same from one mesh to
-    the next and move on another.
+    Friction, heat and flash temperatures are divided where the pressure spike begins. With more nodes the film is
+    thicker, so that there is less heat before the spike, and the spike is sharper, so that there is more behind it. The
+    sum of both can be equal on two meshes although it is not converged; the parts differ.
     """
     heights = measures.film_heights(constants, attempt)
     parts: dict[str, tuple[float, ...]] = {

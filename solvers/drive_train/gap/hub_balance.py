@@ -72,7 +72,7 @@ def respond(unit: Unit, force: FloatArray, start: HubLoads) -> Yielding:
         if found is None:
             found, residual = _solve(unit, force, _grown(unit, force, free))
     if found is None:
-        raise NoSolution("drive_train", "the couplings' tilts were not found", {"tilt_rad": residual})
+        raise NoSolution("drive_train", "the tilts of the couplings' hubs did not converge", {"tilt_rad": residual})
     return found
 
 

@@ -111,7 +111,7 @@ def _flexibility(
 
 
 def _torsion(shaft: Shaft, z: FloatArray, elements: list[ShaftSection], torque_position: float) -> FloatArray:
-    """Twist at node i by a torque at node j: that of the stretch both share, from where the torque enters."""
+    """Twist at node i by a torque at node j: that of the part both share, from the torque input on."""
     modulus = shaft.youngs_modulus / (2 * (1 + shaft.poisson_ratio))
     twist = np.diff(z) / (2 * modulus * np.array([second_moment(part) for part in elements]))
     path = np.append(0.0, np.cumsum(twist))

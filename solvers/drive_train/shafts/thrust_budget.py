@@ -69,7 +69,8 @@ def thrust_budget(
 ) -> tuple[Thrust, Thrust]:
     """Bounds of both shafts' thrust; `mesh` on the pinion, thrust and limits of the couplings of each shaft [N].
 
-    `diameters` [m] of the shafts at their couplings. A collar hands the pinion's couplings on to the wheel's bearing.
+    `diameters` [m] of the shafts at their couplings. A thrust collar transfers the thrust of the pinion's
+    couplings to the wheel's bearing.
 
     Eq. D14.
     """

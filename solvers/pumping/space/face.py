@@ -35,7 +35,7 @@ class Stretch:
 def stretches(face_width: float, grooves: tuple[Groove, ...], slices: int, least: int) -> list[Stretch]:
     """Stretches of a face cut into about `slices` slices of nearly equal width, at least `least` in each stretch.
 
-    A groove is as wide as it is: slices never overlap it. Raises InvalidInput: groove_outside, groove_overlap.
+    Slices never overlap a groove. Raises InvalidInput: groove_outside, groove_overlap.
     """
     edges = [0.0]
     for k, groove in sorted(enumerate(grooves), key=lambda pair: pair[1].position):

@@ -83,8 +83,8 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution) ->
         return replace(inputs, temperatures=temperatures, oil=oil, lubricant=None)
     if isinstance(oil, OilSheet) and not COLDEST_OIL <= bulk <= HOTTEST_OIL:
         message = (
-            f"the oil would enter at {bulk - 273.15:.4g} °C, where no grade or data sheet tells what it "
-            "is; give a lower load, another bulk temperature, or the oil by its viscosity"
+            f"the oil would enter at {bulk - 273.15:.4g} °C, where grade and data sheet do not hold; "
+            "give a lower load, another bulk temperature, or the oil by its viscosity"
         )
         raise InvalidInput("oil_temperature", message, "temperatures.bulk_method")
     return replace(inputs, temperatures=temperatures, lubricant=lubricant_at(oil, bulk))
