@@ -1,7 +1,6 @@
 """Compiled kernels are never stale, whoever edits what; a broken or missing cache costs time and nothing else."""
 
 import os
-import platform
 import shutil
 import subprocess
 import sys
@@ -78,10 +77,9 @@ llvm.get_host_cpu_features = lambda: llvm.FeatureMap(sse2=True)
 """
 
 
-def test_code_for_a_named_processor_is_used_on_others(package: Path) -> None:
-    named = {"NUMBA_CPU_NAME": "x86-64-v2" if platform.machine() == "x86_64" else "generic", "NUMBA_CPU_FEATURES": ""}
-    assert outcome(package, **named)[:2] == (3.0, False)
-    assert outcome(package, head=ON_ANOTHER_PROCESSOR, **named)[:2] == (3.0, True)
+def test_code_for_any_processor_is_used_on_another(package: Path) -> None:
+    assert outcome(package, NUMBA_CPU_NAME="generic")[:2] == (3.0, False)
+    assert outcome(package, head=ON_ANOTHER_PROCESSOR, NUMBA_CPU_NAME="generic")[:2] == (3.0, True)
     assert outcome(package, head=ON_ANOTHER_PROCESSOR)[:2] == (3.0, False)
 
 
