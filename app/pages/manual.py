@@ -147,7 +147,7 @@ def _markdown() -> MarkdownIt:
     markdown.use(anchors_plugin, max_level=3)
     markdown.use(dollarmath_plugin, allow_labels=False, renderer=_inline_equation)
     markdown.core.ruler.push("figures", _figures_stand_alone)
-    for rule in (_math_block, _image, _link_open, _table_open, _table_close, _fence, _html_block):
+    for rule in (_math_block, _image, _link_open, _table_open, _table_close, _fence, _html_block, _html_inline):
         markdown.add_render_rule(rule.__name__.removeprefix("_"), rule)
     return markdown
 
@@ -165,9 +165,9 @@ def _mathml(text: str, display: str) -> str:
 
 
 def _figures_stand_alone(state: Any) -> None:
-    """A paragraph that is one picture is no paragraph."""
+    """A paragraph that is one picture is no paragraph, nor is the anchor of an equation."""
     for before, inline, after in zip(state.tokens, state.tokens[1:], state.tokens[2:], strict=False):
-        if inline.type == "inline" and [child.type for child in inline.children] == ["image"]:
+        if inline.type == "inline" and {child.type for child in inline.children} in ({"image"}, {"html_inline"}):
             before.hidden = after.hidden = True
 
 
@@ -238,4 +238,9 @@ def _fence(_self: RendererHTML, tokens: Sequence[Token], place: int, *_: Any) ->
 
 def _html_block(*_: Any) -> str:
     """Comments are for those who renew generated parts."""
+    return ""
+
+
+def _html_inline(*_: Any) -> str:
+    """Anchors are for readers of the repository."""
     return ""

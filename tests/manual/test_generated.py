@@ -1,7 +1,8 @@
-"""Tables and pictures of the manual that the code makes: `python -m tests.manual.test_generated` renews them.
+"""What of the manual the code makes: tables, pictures, anchors. `python -m tests.manual.test_generated` renews them.
 
 In a chapter a table stands between `<!-- generated: NAME -->` and `<!-- end -->`. Pictures are named after an example
-and one of its figures; they are for readers of the repository, the service draws its own.
+and one of its figures, or after a study; they are for readers of the repository, the service draws its own. Before
+each numbered equation stands an anchor for them; the service's equations are anchors themselves.
 """
 
 import asyncio
@@ -15,7 +16,8 @@ from app.calculations import CALCULATIONS
 from app.evaluate import drawn
 from app.examples import examples
 from app.main import app
-from app.manual.chapters import chapters
+from app.manual.chapters import NAMES, chapters
+from app.manual.equations import anchor
 from app.pages.manual import shown_studies
 from app.pages.studies.page import PAGES, checked, file
 from app.pages.views import Asked
@@ -26,6 +28,9 @@ from tests.support.pools import InlinePool
 
 FOLDER = Path(__file__).parents[2] / "app" / "manual"
 BLOCK = re.compile(r"<!-- generated: ([\w -]+) -->\n(.*?)<!-- end -->", re.DOTALL)
+NUMBERED = re.compile(
+    r"(?:^<a id=\"eq-[\w.-]+\"></a>\n\n)?(^\$\$\n(?:(?!\$\$).)*?\\tag\{([^}]+)\}\n\$\$)", re.MULTILINE | re.DOTALL
+)
 ROUNDING = 1e-9
 STUDY_POINTS, DEADLINE_S = 1000, 30.0
 DEFAULTS = {
@@ -113,12 +118,21 @@ def test_every_comparison_stands_in_the_manual() -> None:
     assert {f"comparison {model}" for model in STATEMENTS} | {"settings", "endpoints"} == {each[1] for each in blocks()}
 
 
-def renew_tables() -> None:
+def anchored(text: str) -> str:
+    """A chapter with an anchor before each numbered equation."""
+    return NUMBERED.sub(lambda found: f'<a id="{anchor(found[2])}"></a>\n\n{found[1]}', text)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_equations_have_anchors_in_the_repository_too(name: str) -> None:
+    text = chapters()[name].text
+    assert text == anchored(text), "renew it by python -m tests.manual.test_generated"
+    assert text.count('<a id="eq-') == text.count("\\tag{")
+
+
+def renew_chapters() -> None:
     for chapter in chapters().values():
-        text = BLOCK.sub(
-            lambda found: f"<!-- generated: {found[1]} -->\n{generated(found[1])}<!-- end -->", chapter.text
-        )
-        (FOLDER / f"{chapter.name}.md").write_text(text, "utf-8")
+        (FOLDER / f"{chapter.name}.md").write_text(anchored(BLOCK.sub(_renewed, chapter.text)), "utf-8")
 
 
 def _renewed(block: re.Match[str]) -> str:
@@ -168,6 +182,6 @@ def renew_figures() -> None:
 
 
 if __name__ == "__main__":
-    renew_tables()
+    renew_chapters()
     renew_figures()
     renew_studies()
