@@ -188,7 +188,7 @@ def answer_after_a_start(cache: Path, log: Path, seconds: float = 120) -> bytes:
 
 def machine_code(cache: Path) -> list[Path]:
     """The files of one module of the coupling."""
-    files = sorted(cache.glob("sleeve-*/*.nbc"))
+    files = sorted(cache.glob("tooth_loads-*/*.nbc"))
     assert len(files) > 5
     return files
 
@@ -219,7 +219,7 @@ def test_damaged_kernels_are_noticed_and_compiled_again(tmp_path: Path, damage: 
     assert answer_after_a_start(cache, log) == whole
     lines = [line for line in log.read_text("utf-8").splitlines() if "broken kernel cache" in line]
     assert lines
-    assert all("sleeve-" in line for line in lines)
+    assert all("tooth_loads-" in line for line in lines)
     assert answer_after_a_start(cache, log, 60) == whole
     assert "broken" not in log.read_text("utf-8")
 
