@@ -6,12 +6,8 @@ import json
 import os
 import socket
 import sys
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
-
-from pydantic import ValidationError
-from pydantic_core import ErrorDetails
 
 from app.settings import MEBIBYTE, Settings, settings
 from app.workers.control import Template
@@ -101,7 +97,7 @@ def serve(application: str) -> None:
     The port is open before anything is loaded, and the template loads what it needs beside the service.
     """
     os.environ.pop("WEB_CONCURRENCY", None)  # which is for servers of several processes
-    limits = checked_settings()
+    limits = settings()
     try:
         listeners = _listeners(limits)
     except OSError as error:
@@ -124,25 +120,6 @@ def open_standard_streams() -> None:
             stream = Path(os.devnull).open("r+")  # noqa: SIM115  the lowest free number, and these are 0 to 2
             os.set_inheritable(stream.fileno(), True)
             setattr(sys, name, stream)
-
-
-def checked_settings() -> Settings:
-    """The settings; those that are wrong end the process with a line each, and unknown variables are warned of."""
-    known = [f"TRIBODRIVE_{name.upper()}" for name in Settings.model_fields]
-    for name in sorted(os.environ):
-        if name.startswith("TRIBODRIVE_") and name not in known:
-            nearest = get_close_matches(name, known, 1)
-            meant = f"; did you mean {nearest[0]}?" if nearest else ""
-            sys.stderr.write(f"tribodrive: there is no setting {name}{meant}\n")
-    try:
-        return settings()
-    except ValidationError as error:
-        sys.exit("\n".join(f"tribodrive: {_wrong(fault)}" for fault in error.errors()))
-
-
-def _wrong(fault: ErrorDetails) -> str:
-    name = f"TRIBODRIVE_{str(fault['loc'][0]).upper()}"
-    return f"{name} is {fault['input']!r}: {fault['msg'][0].lower()}{fault['msg'][1:]}"
 
 
 def _listeners(limits: Settings) -> list[socket.socket]:

@@ -5,8 +5,8 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
 from fastapi import FastAPI
-from fastapi_offline import FastAPIOffline
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
+from starlette.staticfiles import StaticFiles
 
 from app import log
 from app.http import problems
@@ -14,7 +14,7 @@ from app.http.middleware import Protection
 from app.http.routes import calculations, figures, manual, pages, rexs, service, studies, study_pages
 from app.pages.answers import Answers
 from app.schema.model import MODEL_VERSION
-from app.settings import MEBIBYTE, settings
+from app.settings import MEBIBYTE, settings, unknown_variables
 from app.studies.admission import StudyAdmission
 from app.workers.control import Template
 from app.workers.pool import Pool, Runner
@@ -46,6 +46,8 @@ def create_app() -> FastAPI:
         app.state.studies = StudyAdmission(limits, app.state.pool)
         app.state.answers = Answers(limits.answers_mb * MEBIBYTE)
         with log.running(limits.log_level):
+            for line in unknown_variables():
+                logger.warning(line)
             if served_by_another:
                 logger.warning(
                     "served by another server with %d workers: limits of headers, connections and unread answers are "
@@ -55,18 +57,20 @@ def create_app() -> FastAPI:
             async with app.state.pool.running(), app.state.start_up.running(), app.state.studies.open():
                 yield
 
-    app = FastAPIOffline(
+    app = FastAPI(
         title="tribodrive",
         description=DESCRIPTION,
         version=MODEL_VERSION,
         lifespan=lifespan,
-        docs_url=None,  # app.http.routes.service has the page
+        openapi_url=None,  # app.http.routes.service has the document and the page of it
+        docs_url=None,
         redoc_url=None,
         redirect_slashes=False,  # its redirects would name the host that the client claims to ask
     )
     for routes in (calculations, figures, studies, rexs, pages, study_pages, manual, service):
         app.include_router(routes.router)
     app.include_router(rexs.pages)
+    app.mount(service.DOCS_ASSETS, StaticFiles(packages=[("fastapi_offline", "static")]))
     problems.install(app)
     app.add_middleware(
         GZipMiddleware, minimum_size=COMPRESSED_FROM, compresslevel=4, exclude_content_types=NOT_COMPRESSED

@@ -2,11 +2,14 @@
 
 import os
 import resource
+import sys
 from argparse import ArgumentParser
+from difflib import get_close_matches
 from functools import lru_cache
 from typing import Annotated
 
-from pydantic import Field, field_validator
+from pydantic import Field, ValidationError, field_validator
+from pydantic_core import ErrorDetails
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 MEBIBYTE = 2**20  # bytes
@@ -91,5 +94,25 @@ class Settings(BaseSettings):
 
 @lru_cache(maxsize=1)
 def settings() -> Settings:
-    """The settings of this process, read from the environment once."""
-    return Settings()
+    """The settings of this process, read from the environment once; those that are wrong end it with a line each."""
+    try:
+        return Settings()
+    except ValidationError as error:
+        sys.exit("\n".join([*unknown_variables(), *map(_wrong, error.errors())]))
+
+
+def unknown_variables() -> list[str]:
+    """A line for each variable of the environment that looks like a setting and is none."""
+    known = [f"TRIBODRIVE_{name.upper()}" for name in Settings.model_fields]
+    lines = []
+    for name in sorted(os.environ):
+        if name.startswith("TRIBODRIVE_") and name not in known:
+            nearest = get_close_matches(name, known, 1)
+            meant = f"; did you mean {nearest[0]}?" if nearest else ""
+            lines.append(f"tribodrive: there is no setting {name}{meant}")
+    return lines
+
+
+def _wrong(fault: ErrorDetails) -> str:
+    name = f"TRIBODRIVE_{str(fault['loc'][0]).upper()}"
+    return f"tribodrive: {name} is {fault['input']!r}: {fault['msg'][0].lower()}{fault['msg'][1:]}"

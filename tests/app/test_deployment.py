@@ -14,7 +14,7 @@ import pytest
 import yaml
 
 from app.examples import examples
-from app.settings import Settings
+from app.settings import MEBIBYTE, Settings
 from tests.support.server import ROOT, children, started_server, template, wait_until_warm
 
 DEPLOY = ROOT / "deploy"
@@ -59,6 +59,10 @@ def test_whoever_stops_the_service_waits_for_its_last_answers() -> None:
     assert int(COMPOSE["tribodrive"]["stop_grace_period"].removesuffix("s")) > shutdown_s
     assert int(re.findall(r"TimeoutStopSec=(\d+)", UNIT)[0]) > shutdown_s
     assert f"proxy_read_timeout {int(Settings().study_deadline_s) + 20}s;" in NGINX
+
+
+def test_the_proxy_lets_every_body_pass_that_the_service_takes() -> None:
+    assert f"client_max_body_size {Settings().most_body_bytes('/v1/rexs') // MEBIBYTE}m;" in NGINX
 
 
 def test_the_image_serves_as_nobody() -> None:

@@ -12,7 +12,8 @@ from pydantic import ValidationError
 from app.manual.chapters import chapters
 from app.settings import Settings
 
-README = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text("utf-8")
 MANUAL = chapters()["service"].text
 
 
@@ -72,15 +73,15 @@ def test_nonsense_settings_are_refused(monkeypatch: pytest.MonkeyPatch, variable
         Settings()
 
 
-def started_with(**variables: str) -> subprocess.CompletedProcess[str]:
+def started_with(server: str, **variables: str) -> subprocess.CompletedProcess[str]:
     environment = {**os.environ, **{f"TRIBODRIVE_{name}": value for name, value in variables.items()}}
-    return subprocess.run(
-        [sys.executable, "-m", "app"], check=False, capture_output=True, text=True, env=environment, timeout=60
-    )
+    command = [sys.executable, "-m", *([server, "app.main:app"] if server == "uvicorn" else [server])]
+    return subprocess.run(command, check=False, capture_output=True, text=True, env=environment, cwd=ROOT, timeout=60)
 
 
-def test_a_wrong_setting_is_one_line() -> None:
-    outcome = started_with(PORT="99999", QEUE="3")
+@pytest.mark.parametrize("server", ["app", "uvicorn"])
+def test_a_wrong_setting_is_one_line(server: str) -> None:
+    outcome = started_with(server, PORT="99999", QEUE="3")
     assert outcome.returncode == 1
     assert outcome.stderr.splitlines() == [
         "tribodrive: there is no setting TRIBODRIVE_QEUE; did you mean TRIBODRIVE_QUEUE?",

@@ -13,7 +13,7 @@ from urllib.parse import urlsplit
 import httpx
 import pytest
 
-from tests.support.server import answer_to, connected, descriptors, memory_mb, running_server
+from tests.support.server import answer_to, connected, descriptors, memory_mb, running_server, unhurried
 
 pytestmark = pytest.mark.service
 
@@ -192,6 +192,20 @@ def test_pipelined_requests_are_bounded(small: tuple[subprocess.Popen[str], str]
         answer_to(connection)
     assert memory_mb(process.pid) < before + 10
     assert httpx.get(f"{address}/healthz", timeout=2).status_code == 200
+
+
+def test_pipelined_documents_that_nobody_reads_do_not_hold_up_a_newcomer(
+    small: tuple[subprocess.Popen[str], str],
+) -> None:
+    _, address = small
+    request = b"GET /openapi.json HTTP/1.1\r\nHost: x\r\nAccept-Encoding: gzip\r\n\r\n"
+    httpx.get(f"{address}/openapi.json", timeout=20)  # the first one takes a second
+    with ExitStack() as stack:
+        for _ in range(100):
+            stack.enter_context(connected(address)).sendall(request * 15)
+        started = time.monotonic()
+        assert httpx.get(f"{address}/healthz", timeout=60).status_code == 200
+        assert time.monotonic() - started < unhurried(3.0)  # 10 s if each is written anew
 
 
 def post_of(path: str, size: int = 0) -> bytes:
