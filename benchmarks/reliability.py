@@ -20,6 +20,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from urllib.parse import urlsplit
 
 import httpx
@@ -48,6 +49,7 @@ class Watch:
 
     outcomes: Counter[str] = field(default_factory=Counter)
     faults: Counter[str] = field(default_factory=Counter)
+    signalled: dict[int, str] = field(default_factory=dict)  # what was done to a worker, by its process id
     health_ms: list[float] = field(default_factory=list)
     memory_mb: list[float] = field(default_factory=list)
     descriptors: list[int] = field(default_factory=list)
@@ -124,7 +126,9 @@ def disturb(process: subprocess.Popen[str], mix: list[Case], netloc: str, watch:
     if kind == "left":
         leave(netloc, long)
     elif alive:
-        send_signal(random.choice(alive), signal.SIGKILL if kind == "killed" else signal.SIGSTOP)
+        worker = random.choice(alive)
+        watch.signalled[worker] = kind
+        send_signal(worker, signal.SIGKILL if kind == "killed" else signal.SIGSTOP)
     watch.faults[kind] += 1
     watch.memory_mb.append(memory_mb(process.pid))
     watch.descriptors.append(descriptors(process.pid))
@@ -134,7 +138,10 @@ def disturb(process: subprocess.Popen[str], mix: list[Case], netloc: str, watch:
 def under_load(seconds: int, faults: int) -> Iterator[tuple[str, str]]:
     """Rows of the table: a mixed load while workers and clients fail."""
     watch, done = Watch(), threading.Event()
-    with running_server(log_level="error") as (process, address):
+    with (
+        TemporaryDirectory() as folder,
+        running_server(log=(log := Path(folder, "log")), log_level="warning") as (process, address),
+    ):
         netloc = urlsplit(address).netloc
         mix = cases(address)
         threads = [threading.Thread(target=load, args=(netloc, mix, seed, watch, done)) for seed in range(CLIENTS)]
@@ -151,6 +158,10 @@ def under_load(seconds: int, faults: int) -> Iterator[tuple[str, str]]:
         time.sleep(1)
         recovered = httpx.get(f"{address}/readyz", timeout=60).is_success
         left_over = len(descendants(process.pid))
+        lost = [int(each) for each in re.findall(r"worker (\d+) was lost while", log.read_text("utf-8"))]
+    known = Counter(watch.signalled[worker] for worker in lost if worker in watch.signalled)
+    unknown = [f"worker {worker}" for worker in lost if worker not in watch.signalled]
+    unknown += ["not in the log"] * (watch.outcomes["worker_lost"] - len(lost))
     other = {name: count for name, count in watch.outcomes.items() if name not in {"right", "wrong", "worker_lost"}}
     yield "load", f"{seconds} s, {CLIENTS} clients that check every byte, {len(MIX)} kinds of request"
     yield (
@@ -159,9 +170,11 @@ def under_load(seconds: int, faults: int) -> Iterator[tuple[str, str]]:
     )
     yield "answers equal to those at rest, bit for bit", str(watch.outcomes["right"])
     yield "wrong answers", str(watch.outcomes["wrong"])
-    signals = watch.faults["killed"] + watch.faults["stopped"]
-    yield "requests lost with their worker (503), signals sent", f"{watch.outcomes['worker_lost']}, {signals}"
-    yield "losses beyond the signals", str(max(0, watch.outcomes["worker_lost"] - signals))
+    yield (
+        "requests lost (503) with a worker that was killed, stopped",
+        ", ".join(str(known[kind]) for kind in ("killed", "stopped")),
+    )
+    yield "requests lost without a signal to their worker", f"{len(unknown)} {', '.join(unknown)}".strip()
     yield "any other failure", ", ".join(f"{count} {name}" for name, count in other.items()) or "0"
     yield (
         "/healthz: median, 99th percentile",

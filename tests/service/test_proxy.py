@@ -3,16 +3,21 @@
 import json
 import shutil
 import socket
+import subprocess
+import sys
+import threading
+import time
 from collections.abc import Iterator
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from urllib.parse import urlsplit
 
 import httpx
 import pytest
 
 from app.examples import examples
+from tests.rexs.units import turbo_unit
 from tests.support.proxy import running_proxy
-from tests.support.server import running_server
+from tests.support.server import answer_to, memory_mb, running_server, unhurried
 
 pytestmark = [
     pytest.mark.service,
@@ -22,25 +27,36 @@ pytestmark = [
 COUPLING = examples()["pahl-axial-displacement"]
 
 
+Served = tuple[subprocess.Popen[str], str]
+
+
 @pytest.fixture(scope="module")
-def proxy(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+def service() -> Iterator[Served]:
+    with running_server([sys.executable, "-m", "tests.support.faulty_server"], workers=2, log_level="error") as served:
+        yield served
+
+
+@pytest.fixture(scope="module")
+def proxy(service: Served, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """The address of nginx in front of a service."""
-    with running_server(workers=2, log_level="error") as (_, address):
-        folder = tmp_path_factory.mktemp("nginx")
-        with running_proxy(folder, address, **{"timeout 10s": "timeout 1s"}) as outside:
-            yield outside
+    with running_proxy(tmp_path_factory.mktemp("nginx"), service[1], **{"timeout 10s": "timeout 1s"}) as outside:
+        yield outside
 
 
-def received(address: str, sent: bytes) -> bytes:
-    """What is answered to bytes after which nothing follows."""
+def attacking(address: str) -> socket.socket:
+    """A connection of a client of its own, whose rate is not that of the others."""
     target = urlsplit(address)
-    answer = b""
-    with socket.create_connection((target.hostname, target.port), timeout=10) as connection:
-        connection.sendall(sent)
-        with suppress(OSError):
-            while piece := connection.recv(65536):
-                answer += piece
-    return answer
+    return socket.create_connection((target.hostname, target.port), timeout=4, source_address=("127.0.0.3", 0))
+
+
+def received(address: str, *sent: bytes, pause_s: float = 0.0) -> bytes:
+    """What is answered to bytes after which nothing follows."""
+    with attacking(address) as connection, suppress(OSError):
+        for each in sent:
+            connection.sendall(each)
+            time.sleep(pause_s)
+        return answer_to(connection)
+    return b""
 
 
 def test_calculations_and_pages_pass(proxy: str) -> None:
@@ -60,12 +76,56 @@ def test_lines_of_a_study_pass_one_by_one(proxy: str) -> None:
     assert kinds.count("point") == 200
 
 
+def test_a_file_of_a_gear_unit_passes(proxy: str) -> None:
+    unit = turbo_unit().xml() + b" " * 2**20
+    answer = httpx.post(f"{proxy}/v1/rexs", content=unit, headers={"Content-Type": "application/xml"}, timeout=20)
+    assert answer.status_code == 200
+
+
+HEAD = b"POST /v1/coupling HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n"
+SLEEP = b"POST /sleep/2 HTTP/1.1\r\nHost: x\r\nContent-Length: 0\r\n"
+HEALTH = b"GET /healthz HTTP/1.1\r\nHost: x\r\n"
+LAST = b"Connection: close\r\n\r\n"
+
+
 def test_attacks_end_at_the_proxy(proxy: str) -> None:
-    head = b"POST /v1/coupling HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n"
-    assert received(proxy, head + b"Content-Length: 99\r\n\r\n{")[9:12] in {b"", b"408"}
-    assert b" 413 " in received(proxy, head + b"Content-Length: 9999999\r\n\r\n")
-    assert b" 400 " in received(proxy, head + b"X-Padding: " + b"x" * 20_000 + b"\r\n\r\n")
-    assert b" 400 " in received(proxy, b"GET / HTTP/1.1\r\nHost: x\r\nHost: y\r\n\r\n")
+    assert received(proxy, HEAD + b"Content-Length: 99\r\n\r\n{").partition(b" ")[2][:3] in {b"", b"408"}
+    for ending in (b"\r\n", LAST):
+        assert b" 413 " in received(proxy, HEAD + b"Content-Length: 99999999\r\n" + ending)
+    assert b" 400 " in received(proxy, HEAD + b"X-Padding: " + b"x" * 20_000 + b"\r\n\r\n")
+    assert b" 400 " in received(proxy, HEALTH + b"Host: y\r\n\r\n")
+
+
+def test_a_late_byte_and_a_late_end_cost_no_answer(proxy: str) -> None:
+    assert b" 200 " in received(proxy, SLEEP + b"\r\n", b"\r\n", pause_s=0.5)
+    late = received(proxy, HEALTH + b"\r\n" + HEAD + LAST.replace(b"\r\n\r\n", b"\r\nContent-Length: 2\r\n\r\n{"), b"}")
+    assert late.count(b"HTTP/1.1 200") == late.count(b"HTTP/1.1 422") == 1
+
+
+def test_floods_reach_nobody_else(service: Served, proxy: str) -> None:
+    """Bodies of one-byte chunks, and pipelined requests whose answers nobody reads."""
+    process, direct = service
+    httpx.get(f"{direct}/openapi.json", timeout=20)  # the first one takes a second
+    before = memory_mb(process.pid)
+    chunked = (
+        HEAD.replace(b"/v1/coupling", b"/v1/rexs") + b"Transfer-Encoding: chunked\r\n\r\n" + b"1\r\n \r\n" * 400_000
+    )
+    documents = b"GET /openapi.json HTTP/1.1\r\nHost: x\r\n\r\n" * 15
+    slowest = 0.0
+    with ExitStack() as stack:
+        for _ in range(100):
+            stack.enter_context(attacking(proxy)).sendall(documents)
+        floods = [threading.Thread(target=received, args=(proxy, chunked)) for _ in range(20)]
+        for each in floods:
+            each.start()
+        with httpx.Client(base_url=proxy, timeout=20, transport=httpx.HTTPTransport(local_address="127.0.0.2")) as own:
+            while any(each.is_alive() for each in floods):
+                started = time.monotonic()
+                assert own.get("/healthz").status_code == 200
+                slowest = max(slowest, time.monotonic() - started)
+                time.sleep(0.1)
+        assert slowest < unhurried(0.5)
+        assert memory_mb(process.pid) < before + 40
 
 
 def test_one_client_gets_no_more_than_its_rate(proxy: str) -> None:

@@ -17,7 +17,7 @@ import pytest
 
 from app.examples import examples
 from tests.support.faulty_server import LONG
-from tests.support.server import running_server, send_signal, workers
+from tests.support.server import running_server, send_signal, unhurried, workers
 
 pytestmark = pytest.mark.service
 
@@ -198,6 +198,21 @@ def test_points_of_a_study_end_with_it(faulty: Server) -> None:
         assert time.monotonic() - left < 1.0
         time.sleep(0.02)
     wait_for(address, "tribodrive_studies", 0)
+
+
+def test_an_interrupted_calculation_has_its_whole_deadline_again() -> None:
+    with (
+        running_server(FAULTY, workers=1, deadline_s=4, log_level="error") as (_, address),
+        ThreadPoolExecutor(1) as pool,
+        client(address, GREEDY) as greedy,
+    ):
+        honest_waits(address, 1)
+        long = pool.submit(greedy.post, "/sleep/3")
+        wait_for(address, "tribodrive_calculations", 1)
+        time.sleep(0.5)
+        assert honest_waits(address, 1)[0] < unhurried(2.0)
+        assert long.result().status_code == 200  # after 1.5 s and another 3
+        assert metric(address, "tribodrive_calculations_interrupted_total") == 1
 
 
 def test_a_full_queue_refuses_whoever_has_most_places() -> None:

@@ -11,6 +11,7 @@ import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -271,8 +272,20 @@ def calculated_within(process: subprocess.Popen[str], seconds: float) -> float:
     return processor_seconds(workers(process)) - before
 
 
-def test_the_deadline_of_a_study_ends_it_with_a_line() -> None:
-    with running_server(workers=1, study_deadline_s=1, log_level="error") as (_, address):
+def test_a_study_that_lost_its_connection_goes_on_from_where_it_was(faulty: Server) -> None:
+    _, address = faulty
+    sample = {"count": 256, "seed": 7, "ranges": [{"path": "operation.speed_rpm", "min": 100, "max": 2000}]}
+    body = couplings(1) | {"vary": None, "sample": sample}
+    whole = numbers(lines_of(address, body))
+    with running_study(address, body) as found:
+        seen = [whole[0], *(json.loads(next(found)) for _ in range(9))]
+    assert seen == whole[:10]
+    assert numbers(lines_of(address, body | {"from_index": 10})) == whole[10:]
+
+
+def test_the_deadline_of_a_study_ends_it_with_a_line(tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    with running_server(workers=1, study_deadline_s=1, log=log) as (_, address):
         *points, last = lines_of(address, loads(2500))
         assert last["type"] == "error"
         assert last["code"] == "study_deadline"
@@ -280,6 +293,7 @@ def test_the_deadline_of_a_study_ends_it_with_a_line() -> None:
         table = httpx.post(address + SWEEP + "?format=csv", json=loads(2500), timeout=60).text.splitlines()
         assert table[-1] == ",,error,,,study_deadline: the study took longer than 1 s; make it smaller"
         assert metric(address, "tribodrive_studies_unfinished_total") == 2
+    assert "Traceback" not in log.read_text("utf-8")
 
 
 def test_a_figure_of_a_study_that_ends_at_its_deadline_is_a_503() -> None:

@@ -1,21 +1,30 @@
-"""The wheel holds what the service needs and nothing else."""
+"""The wheel holds what the service needs and nothing else, and its command serves."""
 
 import subprocess
 import sys
 import zipfile
 from pathlib import Path
 
+import httpx
 import pytest
 
-ROOT = Path(__file__).parents[2]
+from app.examples import examples
+from tests.support.server import ROOT, started_server, wait_until_warm
 
 pytestmark = pytest.mark.service
 
+PIP = [sys.executable, "-m", "pip"]
 
-def test_content_of_the_wheel(tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "pip", "wheel", "--no-deps", "--quiet", "--wheel-dir", tmp_path, ROOT]
-    subprocess.run(command, check=True)
-    (wheel,) = tmp_path.glob("tribodrive-*.whl")
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("wheel")
+    subprocess.run([*PIP, "wheel", "--no-deps", "--quiet", "--wheel-dir", folder, ROOT], check=True)
+    (found,) = folder.glob("tribodrive-*.whl")
+    return found
+
+
+def test_content_of_the_wheel(wheel: Path) -> None:
     packed = {name for name in zipfile.ZipFile(wheel).namelist() if ".dist-info/" not in name}
     tracked = subprocess.run(
         ["git", "ls-files", "app", "solvers"],  # noqa: S607
@@ -25,3 +34,15 @@ def test_content_of_the_wheel(tmp_path: Path) -> None:
         text=True,
     ).stdout.splitlines()
     assert packed == set(tracked)
+
+
+def test_the_command_serves_from_a_folder_that_has_an_app_of_its_own(wheel: Path, tmp_path: Path) -> None:
+    installed, other = tmp_path / "installed", tmp_path / "app"
+    subprocess.run([*PIP, "install", "--no-deps", "--quiet", "--target", installed, wheel], check=True)
+    other.mkdir()
+    (other / "__init__.py").write_text("raise SystemExit('another app')")
+    command = ["env", "-C", str(tmp_path), f"PYTHONPATH={installed}", str(installed / "bin" / "tribodrive")]
+    coupling = examples()["pahl-axial-displacement"]
+    with started_server(command) as (process, address):
+        wait_until_warm(process, address)
+        assert httpx.post(address + coupling.endpoint, json=coupling.request, timeout=20).status_code == 200
