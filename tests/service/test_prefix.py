@@ -22,6 +22,7 @@ from tests.support.proxy import running_proxy
 from tests.support.server import ROOT, running_server
 
 PREFIX = "/tribodrive"
+FILES = {f"{PREFIX}/rexs", f"{PREFIX}/case"}
 ADDRESSES = re.compile(r'\b(?:href|src|srcset|action|formaction|data-values)="([^"#][^"]*)"')
 STUDY = "x=operation.misalignment_deg&x.count=3"
 # Fast enough to be asked for at every proxy.
@@ -92,7 +93,7 @@ def test_every_address_of_every_page_leads_somewhere(proxies: dict[str, str], na
         assert len(seen) > 60
         slow = {f"{PREFIX}{page_path(each)}" for each in CALCULATIONS if each.path not in CASES}
         for path, address in seen.items():
-            if path == f"{PREFIX}/rexs" or ("?" in address and path.removesuffix("/vary") in slow):
+            if path in FILES or ("?" in address and path.removesuffix("/vary") in slow):
                 continue  # takes files only; takes a minute
             status = client.get(address).status_code
             # An address of a form may stand alone, without the fields that it sends.
@@ -111,6 +112,10 @@ def test_redirects_files_and_documents(proxies: dict[str, str], name: str) -> No
         found = addresses_in(unit.text)
         assert all(each.startswith(f"{PREFIX}/") for each in found)
         assert any("/scuffing?" in each for each in found)
+        saved = client.get("/v1/examples/pahl-axial-displacement").content
+        opened = client.post("/case", files={"file": ("case.json", saved)})
+        assert opened.status_code == 303
+        assert opened.headers["location"].startswith(f"{PREFIX}/coupling?")
         problem = client.get("/coupling?operation=1&operation.x=2")
         assert problem.status_code == 400
         assert all(each.startswith(f"{PREFIX}/") for each in addresses_in(problem.text))
