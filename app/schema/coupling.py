@@ -78,13 +78,8 @@ class _CouplingRequest(Request):
         return unused
 
     def _design(self, operation: si.Operation) -> si.CouplingInputs:
-        return si.CouplingInputs(
-            coupling=self.coupling.si(si.CouplingDesign).coupling(),
-            operation=operation,
-            lubricant=self.lubricant.lubricant(),
-            friction=self.friction.si(si.Friction),
-            model=self.model.si(si.ModelOptions),
-        )
+        coupling = self.coupling.si(si.CouplingDesign).coupling()
+        return self.si(si.CouplingInputs, coupling=coupling, operation=operation, lubricant=self.lubricant.lubricant())
 
 
 class CouplingRequest(_CouplingRequest):

@@ -9,12 +9,12 @@ from pydantic import BeforeValidator, Field, model_validator
 from app.schema.coupling import CouplingFriction, CrownedCoupling
 from app.schema.gears import BacklashGears, GearMaterials
 from app.schema.load_distribution import FlankModifications, MeshDerived, ScuffingLoad
-from app.schema.model import Group, Response, Section, declared, to_si
+from app.schema.model import Group, Response, Section, declared
 from app.schema.oil import CouplingLubricant, Oil
 from app.schema.pumping import GearGroove, Mist, PumpingOptions
 from app.schema.quantities import Input, View
 from app.schema.scuffing import PRACTICAL_FRICTION, ContactTemperatures, MeshInOil, ScuffingModel, with_default
-from solvers.coupling.inputs import Coupling, CouplingDesign, Friction
+from solvers.coupling.inputs import Coupling, CouplingDesign
 from solvers.drive_train import derived, results
 from solvers.drive_train import inputs as si
 from solvers.drive_train.shafts import thrust_budget
@@ -128,12 +128,7 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
         Raises what `bearings_of` raises.
         """
         described = tuple(bearing.si(si.ShaftBearing) for bearing in self.bearings)
-        return si.Shaft(
-            sections=tuple(section.si(si.ShaftSection) for section in self.sections),
-            bearings=si.bearings_of(name, described, oil, oil_temperature),
-            ultimate_thrust=self.thrust_bearing.ultimate_load_n,
-            **to_si(self),
-        )
+        return self.si(si.Shaft, self.thrust_bearing, bearings=si.bearings_of(name, described, oil, oil_temperature))
 
 
 class ShaftAlignment(Section, of=si.Alignment):
@@ -149,13 +144,8 @@ class UnitCoupling(Section, of=si.UnitCoupling):
 
     def unit_coupling(self) -> si.UnitCoupling:
         """The solver's coupling."""
-        return si.UnitCoupling(
-            coupling=self.coupling.si(CouplingDesign).coupling(),
-            lubricant=self.lubricant.lubricant(),
-            friction=self.friction.si(Friction),
-            alignment=None if self.alignment is None else self.alignment.si(si.Alignment),
-            **to_si(self),
-        )
+        coupling = self.coupling.si(CouplingDesign).coupling()
+        return self.si(si.UnitCoupling, coupling=coupling, lubricant=self.lubricant.lubricant())
 
     def unused(self) -> set[str]:
         """Friction at rest, for the shaft rotates; with a coefficient of friction the oil."""
@@ -195,9 +185,7 @@ class DriveTrainRequest(MeshInOil):
     """A single-stage gear unit with its shafts, bearings, couplings and heat."""
 
     solver_names: ClassVar = {
-        "heat": "thermal",
-        "collar_radius": "thrust_collar.radius",
-        "ultimate_thrust": "thrust_bearing.ultimate_load",
+        "ultimate_thrust": "thrust_bearing.ultimate_thrust",
         "mesh.distribution.modifications": "modifications",
     }
 
@@ -246,29 +234,18 @@ class DriveTrainRequest(MeshInOil):
             shaft.shaft(name, scuffing.oil, scuffing.temperatures.oil)
             for name, shaft in (("pinion_shaft", self.pinion_shaft), ("wheel_shaft", self.wheel_shaft))
         ]
-        fields = to_si(self)
-        return si.DriveTrainInputs(
+        return self.si(
+            si.DriveTrainInputs,
+            self.model,
+            self.temperatures,
+            self.thrust_collar,
             mesh=scuffing,
-            pumping=pumping.PumpingSetup(
-                gears=self.gears.pumping_pair(),
-                normal_backlash=to_si(self.gears)["normal_backlash"],
-                grooves=tuple(groove.si(pumping.Groove) for groove in self.grooves),
-                ambient=self.ambient.si(pumping.Ambient),
-                model=self.model.si(pumping.PumpingModel),
-            ),
-            face_start=fields["face_start"],
+            pumping=self.si(pumping.PumpingSetup, self.gears, gears=self.gears.pumping_pair()),
             pinion_shaft=shafts[0],
             wheel_shaft=shafts[1],
-            arrangement=replace(self.operation.si(si.Arrangement), hand=self.gears.hand),
+            arrangement=self.operation.si(si.Arrangement, self.gears),
             couplings=tuple(self._couplings()),
-            collar_radius=to_si(self.thrust_collar)["radius"],
-            heat=self.thermal.si(si.Heat),
-            effects=self.effects.si(si.Effects),
-            coupling_friction=self.model.coupling_friction,
-            face_stations=self.model.face_stations,
-            local_bulk=self.temperatures.local_bulk,
             bulk_given=self.temperatures.bulk_c is not None,
-            states=fields["states"],
         )
 
     def _couplings(self) -> Iterator[si.UnitCoupling]:

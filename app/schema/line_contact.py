@@ -9,7 +9,6 @@ from app.schema.quantities import Input, View
 from solvers.contact import ehl
 from solvers.contact.ehl import results
 from solvers.errors import InvalidInput
-from solvers.materials import Solid
 from solvers.oils import lubricant_at
 
 
@@ -62,18 +61,12 @@ class LineContactRequest(Request):
 
         Raises InvalidInput no_oil without one.
         """
-        temperatures, oil = self.temperatures.si(ehl.Temperatures), self.lubricant.oil()
+        oil = self.lubricant.oil()
         if oil is None:
             message = "there is no film without an oil: give iso_vg, two kinematic viscosities or viscosity_pa_s"
             raise InvalidInput("no_oil", message, "lubricant")
-        return ehl.LineContactInputs(
-            contact=self.contact.si(ehl.Contact),
-            surface_1=self.surface_1.si(Solid),
-            surface_2=self.surface_2.si(Solid),
-            lubricant=lubricant_at(oil, temperatures.inlet),
-            temperatures=temperatures,
-            model=self.model.si(ehl.Model),
-        )
+        inlet = self.temperatures.si(ehl.Temperatures).inlet
+        return self.si(ehl.LineContactInputs, lubricant=lubricant_at(oil, inlet))
 
 
 class LineContactDerived(OilDerived, of=results.Derived):

@@ -50,14 +50,12 @@ class GearPairRequest(Request):
 
 def distribution_inputs(request: Request, gears: GearPairInputs, load: si.Load) -> si.LoadDistributionInputs:
     """The solver's inputs for this pair and load, of a request with modifications, materials and friction."""
-    return si.LoadDistributionInputs(
+    return request.si(
+        si.LoadDistributionInputs,
         gears=gears,
         load=load,
-        modifications=request.modifications.si(si.Modifications),
         pinion_material=request.materials.pinion.si(Solid),
         wheel_material=request.materials.wheel.si(Solid),
-        friction_coefficient=request.friction_coefficient,
-        model=request.model.si(si.Model),
         resolution=request.model.si(si.Resolution),
     )
 

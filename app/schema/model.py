@@ -5,8 +5,8 @@
 
 has a field for each declaration on `si.ModelOptions`, named with the suffix of its unit. What stands in the class
 itself is an ordinary field of pydantic: under the name of a filled field it changes the type or the default, and with
-`Input` or `Output` beside the type it replaces the declaration. Requests give the solver's dataclasses in SI (`built`,
-`to_si`), responses are read from them (`from_si`), by names and units that are looked up once a model.
+`Input` or `Output` beside the type it replaces the declaration. Requests give the solver's dataclasses in SI
+(`Section.si`), responses are read from them (`from_si`), by names and units that are looked up once a model.
 """
 
 from abc import abstractmethod
@@ -96,6 +96,10 @@ class Documented(BaseModel):
         inherited = {
             name: each for base in reversed(cls.__mro__) for name, each in vars(base).get("origins", {}).items()
         }
+        for name, kind in get_annotations(cls).items():
+            given = _declaration(kind)
+            if isinstance(given, Input) and given.origin is not None:
+                inherited[name] = Origin(*given.origin)
         if not records:
             cls.origins = inherited
             return
@@ -203,7 +207,7 @@ _MODELS: dict[tuple[type, type], type[Documented]] = {}
 def declared(kind: type, name: str, **changes: Any) -> Input:
     """The declaration of a dataclass's field, changed for one request."""
     known = quantities(kind)[name]
-    return Input(**{each.name: getattr(known, each.name) for each in fields(known)} | changes)
+    return Input(**{each.name: getattr(known, each.name) for each in fields(known)} | changes, origin=(kind, name))
 
 
 def _holders(record: type) -> dict[Any, str]:
@@ -217,10 +221,10 @@ def _holders(record: type) -> dict[Any, str]:
     return found
 
 
-def _declaration(annotation: Any) -> bool:
-    """Whether an annotation brings its own declaration."""
+def _declaration(annotation: Any) -> Input | Output | None:
+    """The declaration that an annotation brings."""
     metadata = get_args(annotation)[1:] if get_origin(annotation) is Annotated else ()
-    return any(isinstance(each, Quantity) for each in metadata)
+    return next((each for each in metadata if isinstance(each, Input | Output)), None)
 
 
 def _published(hint: Any, declared: Quantity, declares: type) -> Any:
@@ -304,25 +308,25 @@ def group_of(annotation: Any) -> type[Documented] | None:
     return next((kind for kind in kinds(annotation) if isinstance(kind, type) and issubclass(kind, Documented)), None)
 
 
-def to_si(section: Documented) -> dict[str, Any]:
-    """The section's plain fields by their solver names, in SI; nested sections are left to the caller."""
-    return {field.si_name: _scaled(getattr(section, field.name), field.unit) for field in _plain_fields(type(section))}
+def built(kind: type[T], sections: tuple[Documented, ...], known: dict[str, Any]) -> T:
+    """The solver's dataclass in SI from the sections that have its fields, the first of several that has one.
 
-
-def built(section: Documented, kind: type[T]) -> T:
-    """The solver's dataclass that a section was filled from, in SI, with those of the sections inside it."""
+    Sections inside these fill the dataclasses inside it; what is `known` stands for fields of its own.
+    """
     given: dict[str, Any] = {}
     record: Any = kind
-    for name, field, inner in _members(type(section), record):
-        value = getattr(section, field.name)
-        given[name] = _scaled(value, field.unit) if inner is None else _inner(value, inner)
-    return kind(**given)
+    for section in reversed(sections):
+        for name, field, inner in _members(type(section), record):
+            if name not in known:
+                value = getattr(section, field.name)
+                given[name] = _scaled(value, field.unit) if inner is None else _inner(value, inner)
+    return kind(**given | known)
 
 
 def _inner(value: Any, kind: type[Any]) -> Any:
     if value is None:
         return None
-    return tuple(built(each, kind) for each in value) if isinstance(value, list) else built(value, kind)
+    return tuple(built(kind, (each,), {}) for each in value) if isinstance(value, list) else built(kind, (value,), {})
 
 
 @cache
@@ -340,11 +344,6 @@ def _members(model: type[Documented], kind: Any) -> tuple[tuple[str, _Field, typ
 def _record_in(hint: Any) -> Any:
     """The dataclass in a type, alone, optional or as the item of a tuple; None where there is none."""
     return next(filter(is_dataclass, kinds(hint)), None)
-
-
-@cache
-def _plain_fields(section: type[Documented]) -> tuple[_Field, ...]:
-    return tuple(field for field in _fields(section) if field.group is None)
 
 
 def _scaled(value: Any, unit: Unit | None) -> Any:
@@ -438,9 +437,9 @@ class Section(Documented):
                 raise PydanticCustomError(self.choice_missing, "give {names}", {"names": " or ".join(group)})
         return self
 
-    def si(self, kind: type[T]) -> T:
-        """The solver's dataclass that these fields fill, in SI."""
-        return built(self, kind)
+    def si(self, kind: type[T], *others: "Section", **known: Any) -> T:
+        """The solver's dataclass in SI that these fields fill, with those of others and with what is known of it."""
+        return built(kind, (self, *others), known)
 
     def unused(self) -> set[str]:
         """Names, dotted below this section, of fields and sections that the values given leave out of a result."""

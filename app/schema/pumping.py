@@ -1,10 +1,9 @@
 """Pumping: requests and answers of /v1/pumping and /v1/pumping/choking-speed."""
 
-from dataclasses import replace
 from typing import Annotated, Any, ClassVar
 
 from app.schema.gears import PumpingGears
-from app.schema.model import Derived, Group, Request, Response, Section, to_si
+from app.schema.model import Derived, Group, Request, Response, Section
 from app.schema.quantities import Input, View
 from solvers.pumping import inputs as si
 from solvers.pumping import lead_correction, pulsation, results
@@ -59,7 +58,7 @@ class _PumpingSetup(Request, of=si.PumpingSetup, without=("normal_backlash",)):
         return {} if self.model.flow == "incompressible" else {"model.flow": AXIAL_SPEED_ONLY}
 
     def _setup(self) -> si.PumpingSetup:
-        return replace(self.si(si.PumpingSetup), normal_backlash=to_si(self.gears)["normal_backlash"])
+        return self.si(si.PumpingSetup, self.gears)
 
 
 class PumpingRequest(_PumpingSetup):
@@ -69,7 +68,7 @@ class PumpingRequest(_PumpingSetup):
 
     def inputs(self) -> si.PumpingInputs:
         """The solver's inputs."""
-        return si.PumpingInputs(self._setup(), **to_si(self.operation))
+        return self.operation.si(si.PumpingInputs, setup=self._setup())
 
 
 class ChokingSpeedRequest(_PumpingSetup, of=si.ChokingInputs):
@@ -77,7 +76,7 @@ class ChokingSpeedRequest(_PumpingSetup, of=si.ChokingInputs):
 
     def inputs(self) -> si.ChokingInputs:
         """The solver's inputs."""
-        return si.ChokingInputs(self._setup(), search_limit=to_si(self)["search_limit"])
+        return self.si(si.ChokingInputs, setup=self._setup())
 
 
 class StrokeCurves(Group, of=stroke.StrokeTable):

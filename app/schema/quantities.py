@@ -19,7 +19,12 @@ Bound = Literal["upper", "lower"]
 
 @dataclass(frozen=True)
 class Input(Quantity):
-    """The declaration of a field of a request; the unit is in the field's name."""
+    """The declaration of a field of a request; the unit is in the field's name.
+
+    `origin` is the dataclass and its field that it was taken from, if it was.
+    """
+
+    origin: tuple[type, str] | None = None
 
     @property
     def description(self) -> str:

@@ -115,15 +115,13 @@ class MeshInOil(Request):
 
     def scuffing_inputs(self, gears: GearPairInputs, load: si.Load) -> si.ScuffingInputs:
         """The solver's inputs for this pair and load."""
-        return si.ScuffingInputs(
+        return self.si(
+            si.ScuffingInputs,
+            self.model,
             distribution=distribution_inputs(self, gears, load),
             lubricant=None,
             oil=self.lubricant.oil(),
-            temperatures=self.temperatures.si(si.Temperatures),
-            lubrication=self.model.lubrication,
-            friction=self.model.friction,
             film=self.model.si(ehl.Model),
-            path_points=self.model.path_points,
         )
 
     @property
