@@ -15,7 +15,7 @@ from app.schema.fields import Leaf, leaf_at, leaves
 from app.schema.model import Response
 from app.studies.stream import safe_cell
 
-DIGITS = 6
+DIGITS = 6  # more than any solver's tolerance leaves
 COLUMNS = ("path", "title", "value", "unit", "symbol")
 
 

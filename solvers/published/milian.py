@@ -13,6 +13,7 @@ from solvers.pumping import Closure, Flow, Gap, Groove, PumpingInputs, PumpingMo
 from solvers.pumping.model import solve
 from solvers.pumping.results import SpacesResult
 
+# Table 1, and Tables 2 and 3 with the speeds of the text
 TABLE_1 = GearPairInputs(
     GearTeeth(47, 0.291, 1.0, 1.475), GearTeeth(103, 0.322, 1.0, 1.474), 6.8e-3, 0.2, pressure_angle=radians(22.5)
 )
@@ -35,7 +36,7 @@ CASE_2 = GearPairInputs(
     centre_distance=0.455,
 )
 SPEED_1, SPEED_2 = 9267.0, 8962.0  # rpm of the pinion
-GROOVE = (Groove(0.1, 0.016),)
+GROOVE = (Groove(0.1, 0.016),)  # in the middle of the face, as the paper has it; its width is assumed
 PRINTED = PumpingModel(wall_transport=False, spaces=Spaces.PINION)  # as the paper's equations
 TIP = replace(PRINTED, gap=Gap.TIP)
 CHAIN = replace(PRINTED, flow=Flow.POCKET_CHAIN)

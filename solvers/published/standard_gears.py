@@ -8,6 +8,7 @@ from solvers.gears.pair import meshing_path, reduced_radius
 from solvers.materials import Solid
 from solvers.scuffing.mesh_results import standard_stiffness
 
+# ISO 14635-1: tip diameters of 88.8 and 112.5 mm
 FZG_A = GearPairInputs(
     GearTeeth(16, 0.8532, addendum=88.8 / 9 - 8 - 0.8532),
     GearTeeth(24, -0.5, addendum=112.5 / 9 - 12 + 0.5),
@@ -15,6 +16,7 @@ FZG_A = GearPairInputs(
     20e-3,
     rack_tip_radius=0.38,
 )
+# ISO/TR 6336-30, example 1, with rack A of ISO 53
 EXAMPLE_1 = GearPairInputs(
     GearTeeth(17, 0.145, dedendum=1.4),
     GearTeeth(103, 0.0, dedendum=1.4),

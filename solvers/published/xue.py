@@ -21,6 +21,7 @@ from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.safety import solve_scuffing
 from solvers.scuffing.safety_results import Scuffing
 
+# Tables 1 and 2 of the paper: helix angle [deg] and face width [mm] of the pairs, speed, load and modification
 HELIX_AND_WIDTH = {1: (9.8, 20.0), 2: (9.8, 40.0), 3: (20.2, 20.0), 4: (20.2, 40.0)}
 PAPER_SPEED = angular_speed(2000.0)
 PAPER_LOAD = Load(50e3 / PAPER_SPEED, PAPER_SPEED)

@@ -49,6 +49,7 @@ class Ground(NamedTuple):
     unit: str = "µm"
 
 
+# Chosen: wider than what is ground of teeth of a few millimetres of module, and the user may change them.
 GROUND = (
     Ground("helix slope", (SLOPE,), -100.0, 100.0),
     Ground("crowning", (CROWNING,), 0.0, 20.0),
