@@ -87,7 +87,7 @@ def laid_out(figure: Figure, theme: Theme) -> tuple[Sheet, list[Axes]]:
     sheet.text(left, top, title, fontsize=TITLE, fontweight="bold", va="top", linespacing=1.2)
     below = top - TITLE_LINE * (1 + title.count("\n")) / height
     sheet.text(left, below, finding, fontsize=TEXT, color=theme.muted, va="top", linespacing=1.2)
-    axes = _axes(sheet, figure)
+    axes = _axes(sheet, figure) if figure.panels else []
     for each, panel in zip(axes, figure.panels, strict=True):
         draw_panel(each, panel, theme, _height(panel, figure))
         if figure.beside:
@@ -97,28 +97,23 @@ def laid_out(figure: Figure, theme: Theme) -> tuple[Sheet, list[Axes]]:
         engine.execute(sheet)
     sheet.set_layout_engine("none")
     for each, panel in zip(axes, figure.panels, strict=True):
-        place_texts(each, panel, canvas.get_renderer())
+        place_texts(each, panel, theme, canvas.get_renderer())
     return sheet, axes
 
 
 def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
     """Axes above or beside each other; an axis that two share is named once."""
-    panels, axes = figure.panels, list[Axes]()
-    if figure.beside:
-        grid = sheet.add_gridspec(1, max(len(panels), 1))
-    else:
-        grid = sheet.add_gridspec(
-            max(len(panels), 1), 1, height_ratios=[_height(each, figure) for each in panels] or None
-        )
-    for index, panel in enumerate(panels):
-        before = panels[index - 1] if index else None
-        shared = axes[-1] if before and not figure.beside and before.x == panel.x else None
-        axes.append(sheet.add_subplot(grid[index], sharex=shared))
-        if figure.beside and before:
-            axes[-1].yaxis.label.set_visible(panel.y.label != before.y.label)
-        if shared is not None and not panel.rows:
-            shared.tick_params(labelbottom=False)
-            shared.xaxis.label.set_visible(False)
+    panels, heights = figure.panels, [_height(each, figure) for each in figure.panels]
+    count, ratios = ((1, len(panels)), None) if figure.beside else ((len(panels), 1), heights)
+    axes = list(sheet.subplots(*count, squeeze=False, height_ratios=ratios).flat)
+    for (before, above), (panel, each) in pairwise(zip(panels, axes, strict=True)):
+        if figure.beside:
+            each.yaxis.label.set_visible(panel.y.label != before.y.label)
+        elif before.x == panel.x:
+            each.sharex(above)
+            if not panel.rows:
+                above.tick_params(labelbottom=False)
+                above.xaxis.label.set_visible(False)
     return axes
 
 

@@ -1,13 +1,10 @@
 """Draws the contents of one pair of axes: curves, bars, rows, maps, polygons, limits, spans, marks and names."""
 
-from collections.abc import Iterator
-from itertools import pairwise, takewhile
-from math import log
+from itertools import pairwise
 from textwrap import fill
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backend_bases import RendererBase
 from matplotlib.colors import LogNorm, Normalize, to_rgba
@@ -18,23 +15,14 @@ from matplotlib.text import Text
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.transforms import Bbox, BboxBase
 
-from app.figures.data import Area, Axis, Bars, Hue, Level, Line, Map, Panel, Part, Role, Row, Scale, Values
-from app.figures.drawing.style import (
-    DASHES,
-    LETTER,
-    LIMIT_DASHES,
-    LINE_HEIGHT,
-    REFERENCE_DASHES,
-    TEXT,
-    Theme,
-)
+from app.figures.data import Bars, Line, Map, Panel, Part, Role, Row, Scale
+from app.figures.drawing.style import DASHES, LETTER, LIMIT_DASHES, LINE_HEIGHT, REFERENCE_DASHES, TEXT, Theme
 from app.figures.wording import number
 
 FARTHEST_LEVEL = 4.0  # a limit beyond so many times the values is named at the edge instead of flattening them
 NAME_LENGTH, ROW_NAME_LENGTH = 17, 36  # characters of a line of a name at the right of the axes, and of a row's
 BAR_SHARE, FAINT, TINT = 0.8, 0.6, 0.2  # of the spacing; opacity of bars beside the extreme one, and of fills
 ROW = 0.52  # height of a row's bar
-AREAS_WIDTH, NARROW = 4.8, 0.85  # inches of axes with areas; width of their texts over the mean
 RING = 5  # pixels
 SIDES = {"above": 1, "below": -1}  # of a point, on which its text is tried first; other texts stay where they are
 COLOURS = {Scale.MAGNITUDE: "cividis", Scale.RATIO: "RdBu_r", Scale.SIGNED: "RdBu_r"}
@@ -42,7 +30,7 @@ COLOURS = {Scale.MAGNITUDE: "cividis", Scale.RATIO: "RdBu_r", Scale.SIGNED: "RdB
 RATIO_TICKS = (0.1, 0.2, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 LINEAR_RATIO = 1.3  # up to which a ratio's ticks are evenly spaced
 CROWDED = 0.05  # of the colour bar: a tick nearer to a critical value gives way
-DOTS_MARGINS = 0.55, 0.4  # of the reach of dots, for their titles
+BESIDE_DOTS, BESIDE_BARS = 0.5, 0.3  # of the reach of rows, for texts at the ends of dots, of bounds and of parts
 WIDE = 0.15  # of the longest bar: bounds farther apart have their values at their ends
 NOISE = 1e-9  # of the values: what varies by less is rounding error
 STEPS = (1, 2, 2.5, 5, 10)  # of ticks, times powers of ten
@@ -51,22 +39,24 @@ NUMBERS = FuncFormatter(lambda value, _: number(value, digits=6))
 Style = dict[str, Any]  # of matplotlib's artists
 
 
-class Name(NamedTuple):
-    """A name beside the axes: where its line ends, from 0 at the bottom to 1 at the top, and its line in a legend."""
-
-    end: float
-    text: str
-    color: str
-    handle: Artist
-
-
 def draw_panel(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
-    """Everything of a panel of a height in inches; the texts of points stay for `place_texts`."""
+    """Everything of a panel of a height in inches; the texts of points and areas stay for `place_texts`."""
     for which, quantity in (("x", panel.x), ("y", panel.y)):
-        _scale(axes, which, quantity)
-    _draw_fills(axes, panel, theme, height)
+        axis = axes.xaxis if which == "x" else axes.yaxis
+        if quantity.log:
+            axes.set(**{f"{which}scale": "log"})
+        axis.set_major_locator(LogLocator(numticks=7) if quantity.log else MaxNLocator(nbins=6, steps=STEPS))
+        axis.set_minor_locator(NullLocator())
+        if quantity.ticks is not None:
+            axis.set_ticks(quantity.ticks)
+        axis.set_major_formatter(NUMBERS)
+    axes.set_title(panel.title or "")
+    axes.set_xlabel(panel.x.label, loc="right" if panel.rows else "center")  # it may be wider than the axes of rows
     if panel.rows:
         _draw_rows(axes, panel, theme)
+    else:
+        axes.set_ylabel(fill(panel.y.label, max(round(height / LETTER), 10)))
+    _draw_fills(axes, panel, theme)
     if panel.map is not None:
         _draw_map(axes, panel, panel.map, theme)
     for bars in panel.bars:
@@ -74,95 +64,60 @@ def draw_panel(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
     for line in panel.lines:
         _draw_line(axes, line, theme)
     _draw_marks(axes, panel, theme)
-    levels = _draw_levels(axes, panel, theme)
+    _draw_levels(axes, panel, theme)
     for span in panel.spans:
         axes.axvspan(span.start, span.stop, facecolor=theme.shade, edgecolor="none", zorder=2 if panel.map else 0)
         _name(axes, span.name, ((span.start + span.stop) / 2, 1.0), theme.muted, theme, axes.get_xaxis_transform())
     _end(axes, panel)
-    axes.set_title(panel.title or "")
-    axes.set_xlabel(panel.x.label, loc="right" if panel.rows else "center")  # it may be wider than the axes of rows
-    if not panel.rows:
-        axes.set_ylabel(fill(panel.y.label, max(round(height / LETTER), 10)))
-    _name_beside(axes, panel, levels, theme, height)
-
-
-def _scale(axes: Axes, which: str, quantity: Axis) -> None:
-    """Linear or logarithmic, with the numbers at the ticks."""
-    axis = axes.xaxis if which == "x" else axes.yaxis
-    if quantity.log:
-        axes.set(**{f"{which}scale": "log"})
-        axis.set_major_locator(LogLocator(numticks=7))
-        axis.set_minor_locator(NullLocator())
-    elif quantity.ticks is None:
-        axis.set_major_locator(MaxNLocator(nbins=6, steps=STEPS))
-    if quantity.ticks is not None:
-        axis.set_ticks(quantity.ticks)
-    axis.set_major_formatter(NUMBERS)
+    _name_beside(axes, panel, theme, height)
 
 
 def _end(axes: Axes, panel: Panel) -> None:
-    """The ends of the axes where they are asked for; no axis shows rounding errors."""
+    """The ends of the axes where they are asked for, else room around the data; no axis shows rounding errors."""
     if panel.equal:
         axes.set_aspect("equal", adjustable="box" if panel.x.limits else "datalim")
         axes.margins(0.08)
-        if panel.x.limits:
-            axes.set(xlim=panel.x.limits, ylim=panel.y.limits)
-        return
-    if panel.rows:
-        drawn = [each.dataLim for each in axes.get_shared_x_axes().get_siblings(axes)]
-        low, high = Bbox.union([box for box in drawn if np.isfinite(box.intervalx).all()]).intervalx
-        dots, named = any(row.dots for row in panel.rows), any(row.parts or row.bounds for row in panel.rows)
-        left, right = DOTS_MARGINS if dots else (0.35 * (low < 0.0) * named, 0.2 if named else 0.04)
-        reach = high - low or 1.0
-        axes.set_xlim(low - left * reach, high + right * reach)
-        return
-    axes.margins(y=0.0 if panel.map else 0.16 if panel.marks else 0.08)
-    axes.set_xlim(panel.x.limits)
-    low, high = panel.y.limits or axes.get_ylim()
-    widest = max(abs(low), abs(high))
-    noise = 0.5 * widest if high - low <= NOISE * widest else 0.0
-    axes.set_ylim(low - noise, high + noise)
+        if panel.y.limits:
+            axes.set_ylim(panel.y.limits)
+    elif panel.rows:
+        dots, texts = any(row.dots for row in panel.rows), any(row.bounds or row.parts for row in panel.rows)
+        axes.margins(x=BESIDE_DOTS if dots else BESIDE_BARS if texts else 0.04)
+    else:
+        axes.margins(y=0.0 if panel.map else 0.16 if panel.marks else 0.08)
+        low, high = panel.y.limits or axes.get_ylim()
+        widest = max(abs(low), abs(high))
+        noise = 0.5 * widest if high - low <= NOISE * widest else 0.0
+        axes.set_ylim(low - noise, high + noise)
+    if panel.x.limits:
+        axes.set_xlim(panel.x.limits)
 
 
-def _tinted(color: str) -> Style:
-    return {"facecolor": to_rgba(color, TINT), "edgecolor": color}
-
-
-def _draw_fills(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
-    """Areas with their texts, bands between curves, and polygons."""
+def _draw_fills(axes: Axes, panel: Panel, theme: Theme) -> None:
+    """Areas, bands between curves, and polygons."""
     for area in panel.areas:
         axes.grid(visible=False)
-        style = _tinted(theme.drawing[area.hue]) | {"edgecolor": "none"}
-        axes.add_patch(Rectangle((area.left, area.bottom), area.right - area.left, area.top - area.bottom, **style))
-        middle = (area.left * area.right) ** 0.5, (area.bottom * area.top) ** 0.5
-        axes.text(*middle, _fitting(area, panel, height), color=theme.muted, ha="center", va="center", in_layout=False)
+        size, tint = (area.right - area.left, area.top - area.bottom), to_rgba(theme.drawing[area.hue], TINT)
+        axes.add_patch(Rectangle((area.left, area.bottom), *size, facecolor=tint, linewidth=0))
     for ribbon in panel.ribbons:
         color = theme.drawing[ribbon.hue]
         axes.fill_between(ribbon.x, ribbon.low, ribbon.high, facecolor=color, alpha=TINT, linewidth=0)
         axes.plot(ribbon.x, np.column_stack([ribbon.low, ribbon.high]), color=color, linewidth=0.8)
     for shape in panel.shapes:
-        axes.fill(shape.x, shape.y, linewidth=1.0, **_tinted(theme.drawing[shape.hue]))
-
-
-def _fitting(area: Area, panel: Panel, height: float) -> str:
-    """As many lines of the text of an area as it has room for; both axes are logarithmic."""
-    assert panel.x.limits is not None
-    assert panel.y.limits is not None
-    (left, right), (bottom, top) = panel.x.limits, panel.y.limits
-    width = AREAS_WIDTH * log(area.right / area.left) / log(right / left)
-    room = height * log(area.top / area.bottom) / log(top / bottom) / LINE_HEIGHT
-    lines = area.text.split("\n")[: int(room)]
-    return "\n".join(takewhile(lambda line: NARROW * LETTER * len(line) < width, lines))
+        color = theme.drawing[shape.hue]
+        style: Style = {"facecolor": to_rgba(color, TINT), "edgecolor": color, "linewidth": 1.0}
+        axes.fill(shape.x, shape.y, label=fill(shape.title, NAME_LENGTH), **style)
 
 
 def _draw_line(axes: Axes, line: Line, theme: Theme) -> None:
     """A curve; a point whose neighbours have no value, which a line would not show, as a dot."""
-    color, width = theme.drawing[line.hue], 1.6 if line.role is Role.RESULT else 1.4
-    axes.plot(line.x, line.y, color=color, linestyle=DASHES[line.role], linewidth=width)
-    known = np.concatenate([[False], np.isfinite(line.y), [False]])
-    alone = known[1:-1] & ~known[:-2] & ~known[2:]
+    known = np.isfinite(line.y)
+    alone = known & ~np.append(False, known[:-1]) & ~np.append(known[1:], False)
+    style: Style = {"color": theme.drawing[line.hue], "linestyle": DASHES[line.role], "markersize": 2.6}
+    if line.named and line.role is not Role.VARIANT and known.any():
+        style["label"] = fill(line.title, NAME_LENGTH)
     if alone.any():
-        axes.plot(line.x[alone], line.y[alone], "o", color=color, markersize=2.6)
+        style |= {"marker": "o", "markevery": alone}
+    axes.plot(line.x, line.y, linewidth=1.6 if line.role is Role.RESULT else 1.4, **style)
 
 
 def _bar_style(role: Role, color: str) -> Style:
@@ -178,6 +133,8 @@ def _draw_bars(axes: Axes, bars: Bars, beside: list[Bars], theme: Theme) -> None
     width = BAR_SHARE * pitch / len(beside)
     left = bars.x - BAR_SHARE * pitch / 2 + beside.index(bars) * width
     style = _bar_style(bars.role, theme.drawing[bars.hue])
+    if bars.role is not Role.VARIANT and len(beside) > 1:
+        style["label"] = fill(bars.title, NAME_LENGTH)
     drawn = axes.bar(left, np.nan_to_num(bars.height), width, align="edge", **style)
     for index, patch in enumerate(drawn.patches if bars.strong is not None else ()):
         patch.set_alpha(1.0 if index == bars.strong else FAINT)
@@ -185,46 +142,48 @@ def _draw_bars(axes: Axes, bars: Bars, beside: list[Bars], theme: Theme) -> None
 
 def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
     """Horizontal bars, of one part or several, or dots on a line; with names, values and bounds."""
-    own = {row.name: row for row in panel.rows if row.role is not Role.VARIANT}
-    names = list(own)
+    own = [row for row in panel.rows if row.role is not Role.VARIANT]
+    places = {row.name: place for place, row in enumerate(own)}
     axes.grid(visible=False, axis="y")
     axes.spines["left"].set_visible(False)
-    if not any(row.dots for row in panel.rows):
+    if not any(row.dots for row in own):
         axes.axvline(0.0, color=theme.frame, linewidth=0.9)
-    for row in (row for row in panel.rows if row.name in own and not row.dots):
-        left, place = 0.0, names.index(row.name)
-        for part in row.parts or (Part("", float(np.nan_to_num(row.value)), row.hue),):
-            axes.barh(place, part.value, ROW, left=left, **_bar_style(row.role, theme.drawing[part.hue]))
+    for row in panel.rows:
+        left, place = 0.0, places[row.name]
+        for part in () if row.dots else row.parts or (Part("", float(np.nan_to_num(row.value)), row.hue),):
+            style = _bar_style(row.role, theme.drawing[part.hue]) | {"label": fill(part.title, NAME_LENGTH)}
+            axes.barh(place, part.value, ROW, left=left, **style)
             left += part.value
         if row.bounds is not None and row.bounds[0] < row.bounds[1]:
             axes.plot(row.bounds, [place, place], color=theme.ink, linewidth=1.2, marker="|", markersize=7)
-    for place, row in enumerate(own.values()):
+    for place, row in enumerate(own):
         if row.dots:
             _draw_dots(axes, place, row, theme)
         else:
-            _value_row(axes, place, row, panel, theme)
-    axes.set_yticks(range(len(own)), [fill(name, ROW_NAME_LENGTH) for name in names])
+            _write_value(axes, place, row, panel, theme)
+    axes.set_yticks(range(len(own)), [fill(row.name, ROW_NAME_LENGTH) for row in own])
     axes.set_ylim(len(own) - 0.5, -1.2 if panel.levels else -0.5)
-    for label, row in zip(axes.get_yticklabels(), own.values(), strict=True):
+    for label, row in zip(axes.get_yticklabels(), own, strict=True):
         label.set_color(theme.writing[row.hue])
 
 
-def _value_row(axes: Axes, place: int, row: Row, panel: Panel, theme: Theme) -> None:
+def _write_value(axes: Axes, place: int, row: Row, panel: Panel, theme: Theme) -> None:
     """The value of a row at its right, and those of its bounds at their ends; rounding errors are zero."""
     scale = max((abs(each.value) for each in panel.rows if np.isfinite(each.value)), default=0.0)
     alike = [each for each in panel.rows if each.name == row.name]
-    tip = max([0.0, *(end for each in alike for end in (each.value, *(each.bounds or ())) if np.isfinite(end))])
-    unit, offset = panel.x.unit or "", 4.0
+    ends = np.array([(each.value, *(each.bounds or (0.0, 0.0))) for each in alike])
+    tip: Any = (np.nanmax(ends, initial=0.0), place)
     style: Style = {"va": "center_baseline", "bbox": _patch(theme), "textcoords": "offset points"}
+    unit, after = panel.x.unit or "", Style()
     if row.bounds is not None and row.bounds[1] - row.bounds[0] > WIDE * scale:
         low, high = (number(end, unit) for end in row.bounds)
         axes.annotate(low, (row.bounds[0], place), (-5, 0), color=theme.muted, ha="right", **style)
-        axes.annotate(high, (row.bounds[1], place), (5, 0), color=theme.muted, ha="left", **style)
-        offset += 8.0 + 72.0 * LETTER * len(high)
+        beside = axes.annotate(high, (row.bounds[1], place), (5, 0), color=theme.muted, ha="left", **style)
+        tip, after = (1, 0.5), {"xycoords": beside}
     text = "not calculated"
     if np.isfinite(row.value):
         text = number(0.0 if abs(row.value) <= NOISE * scale else row.value, unit)
-    axes.annotate(text, (tip, place), (offset, 0), ha="left", fontsize=TEXT, fontweight="bold", **style)
+    axes.annotate(text, tip, (4, 0), ha="left", fontsize=TEXT, fontweight="bold", **style, **after)
 
 
 def _draw_dots(axes: Axes, place: int, row: Row, theme: Theme) -> None:
@@ -242,7 +201,11 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map, theme: Theme) -> None:
     """Colours with their bar, thin contours at the bar's values, a dashed one at each critical value."""
     low, high = chart.ends
     norm = LogNorm(low, high) if chart.scale is Scale.RATIO else Normalize(low, high)
-    x, y = _stretched(chart.x, panel.x), _stretched(chart.y, panel.y)
+    # A single value of a coordinate holds everywhere on its axis.
+    x, y = (
+        along if along.size > 1 else np.array(axis.limits or along[0] + (-0.5, 0.5))
+        for along, axis in ((chart.x, panel.x), (chart.y, panel.y))
+    )
     shown = np.ma.masked_invalid(np.broadcast_to(chart.values, (y.size, x.size)))
     colors = axes.pcolormesh(x, y, shown, cmap=COLOURS[chart.scale], norm=norm, shading="gouraud", rasterized=True)
     axes.grid(visible=False)
@@ -253,10 +216,10 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map, theme: Theme) -> None:
     still = {Scale.RATIO: 1.0, Scale.SIGNED: 0.0}.get(chart.scale)  # beside it there is only noise
     thin: Style = {"colors": "#FFFFFF" if still is None else "#1F2937", "linewidths": 0.6, "alpha": 0.55}
     strong: Style = {"colors": theme.limit if still is None else "#111827", "linewidths": 1.5, "linestyles": "dashed"}
-    for levels, line in (({*ticks} - {*critical, still}, thin), ({*critical}, strong)):
+    for levels, style in (({*ticks} - {*critical, still}, thin), ({*critical}, strong)):
         inside = sorted(level for level in levels if shown.min() < level < shown.max())
         if inside:
-            axes.contour(x, y, shown, inside, negative_linestyles="solid", **line)
+            axes.contour(x, y, shown, inside, negative_linestyles="solid", **style)
     if not chart.bar:
         return
     bar = axes.figure.colorbar(colors, ax=axes, pad=0.03, aspect=22, format=NUMBERS)
@@ -267,12 +230,6 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map, theme: Theme) -> None:
     bar.ax.tick_params(which="minor", labelcolor=theme.limit)
     for value in critical:
         bar.ax.axhline(value, color=theme.limit, linewidth=1.6, linestyle=(0, (2, 1)))
-
-
-def _stretched(coordinate: Values, axis: Axis) -> Values:
-    """The values of a coordinate; for a single value, which holds everywhere, the ends of its axis."""
-    middle = float(coordinate[0])
-    return coordinate if coordinate.size > 1 else np.array(axis.limits or (middle - 0.5, middle + 0.5))
 
 
 def _draw_marks(axes: Axes, panel: Panel, theme: Theme) -> None:
@@ -287,26 +244,27 @@ def _draw_marks(axes: Axes, panel: Panel, theme: Theme) -> None:
         _name(axes, mark.text, (mark.x, mark.y), color, theme, gid=side, fontsize=TEXT, fontweight="bold")
 
 
-def _draw_levels(axes: Axes, panel: Panel, theme: Theme) -> list[tuple[Level, Line2D]]:
-    """Limits dashed in red and references dotted in grey, those near the values; zero where it is crossed."""
+def _draw_levels(axes: Axes, panel: Panel, theme: Theme) -> None:
+    """Limits dashed in red and references dotted in grey; zero where it is crossed."""
     if panel.map is None and not panel.rows and not panel.y.log and panel.y.limits is None:
         low, high = axes.dataLim.intervaly
         if panel.y.magnitude or low < 0.0 < high:
             axes.axhline(0.0, color=theme.frame, linewidth=0.8, zorder=1).sticky_edges.y.append(0.0)
-    drawn = []
-    ends = {True: axes.dataLim.intervalx.copy(), False: axes.dataLim.intervaly.copy()}
+    drawn = axes.dataLim.frozen()
     for level in panel.levels:
-        low, high = ends[level.vertical]
+        low, high = drawn.intervalx if level.vertical else drawn.intervaly
         reach = FARTHEST_LEVEL * (high - low)
+        near = (panel.x if level.vertical else panel.y).log or low - reach <= level.value <= high + reach
         color, dashes = (theme.limit, LIMIT_DASHES) if level.limit else (theme.muted, REFERENCE_DASHES)
-        style: Style = {"color": color, "linestyle": dashes, "linewidth": 1.3 if level.limit else 1.0}
-        if (panel.x if level.vertical else panel.y).log or low - reach <= level.value <= high + reach:
-            drawn.append((level, (axes.axvline if level.vertical else axes.axhline)(level.value, **style)))
-        else:
-            drawn.append((level, Line2D([], [], **style)))
+        place, across = [level.value] * 2, [0.0, 1.0]
+        line = Line2D(*((place, across) if level.vertical else (across, place)), color=color, linestyle=dashes)
+        line.set(linewidth=1.3 if level.limit else 1.0, clip_on=True)
+        line.set_transform(axes.get_xaxis_transform() if level.vertical else axes.get_yaxis_transform())
         if level.vertical:
             _name(axes, level.name, (level.value, 1.0), color, theme, axes.get_xaxis_transform())
-    return drawn
+        else:
+            line.set_label(fill(level.name, NAME_LENGTH))
+        (axes.add_line if near else axes.add_artist)(line)  # the second leaves the ends of the axes where they are
 
 
 def _name(
@@ -322,53 +280,43 @@ def _patch(theme: Theme) -> Style:
     return {"facecolor": theme.background, "alpha": 0.78, "linewidth": 0, "pad": 0.8}
 
 
-def _name_beside(axes: Axes, panel: Panel, levels: list[tuple[Level, Line2D]], theme: Theme, height: float) -> None:
+def _name_beside(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
     """Names at the right of the axes: where lines and levels end if these ends are apart, else in a legend."""
-    names = list(_names(axes, panel, levels, theme))
-    if not panel.equal:
-        names.sort(key=lambda each: -each.end)
-    halves = [(1 + each.text.count("\n")) * LINE_HEIGHT / 2 / height for each in names]
-    ends = [min(max(each.end, half), 1.0 - half) for each, half in zip(names, halves, strict=True)]
-    near = (upper - one < lower + other for (upper, one), (lower, other) in pairwise(zip(ends, halves, strict=True)))
-    if panel.equal or any(near):
-        entries = [each.handle for each in names], [each.text for each in names]
-        axes.legend(*entries, loc="upper left", bbox_to_anchor=(1.02, 1.0), labelcolor=[each.color for each in names])
+    handles, texts = axes.get_legend_handles_labels()
+    if panel.equal or not all(isinstance(each, Line2D) for each in handles):
+        known = dict(zip(texts, handles, strict=True))  # what is filled may be drawn in several pieces
+        axes.legend(known.values(), known, bbox_to_anchor=(1.02, 1.0))
+        return
+    lines: list[Any] = sorted(handles, key=lambda line: -_end_of(line, axes))
+    ends = [_end_of(line, axes) for line in lines]
+    texts = [line.get_label() + " ↑" * (end > 1.0) + " ↓" * (end < 0.0) for line, end in zip(lines, ends, strict=True)]
+    halves = [(1 + text.count("\n")) * LINE_HEIGHT / 2 / height for text in texts]
+    places = [min(max(end, half), 1.0 - half) for end, half in zip(ends, halves, strict=True)]
+    near = (upper - one < lower + other for (upper, one), (lower, other) in pairwise(zip(places, halves, strict=True)))
+    if any(near):
+        axes.legend(lines, texts, bbox_to_anchor=(1.02, 1.0))
         return
     style: Style = {"xycoords": "axes fraction", "textcoords": "offset points", "va": "center"}
-    for name, end in zip(names, ends, strict=True):
-        axes.annotate(name.text, (1.0, end), (5, 0), color=name.color, **style)
+    for line, text, place in zip(lines, texts, places, strict=True):
+        axes.annotate(text, (1.0, place), (5, 0), color=theme.written(line.get_color()), **style)
 
 
-def _names(axes: Axes, panel: Panel, levels: list[tuple[Level, Line2D]], theme: Theme) -> Iterator[Name]:
-    """Horizontal levels, lines, and what is filled: polygons, bars that stand beside others, the parts of rows."""
-
-    def end(value: float) -> float:
-        point = axes.transData.transform((axes.get_xlim()[0], value))
-        return float(axes.transAxes.inverted().transform(point)[1])
-
-    for level, handle in levels:
-        if level.name and not level.vertical:
-            at = end(level.value)
-            text = level.name + (" ↑" if at > 1.0 else " ↓" if at < 0.0 else "")
-            yield Name(at, fill(text, NAME_LENGTH), str(handle.get_color()), handle)
-    for line in panel.lines:
-        if line.named and line.role is not Role.VARIANT and np.isfinite(line.y).any():
-            handle = Line2D([], [], color=theme.drawing[line.hue], linestyle=DASHES[line.role])
-            at = end(line.y[np.isfinite(line.y)][-1])
-            yield Name(at, fill(line.title, NAME_LENGTH), theme.writing[line.hue], handle)
-    bars = {each.title: each.hue for each in panel.bars if each.role is not Role.VARIANT}
-    filled: dict[str, Hue] = {shape.title: shape.hue for shape in panel.shapes}
-    filled |= bars if len(bars) > 1 else {}
-    filled |= {part.title: part.hue for row in panel.rows for part in row.parts}
-    for title, hue in filled.items():
-        style: Style = _tinted(theme.drawing[hue]) if panel.shapes else {"color": theme.drawing[hue]}
-        yield Name(0.0, fill(title, NAME_LENGTH), theme.writing[hue], Rectangle((0, 0), 1, 1, **style))
+def _end_of(line: Any, axes: Axes) -> float:
+    """Where a line ends, from 0 at the bottom of the axes to 1 at their top."""
+    y = np.asarray(line.get_ydata(), dtype=np.float64)
+    last = y[np.isfinite(y)][-1]
+    return float((axes.transData - axes.transAxes).transform((axes.get_xlim()[0], last))[1])
 
 
-def place_texts(axes: Axes, panel: Panel, renderer: RendererBase) -> None:
-    """Put the texts of points beside them, off other texts and off curves."""
-    fixed = [text for text in axes.texts if text.get_gid() not in SIDES]
-    taken: list[BboxBase] = [text.get_window_extent(renderer) for text in fixed]
+def place_texts(axes: Axes, panel: Panel, theme: Theme, renderer: RendererBase) -> None:
+    """Put the texts of areas into them, as many lines as fit, and those of points beside them, off other texts."""
+    for area in panel.areas:
+        room = Bbox([(area.left, area.bottom), (area.right, area.top)]).transformed(axes.transData)
+        middle = (area.left * area.right) ** 0.5, (area.bottom * area.top) ** 0.5  # of logarithmic axes
+        text = axes.text(*middle, area.text, color=theme.muted, ha="center", va="center")
+        while (box := text.get_window_extent(renderer)).width > room.width or box.height > room.height:
+            text.set_text(text.get_text().rpartition("\n")[0])
+    taken: list[BboxBase] = [each.get_window_extent(renderer) for each in axes.texts if each.get_gid() not in SIDES]
     rings = (axes.transData.transform((mark.x, mark.y)) for mark in panel.marks)
     taken += [Bbox([ring - RING, ring + RING]) for ring in rings]
     shapes = [line for line in axes.lines if line.get_linestyle() != "None"]

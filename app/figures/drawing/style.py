@@ -42,6 +42,10 @@ class Theme:
     drawing: dict[Hue, str]
     writing: dict[Hue, str]
 
+    def written(self, color: str) -> str:
+        """The colour of the text about what is drawn in a colour."""
+        return next((self.writing[hue] for hue, drawn in self.drawing.items() if drawn == color), color)
+
 
 def _hues(column: int) -> dict[Hue, str]:
     return {hue: shades[column] for hue, shades in HUES.items()}
