@@ -85,7 +85,7 @@ class Grid:
 
     @property
     def is_map(self) -> bool:
-        """Whether it has more curves than one can tell apart."""
+        """Whether it is drawn as a map, because it would have too many curves to tell apart."""
         return self.y is not None and not self.y.words and self.y.values.size > MOST_CURVES
 
 

@@ -117,7 +117,7 @@ class RecommendationRequest(_CouplingRequest):
     operation: Annotated[CouplingOperationRange, Input("operating point", text="with a range of misalignment")]
 
     def unused(self) -> set[str]:
-        """Also what only a result at one operating point shows: the one-pair model of thrust, breakaway."""
+        """Also the inputs of what is calculated at a single operating point only: one-pair thrust, friction at rest."""
         return super().unused() | {"model.simple_thrust_factor", "friction.static_coefficient"}
 
     def inputs(self) -> si.RecommendationInputs:

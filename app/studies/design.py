@@ -190,7 +190,7 @@ def _variable(variable: Variable, base: BaseRequest, place: str) -> DesignVariab
     leaves = tuple(base.leaf(path, f"{place}.path") for path in variable.paths)
     for leaf in leaves:
         if leaf.kind != "number":
-            raise Unprocessable("not_continuous", f"{leaf.path} takes no numbers between others", f"{place}.path")
+            raise Unprocessable("not_continuous", f"{leaf.path} is not a continuous number", f"{place}.path")
         for value in (variable.min, variable.max):
             check_value(leaf, value, place)
     if not variable.min < variable.max:

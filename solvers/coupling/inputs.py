@@ -535,8 +535,6 @@ def _check_mixed_table(law: MixedFrictionTable) -> None:
     velocities, coefficients = law.sliding_velocity, law.coefficient
     rising = all(a < b for a, b in pairwise(velocities))
     if len(velocities) != len(coefficients) or not velocities or not rising or not velocities[0] >= 0.0:
-        raise InvalidInput(
-            "mixed_law", "the table needs rising velocities from 0 up and one coefficient each", "mixed_law"
-        )
+        raise InvalidInput("mixed_law", "give velocities >= 0 in rising order, and as many coefficients", "mixed_law")
     if not isfinite(velocities[-1]) or not all(0.0 < coefficient < inf for coefficient in coefficients):
         raise InvalidInput("mixed_law", "velocities must be finite, coefficients positive and finite", "mixed_law")

@@ -90,7 +90,7 @@ def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication:
         message = f"the contact reaches {reach * 1e3:.3g} mm from the middle of the face, beyond its end"
         yield Notice("edge_contact", message, "face_width")
     if lubrication.inlet_ratio is None:
-        yield Notice("infinite_inlet", "the inlet is infinitely long: no inlet ratio", "inlet", rank="note")
+        yield Notice("infinite_inlet", "an infinitely long inlet has no inlet ratio", "inlet", rank="note")
     if lubrication.regime.area == UNSTABLE_AREA:
         message = "the friction is unstable here: the paper states no coefficient for area 3.3"
         yield Notice("unstable_regime", message, "misalignment", rank="invalid")

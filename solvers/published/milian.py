@@ -59,6 +59,6 @@ def run(
 
 
 def pinion(result: PumpingResult) -> SpacesResult:
-    """The pinion's spaces, which are the paper's."""
+    """The result of the pinion's tooth spaces, the only ones that the paper calculates."""
     assert result.pinion_spaces is not None
     return result.pinion_spaces

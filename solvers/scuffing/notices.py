@@ -31,7 +31,7 @@ def geometry_notices(path: PathOfContact, lengths: ContactLengths) -> list[Notic
     if not path.start <= path.pitch_point <= path.end:
         notices.append(
             Notice(
-                "pitch_point_outside", "the path of contact does not hold the pitch point", "profile_shift", rank="note"
+                "pitch_point_outside", "the pitch point is outside the path of contact", "profile_shift", rank="note"
             )
         )
     if lengths.ratio < LEAST_LENGTH_RATIO:
@@ -101,7 +101,7 @@ def relief_notices(path: PathOfContact, modifications: Modifications) -> list[No
     return [
         Notice(
             "unusual_value",
-            f"{length * 1e3:.4g} mm of relief are longer than the {place} of {whole * 1e3:.4g} mm; a radius?",
+            f"the relief is {length * 1e3:.4g} mm long, the {place} {whole * 1e3:.4g} mm; is that a radius?",
             f"{name}_length",
         )
         for name, amplitude, length, whole, place in reliefs

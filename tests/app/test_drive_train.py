@@ -588,7 +588,7 @@ THICK = "Pa s at operating temperature is very thick; was mPa s meant?"
         (
             "modifications.tip_relief_length_mm",
             60,
-            "60 mm of relief are longer than the path of contact of 31.36 mm; a radius?",
+            "the relief is 60 mm long, the path of contact 31.36 mm; is that a radius?",
         ),
     ],
 )

@@ -280,7 +280,7 @@ def test_what_excludes_what(endpoint: str, body: dict[str, Any], changes: dict[s
             PAIR | {"model": {}},
             {"modifications.tip_relief_um": 20, "modifications.tip_relief_length_mm": 30},
             "modifications.tip_relief_length_mm",
-            "30 mm of relief are longer than the path of contact of 14.28 mm; a radius?",
+            "the relief is 30 mm long, the path of contact 14.28 mm; is that a radius?",
         ),
         (
             "/v1/scuffing/load-distribution",

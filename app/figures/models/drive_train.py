@@ -50,7 +50,9 @@ def contact_temperature(inputs: DriveTrainInputs, result: DriveTrainResult) -> F
         raise NoFigure("no_oil", "Without an oil and a bulk temperature there is no contact temperature", "lubricant")
     if not np.isfinite(grid).all():
         raise NoFigure(
-            "no_temperature", "The loaded path reaches a base circle, where there is no temperature", "gears"
+            "no_temperature",
+            "The loaded path of contact reaches a base circle, where no temperature is defined",
+            "gears",
         )
     low, high = float(grid.min()), float(grid.max())
     panel = over_flank(face_width(inputs), flank, shown, grid, high if high > low else None, None)

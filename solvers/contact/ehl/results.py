@@ -68,7 +68,10 @@ class ContactPressure:
 
 @record
 class ContactTemperature:
-    """Largest temperatures [K] of film, mid-film and surfaces, positions [m], flash temperatures over bulk [K]."""
+    """Largest temperatures [K] of the film, at its middle and of both surfaces, each with its position `..._at` [m].
+
+    The flash temperature of a surface is the rise above its bulk temperature [K].
+    """
 
     film_max: float = quantity("largest film temperature", "θ_max", f"{XUE}, Eq. 23", unit="c")
     film_max_at: float

@@ -59,11 +59,13 @@ def free_hubs(unit: Unit, force: FloatArray) -> HubLoads:
 
 
 def respond(unit: Unit, force: FloatArray, start: HubLoads) -> Yielding:
-    """Motion of the ports under a force over the face, the couplings' loads found from the tilts they cause (Eq. D12).
+    """Motion of the ports under a force over the face, with coupling loads that fit the tilts they cause (Eq. D12).
 
-    Starts at known loads, where that fails at the free hubs, and at last where these go as the couplings' loads grow
-    from nothing. Raises InvalidInput where a free hub tilts too far for the coupling model, and NoSolution drive_train
-    with the tilts' residual [rad].
+    The iteration begins at the loads in `start`. If it does not converge it begins again at the hubs without coupling
+    loads, and then at the tilts to which these move while the coupling loads are raised from zero in steps.
+
+    Raises InvalidInput where a free hub tilts too far for the coupling model, and NoSolution drive_train with the
+    residual of the tilts [rad].
     """
     found, residual = _solve(unit, force, start)
     if found is None:

@@ -123,9 +123,10 @@ def axial_share(port: CouplingPort) -> float:
 
 
 def elastic_plastic(ratio: float) -> tuple[float, float]:
-    """Loss and elastic moment over full sliding's, at beta = tilt over the tilt at which sliding begins (Eq. D9).
+    """Loss moment and elastic moment of a hub, as fractions of the moment of full sliding (Eq. D9).
 
-    First harmonic of the hysteresis of springs that slide at a limit once a turn.
+    `ratio` (beta) is the tilt over the tilt at which sliding begins. The moments are the first harmonic of the
+    hysteresis loop that springs with a sliding limit run through in a revolution.
     """
     if ratio <= 1.0:
         return 0.0, pi * ratio / 4
