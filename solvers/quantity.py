@@ -169,7 +169,7 @@ def quantity(
 
 
 def computed(title: str, symbol: str | None = None, source: str | None = None, **known: Any) -> Callable[[T], T]:
-    """Declare a value that a dataclass computes: stands between `property` and the function."""
+    """Declare a value that a dataclass computes when asked: stands between `property` or `cached_property` and it."""
 
     def declare(function: T) -> T:
         setattr(function, _KEY, Quantity(title, symbol, source, **known))
@@ -181,15 +181,18 @@ def computed(title: str, symbol: str | None = None, source: str | None = None, *
 @overload
 def record(cls: type[T], /) -> type[T]: ...
 @overload
-def record(*, kw_only: bool = False) -> Callable[[type[T]], type[T]]: ...
+def record(*, kw_only: bool = False, slots: bool = True) -> Callable[[type[T]], type[T]]: ...
 @dataclass_transform(frozen_default=True, field_specifiers=(quantity, field))
-def record(cls: Any = None, /, *, kw_only: bool = False) -> Any:
-    """Make a frozen dataclass with slots, whose fields may be declared by `quantity` and print with their units."""
+def record(cls: Any = None, /, *, kw_only: bool = False, slots: bool = True) -> Any:
+    """Make a frozen dataclass, whose fields may be declared by `quantity` and print with their units.
+
+    Without slots it can keep what it computes (`cached_property`).
+    """
 
     def made(kind: Any) -> Any:
         if "__repr__" not in vars(kind):
             kind.__repr__ = _summary
-        return dataclass(frozen=True, slots=True, kw_only=kw_only, repr=False)(kind)
+        return dataclass(frozen=True, slots=slots, kw_only=kw_only, repr=False)(kind)
 
     return made if cls is None else made(cls)
 
@@ -200,15 +203,21 @@ def quantities(kind: Any) -> dict[str, Quantity]:
     found = {each.name: each.metadata[_KEY] for each in fields(kind) if _KEY in each.metadata}
     for base in reversed(kind.__mro__):
         for name, member in vars(base).items():
-            if isinstance(member, property) and hasattr(member.fget, _KEY):
-                found[name] = getattr(member.fget, _KEY)
+            function = _function_of(member)
+            if hasattr(function, _KEY):
+                found[name] = getattr(function, _KEY)
     return found
 
 
 def type_of(kind: Any, name: str) -> Any:
     """The type of a declared field or computed value."""
-    member = getattr(kind, name, None)
-    return get_type_hints(member.fget)["return"] if isinstance(member, property) else _hints(kind)[name]
+    function = _function_of(getattr(kind, name, None))
+    return _hints(kind)[name] if function is None else get_type_hints(function)["return"]
+
+
+def _function_of(member: Any) -> Callable[[Any], Any] | None:
+    """What computes a property; None of another member."""
+    return member.fget if isinstance(member, property) else getattr(member, "func", None)
 
 
 @cache
@@ -257,7 +266,7 @@ def _summary(data: Any) -> str:
     kind: Any = type(data)
     declared = quantities(kind)
     parts = []
-    for name in dict.fromkeys([*(each.name for each in fields(data)), *declared]):
+    for name in dict.fromkeys([*(each.name for each in fields(data) if each.repr), *declared]):
         known = declared.get(name)
         value = getattr(data, name)
         shown = known.from_si(value) if known and not is_dataclass(value) else value

@@ -1,7 +1,7 @@
 """An involute pair in the transverse plane (ISO 21771) and the path of contact A-E on its line of action."""
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import acos, asin, atan, cos, pi, sin, tan
 from typing import NamedTuple, TypeVar
 
@@ -210,6 +210,7 @@ class PathOfContact:
         return pinion_speed * s, wheel_speed * (self.pair.line_of_action - s)
 
 
+@lru_cache(maxsize=64)
 def meshing_path(gears: GearPairInputs) -> PathOfContact:
     """The path of contact of a pair; raises what `gear_pair` and `path_of_contact` raise."""
     return path_of_contact(gear_pair(gears))

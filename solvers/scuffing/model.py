@@ -1,6 +1,7 @@
 """The load distribution of a helical or spur gear pair with modification and misalignment."""
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -81,19 +82,12 @@ def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance
     """Results of a load balance, with the gap of the inputs or another."""
     path, lengths, resolution = prepared.path, prepared.lengths, inputs.resolution
     modulus = reduced_modulus(inputs.pinion_material, inputs.wheel_material)
-    loads = flank(balance, modulus, resolution.profile_points, resolution.face_points)
     tangential_force = prepared.tangential_force
     return LoadDistribution(
         path_of_contact=path,
         balance=balance,
-        geometry=_geometry(path),
-        contact_lines=_contact_lines(lengths, balance),
-        stiffness=stiffness(path, balance, inputs.load, balance.force / lengths.mean, tangential_force),
-        transmission_error=transmission_error(balance),
-        load=_load_on_flank(path, balance, inputs.load, tangential_force),
-        pressure=_pressure(path, balance, modulus),
-        friction_loss=friction_loss(path, balance, inputs.load, inputs.friction_coefficient),
-        feature_line=feature_line(
+        feature=partial(
+            feature_line,
             path,
             balance,
             inputs.load.pinion_speed,
@@ -101,7 +95,14 @@ def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance
             modulus,
             np.linspace(0.0, 1.0, resolution.feature_points),
         ),
-        flank=loads,
+        maps=partial(flank, balance, modulus, resolution.profile_points, resolution.face_points),
+        geometry=_geometry(path),
+        contact_lines=_contact_lines(lengths, balance),
+        stiffness=stiffness(path, balance, inputs.load, balance.force / lengths.mean, tangential_force),
+        transmission_error=transmission_error(balance),
+        load=_load_on_flank(path, balance, inputs.load, tangential_force),
+        pressure=_pressure(path, balance, modulus),
+        friction_loss=friction_loss(path, balance, inputs.load, inputs.friction_coefficient),
         derived=_derived(path, balance.mesh.gap, inputs.load),
         warnings=(
             *geometry_notices(path, lengths),

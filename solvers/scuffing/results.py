@@ -3,6 +3,10 @@
 x runs along the path from A to E, y along the face from the end that meshes first; gamma is the profile parameter.
 """
 
+from collections.abc import Callable
+from dataclasses import field
+from functools import cached_property
+
 from solvers.arrays import BoolArray, FloatArray, frozen
 from solvers.gears.pair import PathOfContact
 from solvers.notices import Notice
@@ -325,12 +329,18 @@ class Derived:
     )
 
 
-@record
+@record(slots=False)
 class LoadDistribution:
-    """How a pair of gears carries its load; path_of_contact and balance are what further checks build on."""
+    """How a pair of gears carries its load; path_of_contact and balance are what further checks build on.
+
+    Curves along the feature line and maps over the flank are computed when they are first asked for, by `feature` and
+    `maps`.
+    """
 
     path_of_contact: PathOfContact
     balance: LoadBalance
+    feature: Callable[[], FeatureLine] = field(repr=False)
+    maps: Callable[[], Flank] = field(repr=False)
     geometry: Geometry = quantity("mesh", text="the mesh")
     contact_lines: ContactLines = quantity("length of the contact lines")
     stiffness: Stiffness = quantity("stiffness of teeth and mesh")
@@ -338,7 +348,17 @@ class LoadDistribution:
     load: LoadOnFlank = quantity("load on the flank")
     pressure: Pressure = quantity("Hertz pressure of the flank")
     friction_loss: FrictionLoss = quantity("friction loss")
-    feature_line: FeatureLine = quantity("along the feature line", detail="curves")
-    flank: Flank = quantity("over the flank", detail="fields")
     derived: Derived = quantity("load and lengths used")
     warnings: tuple[Notice, ...]
+
+    @cached_property
+    @computed("along the feature line", detail="curves")
+    def feature_line(self) -> FeatureLine:
+        """Along the feature line."""
+        return self.feature()
+
+    @cached_property
+    @computed("over the flank", detail="fields")
+    def flank(self) -> Flank:
+        """Over the flank."""
+        return self.maps()

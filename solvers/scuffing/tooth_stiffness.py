@@ -7,7 +7,8 @@ The second has the closed form w = delta / (a omega) with omega - ln omega = A/a
 Lambert's function. `PairCompliance` holds C or A over the path of contact, and a.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from math import cos, log, pi, sin, sqrt
 from typing import Literal, NamedTuple
 
@@ -194,10 +195,15 @@ class Member:
 
 
 def pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Model) -> PairCompliance:
-    """Compliance of a pair of teeth along the path (Eqs. 7, L8).
+    """Compliance of a pair of teeth along the path (Eqs. 7, L8); kept for the next load of the same teeth.
 
     Raises InvalidInput contact_law: the parabola is scaled to linear contact and refuses the half-space.
     """
+    return _pair_compliance(path, replace(pinion, roughness=0.0), replace(wheel, roughness=0.0), model)
+
+
+@lru_cache(maxsize=64)
+def _pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Model) -> PairCompliance:
     if model.tooth_stiffness == "parabola" and model.contact != "linear":
         raise InvalidInput(
             "contact_law", "the parabola is scaled to Ishikawa's maximum with linear contact; choose linear", "contact"
