@@ -27,6 +27,7 @@ REACH = 3.5  # deviations of a limit that are drawn
 CURVE_POINTS = 141  # of a bell curve, chosen: it looks smooth
 SPECTRUM = "whole spectrum"
 NAMED = 8  # tolerances
+LEAST = 1e-5  # a probability below it says nothing more: the tails that make it are not known so far out
 
 
 class Band(NamedTuple):
@@ -46,8 +47,15 @@ class Chance:
     interval: tuple[float, float] | None
 
     @property
+    def is_tiny(self) -> bool:
+        """Whether it is not to be told from none, but is no count of none."""
+        return 0.0 < max(self.high, *(self.interval or ())) < LEAST
+
+    @property
     def text(self) -> str:
         """In per cent."""
+        if self.is_tiny:
+            return f"below {percent(LEAST)}"
         if self.low == self.high:
             return percent(self.low)
         return f"{percent(self.low)} to {percent(self.high)}"
@@ -92,7 +100,8 @@ class Limited:
         """The probability in words."""
         side = "above" if self.above else "below"
         interval = self.chance.interval
-        reach = f", 90 % interval {percent(interval[0])} to {percent(interval[1])}" if interval else ""
+        known = interval is not None and not self.chance.is_tiny
+        reach = f", 90 % interval {percent(interval[0])} to {percent(interval[1])}" if interval and known else ""
         return f"probability of being {side} the limit {self.chance.text}{reach}: {self.risk} risk"
 
 
@@ -139,6 +148,8 @@ def _densities(found: Limited, axis: Axis) -> Panel:
 
 def chances(found: Limited) -> Figure:
     """The probability of each case as if it were alone, and of the spectrum."""
+    if found.chance.is_tiny:
+        raise NoFigure("tiny", f"the probability is {found.chance.text} in every case")
     rows = (*(each.chance.row(each.name, Hue.BLUE) for each in found.cases), found.chance.row(SPECTRUM, Hue.VERMILLION))
     side = "above" if found.above else "below"
     panel = Panel(x=Axis(f"probability of being {side} the limit", "%"), y=Axis("case"), rows=rows)

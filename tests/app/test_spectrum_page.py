@@ -78,6 +78,24 @@ def test_ready_studies_are_those_of_the_interface(name: str) -> None:
     assert study.scattering is not None
     assert own.scattering is not None
     assert study.scattering.values == pytest.approx(own.scattering.values)
+    assert study.limits == own.limits
+
+
+@pytest.mark.parametrize("name", EXAMPLES["/v1/spectrum"])
+def test_customers_read_where_a_limit_comes_from(client: httpx.Client, name: str) -> None:
+    """The deviation of the scuffing temperature is said to be assumed, from a source of second hand."""
+    body = EXAMPLES["/v1/spectrum"][name]["value"]
+    address = address_of(BY_PATH[body["endpoint"]], pairs_of(body["request"]), body) + "&machines=8"
+    page = client.get(address)
+    report = client.get(address.replace("/spectrum?", "/spectrum/report?"))
+    for answer in (page, report):
+        assert answer.status_code == 200
+        assert not re.search(r"from memory|as read in", answer.text)
+        text = unescape(answer.text)
+        limit = text[text.index(">Limit</") :]
+        stated = limit[: limit.index("</table>")]
+        assert ("0.15 of itself as deviation (AGMA 925-A03, secondary source)" in stated) is (name != "coupling")
+        assert (">given</td>" in stated) is (name == "coupling")
 
 
 SAID = {
@@ -107,6 +125,16 @@ def test_the_page_shows_what_the_study_says() -> None:
     assert "64 machines in 2 cases" in page
 
 
+def test_a_probability_that_nobody_knows_is_no_number() -> None:
+    """A limit 20 deviations away: 10^-80 is not known, and no figure draws it."""
+    end, page = shown(checked(asked(**{**SAID, "limit": "20000"})))
+    (limit,) = end["limits"]
+    assert 0.0 < limit["probability"] < 1e-9
+    assert "robability of being above the limit below 0.001 %: low risk" in page
+    assert "The probability is below 0.001 % in every case" in page
+    assert 'id="figure-probability"' not in page
+
+
 def test_the_nominal_machine_alone() -> None:
     end, page = shown(checked(asked(cases="name;share\nonly;1", show="axial_thrust.force_n")))
     assert end["points"] == 1
@@ -124,6 +152,7 @@ def test_the_nominal_machine_alone() -> None:
         ({"t0": "friction.coeficient", "t0.by": "0.1"}, "t0"),
         ({"t0": "friction.coefficient", "t0.by": "0.02", "machines": "1000000"}, "machines"),
         ({"cases": "name\na", "limit": "x"}, "limit"),
+        ({"cases": "name\na", "limit.by": "-1", "limit": "1", "show": "axial_thrust.force_n"}, "limit"),
         ({"cases": "name\na", "hours": "-1"}, "hours"),
     ],
 )

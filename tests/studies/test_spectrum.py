@@ -16,6 +16,7 @@ from app.evaluate import evaluate
 from app.examples import examples
 from app.studies.examples import EXAMPLES
 from app.studies.fields import value_at
+from app.studies.points import Point
 from app.studies.spectrum import Spectrum, spectrum_study
 from app.studies.stream import Clock, encoded, guarded, json_line
 from app.studies.sweep import sweep_study
@@ -201,6 +202,29 @@ def test_a_draw_without_solution_is_never_lost() -> None:
     assert end["limits"][0]["probability"] is None
     assert end["limits"][0]["bounds"] == [0.0, pytest.approx(refused / 32)]
     assert end["limits"][0]["risk"] == "high"
+
+
+def test_every_point_without_a_value_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Refused, failed, without solution, solved without this number: each leaves its machine between the bounds."""
+    ends = [
+        Point("ok", [1.0], []),
+        Point("ok_with_warnings", [9.0], ["some"]),
+        Point("ok", [None], []),
+        Point("no_solution", [5.0], []),
+        Point("refused", [None], [], {"pointer": "", "code": "no_mesh", "message": ""}),
+        Point("failed", [None], [], {"pointer": "", "code": "worker_lost", "message": ""}),
+        Point("ok", [2.0], []),
+        Point("ok", [3.0], []),
+    ]
+    left = iter(ends)
+    monkeypatch.setattr("app.studies.points.solve_point", lambda *_: next(left))
+    *_, end = solved(coupling(tolerances=friction(count=4, replicates=2), limits=[above(COAXIAL, 8.0)]))
+    assert end["counts"] == {"failed": 1, "no_solution": 1, "ok": 4, "ok_with_warnings": 1, "refused": 1}
+    assert sum(end["counts"].values()) == end["points"] == 8
+    (limit,) = end["limits"]
+    assert limit["unsolved"] == end["cases"][0]["unsolved"] == 4 / 8
+    assert limit["probability"] is None
+    assert limit["bounds"] == [1 / 8, 5 / 8]
 
 
 def test_nothing_solved() -> None:
@@ -401,3 +425,9 @@ def test_distributions_of_a_sample() -> None:
     assert points.sample is not None
     assert points.sample.mean() == pytest.approx(0.2, abs=1e-3)
     assert points.sample.std() == pytest.approx(0.02, abs=1e-3)
+    ends = {"path": MU, "min": 0.1, "max": 0.3}
+    samples = {
+        name: sweep_study({**body, "sample": {"count": 64, name: [given]}}, 2500, 30.0).points.sample
+        for name, given in (("ranges", ends), ("inputs", {**ends, "distribution": "uniform"}))
+    }
+    assert np.array_equal(samples["ranges"], samples["inputs"])

@@ -27,13 +27,13 @@ from app.pages.studies.declaration import (
 from app.pages.studies.sweep import case_of, field_choices
 from app.pages.study_links import SPECTRUM as LINK
 from app.pages.templating import page_path
-from app.pages.typesetting import shown
+from app.pages.typesetting import cited, shown
 from app.pages.views import Asked
 from app.schema.fields import Leaf, leaf_at
 from app.studies.examples import EXAMPLES
 from app.studies.fields import NUMBERS, scalar_at, value_at
 from app.studies.requests import DRIVE_TRAIN
-from app.studies.spectrum import SCUFFING, Spectrum, spectrum_study
+from app.studies.spectrum import RELATIVE_DEVIATION, SCUFFING, Spectrum, spectrum_study
 from app.studies.stream import Line
 
 NAME, SHARE = "name", "share"
@@ -169,7 +169,9 @@ def _limits(calculation: Calculation, output: Leaf, views: dict[str, str]) -> li
     usual = output.view.limit
     text, scatter = views.get("limit"), views.get("limit.by")
     if not text:
-        if calculation.path in SCUFFING and output.path == SCUFFING[calculation.path].contact:
+        if _is_default_limited(calculation, output.path):
+            if scatter:
+                raise Unprocessable("missing", "give the limit whose deviation this is", "limits.0.above")
             return None
         if not output.view.bound or not isinstance(usual, int | float):
             return []
@@ -177,6 +179,11 @@ def _limits(calculation: Calculation, output: Leaf, views: dict[str, str]) -> li
     side = views.get("limit.side") or ("below" if output.view.bound == "lower" else "above")
     threshold = {"mean": value, "deviation": number_of(scatter)} if scatter else {"value": value}
     return [{"output": output.path, side: threshold}]
+
+
+def _is_default_limited(calculation: Calculation, path: str) -> bool:
+    """Whether the scuffing temperature is the limit of an output where none is given."""
+    return calculation.path in SCUFFING and path == SCUFFING[calculation.path].contact
 
 
 def _controls(form: Form) -> tuple[Controls, ...]:
@@ -227,9 +234,12 @@ def _suggested(case: dict[str, Any]) -> str:
 
 
 def _shows(form: Form) -> tuple[FieldView, ...]:
+    calculation, views = form.asked.calculation, form.asked.views
+    chosen = views.get("show") or next(iter(SCUFFING.get(calculation.path, ())), "")
+    assumed = not views.get("limit") and _is_default_limited(calculation, chosen)
     return (
         form.field("limit", "limit", "its own"),
-        form.field("limit.by", "deviation of the limit", "none"),
+        form.field("limit.by", "deviation of the limit", f"{percent(RELATIVE_DEVIATION)} of it" if assumed else "none"),
         form.field("limit.side", "side", options=SIDES),
         form.field("machines", "machines drawn", options=MACHINES),
         form.field("hours", "hours a year"),
@@ -259,6 +269,8 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
         )
     figures |= _losses(study, header, end)
     tables = [_cases_table(study, end, found), _outputs_table(study, header, end)]
+    if found is not None:
+        tables.insert(0, _limit_table(study, end, found))
     if header["tolerances"]:
         tables.append(_tolerances_table(header, found))
     cases = len(header["cases"])
@@ -315,6 +327,22 @@ def _losses(study: PageStudy, header: Line, end: Line) -> dict[str, Figure]:
     years = [end["outputs"][path].get("energy_kwh_per_year") for path in paths]
     energy = None if None in years else sum(years) / 1e3
     return {"losses": losses(cases, mean, energy)}
+
+
+def _limit_table(study: PageStudy, end: Line, found: Line) -> Table:
+    """The limit as number and deviation, and on what an assumed one rests."""
+    output = study.output
+    assumed = next((each["reason"] for each in end["assumptions"] if each["field"] == "limits"), None)
+    row = (
+        Cell(output.title),
+        Cell(f"not {found['side']}"),
+        Cell(shown(found["mean"], 4), right=True),
+        Cell("exact" if found["deviation"] is None else shown(found["deviation"], 4), right=True),
+        Cell(output.unit or ""),
+        Cell("given" if assumed is None else f"assumed: {cited(assumed)}"),
+    )
+    heads = (Cell("output"), Cell("side"), Cell("limit", right=True), Cell("deviation", right=True), Cell("unit"))
+    return Table("Limit", (*heads, Cell("source")), (row,))
 
 
 def _cases_table(study: PageStudy, end: Line, found: Line | None) -> Table:
@@ -391,7 +419,7 @@ def _tolerances_table(header: Line, found: Line | None) -> Table:
 
 
 def views_of(body: dict[str, Any]) -> dict[str, str]:
-    """The query of this page for a study of the interface."""
+    """The query of this page for a study of the interface, with the first of its limits."""
     views = {"cases": table_of(body["cases"])}
     for place, each in enumerate((body.get("tolerances") or {"inputs": []})["inputs"]):
         law = each["distribution"]
@@ -402,6 +430,11 @@ def views_of(body: dict[str, Any]) -> dict[str, str]:
         }.get(law, (None, None) if low is None or high is None else ((low + high) / 2, (high - low) / 2))
         views |= {f"t{place}": each["path"], f"t{place}.about": text_of(about), f"t{place}.by": text_of(by)}
         views |= {} if law == "normal" else {f"t{place}.law": law}
+    for each in (body.get("limits") or ())[:1]:
+        (side,) = {"above", "below"} & set(each)
+        known = each[side]
+        views |= {"show": each["output"], "limit": text_of(known.get("value", known.get("mean"))), "limit.side": side}
+        views |= {"limit.by": text_of(known["deviation"])} if "deviation" in known else {}
     hours = body.get("hours_per_year")
     return views if hours is None else {**views, "hours": text_of(hours)}
 
