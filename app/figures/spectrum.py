@@ -49,7 +49,8 @@ class Chance:
     @property
     def is_tiny(self) -> bool:
         """Whether it is not to be told from none, but is no count of none."""
-        return 0.0 < max(self.high, *(self.interval or ())) < LEAST
+        most = self.high if self.interval is None else max(self.high, self.interval[1])
+        return 0.0 < most < LEAST
 
     @property
     def text(self) -> str:

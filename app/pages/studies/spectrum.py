@@ -252,20 +252,20 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     figures: dict[str, Figure] = {}
     found = next((each for each in end["limits"] if each["output"] == output.path), None)
     limited = None if found is None else _limited(study, header, end, found)
-    remarks = [f"{note[0].upper()}{note[1:]}." for note in end["notes"]]
+    notes = [*end["notes"]]
     if limited is not None:
         for name, draw in (("limit", overlap), ("probability", chances), ("decides", deciding)):
             try:
                 figures[name] = draw(limited)
             except NoFigure as error:
-                remarks.append(f"{error.message}.")
-    elif not end["notes"]:
-        remarks.append(f"The {output.title} has no limit here; state one, and there is a probability.")
+                notes.append(error.message)
+    elif not notes:
+        notes.append(f"the {output.title} has no limit here; state one, and there is a probability")
     unsolved = end["points"] - sum(end["counts"].get(status, 0) for status in ("ok", "ok_with_warnings"))
     if unsolved:
-        remarks.append(
+        notes.append(
             f"{unsolved} of {end['points']} points have no solution; each probability lies between taking them as good "
-            f"and as bad."
+            f"and as bad"
         )
     figures |= _losses(study, header, end)
     tables = [_cases_table(study, end, found), _outputs_table(study, header, end)]
@@ -280,7 +280,8 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     if limited is not None:
         progress = f"{limited.sentence[0].upper()}{limited.sentence[1:]}; {progress}"
     leads = (Lead("Report with this spectrum", study.links.view("/report")),)
-    return Result(progress, figures, tuple(tables), tuple(remarks), leads)
+    remarks = tuple(f"{note[0].upper()}{note[1:]}." for note in notes)
+    return Result(progress, figures, tuple(tables), remarks, leads)
 
 
 def _chance(found: Line) -> Chance:
