@@ -25,6 +25,7 @@ from tests.support.server import (
     running_server,
     send_signal,
     template,
+    unhurried,
     workers,
 )
 
@@ -105,7 +106,7 @@ def test_deadline(faulty: tuple[subprocess.Popen[str], str]) -> None:
     started = time.monotonic()
     response = httpx.post(f"{address}/sleep/60", timeout=20)
     assert response.status_code == 504
-    assert time.monotonic() - started == pytest.approx(6, abs=1)
+    assert 5.9 < time.monotonic() - started < 6.0 + unhurried(1.0)
     assert_recovers(address)
 
 
@@ -136,7 +137,7 @@ def test_slow_body(faulty: tuple[subprocess.Popen[str], str]) -> None:
         )
         answer = connection.recv(65536)
     assert answer.startswith(b"HTTP/1.1 408")
-    assert time.monotonic() - started == pytest.approx(1.0, abs=0.9)
+    assert 0.9 < time.monotonic() - started < 1.0 + unhurried(0.9)
 
 
 def test_full_queue_and_recovery(faulty: tuple[subprocess.Popen[str], str]) -> None:
@@ -161,7 +162,7 @@ def test_health_while_all_workers_are_busy(faulty: tuple[subprocess.Popen[str], 
             durations.append(time.perf_counter() - started)
     durations.sort()
     assert len(durations) > 200
-    assert durations[int(0.99 * len(durations))] < 0.020
+    assert durations[int(0.99 * len(durations))] < unhurried(0.05)
     assert_recovers(address)
 
 
@@ -174,7 +175,7 @@ def test_a_new_worker_is_there_at_once(faulty: tuple[subprocess.Popen[str], str]
     while len(set(workers(process)) - before) < len(before):
         time.sleep(0.002)
         assert time.monotonic() - started < 5
-    assert time.monotonic() - started < 0.5  # 0.05 s on quiet cores
+    assert time.monotonic() - started < unhurried(0.5)  # 0.05 s on quiet cores
     assert all(not is_alive(worker) for worker in before)
     assert_recovers(address)
 
@@ -195,7 +196,7 @@ def test_a_stopped_worker_is_noticed_and_replaced(faulty: tuple[subprocess.Popen
         time.sleep(0.3)
         for worker in before:
             send_signal(worker, signal.SIGSTOP)
-        end = time.monotonic() + 3
+        end = time.monotonic() + unhurried(3.0)
         while set(workers(process)) & before:
             assert time.monotonic() < end
             time.sleep(0.05)
@@ -259,7 +260,7 @@ def test_death_of_the_service_takes_everything_along() -> None:
         process.kill()
         with pytest.raises(httpx.TransportError):
             flight.result()
-        end = time.monotonic() + 2
+        end = time.monotonic() + unhurried(2.0)
         while any(map(is_alive, family)):
             assert time.monotonic() < end
             time.sleep(0.05)
@@ -273,7 +274,7 @@ def test_interrupt_does_not_wait_for_a_calculation() -> None:
         process.send_signal(signal.SIGINT)
         started = time.monotonic()
         process.wait(10)
-        assert time.monotonic() - started < 2.5
+        assert time.monotonic() - started < unhurried(2.5)
         time.sleep(0.2)
         assert not any(map(is_alive, family))
         assert flight.result().status_code == 503

@@ -93,7 +93,7 @@ def test_half_sent_headers_time_out(small: tuple[subprocess.Popen[str], str]) ->
         started = time.monotonic()
         assert answer_to(slow).startswith(b"HTTP/1.1 408")
         assert answer_to(silent) == b""
-        assert time.monotonic() - started == pytest.approx(1.5, abs=1.0)
+        assert 1.4 < time.monotonic() - started < 1.5 + unhurried(1.0)
 
 
 def test_half_sent_second_request_times_out(small: tuple[subprocess.Popen[str], str]) -> None:
@@ -124,7 +124,7 @@ def test_a_body_that_drips_times_out(small: tuple[subprocess.Popen[str], str]) -
         dripping = threading.Thread(target=drip)
         dripping.start()
         assert connection.recv(65536).startswith(b"HTTP/1.1 408")
-        assert time.monotonic() - started == pytest.approx(1.5, abs=1.0)
+        assert 1.4 < time.monotonic() - started < 1.5 + unhurried(1.0)
         dripping.join()
 
 
@@ -156,7 +156,7 @@ def test_many_unknown_fields_do_not_hold_up_the_others(small: tuple[subprocess.P
         each.join()
     assert {answer.status_code for answer in answers} == {422}
     assert answers[0].json()["errors"][0]["code"] == "too_many_fields"
-    assert slowest < 0.5
+    assert slowest < unhurried(0.5)
 
 
 def test_bodies_in_pieces_of_a_byte_do_not_hold_up_the_others(small: tuple[subprocess.Popen[str], str]) -> None:
@@ -180,7 +180,7 @@ def test_bodies_in_pieces_of_a_byte_do_not_hold_up_the_others(small: tuple[subpr
             client.get("/healthz")
             slowest = max(slowest, time.monotonic() - started)
     assert set(answers) <= {b"HTTP/1.1 400", b""}  # a client that goes on sending may lose its answer to a reset
-    assert slowest < 0.5
+    assert slowest < unhurried(0.5)
 
 
 def test_pipelined_requests_are_bounded(small: tuple[subprocess.Popen[str], str]) -> None:

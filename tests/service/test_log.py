@@ -11,7 +11,7 @@ from urllib.parse import urlsplit
 import httpx
 import pytest
 
-from tests.support.server import answer_to, connected, running_server, started_server, wait_until_warm
+from tests.support.server import answer_to, connected, running_server, started_server, unhurried, wait_until_warm
 
 pytestmark = pytest.mark.service
 
@@ -92,7 +92,7 @@ def test_a_log_that_nobody_reads_costs_lines_and_nothing_else() -> None:
             connection.close()
             metrics = httpx.get(f"{address}/metrics").text.splitlines()
             dropped = next(line for line in metrics if line.startswith("tribodrive_log_lines_dropped_total"))
-            assert slowest < 1.0
+            assert slowest < unhurried(1.0)
             assert float(dropped.split()[1]) > 100
             process.terminate()
             process.wait(5)
@@ -115,6 +115,6 @@ def test_ready_does_not_queue_behind_calculations() -> None:
         assert answer.status_code == 200
         assert answer.json()["workers"] == 1
         assert "coupling" in answer.json()["warm"]
-        assert time.monotonic() - started < 1
+        assert time.monotonic() - started < unhurried(1.0)
         for connection in busy:
             connection.close()

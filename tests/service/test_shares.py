@@ -122,7 +122,7 @@ def test_beside_80_long_calculations_of_another_client(faulty: Server) -> None:
     with asking(address, "/sleep/3", times=80) as statuses:
         wait_for(address, "tribodrive_calculations_waiting", 64)
         waits = honest_waits(address, 60)
-    assert waits[57] < 2.0
+    assert waits[57] < unhurried(2.0)
     assert set(statuses) <= {200, 503, 504}
     assert statuses.count(200) > 0
     assert metric(address, "tribodrive_calculations_refused_total") > 0
@@ -163,7 +163,7 @@ def test_beside_two_studies_of_long_points(faulty: Server) -> None:
     with running_studies(address, 2):
         time.sleep(1.0)
         waits = honest_waits(address, 60)
-    assert waits[57] < 2.0
+    assert waits[57] < unhurried(2.0)
 
 
 def test_beside_clients_that_leave(faulty: Server) -> None:
@@ -183,7 +183,7 @@ def test_beside_clients_that_leave(faulty: Server) -> None:
     done.set()
     for each in threads:
         each.join()
-    assert waits[57] < 2.0
+    assert waits[57] < unhurried(2.0)
 
 
 def test_points_of_a_study_end_with_it(faulty: Server) -> None:
@@ -195,7 +195,7 @@ def test_points_of_a_study_end_with_it(faulty: Server) -> None:
         time.sleep(0.5)
     left = time.monotonic()
     while set(workers(process)) & before:
-        assert time.monotonic() - left < 1.0
+        assert time.monotonic() - left < unhurried(1.0)
         time.sleep(0.02)
     wait_for(address, "tribodrive_studies", 0)
 
