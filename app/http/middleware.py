@@ -5,6 +5,7 @@ import json
 import logging
 import re
 import time
+from contextlib import suppress
 from functools import lru_cache
 from secrets import token_hex
 
@@ -70,6 +71,7 @@ def _meters(endpoint: str, status: int) -> tuple[Counter, Histogram]:
     return REQUESTS.labels(endpoint, status), DURATION.labels(endpoint)
 
 
+_BODY_HEADERS = {b"content-length", b"transfer-encoding"}
 CLIENT_GONE = 499  # nginx's status of a client that left; seen in the log only
 
 
@@ -172,7 +174,20 @@ class _Request:
             own = own_headers(self._identifier, time.perf_counter() - self._started)
             message["headers"] = [*given, *(header for header in own if header[0] not in said)]
         for each in [message] if self._unsent is None else self._unsent.ready(message):
-            await self._send(each)
+            last = each["type"] == "http.response.body" and not each.get("more_body", False)
+            if last and not self._complete and not _BODY_HEADERS.isdisjoint(self._headers):
+                await self._send({**each, "more_body": True})
+                await self._discard_body()
+                await self._send({"type": "http.response.body"})
+            else:
+                await self._send(each)
+
+    async def _discard_body(self) -> None:
+        """Take what the client still sends: closing the connection meanwhile could cost it the answer."""
+        with suppress(TimeoutError):
+            async with asyncio.timeout_at(self._due):
+                while (await self._receive()).get("more_body", False):
+                    pass
 
     def _refusal(self) -> JSONResponse | None:
         """The answer to a request that announces too much."""

@@ -1,5 +1,6 @@
 """Limits where bytes arrive: headers, trailers, bodies, connections, time. Every flood is bounded in size."""
 
+import http.client
 import json
 import socket
 import subprocess
@@ -236,6 +237,18 @@ def test_a_pipelined_request_whose_body_comes_late_is_answered(small: tuple[subp
         time.sleep(1.0)
         connection.sendall(b"}")
         assert connection.recv(65536).startswith(b"HTTP/1.1 422")
+
+
+@pytest.mark.parametrize("size", [2_000_000, 20_000_000])
+def test_a_refusal_reaches_a_client_that_sends_on_and_closes(
+    small: tuple[subprocess.Popen[str], str], size: int
+) -> None:
+    headers = {"Content-Type": "application/json", "Connection": "close"}
+    for body in (b" " * size, (b" " * 65536 for _ in range(size // 65536))):  # announced, and in chunks
+        connection = http.client.HTTPConnection(urlsplit(small[1]).netloc, timeout=10)
+        connection.request("POST", "/v1/coupling", body, headers)
+        assert connection.getresponse().status == 413
+        connection.close()
 
 
 def test_two_hosts_are_refused(small: tuple[subprocess.Popen[str], str]) -> None:
