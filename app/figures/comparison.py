@@ -1,63 +1,104 @@
-"""Two cases in one figure: the second is dashed in the hues of the first."""
+"""Two cases in one figure: what the second one shows is dashed in the hues of the first."""
 
-from collections.abc import Iterable
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import TypeVar
+
+import numpy as np
 
 from app.figures.data import Bars, Figure, Hue, Line, Panel, Role, Row
 
-Series = TypeVar("Series", Line, Bars)
+OWN = "this case"
 
 
 def compared(figure: Figure, variant: Figure, name: str) -> Figure:
-    """The figure with the results of the same figure of another case; maps stand beside each other."""
-    finding = f"dashed: {name} · {figure.finding}"
+    """The figure with all that the same figure of another case shows; maps of both stand beside each other."""
+    unsolved = figure.unsolved + variant.unsolved
     if any(panel.map is not None for panel in figure.panels):
-        return replace(
-            figure, finding=f"right: {name} · {figure.finding}", panels=_maps(figure, variant, name), beside=True
-        )
+        maps = _maps({OWN: figure, name: variant})
+        place = "right" if len(maps) == 2 else "below"
+        finding = f"{place}: {name} · {figure.finding}"
+        return replace(figure, finding=finding, panels=maps, beside=place == "right", unsolved=unsolved)
     others = {_key(panel): panel for panel in variant.panels}
-    panels = tuple(_overlaid(panel, others.get(_key(panel)), name) for panel in figure.panels)
-    return replace(figure, finding=finding, panels=panels, unsolved=figure.unsolved + variant.unsolved)
+    panels = tuple(_overlaid(panel, others.pop(_key(panel), panel), name) for panel in figure.panels)
+    alone = tuple(replace(panel, title=f"{name}: {panel.title or panel.y.title}") for panel in others.values())
+    how = "the same in" if panels + alone == figure.panels else "dashed:"
+    return replace(figure, finding=f"{how} {name} · {figure.finding}", panels=panels + alone, unsolved=unsolved)
 
 
 def _key(panel: Panel) -> tuple[str, str | None]:
     return panel.y.title, panel.title
 
 
-def _overlaid(panel: Panel, other: Panel | None, name: str) -> Panel:
-    """The panel with lines, bars and rows of the other that have the names of its own, and its point on a plane."""
-    if other is None:
-        return panel
-    return replace(
-        panel,
-        lines=(*panel.lines, *_variants(panel.lines, other.lines)),
-        bars=(*panel.bars, *_variants(panel.bars, other.bars)),
-        rows=(*panel.rows, *_variant_rows(panel.rows, other.rows)),
-        marks=(*panel.marks, *(replace(mark, text=name, hue=Hue.VERMILLION) for mark in other.marks if panel.areas)),
+def _overlaid(panel: Panel, other: Panel, name: str) -> Panel:
+    """The panel with what differs in the other one: curves, edges of what is filled, limits, its point on a plane."""
+    known = {(level.name, level.value) for level in panel.levels}
+    levels = (
+        replace(each, name=f"{each.name}, {name}") for each in other.levels if (each.name, each.value) not in known
     )
+    marks = (replace(mark, text=name, hue=Hue.VERMILLION) for mark in other.marks if panel.areas)
+    added = {
+        "lines": tuple(_lines(panel, other, name)),
+        "bars": tuple(_bars(panel, other)),
+        "rows": tuple(_rows(panel, other, name)),
+        "levels": tuple(levels),
+        "marks": tuple(marks),
+    }
+    if other is panel or not any(added.values()):
+        return panel
+    return replace(panel, **{part: getattr(panel, part) + more for part, more in added.items()})
 
 
-def _variants(own: Iterable[Series], others: Iterable[Series]) -> tuple[Series, ...]:
-    hues = {each.title: each.hue for each in own if each.role is Role.RESULT}
-    return tuple(replace(each, role=Role.VARIANT, hue=hues[each.title]) for each in others if each.title in hues)
+def _lines(panel: Panel, other: Panel, name: str) -> Iterator[Line]:
+    """Curves and edges that this panel lacks, each in the hue of its namesake; one without a namesake is named."""
+    own = [*panel.lines, *_edges(panel)]
+    hues = {line.title: line.hue for line in own}
+    known = {(line.x.tobytes(), line.y.tobytes()) for line in own}
+    for line in (*other.lines, *_edges(other)):
+        if (line.x.tobytes(), line.y.tobytes()) in known:
+            continue
+        if line.title in hues:
+            yield replace(line, role=Role.VARIANT, hue=hues[line.title], named=False)
+        else:
+            yield replace(line, role=Role.VARIANT, title=f"{line.title}, {name}")
 
 
-def _variant_rows(own: Iterable[Row], others: Iterable[Row]) -> tuple[Row, ...]:
-    hues = {row.name: row.hue for row in own}
-    return tuple(replace(row, role=Role.VARIANT, hue=hues[row.name]) for row in others if row.name in hues)
+def _edges(panel: Panel) -> Iterator[Line]:
+    """The outlines of polygons and bands."""
+    for shape in panel.shapes:
+        yield Line(shape.title, np.append(shape.x, shape.x[:1]), np.append(shape.y, shape.y[:1]), shape.hue)
+    for ribbon in panel.ribbons:
+        yield from (Line(ribbon.title, ribbon.x, edge, ribbon.hue) for edge in (ribbon.low, ribbon.high))
 
 
-def _maps(figure: Figure, variant: Figure, name: str) -> tuple[Panel, ...]:
-    """First map of both cases in the same colours."""
-    panels = []
-    pairs = ((figure, "this case"), (variant, name))
-    charts = [panel.map for each, _ in pairs for panel in each.panels[:1] if panel.map is not None]
-    known = [chart.range for chart in charts if chart.range is not None]
-    common = (min(low for low, _ in known), max(high for _, high in known)) if known else None
-    for each, title in pairs:
-        panel = each.panels[0]
-        assert panel.map is not None
-        chart = replace(panel.map, range=common, bar=each is variant)
-        panels.append(replace(panel, title=title, map=chart))
-    return tuple(panels)
+def _bars(panel: Panel, other: Panel) -> Iterator[Bars]:
+    """All bars if some of them differ, because their widths depend on how many stand beside each other."""
+    hues = {bars.title: bars.hue for bars in panel.bars}
+    if [bars.height.tobytes() for bars in panel.bars] != [bars.height.tobytes() for bars in other.bars]:
+        yield from (replace(bars, role=Role.VARIANT, hue=hues.get(bars.title, bars.hue)) for bars in other.bars)
+
+
+def _rows(panel: Panel, other: Panel, name: str) -> Iterator[Row]:
+    """Rows that differ, each over its namesake; one without a namesake is a row of its own."""
+    known = {row.name: row for row in panel.rows}
+    for row in other.rows:
+        own = known.get(row.name)
+        if own is None:
+            yield replace(row, name=f"{row.name}, {name}")
+        elif repr((own.value, own.parts, own.bounds)) != repr((row.value, row.parts, row.bounds)):  # NaN equals NaN
+            yield replace(row, role=Role.VARIANT, hue=own.hue)
+
+
+def _maps(figures: dict[str, Figure]) -> tuple[Panel, ...]:
+    """The maps of every case in the same colours."""
+    panels = [(name, panel) for name, figure in figures.items() for panel in figure.panels]
+    ends = [panel.map.ends for _, panel in panels if panel.map is not None]
+    common = min(low for low, _ in ends), max(high for _, high in ends)
+    return tuple(
+        replace(
+            panel,
+            title=": ".join(filter(None, (name, panel.title))),
+            map=replace(panel.map, range=common, bar=place == len(panels)),
+        )
+        for place, (name, panel) in enumerate(panels, 1)
+        if panel.map is not None
+    )

@@ -62,8 +62,8 @@ class Links:
 
     @property
     def report(self) -> str:
-        """The report of the case."""
-        return self.view("report", title=self.title, sources=SHORT_SOURCES)
+        """The report of the case, beside the case that it is compared with."""
+        return self.view("report", ref=self.ref, title=self.title, sources=SHORT_SOURCES)
 
     @property
     def file(self) -> str:

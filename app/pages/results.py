@@ -1,7 +1,7 @@
 """An answer as people read it: the numbers that decide with a verdict, and every number with symbol and unit."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from markupsafe import Markup
@@ -26,16 +26,21 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A line of the table of results; `before` is the value of the variant, `change` what lies between."""
+    """A line of a table: the value, or the items of a list; `before` is that of the variant, `change` lies between."""
 
     label: str
     symbol: Markup
-    value: str
+    items: tuple[str, ...]
     unit: str
     path: str
     description: str
-    before: str = ""
+    before: tuple[str, ...] = ()
     change: str = ""
+
+    @property
+    def value(self) -> str:
+        """All of it as a text."""
+        return ", ".join(self.items)
 
 
 class Assumed(NamedTuple):
@@ -97,24 +102,40 @@ def groups(response: Documented, before: Documented | None = None) -> tuple[Grou
 
 
 def _row(entry: Entry, known: dict[str, Any]) -> Row:
-    leaf = entry.leaf
-    old = known.get(entry.path)
+    row = _compared(entry.leaf, entry.path, entry.value, known.get(entry.path))
+    return row if known else replace(row, before=(), change="")
+
+
+def differences(request: type[Documented], response: Response, before: Response) -> Group:
+    """The inputs that differ from those of a variant, with what the empty ones stand for."""
+    here, there = flattened(response.inputs), flattened(before.inputs)
+    now, old = resolved(response), resolved(before)
+    rows = (
+        replace(_compared(leaf, path, now.get(path), old.get(path)), label=leaf.title)
+        for path in here | there
+        if here.get(path) != there.get(path) and (leaf := leaf_at(request, path))
+    )
+    return Group("", tuple(rows))
+
+
+def _compared(leaf: Leaf, path: str, now: Any, before: Any) -> Row:
     return Row(
         leaf.declared.title,
         symbol(leaf.declared.symbol),
-        _text(entry.value),
-        (leaf.unit or "") if entry.value is not None else "",
-        entry.path,
+        _items(now),
+        (leaf.unit or "") if now is not None or before is not None else "",
+        path,
         cited(leaf.description),
-        _text(old) if known else "",
-        change(entry.value, old) if known else "",
+        _items(before),
+        change(now, before),
     )
 
 
-def _text(value: Any) -> str:
-    if isinstance(value, list):
-        return ", ".join(shown(item, 4) for item in value[:8]) + (", …" if len(value) > 8 else "")
-    return shown(value)
+def _items(value: Any) -> tuple[str, ...]:
+    """A value, or the items of a list; of a matrix its rows."""
+    if not isinstance(value, list):
+        return (shown(value),)
+    return tuple(f"({', '.join(_items(item))})" if isinstance(item, list) else shown(item, 4) for item in value)
 
 
 def change(now: Any, before: Any) -> str:
@@ -159,9 +180,9 @@ def assumptions(request: type[Documented], response: Response) -> list[Assumed]:
 def _assumed(each: Assumption, leaf: Leaf | None) -> Assumed:
     reason = cited(each.reason)
     if leaf is None:
-        return Assumed(each.field, each.field, Markup(""), _text(each.value), "", reason)
+        return Assumed(each.field, each.field, Markup(""), ", ".join(_items(each.value)), "", reason)
     unit = (leaf.unit or "") if isinstance(each.value, int | float | list) else ""
-    return Assumed(each.field, leaf.title, symbol(leaf.declared.symbol), _text(each.value), unit, reason)
+    return Assumed(each.field, leaf.title, symbol(leaf.declared.symbol), ", ".join(_items(each.value)), unit, reason)
 
 
 DIGITS = 3  # of a headline

@@ -19,7 +19,7 @@ from app.pages.form import State, anchor, form
 from app.pages.links import IMAGE_FORMATS, Links, example_link, examples_of
 from app.pages.manual import chapter_of
 from app.pages.query import Pairs, ambiguity, normalised, pairs_of_query, split_views
-from app.pages.results import assumptions, cards, entries, groups, resolved
+from app.pages.results import assumptions, cards, differences, entries, groups, resolved
 from app.pages.studies.sweep_examples import studies_of_case
 from app.pages.study_links import study_links
 from app.pages.templating import page_path, rendered
@@ -119,6 +119,7 @@ def page(asked: Asked) -> Shown:
         missing=missing,
         ready=studies_of_case(asked.calculation, asked.pairs, case.response.inputs),
         compared=before is not None,
+        differences=differences(type(case.request), case.response, before) if before else None,
         trouble=trouble,
         curves=_curves(case),
         code=[(name, write(LOCAL + asked.root, case.calculation, body_of(case.request))) for name, write in LANGUAGES],
@@ -184,8 +185,10 @@ def report(asked: Asked, host: str, study: StudySection | None = None) -> Shown:
         case = solved(asked.calculation, asked.pairs, asked.kept)
     except REFUSED:
         return page(asked)
-    figures, missing = charts(case, None, _printed, compute=True)
-    link = "" if asked.links.too_long else host + asked.root + asked.links.alone
+    variant, trouble = _variant(asked)
+    before = variant.response if variant else None
+    figures, missing = charts(case, variant, _printed, compute=True)
+    link = "" if asked.links.too_long else host + asked.root + asked.links.page
     try:
         context = reports.context(case, asked.views, (host or LOCAL) + asked.root, link)
     except ValueError as error:
@@ -196,9 +199,12 @@ def report(asked: Asked, host: str, study: StudySection | None = None) -> Shown:
         asked=asked,
         calculation=asked.calculation,
         response=case.response,
-        cards=cards(case.response, resolved(case.response)),
+        cards=cards(case.response, resolved(case.response), before),
         assumed=assumptions(type(case.request), case.response),
-        groups=groups(case.response),
+        groups=groups(case.response, before),
+        compared=before is not None,
+        differences=differences(type(case.request), case.response, before) if before else None,
+        trouble=trouble,
         derived=_derived(case),
         charts=figures,
         missing=missing,
@@ -207,7 +213,7 @@ def report(asked: Asked, host: str, study: StudySection | None = None) -> Shown:
         host=host,
         **context,
     )
-    return Shown(content.encode(), keep=_keep(asked, case))
+    return Shown(content.encode(), keep=_keep(asked, case, variant))
 
 
 def _printed(declaration: Declaration, data: Figure | None) -> Chart:

@@ -415,6 +415,12 @@ def test_comparison_draws_the_variant_dashed_in_the_same_hue() -> None:
         assert variant.hue is result.hue
         assert np.array_equal(variant.y, second.lines[0].y)
     assert draw(both, "svg") != draw(own, "svg")
+    section = compared(figure("xue-pair-4-modified", "section"), figure("xue-pair-1-modified", "section"), "A")
+    dashed = {line.title for line in section.panels[0].lines if line.role is Role.VARIANT}
+    assert {"pinion, 23 teeth", "wheel, 30 teeth", "line of action", "usable flanks"} <= dashed
+    assert "the same in A" in compared(own, own, "A").subtitle
+    spaces = compared(figure("milian-case-1-groove", "pressure-map"), figure("milian-case-1", "pressure-map"), "A")
+    assert len(spaces.panels) == 4
     sloped, modified = (figure(name, "flank-pressure") for name in ("xue-pair-4-helix-slope-40", "xue-pair-4-modified"))
     maps = compared(sloped, modified, "A")
     assert len(maps.panels) == 2

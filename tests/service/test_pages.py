@@ -161,9 +161,48 @@ def test_compare(visit: Callable[..., Page]) -> None:
     page.locator('[name="modifications.profile_crowning_um"]').fill("10")
     expect(page.locator(".before").first).to_contain_text(re.compile(r"[+−][\d.]+ %"))
     assert "dashed: variant A" in (page.locator(".chart img").first.get_attribute("alt") or "")
+    differing = page.locator(".differences tbody tr")
+    assert differing.count() == 1
+    assert differing.inner_text().split("\t")[:1] + differing.inner_text().split("\t")[2:] == [
+        "profile crowning",
+        "0",
+        "10",
+        "µm",
+        "from zero",
+    ]
+    expect(page.locator(".card .was").first).to_be_visible()
+    parts = page.locator(".differences, .cards, .charts, [aria-label='All results']")
+    assert parts.evaluate_all("parts => parts.map(part => part.className)") == [
+        "panel differences",
+        "cards",
+        "charts",
+        "scroll",
+    ]
+    page.get_by_role("link", name="Report").click()
+    expect(page.locator("body")).to_contain_text("Compared with variant A")
+    assert page.get_by_text("variant A → this case").count() == 3
+    assert page.locator('figure img[alt*="variant A"]').count() > 3
+    page.go_back()
     page.get_by_role("link", name="End comparison").click()
     assert page.locator(".before").count() == 0
     assert page.locator('[name="modifications.profile_crowning_um"]').input_value() == "10"
+
+
+@pytest.mark.parametrize("name", ["xue-pair-4-helix-slope-40", "pahl-sleeve-orbit", "starter-turbo-gear-drive-train"])
+def test_the_change_is_on_the_screen(visit: Callable[..., Page], name: str) -> None:
+    example = examples()[name]
+    path, pairs = example.endpoint.removeprefix("/v1"), pairs_of(example.request)
+    page = visit(link(path, pairs, ref=link("", pairs)[1:]), viewport={"width": 1400, "height": 900})
+    table = page.get_by_role("region", name="All results")
+    assert table.evaluate("part => part.scrollWidth - part.clientWidth") == 0
+    assert all(page.locator(".list").evaluate_all("lists => lists.map(each => !each.open)"))
+    assert page.locator(".differences").inner_text().endswith("None yet: change the form.")
+    cards = page.locator(".cards")
+    table.scroll_into_view_if_needed()
+    page.mouse.wheel(0, 800)
+    assert cards.evaluate(
+        "part => document.elementFromPoint(part.getBoundingClientRect().x + 40, 20).closest('.cards')"
+    )
 
 
 def test_values_under_pointer_and_keys(visit: Callable[..., Page]) -> None:

@@ -113,7 +113,7 @@ def _draw_line(axes: Axes, line: Line, theme: Theme) -> None:
     known = np.isfinite(line.y)
     alone = known & ~np.append(False, known[:-1]) & ~np.append(known[1:], False)
     style: Style = {"color": theme.drawing[line.hue], "linestyle": DASHES[line.role], "markersize": 2.6}
-    if line.named and line.role is not Role.VARIANT and known.any():
+    if line.named and known.any():
         style["label"] = fill(line.title, NAME_LENGTH)
     if alone.any():
         style |= {"marker": "o", "markevery": alone}
@@ -155,7 +155,9 @@ def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
             axes.barh(place, part.value, ROW, left=left, **style)
             left += part.value
         if row.bounds is not None and row.bounds[0] < row.bounds[1]:
-            axes.plot(row.bounds, [place, place], color=theme.ink, linewidth=1.2, marker="|", markersize=7)
+            color = theme.ink if row.role is Role.RESULT else theme.drawing[row.hue]
+            style = {"color": color, "linestyle": DASHES[row.role], "linewidth": 1.2}
+            axes.plot(row.bounds, [place, place], marker="|", markersize=7, **style)
     for place, row in enumerate(own):
         if row.dots:
             _draw_dots(axes, place, row, theme)
