@@ -175,7 +175,7 @@ CALCULATIONS = (
     Calculation(
         path="/v1/scuffing",
         title="Scuffing of gears",
-        summary="Load distribution, flash temperature, film thickness and safety against scuffing of a gear pair",
+        summary="Load distribution, flash temperature, film thickness and scuffing safety factor of a gear pair",
         source="Xue, Zhang, Wang 2020",
         request=ScuffingRequest,
         solve=scuffing.solve_scuffing,

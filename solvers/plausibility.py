@@ -103,7 +103,7 @@ def _check(value: Any, ends: _Ends | None, name: str) -> None:
         if ends is not None and not ends.least <= value <= ends.greatest:
             unit = f" {UNITS[ends.declared.unit].symbol}" if ends.declared.unit else ""
             shown = f"{ends.declared.from_si(float(value)):.12g}{unit}"
-            message = f"{name} is {shown}; allowed {allowed(ends.declared) or 'are finite numbers'}{unit}"
+            message = f"{name} is {shown}; permissible {allowed(ends.declared) or 'are finite numbers'}{unit}"
             raise InvalidInput("out_of_range", message, name)
     elif is_dataclass(value):
         checked(value, f"{name}.")
@@ -170,7 +170,9 @@ def modifications(depths: dict[str, float], curve: tuple[float, ...] = ()) -> No
 def high_pressure(pressure: float | None, field: str = "pinion_torque") -> Notices:
     """A Hertz pressure [Pa]."""
     if pressure is not None and pressure > HIGHEST_PRESSURE:
-        message = f"the Hertz pressure of {pressure / 1e6:.4g} MPa is beyond what steel carries; is the load too high?"
+        message = (
+            f"the Hertzian pressure of {pressure / 1e6:.4g} MPa is beyond what steel carries; is the load too high?"
+        )
         yield unusual_value(field, message)
 
 

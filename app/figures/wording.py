@@ -1,9 +1,18 @@
-"""Numbers and counts as they stand in titles, marks and at ticks."""
+"""Numbers, counts and symbols as they stand in titles, marks and at ticks."""
 
+import re
+from collections.abc import Callable
 from math import floor, log10
 
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 PLAIN = (1e-3, 1e6)  # magnitudes written without a power of ten
+# A letter or two, an underscore, letters and digits with commas between them.
+_SUBSCRIPT = re.compile(r"(?<!\w)([^\W\d_²³]{1,2})_([^\W_²³]+(?:,[^\W_²³]+)*)")
+
+
+def subscripts(text: str, typeset: Callable[[str, str], str]) -> str:
+    """The text with every symbol such as `h_a` as `typeset` writes it of its letter and its subscript."""
+    return _SUBSCRIPT.sub(lambda found: typeset(*found.groups()), text)
 
 
 def number(value: float, unit: str = "", digits: int = 3) -> str:

@@ -135,7 +135,7 @@ def _answer(request: Request, error: Exception) -> JSONResponse:
 
 def _message(item: dict[str, Any]) -> str:
     if item["type"] == "literal_error":
-        return f"{item['loc'][-1]}: allowed are {item['ctx']['expected']}"
+        return f"{item['loc'][-1]}: permissible are {item['ctx']['expected']}"
     return str(item["msg"])
 
 

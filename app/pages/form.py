@@ -12,6 +12,7 @@ from app.pages.query import MATRIX, PICK, PRESENT, SIDE, text_of
 from app.pages.typesetting import cited, symbol, words
 from app.schema.fields import ITEM, Branch, Leaf, tree
 from app.schema.model import Request
+from app.schema.model import Section as Fields
 from app.schema.quantities import split_unit
 
 BESIDE = 10  # letters of an option that fit beside the label
@@ -20,12 +21,16 @@ Widget = Literal["number", "text", "list", "select", "table"]
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """What is known of a case beside the schema, by path: texts typed, faults, and what an answer resolved."""
+    """What is known of a case beside the schema, by path: texts typed, faults, and what an answer resolved.
+
+    `unused` is whether the part of the form at hand is an optional section of which nothing is given.
+    """
 
     texts: Mapping[str, str] = field(default_factory=dict)
     faults: Mapping[str, str] = field(default_factory=dict)
     resolved: Mapping[str, Any] = field(default_factory=dict)
     assumed: AbstractSet[str] = frozenset()
+    unused: bool = False
 
     def given(self, prefix: str) -> int:
         """How many fields below a path were typed."""
@@ -52,7 +57,7 @@ class FieldView:
     text: str
     placeholder: str
     options: tuple[tuple[str, str], ...]
-    required: bool
+    required: str
     assumed: bool
     help: tuple[str, ...]
     fault: str | None
@@ -89,13 +94,18 @@ def field_view(leaf: Leaf, name: str, state: State, column: str = "") -> FieldVi
         placeholder=_placeholder(leaf, name, state),
         options=tuple(_options(leaf, state.texts.get(name, ""))),
         empty=_empty(leaf, name, state),
-        required=leaf.required,
+        required=_required(state, needed=leaf.required),
         assumed=name in state.assumed,
         help=tuple(map(cited, _help(leaf, name, state))),
         fault=state.faults.get(name),
         column=column,
         excludes=_excludes(leaf, name),
     )
+
+
+def _required(state: State, *, needed: bool) -> str:
+    """What stands beside a field that must be given: always, or if its section is."""
+    return "" if not needed else "required if used" if state.unused else "required"
 
 
 def _widget(leaf: Leaf) -> Widget:
@@ -171,7 +181,7 @@ def _sentence(text: str) -> str:
 def _range(leaf: Leaf) -> str:
     names = {"ge": "from", "gt": "above", "le": "to", "lt": "below"}
     parts = [f"{names[key]} {text_of(float(bound))}" for key, bound in leaf.declared.bounds.items()]
-    return f"Allowed: {' '.join(parts)} {leaf.unit or ''}".rstrip() + "." if parts else ""
+    return f"Permissible: {' '.join(parts)} {leaf.unit or ''}".rstrip() + "." if parts else ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,6 +203,7 @@ class Choice:
     legend: str
     fields: tuple[FieldView, ...]
     picked: str
+    required: str
     kind: str = "choice"
 
 
@@ -305,6 +316,8 @@ def _section(group: tuple[Branch, ...], state: State) -> Section:
 def _branch(branch: Branch, path: str, state: State, item: int | None = None) -> Section:
     needed = branch.required and not branch.optional and item is None
     given = state.given(path)
+    optional = branch.optional or branch.repeated
+    inside = replace(state, unused=(optional or state.unused) and not given)
     return Section(
         id=anchor(path),
         path=path,
@@ -314,7 +327,7 @@ def _branch(branch: Branch, path: str, state: State, item: int | None = None) ->
         given=given,
         assumed=state.assumptions(path),
         fault=state.faults.get(path),
-        blocks=tuple(_blocks(branch, f"{path}.", state)),
+        blocks=tuple(_blocks(branch, f"{path}.", inside)),
         switch=_switch(branch, path, state),
         needed=needed,
         advanced=branch.advanced,
@@ -350,7 +363,7 @@ def _switch(branch: Branch, path: str, state: State) -> FieldView | None:
         text=state.texts.get(path, PRESENT if state.given(path) else ""),
         placeholder="",
         options=(("", "no"), (PRESENT, "yes")),
-        required=False,
+        required="",
         assumed=False,
         help=(branch.description,),
         fault=None,
@@ -370,7 +383,8 @@ def _blocks(branch: Branch, prefix: str, state: State) -> Iterator[Block]:
             yield _own(member, _name(member, prefix), state)
         elif member.path not in shown:
             shown.update(field.path for field in group)
-            yield _choice(group, prefix, state)
+            needed = issubclass(branch.model, Fields) and branch.model.choice_missing is not None
+            yield _choice(group, prefix, state, _required(state, needed=needed))
 
 
 def _own(leaf: Leaf, name: str, state: State) -> FieldView | Matrix:
@@ -416,13 +430,13 @@ def _choices(branch: Branch) -> dict[str, tuple[Leaf, ...]]:
     return found
 
 
-def _choice(group: tuple[Leaf, ...], prefix: str, state: State) -> Choice:
+def _choice(group: tuple[Leaf, ...], prefix: str, state: State, required: str) -> Choice:
     names = [_name(field, prefix) for field in group]
     given = next((name for name in names if name in state.texts), None)
     known = next((name for name in names if state.resolved.get(name) is not None), None)
     legend = " or ".join(field.declared.title for field in group)
     views = tuple(field_view(field, name, state) for field, name in zip(group, names, strict=True))
-    return Choice(PICK + names[0], legend, views, given or known or names[0])
+    return Choice(PICK + names[0], legend, views, given or known or names[0], required)
 
 
 def _twins(group: tuple[Branch, ...], prefix: str, state: State) -> Twins:

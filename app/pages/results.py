@@ -119,11 +119,14 @@ def differences(request: type[Documented], response: Response, before: Response)
 
 
 def _compared(leaf: Leaf, path: str, now: Any, before: Any) -> Row:
+    unit = leaf.unit or ""
+    if leaf.view.percent:
+        now, before, unit = (None if now is None else 100.0 * now, None if before is None else 100.0 * before, "%")
     return Row(
         leaf.declared.title,
         symbol(leaf.declared.symbol),
         _items(now),
-        (leaf.unit or "") if now is not None or before is not None else "",
+        unit if now is not None or before is not None else "",
         path,
         cited(leaf.description),
         _items(before),

@@ -4,14 +4,15 @@ import re
 
 from markupsafe import Markup, escape
 
-from app.figures.wording import number
+from app.figures.wording import number, subscripts
 
-# A letter or two, an underscore, letters and digits with commas between them.
-_SUBSCRIPT = re.compile(r"((?:[^\W\d_²³]){1,2})_([^\W_²³]+(?:,[^\W_²³]+)*)")
 _LETTER = re.compile(r"[^\W\d_]{1,2}\*?")
 _SECOND_HAND = re.compile(r"as read in a public implementation|(?:quoted )?from memory")
+REPORT, STANDARD = "ISO/TR 13989-1", "ISO/TS 6336-20 (ISO/TR 13989-1)"
+"""The report that the sources name, and the specification that replaced it."""
 NO_VALUE = "–"
 _WORDS = {
+    "allowable_misalignment": "permissible misalignment",
     "angular": "angular misalignment",
     "barus": "Barus",
     "closed_form": "closed form",
@@ -21,7 +22,7 @@ _WORDS = {
     "gas_dynamics": "gas dynamics",
     "hertzian": "Hertzian",
     "ishikawa": "Ishikawa",
-    "iso_tr_13989": "ISO/TR 13989-1",
+    "iso_tr_13989": STANDARD,
     "newtonian": "Newtonian",
     "pao": "polyalphaolefin (PAO)",
     "pocket_chain": "chain of pockets",
@@ -34,7 +35,7 @@ _WORDS = {
 
 def typeset(text: str) -> Markup:
     """A text in which `h_a` becomes a letter with a subscript."""
-    return Markup(_SUBSCRIPT.sub(r"<i>\1</i><sub>\2</sub>", str(escape(text))))  # noqa: S704  escaped before
+    return Markup(subscripts(str(escape(text)), "<i>{}</i><sub>{}</sub>".format))  # noqa: S704  escaped before
 
 
 def symbol(text: str | None) -> Markup:
@@ -61,8 +62,8 @@ def shown(value: object, digits: int = 5) -> str:
 
 
 def cited(text: str) -> str:
-    """A source or a reason for readers of pages: what was not read in the original is said to be of second hand."""
-    return _SECOND_HAND.sub("secondary source", text)
+    """A source or a reason for readers of pages, with today's standard; what was not read is said to be second-hand."""
+    return _SECOND_HAND.sub("secondary source", text.replace(REPORT, STANDARD))
 
 
 def words(name: str) -> str:

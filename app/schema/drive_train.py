@@ -37,7 +37,7 @@ class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
     rack_tip_radius: Annotated[
         float | None,
         Input(
-            "rack tip radius coefficient",
+            "root fillet radius coefficient",
             "ρ_fP*",
             "ISO 53",
             text="tip radius coefficient of the rack, of mesh and pumped spaces alike",
@@ -359,7 +359,7 @@ class MisalignmentState(MisalignmentSummary, of=results.Misalignment):
 class TrainLoad(Group, of=results.FaceLoad):
     """How the face carries."""
 
-    views: ClassVar = {"face_load_factor": View(headline=2)}
+    views: ClassVar = {"face_load_factor": View(headline=2), "contact_fraction": View(percent=True)}
 
 
 class TrainFlash(Group, of=results.FlashPlaces):

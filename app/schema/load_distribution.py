@@ -126,7 +126,7 @@ class FlankPlace(Group, of=results.Place):
 class FlankLoad(Group, of=results.LoadOnFlank):
     """Load on the flank."""
 
-    views: ClassVar = {"face_load_factor": View(headline=2)}
+    views: ClassVar = {"face_load_factor": View(headline=2), "contact_fraction": View(percent=True)}
 
     pair_share: list[list[float]] | None
 

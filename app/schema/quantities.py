@@ -81,7 +81,7 @@ class View:
     `limit` is the number, or the dotted field of request or answer, that bounds the value; `bound` says on which side a
     verdict finds the value safe: below an upper limit, above a lower one. `needs` is the request field without which
     there is no value, `verdict` the field of the answer that judges it in words, or as a truth that is bad; beside the
-    value where it begins with a dot.
+    value where it begins with a dot. `percent` values are shares that pages show in per cent.
     """
 
     headline: int | None = None
@@ -89,6 +89,7 @@ class View:
     bound: Bound | None = None
     needs: str | None = None
     verdict: str | None = None
+    percent: bool = False
 
 
 @dataclass(frozen=True)

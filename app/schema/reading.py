@@ -92,7 +92,7 @@ def _message(model: type[BaseModel], location: tuple[str | int, ...], item: dict
     if kind in _SECTION_TYPES:
         return "leave the section out instead of null" if value is None else "give a section {...} of fields here"
     if kind in _RANGE_TYPES:
-        return f"{name} is {_figure(value)}; allowed {_allowed(sections, name)}"
+        return f"{name} is {_figure(value)}; permissible {_allowed(sections, name)}"
     plain = {
         "int_from_float": "give a whole number",
         "finite_number": "give a finite number",
@@ -100,9 +100,9 @@ def _message(model: type[BaseModel], location: tuple[str | int, ...], item: dict
         "list_type": "give a list [...] of values here",
         "string_type": "give text",
         "union_tag_not_found": f"{_tag(item)} is required",
-        "union_tag_invalid": f"{_tag(item)}: allowed are {_tags(item)}",
-        "literal_error": f"{name}: allowed are {_choices(item)}",
-        "enum": f"{name}: allowed are {_choices(item)}",
+        "union_tag_invalid": f"{_tag(item)}: permissible are {_tags(item)}",
+        "literal_error": f"{name}: permissible are {_choices(item)}",
+        "enum": f"{name}: permissible are {_choices(item)}",
         "too_short": f"{name} needs at least {item.get('ctx', {}).get('min_length')} values",
         "too_long": f"{name} takes at most {item.get('ctx', {}).get('max_length')} values",
     }

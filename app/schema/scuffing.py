@@ -75,7 +75,7 @@ class ScuffingModel(LoadDistributionModel, FilmModel, of=si.ScuffingInputs):
     friction: si.FrictionMethod = "iso_tr_13989"
 
 
-PRACTICAL_FRICTION = replace(FRICTION_COEFFICIENT, assumed=None, default_text="by `model.friction`, from the oil")
+PRACTICAL_FRICTION = replace(FRICTION_COEFFICIENT, assumed=None, default_text="by the friction law, from the oil")
 LAW = "the mean coefficient of ISO/TR 13989-1, with the computed K_Hβ; K_Hα is taken as 1"
 NOT_USED = "not used: `model.friction` asks for the coefficient of ISO/TR 13989-1"
 MINERAL_FACTOR = "the lubricant factor is that of a mineral oil; none is known for an ester"

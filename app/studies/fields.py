@@ -51,10 +51,10 @@ def did_you_mean(path: str, known: Iterable[str]) -> str:
 def fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:
     """Code and message of why the field's schema does not take a value; None where it does."""
     if value is None:
-        return None if leaf.nullable else ("out_of_range", "null is not allowed here")
+        return None if leaf.nullable else ("out_of_range", "null is not permissible here")
     if leaf.options:
         allowed = ", ".join(map(str, leaf.options))
-        return None if value in leaf.options else ("out_of_range", f"allowed are {allowed}")
+        return None if value in leaf.options else ("out_of_range", f"permissible are {allowed}")
     if leaf.kind in NUMBERS:
         return _number_fault(leaf, value)
     kind, message = (bool, "give true or false") if leaf.kind == "boolean" else (str, "give text")
@@ -68,7 +68,7 @@ def _number_fault(leaf: Leaf, value: bool | float | str) -> tuple[str, str] | No
         return "not_integer", f"{value:g} is not a whole number"
     if all(getattr(operator, name)(value, bound) for name, bound in leaf.declared.bounds.items()):
         return None
-    return "out_of_range", f"{value:.12g} is out of range; allowed {allowed(leaf.declared)}"
+    return "out_of_range", f"{value:.12g} is out of range; permissible {allowed(leaf.declared)}"
 
 
 def value_at(content: Any, path: str) -> Any:

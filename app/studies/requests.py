@@ -186,8 +186,8 @@ class Bound(Part):
     """A limit on one output."""
 
     output: Annotated[FieldPath, Input("limited output", text="dotted path of one of the outputs")]
-    min: Annotated[float | None, Input("least value allowed")] = None
-    max: Annotated[float | None, Input("largest value allowed")] = None
+    min: Annotated[float | None, Input("least permissible value")] = None
+    max: Annotated[float | None, Input("largest permissible value")] = None
 
 
 class Best(Part):

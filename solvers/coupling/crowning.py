@@ -39,7 +39,7 @@ class RecommendedPoint:
 
     contact_overlap: float = quantity("contact surface overlap", "Pu", PAHL)
     load_capacity_coefficient: float = quantity("load capacity coefficient", "Tr", PAHL)
-    friction_coefficient: float = quantity("friction coefficient in use", "μ")
+    friction_coefficient: float = quantity("coefficient of friction in use", "μ")
     axial_thrust: float = quantity("axial thrust", "F_ax", unit="n", text="axial thrust at the axial velocity given")
     sliding_velocity: float = quantity("largest sliding velocity", "v_G,max", unit="m_per_s")
 

@@ -91,7 +91,7 @@ class CouplingDesign:
         assumed="order of magnitude",
     )
     pitch_errors: tuple[float, ...] | None = quantity(
-        "pitch errors",
+        "pitch deviations",
         "p_i",
         f"{PAHL}, Fig. 4",
         unit="um",
@@ -353,7 +353,7 @@ class MixedFrictionTable:
         relative_tolerance=0.01,
     )
     coefficient: tuple[float, ...] = quantity(
-        "table of friction coefficients", "μ", ge=1e-4, le=2, length=(1, 1000), text="friction coefficients"
+        "table of coefficients of friction", "μ", ge=1e-4, le=2, length=(1, 1000), text="friction coefficients"
     )
 
 
@@ -388,7 +388,7 @@ class Friction:
         None,
         f"{PAHL}, Fig. 10",
         default=None,
-        text="table that replaces the mixed-lubrication branch of the law, `mixed_curve`",
+        text="table that replaces the curve of mixed friction",
     )
     mixed_curve: MixedFrictionCurve = quantity(
         "curve of mixed friction",
@@ -438,7 +438,7 @@ class ModelOptions:
         default=None,
         ge=1e-3,
         le=2000,
-        text="inlet length instead of `inlet`",
+        text="inlet length instead of the limit of the oil inlet",
         default_text="by the limit of the oil inlet",
         advanced=True,
     )

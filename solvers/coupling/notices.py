@@ -31,14 +31,14 @@ def motion_notices(
         )
     if operation.speed == 0.0:
         yield Notice(
-            "not_turning", "the coupling does not turn: no allowable misalignment, no oil film", "speed", rank="note"
+            "not_turning", "the coupling does not turn: no permissible misalignment, no oil film", "speed", rank="note"
         )
     elif limits.allowable_misalignment is None:
         message = "it turns so slowly that no misalignment reaches the sliding velocity limit: none to report"
         yield Notice("no_sliding_limit", message, "speed", rank="note")
     elif limits.allowable_misalignment > MAX_MISALIGNMENT:
         angle = degrees(limits.allowable_misalignment)
-        message = f"the allowable misalignment of {angle:.3g} degrees lies beyond the 6 degrees of the theory"
+        message = f"the permissible misalignment of {angle:.3g} degrees lies beyond the 6 degrees of the theory"
         yield Notice("allowable_misalignment", message, "speed", rank="note")
     if sliding > SLIDING_VELOCITY_LIMIT:
         message = f"the sliding velocity of {sliding:.3g} m/s exceeds the limit of {SLIDING_VELOCITY_LIMIT} m/s"

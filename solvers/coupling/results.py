@@ -154,7 +154,7 @@ class Lubrication:
     hydrodynamic_capacity: float = quantity("hydrodynamic load capacity", "F_HD", f"{PAHL}, Fig. 8", unit="n")
     load_capacity_coefficient: float | None = quantity("load capacity coefficient", "Tr", PAHL)
     regime: Regime = quantity("friction regime")
-    friction_coefficient: float = quantity("friction coefficient in use", "μ")
+    friction_coefficient: float = quantity("coefficient of friction in use", "μ")
 
 
 @record
@@ -278,7 +278,7 @@ class Limits:
         text="largest lasting sliding velocity",
     )
     allowable_misalignment: float | None = quantity(
-        "allowable misalignment",
+        "permissible misalignment",
         "δ_lim",
         "Tribology Handbook B4.6",
         unit="deg",

@@ -50,7 +50,7 @@ class GapCurves:
     modification: FloatArray = quantity(
         "gap as ground", "Δ_m", unit="um", text="lead part, at the pitch point", axis="position"
     )
-    total: FloatArray = quantity("gap in all", "Δ", unit="um", axis="position")
+    total: FloatArray = quantity("total gap", "Δ", unit="um", axis="position")
     line_force: FloatArray = quantity(
         "transverse force per face", "q", unit="n_per_mm", text="mean over the roll positions", axis="position"
     )
@@ -64,7 +64,7 @@ class Misalignment:
     a load spread evenly over the face, for that is what a corrected flank has.
     """
 
-    shaft_slope: float = quantity("slope by the shafts", "f_sh", unit="um")
+    shaft_slope: float = quantity("mesh misalignment", "f_sh", unit="um", text="slope of the gap by the shafts")
     shaft_crown: float = quantity("crown by the shafts", "C_sh", unit="um")
     shaft_range: float = quantity("range of the shafts' gap", "R_sh", unit="um")
     shaft_mean: float = quantity("mean of the shafts' gap", "g_m", unit="um", text="which the transmission error takes")
@@ -74,16 +74,16 @@ class Misalignment:
     thermal_range: float = quantity("range of the gap by heat", "R_th", unit="um")
     thermal_profile_slope: float = quantity("profile slope by heat", "f_Hα,th", unit="um")
     base_pitch: float = quantity(
-        "base pitch error by heat", "Δp_bt", unit="um", text="pinion's growth over the wheel's"
+        "base pitch deviation by heat", "Δp_bt", unit="um", text="pinion's growth over the wheel's"
     )
     total_slope: float = quantity("slope by shafts and heat", "f_Hβ", unit="um")
     recommended_helix_slope: float = quantity(
-        "helix slope to grind", "f_Hβ,rec", unit="um", text="in all; sized at a load spread evenly over the face"
+        "helix slope to grind", "f_Hβ,rec", unit="um", text="of the pair; sized at a load spread evenly over the face"
     )
     recommended_lead_crowning: float = quantity(
-        "helix crowning to grind", "C_β,rec", unit="um", text="in all; it only undoes crowns of shafts and heat"
+        "helix crowning to grind", "C_β,rec", unit="um", text="of the pair; it only undoes crowns of shafts and heat"
     )
-    recommended_profile_slope: float = quantity("profile slope to grind", "f_Hα,rec", unit="um", text="in all")
+    recommended_profile_slope: float = quantity("profile slope to grind", "f_Hα,rec", unit="um", text="of the pair")
     curves: GapCurves = quantity("gap over the face", detail="curves")
 
 
@@ -99,7 +99,7 @@ class FaceLoad:
     )
     max_line_load: float = quantity("largest line load", "w_max", unit="n_per_mm")
     max_pressure: float | None = quantity(
-        "largest Hertz pressure", "p_H", unit="mpa", text="null where the loaded path reaches a base circle"
+        "largest Hertzian pressure", "p_H", unit="mpa", text="null where the loaded path reaches a base circle"
     )
     contact_fraction: float = quantity("contact pattern", text="share of the flank under load")
     transmission_error_pp: float = quantity("peak-to-peak transmission error", "PPTE", unit="um")
@@ -201,16 +201,18 @@ class TrainSafety:
     smallest of those asked for, None where one is unknown.
     """
 
-    blok_feature: float | None = quantity("scuffing safety on the feature line", "S_B,1")
-    blok_flank: float | None = quantity("scuffing safety on the flank", "S_B,2")
+    blok_feature: float | None = quantity("safety factor on the feature line (flash temperature method)", "S_B,1")
+    blok_flank: float | None = quantity("safety factor on the flank (flash temperature method)", "S_B,2")
     blok_at: Place | None = quantity("hottest place by Blok", text="null without load")
-    thermal_ehl_feature: float | None = quantity("scuffing safety by thermal EHL on the feature line", "S_T,1")
+    thermal_ehl_feature: float | None = quantity("safety factor on the feature line (thermal EHL)", "S_T,1")
     thermal_ehl_profile: float | None = quantity(
-        "scuffing safety by thermal EHL on the worst profile",
+        "safety factor on the worst profile (thermal EHL)",
         "S_T,2",
         text="on the profile line through the hottest place by Blok",
     )
-    minimum: float | None = quantity("scuffing safety", "S_B", text="least of all; null where one is unknown")
+    minimum: float | None = quantity(
+        "safety factor against scuffing", "S_B", text="least of all; null where one is unknown"
+    )
 
 
 @record
@@ -224,7 +226,7 @@ class TrainLosses:
     pumping: float = quantity("loss by pumping", "P_P", unit="w", text="of air and mist between the teeth")
     mesh: float | None = quantity("loss of the mesh", "P_V", unit="w", text="null without a coefficient of friction")
     bearings: float = quantity("loss of the plain bearings", "P_B", unit="w")
-    total: float | None = quantity("loss in all", "P_L", unit="w", text="null without the loss of the mesh")
+    total: float | None = quantity("total loss", "P_L", unit="w", text="null without the loss of the mesh")
     efficiency: float | None = quantity("efficiency", "η", text="null without power, or where the losses exceed it")
 
 
@@ -256,7 +258,7 @@ class FlankMaps:
     )
     line_load: FloatArray = quantity("line load", "w", unit="n_per_mm", axis=("profile_fraction", "face_fraction"))
     pressure: FloatArray = quantity(
-        "Hertz pressure",
+        "Hertzian pressure",
         "p_H",
         unit="mpa",
         text="null where the reduced radius vanishes",

@@ -45,7 +45,7 @@ class GearPairInputs:
     pinion: GearTeeth = quantity("pinion", text="the driving gear")
     wheel: GearTeeth = quantity("wheel", text="the driven gear")
     module: float = quantity(
-        "module", "m", ISO_21771, unit="mm", ge=0.01, le=100, text="module, in the plane named by `module_plane`"
+        "module", "m", ISO_21771, unit="mm", ge=0.01, le=100, text="module in the plane that is chosen below"
     )
     module_plane: Literal["normal", "transverse"] = quantity(
         "plane of the module",
@@ -94,7 +94,7 @@ class GearPairInputs:
         default_text="the backlash-free value",
     )
     rack_tip_radius: float = quantity(
-        "rack tip radius coefficient",
+        "root fillet radius coefficient",
         "ρ_fP*",
         "ISO 53",
         kw_only=True,

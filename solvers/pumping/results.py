@@ -16,7 +16,7 @@ class MeshGeometry:
     centre_distance: float = quantity("centre distance", "a", unit="mm", text="centre distance in use")
     backlash_free_centre_distance: float = quantity("centre distance without backlash", "a_0", unit="mm")
     working_pressure_angle: float = quantity(
-        "working pressure angle", "α_wt", unit="deg", text="working transverse pressure angle"
+        "working transverse pressure angle", "α_wt", unit="deg", text="working transverse pressure angle"
     )
     transverse_contact_ratio: float = quantity("transverse contact ratio", "ε_α")
     normal_backlash: float = quantity(
@@ -218,7 +218,7 @@ class Derived:
     centre_distance: float = quantity("centre distance used", "a", unit="mm")
     slices: int = quantity("slices asked for", "N_0", text="slices or pockets, those of the grooves included")
     rack_tip_radius: float = quantity(
-        "rack tip radius used", "ρ_fP*", text="in normal modules, as far as both racks have room for it"
+        "root fillet radius used", "ρ_fP*", text="in normal modules, as far as both racks have room for it"
     )
 
 

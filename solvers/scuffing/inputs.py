@@ -359,10 +359,10 @@ class LoadDistributionInputs:
 class ScuffingTest:
     """The FZG A/8.3/90 load stage at which the oil fails; X_W of the steel, X_L of the oil (None: that at 90 C)."""
 
-    fzg_stage: int = quantity("failing load stage", "S", FZG, ge=1, le=12)
+    fzg_stage: int = quantity("failure load stage", "S", FZG, ge=1, le=12)
     test: Literal["A/8.3/90"] = quantity("scuffing test", None, FZG, kw_only=True, default="A/8.3/90")
     structure_factor: float = quantity(
-        "structure factor",
+        "structural factor",
         "X_W",
         TR_13989,
         default=1.0,
@@ -407,11 +407,11 @@ class Temperatures:
         None,
         TR_13989,
         default="given",
-        text="given, or estimated from oil, its supply and flash; what is left out follows `bulk_c`",
+        text="given, or estimated from oil, its supply and flash; estimated if none is given",
         assumed="estimated from the oil, its supply and the mean flash temperature, of flanks flooded with oil",
     )
     oil_supply: OilSupply = quantity(
-        "oil supply",
+        "lubrication system factor",
         "X_S",
         TR_13989,
         default="spray",
@@ -438,7 +438,7 @@ class Temperatures:
         le=1500,
         tolerance=20,
         text="scuffing temperature of oil and material",
-        default_text="by `scuffing_test`; with neither no safety factor",
+        default_text="by the scuffing test; with neither no safety factor",
     )
     scuffing_test: ScuffingTest | None = quantity(
         "scuffing test", default=None, text="instead of the temperature: the stage at which the oil fails"
@@ -465,8 +465,8 @@ class ScuffingInputs:
         None,
         TR_13989,
         default="given",
-        text="the coefficient given, or the mean one of ISO/TR 13989-1, for Blok and the losses; what is left"
-        " out follows `friction_coefficient`",
+        text="the coefficient given, or the mean one of ISO/TR 13989-1, for Blok and the losses; the first"
+        " where a coefficient is given",
     )
     lubrication: Lubrication = quantity(
         "lubrication model",

@@ -30,7 +30,7 @@ class Geometry:
 
     centre_distance: float = quantity("centre distance", "a", unit="mm", text="centre distance in use")
     working_pressure_angle: float = quantity(
-        "working pressure angle", "α_wt", unit="deg", text="working transverse pressure angle"
+        "working transverse pressure angle", "α_wt", unit="deg", text="working transverse pressure angle"
     )
     base_helix_angle: float = quantity("base helix angle", "β_b", unit="deg")
     transverse_base_pitch: float = quantity("transverse base pitch", "p_bt", f"{XUE}, Eq. 2", unit="mm")
@@ -188,7 +188,7 @@ class Pressure:
     """
 
     max: float | None = quantity(
-        "largest Hertz pressure",
+        "largest Hertzian pressure",
         "p_H",
         f"{XUE}, Eq. 14",
         unit="mpa",
@@ -227,7 +227,7 @@ class ContactPoints:
         "line load along the feature line", "w", f"{XUE}, Fig. 18", unit="n_per_mm", axis="psi"
     )
     pressure: FloatArray = quantity(
-        "Hertz pressure along the feature line",
+        "Hertzian pressure along the feature line",
         "p_H",
         unit="mpa",
         text="null where the reduced radius vanishes",
@@ -236,7 +236,12 @@ class ContactPoints:
     )
     half_width: FloatArray = quantity("half width of the contact", "b_0", unit="mm", axis="psi")
     radius: FloatArray = quantity(
-        "reduced radius", "R_n", f"{XUE}, Eq. 13", unit="mm", text="reduced radius across the contact line", axis="psi"
+        "radius of relative curvature",
+        "R_n",
+        f"{XUE}, Eq. 13",
+        unit="mm",
+        text="reduced radius across the contact line",
+        axis="psi",
     )
     pinion_speed: FloatArray = quantity(
         "surface speed of the pinion", "u_1", f"{XUE}, Eq. 18", unit="m_per_s", axis="psi"
@@ -301,7 +306,7 @@ class Flank:
         "line load", "w", f"{XUE}, Fig. 11", unit="n_per_mm", axis=("profile_fraction", "face_fraction")
     )
     pressure: FloatArray = quantity(
-        "Hertz pressure",
+        "Hertzian pressure",
         "p_H",
         f"{XUE}, Figs. 13-17",
         unit="mpa",
@@ -325,7 +330,7 @@ class Derived:
     root_relief_length: float = quantity("root relief length used", "L_Cf", unit="mm")
     end_relief_length: float = quantity("end relief length used", "L_Ce", unit="mm")
     rack_tip_radius: float = quantity(
-        "rack tip radius used", "ρ_fP*", text="in normal modules, as far as both racks have room for it"
+        "root fillet radius used", "ρ_fP*", text="in normal modules, as far as both racks have room for it"
     )
 
 
@@ -346,7 +351,7 @@ class LoadDistribution:
     stiffness: Stiffness = quantity("stiffness of teeth and mesh")
     transmission_error: TransmissionError = quantity("transmission error of the mesh")
     load: LoadOnFlank = quantity("load on the flank")
-    pressure: Pressure = quantity("Hertz pressure of the flank")
+    pressure: Pressure = quantity("Hertzian pressure of the flank")
     friction_loss: FrictionLoss = quantity("friction loss")
     derived: Derived = quantity("load and lengths used")
     warnings: tuple[Notice, ...]

@@ -96,13 +96,13 @@ class Safety:
 
     scuffing: float = quantity("scuffing temperature used", "θ_S", unit="c", text="given or by the scuffing test")
     blok_factor: float | None = quantity(
-        "scuffing safety by Blok",
+        "safety factor (flash temperature method)",
         "S_B",
         f"{XUE}, Eq. 26",
         text="scuffing safety by Blok; null where the teeth stay as cool as the oil",
     )
     thermal_ehl_factor: float | None = quantity(
-        "scuffing safety by thermal EHL",
+        "safety factor (thermal EHL)",
         "S_B,EHL",
         text="by the thermal EHL solution, whose flanks touch nowhere; null in closed form",
         default=None,

@@ -196,7 +196,7 @@ def test_examples_give_figures_with_finite_numbers_and_findings(name: str) -> No
 
 
 # Lines that are no array of the answer: bulk plus flash, magnitudes, ways drawn between points.
-COMPUTED = {"pinion", "wheel", "Blok", "sliding speed", "to the next area", "pitch error"}
+COMPUTED = {"pinion", "wheel", "Blok", "sliding speed", "to the next area", "pitch deviation"}
 COMPUTED |= {"without coupling", "without heat", "without shafts", "mesh alone"}  # other units' loads
 
 

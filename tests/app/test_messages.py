@@ -49,7 +49,7 @@ def refused(model: type[Request], body: dict[str, Any], path: str, value: Any) -
         ),
         ("coupling.colour", 1, "/coupling/colour", "unknown field colour"),
         ("coupling.<script>", 1, "/coupling/<script>", "unknown field"),
-        ("coupling.module_mm", 0.001, "/coupling/module_mm", "module_mm is 0.001; allowed 0.1 to 100 mm"),
+        ("coupling.module_mm", 0.001, "/coupling/module_mm", "module_mm is 0.001; permissible 0.1 to 100 mm"),
         (
             "operation.speed_rpm",
             "1910",
@@ -69,7 +69,7 @@ def refused(model: type[Request], body: dict[str, Any], path: str, value: Any) -
         ("coupling.teeth", 20.5, "/coupling/teeth", "give a whole number"),
         ("lubricant", None, "/lubricant", "leave the section out instead of null"),
         ("coupling.pitch_errors_um", 3.0, "/coupling/pitch_errors_um", "give a list [...] of values here"),
-        ("model.sleeve", "hanging", "/model/sleeve", "sleeve: allowed are centred, floating"),
+        ("model.sleeve", "hanging", "/model/sleeve", "sleeve: permissible are centred, floating"),
     ],
 )
 def test_coupling(path: str, value: Any, pointer: str, message: str) -> None:

@@ -189,7 +189,7 @@ def test_from_a_data_sheet_to_a_safety_factor_in_one_request() -> None:
             "/v1/coupling",
             COUPLING,
             {"lubricant.iso_vg": 47},
-            "iso_vg: allowed are 32, 46, 68, 100, 150, 220, 320, 460, 680",
+            "iso_vg: permissible are 32, 46, 68, 100, 150, 220, 320, 460, 680",
         ),
         (
             "/v1/coupling",
@@ -201,7 +201,7 @@ def test_from_a_data_sheet_to_a_safety_factor_in_one_request() -> None:
             "/v1/scuffing",
             PAIR,
             {"temperatures.scuffing_test": {"fzg_stage": 12, "test": "A10/16.6R/90"}},
-            "test: allowed are A/8.3/90",
+            "test: permissible are A/8.3/90",
         ),
     ],
 )
@@ -252,7 +252,7 @@ def test_what_excludes_what(endpoint: str, body: dict[str, Any], changes: dict[s
             PAIR | {"model": {}},
             {"load.power_kw": 900},
             "load.power_kw",
-            "the Hertz pressure of 5917 MPa is beyond what steel carries; is the load too high?",
+            "the Hertzian pressure of 5917 MPa is beyond what steel carries; is the load too high?",
         ),
         (
             "/v1/coupling",

@@ -163,7 +163,7 @@ def test_terms_of_the_field() -> None:
         assert (leaf.title, leaf.declared.symbol) == (title, symbol)
     terms = {
         "film.thickness_ratio": ("specific film thickness", "λ"),
-        "safety.blok_factor": ("scuffing safety by Blok", "S_B"),
+        "safety.blok_factor": ("safety factor (flash temperature method)", "S_B"),
         "load.face_load_factor": ("face load factor", "K_Hβ"),
         "load.max_at.gamma": ("profile parameter, place of the largest line load", "Γ"),
         "pressure.max_at.gamma": ("profile parameter, place of the largest pressure", "Γ"),

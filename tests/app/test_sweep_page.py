@@ -175,7 +175,7 @@ def test_the_figures_numbers_are_the_points() -> None:
     drawn = {name: file.decode().splitlines() for name, file in files.items() if isinstance(file, bytes)}
     rows = [list(map(float, line.split(","))) for line in drawn["map"][1:]]
     assert [row[2] for row in rows] == found.T.ravel().tolist()
-    assert drawn["map"][0] == "helix crowning [µm],helix slope [µm],largest Hertz pressure [MPa]"
+    assert drawn["map"][0] == "helix crowning [µm],helix slope [µm],largest Hertzian pressure [MPa]"
     worst = [float(line.split(",")[1]) for line in drawn["worst"][1:]]
     assert worst == found.max(axis=0).tolist()
     own = [float(line.split(",")[2]) for line in drawn["worst"][1:]]
@@ -265,7 +265,7 @@ def test_a_map_over_even_ratios_puts_its_points_where_the_axes_have_them() -> No
         ({"x": "operation.torque_n_m", "x.scale": "cubic"}, "x.scale", "linear"),
         ({"x": "operation.torque_n_m", "x.count": "2501"}, "x.count", "at most 2500"),
         ({"x": "operation.torque_n_m", "x.count": "1.5"}, "x.count", "whole number"),
-        ({"x": "operation.misalignment_deg", "x.to": "90"}, "x.from", "allowed -6 to 6"),
+        ({"x": "operation.misalignment_deg", "x.to": "90"}, "x.from", "permissible -6 to 6"),
         ({"x": "operation.torque_n_m", "y": "operation.torque_n_m"}, "x.count", "given twice"),
         ({"x": "operation.torque_n_m", "show": "axial_thrust"}, "show", "is a section"),
         ({"x": "operation.torque_n_m", "show": "lubrication.regime.name"}, "show", "no number"),

@@ -27,5 +27,5 @@ def test_the_notebook_runs_and_draws(tmp_path: Path) -> None:
     outputs = [output for cell in cells for output in cell["outputs"]]
     assert sum("image/png" in output.get("data", {}) for output in outputs) == FIGURES
     texts = ["".join(output.get("text", output.get("data", {}).get("text/plain", ""))) for output in outputs]
-    assert any("allowed 0.1 to 100 mm" in text for text in texts)
+    assert any("permissible 0.1 to 100 mm" in text for text in texts)
     assert any("blok_factor=" in text for text in texts)

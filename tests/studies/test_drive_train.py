@@ -151,7 +151,11 @@ def test_a_design_is_judged_at_its_worst_corner() -> None:
         design_study, variables=[HELIX], corners=[FRICTION], collective=powers, objective=SAFETY, evaluations=3
     )
     assert (header["type"], header["direction"], header["corners"]) == ("design", "maximise", 4)
-    assert header["objective"] == {"path": SAFETY, "unit": None, "title": "scuffing safety on the flank"}
+    assert header["objective"] == {
+        "path": SAFETY,
+        "unit": None,
+        "title": "safety factor on the flank (flash temperature method)",
+    }
     assert header["variables"] == [{"path": [HELIX["path"]], "unit": "µm", "min": 0.0, "max": 100.0}]
     cases = [{**power, FRICTION["path"]: friction} for power in powers for friction in (0.05, 0.25)]
     for trial in (trials[0], trials[-1]):

@@ -12,10 +12,12 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure as Sheet
 from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.text import Text
 
 from app.figures.data import Figure, Panel, ThemeName
 from app.figures.drawing.panels import ROW_NAME_LENGTH, draw_panel, place_texts
 from app.figures.drawing.style import DPI, TEXT, THEMES, TITLE, WIDTH, Theme, settings
+from app.figures.wording import subscripts
 
 EDGE = 0.1  # inches around everything
 TITLE_LINE, FINDING_LINE = 1.3 * TITLE / 72.0, 1.3 * TEXT / 72.0  # inches: 1.3 of the size of the letters
@@ -93,12 +95,21 @@ def laid_out(figure: Figure, theme: Theme) -> tuple[Sheet, list[Axes]]:
         if figure.beside:
             each.set_xlabel(fill(panel.x.label, ABSCISSA_LENGTH))
     sheet.align_ylabels([each for each, panel in zip(axes, figure.panels, strict=True) if not panel.rows])
+    for text in sheet.findobj(Text):
+        typeset = subscripts(text.get_text(), _symbol)
+        if typeset != text.get_text():
+            text.set(text=typeset, parse_math=True)
     if axes:
         engine.execute(sheet)
     sheet.set_layout_engine("none")
     for each, panel in zip(axes, figure.panels, strict=True):
         place_texts(each, panel, theme, canvas.get_renderer())
     return sheet, axes
+
+
+def _symbol(letter: str, subscript: str) -> str:
+    """A symbol for matplotlib to typeset."""
+    return rf"${letter}_\mathrm{{{subscript.replace(',', '{,}')}}}$"
 
 
 def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:

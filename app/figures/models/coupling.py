@@ -124,7 +124,7 @@ ORBIT_SOURCE = "Pahl 1978, Fig. 5"
 CONSTRAINTS = {
     "contact_overlap": "the overlap cannot fall below 1",
     "edge_contact": "the contact leaves the face",
-    "hertz_pressure": "the Hertz pressure is too high",
+    "hertz_pressure": "the Hertzian pressure is too high",
     "contact_width": "the contact is too wide",
     "sliding_velocity": "the teeth slide too fast",
 }
@@ -261,7 +261,7 @@ def tooth_loads(inputs: CouplingInputs, result: CouplingResult) -> Figure:
         )
     ]
     if inputs.coupling.pitch_errors is not None:
-        error = axis(CouplingDesign, "pitch_errors", "pitch error (positive: carries more)", magnitude=False)
+        error = axis(CouplingDesign, "pitch_errors", "pitch deviation (positive: carries more)", magnitude=False)
         errors = Bars("pitch error", angle, values(np.array(inputs.coupling.pitch_errors) / UM), Hue.VERMILLION)
         panels.append(Panel(x=TOOTH, y=error, bars=(errors,)))
     concentration = load.load_concentration

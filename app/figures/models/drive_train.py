@@ -37,7 +37,7 @@ def flank_load(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Line load over the flank under the gap that all parts agreed on."""
     flank, load, shown = result.flank, result.load, axis(FlankMaps, "line_load")
     panel = over_flank(face_width(inputs), flank, shown, flank.line_load, load.max_line_load, None)
-    finding = f"highest {number(load.max_line_load, 'N/mm')}; {percent(load.contact_fraction)} of the flank carries"
+    finding = f"highest {number(load.max_line_load, 'N/mm')}; contact pattern {percent(load.contact_fraction)}"
     factor = "" if load.face_load_factor is None else f", K_Hβ = {number(load.face_load_factor)}"
     return Figure(f"{finding}{factor}" if factor else "no load", (panel,))
 
@@ -60,7 +60,7 @@ def contact_temperature(inputs: DriveTrainInputs, result: DriveTrainResult) -> F
     critical = (Critical(limit, "scuffing"),) if limit is not None and low < limit < high else ()
     colours = replace(panel.map, critical=critical, range=(low, high if high > low else low + 1.0))
     safety = result.safety.blok_flank if result.safety is not None else None
-    finding = "" if safety is None else f", safety against scuffing {number(safety)} by Blok"
+    finding = "" if safety is None else f", safety factor S_B = {number(safety)}"
     return Figure(f"up to {number(high, '°C', digits=4)}{finding}", (replace(panel, map=colours),))
 
 
@@ -142,7 +142,7 @@ def gap(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
         Line("shafts", y, values(curves.shaft), Hue.BLUE),
         Line("heat", y, values(curves.thermal), Hue.VERMILLION),
         Line("as ground", y, values(curves.modification), Hue.GREEN),
-        Line("in all", y, values(curves.total), Hue.PURPLE),
+        Line("total", y, values(curves.total), Hue.PURPLE),
     )
     opened = axis(GapCurves, "total", "gap, positive where the flanks part", magnitude=False)
     tilt, heat = (
@@ -162,7 +162,7 @@ def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     found = result.misalignment
     rows = [Row(name, getattr(found.parts, part), hue) for name, part, hue in PARTS]
     rows += [
-        Row("shafts in all", found.shaft_slope, Hue.PURPLE),
+        Row("shafts, total", found.shaft_slope, Hue.PURPLE),
         Row("heat", found.thermal_slope, Hue.VERMILLION),
         Row("shafts and heat", found.total_slope, Hue.PURPLE),
     ]
@@ -304,7 +304,7 @@ def losses(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     if found.total is None:
         finding = "without the loss of the mesh, whose coefficient of friction is not known"
     else:
-        finding = f"{number(found.total / NEWTONS, 'kW')} in all{efficiency}" + (
+        finding = f"total {number(found.total / NEWTONS, 'kW')}{efficiency}" + (
             "" if plain else "; without the bearings"
         )
     return Figure(finding, (Panel(x=Axis("power lost", "W", symbol="P"), y=Axis("where"), rows=rows),))

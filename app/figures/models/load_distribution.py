@@ -85,7 +85,7 @@ def flank_load(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figu
     load, flank, shown = result.load, result.flank, axis(Flank, "line_load")
     panel = over_flank(inputs.gears.face_width, flank, shown, flank.line_load, load.max_line_load, load.max_at)
     spread = "" if load.face_load_factor is None else f", K_Hβ = {number(load.face_load_factor)}"
-    carrying = f"{percent(load.contact_fraction)} of the flank carries"
+    carrying = f"contact pattern {percent(load.contact_fraction)}"
     finding = f"highest {number(load.max_line_load, 'N/mm')}{spread}; {carrying}"
     return Figure(finding if load.max_at else NO_LOAD, (panel,))
 
@@ -220,7 +220,7 @@ def path_of_contact(inputs: LoadDistributionInputs, result: LoadDistribution) ->
         ),
         curve(
             PATH,
-            axis(ContactPoints, "pressure", "Hertz pressure"),
+            axis(ContactPoints, "pressure", "Hertzian pressure"),
             curves.psi,
             curves.pressure,
             Hue.VERMILLION,
@@ -272,7 +272,7 @@ def load_sharing(inputs: LoadDistributionInputs, result: LoadDistribution) -> Fi
     marks = extreme(lines)
     if curves.iso_load_sharing is not None:
         standard = values(curves.iso_load_sharing)
-        lines.append(Line("ISO 13989-1", values(curves.psi), standard, Hue.GREY, Role.REFERENCE))
+        lines.append(Line("ISO/TS 6336-20", values(curves.psi), standard, Hue.GREY, Role.REFERENCE))
     y = axis(FeatureLine, "load_sharing", "load sharing factor, w b / F_bt")
     panel = Panel(x=PATH, y=y, lines=tuple(lines), levels=path_points(inputs.gears), marks=marks)
     most = [f"at most {number(mark.y)} of the force on one line, at Ψ = {number(mark.x)}" for mark in marks]
@@ -303,7 +303,7 @@ def pair_share(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
 FIGURES = (
     section(lambda inputs: inputs.gears),
     Declaration("flank-load", "Line load on the flank", "Xue 2020, Fig. 11", flank_load),
-    Declaration("flank-pressure", "Hertz pressure on the flank", "Xue 2020, Figs. 13, 16, 17", flank_pressure),
+    Declaration("flank-pressure", "Hertzian pressure on the flank", "Xue 2020, Figs. 13, 16, 17", flank_pressure),
     Declaration("modification", "Modification of the flank", "Xue 2020, Fig. 15", modification),
     Declaration("modification-traces", "Profile and helix charts", "Xue 2020, Fig. 15", traces),
     Declaration(

@@ -86,7 +86,7 @@ def _safety(result: Scuffing) -> str:
     known = () if safety is None else ((safety.thermal_ehl_factor, "thermal EHL"), (safety.blok_factor, "Blok"))
     factors = [f"{number(factor)} by {method}" for factor, method in known if factor is not None]
     if factors:
-        return f"safety against scuffing {', '.join(factors)}"
+        return f"safety factor {', '.join(factors)}"
     if contact.thermal_ehl_max is not None:
         return f"up to {number(contact.thermal_ehl_max, '°C')} by thermal EHL"
     return "" if contact.blok_max is None else f"up to {number(contact.blok_max, '°C')} by Blok"
@@ -113,7 +113,7 @@ def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     method = next(line.title for line in lines if line.hue is mark.hue)
     finding = f"least {number(mark.y)} by {method}, at Ψ = {number(mark.x)}"
     y, limit = (
-        axis(Safety, "blok_factor", "scuffing safety", limits=(0.0, top)),
+        axis(Safety, "blok_factor", "safety factor against scuffing", limits=(0.0, top)),
         Level(1.0, "scuffing below 1", limit=True),
     )
     return _along(inputs, result, y, lines, [limit], finding, marked=lines, least=True)
@@ -207,7 +207,7 @@ FIGURES = (
     Declaration(
         "contact-temperature", "Contact temperature along the path of contact", "Xue 2020, Fig. 22", contact_temperature
     ),
-    Declaration("safety", "Safety against scuffing along the path of contact", "Xue 2020, Eq. 26", safety_along),
+    Declaration("safety", "Safety factor against scuffing along the path of contact", "Xue 2020, Eq. 26", safety_along),
     Declaration("film", "Film along the path of contact", "Xue 2020, Fig. 23", film),
     Declaration("friction", "Friction and pressure along the path of contact", "Xue 2020, section IV", friction),
     *(replace(each, build=_of_distribution(each.build)) for each in load_distribution.FIGURES),

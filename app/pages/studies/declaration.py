@@ -130,7 +130,7 @@ class Form:
             text=self.asked.views.get(name, ""),
             placeholder="" if usual is None else text_of(usual),
             options=options,
-            required=False,
+            required="",
             assumed=False,
             help=(),
             fault=self.faults.get(name),

@@ -17,7 +17,13 @@ class Contact:
 
     line_load: float = quantity("line load", "w", XUE, unit="n_per_mm", gt=0, le=1e5, text="load per length of contact")
     radius: float = quantity(
-        "reduced radius", "R", XUE, unit="mm", ge=0.01, le=1e4, text="reduced radius of curvature, 1/R = 1/R_1 + 1/R_2"
+        "radius of relative curvature",
+        "R",
+        XUE,
+        unit="mm",
+        ge=0.01,
+        le=1e4,
+        text="reduced radius of curvature, 1/R = 1/R_1 + 1/R_2",
     )
     speed_1: float = quantity(
         "speed of surface 1",

@@ -18,7 +18,7 @@ class HertzContact:
     """Dry contact: half_width [m], max_pressure [Pa]."""
 
     half_width: float = quantity("half width of the contact", "b", unit="mm")
-    max_pressure: float = quantity("Hertz pressure", "p_H", f"{XUE}, Eq. 14 without its π/4", unit="mpa")
+    max_pressure: float = quantity("Hertzian pressure", "p_H", f"{XUE}, Eq. 14 without its π/4", unit="mpa")
 
 
 @record
@@ -93,7 +93,7 @@ class ContactFriction:
     (or a tenth of the largest pressure, where that is less).
     """
 
-    coefficient: float = quantity("friction coefficient", "μ", text="coefficient of friction, a magnitude")
+    coefficient: float = quantity("coefficient of friction", "μ", text="coefficient of friction, a magnitude")
     coefficient_1: float
     coefficient_2: float
     power: float = quantity("sliding power", "P", unit="w_per_mm", text="sliding power per length of contact")

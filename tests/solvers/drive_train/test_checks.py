@@ -100,7 +100,7 @@ def test_refusals(code: str, field: str, inputs: Callable[[], DriveTrainInputs])
 
 def test_ranges_of_parts_are_checked_by_name() -> None:
     thin = coupling(coupling=replace(COUPLING.coupling, face_width=-1.0))
-    with pytest.raises(InvalidInput, match=r"face_width is -1000 mm; allowed 0\.1 to 2000 mm") as refusal:
+    with pytest.raises(InvalidInput, match=r"face_width is -1000 mm; permissible 0\.1 to 2000 mm") as refusal:
         drive_train.solve(thin)
     assert refusal.value.code == "out_of_range"
 
