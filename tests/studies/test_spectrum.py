@@ -410,7 +410,7 @@ def test_shares_are_normalised() -> None:
 def test_a_study_of_too_many_solutions_is_refused_with_an_estimate() -> None:
     pointer, code, message = fault_of(coupling(tolerances=friction(count=1024, replicates=100)))
     assert (pointer, code) == ("/tolerances/count", "too_many_points")
-    assert "102400 solutions; at most 20000 are allowed" in message
+    assert "102400 solutions; at most 20000 are permissible" in message
     assert " s on one core" in message
 
 
