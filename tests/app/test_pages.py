@@ -264,7 +264,7 @@ def test_compare_shows_both_cases() -> None:
     assert len(shown.keep) == 2
     assert "variant A" in html
     assert "End comparison" in html
-    assert re.search(r"→ <strong>[+−][\d.]+ %</strong>", html)
+    assert re.search(r"this case: <strong>[+−][\d.]+ %</strong>", html)
     same = views.page(views.Asked("/scuffing", pairs_of(changed), {"ref": ref}, *shown.keep.values()))
     assert same.content == shown.content
     assert same.keep == {}
