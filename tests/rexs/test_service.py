@@ -89,6 +89,11 @@ def test_the_page_leads_to_every_calculation(client: httpx.Client) -> None:
         assert client.get(address, follow_redirects=True).status_code == 200
 
 
+def test_the_page_reloaded_asks_for_the_file_again(client: httpx.Client) -> None:
+    answer = client.get("/rexs")
+    assert (answer.status_code, answer.headers["location"]) == (303, "/#rexs-file")
+
+
 def test_the_page_leads_to_the_load_spectrum(client: httpx.Client) -> None:
     unit = turbo_unit()
     load = next(each["id"] for each in unit.components if each["type"] == "external_load")

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 
 import pytest
-from playwright.sync_api import Browser, Page, expect, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
 
 CHROMIUM = "/usr/bin/chromium"
 OPTIONS = ["--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking", "--disable-sync"]
@@ -23,9 +23,11 @@ def browser() -> Iterator[Browser]:
 def visit(browser: Browser, server: str) -> Iterator[Callable[..., Page]]:
     """Open an address in a fresh window that allows no other host and no complaint."""
     complaints: list[str] = []
+    opened: list[BrowserContext] = []
 
     def open_page(address: str, **options: object) -> Page:
         context = browser.new_context(base_url=server, **options)
+        opened.append(context)
         context.set_default_timeout(SLOW_MS)
         context.grant_permissions(["clipboard-read", "clipboard-write"], origin=server)
         page = context.new_page()
@@ -41,4 +43,6 @@ def visit(browser: Browser, server: str) -> Iterator[Callable[..., Page]]:
         return url.startswith((server, "data:"))
 
     yield open_page
+    for context in opened:
+        context.close()
     assert complaints == []

@@ -3,6 +3,7 @@
 from typing import Annotated, Any
 
 from fastapi import APIRouter, HTTPException, Query, Request, Response
+from fastapi.responses import RedirectResponse
 
 from app.errors import Unprocessable
 from app.http.problems import documented
@@ -74,6 +75,12 @@ async def write_results(
     file: answer.File = await _runner(http).run(http, answer.with_results, *arguments)
     headers = {"Content-Disposition": f'attachment; filename="results{file.suffix}"'}
     return Response(file.content, media_type=file.media_type, headers=headers)
+
+
+@pages.get("/rexs")
+async def ask_for_unit(http: Request) -> Response:
+    """Where a file is chosen, for who reloads the page of a unit or follows its address."""
+    return RedirectResponse(f"{root_of(http)}/#rexs-file", 303)
 
 
 @pages.post("/rexs")
