@@ -14,6 +14,8 @@ from app.schema.model import MODEL_VERSION
 
 ASSETS = {
     "style.css": "text/css; charset=utf-8",
+    "docs.css": "text/css; charset=utf-8",
+    "docs.js": "text/javascript; charset=utf-8",
     "page.js": "text/javascript; charset=utf-8",
     "charts.js": "text/javascript; charset=utf-8",
     "study.js": "text/javascript; charset=utf-8",

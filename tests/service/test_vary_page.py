@@ -9,14 +9,13 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from app.pages.studies.sweep_examples import STUDIES
-from tests.support.browsing import PHONE, address_of, overflow, serious
+from tests.support.browsing import address_of
 
 pytestmark = pytest.mark.service
 
 MAP, THRUST = STUDIES[0].address, STUDIES[1].address
 SLOW = re.sub(r"x\.count=\d+", "x.count=300", re.sub(r"y\.count=\d+", "y.count=8", MAP))
 COUPLING = "pahl-axial-displacement"
-INFLUENCE = address_of(COUPLING).replace("?", "/influence?", 1)
 GRINDING = address_of("starter-turbo-gear-drive-train").replace("?", "/design?", 1)
 
 
@@ -131,14 +130,3 @@ def test_which_input_matters_leads_to_its_curve(visit: Callable[..., Page]) -> N
     expect(first).to_have_text("coefficient of friction")
     first.click()
     expect(page.locator("#figure-curve")).to_be_visible()
-
-
-@pytest.mark.parametrize(
-    "address",
-    ["/coupling/vary", INFLUENCE, MAP, THRUST, THRUST.replace("x.to=0.15", "x.to=abc"), f"{GRINDING}&trials=3"],
-)
-def test_phone_and_accessibility(visit: Callable[..., Page], address: str) -> None:
-    for scheme in ("light", "dark"):
-        page = visit(address, viewport=PHONE, color_scheme=scheme)
-        assert overflow(page) == 0
-        assert serious(page) == []

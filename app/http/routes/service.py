@@ -1,28 +1,24 @@
 """Examples, health and metrics."""
 
 import gzip
-import re
-from base64 import b64encode
 from functools import lru_cache
-from hashlib import sha256
 from typing import Annotated, Literal
 
 from fastapi import APIRouter, FastAPI, HTTPException, Path, Request, Response
-from fastapi.openapi.docs import get_swagger_ui_html
 from fastapi.responses import JSONResponse
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 from pydantic import BaseModel
 
 from app.errors import WarmingUp, WorkerLost
 from app.examples import Example, ExampleSummary, examples
-from app.http.middleware import CONTENT_POLICY
 from app.http.problems import documented
+from app.http.routes.pages import HTML, root_of
+from app.pages.templating import rendered
 from app.schema.quantities import Output
 from app.workers.pool import Pool
 from app.workers.start_up import StartUp
 
 DOCS_ASSETS = "/static-offline-docs"  # of Swagger's page, from the package fastapi-offline
-INLINE_SCRIPT = re.compile(rb"<script>(.*?)</script>", re.DOTALL)
 
 router = APIRouter(tags=["service"])
 
@@ -94,19 +90,10 @@ def _document(app: FastAPI, root: str) -> tuple[bytes, bytes]:
 
 @router.get("/docs", include_in_schema=False)
 async def docs(http: Request) -> Response:
-    """Swagger's page of the OpenAPI document; the one script that it contains is allowed by its hash."""
-    root = http.scope.get("root_path", "")
-    page = get_swagger_ui_html(
-        openapi_url=f"{root}/openapi.json",
-        title="tribodrive",
-        swagger_js_url=f"{root}{DOCS_ASSETS}/swagger-ui-bundle.js",
-        swagger_css_url=f"{root}{DOCS_ASSETS}/swagger-ui.css",
-        swagger_favicon_url=f"{root}{DOCS_ASSETS}/favicon.png",
+    """Swagger's page of the OpenAPI document."""
+    return Response(
+        rendered("docs.html", root_of(http), assets=DOCS_ASSETS, description=http.app.description), media_type=HTML
     )
-    (script,) = INLINE_SCRIPT.findall(page.body)
-    allowed = b64encode(sha256(script).digest()).decode()
-    page.headers["Content-Security-Policy"] = f"{CONTENT_POLICY.decode()}; script-src 'self' 'sha256-{allowed}'"
-    return page
 
 
 @router.get("/metrics", response_class=Response, include_in_schema=False)
