@@ -18,7 +18,7 @@ class Declaration:
 
     `build` makes the data of the solver's inputs, in SI, and of its result with every quantity in the unit in which it
     is shown. Where the result does not hold what the figure shows, `compute` finds it from both, and `build` takes it
-    as a third argument.
+    as a third argument. A page leaves out what is `shown_at` the page of another calculation, given by its path.
     """
 
     name: str
@@ -26,6 +26,7 @@ class Declaration:
     source: str
     build: Build
     compute: Callable[[Any, Any], Any] | None = None
+    shown_at: str = ""
 
     def figure(self, request: Request, response: Response) -> Figure:
         """The figure of a case. Raises NoFigure where there is nothing to show."""

@@ -2,7 +2,7 @@
 
 import base64
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -67,14 +67,19 @@ def figure_of(declaration: Declaration, case: Case, variant: Case | None) -> Fig
 
 
 def charts(
-    case: Case, variant: Case | None, chart: Callable[[Declaration, Figure | None], Chart], *, compute: bool = False
+    declarations: Iterable[Declaration],
+    case: Case,
+    variant: Case | None,
+    chart: Callable[[Declaration, Figure | None], Chart],
+    *,
+    compute: bool = False,
 ) -> tuple[list[Chart], list[Missing]]:
-    """Every figure of a case made a `chart` of, and those that it lacks.
+    """Figures of a case made a `chart` of each, and those that it lacks.
 
     The data of figures that need more than the answer are None unless `compute` asks for them.
     """
     found, missing = [], []
-    for declaration in case.calculation.figures:
+    for declaration in declarations:
         known = compute or declaration.compute is None
         try:
             found.append(chart(declaration, figure_of(declaration, case, variant) if known else None))

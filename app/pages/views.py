@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, NamedTuple, get_args
 
-from app.calculations import CALCULATIONS, Calculation
+from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import InvalidBody, Unprocessable, Unreadable
 from app.evaluate import written as json_written
 from app.figures.data import Figure, NoFigure, ThemeName
@@ -18,7 +18,7 @@ from app.pages.code import body_of, for_python, for_shell
 from app.pages.form import State, anchor, form
 from app.pages.links import IMAGE_FORMATS, Links, example_link, examples_of
 from app.pages.manual import chapter_of
-from app.pages.query import Pairs, ambiguity, normalised, pairs_of_query, split_views
+from app.pages.query import Pairs, ambiguity, link, normalised, pairs_of_query, split_views
 from app.pages.results import assumptions, cards, differences, entries, groups, resolved
 from app.pages.studies.sweep_examples import studies_of_case
 from app.pages.study_links import study_links
@@ -100,8 +100,9 @@ def page(asked: Asked) -> Shown:
         return _page(asked, state, 400 if isinstance(error, Unreadable) else 422, faults=faults)
     variant, trouble = _variant(asked)
     links = replace(asked.links, case=case.response.case, ref_case=variant.response.case if variant else "")
+    own = [each for each in asked.calculation.figures if not each.shown_at]
     figures, missing = charts(
-        case, variant, lambda declaration, data: linked(declaration, data, links.image, asked.theme)
+        own, case, variant, lambda declaration, data: linked(declaration, data, links.image, asked.theme)
     )
     before = variant.response if variant else None
     used, assumed = resolved(case.response), assumptions(type(case.request), case.response)
@@ -117,6 +118,7 @@ def page(asked: Asked) -> Shown:
         derived=_derived(case),
         charts=figures,
         missing=missing,
+        elsewhere=_elsewhere(asked),
         ready=studies_of_case(asked.calculation, asked.pairs, case.response.inputs),
         compared=before is not None,
         differences=differences(type(case.request), case.response, before) if before else None,
@@ -125,6 +127,20 @@ def page(asked: Asked) -> Shown:
         code=[(name, write(LOCAL + asked.root, case.calculation, body_of(case.request))) for name, write in LANGUAGES],
     )
     return replace(shown, keep=_keep(asked, case, variant, by_case=links.too_long))
+
+
+def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
+    """The calculations whose pages show other figures of the case: title, address of the case there, the figures."""
+    titles = dict[str, list[str]]()
+    for each in asked.calculation.figures:
+        if each.shown_at:
+            titles.setdefault(each.shown_at, []).append(each.title)
+    found = []
+    for path, names in titles.items():
+        other = BY_PATH[path]
+        pairs = [(name, text) for name, text in asked.pairs if leaf_at(other.request, name)]
+        found.append((other.title, link(page_path(other), pairs, theme=asked.views.get("theme", "")), names))
+    return found
 
 
 def form_page(asked: Asked) -> Shown:
@@ -187,10 +203,10 @@ def report(asked: Asked, host: str, study: StudySection | None = None) -> Shown:
         return page(asked)
     variant, trouble = _variant(asked)
     before = variant.response if variant else None
-    figures, missing = charts(case, variant, _printed, compute=True)
-    link = "" if asked.links.too_long else host + asked.root + asked.links.page
+    figures, missing = charts(asked.calculation.figures, case, variant, _printed, compute=True)
+    own = "" if asked.links.too_long else host + asked.root + asked.links.page
     try:
-        context = reports.context(case, asked.views, (host or LOCAL) + asked.root, link)
+        context = reports.context(case, asked.views, (host or LOCAL) + asked.root, own)
     except ValueError as error:
         raise Unprocessable("too_long", str(error), None) from error
     content = rendered(

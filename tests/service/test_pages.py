@@ -226,7 +226,7 @@ LOADED = """async images => {
 def test_figures_are_images_in_the_theme_of_the_system(visit: Callable[..., Page], scheme: str) -> None:
     page = visit(address_of(SCUFFING), color_scheme=scheme)
     loaded = page.locator(".chart img").evaluate_all(LOADED)
-    assert len(loaded) > 5
+    assert len(loaded) >= 5
     for width, dark in loaded:
         assert width > 400
         assert dark == (scheme == "dark")
@@ -265,7 +265,7 @@ def test_without_script(visit: Callable[..., Page]) -> None:
     assert "pick" not in page.url
     assert "=&" not in page.url
     assert page.locator(".card").count() == 3
-    assert page.locator(".chart img").count() > 5
+    assert page.locator(".chart img").count() >= 5
 
 
 def test_a_long_case_is_posted(visit: Callable[..., Page]) -> None:

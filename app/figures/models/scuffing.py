@@ -203,6 +203,7 @@ def _warned(result: Scuffing) -> tuple[Span, ...]:
     )
 
 
+OWN = ("section", "flank-pressure")  # of the figures of the load distribution: where the pair can scuff
 FIGURES = (
     Declaration(
         "contact-temperature", "Contact temperature along the path of contact", "Xue 2020, Fig. 22", contact_temperature
@@ -210,5 +211,12 @@ FIGURES = (
     Declaration("safety", "Safety factor against scuffing along the path of contact", "Xue 2020, Eq. 26", safety_along),
     Declaration("film", "Film along the path of contact", "Xue 2020, Fig. 23", film),
     Declaration("friction", "Friction and pressure along the path of contact", "Xue 2020, section IV", friction),
-    *(replace(each, build=_of_distribution(each.build)) for each in load_distribution.FIGURES),
+    *(
+        replace(
+            each,
+            build=_of_distribution(each.build),
+            shown_at="" if each.name in OWN else "/v1/scuffing/load-distribution",
+        )
+        for each in load_distribution.FIGURES
+    ),
 )

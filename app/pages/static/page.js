@@ -148,12 +148,13 @@ function count(area) {
   document.getElementById(area.dataset.count).textContent = items ? `${items} values` : "";
 }
 
+// A field is shown in the middle, a part of the page from its beginning.
 function goTo(address) {
   const target = document.getElementById(decodeURIComponent(address.slice(1)));
   if (!target) return;
   for (let part = target.parentElement; part; part = part.parentElement) if (part.tagName === "DETAILS") part.open = true;
   target.focus();
-  target.scrollIntoView({ block: "center" });
+  target.scrollIntoView({ block: target.closest(".fields") ? "center" : "start" });
 }
 
 function prepareResult() {
