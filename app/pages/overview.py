@@ -10,6 +10,9 @@ from app.pages.query import link, pairs_of
 from app.pages.studies.sweep_examples import studies_of
 from app.pages.templating import by_model, model_of, page_path, rendered
 
+ANSWERS = {"drive-train": "face-load", "coupling": "tooth-loads", "pumping": "mach-map", "scuffing": "flank-load"}
+"""The figure that answers the question of each model on the start page."""
+
 
 @lru_cache(maxsize=4)
 def start_page(root: str) -> str:
@@ -22,7 +25,8 @@ def _entry(calculations: list[Calculation]) -> dict[str, Any]:
     first = calculations[0]
     known = examples_of(first)
     example = next((each for each in known if each.title.endswith("?")), known[0])
-    shown, pairs = first.figures[0], pairs_of(example.request)
+    shown = next(each for each in first.figures if each.name == ANSWERS[model_of(first)])
+    pairs = pairs_of(example.request)
     place = f"{page_path(first)}/figures/{shown.name}.svg"
     return {
         "chapter": chapters()[model_of(first)],
