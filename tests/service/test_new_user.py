@@ -20,7 +20,7 @@ class User:
     """Clicks and types by visible labels, and keeps count."""
 
     def __init__(self, page: Page) -> None:
-        self._page = page
+        self.page = page
         self.clicks = 0
         self.fields = 0
 
@@ -32,16 +32,16 @@ class User:
 
     def open(self, section: str) -> None:
         """Unfold a section of the form."""
-        self.click(self._page.locator("#form summary .name").get_by_text(section, exact=True))
+        self.click(self.page.locator("#form summary .name").get_by_text(section, exact=True))
 
     def fill(self, label: str, text: str) -> None:
         """Type into the field of a label."""
-        self._page.get_by_role("textbox", name=re.compile(rf"^{label}( |,|$)")).locator("visible=true").first.fill(text)
+        self.page.get_by_role("textbox", name=re.compile(rf"^{label}( |,|$)")).locator("visible=true").first.fill(text)
         self.fields += 1
 
     def choose(self, label: str, text: str) -> None:
         """Choose from the menu of a label."""
-        menu = self._page.get_by_role("combobox", name=re.compile(rf"^{label}( |,|$)"))
+        menu = self.page.get_by_role("combobox", name=re.compile(rf"^{label}( |,|$)"))
         menu.locator("visible=true").first.select_option(label=text)
         self.fields += 1
 
