@@ -100,9 +100,11 @@ def page(asked: Asked) -> Shown:
         return _page(asked, state, 400 if isinstance(error, Unreadable) else 422, faults=faults)
     variant, trouble = _variant(asked)
     links = replace(asked.links, case=case.response.case, ref_case=variant.response.case if variant else "")
-    own = [each for each in asked.calculation.figures if not each.shown_at]
     figures, missing = charts(
-        own, case, variant, lambda declaration, data: linked(declaration, data, links.image, asked.theme)
+        _own_figures(asked),
+        case,
+        variant,
+        lambda declaration, data: linked(declaration, data, links.image, asked.theme),
     )
     before = variant.response if variant else None
     used, assumed = resolved(case.response), assumptions(type(case.request), case.response)
@@ -127,6 +129,11 @@ def page(asked: Asked) -> Shown:
         code=[(name, write(LOCAL + asked.root, case.calculation, body_of(case.request))) for name, write in LANGUAGES],
     )
     return replace(shown, keep=_keep(asked, case, variant, by_case=links.too_long))
+
+
+def _own_figures(asked: Asked) -> list[Declaration]:
+    """The figures that page and report show; those of other pages are a link."""
+    return [each for each in asked.calculation.figures if not each.shown_at]
 
 
 def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
@@ -203,7 +210,7 @@ def report(asked: Asked, host: str, study: StudySection | None = None) -> Shown:
         return page(asked)
     variant, trouble = _variant(asked)
     before = variant.response if variant else None
-    figures, missing = charts(asked.calculation.figures, case, variant, _printed, compute=True)
+    figures, missing = charts(_own_figures(asked), case, variant, _printed, compute=True)
     own = "" if asked.links.too_long else host + asked.root + asked.links.page
     try:
         context = reports.context(case, asked.views, (host or LOCAL) + asked.root, own)
@@ -224,6 +231,7 @@ def report(asked: Asked, host: str, study: StudySection | None = None) -> Shown:
         derived=_derived(case),
         charts=figures,
         missing=missing,
+        elsewhere=_elsewhere(asked),
         outdated=asked.outdated,
         study=study,
         host=host,

@@ -18,7 +18,9 @@ pytestmark = pytest.mark.service
 STARTERS = [example.name for example in examples().values() if example.starter]
 COUPLING = "pahl-axial-displacement"
 SCUFFING = "xue-pair-1-scuffing"
-MOST_PAGES = 9
+MOST_PAGES = 7
+SUBSCRIPT = 8
+"""Texts up to this many characters in the smaller type of an index may be lower than 7 points."""
 
 
 def value_of(page: Page, path: str) -> str:
@@ -309,7 +311,7 @@ def test_a_phone_needs_no_sideways_scrolling(visit: Callable[..., Page], name: s
 
 
 @pytest.mark.parametrize("name", sorted(examples()))
-def test_reports_print_on_nine_pages(visit: Callable[..., Page], name: str, tmp_path: Path) -> None:
+def test_reports_print_on_seven_pages(visit: Callable[..., Page], name: str, tmp_path: Path) -> None:
     example = examples()[name]
     page = visit(link(f"{example.endpoint.removeprefix('/v1')}/report", pairs_of(example.request)))
     cut = page.evaluate("[...document.images].filter(image => !image.complete || image.naturalWidth === 0).length")
@@ -342,4 +344,5 @@ def test_texts_of_figures_are_seven_points_high_in_a_printed_report(
     for sheet in pytest.importorskip("pypdf").PdfReader(file).pages:
         sheet.extract_text(visitor_text=measure)
     assert len(found) > 5 * figures > 0
-    assert {text: height for text, height in found.items() if height < 7.0} == {}
+    low = {text: height for text, height in found.items() if height < 7.0}
+    assert all(len(text) <= SUBSCRIPT and height >= 4.9 for text, height in low.items()), low
