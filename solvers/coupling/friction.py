@@ -114,7 +114,7 @@ def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocit
 
 
 def customary_thrust(operation: Operation) -> float | None:
-    """0.25 T/D [N] with the shaft diameter D, None without one (API 617 and 671 practice, quoted from memory)."""
+    """0.25 T/D [N] with the shaft diameter D, None without one (API 617 and 671 practice, secondary source)."""
     return None if operation.shaft_diameter is None else 0.25 * operation.torque / operation.shaft_diameter
 
 

@@ -7,7 +7,9 @@ from html import unescape
 import pytest
 
 from app.examples import examples
+from app.manual.chapters import NAMES
 from app.pages import views
+from app.pages.manual import chapter_page, contents_page, functions_page
 from app.pages.query import pairs_of
 from tests.support.pages import asked
 
@@ -65,8 +67,23 @@ def test_assumptions_have_units_and_reasons() -> None:
     assert re.search(r'880</td><td class="unit">kg/m³</td>', on_page)
 
 
-@pytest.mark.parametrize("name", SHORT)
-def test_customers_read_nothing_from_memory(name: str) -> None:
-    for html in (report(name), page(name)):
-        assert not re.search(r"from memory|as read in", html)
+def test_customers_read_secondary_source() -> None:
     assert "ISO/TS 6336-20 (ISO/TR 13989-1), secondary source" in page(SCUFFING)
+
+
+SECOND_HAND = re.compile(r"from memory|as read in|public implementation")
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name in SHORT else pytest.mark.slow) for name in sorted(examples())]
+)
+def test_customers_read_nothing_from_memory(name: str) -> None:
+    answer = views.result(asked(name), "json").content.decode()
+    table = views.result(asked(name), "csv").content.decode()
+    for text in (page(name), report(name), answer, table):
+        assert not SECOND_HAND.search(text)
+
+
+def test_readers_of_the_manual_read_nothing_from_memory() -> None:
+    pages = [contents_page(""), functions_page(""), *(chapter_page("", name) for name in NAMES)]
+    assert [found[0] for text in pages if (found := SECOND_HAND.search(text))] == []

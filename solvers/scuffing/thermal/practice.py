@@ -75,7 +75,7 @@ def bulk_temperature(oil: float, supply: OilSupply, psi: FloatArray, flash: Floa
 
 
 def scuffing_risk(safety: float) -> ScuffingRisk:
-    """The standard's word for a safety factor by Blok: high below 1, low above 2 (quoted from memory)."""
+    """The standard's word for a safety factor by Blok: high below 1, low above 2 (secondary source)."""
     if safety < HIGH_RISK_BELOW:
         return "high"
     return "low" if safety > LOW_RISK_ABOVE else "moderate"
