@@ -1,6 +1,7 @@
 """A case from its fields to its answer; runs in a worker."""
 
 import pickle
+import re
 import zlib
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -9,9 +10,11 @@ from app.calculations import Calculation
 from app.errors import InvalidBody, Unprocessable
 from app.evaluate import response_to, solve
 from app.pages.query import Pairs, body_of
+from app.schema.fields import leaf_at, leaves
 from app.schema.model import Request
 from app.schema.reading import validated
 
+NAME = r"[a-z]\w*(?:[._]\w+)+"  # of a field: words joined by points and underscores
 COMPRESSION = 1  # the fastest level of zlib
 
 
@@ -52,15 +55,30 @@ def solved(calculation: Calculation, pairs: Pairs, kept: bytes | None) -> Case:
     return Case(calculation, pairs, request, response_to(calculation, request, result), kept, fresh)
 
 
-def faults_of(error: Exception) -> list[Fault]:
-    """What a case was refused for."""
+def faults_of(error: Exception, calculation: Calculation) -> list[Fault]:
+    """What a case was refused for; the messages name fields by their titles."""
     match error:
         case InvalidBody():
-            return [Fault(_dotted(each.pointer), each.message) for each in error.faults]
+            found = [Fault(_dotted(each.pointer), each.message) for each in error.faults]
         case Unprocessable():
-            return [Fault(error.path or "", error.message)]
+            found = [Fault(error.path or "", error.message)]
         case _:
-            return [Fault("", str(error))]
+            found = [Fault("", str(error))]
+    return [Fault(path, _titled(message, path, calculation)) for path, message in found]
+
+
+def _titled(message: str, path: str, calculation: Calculation) -> str:
+    """A message with titles for the names of fields; among fields of one name, the one beside `path`."""
+    section, _, own = path.rpartition(".")
+    models = (calculation.request, calculation.response)
+
+    def title(name: re.Match[str]) -> str:
+        exact = (leaf_at(model, each) for each in (f"{section}.{name[0]}", name[0]) for model in models)
+        alike = (leaf for model in models for leaf in leaves(model) if leaf.path.endswith(f".{name[0]}"))
+        found = next(filter(None, exact), None) or next(alike if "." not in name[0] else iter(()), None)
+        return found.title if found else name[0]
+
+    return re.sub(rf"^{re.escape(own)}(?= )|{NAME}", title, message)
 
 
 def _dotted(pointer: str) -> str:

@@ -95,7 +95,10 @@ def page(asked: Asked) -> Shown:
         case = solved(asked.calculation, asked.pairs, asked.kept)
     except REFUSED as error:
         texts = dict(asked.pairs)
-        faults = [Fault(path, ambiguity(texts.get(path, "")) or message) for path, message in faults_of(error)]
+        faults = [
+            Fault(path, ambiguity(texts.get(path, "")) or message)
+            for path, message in faults_of(error, asked.calculation)
+        ]
         state = State(dict(asked.pairs), _by_field(faults))
         return _page(asked, state, 400 if isinstance(error, Unreadable) else 422, faults=faults)
     variant, trouble = _variant(asked)
@@ -293,7 +296,7 @@ def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
         studies=study_links(calculation),
         headlines=headlines(calculation.response),
         field_link=lambda path: _place(calculation, path),
-        field_title=lambda path: _title(calculation, path),
+        field_title=lambda path: title_of(calculation, path),
         **context,
     )
     return Shown(content.encode(), status)
@@ -306,7 +309,7 @@ def _variant(asked: Asked) -> tuple[Case | None, str]:
     try:
         return solved(asked.calculation, ref_pairs(asked.calculation, asked.views), asked.kept_ref), ""
     except REFUSED as error:
-        return None, faults_of(error)[0].message
+        return None, faults_of(error, asked.calculation)[0].message
 
 
 def _by_field(faults: list[Fault]) -> dict[str, str]:
@@ -344,7 +347,7 @@ def _place(calculation: Calculation, path: str) -> str:
     return f"#{anchor(path)}" if path else "#form"
 
 
-def _title(calculation: Calculation, path: str) -> str:
+def title_of(calculation: Calculation, path: str) -> str:
     """What people call the field; a section is called by those around it too."""
     leaf = leaf_at(calculation.request, path)
     if leaf is not None:

@@ -191,8 +191,8 @@ def _variable(variable: Variable, base: BaseRequest, place: str) -> DesignVariab
     for leaf in leaves:
         if leaf.kind != "number":
             raise Unprocessable("not_continuous", f"{leaf.path} is not a continuous number", f"{place}.path")
-        for value in (variable.min, variable.max):
-            check_value(leaf, value, place)
+        for name, end in {"min": variable.min, "max": variable.max}.items():
+            check_value(leaf, end, f"{place}.{name}")
     if not variable.min < variable.max:
         raise Unprocessable("variable_range", "a variable needs a range from min to max", place)
     if variable.step is not None and floor(variable.max / variable.step) < ceil(variable.min / variable.step):

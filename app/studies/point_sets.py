@@ -129,7 +129,7 @@ def _length(axis: Axis, place: str) -> int:
 
 def _axis(axis: Axis, base: BaseRequest, place: str) -> CheckedAxis:
     leaves = tuple(base.leaf(path, f"{place}.path") for path in axis.paths)
-    values = axis.values if axis.values is not None else _spread(axis, place)
+    values = axis.values if axis.values is not None else _spread(axis, leaves, place)
     for number, value in enumerate(values):
         if isinstance(value, list) and (isinstance(axis.path, str) or len(value) != len(leaves)):
             message = "give one value for all fields of the axis, or of a list of fields each its own"
@@ -141,15 +141,20 @@ def _axis(axis: Axis, base: BaseRequest, place: str) -> CheckedAxis:
     return CheckedAxis(axis.path, leaves, values)
 
 
-def _spread(axis: Axis, place: str) -> list[Scalar | list[Scalar]]:
-    """Even steps, or even ratios, from start to stop."""
+def _spread(axis: Axis, leaves: tuple[Leaf, ...], place: str) -> list[Scalar | list[Scalar]]:
+    """Even steps, or even ratios, from start to stop; an end that is refused is named."""
     assert axis.start is not None
     assert axis.stop is not None
     assert axis.count is not None
+    for name, end in {"start": axis.start, "stop": axis.stop}.items():
+        if axis.scale == "log" and end <= 0.0:
+            raise Unprocessable(
+                "log_needs_positive", "a logarithmic axis needs both ends above zero", f"{place}.{name}"
+            )
+        for leaf in leaves:
+            check_value(leaf, end, f"{place}.{name}")
     if axis.scale == "linear":
         return list(np.linspace(axis.start, axis.stop, axis.count).tolist())
-    if min(axis.start, axis.stop) <= 0.0:
-        raise Unprocessable("log_needs_positive", "a logarithmic axis needs start and stop above zero", place)
     return list(np.geomspace(axis.start, axis.stop, axis.count).tolist())
 
 

@@ -201,7 +201,7 @@ def sensitivity_study(content: Any, most: int, deadline_s: float) -> Sensitivity
     inputs = _every_number(base, case) if request.inputs is None else _named(base, case, request.inputs)
     perturbations = [each for leaf in inputs if (each := perturbation(leaf, value_at(case, leaf.path))).places]
     study = Sensitivity(
-        question=base.question(paths_of(outputs), deadline_s),
+        question=base.question(paths_of(outputs), deadline_s, reduced=True),
         outputs=outputs,
         case=case_of_study(PATH, request),
         perturbations=perturbations,

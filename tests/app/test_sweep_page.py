@@ -3,6 +3,7 @@
 import json
 import re
 from contextlib import suppress
+from dataclasses import replace
 from html import unescape
 from io import BytesIO
 from typing import Any
@@ -19,6 +20,7 @@ from app.figures.data import Axis, values
 from app.figures.drawing.image import draw, places
 from app.figures.rendering import MEDIA_TYPES
 from app.figures.studies import MOST_CURVES, Coordinate, Grid, figures_of
+from app.pages import views
 from app.pages.query import STUDY_NAMES, VIEW_NAMES, body_of, pairs_of_query, split_views
 from app.pages.studies import page as pages
 from app.pages.studies.declaration import PageStudy, StudyAddresses
@@ -265,8 +267,10 @@ def test_a_map_over_even_ratios_puts_its_points_where_the_axes_have_them() -> No
         ({"x": "operation.torque_n_m", "x.scale": "cubic"}, "x.scale", "linear"),
         ({"x": "operation.torque_n_m", "x.count": "2501"}, "x.count", "at most 2500"),
         ({"x": "operation.torque_n_m", "x.count": "1.5"}, "x.count", "whole number"),
-        ({"x": "operation.misalignment_deg", "x.to": "90"}, "x.from", "permissible -6 to 6"),
-        ({"x": "operation.torque_n_m", "y": "operation.torque_n_m"}, "x.count", "given twice"),
+        ({"x": "operation.misalignment_deg", "x.to": "90"}, "x.to", "90 is out of range; permissible -6 to 6"),
+        ({"x": "operation.torque_n_m", "x.to": "1e99"}, "x.to", "torque: 1e+99 is out of range"),
+        ({"x": "operation.torque_n_m", "x.from": "5", "x.to": "-5", "x.scale": "log"}, "x.to", "above zero"),
+        ({"x": "operation.torque_n_m", "y": "operation.torque_n_m"}, "y", "varied already"),
         ({"x": "operation.torque_n_m", "show": "axial_thrust"}, "show", "is a section"),
         ({"x": "operation.torque_n_m", "show": "lubrication.regime.name"}, "show", "no number"),
         ({"x": "operation.torque_n_m", "best": "largest"}, "best", "least, greatest"),
@@ -280,6 +284,18 @@ def test_what_is_refused_stands_at_its_control(said: dict[str, str], control: st
     found = re.search(rf'id="f\.{re.escape(control)}-fault">([^<]*)<', page)
     assert found is not None, re.findall(r'<div class="problem".*?</div>', page, re.DOTALL)
     assert message in found[1]
+
+
+def test_a_fault_of_the_case_is_named_by_the_title_of_its_field() -> None:
+    pairs = [(name, "-5" if name == "operation.torque_n_m" else text) for name, text in asked(COUPLING).pairs]
+    said = {"x": "operation.misalignment_deg", "show": "axial_thrust.coaxial_limit_n"}
+    study = pages.opened(SWEEP, replace(asked(COUPLING, **said), pairs=pairs), MOST, DEADLINE_S).head.decode()
+    case = views.page(replace(asked(COUPLING), pairs=pairs)).content.decode()
+    for html in (study, case):
+        problem = re.search(r'<div class="problem".*?</div>', html, re.DOTALL)
+        assert problem is not None
+        assert "transmitted torque is -5; permissible 0 to 100000000 N m" in problem[0]
+    assert "torque_n_m" not in re.sub(r"<[^>]*>", "", study[study.index('class="problem"') :])
 
 
 def test_a_decimal_comma_is_read() -> None:

@@ -323,7 +323,7 @@ REFUSED: dict[str, tuple[tuple[Planner, dict[str, Any]], str, str]] = {
         "/variables/0/path",
         "not_continuous",
     ),
-    "design bounds": (search_of(variables=[{**HELIX, "max": 1e6}]), "/variables/0", "out_of_range"),
+    "design bounds": (search_of(variables=[{**HELIX, "max": 1e6}]), "/variables/0/max", "out_of_range"),
     "design range": (search_of(variables=[{**HELIX, "min": 100}]), "/variables/0", "variable_range"),
     "design step": (
         search_of(variables=[{**HELIX, "min": 1, "max": 2, "step": 5}]),

@@ -80,7 +80,7 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
     ),
     "log of zero": (
         vary({"path": "operation.speed_rpm", "start": 0, "stop": 10, "count": 3, "scale": "log"}),
-        "/vary/0",
+        "/vary/0/start",
         "log_needs_positive",
     ),
     "values and range": (vary({**SPEED, "start": 1, "stop": 2, "count": 2}), "/vary/0", "values_or_range"),

@@ -308,3 +308,11 @@ def test_a_change_of_regime_is_a_kink() -> None:
     assert line["elasticity"] is None
     assert line["kink"] is True
     assert line["change"] > 0.0 or line["change"] < 0.0
+
+
+def test_no_thermal_film_is_computed_for_outputs_that_need_none() -> None:
+    example = examples()["starter-high-speed-scuffing"]
+    for output, lubrication in (("safety.blok_factor", "closed_form"), ("safety.thermal_ehl_factor", None)):
+        body = {"endpoint": example.endpoint, "request": example.request, "outputs": [output]}
+        study = sensitivity_study(body, 2500, 30.0)
+        assert study.question.base["model"].get("lubrication") == lubrication

@@ -19,7 +19,7 @@ from app.pages.studies.sensitivity import SENSITIVITY
 from app.pages.studies.spectrum import SPECTRUM
 from app.pages.studies.sweep import AXES, SWEEP
 from app.pages.templating import rendered
-from app.pages.views import REFUSED, Asked, StudySection
+from app.pages.views import REFUSED, Asked, StudySection, title_of
 from app.pages.views import report as case_report
 from app.schema.fields import Leaf, leaf_at
 from app.studies.stream import Line
@@ -54,7 +54,8 @@ def opened(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Opene
         study = checked(page, asked, most, deadline_s) if asked.pairs and page.complete(asked) else None
     except REFUSED as error:
         controls = list(page.ranges(asked))
-        faults = [Fault(field_at_fault(each.path, controls), each.message) for each in faults_of(error)]
+        found = faults_of(error, asked.calculation)
+        faults = [Fault(field_at_fault(each.path, controls), each.message) for each in found]
         status = 400 if isinstance(error, Unreadable) else 422
         return Opened(_page(page, asked, None, faults).encode(), status=status)
     head, _, tail = _page(page, asked, study, []).partition(FRAMES)
@@ -112,6 +113,7 @@ def _page(page: StudyPage, asked: Asked, study: PageStudy | None, faults: list[F
         page=page,
         path=asked.path,
         case_links=asked.links,
+        field_title=lambda path: title_of(calculation, path),
         outdated=asked.outdated,
         links=StudyAddresses(page.link.name, asked),
         groups=groups,

@@ -147,6 +147,8 @@ def varied_fields(asked: Asked) -> list[VariedField]:
     case, views = case_of(asked.calculation, asked.pairs), asked.views
     if views.get("y") and not views.get("x"):
         raise Unprocessable("missing", "choose a field to vary before a second one", "vary.0.path")
+    if views.get("y") and views["y"] == views.get("x"):
+        raise Unprocessable("duplicate_path", "this field is varied already; choose another", "vary.1.path")
     return [_varied(asked, case, name, place) for place, name in enumerate(AXES) if views.get(name)]
 
 
