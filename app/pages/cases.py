@@ -10,7 +10,7 @@ from app.calculations import Calculation
 from app.errors import InvalidBody, Unprocessable
 from app.evaluate import response_to, solve
 from app.pages.query import Pairs, body_of
-from app.schema.fields import leaf_at, leaves
+from app.schema.fields import Branch, leaf_at, leaves, tree
 from app.schema.model import Request
 from app.schema.reading import validated
 
@@ -87,5 +87,17 @@ def _dotted(pointer: str) -> str:
 
 
 def _request(calculation: Calculation, pairs: Pairs) -> Request:
-    request = validated(calculation.request, body_of(calculation.request, pairs))
+    body = body_of(calculation.request, pairs)
+    _fill(tree(calculation.request), body)
+    request = validated(calculation.request, body)
     return request.model_copy(update={"detail": "fields"})
+
+
+def _fill(branch: Branch, body: dict[str, Any]) -> None:
+    """Empty sections where required ones are missing: people see fields, which the validator then names."""
+    for inner in branch.branches:
+        name = inner.path.rpartition(".")[2]
+        if inner.required and not inner.optional and not inner.repeated:
+            body.setdefault(name, {})
+        if isinstance(body.get(name), dict):
+            _fill(inner, body[name])

@@ -570,3 +570,11 @@ def test_a_report_tells_every_input_of_every_item() -> None:
     assert link is not None
     assert link[2].endswith("…")
     assert len(link[1]) > 1000
+
+
+def test_a_missing_section_is_told_by_its_fields() -> None:
+    shown = views.page(views.Asked("/scuffing", [("gears.pinion.teeth", "23")])).content.decode()
+    problem = shown[shown.index('<div class="problem"') :].partition("</div>")[0]
+    assert "number of teeth, wheel is required" in problem
+    assert "pinion speed is required" in problem
+    assert "load is required" not in problem

@@ -183,7 +183,7 @@ def test_ranges_and_trials_come_from_the_form() -> None:
     [
         ({"trials": "many"}, "trials", "Search, corrections tried"),
         ({"low.0": "5", "high.0": "1"}, "low.0", "Search, helix slope, from"),
-        ({"high.1": "9999999"}, "low.1", "Search, crowning, from"),
+        ({"high.1": "9999999"}, "high.1", "Search, crowning, to"),
         ({"show": "no.such"}, "show", "Show, output"),
     ],
 )

@@ -44,6 +44,16 @@ def test_fill_and_read_a_result(visit: Callable[..., Page]) -> None:
     expect(page.locator('[data-path="geometry.pitch_radius_mm"]')).to_have_text("156")
 
 
+BESIDE_CALCULATE = "getComputedStyle(document.querySelector('.submit'), '::after').content"
+
+
+def test_while_it_calculates_the_form_says_so(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(COUPLING))
+    page.evaluate("document.getElementById('result').setAttribute('aria-busy', 'true')")  # as the script does
+    assert page.evaluate(BESIDE_CALCULATE) == '"calculating …"'
+    expect(page.locator(".submit")).to_be_in_viewport()
+
+
 def test_live_result_keeps_what_is_typed_and_the_latest_wins(visit: Callable[..., Page]) -> None:
     page = visit(address_of(COUPLING))
     field = page.locator('[name="operation.torque_n_m"]')
@@ -52,6 +62,7 @@ def test_live_result_keeps_what_is_typed_and_the_latest_wins(visit: Callable[...
         page.wait_for_timeout(400)
     expect(page).to_have_url(re.compile("torque_n_m=4500"))
     expect(page.locator("#result")).not_to_have_class(re.compile("old"))
+    assert page.evaluate(BESIDE_CALCULATE) == "none"
     assert field.input_value() == "4500"
     mean = float(value_of(page, "load_distribution.mean_tangential_force_n").replace(" ", ""))
     assert mean == pytest.approx(4500 / 0.078 / 52, rel=1e-3)
@@ -306,6 +317,8 @@ def test_a_phone_needs_no_sideways_scrolling(visit: Callable[..., Page], name: s
     assert overflow(page) == 0
     page.evaluate("document.querySelectorAll('#form details, #result details').forEach(part => part.open = true)")
     assert overflow(page) == 0
+    cut = "[...document.querySelectorAll('.named td')].filter(cell => cell.getBoundingClientRect().right > 360).length"
+    assert page.evaluate(cut) == 0
     top: float = page.locator("#result").bounding_box()["y"]  # type: ignore[index]
     assert top < page.locator("#form").bounding_box()["y"]  # type: ignore[index]
 
