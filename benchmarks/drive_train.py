@@ -13,10 +13,9 @@ from typing import Any
 from app.calculations import BY_PATH
 from app.examples import examples
 from app.studies.design import design_study
-from app.studies.drive_train import usual_corners
-from app.studies.examples import EXAMPLES
-from app.studies.stream import Clock
-from app.studies.study import Study
+from app.studies.engine import Clock, Study
+from app.studies.point_sets import usual_corners
+from app.studies.requests import EXAMPLES
 from app.studies.sweep import corners_study
 from solvers.drive_train.gap.thermal_lead import gas_heat
 from solvers.drive_train.outcome import outcome

@@ -14,7 +14,7 @@ from playwright.sync_api import sync_playwright
 from app.calculations import BY_PATH
 from app.examples import examples
 from app.pages.links import example_link
-from app.pages.studies.sweep_examples import STUDIES
+from app.pages.study_links import STUDIES
 
 CHROMIUM = "/usr/bin/chromium"
 FOLDER = Path(__file__).parents[1] / "docs"

@@ -11,7 +11,7 @@ from typing import Any
 
 import httpx
 
-from app.studies.examples import EXAMPLES
+from app.studies.requests import EXAMPLES
 from tests.support.server import running_server
 
 

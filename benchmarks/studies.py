@@ -18,9 +18,9 @@ import httpx
 
 from app.calculations import BY_PATH
 from app.examples import examples
+from app.studies.engine import paths_of
 from app.studies.fields import set_value
 from app.studies.points import Question, solve_point
-from app.studies.study import paths_of
 from app.studies.sweep import sweep_study
 from tests.support.dask_cluster import running_cluster
 from tests.support.server import running_server

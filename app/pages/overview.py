@@ -7,7 +7,7 @@ from app.calculations import Calculation
 from app.manual.chapters import chapters
 from app.pages.links import example_link, examples_of
 from app.pages.query import link, pairs_of
-from app.pages.studies.sweep_examples import studies_of
+from app.pages.study_links import studies_of
 from app.pages.templating import by_model, model_of, page_path, rendered
 
 ANSWERS = {"drive-train": "face-load", "coupling": "tooth-loads", "pumping": "mach-map", "scuffing": "flank-load"}

@@ -20,8 +20,7 @@ from app.pages.links import IMAGE_FORMATS, Links, example_link, examples_of
 from app.pages.manual import chapter_of
 from app.pages.query import Pairs, ambiguity, link, normalised, pairs_of_query, split_views
 from app.pages.results import assumptions, cards, differences, entries, groups, resolved
-from app.pages.studies.sweep_examples import studies_of_case
-from app.pages.study_links import study_links
+from app.pages.study_links import studies_of_case, study_links
 from app.pages.templating import page_path, rendered
 from app.pages.typesetting import NO_VALUE
 from app.schema.fields import branches, headlines, leaf_at

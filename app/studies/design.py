@@ -10,14 +10,12 @@ from app.errors import Unprocessable
 from app.schema.fields import Leaf
 from app.schema.reading import validated
 from app.studies.base_request import BaseRequest, check_count, check_distinct, check_value
-from app.studies.drive_train import MOST_CORNERS
-from app.studies.engine import Pool, twice_if_lost
+from app.studies.engine import Clock, Line, Lines, Pool, Study, case_of_study, output_header, paths_of, twice_if_lost
 from app.studies.fields import NUMBERS, value_at
 from app.studies.minimax import next_place
 from app.studies.point_sets import common_unit, grid, listed
 from app.studies.requests import DesignRequest, Overrides, Variable
-from app.studies.stream import Clock, Line, Lines
-from app.studies.study import Study, case_of_study, output_header, paths_of
+from solvers.drive_train.uncertainty import MOST_CORNERS
 
 PATH = "/v1/drive-train/design"
 

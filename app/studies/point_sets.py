@@ -9,10 +9,13 @@ from typing import Any
 import numpy as np
 
 from app.errors import Unprocessable
-from app.schema.fields import Leaf
+from app.schema.fields import Leaf, field_path
+from app.schema.model import Request
+from app.schema.quantities import split_unit
 from app.studies.base_request import BaseRequest, check_count, check_distinct, check_value
 from app.studies.distributions import anchors, drawn, unit_cube
 from app.studies.requests import Axis, Overrides, Range, Sample, Scalar, Scatter, SweepRequest
+from solvers.drive_train.uncertainty import uncertain_inputs
 
 
 def common_unit(leaves: Sequence[Leaf]) -> str | None:
@@ -184,3 +187,22 @@ def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: st
                 raise Unprocessable("out_of_range", f"{each.path}: {low} is above {high}", here)
         leaves.append(leaf)
     return leaves
+
+
+def usual_corners(request: Request) -> dict[str, Axis]:
+    """The uncertain inputs of a unit and their values, where the user names none, by what they are."""
+    axes = {}
+    for each in uncertain_inputs(request.inputs()):
+        paths = [path for name in each.names if (path := field_path(request, name))]
+        rows = [[_shown(path, value) for path, value in zip(paths, row, strict=True)] for row in each.values]
+        alone = len(paths) == 1
+        axis = Axis(path=paths[0], values=[own for (own,) in rows]) if alone else Axis(path=paths, values=rows)
+        axes[each.quantity] = axis
+    return axes
+
+
+def _shown(path: str, value: float) -> Scalar:
+    """A value of the solver in the unit of the request, rounded to 12 digits."""
+    field = next(part for part in reversed(path.split(".")) if not part.isdecimal())
+    unit = split_unit(field)[1]
+    return float(f"{value if unit is None else (value - unit.offset) / unit.scale:.12g}") + 0.0

@@ -1,12 +1,15 @@
 """The bodies of the studies: sweep, sensitivity, spectrum, corners and design."""
 
+import json
 import re
 from collections.abc import Sequence
+from importlib.resources import files
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema, model_validator
 from pydantic_core import PydanticCustomError
 
+from app.examples import examples
 from app.schema.quantities import Input
 
 MOST_FIELDS_TOGETHER = 50  # that one axis moves, chosen
@@ -388,3 +391,11 @@ class DesignRequest(DriveTrainStudy):
     evaluations: Annotated[
         int, Input("evaluations", text="how many corrections may be tried at every corner", ge=1, le=1000)
     ] = 60
+
+
+EXAMPLES: dict[str, dict[str, Any]] = json.loads(files("app.studies").joinpath("examples.json").read_text("utf-8"))
+"""Bodies to start from, by the path of the study, each as OpenAPI has it: a `summary` and a `value`."""
+
+for _bodies in EXAMPLES.values():
+    for _each in _bodies.values():
+        _each["value"]["request"] = examples()[_each["value"]["request"]].request

@@ -13,12 +13,10 @@ from app.errors import Unprocessable
 from app.schema.fields import ITEM, Leaf, leaves
 from app.schema.reading import validated
 from app.studies.base_request import BaseRequest, check_count, check_distinct
-from app.studies.engine import Pool
+from app.studies.engine import Clock, Line, Lines, Pool, Study, case_of_study, output_header, paths_of
 from app.studies.fields import NUMBERS, fault, scalar_at, value_at
 from app.studies.points import Point
 from app.studies.requests import Overrides, SensitivityRequest
-from app.studies.stream import Clock, Line, Lines
-from app.studies.study import Study, case_of_study, output_header, paths_of
 
 PATH = "/v1/sensitivity"
 RELATIVE_STEP = 0.01  # of a value: small against its range, large against the solver's tolerance

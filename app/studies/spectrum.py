@@ -13,14 +13,13 @@ from app.schema.reading import validated
 from app.studies import probability
 from app.studies.base_request import BaseRequest
 from app.studies.distributions import anchors, cut, drawn, unit_cube
-from app.studies.engine import Pool, twice_if_lost
+from app.studies.engine import Clock, Line, Lines, Pool, Study, case_of_study, output_header, paths_of, twice_if_lost
 from app.studies.fields import NUMBERS
 from app.studies.point_sets import check_case, scattering
 from app.studies.points import Point, Question, solve_point
 from app.studies.probability import Array, Limit
 from app.studies.requests import DRIVE_TRAIN, LoadCase, Overrides, SpectrumLimit, SpectrumRequest, Tolerances
-from app.studies.stream import Clock, Line, Lines, point_line
-from app.studies.study import Study, case_of_study, output_header, paths_of
+from app.studies.stream import point_line
 from app.studies.summary import Tally
 
 PATH = "/v1/spectrum"

@@ -5,47 +5,19 @@ import csv
 import io
 import json
 import logging
-import time
 from collections.abc import AsyncGenerator, Callable
 from contextlib import aclosing
 from typing import Any
 
-from app.log import STUDIES_UNFINISHED
 from app.schema.fields import Leaf
-from app.studies.engine import PoolLost
+from app.studies.engine import Clock, Line, Lines, PoolLost
 from app.studies.point_sets import PointSet
 from app.studies.points import Point
 
-Line = dict[str, Any]
-Lines = AsyncGenerator[list[Line], None]
 PROGRESS_S = 2.0  # between lines of progress: proxies and users see that it runs
 FORMULA_SIGNS = ("=", "+", "-", "@", "\t", "\r")
 
 logger = logging.getLogger("tribodrive")
-
-
-class Clock:
-    """How long a study has run and how far it has come."""
-
-    def __init__(self, total: int) -> None:
-        self.total = total
-        self.done = 0
-        self._started = time.perf_counter()
-
-    @property
-    def elapsed_s(self) -> float:
-        """Seconds since the study began, to the millisecond."""
-        return round(time.perf_counter() - self._started, 3)
-
-    def line(self) -> Line:
-        """How far the study has come."""
-        return {"type": "progress", "done": self.done, "total": self.total, "elapsed_s": self.elapsed_s}
-
-    def error(self, code: str, message: str) -> Line:
-        """The line that ends a study before its time, which is logged and counted."""
-        STUDIES_UNFINISHED.inc()
-        logger.warning("a study ended after %d of %d points: %s", self.done, self.total, message)
-        return {"type": "error", "code": code, "message": message, "done": self.done}
 
 
 async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float = PROGRESS_S) -> Lines:

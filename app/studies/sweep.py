@@ -7,14 +7,13 @@ from app.errors import Unprocessable
 from app.schema.fields import Leaf
 from app.schema.reading import validated
 from app.studies.base_request import BaseRequest
-from app.studies.drive_train import MOST_CORNERS, unsolved_corners, usual_corners
-from app.studies.engine import Pool, twice_if_lost
+from app.studies.engine import Clock, Line, Lines, Pool, Study, case_of_study, output_header, paths_of, twice_if_lost
 from app.studies.fields import did_you_mean
-from app.studies.point_sets import PointSet, grid, points_of
+from app.studies.point_sets import PointSet, grid, points_of, usual_corners
 from app.studies.requests import Best, CornersRequest, SweepRequest
-from app.studies.stream import Clock, Line, Lines, Table, point_line
-from app.studies.study import Study, case_of_study, output_header, paths_of
+from app.studies.stream import Table, point_line
 from app.studies.summary import NO_STATISTICS, Summary, statistics
+from solvers.drive_train.uncertainty import MOST_CORNERS, no_convergence
 
 PATH = "/v1/sweep"
 CORNERS_PATH = "/v1/drive-train/corners"
@@ -83,8 +82,14 @@ class Corners(Sweep):
             }
             for path, found in summary.extremes.items()
         ]
-        warnings = unsolved_corners(self.total - summary.tally.answered)
+        warnings = _unsolved_corners(self.total - summary.tally.answered)
         return [*extremes, {**summary.line(NO_STATISTICS, clock.elapsed_s), "warnings": warnings}]
+
+
+def _unsolved_corners(count: int) -> list[dict[str, str]]:
+    """The warning about corners without solution, if there are any."""
+    notice = no_convergence(count)
+    return [{"rank": notice.rank, "code": notice.code, "message": notice.message}] if count else []
 
 
 def sweep_study(content: Any, most: int, deadline_s: float) -> Sweep:

@@ -11,8 +11,8 @@ import pytest
 from app.calculations import BY_PATH
 from app.examples import examples
 from app.studies.design import design_study
-from app.studies.examples import EXAMPLES
 from app.studies.fields import set_value, value_at
+from app.studies.requests import EXAMPLES
 from app.studies.sweep import corners_study
 
 Post = Callable[[str, object], httpx.Response]

@@ -17,7 +17,7 @@ from app.pages.studies.declaration import PageStudy
 from app.pages.studies.spectrum import SPECTRUM, address_of, cases_of, table_of
 from app.pages.templating import page_path
 from app.pages.views import Asked
-from app.studies.examples import EXAMPLES
+from app.studies.requests import EXAMPLES
 from app.studies.spectrum import Spectrum, spectrum_study
 from tests.support.pages import lines_of
 

@@ -12,8 +12,8 @@ import pytest
 from app.calculations import BY_PATH
 from app.examples import examples
 from app.schema.fields import headlines
-from app.studies.examples import EXAMPLES
 from app.studies.fields import set_value, value_at
+from app.studies.requests import EXAMPLES
 
 Post = Callable[[str, object], httpx.Response]
 

@@ -25,16 +25,17 @@ from app.pages.query import STUDY_NAMES, VIEW_NAMES, body_of, pairs_of_query, sp
 from app.pages.studies import page as pages
 from app.pages.studies.declaration import PageStudy, StudyAddresses
 from app.pages.studies.design import DESIGN
-from app.pages.studies.outputs import output_choices
+from app.pages.studies.page import output_choices
 from app.pages.studies.spectrum import SPECTRUM
 from app.pages.studies.sweep import SWEEP, case_of, field_choices, point_address
-from app.pages.studies.sweep_examples import STUDIES, StudyExample
+from app.pages.study_links import STUDIES, StudyExample
 from app.pages.views import Asked
 from app.schema.fields import leaf_at, leaves
 from app.sources import SHORT_SOURCES
+from app.studies.engine import Line
 from app.studies.point_sets import PointSet
 from app.studies.points import Question, solve_point
-from app.studies.stream import Line, point_line
+from app.studies.stream import point_line
 from app.studies.sweep import Sweep
 from tests.support.pages import asked
 

@@ -22,7 +22,7 @@ from app.pages.manual import shown_studies
 from app.pages.studies.page import PAGES, checked, file
 from app.pages.views import Asked
 from app.settings import Settings
-from app.studies.stream import Clock, Line
+from app.studies.engine import Clock, Line
 from solvers.published import STATEMENTS, Row
 from tests.support.pools import InlinePool
 

@@ -16,10 +16,9 @@ import pytest
 
 from app.examples import examples
 from app.sources import sources_of
-from app.studies.examples import EXAMPLES
+from app.studies.engine import Clock, Study
+from app.studies.requests import EXAMPLES
 from app.studies.spectrum import spectrum_study
-from app.studies.stream import Clock
-from app.studies.study import Study
 from app.studies.sweep import sweep_study
 from tests.support.dask_cluster import DaskProcesses, running_cluster
 from tests.support.pools import InlinePool

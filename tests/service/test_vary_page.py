@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
-from app.pages.studies.sweep_examples import STUDIES
+from app.pages.study_links import STUDIES
 from tests.support.browsing import address_of
 
 pytestmark = pytest.mark.service

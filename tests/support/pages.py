@@ -10,7 +10,7 @@ from app.pages.query import pairs_of
 from app.pages.studies.declaration import PageStudy
 from app.pages.templating import page_path
 from app.pages.views import Asked
-from app.studies.stream import Clock
+from app.studies.engine import Clock
 from tests.support.pools import InlinePool
 
 

@@ -16,10 +16,16 @@ from app.http.problems import documented
 from app.settings import Settings
 from app.studies import design, sensitivity, spectrum, sweep
 from app.studies.admission import StudyAdmission
-from app.studies.examples import EXAMPLES
-from app.studies.requests import CornersRequest, DesignRequest, SensitivityRequest, SpectrumRequest, SweepRequest
-from app.studies.stream import PROGRESS_S, Clock, Line, Lines, encoded, guarded, json_line
-from app.studies.study import Study
+from app.studies.engine import Clock, Line, Lines, Study
+from app.studies.requests import (
+    EXAMPLES,
+    CornersRequest,
+    DesignRequest,
+    SensitivityRequest,
+    SpectrumRequest,
+    SweepRequest,
+)
+from app.studies.stream import PROGRESS_S, encoded, guarded, json_line
 from app.workers.start_up import StartUp
 
 Format = Literal["ndjson", "csv"]

@@ -1,9 +1,7 @@
 """Pages of studies, each below that of the case.
 
 declaration     what is declared of a study's page, what it shows, the addresses of its views and points
-outputs         the outputs that a study can show
 sweep           one field or two varied
-sweep_examples  sweeps to start from
 sensitivity     which input moves an output most
 corners         the worst combination of uncertain inputs
 design          the flank correction whose worst corner is best

@@ -28,10 +28,10 @@ from app.pages.typesetting import shown
 from app.pages.views import REFUSED, Asked
 from app.schema.fields import Leaf, headlines
 from app.studies.base_request import COLD, BaseRequest, needs_film
-from app.studies.drive_train import usual_corners
+from app.studies.engine import Line
 from app.studies.fields import scalar_at, value_at
+from app.studies.point_sets import usual_corners
 from app.studies.requests import DRIVE_TRAIN, USUAL_RANGES, Overrides
-from app.studies.stream import Line
 from app.studies.sweep import corners_study
 
 OUTPUT = "safety.blok_flank"

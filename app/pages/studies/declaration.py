@@ -10,16 +10,15 @@ from app.pages.cases import Case, solved
 from app.pages.form import FieldView
 from app.pages.links import LONGEST_QUERY, examples_of
 from app.pages.query import STUDY_NAMES, Pairs, body_of, link, pairs_of, text_of
-from app.pages.study_links import StudyLink
+from app.pages.study_links import Starter, StudyLink
 from app.pages.typesetting import symbol
 from app.pages.views import Asked
 from app.schema.fields import Leaf
 from app.sources import SHORT_SOURCES
 from app.studies.base_request import reduced_request
+from app.studies.engine import Line, Study
 from app.studies.points import with_overrides
 from app.studies.requests import Overrides
-from app.studies.stream import Line
-from app.studies.study import Study
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,14 +162,6 @@ class Lead(NamedTuple):
     """A link to go on from the result."""
 
     label: str
-    address: str
-
-
-class Starter(NamedTuple):
-    """A link to a study that is ready to run."""
-
-    title: str
-    source: str
     address: str
 
 

@@ -28,9 +28,9 @@ from app.pages.typesetting import shown
 from app.pages.views import Asked
 from app.schema.fields import Leaf
 from app.studies.design import design_study
+from app.studies.engine import Line
 from app.studies.fields import scalar_at, value_at
 from app.studies.requests import Overrides
-from app.studies.stream import Line
 
 EVALUATIONS = 40  # offered at first, chosen
 STEP_UM = 0.5  # to which a correction is rounded

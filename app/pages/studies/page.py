@@ -4,25 +4,26 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from app.calculations import Calculation
-from app.errors import Unreadable
+from app.errors import Unprocessable, Unreadable
 from app.figures.rendering import Format, written
 from app.figures.tables import table
 from app.pages.cases import Fault, faults_of
 from app.pages.charts import embedded
 from app.pages.links import IMAGE_FORMATS
 from app.pages.query import LOWER, TRIALS, UPPER
+from app.pages.results import NOT_RESULTS
 from app.pages.studies.corners import CORNERS
-from app.pages.studies.declaration import Controls, Form, PageStudy, Result, StudyAddresses, StudyPage
+from app.pages.studies.declaration import Choice, Controls, Form, PageStudy, Result, StudyAddresses, StudyPage
 from app.pages.studies.design import DESIGN
-from app.pages.studies.outputs import output_at, output_choices
 from app.pages.studies.sensitivity import SENSITIVITY
 from app.pages.studies.spectrum import SPECTRUM
 from app.pages.studies.sweep import AXES, SWEEP
 from app.pages.templating import rendered
 from app.pages.views import REFUSED, Asked, StudySection, title_of
 from app.pages.views import report as case_report
-from app.schema.fields import Leaf, leaf_at
-from app.studies.stream import Line
+from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves, tree
+from app.studies.engine import Line
+from app.studies.fields import NUMBERS, scalar_at
 
 PAGES = {each.link: each for each in (SWEEP, SENSITIVITY, SPECTRUM, CORNERS, DESIGN)}
 FRAMES = "<!-- the figures -->"
@@ -71,6 +72,37 @@ def checked(page: StudyPage, asked: Asked, most: int, deadline_s: float) -> Page
 def _output(page: StudyPage, calculation: Calculation, views: dict[str, str]) -> Leaf:
     usual = next((path for path in page.outputs if leaf_at(calculation.response, path)), None)
     return output_at(calculation, views.get("show", usual))
+
+
+def output_choices(calculation: Calculation) -> list[Choice]:
+    """Every number of the answer that a study can show, the headlines first."""
+    response = calculation.response
+    first = headlines(response)
+    titles = {branch.path: branch.title for branch in tree(response).branches}
+    found = [(leaf, "numbers that decide") for leaf in first]
+    found += [
+        (leaf, titles.get(leaf.path.partition(".")[0], "result")) for leaf in leaves(response) if leaf not in first
+    ]
+    return [
+        Choice(leaf.path, f"{leaf.title}, {leaf.unit}" if leaf.unit else leaf.title, group)
+        for leaf, group in found
+        if _can_be_shown(leaf)
+    ]
+
+
+def _can_be_shown(leaf: Leaf) -> bool:
+    whole = leaf.is_scalar and leaf.kind in NUMBERS and leaf.detail == "summary" and ITEM not in leaf.path.split(".")
+    return whole and leaf.path.partition(".")[0] not in NOT_RESULTS
+
+
+def output_at(calculation: Calculation, path: str | None) -> Leaf:
+    """The output at a path, or the first headline where none is given; raises Unprocessable."""
+    output = scalar_at(
+        calculation.response, path or headlines(calculation.response)[0].path, "outputs.0", "unknown_output"
+    )
+    if output.kind not in NUMBERS:
+        raise Unprocessable("unknown_output", f"{output.path} is no number", "outputs.0")
+    return output
 
 
 def field_at_fault(path: str, ranges: Sequence[str] = ()) -> str:

@@ -11,8 +11,8 @@ from app.pages.typesetting import shown
 from app.pages.views import Asked
 from app.schema.fields import Leaf
 from app.schema.scuffing import GIVEN_BULK
+from app.studies.engine import Line
 from app.studies.sensitivity import sensitivity_study
-from app.studies.stream import Line
 
 MOST_ROWS = 40  # of a table that can be read; the file has all
 

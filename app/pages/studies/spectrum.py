@@ -19,22 +19,21 @@ from app.pages.studies.declaration import (
     Lead,
     PageStudy,
     Result,
-    Starter,
     StudyPage,
     Table,
     address_at,
 )
 from app.pages.studies.sweep import case_of, field_choices
 from app.pages.study_links import SPECTRUM as LINK
+from app.pages.study_links import Starter
 from app.pages.templating import page_path
 from app.pages.typesetting import cited, shown
 from app.pages.views import Asked
 from app.schema.fields import Leaf, leaf_at
-from app.studies.examples import EXAMPLES
+from app.studies.engine import Line
 from app.studies.fields import NUMBERS, scalar_at, value_at
-from app.studies.requests import DRIVE_TRAIN
+from app.studies.requests import DRIVE_TRAIN, EXAMPLES
 from app.studies.spectrum import RELATIVE_DEVIATION, SCUFFING, Spectrum, spectrum_study
-from app.studies.stream import Line
 
 NAME, SHARE = "name", "share"
 REPLICATES = 8  # samples from which the page tells how certain a mean is

@@ -22,23 +22,21 @@ from app.pages.studies.declaration import (
     Form,
     PageStudy,
     Result,
-    Starter,
     StudyPage,
     Table,
     address_at,
     ended,
 )
-from app.pages.studies.sweep_examples import studies_of, studies_of_case
-from app.pages.study_links import VARY
+from app.pages.study_links import VARY, Starter, studies_of, studies_of_case
 from app.pages.typesetting import shown, words
 from app.pages.views import Asked
 from app.schema.fields import Leaf, leaf_at, leaves, tree
 from app.schema.reading import validated
+from app.studies.engine import Line
 from app.studies.fields import NUMBERS, scalar_at, value_at
 from app.studies.point_sets import PointSet
 from app.studies.requests import Scalar
 from app.studies.sensitivity import places
-from app.studies.stream import Line
 from app.studies.sweep import Sweep, sweep_study
 
 AROUND = 0.5  # of a value, to both sides
@@ -413,7 +411,7 @@ def _starters(_: StudyPage, asked: Asked) -> list[Starter]:
     if not asked.pairs:
         return [Starter(each.title, each.source, each.address) for each in studies_of(asked.calculation)]
     case = case_of(asked.calculation, asked.pairs)
-    return [Starter(title, "", to) for title, to in studies_of_case(asked.calculation, asked.pairs, case)]
+    return studies_of_case(asked.calculation, asked.pairs, case)
 
 
 SWEEP = StudyPage(
