@@ -11,7 +11,7 @@ from playwright.sync_api import Page, expect
 from app.calculations import BY_PATH
 from app.examples import examples
 from app.pages.query import link, pairs_of
-from tests.support.browsing import PHONE, address_of, overflow, violations
+from tests.support.browsing import DESK, PHONE, address_of, overflow, violations
 
 pytestmark = pytest.mark.service
 
@@ -359,3 +359,21 @@ def test_texts_of_figures_are_seven_points_high_in_a_printed_report(
     assert len(found) > 5 * figures > 0
     low = {text: height for text, height in found.items() if height < 7.0}
     assert all(len(text) <= SUBSCRIPT and height >= 4.9 for text, height in low.items()), low
+
+
+COVERED = """id => {
+  const help = document.getElementById(id).getBoundingClientRect();
+  const others = [...document.querySelectorAll("#form :is(input, select)")].filter(field => field.offsetParent);
+  return others.map(field => field.getBoundingClientRect()).filter(field =>
+    field.left < help.right && field.right > help.left && field.top < help.bottom && field.bottom > help.top).length;
+}"""
+
+
+@pytest.mark.parametrize("viewport", [PHONE, DESK])
+@pytest.mark.parametrize("name", ["gears.wheel.teeth", "gears.pinion.profile_shift", "load.pinion_speed_rpm"])
+def test_the_help_of_a_field_covers_no_field(visit: Callable[..., Page], name: str, viewport: dict[str, int]) -> None:
+    page = visit(address_of(SCUFFING), viewport=viewport)
+    page.locator(f'[name="{name}"]').focus()
+    expect(page.locator(f'[id="f.{name}-help"]')).to_be_visible()
+    assert page.evaluate(COVERED, f"f.{name}-help") == 0
+    assert overflow(page) == 0
