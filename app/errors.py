@@ -66,7 +66,7 @@ class QueueFull(ServiceError):
 
 
 class StudiesFull(ServiceError):
-    """As many studies run as the settings allow."""
+    """The number of studies that may run at once has been reached."""
 
 
 class StudyEnded(ServiceError):

@@ -1,4 +1,4 @@
-"""Array types and the rule that a result's arrays are read-only."""
+"""Array types, the rule that a result's arrays are read-only, and sums without their rounding."""
 
 from typing import Any
 
@@ -14,12 +14,20 @@ RecordArray = np.recarray[Any, np.dtype[np.record]]
 Fields = list[tuple[str, Any]]
 """Names and types of the fields of a record."""
 
+ROUNDING = 1e-12
+"""Of what is summed: far above the rounding of a sum of doubles, far below anything that is measured."""
+
 
 def frozen(values: ArrayLike) -> NDArray[Any]:
     """The values as a read-only array (a view where they are an array already)."""
     array = np.asarray(values).view()
     array.flags.writeable = False
     return array
+
+
+def without_rounding(value: float, scale: float) -> float:
+    """The value, or zero where it is below 1e-12 of what its parts may add up to: the rounding of their sum."""
+    return 0.0 if abs(value) < ROUNDING * abs(scale) else value
 
 
 def records(shape: int | tuple[int, ...], fields: Fields) -> RecordArray:

@@ -1,13 +1,13 @@
-"""What a result has to say about its own validity."""
+"""Warnings about the validity of a result."""
 
 from dataclasses import dataclass
 from typing import Literal, get_args
 
 Rank = Literal["invalid", "doubtful", "note"]
-"""How much a warning takes from a result.
+"""How far a warning limits the use of a result.
 
 invalid     a result is missing, or stands where the theory does not hold
-doubtful    a limit of validity, of resolution or of good practice is left; the result is to be questioned
+doubtful    a limit of validity, of resolution or of good practice is exceeded; the result is to be questioned
 note        what was left out or assumed, or has no meaning here; the result stands
 """
 RANKS: tuple[Rank, ...] = get_args(Rank)

@@ -1,6 +1,6 @@
 """Oils as their users know them: by ISO grade, by data sheet, or by the viscosity at one temperature.
 
-A data sheet has two kinematic viscosities, which also tell the viscosity index (ASTM D2270, ISO 2909); where the oil
+A data sheet has two kinematic viscosities, which also give the viscosity index (ASTM D2270, ISO 2909); where the oil
 enters a contact it becomes a lubricant of the models.
 """
 

@@ -45,13 +45,13 @@ class MissingValue(BaseModel):
     """A field that a calculation needs and the file does not contain."""
 
     field: Annotated[str, Output("dotted path of the field, or the endpoint that cannot be asked")]
-    component: Annotated[int | None, Output("component in the file that could tell it")]
-    attribute: Annotated[str | None, Output("attribute that could tell it")]
+    component: Annotated[int | None, Output("component in the file that could give it")]
+    attribute: Annotated[str | None, Output("attribute that could give it")]
     message: Annotated[str, Output("what is missing")]
 
 
 class AssumedValue(BaseModel):
-    """What stands in place of something that the file does not tell."""
+    """What stands in place of something that the file does not give."""
 
     field: Annotated[str, Output("dotted path of the field")]
     value: Annotated[Any, Output("value used")]

@@ -30,7 +30,7 @@ class Draft:
         self.origins[path] = component, attribute
 
     def assume(self, path: str, value: Any, reason: str) -> None:
-        """Set a field that the file does not tell."""
+        """Set a field that the file does not give."""
         self.fields[path] = value
         self.assumed[path] = Assumed(path, value, reason)
 

@@ -119,7 +119,7 @@ class _Unit:
         unit = next((c for c in self._reading.model.components.values() if c.type == "gear_unit"), None)
         parts = [self._reading.number(unit, f"direction_vector_gravity_{axis}") for axis in "uvw"] if unit else [None]
         if unit is None or None in parts or not any(parts):
-            self._draft.assume("operation.gravity_angle_deg", -90.0, "the file tells no direction of gravity")
+            self._draft.assume("operation.gravity_angle_deg", -90.0, "the file gives no direction of gravity")
             return
         u, v, w = (float(each or 0.0) for each in parts)
         direction = self._in_file(unit, (u, v, w))

@@ -24,7 +24,7 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class Missing:
-    """A field of a request that the file does not tell: the calculation needs it."""
+    """A field of a request that the file does not give: the calculation needs it."""
 
     field: str
     component: int | None
@@ -34,7 +34,7 @@ class Missing:
 
 @dataclass(frozen=True, slots=True)
 class Assumed:
-    """A field of a request that the file does not tell, and what was put there."""
+    """A field of a request that the file does not give, and what was put there."""
 
     field: str
     value: Any

@@ -293,7 +293,7 @@ class StageDraft:
                 )
                 return
             self.reading.find("diameter", gear, row.attributes[0], f"{row.attributes[0]} {fault}; not used")
-        self.draft.assume(path, ISO_53_A[row.field], f"the file tells no {row.field}: ISO 53, profile A")
+        self.draft.assume(path, ISO_53_A[row.field], f"the file gives no {row.field}: ISO 53, profile A")
 
     def tool(self, place: int) -> Component | None:
         """The rack-shaped tool that made a gear."""
@@ -320,7 +320,7 @@ class StageDraft:
         path = "gears.rack_tip_radius"
         if not found:
             self.draft.assume(
-                path, ISO_53_A["rack_tip_radius"], "the file tells no tip radius of a tool: ISO 53, profile A"
+                path, ISO_53_A["rack_tip_radius"], "the file gives no tip radius of a tool: ISO 53, profile A"
             )
             return
         smallest, tool = min(found, key=lambda each: each[0])
@@ -336,7 +336,7 @@ class StageDraft:
         return float(module) * cos(radians(self.draft.fields.get(table.HELIX_ANGLE.field, 0.0)))
 
     def involute(self, place: int) -> "Involute | None":
-        """The transverse geometry of a gear, where the file tells enough."""
+        """The transverse geometry of a gear, where the file gives enough."""
         module, angle = self._normal_module, self.draft.fields.get(table.PRESSURE_ANGLE.field)
         if not module or module < 0.0 or angle is None or not 0.0 < angle < 45.0:
             return None
@@ -440,7 +440,7 @@ class StageDraft:
         words = " ".join(filter(None, (kind, self.reading.text(oil, "basis"), self.reading.text(oil, "name"))))
         known = next((ours for word, ours in OIL_WORDS.items() if word in words), None)
         if known is None:
-            draft.assume("lubricant.kind", "mineral", "the file does not tell the base oil")
+            draft.assume("lubricant.kind", "mineral", "the file does not give the base oil")
         else:
             draft.put("lubricant.kind", known, oil, "basis")
 

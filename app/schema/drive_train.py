@@ -221,7 +221,7 @@ class DriveTrainRequest(MeshInOil):
     @model_validator(mode="before")
     @classmethod
     def bulk_given(cls, given: Any) -> Any:
-        """A tooth temperature says by itself that the bulk is given."""
+        """Where a tooth temperature is given, `bulk_method` is "given" unless the request says otherwise."""
         teeth = given.get("thermal") if isinstance(given, dict) else None
         if isinstance(teeth, dict) and any(teeth.get(name) is not None for name in ("pinion_bulk_c", "wheel_bulk_c")):
             return with_default(given, "temperatures", "bulk_method", "given")

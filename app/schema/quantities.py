@@ -18,7 +18,27 @@ Bound = Literal["upper", "lower"]
 
 
 @dataclass(frozen=True)
-class Input(Quantity):
+class _Declaration(Quantity):
+    """A declaration that documents its field in the JSON schema."""
+
+    @property
+    def description(self) -> str:
+        """The text, else the title."""
+        return self.text or self.title
+
+    @property
+    def extras(self) -> dict[str, Any]:
+        """What the schema says beside title and description."""
+        return {"x-symbol": self.symbol, "x-source": self.source}
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        """The type's own JSON schema and what the field means."""
+        extras = {key: value for key, value in self.extras.items() if value is not None}
+        return {**handler(schema), "title": self.title, "description": self.description, **extras}
+
+
+@dataclass(frozen=True)
+class Input(_Declaration):
     """The declaration of a field of a request; the unit is in the field's name.
 
     `origin` is the dataclass and its field that it was taken from, if it was.
@@ -29,15 +49,13 @@ class Input(Quantity):
     @property
     def description(self) -> str:
         """The text, and what a null means."""
-        text = self.text or self.title
+        text = super().description
         return f"{text}; null: {self.default_text}" if self.default_text else text
 
     @property
     def extras(self) -> dict[str, Any]:
         """What the schema says beside title and description."""
-        return {
-            "x-symbol": self.symbol,
-            "x-source": self.source,
+        return super().extras | {
             "x-assumed": self.assumed,
             "x-default-text": self.default_text,
             "x-advanced": self.advanced or None,
@@ -46,12 +64,8 @@ class Input(Quantity):
         }
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        """The type's own schema, its numbers finite, in range and really numbers."""
+        """The type's own schema; its numbers are finite and in range, and neither text nor booleans."""
         return self._strict(handler(source))
-
-    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        """The type's own JSON schema and what the field means."""
-        return _documented(handler(schema), self)
 
     def _strict(self, schema: CoreSchema) -> CoreSchema:
         match schema["type"]:
@@ -59,7 +73,8 @@ class Input(Quantity):
                 bounds: Any = self.bounds
                 if kind == "float":  # strict: text and booleans are no numbers
                     return core_schema.float_schema(strict=True, allow_inf_nan=False, **bounds)
-                # A strict int would not take 3.0: a number, one that has whole neighbours, a whole one in its range.
+                # A strict int would refuse 3.0. So: a number, of at most 2^53, up to which floats hold whole numbers
+                # exactly, then a whole one in its range.
                 number = core_schema.custom_error_schema(core_schema.float_schema(strict=True), "int_type")
                 exact = core_schema.float_schema(allow_inf_nan=False, ge=-(2.0**53), le=2.0**53)
                 whole = core_schema.chain_schema([number, exact, core_schema.int_schema(**bounds)])
@@ -91,9 +106,14 @@ class View:
     verdict: str | None = None
     percent: bool = False
 
+    @property
+    def greatest_is_best(self) -> bool:
+        """Whether the value has to stay above something; of several values the least is then the worst."""
+        return self.bound == "lower"
+
 
 @dataclass(frozen=True)
-class Output(View, Quantity):
+class Output(View, _Declaration):
     """The declaration of a field of a response."""
 
     @property
@@ -102,16 +122,9 @@ class Output(View, Quantity):
         return (self.axis,) if isinstance(self.axis, str) else self.axis or ()
 
     @property
-    def description(self) -> str:
-        """The text, else the title."""
-        return self.text or self.title
-
-    @property
     def extras(self) -> dict[str, Any]:
         """What the schema says beside title and description."""
-        return {
-            "x-symbol": self.symbol,
-            "x-source": self.source,
+        return super().extras | {
             "x-axis": list(self.axis) if isinstance(self.axis, tuple) else self.axis,
             "x-index": self.index,
             "x-headline": self.headline,
@@ -120,10 +133,6 @@ class Output(View, Quantity):
             "x-needs": self.needs,
             "x-verdict": self.verdict,
         }
-
-    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        """The type's own JSON schema and what the field means."""
-        return _documented(handler(schema), self)
 
 
 def meaning_of(field: FieldInfo) -> Input | Output | None:
@@ -145,9 +154,3 @@ def split_unit(name: str) -> tuple[str, Unit | None]:
 def _kinds(choices: list[Any]) -> list[CoreSchema]:
     """The kinds of a union, without the names that may stand beside them."""
     return [choice[0] if isinstance(choice, tuple) else choice for choice in choices]
-
-
-def _documented(schema: JsonSchemaValue, meaning: Input | Output) -> JsonSchemaValue:
-    """The schema with title, description and all that the field says of itself."""
-    extras = {key: value for key, value in meaning.extras.items() if value is not None}
-    return {**schema, "title": meaning.title, "description": meaning.description, **extras}

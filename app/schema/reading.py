@@ -17,7 +17,7 @@ from solvers.quantity import allowed
 
 M = TypeVar("M", bound=BaseModel)
 Models = tuple[type[BaseModel], ...]
-MOST_FAULTS = 100  # in one answer: who reads them begins anew long before
+MOST_FAULTS = 100  # in one answer, chosen: nobody mends more at once
 _NAME = re.compile(r"[A-Za-z0-9_]{1,40}")
 _NUMBER = re.compile(r"[+-]?\d{1,20}([.,]\d{1,20})?")
 _RANGE_TYPES = {"greater_than", "greater_than_equal", "less_than", "less_than_equal"}
@@ -93,18 +93,20 @@ def _message(model: type[BaseModel], location: tuple[str | int, ...], item: dict
         return "leave the section out instead of null" if value is None else "give a section {...} of fields here"
     if kind in _RANGE_TYPES:
         return f"{name} is {_figure(value)}; permissible {_allowed(sections, name)}"
+    context = {key: str(said).replace("'", "") for key, said in item.get("ctx", {}).items()}
+    choices = context.get("expected", "").replace(" or ", ", ")
     plain = {
         "int_from_float": "give a whole number",
         "finite_number": "give a finite number",
         "bool_type": "give true or false",
         "list_type": "give a list [...] of values here",
         "string_type": "give text",
-        "union_tag_not_found": f"{_tag(item)} is required",
-        "union_tag_invalid": f"{_tag(item)}: permissible are {_tags(item)}",
-        "literal_error": f"{name}: permissible are {_choices(item)}",
-        "enum": f"{name}: permissible are {_choices(item)}",
-        "too_short": f"{name} needs at least {item.get('ctx', {}).get('min_length')} values",
-        "too_long": f"{name} takes at most {item.get('ctx', {}).get('max_length')} values",
+        "union_tag_not_found": f"{context.get('discriminator')} is required",
+        "union_tag_invalid": f"{context.get('discriminator')}: permissible are {context.get('expected_tags')}",
+        "literal_error": f"{name}: permissible are {choices}",
+        "enum": f"{name}: permissible are {choices}",
+        "too_short": f"{name} needs at least {context.get('min_length')} values",
+        "too_long": f"{name} takes at most {context.get('max_length')} values",
     }
     return plain.get(kind, str(item["msg"]))
 
@@ -135,19 +137,6 @@ def _figure(value: Any) -> str:
         return f"{float(value):.12g}"
     except OverflowError:  # a whole number of more than three hundred digits
         return "far too large" if value > 0 else "far too small"
-
-
-def _tag(item: dict[str, Any]) -> str:
-    """The field that says which of several sections one is."""
-    return str(item.get("ctx", {}).get("discriminator", "")).strip("'")
-
-
-def _tags(item: dict[str, Any]) -> str:
-    return str(item.get("ctx", {}).get("expected_tags", "")).replace("'", "")
-
-
-def _choices(item: dict[str, Any]) -> str:
-    return str(item.get("ctx", {}).get("expected", "")).replace("'", "").replace(" or ", ", ")
 
 
 def _allowed(sections: Models, name: str) -> str:

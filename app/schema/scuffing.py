@@ -48,7 +48,7 @@ class ContactTemperatures(Section, of=si.Temperatures):
     @model_validator(mode="before")
     @classmethod
     def bulk_given(cls, given: Any) -> Any:
-        """A bulk temperature says by itself that it is given."""
+        """Where a bulk temperature is given, `bulk_method` is "given" unless the request says otherwise."""
         if isinstance(given, dict) and given.get("bulk_c") is not None:
             return {"bulk_method": "given"} | given
         return given
@@ -63,7 +63,7 @@ class ScuffingTemperatures(ContactTemperatures):
 
     @model_validator(mode="after")
     def known_bulk(self) -> Self:
-        """A bulk temperature that is given is a number."""
+        """The method `given` needs a bulk temperature."""
         if self.bulk_method == "given" and self.bulk_c is None:
             raise PydanticCustomError("missing_bulk", "give bulk_c, or bulk_method estimated")
         return self
@@ -101,7 +101,7 @@ class MeshInOil(Request):
     @model_validator(mode="before")
     @classmethod
     def friction_given(cls, given: Any) -> Any:
-        """A coefficient of friction says by itself that it is given."""
+        """Where a coefficient of friction is given, `friction` is "given" unless the request says otherwise."""
         if isinstance(given, dict) and given.get("friction_coefficient") is not None:
             return with_default(given, "model", "friction", "given")
         return given

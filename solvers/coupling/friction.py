@@ -10,14 +10,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solvers.arrays import FloatArray
+from solvers.arrays import FloatArray, without_rounding
 from solvers.compiled import kernel
 from solvers.coupling.inputs import Coupling, CouplingInputs, Operation
 from solvers.coupling.kinematics import MeshMotion, rotor_samples
 from solvers.coupling.lubrication import static_friction
 from solvers.coupling.results import AxialThrust, Geometry, Losses, SelfInducedThrust
 from solvers.coupling.sleeve import sleeve_equilibrium
-from solvers.coupling.tooth_loads import coaxial_limit, mesh_loads, without_rounding
+from solvers.coupling.tooth_loads import coaxial_limit, mesh_loads
 
 
 class ToothSums(NamedTuple):

@@ -275,7 +275,7 @@ class CouplingOil(OilBySheet):
         ge=-50,
         le=300,
         tolerance=5,
-        text="at which grade or data sheet tell the viscosity",
+        text="temperature at which the viscosity is taken from grade or data sheet",
         assumed="50 °C",
     )
     reference_film: float = quantity(
@@ -503,7 +503,11 @@ def check_inputs(inputs: CouplingInputs) -> None:
             "out_of_range", "the theory is one of small angles; keep the misalignment within 6 degrees", "misalignment"
         )
     if 0.0 < inputs.operation.torque < LEAST_TORQUE:
-        raise InvalidInput("out_of_range", f"a torque below {LEAST_TORQUE:g} N m is none; give 0 or more", "torque")
+        raise InvalidInput(
+            "out_of_range",
+            f"a torque below {LEAST_TORQUE:g} N m is too small to be a load; give 0 or more than that",
+            "torque",
+        )
     _check_pitch_errors(inputs)
     if isinstance(inputs.friction.law, MixedFrictionTable):
         _check_mixed_table(inputs.friction.law)

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solvers.arrays import FloatArray
+from solvers.arrays import FloatArray, without_rounding
 from solvers.compiled import kernel
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.kinematics import (
@@ -35,7 +35,6 @@ from solvers.coupling.tooth_loads import (
     float_sleeve,
     interference_at_rest,
     solve_loaded,
-    without_rounding,
 )
 from solvers.errors import NoSolution
 

@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solvers.arrays import FloatArray, IntArray, frozen
+from solvers.arrays import ROUNDING, FloatArray, IntArray, frozen
 from solvers.compiled import kernel
 from solvers.coupling.inputs import Coupling, CouplingInputs
 from solvers.coupling.kinematics import (
@@ -45,8 +45,6 @@ FLAT = 1e-12
 
 LOADED = 1e-6
 """Tooth force over the mean one from which a tooth counts as loaded."""
-ROUNDING = 1e-12
-"""Share of what its parts may add up to below which a sum is their rounding."""
 SLIDING_VELOCITY_LIMIT = 0.12
 """Steady sliding of gear couplings [m/s], Tribology Handbook B4.6; transients may tilt 1.6 times as far."""
 GRAVITY = 9.80665  # m/s^2, standard gravity (CGPM 1901)
@@ -301,11 +299,6 @@ def floating_rows(
             share[row, i] = max(0.0, share[row, i])
         if iterations[row] < 0:
             break
-
-
-def without_rounding(value: float, scale: float) -> float:
-    """The value, or zero where it is below 1e-12 of what its parts may add up to: the rounding of their sum."""
-    return 0.0 if abs(value) < ROUNDING * abs(scale) else value
 
 
 def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArray]) -> float:

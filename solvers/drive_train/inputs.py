@@ -145,7 +145,7 @@ class ShaftBearing:
         ge=-50,
         le=300,
         tolerance=5,
-        text="temperature that tells the viscosity where none is given",
+        text="temperature at which the oil's viscosity is taken where none is given",
         default_text=f"oil temperature and {FILM_ABOVE_OIL:.0f} K",
     )
     stiffness: tuple[Vector2, Vector2] | None = quantity(
@@ -423,7 +423,7 @@ class Heat:
         tolerance=0.1,
         text="rise of the pinion's metal over the rise of the pumped gas",
         default_text=f"{ASSUMED_RESPONSE}",
-        assumed="nothing but a measurement tells it; known values lie between 0.2 and 1",
+        assumed="only a measurement gives it; known values lie between 0.2 and 1",
     )
     wall_response_wheel: float | None = quantity(
         "wall response of the wheel",
@@ -546,7 +546,10 @@ class DriveTrainInputs:
     )
     bulk_given: bool = True
     states: tuple[State, ...] = quantity(
-        "states", default=("hot",), length=(1, 2), text="the unit as described is hot; with cold the answer tells both"
+        "states",
+        default=("hot",),
+        length=(1, 2),
+        text="the unit as described is hot; with cold the answer has both states",
     )
 
     @property

@@ -26,18 +26,18 @@ CORNER = 0.98  # safety over the flank against the feature line's
 
 
 def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResult]) -> Iterator[Notice]:
-    """Films out of range, thrust that turns round or is too much, long overhangs."""
+    """Films out of range, thrust that may reverse or is too high, long overhangs."""
     for shaft, result, name in zip(inputs.shafts, shafts, NAMES, strict=True):
         for k, (bearing, state) in enumerate(zip(shaft.bearings, result.bearings, strict=True)):
             field = f"{name}.bearings.{k}"
             if isinstance(bearing, JournalBearing):
                 yield from _film_notices(bearing, state.eccentricity_ratio, state.min_film, field)
         if not all(isinstance(bearing, JournalBearing) for bearing in shaft.bearings):
-            message = "the loss of bearings that are no plain ones is not known; total loss and efficiency leave it out"
+            message = "the loss of bearings other than plain ones is not known; total loss and efficiency leave it out"
             yield Notice("bearing_loss_left_out", message, f"{name}.bearings", rank="note")
         thrust = result.thrust
         if thrust.reverses:
-            message = f"the coupling's friction can turn the thrust round: {thrust.lower:.0f} to {thrust.upper:.0f} N"
+            message = f"the coupling's friction can reverse the thrust: {thrust.lower:.0f} to {thrust.upper:.0f} N"
             yield Notice("thrust_reversal", message, f"{name}.ultimate_thrust")
         if thrust.use is not None and thrust.use > 1.0:
             message = f"the thrust bearing is loaded to {thrust.use:.2f} times half its ultimate rating"

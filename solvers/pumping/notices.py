@@ -88,18 +88,18 @@ def net_flow_notices(model: Flow, flows: list[MassFlow]) -> list[Notice]:
     if flow is None or share <= NET_UNCERTAINTY:
         return []
     message = (
-        f"a net flow of {1e3 * net:.3g} g/s out of an end, a small difference of what leaves and what enters, is known "
-        f"to {1e3 * flow.net_uncertainty:.2g} g/s"
+        f"a net flow of {1e3 * net:.3g} g/s out of an end, a small difference of what leaves and what enters, is "
+        f"uncertain by {1e3 * flow.net_uncertainty:.2g} g/s"
     )
     if model is Flow.GAS_DYNAMICS:
-        message += "; more slices tell it better"
+        message += "; use more slices"
     return [Notice("net_flow_uncertain", message, "slices")]
 
 
 def resolution_notices(flow: Flow, uncertain: Resolution) -> list[Notice]:
     """Numbers that the slices of gas dynamics leave uncertain."""
-    told = ", ".join(
-        f"{name} to {100 * share:.2g} %"
+    found = ", ".join(
+        f"{name} by {100 * share:.2g} %"
         for name, share in (
             ("peak pressure", uncertain.peak_pressure),
             ("lowest pressure", uncertain.min_pressure),
@@ -110,9 +110,9 @@ def resolution_notices(flow: Flow, uncertain: Resolution) -> list[Notice]:
         )
         if share is not None and share > RESOLVED
     )
-    if flow is not Flow.GAS_DYNAMICS or not told:
+    if flow is not Flow.GAS_DYNAMICS or not found:
         return []
-    return [Notice("not_resolved", f"these slices tell the {told} only; more slices tell better", "slices")]
+    return [Notice("not_resolved", f"with these slices the results are uncertain: {found}; use more slices", "slices")]
 
 
 def speed_notices(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]:

@@ -73,7 +73,7 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
 class RollPositions(NamedTuple):
     """Roll positions in one base pitch [m], ascending, among them those whose line meets a corner of the plane.
 
-    `corner` tells these, where loads may turn sharply. `side` is 0, except for spur gears, where the contact length
+    `corner` marks these; loads may change abruptly there. `side` is 0, except for spur gears, where the contact length
     jumps: each corner then appears twice, as the limit from below (-1) and from above (+1).
     """
 

@@ -62,7 +62,7 @@ def _largest_around(balance: LoadBalance, places: FloatArray, top: int) -> float
 
 
 def _apart(places: list[float]) -> FloatArray:
-    """Places in order, without those that only rounding tells from their neighbour and that would hide it."""
+    """Places in order, without those that differ from their neighbour by rounding only and would hide it."""
     found = np.unique(places)
     return np.asarray(found[np.append(np.diff(found) > SAME * (found[-1] - found[0]), True)])
 

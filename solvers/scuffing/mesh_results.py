@@ -10,7 +10,7 @@ from math import cos, degrees
 import numpy as np
 from numpy.typing import NDArray
 
-from solvers.arrays import FloatArray, frozen
+from solvers.arrays import FloatArray, frozen, without_rounding
 from solvers.gears.pair import GearPair, PathOfContact
 from solvers.scuffing.inputs import Load
 from solvers.scuffing.load_balance import LoadBalance
@@ -122,7 +122,7 @@ def stiffness(
     standard = standard_stiffness(path, _standard_line_load(path, load))
     return Stiffness(
         max=float(single.max()),
-        max_at_gamma=float(path.profile_parameter(x[np.argmax(single)])),
+        max_at_gamma=without_rounding(float(path.profile_parameter(x[np.argmax(single)])), 1.0),
         approach=float(single[0]),
         pitch=float(np.interp(pitch_x, x, single)) if 0.0 <= pitch_x <= path.length else None,
         recess=float(single[-1]),

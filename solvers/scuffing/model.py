@@ -5,7 +5,7 @@ from functools import partial
 
 import numpy as np
 
-from solvers.arrays import frozen
+from solvers.arrays import frozen, without_rounding
 from solvers.contact.hertz import reduced_modulus
 from solvers.gears.gear import rack_tip_radius
 from solvers.gears.pair import PathOfContact, meshing_path
@@ -186,4 +186,5 @@ def _place(path: PathOfContact, peak: Peak | None) -> Place | None:
     """A peak's place on the flank."""
     if peak is None:
         return None
-    return Place(float(path.profile_parameter(peak.x)), peak.x / path.length, peak.y / path.plane.face_width)
+    gamma = without_rounding(float(path.profile_parameter(peak.x)), 1.0)
+    return Place(gamma, peak.x / path.length, peak.y / path.plane.face_width)

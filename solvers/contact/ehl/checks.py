@@ -1,4 +1,4 @@
-"""Checks of the inputs of a line contact; each range that is left raises InvalidInput."""
+"""Checks of the inputs of a line contact; a value outside its range raises InvalidInput."""
 
 from dataclasses import replace
 from math import exp, log

@@ -48,9 +48,9 @@ class Thrust:
     )
 
     @property
-    @computed("thrust reversal", text="whether the coupling's friction can turn the bearing's load round")
+    @computed("thrust reversal", text="whether the coupling's friction can reverse the bearing's load")
     def reverses(self) -> bool:
-        """Whether friction may turn the load of the bearing round."""
+        """Whether friction can reverse the load of the bearing."""
         return self.lower is not None and self.upper is not None and self.lower < 0.0 < self.upper
 
 

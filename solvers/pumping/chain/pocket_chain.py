@@ -45,7 +45,7 @@ def pocket_chain(
 
 
 def _march(gas: Gas, stretch: Stretch, duct: Duct, angle: FloatArray, closure: Closure, substeps: int) -> March:
-    """The march of one stretch, in finer steps where a flow that turns round within one stalls Newton's method."""
+    """The march of one stretch, in finer steps where a flow that reverses within one stalls Newton's method."""
     for refinement in _REFINEMENTS:
         count = refinement * substeps
         record = empty_record(gas, angle.size, duct.cells, count * (angle.size - 1))

@@ -118,7 +118,7 @@ def foot_on_mate(space: ToothSpace, radius: float, angle: float) -> tuple[float,
 def from_mate(
     space: ToothSpace, angle: float, mate_angle: float, mate_roll: float
 ) -> tuple[float, float, float, float]:
-    """Nearest point of half a space's profile to a point of the mate's flank, as `nearest_on_profile` tells it."""
+    """Nearest point of half a space's profile to a point of the mate's flank, as `nearest_on_profile` gives it."""
     radius = np.hypot(space.mate_base_radius, mate_roll)
     mu = mate_angle - space.mate_base_half_angle + involute(mate_roll, space.mate_base_radius)
     x, y = radius * np.sin(mu), space.centre_distance - radius * np.cos(mu)
@@ -127,7 +127,7 @@ def from_mate(
 
 @kernel
 def from_own(space: ToothSpace, angle: float, mate_angle: float, roll: float) -> tuple[float, float]:
-    """Foot on the mate's flank of a point of the own one, as `foot_on_mate` tells it."""
+    """Foot on the mate's flank of a point of the own one, as `foot_on_mate` gives it."""
     radius = np.hypot(space.base_radius, roll)
     theta = angle - space.base_half_angle - involute(roll, space.base_radius)
     x, y = radius * np.sin(theta), space.centre_distance - radius * np.cos(theta)

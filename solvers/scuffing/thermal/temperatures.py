@@ -78,7 +78,7 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution) ->
         raise InvalidInput("scuffing_temperature", message, "temperatures.scuffing")
     bulk = temperatures.bulk
     if bulk is None and temperatures.bulk_method == "given":
-        raise InvalidInput("missing_bulk", "a bulk temperature that is given is a number", "temperatures.bulk")
+        raise InvalidInput("missing_bulk", "the method 'given' needs a bulk temperature", "temperatures.bulk")
     if bulk is None:
         return replace(inputs, temperatures=temperatures, oil=oil, lubricant=None)
     if isinstance(oil, OilSheet) and not COLDEST_OIL <= bulk <= HOTTEST_OIL:
