@@ -1,4 +1,4 @@
-"""python -m app: what `app.command` does, and an end without a word when Ctrl-C interrupts its imports."""
+"""python -m app: runs `app.command`; Ctrl-C during its imports ends the process without a traceback."""
 
 import os
 import signal

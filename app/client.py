@@ -27,7 +27,10 @@ Answer = TypeVar("Answer")
 Stream = TypeVar("Stream")
 
 ADDRESS = "http://127.0.0.1:8000"
-TIMEOUT_S = 60.0  # beyond the default deadline of a calculation, 30 s
+OPTIONS: dict[str, Any] = {
+    "timeout": 60.0,  # s: beyond the default deadline of a calculation, 30 s
+    "limits": httpx.Limits(keepalive_expiry=3.0),  # s: the service closes idle connections after 5 s
+}
 PATIENCE_S = 120.0  # in all for an answer, chosen: four times the service's deadline
 
 
@@ -265,7 +268,7 @@ class Tribodrive(_Endpoints[Json, Study]):
     """
 
     def __init__(self, url: str = ADDRESS, *, patience_s: float = PATIENCE_S, **options: Any) -> None:
-        self._http = httpx.Client(base_url=url, **{"timeout": TIMEOUT_S} | options)
+        self._http = httpx.Client(base_url=url, **OPTIONS | options)
         self._patience_s = patience_s
 
     def __enter__(self) -> Self:
@@ -304,7 +307,7 @@ class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
     """The service at `url` for asyncio; parameters as those of `Tribodrive`."""
 
     def __init__(self, url: str = ADDRESS, *, patience_s: float = PATIENCE_S, **options: Any) -> None:
-        self._http = httpx.AsyncClient(base_url=url, **{"timeout": TIMEOUT_S} | options)
+        self._http = httpx.AsyncClient(base_url=url, **OPTIONS | options)
         self._patience_s = patience_s
 
     async def __aenter__(self) -> Self:

@@ -59,7 +59,7 @@ class _Objects:
 
 
 def refuse_endless(calculation: Calculation, request: Request, deadline_s: float) -> None:
-    """Raise Unprocessable for a request that cannot be finished before the deadline."""
+    """Raise Unprocessable for a request whose estimated time is longer than the deadline."""
     if calculation.cost is not None:
         cost = calculation.cost(request)
         if cost.seconds > deadline_s:
@@ -68,6 +68,13 @@ def refuse_endless(calculation: Calculation, request: Request, deadline_s: float
                 f"would take some {cost.seconds:.0f} s, but calculations end after {deadline_s:g} s; make it less",
                 cost.field,
             )
+
+
+def calculation_at(endpoint: str) -> Calculation:
+    """The calculation of an endpoint; raises Unprocessable where there is none."""
+    if endpoint not in BY_PATH:
+        raise Unprocessable("unknown_endpoint", f"there are {', '.join(BY_PATH)}", "endpoint")
+    return BY_PATH[endpoint]
 
 
 def answer(endpoint: str, request: dict[str, Any]) -> dict[str, Any]:
@@ -85,10 +92,11 @@ def answer(endpoint: str, request: dict[str, Any]) -> dict[str, Any]:
     InvalidBody
         The body is no request; its `faults` have pointer, code and message each.
     Unprocessable
-        The input is impossible; `code` and `message` say why, `path` is the field at fault.
+        There is no such endpoint, or the input is impossible; `code` and `message` say why, `path` is the field at
+        fault.
 
     """
-    calculation = BY_PATH[endpoint]
+    calculation = calculation_at(endpoint)
     content: dict[str, Any] = json.loads(json_answer(calculation, validated(calculation.request, request)))
     return content
 
@@ -159,7 +167,10 @@ def response_to(calculation: Calculation, request: Request, result: Any) -> Resp
     content |= {
         "assumptions": [
             *_assumptions(request, content.get("derived", {})),
-            *_model_assumptions(request),
+            *(
+                {"field": path, "value": reduce(getattr, path.split("."), request), "reason": reason}
+                for path, reason in request.assumed_by_the_model().items()
+            ),
         ],
         "model_version": MODEL_VERSION,
         "sources": SOURCES,
@@ -203,12 +214,6 @@ def _assumptions(
         elif reason and (value is None or name not in section.model_fields_set):
             used = derived.get(name, value)
             yield {"field": path, "value": section.stands_for_null(name) if used is None else used, "reason": reason}
-
-
-def _model_assumptions(request: Request) -> Iterator[dict[str, Any]]:
-    """The assumptions of the chosen model options."""
-    for path, reason in request.assumed_by_the_model().items():
-        yield {"field": path, "value": reduce(getattr, path.split("."), request), "reason": reason}
 
 
 @cache

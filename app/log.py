@@ -92,6 +92,7 @@ def running(level: str) -> Iterator[None]:
     try:
         yield
     finally:
+        logger.propagate = True
         for each in loggers:
             each.removeHandler(handler)
         listener.stop()

@@ -5,6 +5,7 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
 from fastapi import FastAPI
+from starlette.exceptions import HTTPException
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 from starlette.staticfiles import StaticFiles
 
@@ -72,6 +73,7 @@ def create_app() -> FastAPI:
     app.include_router(rexs.pages)
     app.mount(service.DOCS_ASSETS, StaticFiles(packages=[("fastapi_offline", "static")]))
     problems.install(app)
+    app.add_exception_handler(HTTPException, pages.no_page)
     app.add_middleware(
         GZipMiddleware, minimum_size=COMPRESSED_FROM, compresslevel=4, exclude_content_types=NOT_COMPRESSED
     )

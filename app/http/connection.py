@@ -14,7 +14,7 @@ from typing import Any
 from uvicorn.protocols.http.httptools_impl import STATUS_LINE, HttpToolsProtocol, RequestResponseCycle
 
 from app.http.middleware import own_headers, record, request_id
-from app.http.problems import problem
+from app.http.problems import code_of, problem
 from app.settings import settings
 
 MOST_PIPELINED = 16  # thousands arrive at once, and each that waits takes 4 kB
@@ -33,6 +33,7 @@ class LimitedProtocol(HttpToolsProtocol):
         self._limits = settings()
         self._began = time.perf_counter()
         self._refusal = http.HTTPStatus.BAD_REQUEST
+        self._outstanding: http.HTTPStatus | None = None  # a refusal that waits for the answers before it
         self._cycles: deque[RequestResponseCycle] = deque(maxlen=MOST_PIPELINED + 2)  # of these some are not answered
         self._in_headers = False
         self._in_body = False
@@ -56,13 +57,13 @@ class LimitedProtocol(HttpToolsProtocol):
         for timer in (self._header_timer, self._send_timer):
             if timer is not None:
                 timer.cancel()
-        for cycle in self._cycles:  # uvicorn tells the last one only
+        for cycle in self._cycles:  # uvicorn informs the last one only
             cycle.disconnected = True
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
-        """Some bytes arrived."""
-        if self.transport.is_closing():
+        """Some bytes arrived; behind a request that is refused they are dropped."""
+        if self.transport.is_closing() or self._outstanding is not None:
             return
         if self._header_timer is None and not self._in_body and self._answered:
             self._expect_request()
@@ -120,7 +121,9 @@ class LimitedProtocol(HttpToolsProtocol):
     def on_response_complete(self) -> None:
         """The answer is on its way; what has begun to arrive meanwhile, or still arrives, has to come to an end."""
         super().on_response_complete()
-        if (self._in_headers or self._in_body) and self._answered and not self.transport.is_closing():
+        if self._outstanding is not None and self._answered:
+            self._answer(self._outstanding)
+        elif (self._in_headers or self._in_body) and self._answered and not self.transport.is_closing():
             self._expect_request()
 
     def send_400_response(self, msg: str) -> None:
@@ -179,8 +182,11 @@ class LimitedProtocol(HttpToolsProtocol):
             self.transport.close()  # it never sent a byte, or has its answer and still sends a body
 
     def _answer(self, status: http.HTTPStatus) -> None:
-        """A problem document and the end of the connection."""
+        """A problem document, after the answers to the requests before it, and the end of the connection."""
         if self.transport.is_closing():
+            return
+        if not (self._answered or self._in_body):
+            self._outstanding = status
             return
         self._stop_expecting()
         cycle = self.cycle
@@ -198,8 +204,9 @@ class LimitedProtocol(HttpToolsProtocol):
 
 
 def _response(status: http.HTTPStatus, identifier: str, seconds: float) -> bytes:
-    code = status.phrase.lower().replace(" ", "_").replace("-", "_")
-    document = problem(identifier, status, code, status.phrase, detail=status.description or status.phrase)
+    document = problem(
+        identifier, status, code_of(status.phrase), status.phrase, detail=status.description or status.phrase
+    )
     headers = [*document.raw_headers, *own_headers(identifier, seconds), (b"connection", b"close")]
     if status == http.HTTPStatus.SERVICE_UNAVAILABLE:
         headers.append((b"retry-after", b"1"))

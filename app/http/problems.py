@@ -63,7 +63,7 @@ def documented(*statuses: int) -> dict[int | str, dict[str, Any]]:
 def install(app: FastAPI) -> None:
     """Answer every exception with a problem document."""
     for kind in (RequestValidationError, InvalidBody, Unprocessable, HTTPException, *PROBLEMS):
-        app.add_exception_handler(kind, _answer)
+        app.add_exception_handler(kind, answer)
     app.openapi = _with_problems(app.openapi)  # type: ignore[method-assign]
 
 
@@ -108,7 +108,12 @@ def problem(
     return JSONResponse(document, status, headers, media_type=MEDIA_TYPE)
 
 
-def _answer(request: Request, error: Exception) -> JSONResponse:
+def code_of(phrase: str) -> str:
+    """The code of a problem that is known by its HTTP status only, from the status's phrase."""
+    return phrase.lower().replace(" ", "_").replace("-", "_")
+
+
+def answer(request: Request, error: Exception) -> JSONResponse:
     """The problem document of an exception."""
     instance = str(request.state.request_id)
     match error:
@@ -124,9 +129,10 @@ def _answer(request: Request, error: Exception) -> JSONResponse:
             return _refusal(instance, error.code, faults_of(error))
         case HTTPException():
             phrase = HTTPStatus(error.status_code).phrase
-            code = phrase.lower().replace(" ", "_").replace("-", "_")
             headers = dict(error.headers or {})
-            return problem(instance, error.status_code, code, phrase, detail=str(error.detail), headers=headers)
+            return problem(
+                instance, error.status_code, code_of(phrase), phrase, detail=str(error.detail), headers=headers
+            )
         case _:
             kind = kind_of(error)
             detail = getattr(error, "detail", None)

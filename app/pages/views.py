@@ -14,16 +14,17 @@ from app.pages import report as reports
 from app.pages.answers import key_of
 from app.pages.cases import Case, Fault, faults_of, solved
 from app.pages.charts import Chart, charts, data_address, figure_of, linked, values_of
-from app.pages.code import body_of, for_python, for_shell
+from app.pages.code import for_python, for_shell, given
 from app.pages.form import State, anchor, form
 from app.pages.links import IMAGE_FORMATS, Links, example_link, examples_of
 from app.pages.manual import chapter_of
-from app.pages.query import Pairs, ambiguity, link, normalised, pairs_of_query, split_views
+from app.pages.query import Pairs, ambiguity, body_of, link, normalised, pairs_of_query, split_views
 from app.pages.results import assumptions, cards, differences, entries, groups, resolved
 from app.pages.study_links import studies_of_case, study_links
 from app.pages.templating import page_path, rendered
 from app.pages.typesetting import NO_VALUE
 from app.schema.fields import branches, headlines, leaf_at
+from app.schema.reading import validated
 from app.sources import changes_since
 
 BY_PAGE = {page_path(calculation): calculation for calculation in CALCULATIONS}
@@ -50,6 +51,19 @@ class Asked:
     def calculation(self) -> Calculation:
         """What it is a case of."""
         return BY_PAGE[self.path]
+
+    @property
+    def body(self) -> dict[str, Any]:
+        """The request body that the fields make; raises Unreadable."""
+        return body_of(self.calculation.request, self.pairs)
+
+    @property
+    def case(self) -> dict[str, Any]:
+        """The request with its defaults; as far as it is given where it is incomplete or refused."""
+        try:
+            return validated(self.calculation.request, self.body).model_dump()
+        except InvalidBody:
+            return self.body
 
     @property
     def theme(self) -> ThemeName | None:
@@ -128,7 +142,7 @@ def page(asked: Asked) -> Shown:
         differences=differences(type(case.request), case.response, before) if before else None,
         trouble=trouble,
         curves=_curves(case),
-        code=[(name, write(LOCAL + asked.root, case.calculation, body_of(case.request))) for name, write in LANGUAGES],
+        code=[(name, write(LOCAL + asked.root, case.calculation, given(case.request))) for name, write in LANGUAGES],
     )
     return replace(shown, keep=_keep(asked, case, variant, by_case=links.too_long))
 

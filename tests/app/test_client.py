@@ -6,8 +6,9 @@ from collections.abc import Callable, Iterator
 
 import httpx
 import pytest
+import uvicorn
 
-from app.client import AsyncTribodrive, ProblemError, Study, StudyError, Tribodrive
+from app.client import OPTIONS, AsyncTribodrive, ProblemError, Study, StudyError, Tribodrive
 
 COUPLING = {
     "coupling": {"teeth": 52, "module_mm": 3, "crowning_ratio": 1},
@@ -131,3 +132,8 @@ def test_a_study_without_end_is_an_error() -> None:
     broken = {"type": "error", "code": "study_deadline", "message": "the study took longer than 1 s"}
     with pytest.raises(StudyError, match="study_deadline"):
         list(behind(httpx.Response(200, text=json.dumps(broken))).sweep({}))
+
+
+def test_idle_connections_end_before_the_service_closes_them() -> None:
+    """A request that is on its way when the service closes its connection would get no answer."""
+    assert OPTIONS["limits"].keepalive_expiry < uvicorn.Config("app.main:app").timeout_keep_alive

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from app.errors import InvalidBody
+from app.errors import InvalidBody, Unprocessable
 from app.evaluate import answer
 from tests.support.server import ROOT
 
@@ -26,6 +26,11 @@ def run(*arguments: str, text: str = "") -> subprocess.CompletedProcess[str]:
     )
 
 
+def test_an_unknown_endpoint_is_told_those_that_there_are() -> None:
+    with pytest.raises(Unprocessable, match="/v1/coupling"):
+        answer("/v1/nothing", {})
+
+
 def test_the_answer_in_process_is_that_of_the_service(post: Any) -> None:
     assert answer("/v1/coupling", COUPLING) == post("/v1/coupling", COUPLING).json()
 
@@ -36,6 +41,7 @@ def test_a_refusal_in_process_names_the_field() -> None:
     assert [fault.pointer for fault in caught.value.faults] == ["/coupling/teeth"]
 
 
+@pytest.mark.slow
 def test_a_file_and_the_standard_input_are_solved(tmp_path: Path) -> None:
     file = tmp_path / "case.json"
     file.write_text(json.dumps(COUPLING))

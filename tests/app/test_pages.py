@@ -538,6 +538,25 @@ def test_unknown_views_are_problems(client: httpx.Client) -> None:
     assert client.get("/coupling/result.json?coupling.teeth=abc").headers["content-type"] == "application/problem+json"
 
 
+@pytest.mark.parametrize(
+    ("address", "status", "says"),
+    [
+        ("/nothing", 404, "There is nothing at this address"),
+        ("/scuffing/nothing", 404, "There is nothing at this address"),
+        ("/manual/nothing", 404, "There are "),
+        ("/coupling/figures/none.svg", 404, "There are "),
+        ("/coupling/figures/losses.svg?case=0", 410, "calculate the case again"),
+    ],
+)
+def test_a_browser_gets_a_page_where_nothing_is(client: httpx.Client, address: str, status: int, says: str) -> None:
+    browser = {"Accept": "text/html,application/xhtml+xml,*/*;q=0.8"}
+    found = client.get(address, headers=browser)
+    assert (found.status_code, found.headers["content-type"]) == (status, "text/html; charset=utf-8")
+    assert says in found.text
+    for request in (client.get(address), client.get(f"/v1{address}", headers=browser)):
+        assert request.headers["content-type"] == "application/problem+json"
+
+
 def test_long_answers_are_compressed(client: httpx.Client) -> None:
     address = "/coupling" + link("", pairs_of(examples()["pahl-axial-displacement"].request))
     plain = client.get(address, headers={"Accept-Encoding": "identity"})

@@ -65,6 +65,22 @@ def test_large_headers(client: httpx.Client) -> None:
     assert response.status_code == 431
 
 
+def test_a_refused_request_does_not_cost_the_answer_to_the_one_before(client: httpx.Client) -> None:
+    example = examples()["pahl-axial-displacement"]
+    body = json.dumps(example.request).encode()
+    head = f"POST {example.endpoint} HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\n"
+    calculation = f"{head}Content-Length: {len(body)}\r\n\r\n".encode() + body
+    target = urlsplit(str(client.base_url))
+    answer = b""
+    with socket.create_connection((target.hostname, target.port), timeout=60) as connection:
+        connection.sendall(calculation + b"GET /healthz HTTP/1.1\r\nHost: a\r\nX-Padding: %s\r\n\r\n" % (b"x" * 20_000))
+        while piece := connection.recv(65536):
+            answer += piece
+    first, _, second = answer.partition(b"HTTP/1.1 431 ")
+    assert first.startswith(b"HTTP/1.1 200 ")
+    assert second
+
+
 def test_wrong_method(client: httpx.Client) -> None:
     response = client.get("/v1/coupling")
     assert response.status_code == 405

@@ -37,5 +37,5 @@ def chapter(http: Request, name: str) -> Response:
 def about(http: Request, model: str) -> Response:
     """Redirect from the former address of a chapter."""
     if model not in NAMES:
-        raise HTTPException(404, f"There is no {model} to tell about")
+        raise HTTPException(404, f"The manual has no chapter on {model}")
     return RedirectResponse(f"{root_of(http)}/manual/{model}", 308)

@@ -1,16 +1,20 @@
 """Pages, and the views of a case under the same query."""
 
 from collections.abc import Callable
+from http import HTTPStatus
 from typing import Any
 from urllib.parse import quote
 
-from fastapi import APIRouter, HTTPException, Request, Response
+from fastapi import APIRouter, Request, Response
 from fastapi.responses import RedirectResponse
+from starlette._utils import get_route_path
+from starlette.exceptions import HTTPException
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import PROBLEMS, Unreadable, kind_of
 from app.examples import examples
 from app.figures.rendering import MEDIA_TYPES
+from app.http.problems import answer
 from app.pages import case_file, views
 from app.pages.answers import Answers, key_of
 from app.pages.links import example_link
@@ -187,9 +191,20 @@ async def _shown(
     runner: Runner = http.app.state.runner
     answers: Answers = http.app.state.answers
     shown: views.Shown = await runner.run(http, view, asked, *arguments)
-    for key, answer in shown.keep.items():
-        answers.keep(key, answer)
+    for key, content in shown.keep.items():
+        answers.keep(key, content)
     return shown
+
+
+def no_page(http: Request, error: Exception) -> Response:
+    """A browser that asks for something that is not there gets a page; everything else gets the problem document."""
+    assert isinstance(error, HTTPException)
+    if "text/html" not in http.headers.get("accept", "") or get_route_path(http.scope).startswith("/v1/"):
+        return answer(http, error)
+    title = HTTPStatus(error.status_code).phrase
+    detail = "There is nothing at this address." if error.detail == title else error.detail
+    content = problem_page(root_of(http), error.status_code, title, detail)
+    return html(content, error.status_code, dict(error.headers or {}))
 
 
 def error_page(http: Request, error: Exception) -> Response:

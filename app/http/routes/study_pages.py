@@ -1,6 +1,7 @@
 """Pages of studies, which are sent while the lines of the study arrive, and their files."""
 
 import asyncio
+import logging
 from collections.abc import AsyncGenerator, Callable, Coroutine
 from contextlib import aclosing
 from functools import partial
@@ -40,6 +41,8 @@ NOT_DRAWN = (
     b'<div class="frame"><p class="warning">The figure could not be drawn; the files hold the points.</p>'
     b'<span class="ready" hidden></span></div>'
 )
+
+logger = logging.getLogger("tribodrive")
 
 
 def not_from_another_site(http: Request) -> None:
@@ -135,10 +138,13 @@ async def _pieces(http: Request, opened: pages.Opened, lines: Lines, clock: Cloc
 
 
 async def _part(http: Request, view: Callable[..., bytes], *arguments: Any) -> bytes:
-    """The result of a view in a worker, or a note that it failed."""
+    """The result of a view in a worker, or a note that it failed: the page has begun, its status is sent."""
     try:
         made: bytes = await twice_if_lost(http.app.state.studies.own(), view, *arguments)
     except (WorkerLost, DeadlineExceeded):
+        return NOT_DRAWN
+    except Exception:
+        logger.exception("a part of a study's page failed")
         return NOT_DRAWN
     return made
 
