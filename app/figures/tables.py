@@ -1,14 +1,13 @@
 """A figure's numbers as CSV, a column each, units in the header."""
 
-import csv
 from collections.abc import Iterator
-from io import StringIO
 from itertools import zip_longest
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from app.figures.data import Axis, Figure, Map, Panel, Role, Row, Values
+from app.spreadsheet import csv_of
 
 
 class Column(NamedTuple):
@@ -17,19 +16,22 @@ class Column(NamedTuple):
     header: str
     content: Values | list[str]
 
-    def cells(self, most: int | None = None) -> list[str]:
+    @property
+    def items(self) -> list[Any]:
+        """Names, or numbers; None where one is missing."""
+        if isinstance(self.content, list):
+            return self.content
+        return [None if np.isnan(value) else value for value in self.content.tolist()]
+
+    def cells(self, most: int) -> list[str]:
         """The first cells as texts; a number in as few digits as give it back, a missing one empty."""
-        part = self.content[:most]
-        return part if isinstance(part, list) else ["" if np.isnan(value) else repr(value) for value in part.tolist()]
+        return ["" if item is None else str(item) for item in self.items[:most]]
 
 
 def table(figure: Figure) -> bytes:
     """All columns beside each other; a missing value is an empty cell."""
-    columns, text = columns_of(figure), StringIO(newline="")
-    writer = csv.writer(text)
-    writer.writerow([column.header for column in columns])
-    writer.writerows(zip_longest(*(column.cells() for column in columns), fillvalue=""))
-    return text.getvalue().encode()
+    columns = columns_of(figure)
+    return csv_of([[column.header for column in columns], *zip_longest(*(column.items for column in columns))])
 
 
 def columns_of(figure: Figure) -> list[Column]:

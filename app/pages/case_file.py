@@ -6,15 +6,14 @@ from pathlib import PurePath
 from app.calculations import BY_PATH
 from app.errors import InvalidBody, Unreadable
 from app.evaluate import content_of
-from app.pages.query import Pairs, body_of, link, pairs_of, pairs_of_query
+from app.pages.query import Pairs, link, pairs_of, pairs_of_query
 from app.pages.templating import page_path
 from app.pages.views import Asked
 
 
 def saved(asked: Asked) -> bytes:
     """The file of a case as it was typed, complete or not."""
-    request = body_of(asked.calculation.request, asked.pairs)
-    content = {"title": asked.title, "endpoint": asked.calculation.path, "request": request}
+    content = {"title": asked.title, "endpoint": asked.calculation.path, "request": asked.body}
     return json.dumps(content, indent=1, ensure_ascii=False).encode()
 
 

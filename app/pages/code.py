@@ -9,8 +9,8 @@ from app.calculations import Calculation
 from app.schema.model import Request
 
 
-def body_of(request: Request) -> dict[str, Any]:
-    """What was given."""
+def given(request: Request) -> dict[str, Any]:
+    """The body of a request without what was left to its default."""
     return {name: value for name, value in request.model_dump(exclude_unset=True).items() if name != "detail"}
 
 

@@ -3,9 +3,6 @@
 Results have six significant digits; JSON has all of them.
 """
 
-import csv
-from collections.abc import Iterable
-from io import StringIO
 from typing import Any
 
 from app.pages.cases import Case
@@ -13,7 +10,7 @@ from app.pages.query import text_of
 from app.pages.results import entries, flattened
 from app.schema.fields import Leaf, leaf_at, leaves
 from app.schema.model import Response
-from app.studies.stream import safe_cell
+from app.spreadsheet import csv_of
 
 DIGITS = 6  # more than any solver's tolerance leaves
 COLUMNS = ("path", "title", "value", "unit", "symbol")
@@ -36,7 +33,7 @@ def values(case: Case, title: str) -> bytes:
     ]
     results = [_line(e.leaf, e.path, e.value) for _, e in entries(response) if e.leaf.is_scalar]
     named = [(name, name.replace("_", " "), text, "", "") for name, text in identity.items()]
-    return _written([COLUMNS, *named, *inputs, *results])
+    return csv_of([COLUMNS, *named, *inputs, *results], DIGITS)
 
 
 def _line(leaf: Leaf, path: str, value: Any) -> tuple[Any, ...]:
@@ -69,7 +66,7 @@ def _columns(response: Response, chosen: list[Leaf]) -> bytes:
     found = [_at(response, leaf.path) for leaf in chosen]
     length = max(map(len, found))
     lines = [[column[line] if line < len(column) else None for column in found] for line in range(length)]
-    return _written([[_header(leaf) for leaf in chosen], *lines])
+    return csv_of([[_header(leaf) for leaf in chosen], *lines], DIGITS)
 
 
 def _map(response: Response, chosen: list[Leaf], axes: list[Leaf]) -> bytes:
@@ -77,7 +74,7 @@ def _map(response: Response, chosen: list[Leaf], axes: list[Leaf]) -> bytes:
     first, second = (_at(response, axis.path) for axis in axes[:2])
     maps = [_at(response, leaf.path) for leaf in chosen]
     lines = [[a, b, *(each[i][j] for each in maps)] for i, a in enumerate(first) for j, b in enumerate(second)]
-    return _written([[_header(leaf) for leaf in (*axes[:2], *chosen)], *lines])
+    return csv_of([[_header(leaf) for leaf in (*axes[:2], *chosen)], *lines], DIGITS)
 
 
 def _header(leaf: Leaf) -> str:
@@ -88,11 +85,3 @@ def _at(response: Any, path: str) -> Any:
     for name in path.split("."):
         response = getattr(response, name, None)
     return response
-
-
-def _written(rows: Iterable[Iterable[Any]]) -> bytes:
-    text = StringIO(newline="")
-    csv.writer(text).writerows(
-        [f"{cell:.{DIGITS}g}" if isinstance(cell, float) else safe_cell(cell) for cell in row] for row in rows
-    )
-    return text.getvalue().encode()

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple, Self
 
 from app.calculations import BY_PATH, Calculation
 from app.errors import InvalidBody, Unprocessable
+from app.evaluate import calculation_at
 from app.schema.fields import Leaf, headlines
 from app.schema.model import Request
 from app.schema.reading import validated
@@ -30,9 +31,7 @@ class BaseRequest(NamedTuple):
     @classmethod
     def of(cls, study: StudyRequest | DriveTrainStudy) -> Self:
         """The request of a study."""
-        if study.endpoint not in BY_PATH:
-            raise Unprocessable("unknown_endpoint", f"there are {', '.join(BY_PATH)}", "endpoint")
-        return cls(BY_PATH[study.endpoint], study.request)
+        return cls(calculation_at(study.endpoint), study.request)
 
     def leaf(self, path: str, place: str) -> Leaf:
         """The single value at a path of the request, where it can be set."""

@@ -225,7 +225,7 @@ def _sign(request: DesignRequest, objective: Leaf) -> float:
     if objective.view.bound is None:
         message = f"{objective.path} has no safe side of its own; say maximise or minimise"
         raise Unprocessable("direction_missing", message, "direction")
-    return -1.0 if objective.view.bound == "lower" else 1.0
+    return -1.0 if objective.view.greatest_is_best else 1.0
 
 
 def _share(variable: DesignVariable, case: dict[str, Any]) -> float:

@@ -15,6 +15,7 @@ from app.studies.requests import Overrides
 from solvers.notices import Rank
 
 Status = Literal["ok", "ok_with_warnings", "no_solution", "refused", "failed"]
+SOLVED = ("ok", "ok_with_warnings")  # the status of a point that has an answer
 CHUNK_SECONDS = 0.25  # of work handed out at once: a study gives way within it
 
 logger = logging.getLogger("tribodrive")

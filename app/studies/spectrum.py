@@ -16,7 +16,7 @@ from app.studies.distributions import anchors, cut, drawn, unit_cube
 from app.studies.engine import Clock, Line, Lines, Pool, Study, case_of_study, output_header, paths_of, twice_if_lost
 from app.studies.fields import NUMBERS
 from app.studies.point_sets import check_case, scattering
-from app.studies.points import Point, Question, solve_point
+from app.studies.points import SOLVED, Point, Question, solve_point
 from app.studies.probability import Array, Limit
 from app.studies.requests import DRIVE_TRAIN, LoadCase, Overrides, SpectrumLimit, SpectrumRequest, Tolerances
 from app.studies.stream import point_line
@@ -24,7 +24,6 @@ from app.studies.summary import Tally
 
 PATH = "/v1/spectrum"
 PROGRESS_S = 0.5  # between two lines that say how far a spectrum has come
-SOLVED = ("ok", "ok_with_warnings")
 KILOWATTS = {"W": 1e-3, "kW": 1.0}  # per unit
 RELATIVE_DEVIATION = 0.15  # AGMA 925-A03, from memory
 LIMIT_VARIES = 1e-9  # relative
@@ -196,12 +195,14 @@ def _limits(study: Spectrum, columns: dict[str, Array]) -> tuple[list[Limit], li
     known = columns[paths.limit][~np.isnan(columns[paths.limit])]
     if not known.size:
         return [], [], ["no limit is given, and the request has no scuffing temperature: give one of them"]
-    mean = float(known[0])
+    first = columns[paths.limit][..., 0]
+    mean = float(np.nanmedian(known if np.isnan(first).all() else first))  # no single machine of a sample sets it
     limit = Limit("above", mean, RELATIVE_DEVIATION * abs(mean), paths.contact)
     assumption = {"field": "limits", "value": limit.deviation, "reason": ASSUMED_DEVIATION}
     varies = np.ptp(known) > LIMIT_VARIES * abs(mean)
     note = (
-        f"the scuffing temperature differs between the cases; the limit is that of the first, {mean:.4g}; give limits"
+        "the scuffing temperature differs between the cases or the machines; the limit is its median in the first "
+        f"case, {mean:.4g}; give limits"
     )
     return [limit], [assumption], [note] if varies else []
 

@@ -1,8 +1,6 @@
 """A study as a stream of lines: progress between them, an error line at an early end; written as JSON or as a table."""
 
 import asyncio
-import csv
-import io
 import json
 import logging
 from collections.abc import AsyncGenerator, Callable
@@ -10,12 +8,12 @@ from contextlib import aclosing
 from typing import Any
 
 from app.schema.fields import Leaf
+from app.spreadsheet import csv_of
 from app.studies.engine import Clock, Line, Lines, PoolLost
 from app.studies.point_sets import PointSet
 from app.studies.points import Point
 
 PROGRESS_S = 2.0  # between lines of progress: proxies and users see that it runs
-FORMULA_SIGNS = ("=", "+", "-", "@", "\t", "\r")
 
 logger = logging.getLogger("tribodrive")
 
@@ -98,12 +96,12 @@ class Table:
         """The row of a line: none for progress and end; an error has a row with its message."""
         match line["type"]:
             case "sweep":
-                return _row(self._heading)
+                return csv_of([self._heading])
             case "point":
-                return _row(self._cells(line))
+                return csv_of([self._cells(line)])
             case "error":
                 inputs, results = ([None] * len(leaves) for leaves in (self._points.varied, self._outputs))
-                return _row([None, *inputs, "error", *results, None, f"{line['code']}: {line['message']}"])
+                return csv_of([[None, *inputs, "error", *results, None, f"{line['code']}: {line['message']}"]])
             case _:
                 return b""
 
@@ -117,18 +115,3 @@ class Table:
 
 def _column(leaf: Leaf) -> str:
     return f"{leaf.path} [{leaf.unit}]" if leaf.unit else leaf.path
-
-
-def _row(cells: list[Any]) -> bytes:
-    text = io.StringIO()
-    csv.writer(text).writerow([safe_cell(cell) for cell in cells])
-    return text.getvalue().encode()
-
-
-def safe_cell(value: Any) -> Any:
-    """A cell that no spreadsheet takes for a formula."""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, str) and value.startswith(FORMULA_SIGNS):
-        return f"'{value}"
-    return value

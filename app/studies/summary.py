@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from app.studies.point_sets import PointSet
-from app.studies.points import Point
+from app.studies.points import SOLVED, Point
 from app.studies.probability import CONFIDENCE, QUANTILES, Array, rank_correlation
 from app.studies.requests import Best
 
@@ -53,7 +53,7 @@ class Tally:
     @property
     def answered(self) -> int:
         """How many points have an answer."""
-        return self.counts["ok"] + self.counts["ok_with_warnings"]
+        return sum(self.counts[status] for status in SOLVED)
 
 
 class Extreme(NamedTuple):

@@ -83,6 +83,7 @@ ROOMS = (
     "log",
     "errors",
     "sources",
+    "spreadsheet",
     "schema",
     "examples",
     "figures",

@@ -11,7 +11,7 @@ import pytest
 from app import client as client_module
 from app.calculations import CALCULATIONS, Calculation
 from app.examples import examples
-from app.pages.code import body_of, for_python, for_shell
+from app.pages.code import for_python, for_shell, given
 from app.pages.links import example_link
 from app.schema.reading import validated
 
@@ -23,7 +23,7 @@ def test_both_programs_send_the_request_of_the_case(
     calculation: Calculation, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     request = FIRST[calculation.path].request
-    body = body_of(validated(calculation.request, request))
+    body = given(validated(calculation.request, request))
     sent: list[tuple[str, str, Any]] = []
 
     def solve(service: client_module.Tribodrive, endpoint: str, given: Any) -> Any:
@@ -36,14 +36,14 @@ def test_both_programs_send_the_request_of_the_case(
     *_, address, _, header, _, data = shlex.split(for_shell("http://127.0.0.1:1", calculation, body))
     sent.append((address.removesuffix(calculation.path), calculation.path, json.loads(data)))
     assert header == "Content-Type: application/json"
-    for base, endpoint, given in sent:
+    for base, endpoint, posted in sent:
         assert (base.rstrip("/"), endpoint) == ("http://127.0.0.1:1", calculation.path)
-        assert validated(calculation.request, given) == validated(calculation.request, request)
+        assert validated(calculation.request, posted) == validated(calculation.request, request)
 
 
 def test_the_page_shows_them(client: httpx.Client) -> None:
     example = examples()["pahl-axial-displacement"]
     page = client.get(example_link(CALCULATIONS[0], example), follow_redirects=True).text
-    body = body_of(validated(CALCULATIONS[0].request, example.request))
+    body = given(validated(CALCULATIONS[0].request, example.request))
     assert for_shell("http://localhost:8000", CALCULATIONS[0], body) in unescape(page)
     assert for_python("http://localhost:8000", CALCULATIONS[0], body) in unescape(page)

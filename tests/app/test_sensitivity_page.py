@@ -1,12 +1,16 @@
 """The page that says which input matters: its figure and table say what the study says, its links draw the curve."""
 
+import asyncio
 import re
+from collections.abc import Callable
 from html import unescape
+from types import SimpleNamespace
 from typing import Any
 
 import httpx
 import pytest
 
+from app.http.routes import study_pages
 from app.pages.query import pairs_of_query, split_views
 from app.pages.studies import page as pages
 from app.pages.studies.sensitivity import MOST_ROWS, SENSITIVITY
@@ -26,7 +30,15 @@ def result_of(found: Asked) -> tuple[list[dict[str, Any]], str]:
     return lines, unescape(pages.whole(study, lines).decode())
 
 
-@pytest.mark.parametrize("name", [COUPLING, "pahl-sleeve-orbit", "milian-table-1-incompressible", "fzg-type-a"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        COUPLING,
+        "milian-table-1-incompressible",
+        "fzg-type-a",
+        pytest.param("pahl-sleeve-orbit", marks=pytest.mark.slow),
+    ],
+)
 def test_the_table_says_what_the_study_says(name: str) -> None:
     found = asked(name)
     lines, page = result_of(found)
@@ -92,3 +104,19 @@ def test_the_page_by_its_address(client: httpx.Client) -> None:
     assert client.get("/coupling/influence").status_code == 200
     assert client.get("/coupling/influence?coupling.teeth=abc").status_code == 422
     assert client.get("/coupling/influence?" + "&".join(f"a{i}=1" for i in range(1500))).status_code == 400
+
+
+class BrokenPool:
+    """Its calls fail as one that meets a defect of a page."""
+
+    slots = 1
+
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
+        future = asyncio.get_running_loop().create_future()
+        future.set_exception(KeyError(function.__name__, *arguments))
+        return future
+
+
+def test_a_page_that_has_begun_says_that_a_part_failed() -> None:
+    http: Any = SimpleNamespace(app=SimpleNamespace(state=SimpleNamespace(studies=SimpleNamespace(own=BrokenPool))))
+    assert b"could not be drawn" in asyncio.run(study_pages._part(http, pages.whole))

@@ -81,6 +81,7 @@ def test_ready_studies_are_those_of_the_interface(name: str) -> None:
     assert study.limits == own.limits
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", EXAMPLES["/v1/spectrum"])
 def test_customers_read_where_a_limit_comes_from(client: httpx.Client, name: str) -> None:
     """The deviation of the scuffing temperature is said to be assumed, from a source of second hand."""
@@ -125,6 +126,14 @@ def test_the_page_shows_what_the_study_says() -> None:
     assert "64 machines in 2 cases" in page
 
 
+def test_no_name_of_a_case_is_a_formula_in_a_spreadsheet() -> None:
+    study = checked(asked(**{**SAID, "cases": SAID["cases"].replace("low", "=1+1")}))
+    lines = [line for line in lines_of(study) if line["type"] != "progress"]
+    table = pages.file(study, lines, "losses", "csv")
+    assert isinstance(table, bytes)
+    assert b"\n'=1+1," in table
+
+
 def test_a_probability_that_nobody_knows_is_no_number() -> None:
     """A limit 20 deviations away: 10^-80 is not known, and no figure draws it."""
     end, page = shown(checked(asked(**{**SAID, "limit": "20000"})))
@@ -152,6 +161,7 @@ def test_the_nominal_machine_alone() -> None:
         ({"t0": "friction.coeficient", "t0.by": "0.1"}, "t0"),
         ({"t0": "friction.coefficient", "t0.by": "0.02", "machines": "1000000"}, "machines"),
         ({"cases": "name\na", "limit": "x"}, "limit"),
+        ({"cases": "name\na", "limit.by": "5", "show": "axial_thrust.force_n"}, "limit"),
         ({"cases": "name\na", "limit.by": "-1", "limit": "1", "show": "axial_thrust.force_n"}, "limit"),
         ({"cases": "name\na", "hours": "-1"}, "hours"),
     ],
@@ -164,6 +174,7 @@ def test_what_is_wrong_stands_at_its_control(client: httpx.Client, said: dict[st
     assert f'href="#f.{control}"' in page.text
 
 
+@pytest.mark.slow
 def test_hostile_queries_are_no_errors_of_the_service(client: httpx.Client) -> None:
     """Whatever stands in the table, the answer is a page or a refusal."""
     texts = [

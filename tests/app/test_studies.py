@@ -164,6 +164,7 @@ def test_examples_of_sensitivities(post: Post, name: str) -> None:
     assert len(expected) > 15
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", EXAMPLES["/v1/spectrum"])
 def test_examples_of_spectra(post: Post, name: str) -> None:
     header, *_, end = lines(post("/v1/spectrum", EXAMPLES["/v1/spectrum"][name]["value"]))

@@ -27,7 +27,7 @@ from app.pages.studies.declaration import PageStudy, StudyAddresses
 from app.pages.studies.design import DESIGN
 from app.pages.studies.page import output_choices
 from app.pages.studies.spectrum import SPECTRUM
-from app.pages.studies.sweep import SWEEP, case_of, field_choices, point_address
+from app.pages.studies.sweep import SWEEP, field_choices, point_address
 from app.pages.study_links import STUDIES, StudyExample
 from app.pages.views import Asked
 from app.schema.fields import leaf_at, leaves
@@ -103,7 +103,7 @@ def test_the_crowning_that_forgives_is_a_map_of_17_by_11() -> None:
 def test_every_number_of_a_case_is_varied_by_its_name_alone(calculation: Calculation) -> None:
     """Around its value, inside what is allowed; one that has no value may ask for a range, in words."""
     found = asked(next(each.name for each in examples().values() if each.endpoint == calculation.path))
-    case = case_of(calculation, found.pairs)
+    case = found.case
     for choice in field_choices(calculation, case, texts=False):
         said = Asked(found.path, found.pairs, {"x": choice.path})
         if case_value(case, choice.path):
@@ -124,7 +124,7 @@ def case_value(case: dict[str, Any], path: str) -> Any:
 def test_every_output_that_can_be_shown_is_told_by_a_study(calculation: Calculation) -> None:
     example = next(each for each in examples().values() if each.endpoint == calculation.path)
     found = asked(example.name)
-    case = case_of(calculation, found.pairs)
+    case = found.case
     said = {
         "x": next(each.path for each in field_choices(calculation, case, texts=False) if case_value(case, each.path))
     }
@@ -138,7 +138,7 @@ def test_a_points_link_opens_the_case_that_was_solved(name: str) -> None:
     calculation = found.calculation
     field = next(
         choice.path
-        for choice in field_choices(calculation, case_of(calculation, found.pairs), texts=False)
+        for choice in field_choices(calculation, found.case, texts=False)
         if choice.path.endswith(("torque_n_m", "speed_rpm", "torque_n_m"))
     )
     study, (*points, _) = solved(Asked(found.path, found.pairs, {"x": field, "x.count": "3"}))

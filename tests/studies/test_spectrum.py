@@ -49,16 +49,20 @@ def above(output: str, mean: float, deviation: float | None = None) -> dict[str,
     return {"output": output, "above": {"value": mean} if deviation is None else {"mean": mean, "deviation": deviation}}
 
 
+def below(output: str, **limit: float) -> dict[str, Any]:
+    return {"output": output, "below": limit}
+
+
 def study_of(body: object, most: int = 20_000) -> Spectrum:
     return spectrum_study(body, most, 30.0)
 
 
-def text_of(body: object, slots: int = 1) -> bytes:
+def text_of(body: object, slots: int = 1, seconds: float = 600) -> bytes:
     study = study_of(body)
 
     async def run() -> bytes:
         clock = Clock(study.total)
-        lines = guarded(study.lines(InlinePool(slots), clock), clock, 600)
+        lines = guarded(study.lines(InlinePool(slots), clock), clock, seconds)
         return b"".join([piece async for piece in encoded(lines, json_line)])
 
     return asyncio.run(run())
@@ -145,6 +149,33 @@ def test_the_interval_of_a_rare_event_is_said_to_cover_less() -> None:
     *_, usual = solved(coupling(tolerances=friction(count=16, replicates=4), limits=[above(COAXIAL, 9000, 1e3)]))
     assert usual["limits"][0]["probability"] > 0.005
     assert usual["notes"] == []
+
+
+def test_a_limit_to_fall_short_of() -> None:
+    """The lowest of the cases decides, and the upper tail of the limit is the probability."""
+    cases = [{"name": "low", "set": {"operation.torque_n_m": 2000}}, {"name": "high", "set": {}}]
+    limits = [below(COAXIAL, mean=4000, deviation=300), below(COAXIAL, value=4000), below(COAXIAL, value=1)]
+    body = coupling(cases=cases, tolerances=friction(count=8, replicates=4), limits=limits, points=True)
+    _, *points, end = solved(body)
+    thrust = np.array([point["out"][0] for point in points]).reshape(32, 2)
+    assert (thrust[:, 0] < thrust[:, 1]).all()
+    normal, fixed, never = end["limits"]
+    assert [each["side"] for each in end["limits"]] == ["below"] * 3
+    assert normal["probability"] == pytest.approx(norm.cdf((4000 - thrust[:, 0]) / 300).mean(), rel=1e-12)
+    assert fixed["probability"] == np.mean(thrust[:, 0] < 4000)
+    assert 0.0 < fixed["probability"] < 1.0
+    assert normal["decides"] == [1.0, 0.0]
+    assert (never["probability"], never["interval"]) == (0.0, [0.0, pytest.approx(1.0 - 0.1 ** (1 / 32))])
+    alone = end["cases"][1]["limits"][0]["probability"]
+    assert alone == pytest.approx(norm.cdf((4000 - thrust[:, 1]) / 300).mean(), rel=1e-12)
+
+
+def test_the_deadline_ends_a_spectrum_with_a_line() -> None:
+    body = coupling(tolerances=friction(count=64), points=True)
+    lines = [json.loads(line) for line in text_of(body, seconds=1e-9).splitlines()]
+    assert "end" not in {line["type"] for line in lines}
+    assert (lines[-1]["type"], lines[-1]["code"]) == ("error", "study_deadline")
+    assert lines[-1]["done"] < 512
 
 
 def test_a_case_listed_twice_changes_nothing_but_who_decides() -> None:
@@ -297,6 +328,18 @@ def test_a_scuffing_temperature_that_differs_between_cases_is_said() -> None:
     *_, end = solved(body)
     assert len(end["notes"]) == 1
     assert "differs between the cases" in end["notes"][0]
+
+
+def test_a_scuffing_temperature_that_scatters_is_limited_by_its_median() -> None:
+    body = scuffing()
+    body["request"]["temperatures"].pop("scuffing_test")
+    body["tolerances"]["inputs"] = [
+        {"path": "temperatures.scuffing_c", "distribution": "normal", "mean": 300, "deviation": 30}
+    ]
+    _, *points, end = solved({**body, "outputs": ["safety.scuffing_c"], "points": True})
+    drawn = [line["at"]["temperatures.scuffing_c"] for line in points if line["case"] == 0]
+    assert end["limits"][0]["mean"] == pytest.approx(np.median(drawn))
+    assert "differs between the cases or the machines" in end["notes"][0]
 
 
 def test_a_tolerance_that_the_model_does_not_use_is_said() -> None:

@@ -24,6 +24,7 @@ NAME_LENGTH, ROW_NAME_LENGTH = 17, 36  # characters of a line of a name at the r
 BAR_SHARE, FAINT, TINT = 0.8, 0.6, 0.2  # of the spacing; opacity of bars beside the extreme one, and of fills
 ROW = 0.52  # height of a row's bar
 RING = 5  # pixels
+BEHIND = 1.9  # in the order of drawing: over the grid, under curves
 SIDES = {"above": 1, "below": -1}  # of a point, on which its text is tried first; other texts stay where they are
 COLOURS = {Scale.MAGNITUDE: "cividis", Scale.RATIO: "RdBu_r", Scale.SIGNED: "RdBu_r"}
 # Of a ratio on a logarithmic axis.
@@ -67,7 +68,7 @@ def draw_panel(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
     _draw_levels(axes, panel, theme)
     for span in panel.spans:
         axes.axvspan(span.start, span.stop, facecolor=theme.shade, edgecolor="none", zorder=2 if panel.map else 0)
-        _name(axes, span.name, ((span.start + span.stop) / 2, 1.0), theme.muted, theme, axes.get_xaxis_transform())
+        _name_on_top(axes, panel, span.name, (span.start + span.stop) / 2, theme.muted, theme)
     _end(axes, panel)
     _name_beside(axes, panel, theme, height)
 
@@ -263,7 +264,7 @@ def _draw_levels(axes: Axes, panel: Panel, theme: Theme) -> None:
         line.set(linewidth=1.3 if level.limit else 1.0, clip_on=True)
         line.set_transform(axes.get_xaxis_transform() if level.vertical else axes.get_yaxis_transform())
         if level.vertical:
-            _name(axes, level.name, (level.value, 1.0), color, theme, axes.get_xaxis_transform())
+            _name_on_top(axes, panel, level.name, level.value, color, theme)
         else:
             line.set_label(fill(level.name, NAME_LENGTH))
         (axes.add_line if near else axes.add_artist)(line)  # the second leaves the ends of the axes where they are
@@ -276,6 +277,12 @@ def _name(
     style = {"gid": "below", "textcoords": "offset points", "in_layout": False, "zorder": 6, **style}
     if text:
         axes.annotate(text, xy, (0, 0), xycoords, color=color, bbox=_patch(theme), annotation_clip=False, **style)
+
+
+def _name_on_top(axes: Axes, panel: Panel, text: str, x: float, color: str, theme: Theme) -> None:
+    """A text at the top of the axes, over a map and bars but not over curves."""
+    style: Style = {} if panel.map or panel.rows else {"zorder": BEHIND}
+    _name(axes, text, (x, 1.0), color, theme, axes.get_xaxis_transform(), **style)
 
 
 def _patch(theme: Theme) -> Style:

@@ -275,8 +275,8 @@ def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
         for load, text in limits.items()
         for sign in (1.0, -1.0)
     ]
-    turning = [name for name, _, state in named if state.thrust.reverses]
-    finding = f"friction can turn the load of the {turning[0]} round" if turning else "no load turns round"
+    reversing = [name for name, _, state in named if state.thrust.reverses]
+    finding = f"friction can reverse the load of the {reversing[0]}" if reversing else "no load reverses"
     panel = Panel(
         x=Axis(
             "axial load towards +Z: of the mesh, and its bounds with the couplings", "N", magnitude=False, symbol="F_a"

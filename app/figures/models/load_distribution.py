@@ -275,7 +275,9 @@ def load_sharing(inputs: LoadDistributionInputs, result: LoadDistribution) -> Fi
         lines.append(Line("ISO/TS 6336-20", values(curves.psi), standard, Hue.GREY, Role.REFERENCE))
     y = axis(FeatureLine, "load_sharing", "load sharing factor, w b / F_bt")
     panel = Panel(x=PATH, y=y, lines=tuple(lines), levels=path_points(inputs.gears), marks=marks)
-    most = [f"at most {number(mark.y)} of the force on one line, at Ψ = {number(mark.x)}" for mark in marks]
+    most = [
+        f"line load up to {number(mark.y)} times the force per face width, at Ψ = {number(mark.x)}" for mark in marks
+    ]
     return Figure(most[0] if most else NO_LOAD, (panel,))
 
 

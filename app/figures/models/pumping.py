@@ -81,7 +81,7 @@ def _maps(
     if any(grid is None for grid in grids):
         raise _without_temperatures()
     shown, width = axis(GasField, name), face(inputs.setup.gears.face_width)
-    # Of a ratio the smallest value tells as much as the largest.
+    # Of a ratio the smallest value says as much as the largest.
     wording, ends = (ratio, (False, True)) if scale is Scale.RATIO else (number, (False,))
     panels = []
     for (gear, field), grid in zip(fields, grids, strict=True):

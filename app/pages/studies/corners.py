@@ -11,25 +11,28 @@ from app.figures.units import axis_of
 from app.figures.wording import listed, number
 from app.pages import study_links
 from app.pages.cases import Case
-from app.pages.query import CORNER, UNCERTAIN, body_of, number_of, text_of
+from app.pages.query import CORNER, UNCERTAIN, number_of, text_of
 from app.pages.studies.declaration import (
-    Cell,
     Controls,
     Form,
     Lead,
+    Link,
+    Number,
     PageStudy,
     Result,
     StudyPage,
     Table,
     address_at,
     case_at,
+    input_at,
+    numbered,
 )
 from app.pages.typesetting import shown
 from app.pages.views import REFUSED, Asked
 from app.schema.fields import Leaf, headlines
 from app.studies.base_request import COLD, BaseRequest, needs_film
 from app.studies.engine import Line
-from app.studies.fields import scalar_at, value_at
+from app.studies.fields import value_at
 from app.studies.point_sets import usual_corners
 from app.studies.requests import DRIVE_TRAIN, USUAL_RANGES, Overrides
 from app.studies.sweep import corners_study
@@ -44,7 +47,7 @@ def ranges_of(asked: Asked, left_alone: tuple[str, ...] = ()) -> dict[str, dict[
     """
     calculation = asked.calculation
     try:
-        usual = usual_corners(BaseRequest(calculation, body_of(calculation.request, asked.pairs)).checked({}))
+        usual = usual_corners(BaseRequest(calculation, asked.body).checked({}))
     except REFUSED:
         return {}
     found = {}
@@ -67,17 +70,20 @@ def range_controls(form: Form, left_alone: tuple[str, ...] = ()) -> Controls:
     """A field for the values of each uncertain input."""
     bare = replace(form.asked, views={})
     usual, ranges = ranges_of(bare), ranges_of(bare, left_alone)
-    request = form.asked.calculation.request
     fields = []
     for quantity in UNCERTAIN:
         name = control_of(quantity)
         if axis := usual.get(name):
             path = axis["path"] if isinstance(axis["path"], str) else axis["path"][0]
-            unit = scalar_at(request, path, "", "unknown_path").unit or ""
+            unit = input_at(form.asked, path).unit or ""
             text = _text(axis["values"]) if name in ranges else "as in the case"
-            fields.append(form.field(name, quantity, text, unit))
+            fields.append(form.field(name, f"{quantity}, {unit}" if unit else quantity, text))
     about = "Values with semicolons between; blanks between inputs that move together."
     return Controls("Uncertain inputs", fields=tuple(fields), about=about)
+
+
+def _controls(form: Form) -> tuple[Controls, ...]:
+    return (range_controls(form),)
 
 
 def _text(rows: list[Any]) -> str:
@@ -85,16 +91,12 @@ def _text(rows: list[Any]) -> str:
     return "; ".join(" ".join(map(text_of, row)) if isinstance(row, list) else text_of(row) for row in rows)
 
 
-def _controls(form: Form) -> tuple[Controls, ...]:
-    return (range_controls(form),)
-
-
 def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
     """The corners as typed or usual, and beside the output what decides and costs no film."""
     paths = [leaf.path for leaf in headlines(asked.calculation.response)]
     deciding = [path for path in paths if not (needs_film(DRIVE_TRAIN, path) or path.startswith(COLD))]
     return {
-        "request": body_of(asked.calculation.request, asked.pairs),
+        "request": asked.body,
         "ranges": list(ranges_of(asked).values()) or None,
         "outputs": list(dict.fromkeys([output.path, *deciding])),
     }
@@ -110,7 +112,7 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     if output.path not in extremes:
         remarks.append(f"No corner has a {output.title}; choose another output.")
         return Result(progress, remarks=tuple(remarks))
-    worst = extremes[output.path][worst_end(output)]["at"]
+    worst = extremes[output.path]["min" if output.view.greatest_is_best else "max"]["at"]
     outputs = [each["path"] for each in header["outputs"]]
     case, other = case_at(study.asked, {}, outputs), case_at(study.asked, worst, outputs)
     found = {"corners": corners(axis_of(output), _uncertain(study, lines, worst), value_at(case.response, output.path))}
@@ -128,11 +130,6 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     )
 
 
-def worst_end(output: Leaf) -> str:
-    """Which of its ends is the bad one: the lower where it has to stay above something, else the upper."""
-    return "min" if output.view.bound == "lower" else "max"
-
-
 def load_figure(case: Case, reference: Case, name: str, finding: str) -> dict[str, Figure]:
     """Load along the face at a corner (solid) and for the case as entered (dashed); None where there is no load."""
     try:
@@ -147,37 +144,28 @@ def load_figure(case: Case, reference: Case, name: str, finding: str) -> dict[st
 
 def corner_table(title: str, asked: Asked, case: Case, corner: Overrides) -> Table:
     """What a corner changes in the case."""
-    leaves = [scalar_at(asked.calculation.request, path, "", "unknown_path") for path in corner]
+    leaves = [input_at(asked, path) for path in corner]
     inputs = case.response.inputs
     rows = tuple(
         (
-            Cell(named(leaf)),
-            Cell(shown(value_at(inputs, leaf.path)), right=True),
-            Cell(shown(corner[leaf.path]), right=True),
-            Cell(leaf.unit or ""),
+            numbered(leaf.title, leaf.path),
+            shown(value_at(inputs, leaf.path)),
+            shown(corner[leaf.path]),
+            leaf.unit or "",
         )
         for leaf in leaves
     )
-    head = (Cell("input"), Cell("as described", right=True), Cell("there", right=True), Cell("unit"))
-    return Table(title, head, rows)
-
-
-def named(leaf: Leaf) -> str:
-    """Title of an input; which one it is where there are several."""
-    places = [str(int(part) + 1) for part in leaf.path.split(".") if part.isdecimal()]
-    return " ".join([leaf.title, *([".".join(places)] if places else [])])
+    return Table(title, ("input", Number("as described"), Number("there"), "unit"), rows)
 
 
 def _uncertain(study: PageStudy, lines: list[Line], worst: Overrides) -> list[Uncertain]:
     """Of each choice of each axis the worst that the output is with it."""
     axes, points = lines[0]["axes"], [line for line in lines if line["type"] == "point"]
-    pick = min if worst_end(study.output) == "min" else max
+    pick = min if study.output.view.greatest_is_best else max
     found = []
     for place, axis in enumerate(axes):
         paths = axis["path"] if isinstance(axis["path"], list) else [axis["path"]]
-        titles = dict.fromkeys(
-            scalar_at(study.asked.calculation.request, path, "", "unknown_path").title for path in paths
-        )
+        titles = dict.fromkeys(input_at(study.asked, path).title for path in paths)
         reached, decides = dict[str, float](), ""
         for value in axis["values"]:
             known = [line["out"][0] for line in points if line["at"][place] == value and line["out"][0] is not None]
@@ -204,15 +192,10 @@ def _extremes(study: PageStudy, header: Line, extremes: dict[str, Line], case: C
     for each in header["outputs"]:
         if each["path"] in extremes:
             ends = [extremes[each["path"]][end] for end in ("min", "max")]
-            rows.append(
-                (
-                    Cell(each["title"]),
-                    Cell(shown(value_at(case.response, each["path"])), right=True),
-                    *(Cell(shown(end["value"]), address_at(study.asked, end["at"]), right=True) for end in ends),
-                    Cell(each["unit"] or ""),
-                )
-            )
-    head = (Cell("output"), *(Cell(text, right=True) for text in ("as described", "least", "largest")), Cell("unit"))
+            least, largest = (Link(shown(end["value"]), address_at(study.asked, end["at"])) for end in ends)
+            described = shown(value_at(case.response, each["path"]))
+            rows.append((each["title"], described, least, largest, each["unit"] or ""))
+    head = ("output", Number("as described"), Number("least"), Number("largest"), "unit")
     return Table("Over all corners", head, tuple(rows), "A number leads to the case at its corner.")
 
 

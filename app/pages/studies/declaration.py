@@ -17,6 +17,7 @@ from app.schema.fields import Leaf
 from app.sources import SHORT_SOURCES
 from app.studies.base_request import reduced_request
 from app.studies.engine import Line, Study
+from app.studies.fields import scalar_at
 from app.studies.points import with_overrides
 from app.studies.requests import Overrides
 
@@ -45,7 +46,7 @@ class StudyAddresses:
 
 def pairs_at(asked: Asked, overrides: Overrides) -> Pairs:
     """The fields of the case with a point's values."""
-    body = with_overrides(asked.calculation, body_of(asked.calculation.request, asked.pairs), overrides)
+    body = with_overrides(asked.calculation, asked.body, overrides)
     del body["detail"]
     return pairs_of(body)
 
@@ -84,6 +85,12 @@ class Menu:
     def id(self) -> str:
         """Anchor on the page."""
         return f"f.{self.name}"
+
+    @property
+    def shown(self) -> str:
+        """The label of the choice, which a narrow menu may cut."""
+        labels = (choice.label for _, choices in self.groups for choice in choices if choice.path == self.chosen)
+        return next(labels, self.empty)
 
 
 class Controls(NamedTuple):
@@ -136,15 +143,20 @@ class Form:
         )
 
 
-class Cell(NamedTuple):
-    """A cell of a table: a text, with a link where it leads somewhere; numbers stand right.
+class Number(str):
+    """The heading of a column of numbers, which stand right."""
 
-    `label` is what a screen reader says of the link where its text alone says too little.
+    __slots__ = ()
+
+
+class Link(NamedTuple):
+    """A cell of a table that leads somewhere.
+
+    `label` is what a screen reader says of it where its text alone says too little.
     """
 
     text: str
-    address: str = ""
-    right: bool = False
+    address: str
     label: str = ""
 
 
@@ -152,10 +164,15 @@ class Table(NamedTuple):
     """A table under its title, and what there is to say of it; a folded one is opened by a click."""
 
     title: str
-    head: tuple[Cell, ...]
-    rows: tuple[tuple[Cell, ...], ...]
+    head: tuple[str, ...]
+    rows: tuple[tuple[str | Link, ...], ...]
     note: str = ""
     folded: bool = False
+
+    @property
+    def right(self) -> list[bool]:
+        """Which columns have numbers."""
+        return [isinstance(heading, Number) for heading in self.head]
 
 
 class Lead(NamedTuple):
@@ -181,6 +198,17 @@ class Result:
     first: tuple[Table, ...] = ()
 
 
+def input_at(asked: Asked, path: str) -> Leaf:
+    """The single value at a path of the request."""
+    return scalar_at(asked.calculation.request, path, "", "unknown_path")
+
+
+def numbered(title: str, path: str) -> str:
+    """Title of an input; which one it is where there are several."""
+    places = [str(int(part) + 1) for part in path.split(".") if part.isdecimal()]
+    return f"{title} {'.'.join(places)}" if places else title
+
+
 @dataclass(frozen=True, slots=True)
 class PageStudy:
     """A study asked for on a page, of one output."""
@@ -196,6 +224,7 @@ class PageStudy:
         return StudyAddresses(self.page.link.name, self.asked)
 
 
+# Named functions, because a page is pickled to the workers.
 def _no_controls(_: Form) -> tuple[Any, ...]:
     return ()
 

@@ -10,19 +10,20 @@ from app.figures.studies import LeadTrace, Tried, lead_chart, search
 from app.figures.units import axis_of
 from app.pages import study_links
 from app.pages.cases import Case
-from app.pages.query import LOWER, TRIALS, UPPER, body_of, number_of, text_of
-from app.pages.studies.corners import OUTPUT, corner_table, load_figure, range_controls, ranges_of, worst_end
+from app.pages.query import LOWER, TRIALS, UPPER, number_of, text_of
+from app.pages.studies.corners import OUTPUT, corner_table, load_figure, range_controls, ranges_of
 from app.pages.studies.declaration import (
-    Cell,
     Controls,
     Form,
     Lead,
+    Number,
     PageStudy,
     Result,
     StudyPage,
     Table,
     address_at,
     case_at,
+    input_at,
 )
 from app.pages.typesetting import shown
 from app.pages.views import Asked
@@ -65,7 +66,7 @@ def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
     """The ranges as typed or usual, at the corners as typed or the usual ones of heat and couplings."""
     views = asked.views
     return {
-        "request": body_of(asked.calculation.request, asked.pairs),
+        "request": asked.body,
         "variables": [
             {
                 "path": list(each.paths),
@@ -77,7 +78,7 @@ def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
         ],
         "corners": list(_ranges(asked).values()) or None,
         "objective": output.path,
-        "direction": "maximise" if worst_end(output) == "min" else "minimise",
+        "direction": "maximise" if output.view.greatest_is_best else "minimise",
         "evaluations": number_of(views.get(TRIALS, str(EVALUATIONS))),
     }
 
@@ -98,7 +99,7 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     if not solved:
         return Result("")
     end, output, asked = lines[-1], study.output, study.asked
-    greatest = worst_end(output) == "min"
+    greatest = output.view.greatest_is_best
     tried = [
         Tried(inf if line["objective"] is None else line["objective"], line["objective"] is not None) for line in trials
     ]
@@ -142,31 +143,14 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
 
 def _so_far(study: PageStudy, start: Line, best: Line) -> Table:
     """The best correction found, before the search has ended."""
-    rows: list[tuple[Cell, ...]] = [
-        (
-            Cell(leaf.title),
-            Cell(shown(start["at"][path], 4), right=True),
-            Cell(shown(value, 4), right=True),
-            _unit(leaf),
-        )
-        for path, value in best["at"].items()
-        for leaf in [_leaf(study, path)]
-    ]
-    output = study.output
-    judged = (shown(start["objective"]), shown(best["objective"]))
-    rows.append(
-        (Cell(f"{output.title}, at the worst corner"), *(Cell(each, right=True) for each in judged), _unit(output))
-    )
-    head = (Cell("correction"), Cell("as described", right=True), Cell("best so far", right=True), Cell("unit"))
+    rows = []
+    for path, value in best["at"].items():
+        leaf = input_at(study.asked, path)
+        rows.append((leaf.title, shown(start["at"][path], 4), shown(value, 4), leaf.unit or ""))
+    output, judged = study.output, (shown(start["objective"]), shown(best["objective"]))
+    rows.append((f"{output.title}, at the worst corner", *judged, output.unit or ""))
+    head = ("correction", Number("as described"), Number("best so far"), "unit")
     return Table("Best so far", head, tuple(rows))
-
-
-def _leaf(study: PageStudy, path: str) -> Leaf:
-    return scalar_at(study.asked.calculation.request, path, "", "unknown_path")
-
-
-def _unit(leaf: Leaf) -> Cell:
-    return Cell(leaf.unit or "")
 
 
 def _ends(case: Case) -> tuple[str, str]:
@@ -192,19 +176,14 @@ def _sheet(study: PageStudy, case: Case, at: Overrides) -> Table:
     )
     rows = []
     for path, gear, feature, place in entries:
-        leaf, described = _leaf(study, path), float(value_at(case.response.inputs, path) or 0.0)
+        leaf, described = input_at(study.asked, path), float(value_at(case.response.inputs, path) or 0.0)
         amount = abs(slope) if path == SLOPE else at[path]
         if path == SLOPE and slope < 0.0:
             described = -described
         numbers = (shown(described), shown(amount, 4), f"± {shown(leaf.declared.tolerance)}")
-        rows.append(
-            (Cell(gear), Cell(feature), Cell(place), *(Cell(each, right=True) for each in numbers), _unit(leaf))
-        )
-    head = (
-        *(Cell(text) for text in ("gear", "correction", "where")),
-        *(Cell(text, right=True) for text in ("as described", "grind", "tolerance")),
-        Cell("unit"),
-    )
+        rows.append((gear, feature, place, *numbers, leaf.unit or ""))
+    numbered = map(Number, ("as described", "grind", "tolerance"))
+    head = ("gear", "correction", "where", *numbered, "unit")
     note = (
         f"Working flanks only; deeper: more material removed. Multiples of {STEP_UM:g} µm; tolerances are those usual "
         "for these corrections. Helix slope and crowning are the sum of both gears, here all on the pinion; tip relief "
@@ -224,15 +203,15 @@ def _before_and_after(study: PageStudy, end: Line, wanted: Line, case: Case, gro
     output = study.output
     nominal = [value_at(each.response, output.path) for each in (case, ground)]
     rows = tuple(
-        (Cell(name), *(Cell(shown(each), right=True) for each in numbers), _unit(output))
+        (name, *map(shown, numbers), output.unit or "")
         for name, numbers in (
             ("at the worst corner of each", (end["objective_start"], wanted["objective"])),
             ("with the inputs as described", nominal),
         )
     )
-    head = (Cell(output.title), Cell("as described", right=True), Cell("ground so", right=True), Cell("unit"))
+    head = (output.title, Number("as described"), Number("ground so"), "unit")
     note = ""
-    if None not in nominal and (nominal[1] < nominal[0]) == (worst_end(output) == "min") and nominal[1] != nominal[0]:
+    if None not in nominal and (nominal[1] < nominal[0]) == (output.view.greatest_is_best) and nominal[1] != nominal[0]:
         note = (
             "With the inputs as described it is worse than before: the correction is sized for the corner that is "
             "worst for it, and a flank that is right there is not quite right elsewhere."
@@ -253,11 +232,11 @@ def _numbers(case: Case, end: Line, at: Overrides) -> Table:
         ("best at the worst corner, as the search found it", (end["best"][SLOPE], end["best"][CROWNING])),
         (f"to grind: the best in multiples of {STEP_UM:g} µm", (at[SLOPE], at[CROWNING])),
     )
-    head = (Cell("number"), Cell("helix slope, µm", right=True), Cell("helix crowning, µm", right=True))
+    head = ("number", Number("helix slope, µm"), Number("helix crowning, µm"))
     return Table(
         "Which number is which",
         head,
-        tuple((Cell(name), *(Cell(shown(each, 4), right=True) for each in numbers)) for name, numbers in rows),
+        tuple((name, *(shown(each, 4) for each in numbers)) for name, numbers in rows),
         "A positive helix slope removes material at the end of the face that leaves the mesh last.",
     )
 

@@ -5,8 +5,8 @@ from typing import Any
 from app.figures.studies import Influence, influence
 from app.figures.units import axis_of
 from app.pages import study_links
-from app.pages.query import body_of, link
-from app.pages.studies.declaration import Cell, PageStudy, Result, StudyPage, Table
+from app.pages.query import link
+from app.pages.studies.declaration import Link, Number, PageStudy, Result, StudyPage, Table, numbered
 from app.pages.typesetting import shown
 from app.pages.views import Asked
 from app.schema.fields import Leaf
@@ -21,7 +21,7 @@ def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
     calculation = asked.calculation
     return {
         "endpoint": calculation.path,
-        "request": body_of(calculation.request, asked.pairs),
+        "request": asked.body,
         "outputs": [output.path],
     }
 
@@ -35,9 +35,10 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     progress = f"{end['points']} cases in {shown(end['elapsed_s'], 2)} s"
     figures, remarks = {}, []
     if isinstance(value, int | float):
+        names = [numbered(inputs[line["path"]]["title"], line["path"]) for line in moved]
         steps = [
-            Influence(_name(inputs[line["path"]]), _step(line, inputs), line["change"], bool(line["kink"]))
-            for line in moved
+            Influence(name, _step(line, inputs), line["change"], bool(line["kink"]))
+            for name, line in zip(names, moved, strict=True)
         ]
         figure = influence(axis_of(output), float(value), steps)
         if figure.panels:
@@ -57,25 +58,10 @@ def _table(study: PageStudy, moved: list[Line], inputs: dict[str, dict[str, Any]
     changes = f"changes the {output.title} by{f', {output.unit}' if output.unit else ''}"
     return Table(
         title="Inputs, the most influential first",
-        head=(
-            Cell("input"),
-            Cell("value", right=True),
-            Cell("unit"),
-            Cell("one step", right=True),
-            Cell(changes, right=True),
-            Cell("% for 1 %", right=True),
-            Cell("remark"),
-        ),
+        head=("input", Number("value"), "unit", Number("one step"), Number(changes), Number("% for 1 %"), "remark"),
         rows=tuple(_row(study, line, inputs) for line in moved[:MOST_ROWS]),
         note="A name leads to the curve over that input." + (f" {more} inputs more change it less." if more else ""),
     )
-
-
-def _name(entry: dict[str, Any]) -> str:
-    """Title of an input; which one it is where there are several."""
-    place = next((part for part in entry["path"].split(".") if part.isdecimal()), None)
-    title = str(entry["title"])
-    return title if place is None else f"{title} {int(place) + 1}"
 
 
 def _step(line: Line, inputs: dict[str, dict[str, Any]]) -> str:
@@ -83,17 +69,17 @@ def _step(line: Line, inputs: dict[str, dict[str, Any]]) -> str:
     return f"+{shown(line['step'], 3)}{f' {unit}' if unit else ''}"
 
 
-def _row(study: PageStudy, line: Line, inputs: dict[str, dict[str, Any]]) -> tuple[Cell, ...]:
+def _row(study: PageStudy, line: Line, inputs: dict[str, dict[str, Any]]) -> tuple[str | Link, ...]:
     entry, asked = inputs[line["path"]], study.asked
     sweep = {"x": line["path"], "show": study.output.path, "theme": asked.views.get("theme", "")}
     return (
-        Cell(_name(entry), link(f"{asked.path}/vary", asked.pairs, **sweep)),
-        Cell(shown(float(entry["value"])), right=True),
-        Cell(entry["unit"] or ""),
-        Cell(_step(line, inputs), right=True),
-        Cell(shown(line["change"], 4), right=True),
-        Cell(shown(line["elasticity"], 3), right=True),
-        Cell("up and down differ" if line["kink"] else "half a step differs" if line["curved"] else ""),
+        Link(numbered(entry["title"], entry["path"]), link(f"{asked.path}/vary", asked.pairs, **sweep)),
+        shown(float(entry["value"])),
+        entry["unit"] or "",
+        _step(line, inputs),
+        shown(line["change"], 4),
+        shown(line["elasticity"], 3),
+        "up and down differ" if line["kink"] else "half a step differs" if line["curved"] else "",
     )
 
 

@@ -11,19 +11,20 @@ from app.figures.spectrum import Band, Chance, Limited, SpectrumCase, chances, d
 from app.figures.units import axis_of
 from app.figures.wording import percent
 from app.pages.form import FieldView
-from app.pages.query import SCATTERING, Pairs, body_of, link, number_of, pairs_of, text_of
+from app.pages.query import SCATTERING, Pairs, link, number_of, pairs_of, text_of
 from app.pages.studies.declaration import (
-    Cell,
     Controls,
     Form,
     Lead,
+    Link,
+    Number,
     PageStudy,
     Result,
     StudyPage,
     Table,
     address_at,
 )
-from app.pages.studies.sweep import case_of, field_choices
+from app.pages.studies.sweep import field_choices
 from app.pages.study_links import SPECTRUM as LINK
 from app.pages.study_links import Starter
 from app.pages.templating import page_path
@@ -32,6 +33,7 @@ from app.pages.views import Asked
 from app.schema.fields import Leaf, leaf_at
 from app.studies.engine import Line
 from app.studies.fields import NUMBERS, scalar_at, value_at
+from app.studies.points import SOLVED
 from app.studies.requests import DRIVE_TRAIN, EXAMPLES
 from app.studies.spectrum import RELATIVE_DEVIATION, SCUFFING, Spectrum, spectrum_study
 
@@ -127,7 +129,7 @@ def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
     tolerances = {"inputs": inputs, "count": machines // REPLICATES}
     body = {
         "endpoint": calculation.path,
-        "request": body_of(calculation.request, asked.pairs),
+        "request": asked.body,
         "cases": cases_of(calculation, views.get("cases", "")),
         "tolerances": {**tolerances, "replicates": REPLICATES} if inputs else None,
         "outputs": list(dict.fromkeys([output.path, *LOSSES.get(calculation.path, ())])),
@@ -142,7 +144,7 @@ def _scatter(asked: Asked, place: int) -> dict[str, Any]:
     calculation, views, name = asked.calculation, asked.views, f"t{place}"
     where = f"tolerances.inputs.{place}"
     leaf = scalar_at(calculation.request, views[name], f"{where}.path", "unknown_path")
-    own = value_at(case_of(calculation, asked.pairs), leaf.path)
+    own = value_at(asked.case, leaf.path)
     about = _number_of(views.get(f"{name}.about"), own, f"{leaf.title}: say around which value", where)
     usual = None if leaf.declared.tolerance is None else float(leaf.declared.tolerance)
     by = _number_of(views.get(f"{name}.by"), usual, f"{leaf.title}: say by how much", where)
@@ -168,14 +170,13 @@ def _limits(calculation: Calculation, output: Leaf, views: dict[str, str]) -> li
     usual = output.view.limit
     text, scatter = views.get("limit"), views.get("limit.by")
     if not text:
-        if _is_default_limited(calculation, output.path):
+        assumed = _is_default_limited(calculation, output.path)
+        if assumed or not output.view.bound or not isinstance(usual, int | float):
             if scatter:
                 raise Unprocessable("missing", "give the limit whose deviation this is", "limits.0.above")
-            return None
-        if not output.view.bound or not isinstance(usual, int | float):
-            return []
+            return None if assumed else []
     value = number_of(text) if text else usual
-    side = views.get("limit.side") or ("below" if output.view.bound == "lower" else "above")
+    side = views.get("limit.side") or ("below" if output.view.greatest_is_best else "above")
     threshold = {"mean": value, "deviation": number_of(scatter)} if scatter else {"value": value}
     return [{"output": output.path, side: threshold}]
 
@@ -188,7 +189,7 @@ def _is_default_limited(calculation: Calculation, path: str) -> bool:
 def _controls(form: Form) -> tuple[Controls, ...]:
     """The table of cases, the tolerances, the limit."""
     asked = form.asked
-    case = case_of(asked.calculation, asked.pairs)
+    case = asked.case
     groups = [Controls("Load spectrum", fields=(_table_field(form, case),))]
     used = [place for place in range(SCATTERING) if asked.views.get(f"t{place}")]
     choices = field_choices(asked.calculation, case, texts=False) if asked.pairs else []
@@ -220,14 +221,7 @@ def _table_field(form: Form, case: dict[str, Any]) -> FieldView:
 
 def _suggested(case: dict[str, Any]) -> str:
     """A table to start from: the case itself for most of the time, and half its load."""
-    known = {}
-    for path in USUAL:
-        try:
-            value = value_at(case, path)
-        except AttributeError:
-            value = None
-        if isinstance(value, int | float):
-            known[path] = value
+    known = {path: value for path in USUAL if isinstance(value := value_at(case, path), int | float)}
     half = {path: value / 2 if "power" in path or "torque" in path else value for path, value in known.items()}
     return table_of([{NAME: "full load", SHARE: 0.8, "set": known}, {NAME: "half load", SHARE: 0.2, "set": half}])
 
@@ -260,7 +254,7 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
                 notes.append(error.message)
     elif not notes:
         notes.append(f"the {output.title} has no limit here; state one, and there is a probability")
-    unsolved = end["points"] - sum(end["counts"].get(status, 0) for status in ("ok", "ok_with_warnings"))
+    unsolved = end["points"] - sum(end["counts"].get(status, 0) for status in SOLVED)
     if unsolved:
         notes.append(
             f"{unsolved} of {end['points']} points have no solution; each probability lies between taking them as good "
@@ -334,15 +328,14 @@ def _limit_table(study: PageStudy, end: Line, found: Line) -> Table:
     output = study.output
     assumed = next((each["reason"] for each in end["assumptions"] if each["field"] == "limits"), None)
     row = (
-        Cell(output.title),
-        Cell(f"not {found['side']}"),
-        Cell(shown(found["mean"], 4), right=True),
-        Cell("exact" if found["deviation"] is None else shown(found["deviation"], 4), right=True),
-        Cell(output.unit or ""),
-        Cell("given" if assumed is None else f"assumed: {cited(assumed)}"),
+        output.title,
+        f"not {found['side']}",
+        shown(found["mean"], 4),
+        "exact" if found["deviation"] is None else shown(found["deviation"], 4),
+        output.unit or "",
+        "given" if assumed is None else f"assumed: {cited(assumed)}",
     )
-    heads = (Cell("output"), Cell("side"), Cell("limit", right=True), Cell("deviation", right=True), Cell("unit"))
-    return Table("Limit", (*heads, Cell("source")), (row,))
+    return Table("Limit", ("output", "side", Number("limit"), Number("deviation"), "unit", "source"), (row,))
 
 
 def _cases_table(study: PageStudy, end: Line, found: Line | None) -> Table:
@@ -350,23 +343,18 @@ def _cases_table(study: PageStudy, end: Line, found: Line | None) -> Table:
     output, spectrum = study.output, study.study
     assert isinstance(spectrum, Spectrum)
     place = None if found is None else end["limits"].index(found)
-    rows = []
+    rows: list[tuple[str | Link, ...]] = []
     for index, each in enumerate(end["cases"]):
         known = each["quantiles"][output.path] or [None] * 3
         chance = [] if place is None else [_chance(each["limits"][place]).text]
         decides = [] if found is None else ["–" if found["decides"] is None else percent(found["decides"][index])]
-        rows.append(
-            (
-                Cell(each["name"], address_at(study.asked, spectrum.cases[index].set)),
-                *(Cell(text, right=True) for text in (percent(each["share"]), *chance, *decides)),
-                *(Cell(shown(value, 4), right=True) for value in known),
-                Cell(percent(each["unsolved"]), right=True),
-            )
-        )
+        name = Link(each["name"], address_at(study.asked, spectrum.cases[index].set))
+        quantiles = [shown(value, 4) for value in known]
+        rows.append((name, percent(each["share"]), *chance, *decides, *quantiles, percent(each["unsolved"])))
     unit = f", {output.unit}" if output.unit else ""
     heads = ["share", *(["probability alone", "decides"] if found else []), f"5 %{unit}", "50 %", "95 %", "unsolved"]
     note = f"Of each case 5, 50 and 95 % of the machines have a lower {output.title}. A name leads to the nominal case."
-    return Table("Cases", (Cell("case"), *(Cell(text, right=True) for text in heads)), tuple(rows), note)
+    return Table("Cases", ("case", *map(Number, heads)), tuple(rows), note)
 
 
 def _outputs_table(study: PageStudy, header: Line, end: Line) -> Table:
@@ -374,24 +362,15 @@ def _outputs_table(study: PageStudy, header: Line, end: Line) -> Table:
     rows = []
     for each in header["outputs"]:
         found = end["outputs"][each["path"]]
-        ends = [found[name] for name in ("min", "max")]
-        rows.append(
-            (
-                Cell(each["title"]),
-                Cell(shown(found["mean"], 4), right=True),
-                Cell(shown(found["standard_error"], 2), right=True),
-                *(
-                    Cell("–", right=True)
-                    if end_ is None
-                    else Cell(shown(end_["value"], 4), address_at(study.asked, end_["at"]), right=True)
-                    for end_ in ends
-                ),
-                Cell(each["unit"] or ""),
-                Cell(shown(found.get("energy_kwh_per_year"), 4), right=True),
-            )
-        )
-    heads = ("mean", "standard error", "least", "largest")
-    head = (Cell("output"), *(Cell(text, right=True) for text in heads), Cell("unit"), Cell("kWh a year", right=True))
+        ends: list[str | Link] = [
+            "–" if extreme is None else Link(shown(extreme["value"], 4), address_at(study.asked, extreme["at"]))
+            for extreme in (found["min"], found["max"])
+        ]
+        mean, error = shown(found["mean"], 4), shown(found["standard_error"], 2)
+        energy = shown(found.get("energy_kwh_per_year"), 4)
+        rows.append((each["title"], mean, error, *ends, each["unit"] or "", energy))
+    heads = map(Number, ("mean", "standard error", "least", "largest"))
+    head = ("output", *heads, "unit", Number("kWh a year"))
     return Table("Over the operating time", head, tuple(rows), "A number leads to the machine and case where it is.")
 
 
@@ -402,16 +381,9 @@ def _tolerances_table(header: Line, found: Line | None) -> Table:
     for each in header["tolerances"]["inputs"]:
         law = ", ".join(f"{name} {shown(each[name], 4)}" for name in numbers if each.get(name) is not None)
         known = None if found is None or not found["rank_correlation"] else found["rank_correlation"][each["path"]]
-        rows.append(
-            (
-                Cell(each["title"]),
-                Cell(f"{each['distribution']}: {law}"),
-                Cell(each["unit"] or ""),
-                Cell(percent(each["cut_off"]), right=True),
-                Cell(shown(known, 3), right=True),
-            )
-        )
-    head = (Cell("field"), Cell("distribution"), Cell("unit"), Cell("cut off", right=True), Cell("rank", right=True))
+        drawn = (each["title"], f"{each['distribution']}: {law}", each["unit"] or "")
+        rows.append((*drawn, percent(each["cut_off"]), shown(known, 3)))
+    head = ("field", "distribution", "unit", Number("cut off"), Number("rank"))
     note = (
         "Cut off is the share beyond four deviations or the field's range; rank is the correlation with the worst case."
     )

@@ -9,32 +9,34 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from app.calculations import Calculation
-from app.errors import InvalidBody, Unprocessable
+from app.errors import Unprocessable
 from app.figures.data import Figure, values
 from app.figures.studies import Coordinate, Grid, figures_of
 from app.figures.units import axis_of
 from app.pages.form import FieldView
-from app.pages.query import Pairs, body_of, number_of
+from app.pages.query import number_of
 from app.pages.studies.declaration import (
-    Cell,
     Choice,
     Controls,
     Form,
+    Link,
+    Number,
     PageStudy,
     Result,
     StudyPage,
     Table,
     address_at,
     ended,
+    numbered,
 )
 from app.pages.study_links import VARY, Starter, studies_of, studies_of_case
 from app.pages.typesetting import shown, words
 from app.pages.views import Asked
 from app.schema.fields import Leaf, leaf_at, leaves, tree
-from app.schema.reading import validated
 from app.studies.engine import Line
 from app.studies.fields import NUMBERS, scalar_at, value_at
 from app.studies.point_sets import PointSet
+from app.studies.points import SOLVED
 from app.studies.requests import Scalar
 from app.studies.sensitivity import places
 from app.studies.sweep import Sweep, sweep_study
@@ -94,8 +96,7 @@ def _has_numbers(leaf: Leaf) -> bool:
 
 
 def _label(leaf: Leaf, path: str, case: dict[str, Any]) -> str:
-    number = next((part for part in path.split(".") if part.isdecimal()), None)
-    name = leaf.title if number is None else f"{leaf.title} {int(number) + 1}"
+    name = numbered(leaf.title, path)
     value = value_at(case, path)
     return name if value is None else f"{name} ({shown(value)}{f' {leaf.unit}' if leaf.unit else ''})"
 
@@ -131,18 +132,9 @@ def _rounded(leaf: Leaf, found: Range) -> Range:
     return Range(*(float(f"{end:.4g}") for end in found))
 
 
-def case_of(calculation: Calculation, pairs: Pairs) -> dict[str, Any]:
-    """The case with its defaults; incomplete where a field that is varied is missing."""
-    body = body_of(calculation.request, pairs)
-    try:
-        return validated(calculation.request, body).model_dump()
-    except InvalidBody:
-        return body
-
-
 def varied_fields(asked: Asked) -> list[VariedField]:
     """The fields that a query varies; raises Unprocessable with a path into the sweep."""
-    case, views = case_of(asked.calculation, asked.pairs), asked.views
+    case, views = asked.case, asked.views
     if views.get("y") and not views.get("x"):
         raise Unprocessable("missing", "choose a field to vary before a second one", "vary.0.path")
     if views.get("y") and views["y"] == views.get("x"):
@@ -205,7 +197,7 @@ def _whole(spread: dict[str, Any]) -> dict[str, Any]:
 
 
 def _is_greatest_best(asked: Asked, output: Leaf) -> bool:
-    best = asked.views.get("best", "greatest" if output.view.bound == "lower" else "least")
+    best = asked.views.get("best", "greatest" if output.view.greatest_is_best else "least")
     if best not in {"least", "greatest"}:
         raise Unprocessable("literal_error", "best: permissible are least, greatest", "best")
     return best == "greatest"
@@ -215,7 +207,7 @@ def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
     goal = "maximise" if _is_greatest_best(asked, output) else "minimise"
     return {
         "endpoint": asked.calculation.path,
-        "request": body_of(asked.calculation.request, asked.pairs),
+        "request": asked.body,
         "vary": [each.axis for each in varied_fields(asked)],
         "outputs": [output.path],
         "best": {goal: output.path},
@@ -225,7 +217,7 @@ def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
 def _controls(form: Form) -> tuple[Controls, ...]:
     """The axes: menus of fields, ranges with what stands for them when empty."""
     asked = form.asked
-    case = {} if "" in form.faults else case_of(asked.calculation, asked.pairs)
+    case = {} if "" in form.faults else asked.case
     fields = dict(zip(AXES, varied_fields(asked), strict=False)) if form.accepted else {}
     return tuple(
         Controls(
@@ -279,7 +271,7 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
 
 
 def _unsolved(received: list[Line]) -> int:
-    return sum(line["status"] not in {"ok", "ok_with_warnings"} for line in received)
+    return sum(line["status"] not in SOLVED for line in received)
 
 
 def _remarks(point: Line) -> tuple[str, ...]:
@@ -341,10 +333,7 @@ def _limit(study: PageStudy) -> float | None:
     output = study.output
     limit = output.view.limit if output.view.bound else None
     if isinstance(limit, str):
-        try:
-            limit = value_at(case_of(study.asked.calculation, study.asked.pairs), limit)
-        except AttributeError:
-            return None
+        limit = value_at(study.asked.case, limit)
     return float(limit) if isinstance(limit, int | float) else None
 
 
@@ -355,16 +344,11 @@ def _table(study: PageStudy, points: PointSet, fields: list[VariedField], receiv
         remarks = ", ".join(_remarks(line))
         status = line["status"].replace("_", " ") + (f": {remarks}" if remarks else "")
         address = point_address(study, line["index"])
-        rows.append(
-            (
-                *(Cell(each, right=True) for each in (*at, shown(line["out"][0]))),
-                Cell(status),
-                Cell("open", address, label=f"open the case at {', '.join(at)}"),
-            )
-        )
+        opened = Link("open", address, f"open the case at {', '.join(at)}")
+        rows.append((*at, shown(line["out"][0]), status, opened))
     columns = [*(field.leaf for field in fields), study.output]
     titles = [f"{leaf.title}, {leaf.unit}" if leaf.unit else leaf.title for leaf in columns]
-    head = (*(Cell(title, right=True) for title in titles), Cell("status"), Cell("case"))
+    head = (*map(Number, titles), "status", "case")
     more = len(received) - MOST_ROWS
     return Table(
         "Points", head, tuple(rows), f"and {more} points more in the CSV file" if more > 0 else "", folded=True
@@ -410,8 +394,7 @@ def _starters(_: StudyPage, asked: Asked) -> list[Starter]:
     """The ready studies of examples; with a case of one's own they are asked of it, around its own values."""
     if not asked.pairs:
         return [Starter(each.title, each.source, each.address) for each in studies_of(asked.calculation)]
-    case = case_of(asked.calculation, asked.pairs)
-    return studies_of_case(asked.calculation, asked.pairs, case)
+    return studies_of_case(asked.calculation, asked.pairs, asked.case)
 
 
 SWEEP = StudyPage(

@@ -1,0 +1,26 @@
+"""Rows as CSV that spreadsheets open without running anything."""
+
+import csv
+from collections.abc import Iterable
+from io import StringIO
+from typing import Any
+
+FORMULA_SIGNS = ("=", "+", "-", "@", "\t", "\r")
+
+
+def csv_of(rows: Iterable[Iterable[Any]], digits: int | None = None) -> bytes:
+    """Comma-separated values; None is an empty cell, numbers have so many significant digits, else all."""
+    text = StringIO(newline="")
+    csv.writer(text).writerows([_cell(cell, digits) for cell in row] for row in rows)
+    return text.getvalue().encode()
+
+
+def _cell(value: Any, digits: int | None) -> Any:
+    """A cell that no spreadsheet takes for a formula."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float) and digits is not None:
+        return f"{value:.{digits}g}"
+    if isinstance(value, str) and value.startswith(FORMULA_SIGNS):
+        return f"'{value}"
+    return value
