@@ -9,7 +9,7 @@ from unicodedata import category
 from markupsafe import Markup
 
 from app.pages.cases import Case
-from app.pages.code import body_of, for_shell
+from app.pages.code import for_shell, given
 from app.pages.manual import method_of
 from app.pages.results import flattened, resolved
 from app.pages.typesetting import cited, shown, symbol
@@ -64,7 +64,7 @@ def context(case: Case, views: dict[str, str], address: str, link: str) -> dict[
         "paper": PAPERS.get(views.get("paper", ""), "A4"),
         "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
         "inputs": _inputs(case),
-        "command": for_shell(address, case.calculation, body_of(case.request)),
+        "command": for_shell(address, case.calculation, given(case.request)),
         "link": link,
         "link_text": link if len(link) <= LONGEST_LINK else f"{link[:LONGEST_LINK]}…",
         "method": method_of(case.calculation),

@@ -273,7 +273,7 @@ def _verdict(response: Documented, leaf: Leaf, known: dict[str, Any]) -> Verdict
     if leaf.view.bound is None or limit is None or isinstance(value, bool):
         return PLAIN
     name = f"{shown(limit, 4)} {leaf.unit or ''}".strip()
-    verdict = _at_least(value, limit, name) if leaf.view.bound == "lower" else _at_most(abs(value), limit, name)
+    verdict = _at_least(value, limit, name) if leaf.view.greatest_is_best else _at_most(abs(value), limit, name)
     return verdict if judge is None or said is None else Verdict(verdict.level, f"{judge.title}: {words(said)}")
 
 

@@ -86,6 +86,7 @@ def random_oil(draw: Generator, use: str) -> dict[str, Any]:
     return oil
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("use", USES)
 def test_any_oil_at_any_temperature_is_answered_or_refused_at_a_field(use: str) -> None:
     """An answer holds finite numbers only, or its validation raises; 60 oils."""

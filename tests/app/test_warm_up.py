@@ -3,6 +3,8 @@
 import subprocess
 import sys
 
+import pytest
+
 from app.calculations import BY_PATH, CALCULATIONS, COUPLING, LINE_CONTACT
 from app.examples import examples
 from app.workers.stages import STAGES
@@ -30,6 +32,7 @@ assert not cold, cold
 """
 
 
+@pytest.mark.slow
 def test_every_kernel_is_warm_after_the_warm_up() -> None:
     subprocess.run([sys.executable, "-c", COUNT_COLD], check=True)
 

@@ -14,6 +14,7 @@ document.addEventListener("click", (event) => {
 });
 
 document.addEventListener("change", (event) => {
+  event.target.parentElement.querySelector(".chosen")?.remove();
   const axis = event.target.matches("select[name=x], select[name=y]") ? event.target.name : null;
   if (!axis) return;
   for (const part of ["from", "to", "scale"]) document.getElementById(`f.${axis}.${part}`).value = "";
