@@ -1,6 +1,7 @@
 """One running service for all tests that talk to one."""
 
 from collections.abc import Callable, Iterator
+from fcntl import LOCK_EX, LOCK_UN, flock
 
 import httpx
 import pytest
@@ -19,14 +20,19 @@ settings.load_profile("kernels")
 
 
 @pytest.fixture(scope="session")
-def server() -> Iterator[str]:
-    with running_server(log_level="error") as (_, address):
-        yield address
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    # Processes of one test run start theirs in turn: the first one compiles the kernels, the next finds them.
+    with (tmp_path_factory.getbasetemp().parent / "server.lock").open("w") as turn:
+        flock(turn, LOCK_EX)
+        with running_server(log_level="error") as (_, address):
+            flock(turn, LOCK_UN)
+            yield address
 
 
 @pytest.fixture(scope="session")
 def client(server: str) -> Iterator[httpx.Client]:
-    with httpx.Client(base_url=server, timeout=60) as client:
+    # The service closes idle connections after 5 s.
+    with httpx.Client(base_url=server, timeout=60, limits=httpx.Limits(keepalive_expiry=3)) as client:
         yield client
 
 

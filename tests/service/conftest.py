@@ -29,6 +29,7 @@ def visit(browser: Browser, server: str) -> Iterator[Callable[..., Page]]:
         context = browser.new_context(base_url=server, **options)
         opened.append(context)
         context.set_default_timeout(SLOW_MS)
+        context.set_default_navigation_timeout(3 * SLOW_MS)  # a page of a study has arrived when that has ended
         context.grant_permissions(["clipboard-read", "clipboard-write"], origin=server)
         page = context.new_page()
         page.on("request", lambda sent: complaints.append(sent.url) if not own(sent.url) else None)

@@ -161,7 +161,7 @@ def test_health_while_all_workers_are_busy(faulty: tuple[subprocess.Popen[str], 
             assert client.get("/healthz").status_code == 200
             durations.append(time.perf_counter() - started)
     durations.sort()
-    assert len(durations) > 200
+    assert len(durations) > 50
     assert durations[int(0.99 * len(durations))] < unhurried(0.05)
     assert_recovers(address)
 

@@ -18,7 +18,8 @@ pytestmark = pytest.mark.service
 STARTERS = [example.name for example in examples().values() if example.starter]
 COUPLING = "pahl-axial-displacement"
 SCUFFING = "xue-pair-1-scuffing"
-MOST_PAGES = 7
+MOST_PAGES = 10
+"""Of a drive train at true size; a page wider than the paper would be shrunk, and its text with it."""
 SUBSCRIPT = 8
 """Texts up to this many characters in the smaller type of an index may be lower than 7 points."""
 
@@ -149,7 +150,7 @@ def test_home_asks_a_question_of_each_model(visit: Callable[..., Page]) -> None:
     assert page.locator(".model .question").count() == 4
     assert all(text.endswith("?") for text in page.locator(".model .question").all_inner_texts())
     assert page.locator(".model a:visible").count() == 8  # the question and its picture
-    page.locator(".question a", has_text="which teeth carry").click()
+    page.locator(".question a", has_text="share the load").click()
     expect(page.locator(".card").first).to_be_visible()
 
 
@@ -323,12 +324,20 @@ def test_a_phone_needs_no_sideways_scrolling(visit: Callable[..., Page], name: s
     assert top < page.locator("#form").bounding_box()["y"]  # type: ignore[index]
 
 
+OVERLAPPING = """() => {
+  const drawn = [...document.querySelectorAll(".method math")].map(each => each.getBoundingClientRect());
+  return drawn.filter((each, index) => drawn.slice(index + 1).some(other => each.left < other.right - 1
+    && other.left < each.right - 1 && each.top < other.bottom - 1 && other.top < each.bottom - 1)).length;
+}"""
+
+
 @pytest.mark.parametrize("name", sorted(examples()))
-def test_reports_print_on_seven_pages(visit: Callable[..., Page], name: str, tmp_path: Path) -> None:
+def test_reports_print_on_ten_pages(visit: Callable[..., Page], name: str, tmp_path: Path) -> None:
     example = examples()[name]
     page = visit(link(f"{example.endpoint.removeprefix('/v1')}/report", pairs_of(example.request)))
     cut = page.evaluate("[...document.images].filter(image => !image.complete || image.naturalWidth === 0).length")
     assert cut == 0
+    assert page.evaluate(OVERLAPPING) == 0
     for paper in ("A4", "Letter"):
         file = tmp_path / f"{paper}.pdf"
         page.pdf(path=file, format=paper)
@@ -377,3 +386,42 @@ def test_the_help_of_a_field_covers_no_field(visit: Callable[..., Page], name: s
     expect(page.locator(f'[id="f.{name}-help"]')).to_be_visible()
     assert page.evaluate(COVERED, f"f.{name}-help") == 0
     assert overflow(page) == 0
+
+
+@pytest.mark.slow
+def test_the_bar_of_a_phone_jumps_to_where_each_part_begins(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(SCUFFING), viewport=PHONE)
+    for name, part in (("Inputs", "form"), ("Results", "result"), ("Figures", "figures"), ("Values", "all")):
+        page.locator(".jump a", has_text=name).click()
+        page.wait_for_function(
+            "id => Math.abs(document.getElementById(id).getBoundingClientRect().top) < 100", arg=part
+        )
+
+
+@pytest.mark.slow
+def test_back_from_a_study_returns_to_the_edited_case(visit: Callable[..., Page]) -> None:
+    page = visit(address_of("starter-high-speed-scuffing"))
+    page.locator('[name="load.power_kw"]').fill("11000")
+    expect(page.locator("#copy")).to_have_attribute("href", re.compile("power_kw=11000"))
+    page.get_by_role("link", name="How much load does a hotter oil leave?").click()
+    expect(page).to_have_url(re.compile(r"/vary\?.*power_kw=11000"))
+    page.go_back()
+    expect(page.locator('[name="load.power_kw"]')).to_have_value("11000")
+    expect(page.locator(".card")).to_have_count(3)
+
+
+@pytest.mark.slow
+def test_a_named_case_is_saved_as_a_file_and_opened_from_the_start_page(
+    visit: Callable[..., Page], tmp_path: Path
+) -> None:
+    page = visit(address_of(COUPLING))
+    page.get_by_label("Title of the case").fill("Mill 7")
+    expect(page.locator("#copy")).to_have_attribute("href", re.compile(r"Mill(\+|%20)7"))
+    with page.expect_download() as saving:
+        page.get_by_role("link", name="Save").click()
+    saving.value.save_as(tmp_path / saving.value.suggested_filename)
+    start = visit("/")
+    start.locator("input[type=file]").last.set_input_files(tmp_path / "Mill 7.json")
+    start.get_by_role("button", name="Open").last.click()
+    expect(start.get_by_label("Title of the case")).to_have_value("Mill 7")
+    expect(start.locator(".card").first).to_be_visible()

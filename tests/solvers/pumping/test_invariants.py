@@ -227,6 +227,7 @@ def verdict_of(attempt: Callable[[PumpingSetup], Iterable[Notice]], setup: Pumpi
         return error.code, set()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("spaces", [Spaces.WHEEL, Spaces.BOTH])
 def test_advice_on_speed_is_on_that_of_the_pinion(spaces: Spaces) -> None:
     setup = PumpingSetup(CASE_1, model=PumpingModel(spaces=spaces, slices=400))
@@ -330,6 +331,7 @@ def test_a_stroke_faster_than_sound_takes_one_course() -> None:
     assert net[0] == pytest.approx(net[1], rel=0.04)
 
 
+@pytest.mark.slow
 def test_waves_that_stay_with_the_meshing_line_are_not_called_resolved() -> None:
     """At 0.96 times the speed of sound grids of 25, 50 and 100 slices agree on 2638 Pa at the peak, 400 have 2662.
 

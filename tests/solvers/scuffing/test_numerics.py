@@ -29,6 +29,7 @@ from solvers.scuffing.tooth_stiffness import (
     single_stiffness,
     tooth_shape,
 )
+from tests.support.loaded_gears import solve_gears
 
 STEEL = Solid()
 
@@ -346,3 +347,9 @@ def test_lead_curves_without_sense_are_refused(position: tuple[float, ...], amou
     with pytest.raises(InvalidInput, match="rising from 0") as caught:
         solve_load_distribution(paper_pair(1, Modifications(lead_curve=LeadCurve(position, amount))))
     assert caught.value.code == "lead_curve"
+
+
+def test_equal_gears_are_stiffest_at_the_pitch_point_without_rounding() -> None:
+    """The profile parameter was 2e-16 there, which a figure stated as the place."""
+    gears = GearPairInputs(GearTeeth(31), GearTeeth(31), 4e-3, 60e-3, helix_angle=radians(30))
+    assert solve_gears(gears).stiffness.max_at_gamma == 0.0
