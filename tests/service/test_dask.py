@@ -22,7 +22,7 @@ from app.studies.spectrum import spectrum_study
 from app.studies.sweep import sweep_study
 from tests.support.dask_cluster import DaskProcesses, running_cluster
 from tests.support.pools import InlinePool
-from tests.support.server import ROOT, free_port, running_server, unhurried
+from tests.support.server import ROOT, free_port, running_server
 
 pytestmark = pytest.mark.service
 
@@ -119,7 +119,7 @@ def test_leaving_takes_back_what_has_not_begun(service: Service) -> None:
         next(response.iter_lines())
     started = time.monotonic()
     sweep(address, {**loads(1), "vary": None, "cases": [{}]})
-    assert time.monotonic() - started < unhurried(5.0)  # two chunks that ran, not two thousand points
+    assert time.monotonic() - started < 20.0  # two chunks that ran, not two thousand points
 
 
 def test_a_vanished_scheduler_ends_the_stream_with_an_error_line() -> None:

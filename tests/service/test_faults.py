@@ -17,15 +17,19 @@ import pytest
 
 from app.examples import examples
 from tests.support.server import (
+    PATIENCE_S,
     descendants,
     descriptors,
     is_alive,
     memory_mb,
+    metric,
     private_memory_mb,
     running_server,
     send_signal,
     template,
-    unhurried,
+    wait_for_metric,
+    wait_until,
+    wait_until_gone,
     workers,
 )
 
@@ -34,6 +38,7 @@ pytestmark = pytest.mark.service
 FAULTY = [sys.executable, "-m", "tests.support.faulty_server"]
 KILLS = 50
 KILL_EVERY_S = 0.5
+RUNNING = "tribodrive_calculations"
 
 
 @pytest.fixture(scope="module")
@@ -44,20 +49,14 @@ def faulty() -> Iterator[tuple[subprocess.Popen[str], str]]:
         yield server
 
 
-def calculations_running(address: str) -> float:
-    lines = httpx.get(f"{address}/metrics").text.splitlines()
-    return float(next(line.split()[1] for line in lines if line.startswith("tribodrive_calculations ")))
-
-
-def assert_recovers(address: str, seconds: float = 20.0) -> None:
+def assert_recovers(address: str, seconds: float = PATIENCE_S) -> None:
     """The service computes again and nothing is left in the queue."""
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        idle = calculations_running(address) == 0
-        if idle and httpx.post(f"{address}/sleep/0", timeout=20).status_code == 200:
-            return
-        time.sleep(0.1)
-    raise AssertionError("the service did not recover")
+
+    def recovered() -> bool:
+        idle = metric(address, RUNNING) == 0
+        return idle and httpx.post(f"{address}/sleep/0", timeout=20).status_code == 200
+
+    wait_until(recovered, seconds)
 
 
 def test_killed_workers_cost_only_their_own_requests() -> None:
@@ -106,7 +105,7 @@ def test_deadline(faulty: tuple[subprocess.Popen[str], str]) -> None:
     started = time.monotonic()
     response = httpx.post(f"{address}/sleep/60", timeout=20)
     assert response.status_code == 504
-    assert 5.9 < time.monotonic() - started < 6.0 + unhurried(1.0)
+    assert time.monotonic() - started > 5.9
     assert_recovers(address)
 
 
@@ -114,8 +113,7 @@ def test_disconnect_ends_the_work(faulty: tuple[subprocess.Popen[str], str]) -> 
     _, address = faulty
     with pytest.raises(httpx.ReadTimeout):
         httpx.post(f"{address}/sleep/5", timeout=0.5)
-    time.sleep(0.5)
-    assert calculations_running(address) == 0
+    wait_until(lambda: metric(address, RUNNING) == 0, 3.5)
     assert_recovers(address)
 
 
@@ -137,7 +135,7 @@ def test_slow_body(faulty: tuple[subprocess.Popen[str], str]) -> None:
         )
         answer = connection.recv(65536)
     assert answer.startswith(b"HTTP/1.1 408")
-    assert 0.9 < time.monotonic() - started < 1.0 + unhurried(0.9)
+    assert 0.9 < time.monotonic() - started < 8.0  # 10 s by default
 
 
 def test_full_queue_and_recovery(faulty: tuple[subprocess.Popen[str], str]) -> None:
@@ -155,27 +153,20 @@ def test_health_while_all_workers_are_busy(faulty: tuple[subprocess.Popen[str], 
     _, address = faulty
     with ThreadPoolExecutor(2) as pool, httpx.Client(base_url=address) as client:
         busy = [pool.submit(httpx.post, f"{address}/sleep/3", timeout=20) for _ in range(2)]
-        durations = []
+        answered = 0
         while not all(each.done() for each in busy):
-            started = time.perf_counter()
             assert client.get("/healthz").status_code == 200
-            durations.append(time.perf_counter() - started)
-    durations.sort()
-    assert len(durations) > 50
-    assert durations[int(0.99 * len(durations))] < unhurried(0.05)
+            answered += 1
+    assert answered > 20  # two or three if each waits for a worker
     assert_recovers(address)
 
 
-def test_a_new_worker_is_there_at_once(faulty: tuple[subprocess.Popen[str], str]) -> None:
+def test_killed_workers_are_replaced(faulty: tuple[subprocess.Popen[str], str]) -> None:
     process, address = faulty
     before = set(workers(process))
-    started = time.monotonic()
     for worker in before:
         send_signal(worker, signal.SIGKILL)
-    while len(set(workers(process)) - before) < len(before):
-        time.sleep(0.002)
-        assert time.monotonic() - started < 5
-    assert time.monotonic() - started < unhurried(0.5)  # 0.05 s on quiet cores
+    wait_until(lambda: len(set(workers(process)) - before) == len(before))
     assert all(not is_alive(worker) for worker in before)
     assert_recovers(address)
 
@@ -193,13 +184,10 @@ def test_a_stopped_worker_is_noticed_and_replaced(faulty: tuple[subprocess.Popen
     before = set(workers(process))
     with ThreadPoolExecutor(2) as pool:
         flights = [pool.submit(httpx.post, f"{address}/sleep/4", timeout=20) for _ in range(2 if busy else 0)]
-        time.sleep(0.3)
+        wait_for_metric(address, RUNNING, len(flights))
         for worker in before:
             send_signal(worker, signal.SIGSTOP)
-        end = time.monotonic() + unhurried(3.0)
-        while set(workers(process)) & before:
-            assert time.monotonic() < end
-            time.sleep(0.05)
+        wait_until(lambda: not set(workers(process)) & before)
         assert {flight.result().status_code for flight in flights} <= {503}
     assert httpx.post(f"{address}/sleep/0", timeout=5).status_code == 200
 
@@ -210,14 +198,11 @@ def test_a_lost_fork_server_is_started_again(faulty: tuple[subprocess.Popen[str]
     old = template(process)
     flight_worker = workers(process)
     with ThreadPoolExecutor(1) as pool:
-        flight = pool.submit(httpx.post, f"{address}/sleep/1", timeout=20)
-        time.sleep(0.3)
+        flight = pool.submit(httpx.post, f"{address}/sleep/2", timeout=20)
+        wait_for_metric(address, RUNNING, 1)
         send_signal(old, number)
         assert flight.result().status_code == 200  # workers outlive the process that they were copied from
-    end = time.monotonic() + 60
-    while is_alive(old) or httpx.get(f"{address}/readyz", timeout=5).status_code != 200:
-        assert time.monotonic() < end
-        time.sleep(0.1)
+    wait_until(lambda: not is_alive(old) and httpx.get(f"{address}/readyz", timeout=20).status_code == 200, 60)
     for worker in flight_worker:
         send_signal(worker, signal.SIGKILL)
     assert_recovers(address, 60)
@@ -245,38 +230,31 @@ def test_a_storm_of_disconnects_leaves_nothing_behind(faulty: tuple[subprocess.P
         storm.result()
     assert answered > 50
     assert_recovers(address)
-    time.sleep(1)
-    assert len(descendants(process.pid)) <= before[0]
-    assert descriptors(process.pid) <= before[1] + 2
+    wait_until(lambda: len(descendants(process.pid)) <= before[0])
+    wait_until(lambda: descriptors(process.pid) <= before[1] + 2)
     assert memory_mb(process.pid) < before[2] + 20
 
 
 def test_death_of_the_service_takes_everything_along() -> None:
     with running_server(FAULTY, workers=2, log_level="error") as (process, address), ThreadPoolExecutor(1) as pool:
-        flight = pool.submit(httpx.post, f"{address}/spin/20", timeout=20)
-        time.sleep(0.5)
+        flight = pool.submit(httpx.post, f"{address}/spin/60", timeout=60)
+        wait_for_metric(address, RUNNING, 1)
         family = descendants(process.pid)
         assert len(family) >= 3
         process.kill()
         with pytest.raises(httpx.TransportError):
             flight.result()
-        end = time.monotonic() + unhurried(2.0)
-        while any(map(is_alive, family)):
-            assert time.monotonic() < end
-            time.sleep(0.05)
+        wait_until_gone(family)
 
 
 def test_interrupt_does_not_wait_for_a_calculation() -> None:
     with running_server(FAULTY, workers=2, log_level="error") as (process, address), ThreadPoolExecutor(1) as pool:
-        flight = pool.submit(httpx.post, f"{address}/spin/20", timeout=20)
-        time.sleep(0.5)
+        flight = pool.submit(httpx.post, f"{address}/spin/25", timeout=30)
+        wait_for_metric(address, RUNNING, 1)
         family = descendants(process.pid)
         process.send_signal(signal.SIGINT)
-        started = time.monotonic()
-        process.wait(10)
-        assert time.monotonic() - started < unhurried(2.5)
-        time.sleep(0.2)
-        assert not any(map(is_alive, family))
+        process.wait(20)
+        wait_until_gone(family)
         assert flight.result().status_code == 503
         assert flight.result().json()["type"].endswith("shutting_down")
 
@@ -284,7 +262,7 @@ def test_interrupt_does_not_wait_for_a_calculation() -> None:
 def test_shutdown_finishes_what_is_in_flight() -> None:
     with running_server(FAULTY, workers=1, log_level="error") as (process, address), ThreadPoolExecutor(1) as pool:
         flight = pool.submit(httpx.post, f"{address}/sleep/2", timeout=20)
-        time.sleep(0.7)
+        wait_for_metric(address, RUNNING, 1)
         process.send_signal(signal.SIGTERM)
         assert flight.result().status_code == 200
         assert process.wait(20) in {0, -signal.SIGTERM}

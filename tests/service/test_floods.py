@@ -9,12 +9,21 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, suppress
+from statistics import median
 from urllib.parse import urlsplit
 
 import httpx
 import pytest
 
-from tests.support.server import answer_to, connected, descriptors, memory_mb, running_server, unhurried
+from tests.support.server import (
+    answer_to,
+    connected,
+    descriptors,
+    memory_mb,
+    running_server,
+    wait_for_metric,
+    wait_until,
+)
 
 pytestmark = pytest.mark.service
 
@@ -94,7 +103,7 @@ def test_half_sent_headers_time_out(small: tuple[subprocess.Popen[str], str]) ->
         started = time.monotonic()
         assert answer_to(slow).startswith(b"HTTP/1.1 408")
         assert answer_to(silent) == b""
-        assert 1.4 < time.monotonic() - started < 1.5 + unhurried(1.0)
+        assert 1.4 < time.monotonic() - started < 8.0  # 10 s by default
 
 
 def test_half_sent_second_request_times_out(small: tuple[subprocess.Popen[str], str]) -> None:
@@ -125,14 +134,14 @@ def test_a_body_that_drips_times_out(small: tuple[subprocess.Popen[str], str]) -
         dripping = threading.Thread(target=drip)
         dripping.start()
         assert connection.recv(65536).startswith(b"HTTP/1.1 408")
-        assert 1.4 < time.monotonic() - started < 1.5 + unhurried(1.0)
+        assert 1.4 < time.monotonic() - started < 8.0  # 10 s by default
         dripping.join()
 
 
 def test_many_unknown_fields_do_not_hold_up_the_others(small: tuple[subprocess.Popen[str], str]) -> None:
     _, address = small
     body = json.dumps({f"k{number}": 0 for number in range(30_000)})
-    slowest = 0.0
+    waits = []
     done = threading.Event()
     answers = []
 
@@ -151,13 +160,13 @@ def test_many_unknown_fields_do_not_hold_up_the_others(small: tuple[subprocess.P
         for _ in range(100):
             started = time.monotonic()
             assert client.get("/healthz").status_code == 200
-            slowest = max(slowest, time.monotonic() - started)
+            waits.append(time.monotonic() - started)
     done.set()
     for each in loads:
         each.join()
     assert {answer.status_code for answer in answers} == {422}
     assert answers[0].json()["errors"][0]["code"] == "too_many_fields"
-    assert slowest < unhurried(0.5)
+    assert median(waits) < 0.5
 
 
 def test_bodies_in_pieces_of_a_byte_do_not_hold_up_the_others(small: tuple[subprocess.Popen[str], str]) -> None:
@@ -181,7 +190,7 @@ def test_bodies_in_pieces_of_a_byte_do_not_hold_up_the_others(small: tuple[subpr
             client.get("/healthz")
             slowest = max(slowest, time.monotonic() - started)
     assert set(answers) <= {b"HTTP/1.1 400", b""}  # a client that goes on sending may lose its answer to a reset
-    assert slowest < unhurried(0.5)
+    assert slowest < 3.0  # 4 s on quiet cores if each piece is taken for itself
 
 
 def test_pipelined_requests_are_bounded(small: tuple[subprocess.Popen[str], str]) -> None:
@@ -206,7 +215,7 @@ def test_pipelined_documents_that_nobody_reads_do_not_hold_up_a_newcomer(
             stack.enter_context(connected(address)).sendall(request * 15)
         started = time.monotonic()
         assert httpx.get(f"{address}/healthz", timeout=60).status_code == 200
-        assert time.monotonic() - started < unhurried(3.0)  # 10 s if each is written anew
+        assert time.monotonic() - started < 8.0  # 10 s on quiet cores if each is written anew
 
 
 def post_of(path: str, size: int = 0) -> bytes:
@@ -221,7 +230,7 @@ def test_bytes_behind_a_long_request_do_not_cost_its_answer() -> None:
         connected(address) as connection,
     ):
         connection.sendall(post_of("/sleep/2.5"))
-        time.sleep(0.3)
+        wait_for_metric(address, "tribodrive_calculations", 1)
         connection.sendall(b"\r\n")
         assert connection.recv(65536).startswith(b"HTTP/1.1 200")
 
@@ -272,19 +281,14 @@ def test_an_answer_that_nobody_reads_is_given_up() -> None:
             connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
             connection.connect((urlsplit(address).hostname, urlsplit(address).port))
             connection.sendall(request * 10)
-        end = time.monotonic() + 20
-        while descriptors(process.pid) < idle + 20:
-            assert time.monotonic() < end
+        wait_until(lambda: descriptors(process.pid) >= idle + 20)
         slow = stack.enter_context(connected(address))
         slow.sendall(request)
         received = 0
         while received < whole:
             received += len(slow.recv(20_000))
             time.sleep(0.01)
-        end = time.monotonic() + 40
-        while descriptors(process.pid) > idle + 2:
-            assert time.monotonic() < end
-            time.sleep(0.1)
+        wait_until(lambda: descriptors(process.pid) <= idle + 2, 60)
 
 
 def test_few_descriptors() -> None:

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
+from statistics import median
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -23,7 +24,17 @@ from app.schema.coupling import CouplingResponse
 from app.schema.fields import leaves
 from tests.support.browsing import address_of
 from tests.support.faulty_server import HANGING
-from tests.support.server import descendants, descriptors, memory_mb, running_server, send_signal, unhurried, workers
+from tests.support.server import (
+    descendants,
+    descriptors,
+    memory_mb,
+    metric,
+    running_server,
+    send_signal,
+    wait_for_metric,
+    wait_until,
+    workers,
+)
 
 pytestmark = pytest.mark.service
 
@@ -76,17 +87,9 @@ def running_study(address: str, body: object) -> Iterator[Iterator[str]]:
         yield found
 
 
-def metric(address: str, name: str) -> float:
-    lines = httpx.get(f"{address}/metrics").text.splitlines()
-    return float(next(line.split()[1] for line in lines if line.startswith(f"{name} ")))
-
-
-def wait_until_free(address: str, seconds: float) -> None:
-    """No study runs, and a call takes no longer than a free worker needs."""
-    end = time.monotonic() + unhurried(seconds)
-    while metric(address, "tribodrive_studies"):
-        assert time.monotonic() < end
-        time.sleep(0.02)
+def wait_until_free(address: str) -> None:
+    """No study runs; those that are left here would run for a minute or more."""
+    wait_for_metric(address, "tribodrive_studies", 0)
 
 
 def processor_seconds(pids: list[int]) -> float:
@@ -138,21 +141,21 @@ def test_a_stopped_worker_is_replaced_and_the_study_goes_on(faulty: Server) -> N
 
 def test_a_third_study_waits_outside(faulty: Server) -> None:
     _, address = faulty
-    with running_study(address, loads(5000)), running_study(address, loads(5000)):
+    with running_study(address, loads(20_000)), running_study(address, loads(20_000)):
         refused = httpx.post(address + SWEEP, json=loads(2))
         assert refused.status_code == 503
         assert refused.json()["type"].endswith("studies_full")
         assert int(refused.headers["retry-after"]) >= 1
         assert httpx.post(address + "/v1/coupling", json=COUPLING.request, timeout=20).status_code == 200
-    wait_until_free(address, 1.0)
+    wait_until_free(address)
     assert lines_of(address, loads(2))[-1]["type"] == "end"
 
 
 def test_a_full_queue_refuses_a_study_before_its_first_line(faulty: Server) -> None:
     _, address = faulty
     with ThreadPoolExecutor(4) as pool:
-        busy = [pool.submit(httpx.post, f"{address}/sleep/1.5", timeout=20) for _ in range(4)]
-        time.sleep(0.4)
+        busy = [pool.submit(httpx.post, f"{address}/sleep/3", timeout=20) for _ in range(4)]
+        wait_for_metric(address, "tribodrive_calculations_waiting", 2)
         refused = httpx.post(address + SWEEP, json=loads(2))
         assert refused.status_code == 503
         assert refused.json()["type"].endswith("queue_full")
@@ -162,15 +165,14 @@ def test_a_full_queue_refuses_a_study_before_its_first_line(faulty: Server) -> N
 
 def test_single_requests_come_before_chunks(faulty: Server) -> None:
     _, address = faulty
-    with httpx.Client(base_url=address, timeout=20) as client, running_study(address, loads(5000)):
+    with httpx.Client(base_url=address, timeout=20) as client, running_study(address, loads(20_000)):
         waits = []
         for _ in range(20):
             started = time.perf_counter()
             assert client.post("/v1/coupling", json=COUPLING.request).status_code == 200
             waits.append(time.perf_counter() - started)
-    waits.sort()
-    assert waits[10] < unhurried(1.0)  # the rest of one chunk, a quarter of a second, on two loaded cores
-    wait_until_free(address, 1.0)
+    assert median(waits) < 2.0  # the rest of one chunk, a quarter of a second on quiet cores
+    wait_until_free(address)
 
 
 def test_leaving_frees_the_workers_and_kills_none(faulty: Server) -> None:
@@ -179,11 +181,8 @@ def test_leaving_frees_the_workers_and_kills_none(faulty: Server) -> None:
     family, lost = set(workers(process)), metric(address, "tribodrive_workers_lost_total")
     with running_study(address, loads(20_000)):
         pass
-    wait_until_free(address, 1.0)
-    time.sleep(1.0)
-    before = processor_seconds(list(family))
-    time.sleep(0.5)
-    assert processor_seconds(list(family)) - before < 0.05
+    wait_until_free(address)
+    wait_until(lambda: calculated_within(process, 0.5) < 0.05)
     assert set(workers(process)) == family
     assert metric(address, "tribodrive_workers_lost_total") == lost
 
@@ -194,19 +193,18 @@ def test_a_hundred_cancelled_sweeps_leave_nothing_behind(faulty: Server) -> None
     for _ in range(3):
         with running_study(address, body):
             pass
-    wait_until_free(address, 1.0)
+    wait_until_free(address)
     time.sleep(0.5)
     family = set(workers(process))
     before = len(descendants(process.pid)), descriptors(process.pid), memory_mb(process.pid)
     for _ in range(100):
-        wait_until_free(address, 2.0)
+        wait_until_free(address)
         with running_study(address, body):
             pass
-    wait_until_free(address, 1.0)
-    time.sleep(0.5)
+    wait_until_free(address)
     assert set(workers(process)) == family
-    assert len(descendants(process.pid)) == before[0]
-    assert descriptors(process.pid) <= before[1] + 2
+    wait_until(lambda: len(descendants(process.pid)) == before[0])
+    wait_until(lambda: descriptors(process.pid) <= before[1] + 2)
     assert memory_mb(process.pid) < before[2] + 20
 
 
@@ -251,10 +249,8 @@ def test_nobody_calculates_what_nobody_reads(faulty: Server) -> None:
         connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
         connection.connect((target.hostname, target.port))
         connection.sendall(f"{head}Content-Length: {len(content)}\r\n\r\n".encode() + content)
-        end = time.monotonic() + 120
         time.sleep(1)
-        while calculated_within(process, 0.5) > 0.05:
-            assert time.monotonic() < end
+        wait_until(lambda: calculated_within(process, 0.5) < 0.05, 120)
         assert metric(address, "tribodrive_studies") == 1
         assert lines_of(address, loads(4))[-1]["type"] == "end"  # others go on
         before = processor_seconds(workers(process))
@@ -262,7 +258,7 @@ def test_nobody_calculates_what_nobody_reads(faulty: Server) -> None:
         while b'"type":"end"' not in received:
             received = received[-20:] + connection.recv(2**20)
         assert processor_seconds(workers(process)) - before > 0.5  # the rest was calculated when it was read
-    wait_until_free(address, 1.5)
+    wait_until_free(address)
 
 
 def calculated_within(process: subprocess.Popen[str], seconds: float) -> float:
@@ -313,4 +309,4 @@ def test_a_client_who_leaves_a_figure_frees_its_study(faulty: Server) -> None:
     path = address_of("xue-pair-1-modified").replace("?", "/vary/figures/curve.svg?", 1) + query
     with pytest.raises(httpx.ReadTimeout):
         httpx.get(address + path, timeout=1.0)
-    wait_until_free(address, 1.5)
+    wait_until_free(address)

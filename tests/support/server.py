@@ -6,7 +6,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,8 @@ import httpx
 
 ROOT = Path(__file__).parents[2]
 START_UP_S = 1200.0  # kernels are compiled the first time, by several services side by side
+PATIENCE_S = 30.0
+"""For what takes well below a second on quiet cores: tests ask whether it happens, `benchmarks` how fast."""
 
 
 def free_port() -> int:
@@ -68,9 +70,22 @@ def running_server(
         yield process, address
 
 
-def unhurried(seconds: float) -> float:
-    """So many seconds of free cores, as many times as the cores are asked for now."""
-    return seconds * max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1))
+def wait_until(condition: Callable[[], bool], seconds: float = PATIENCE_S) -> None:
+    """Return as soon as something holds; what never comes fails."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def metric(address: str, name: str) -> float:
+    """One number without labels of the service's metrics."""
+    lines = httpx.get(f"{address}/metrics", timeout=PATIENCE_S).text.splitlines()
+    return float(next(line.split()[1] for line in lines if line.startswith(f"{name} ")))
+
+
+def wait_for_metric(address: str, name: str, value: float) -> None:
+    wait_until(lambda: metric(address, name) == value)
 
 
 def wait_until_warm(
@@ -115,6 +130,12 @@ def command_line(pid: int) -> str:
     with suppress(OSError):
         return Path(f"/proc/{pid}/cmdline").read_text().replace("\0", " ")
     return ""
+
+
+def wait_until_gone(pids: Iterable[int]) -> None:
+    """None of the processes is left."""
+    left = set(pids)
+    wait_until(lambda: not any(map(is_alive, left)))
 
 
 def is_alive(pid: int) -> bool:
