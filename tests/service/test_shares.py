@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from statistics import median
 from typing import Any
 
 import httpx
@@ -25,8 +24,8 @@ pytestmark = pytest.mark.service
 FAULTY = [sys.executable, "-m", "tests.support.faulty_server"]
 COUPLING = examples()["pahl-axial-displacement"]
 SUMMARY = {**COUPLING.request, "detail": "summary"}
-FAIR_S = 2.0
-"""Most that a short call waits in the median beside others: 0.03 s on quiet cores, 40 s or a refusal in one queue."""
+FAIR_S = 5.0
+"""What 19 of 20 short calls wait at most beside others; `benchmarks.shares` measures 0.4 s, one queue 6 to 40 s."""
 HONEST, GREEDY = "127.0.0.2", "127.0.0.3"
 Server = tuple[subprocess.Popen[str], str]
 
@@ -66,7 +65,7 @@ def asking(address: str, path: str, *, times: int, source: str = GREEDY) -> Iter
 
 
 def honest_waits(address: str, count: int, pause_s: float = 0.05) -> list[float]:
-    """How long so many coupling summaries of another client take, each of them answered [s]."""
+    """How long so many coupling summaries of another client take, each of them answered; in order of length [s]."""
     waits = []
     with client(address, HONEST) as own:
         for _ in range(count):
@@ -75,7 +74,7 @@ def honest_waits(address: str, count: int, pause_s: float = 0.05) -> list[float]
             assert answer.status_code == 200, answer.text
             waits.append(time.monotonic() - started)
             time.sleep(pause_s)
-    return waits
+    return sorted(waits)
 
 
 def test_a_worker_whose_client_left_is_not_handed_on(faulty: Server) -> None:
@@ -113,7 +112,7 @@ def test_beside_80_long_calculations_of_another_client(faulty: Server) -> None:
     with asking(address, "/sleep/3", times=80) as statuses:
         wait_for_metric(address, "tribodrive_calculations_waiting", 64)
         waits = honest_waits(address, 60)
-    assert median(waits) < FAIR_S
+    assert waits[57] < FAIR_S
     assert set(statuses) <= {200, 503, 504}
     assert statuses.count(200) > 0
     assert metric(address, "tribodrive_calculations_refused_total") > 0
@@ -154,7 +153,7 @@ def test_beside_two_studies_of_long_points(faulty: Server) -> None:
     with running_studies(address, 2):
         time.sleep(1.0)
         waits = honest_waits(address, 60)
-    assert median(waits) < FAIR_S
+    assert waits[57] < FAIR_S
 
 
 def test_beside_clients_that_leave(faulty: Server) -> None:
@@ -174,7 +173,7 @@ def test_beside_clients_that_leave(faulty: Server) -> None:
     done.set()
     for each in threads:
         each.join()
-    assert median(waits) < FAIR_S
+    assert waits[57] < FAIR_S
 
 
 def test_points_of_a_study_end_with_it(faulty: Server) -> None:
