@@ -96,7 +96,7 @@ class _Endpoints(ABC, Generic[Answer, Stream]):
         return self.solve("/v1/scuffing/load-distribution", request)
 
     def scuffing(self, request: Json) -> Answer:
-        """Flash temperature, film thickness and safety against scuffing of a gear pair."""
+        """Flash temperature, film thickness and safety factor against scuffing of a gear pair."""
         return self.solve("/v1/scuffing", request)
 
     def line_contact(self, request: Json) -> Answer:

@@ -168,7 +168,7 @@ def modifications(depths: dict[str, float], curve: tuple[float, ...] = ()) -> No
 
 
 def high_pressure(pressure: float | None, field: str = "pinion_torque") -> Notices:
-    """A Hertz pressure [Pa]."""
+    """A Hertzian pressure [Pa]."""
     if pressure is not None and pressure > HIGHEST_PRESSURE:
         message = (
             f"the Hertzian pressure of {pressure / 1e6:.4g} MPa is beyond what steel carries; is the load too high?"

@@ -141,7 +141,7 @@ def answer(request: Request, error: Exception) -> JSONResponse:
 
 def _message(item: dict[str, Any]) -> str:
     if item["type"] == "literal_error":
-        return f"{item['loc'][-1]}: permissible are {item['ctx']['expected']}"
+        return f"{item['loc'][-1]}: must be one of {item['ctx']['expected']}"
     return str(item["msg"])
 
 

@@ -171,7 +171,7 @@ class SelfInducedThrust(Group, of=results.SelfInducedThrust):
 
 
 class CouplingThrust(Group, of=results.AxialThrust):
-    """Axial thrust, mean over one tooth pitch (one revolution with pitch errors)."""
+    """Axial thrust, mean over one tooth pitch (one revolution with pitch deviations)."""
 
     views: ClassVar = {
         "design_force": View(headline=1),

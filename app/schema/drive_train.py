@@ -367,7 +367,7 @@ class TrainFlash(Group, of=results.FlashPlaces):
 
 
 class TrainSafety(Group, of=results.TrainSafety):
-    """Safety against scuffing; thermal EHL values are null in closed form, or where a point is not known."""
+    """Safety factor against scuffing; thermal EHL values are null in closed form, or where a point is not known."""
 
     views: ClassVar = {
         "blok_feature": View(limit=1.0, bound="lower"),

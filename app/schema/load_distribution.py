@@ -132,7 +132,7 @@ class FlankLoad(Group, of=results.LoadOnFlank):
 
 
 class FlankPressure(Group, of=results.Pressure):
-    """Dry Hertz pressure."""
+    """Dry Hertzian pressure."""
 
     views: ClassVar = {"max": View(headline=1)}
 

@@ -102,9 +102,9 @@ def _message(model: type[BaseModel], location: tuple[str | int, ...], item: dict
         "list_type": "give a list [...] of values here",
         "string_type": "give text",
         "union_tag_not_found": f"{context.get('discriminator')} is required",
-        "union_tag_invalid": f"{context.get('discriminator')}: permissible are {context.get('expected_tags')}",
-        "literal_error": f"{name}: permissible are {choices}",
-        "enum": f"{name}: permissible are {choices}",
+        "union_tag_invalid": f"{context.get('discriminator')}: must be one of {context.get('expected_tags')}",
+        "literal_error": f"{name}: must be one of {choices}",
+        "enum": f"{name}: must be one of {choices}",
         "too_short": f"{name} needs at least {context.get('min_length')} values",
         "too_long": f"{name} takes at most {context.get('max_length')} values",
     }

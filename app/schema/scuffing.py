@@ -199,7 +199,7 @@ class ThinnestFilm(Group, of=safety_results.Film):
 
 
 class ScuffingSafety(Group, of=safety_results.Safety):
-    """Safety against scuffing."""
+    """Safety factor against scuffing."""
 
     views: ClassVar = {
         "blok_factor": View(headline=1, limit=1.0, bound="lower", needs="temperatures.scuffing_c", verdict=".verdict"),

@@ -91,7 +91,7 @@ def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[st
 def check_count(count: int, most: int, place: str) -> None:
     """Refuse a study of too many points."""
     if count > most:
-        raise Unprocessable("too_many_points", f"the study has {count} points; at most {most} are permissible", place)
+        raise Unprocessable("too_many_points", f"the study has {count} points; the limit is {most}", place)
 
 
 def check_distinct(paths: Sequence[str], place: str, *, numbered: bool = False) -> None:

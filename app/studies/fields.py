@@ -51,10 +51,10 @@ def did_you_mean(path: str, known: Iterable[str]) -> str:
 def fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:
     """Code and message of why the field's schema does not take a value; None where it does."""
     if value is None:
-        return None if leaf.nullable else ("out_of_range", "null is not permissible here")
+        return None if leaf.nullable else ("out_of_range", "null is not accepted here")
     if leaf.options:
         allowed = ", ".join(map(str, leaf.options))
-        return None if value in leaf.options else ("out_of_range", f"permissible are {allowed}")
+        return None if value in leaf.options else ("out_of_range", f"must be one of {allowed}")
     if leaf.kind in NUMBERS:
         return _number_fault(leaf, value)
     kind, message = (bool, "give true or false") if leaf.kind == "boolean" else (str, "give text")

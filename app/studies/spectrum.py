@@ -355,6 +355,6 @@ def _too_many(question: Question, overrides: Overrides, total: int, most: int) -
     solve_point(question, overrides)
     seconds = perf_counter() - started
     return (
-        f"cases x machines are {total} solutions; at most {most} are permissible. One takes some {seconds:.2g} s, "
+        f"cases x machines are {total} solutions; the limit is {most}. One takes some {seconds:.2g} s, "
         f"all of them {total * seconds:,.0f} s on one core"
     )

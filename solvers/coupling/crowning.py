@@ -93,7 +93,7 @@ _WINDOW_POINTS = 25  # chosen: of the grid that the search for the best ratio st
 _REASONS = {
     "contact_overlap": "no crowning ratio up to 1000 brings the overlap below 1 at the smallest misalignment",
     "edge_contact": "with an overlap below 1 at the smallest misalignment the contact leaves the face at the largest",
-    "hertz_pressure": "no crowning ratio up to 1000 brings the Hertz pressure below 2 GPa",
+    "hertz_pressure": "no crowning ratio up to 1000 brings the Hertzian pressure below 2 GPa",
     "contact_width": "no crowning ratio up to 1000 keeps the contact below a tenth of the flank radius",
     "sliding_velocity": "the sliding velocity exceeds its limit whatever the crowning",
 }

@@ -1,7 +1,7 @@
 """Effects of friction on the teeth of one mesh: axial thrust, losses and the moments that bend the hub.
 
-Means over one tooth pitch, or over one revolution with pitch errors. Thrust: Figs 14 to 16, and the closed forms of two
-meshes, Figs 13 and 17.
+Means over one tooth pitch, or over one revolution with pitch deviations. Thrust: Figs 14 to 16, and the closed forms of
+two meshes, Figs 13 and 17.
 """
 
 from dataclasses import dataclass
@@ -74,7 +74,7 @@ class LoadedMesh:
 
 
 def loaded_mesh(inputs: CouplingInputs, mesh: MeshMotion) -> LoadedMesh:
-    """Tooth loads of the single mesh over one tooth pitch, or one revolution with pitch errors."""
+    """Tooth loads of the single mesh over one tooth pitch, or one revolution with pitch deviations."""
     samples = rotor_samples(inputs.coupling, mesh, inputs.operation.axial_velocity)
     floating = inputs.model.sleeve == "floating"
     loads = mesh_loads(inputs.coupling, mesh, samples.teeth, inputs.operation.torque, floating=floating)
@@ -104,7 +104,7 @@ def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> t
 def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocity: float) -> float:
     """F_max (2/pi) asin(v_ax/v_Gmax) [N], F_max once v_ax exceeds v_Gmax: equal tooth loads, many teeth (Eq. C21).
 
-    An upper bound for a centred sleeve without pitch errors, if the whole load is where sliding is fastest.
+    An upper bound for a centred sleeve without pitch deviations, if the whole load is where sliding is fastest.
     """
     if axial_velocity == 0.0:
         return 0.0

@@ -99,7 +99,7 @@ class CouplingDesign:
         ge=-1e4,
         le=1e4,
         length=(1, 1000),
-        text="pitch errors, one per tooth, positive = early, carries more",
+        text="pitch deviations, one per tooth, positive = early, carries more",
         default_text="none",
         tolerance=1,
     )
@@ -353,7 +353,7 @@ class MixedFrictionTable:
         relative_tolerance=0.01,
     )
     coefficient: tuple[float, ...] = quantity(
-        "table of coefficients of friction", "μ", ge=1e-4, le=2, length=(1, 1000), text="friction coefficients"
+        "table of coefficients of friction", "μ", ge=1e-4, le=2, length=(1, 1000), text="coefficients of friction"
     )
 
 
@@ -516,16 +516,16 @@ def check_inputs(inputs: CouplingInputs) -> None:
 
 
 def _check_pitch_errors(inputs: CouplingInputs) -> None:
-    """One finite pitch error a tooth."""
+    """One finite pitch deviation a tooth."""
     errors = inputs.coupling.pitch_errors
     if errors is None:
         return
     if len(errors) != inputs.coupling.teeth:
         raise InvalidInput(
-            "pitch_errors_length", f"give one pitch error a tooth: {inputs.coupling.teeth}", "pitch_errors"
+            "pitch_errors_length", f"give one pitch deviation a tooth: {inputs.coupling.teeth}", "pitch_errors"
         )
     if not all(isfinite(error) for error in errors):
-        raise InvalidInput("out_of_range", "pitch errors must be finite", "pitch_errors")
+        raise InvalidInput("out_of_range", "pitch deviations must be finite", "pitch_errors")
 
 
 def _check_mixed_curve(law: MixedFrictionCurve) -> None:

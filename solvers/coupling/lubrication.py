@@ -75,7 +75,7 @@ class FilmState:
 def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
     """Largest normal tooth force [N] with a tooth in the tilt position, at 90 degrees.
 
-    With pitch errors, which make every tooth another, the largest of a revolution. `spatial` kinematics have their
+    With pitch deviations, which make every tooth another, the largest of a revolution. `spatial` kinematics have their
     largest displacement past the tilt position, where a tooth carries more.
     """
     if len(set(inputs.coupling.pitch_errors or ())) <= 1:
@@ -310,7 +310,7 @@ def check_contact(film: FilmState, geometry: Geometry) -> None:
     if film.contact_pressure > MAX_CONTACT_PRESSURE:
         raise InvalidInput(
             "hertz_pressure",
-            f"the Hertz pressure of {film.contact_pressure / 1e9:.3g} GPa exceeds 2 GPa; lower the torque",
+            f"the Hertzian pressure of {film.contact_pressure / 1e9:.3g} GPa exceeds 2 GPa; lower the torque",
             "torque",
         )
     if film.contact_half_width > MAX_CONTACT_WIDTH * geometry.normal_flank_radius:

@@ -84,7 +84,7 @@ class LoadDistribution:
 
     `load_concentration` is largest over mean force (None without torque). `rotation` is the common rotation of the
     hub against the sleeve as a length at the pitch radius. `unloading_misalignment`: beyond it some tooth carries
-    nothing (centred sleeve, many teeth, no pitch errors). `sleeve_displacement` (x, y) is relative to the hub.
+    nothing (centred sleeve, many teeth, no pitch deviations). `sleeve_displacement` (x, y) is relative to the hub.
     `iterations` of the floating sleeve, 0 for the centred one.
     """
 
@@ -131,7 +131,7 @@ class Regime:
 
 @record
 class Lubrication:
-    """Contact and film of the highest loaded tooth in the tilt position (of a revolution with pitch errors).
+    """Contact and film of the highest loaded tooth in the tilt position (of a revolution with pitch deviations).
 
     `contact_overlap` None: the contact does not travel. `inlet_ratio` None: infinite inlet.
     `load_capacity_coefficient` None: no load.
@@ -142,7 +142,7 @@ class Lubrication:
         "F_n",
         PAHL,
         unit="n",
-        text="largest tooth force with a tooth in the tilt position, or of a revolution with pitch errors",
+        text="largest tooth force with a tooth in the tilt position, or of a revolution with pitch deviations",
     )
     hertz_half_width: float = quantity("half width of the Hertzian contact", "a_HZ", f"{PAHL}, Fig. 7", unit="mm")
     hertz_pressure: float = quantity("largest Hertzian pressure", "p_H", unit="mpa")
@@ -192,7 +192,7 @@ class SelfInducedThrust:
 
 @record
 class AxialThrust:
-    """Mean axial thrust over one tooth pitch (one revolution with pitch errors).
+    """Mean axial thrust over one tooth pitch (one revolution with pitch deviations).
 
     `force`: of one mesh in the sense of the axial velocity (`single`), or on one shaft, positive = shafts pulled
     together. The bounds differ from `force` only where friction is `indeterminate` (nothing slides).
@@ -247,7 +247,7 @@ class AxialThrust:
 
 @record
 class Losses:
-    """Friction power [W] and moments [N m] of one mesh, means over one tooth pitch (revolution with pitch errors).
+    """Friction power [W] and moments [N m] of one mesh, means over one tooth pitch (revolution with pitch deviations).
 
     Axial velocity included: power is friction moment times tilting speed plus thrust times axial velocity. Where
     nothing slides the friction moment is open and reported as zero.

@@ -190,7 +190,7 @@ def balance_rows(
 
 @dataclass(frozen=True, slots=True)
 class SleeveEquilibrium:
-    """Means over one tooth pitch (revolution with pitch errors) of two meshes on one sleeve.
+    """Means over one tooth pitch (revolution with pitch deviations) of two meshes on one sleeve.
 
     `thrust` [N] acts on one shaft, positive = shafts pulled together; `overturning_moment` [N m] is friction's on the
     sleeve.

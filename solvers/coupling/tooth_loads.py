@@ -1,7 +1,7 @@
 """How the teeth of one mesh share the torque, and with a floating sleeve a lateral force (Figs 3 and 4).
 
-Tooth i carries F_t = c_t max(0, psi + f_t + pitch error - e . n/cos(alpha)), for teeth never pull: psi is the common
-rotation as a length at the pitch radius, e the sleeve's displacement against the hub.
+Tooth i carries F_t = c_t max(0, psi + f_t + pitch deviation - e . n/cos(alpha)), for teeth never pull: psi is the
+common rotation as a length at the pitch radius, e the sleeve's displacement against the hub.
 
 Kernels count lengths in T/(r_o c_t) and forces in T/r_o, so that the tooth forces add up to one. There tooth i
 interferes by u_i = psi + w_i - e . d_i: w_i is how far the tooth is ahead, d_i the flank normal over cos(alpha).
@@ -333,7 +333,7 @@ class ToothLoads:
 
 
 def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """How far each tooth is ahead, f_t + pitch error [m], shape (rows, teeth) (Eq. C7)."""
+    """How far each tooth is ahead, f_t + pitch deviation [m], shape (rows, teeth) (Eq. C7)."""
     ahead = tangential_displacement(mesh, teeth)
     if coupling.pitch_errors is not None:
         ahead += coupling.pitch_errors
@@ -392,7 +392,7 @@ def mesh_loads(
         residual = float(np.hypot(*lateral)) * pitch_radius(coupling) / torque
         raise NoSolution(
             "sleeve_balance",
-            "the floating sleeve was not balanced; raise the torque or lower the pitch errors",
+            "the floating sleeve was not balanced; raise the torque or lower the pitch deviations",
             {"lateral_force": residual},
         )
     return loads
@@ -446,7 +446,7 @@ def sleeve_centring_torque(coupling: Coupling, radius: float) -> float:
 
 
 def unloading_misalignment(inputs: CouplingInputs, geometry: Geometry) -> float:
-    """Misalignment [rad] at which the first tooth of a centred sleeve unloads, pitch errors ignored (Eq. C10).
+    """Misalignment [rad] at which the first tooth of a centred sleeve unloads, pitch deviations ignored (Eq. C10).
 
     There the peak-to-peak displacement, a square of the misalignment, reaches 2 F_m/c_t with F_m the mean tooth force:
     delta_L = sqrt(4 F_m/(c_t R_t)) with the tangential kinematics.

@@ -195,7 +195,7 @@ class FlashPlaces:
 
 @record
 class TrainSafety:
-    """Safety against scuffing: Blok on the feature line and over the flank, thermal EHL on two lines; None unknown.
+    """Safety factors: Blok on the feature line and over the flank, thermal EHL on two lines; None unknown.
 
     `blok_at` is the flank's worst point by Blok, and the profile line runs from A to E through it. `minimum` is the
     smallest of those asked for, None where one is unknown.
@@ -296,7 +296,7 @@ class DriveTrainResult:
         "couplings", text="in the order of the request; empty without effect"
     )
     flash: FlashPlaces = quantity("flash temperature")
-    safety: TrainSafety | None = quantity("safety", text="safety against scuffing; null without a scuffing temperature")
+    safety: TrainSafety | None = quantity("safety", text="safety factors; null without a scuffing temperature")
     losses: TrainLosses = quantity("losses")
     balance: ForceBalance = quantity("balance", text="forces and moments on the shafts")
     convergence: Convergence = quantity("convergence")

@@ -72,7 +72,7 @@ def loaded(misalignment_deg: float) -> float:
 
 @cache
 def _orbit(misalignment_deg: float) -> OrbitResult:
-    """Fig. 5: 2 um of first and third harmonic in the pitch errors, 1000 1/s."""
+    """Fig. 5: 2 um of first and third harmonic in the pitch deviations, 1000 1/s."""
     errors = harmonic_pitch_errors((1, 2e-6, 0.0), (3, 2e-6, 0.7))
     return solve_orbit(pahl_coupling(misalignment_deg, speed=1000.0, pitch_errors=errors))
 
@@ -118,7 +118,7 @@ def offset_thrust(friction: float = 0.2, hub_distance: float = 0.2) -> float:
 
 
 def friction_exponent() -> float:
-    """Fig. 17: power of the friction coefficient that the self-induced thrust follows."""
+    """Fig. 17: power of the coefficient of friction that the self-induced thrust follows."""
     return log(offset_thrust(0.3) / offset_thrust(0.05)) / log(6.0)
 
 

@@ -29,7 +29,7 @@ EXAMPLE_1 = GearPairInputs(
 
 
 def fzg_pressure(torque: float) -> float:
-    """Hertz pressure [MPa] of FZG type A at the pitch point, one pair carrying all; pinion torque [N m]."""
+    """Hertzian pressure [MPa] of FZG type A at the pitch point, one pair carrying all; pinion torque [N m]."""
     path = meshing_path(FZG_A)
     return _pitch_pressure(FZG_A, torque / path.pair.pinion.base_radius / path.plane.cos_base_helix / 20e-3)
 

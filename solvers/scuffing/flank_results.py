@@ -190,7 +190,7 @@ def _maps(
 
 
 def contact_pressure(balance: LoadBalance, x: FloatArray, load: FloatArray, modulus: float) -> FloatArray:
-    """Hertz pressure p_H [Pa] at x [m] under w [N/m].
+    """Hertzian pressure p_H [Pa] at x [m] under w [N/m].
 
     0 without load; NaN near a base circle, towards which the reduced radius vanishes and pressure has no limit.
     Eq. 14 prints pi/4 of it, the mean pressure, and calls it the maximum.

@@ -182,7 +182,7 @@ class LoadOnFlank:
 
 @record
 class Pressure:
-    """Largest Hertz pressure [Pa] over all roll positions, and its place.
+    """Largest Hertzian pressure [Pa] over all roll positions, and its place.
 
     None where the loaded path reaches a base circle, towards which pressure has no limit.
     """
@@ -217,7 +217,7 @@ class FrictionLoss:
 
 @record
 class ContactPoints:
-    """At points of the flank: line load [N/m], Hertz pressure [Pa], half width and reduced radius [m], speeds [m/s].
+    """At points of the flank: line load [N/m], Hertzian pressure [Pa], half width and reduced radius [m], speeds [m/s].
 
     pressure is NaN where the reduced radius vanishes.
     """

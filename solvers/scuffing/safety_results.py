@@ -89,7 +89,7 @@ class Film:
 
 @record
 class Safety:
-    """Safety against scuffing (Eq. 26); None where the teeth stay as cool as the oil, or the temperature is unknown.
+    """Safety factor against scuffing (Eq. 26); None where teeth stay as cool as the oil, or the temperature is unknown.
 
     `scuffing` is the temperature it is against [K]; `verdict` the standard's risk by Blok's factor.
     """

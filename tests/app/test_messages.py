@@ -69,7 +69,7 @@ def refused(model: type[Request], body: dict[str, Any], path: str, value: Any) -
         ("coupling.teeth", 20.5, "/coupling/teeth", "give a whole number"),
         ("lubricant", None, "/lubricant", "leave the section out instead of null"),
         ("coupling.pitch_errors_um", 3.0, "/coupling/pitch_errors_um", "give a list [...] of values here"),
-        ("model.sleeve", "hanging", "/model/sleeve", "sleeve: permissible are centred, floating"),
+        ("model.sleeve", "hanging", "/model/sleeve", "sleeve: must be one of centred, floating"),
     ],
 )
 def test_coupling(path: str, value: Any, pointer: str, message: str) -> None:

@@ -312,7 +312,7 @@ def test_figures_of_a_page_are_drawn_from_the_kept_answer() -> None:
 
 
 def long_case(torque: str) -> dict[str, str]:
-    """A coupling whose pitch errors make its link too long."""
+    """A coupling whose pitch deviations make its link too long."""
     errors = ",".join(f"{0.123456789012345 * (index % 7):.15f}" for index in range(400))
     fields = dict(pairs_of(examples()["pahl-axial-displacement"].request))
     return fields | {"coupling.teeth": "400", "coupling.pitch_errors_um": errors, "operation.torque_n_m": torque}

@@ -189,7 +189,7 @@ def test_from_a_data_sheet_to_a_safety_factor_in_one_request() -> None:
             "/v1/coupling",
             COUPLING,
             {"lubricant.iso_vg": 47},
-            "iso_vg: permissible are 32, 46, 68, 100, 150, 220, 320, 460, 680",
+            "iso_vg: must be one of 32, 46, 68, 100, 150, 220, 320, 460, 680",
         ),
         (
             "/v1/coupling",
@@ -201,7 +201,7 @@ def test_from_a_data_sheet_to_a_safety_factor_in_one_request() -> None:
             "/v1/scuffing",
             PAIR,
             {"temperatures.scuffing_test": {"fzg_stage": 12, "test": "A10/16.6R/90"}},
-            "test: permissible are A/8.3/90",
+            "test: must be one of A/8.3/90",
         ),
     ],
 )

@@ -58,7 +58,7 @@ def test_isoviscous_film_is_exact_to_a_percent() -> None:
 
 @pytest.mark.parametrize("w", [1.1e-5, 1e-4, 1e-3])
 def test_compression_thins_the_centre_of_the_film(w: float) -> None:
-    """By the density at the Hertz pressure, 0.3 to 2.9 GPa; reference 0.98-1.05 of it."""
+    """By the density at the Hertzian pressure, 0.3 to 2.9 GPa; reference 0.98-1.05 of it."""
     line_load, viscosity = w * MODULUS * RADIUS, 0.02
     thick = isothermal(line_load, viscosity, Lubricant(compressible=False))
     thin = isothermal(line_load, viscosity, Lubricant())

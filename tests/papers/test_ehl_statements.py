@@ -11,7 +11,7 @@ from tests.support.xue_contact import START, blok_flash, contact, path, path_con
 
 
 def solved(result: LineContactResult) -> tuple[float, float, float, float, float]:
-    """Minimum film [um], friction coefficient, film maximum and face maxima [K]."""
+    """Minimum film [um], coefficient of friction, film maximum and face maxima [K]."""
     assert result.film.minimum is not None
     assert result.friction is not None
     assert result.temperature is not None
@@ -20,7 +20,7 @@ def solved(result: LineContactResult) -> tuple[float, float, float, float, float
 
 
 def test_maximum_pressure_is_151_gpa_in_the_centre() -> None:
-    """Fig. 20; Xue Eq. 14's pi/4 would give the mean Hertz pressure, 1.23 GPa."""
+    """Fig. 20; Xue Eq. 14's pi/4 would give the mean Hertzian pressure, 1.23 GPa."""
     result = point_a()
     assert result.pressure is not None
     assert result.pressure.maximum == pytest.approx(1.51e9, rel=0.04)

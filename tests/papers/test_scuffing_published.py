@@ -30,7 +30,7 @@ PITCH_PRESSURES = (144.8, 295.0, 473.2, 621.2, 773.2, 927.1, 1079.3, 1232.9, 138
 
 @pytest.mark.parametrize(("torque", "pressure"), list(zip(FZG_TORQUES, PITCH_PRESSURES, strict=True)))
 def test_fzg_type_a_load_stages(torque: float, pressure: float) -> None:
-    """Hertz pressure at the pitch point with one pair carrying all, as the stages are defined."""
+    """Hertzian pressure at the pitch point with one pair carrying all, as the stages are defined."""
     result = solve_load_distribution(LoadDistributionInputs(FZG_A, Load(torque, angular_speed(2250))))
     path = result.path_of_contact
     radius = float(reduced_radius(path.plane, path.pitch_point - path.start))
@@ -79,7 +79,7 @@ def test_iso_tr_6336_30_example_1_stiffness() -> None:
 
 
 def test_iso_tr_6336_30_example_1_contact_stress() -> None:
-    """sigma_H0 / Z_beta is the Hertz pressure at C under F_bt / (b eps_alpha)."""
+    """sigma_H0 / Z_beta is the Hertzian pressure at C under F_bt / (b eps_alpha)."""
     pair = gear_pair(ISO_30_1)
     path = path_of_contact(pair)
     load = 9000 / pair.pinion.base_radius / (0.1 * path.transverse_contact_ratio)

@@ -122,7 +122,7 @@ def test_one_case_without_tolerances() -> None:
 
 
 def test_a_linear_output_of_a_normal_input() -> None:
-    """The coaxial thrust is the friction coefficient times a force: P = Phi((mu - m) / sqrt(s_y^2 + s^2))."""
+    """The coaxial thrust is the coefficient of friction times a force: P = Phi((mu - m) / sqrt(s_y^2 + s^2))."""
     nominal = solved(coupling(cases=[{"set": {MU: 0.2}}]))[-1]["outputs"][COAXIAL]["mean"]
     deviation = 0.1 * nominal
     limits = [
@@ -454,7 +454,7 @@ def test_shares_are_normalised() -> None:
 def test_a_study_of_too_many_solutions_is_refused_with_an_estimate() -> None:
     pointer, code, message = fault_of(coupling(tolerances=friction(count=1024, replicates=100)))
     assert (pointer, code) == ("/tolerances/count", "too_many_points")
-    assert "102400 solutions; at most 20000 are permissible" in message
+    assert "102400 solutions; the limit is 20000" in message
     assert " s on one core" in message
 
 

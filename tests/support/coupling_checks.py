@@ -153,7 +153,7 @@ EDGE = ("lubrication.", "axial_thrust.", "losses.", "self_induced.")
 
 
 def varied(inputs: CouplingInputs, group: str, name: str, factor: float) -> CouplingInputs:
-    """The inputs with one of them changed: by a factor, the pitch errors too; the rotor angle by it in radians."""
+    """The inputs with one of them changed: by a factor, the pitch deviations too; the rotor angle by it in radians."""
     if name == "pitch_errors":
         errors = tuple(factor * error for error in inputs.coupling.pitch_errors or ())
         return replace(inputs, coupling=replace(inputs.coupling, pitch_errors=errors))

@@ -10,7 +10,7 @@ from solvers.published.pahl import TEETH
 
 
 def random_pitch_errors(seed: int, rms: float = 2e-6) -> tuple[float, ...]:
-    """Normally distributed pitch errors [m] of exactly this rms, mean zero."""
+    """Normally distributed pitch deviations [m] of exactly this rms, mean zero."""
     errors = np.random.default_rng(seed).normal(size=TEETH)
     errors -= errors.mean()
     return tuple(errors * rms / np.sqrt(np.mean(errors**2)))
@@ -22,7 +22,7 @@ def spread(random: Generator, low: float, high: float) -> float:
 
 
 def random_coupling(random: Generator, *, errors: bool | None = None) -> Coupling:
-    """A gear coupling as they are built, with or without pitch errors (None: either)."""
+    """A gear coupling as they are built, with or without pitch deviations (None: either)."""
     teeth, module = int(random.integers(20, 90)), float(random.choice([1.0, 2.0, 2.5, 3.0, 4.0, 5.0, 8.0]) * 1e-3)
     pitch_errors = None
     if random.random() < 0.4 if errors is None else errors:

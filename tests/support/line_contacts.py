@@ -14,14 +14,14 @@ MODULUS = 226.37e9
 def at_pressure(
     pressure: float, ratio: float, speed: float, viscosity: float, radius: float, model: Model
 ) -> LineContactInputs:
-    """A contact by Hertz pressure [Pa], slide-roll ratio, mean speed [m/s], viscosity [Pa s] and radius [m]."""
+    """A contact by Hertzian pressure [Pa], slide-roll ratio, mean speed [m/s], viscosity [Pa s] and radius [m]."""
     line_load = 2.0 * pi * radius * pressure**2 / MODULUS
     contact = Contact(line_load, radius, speed * (1 + ratio / 2), speed * (1 - ratio / 2))
     return LineContactInputs(contact, lubricant=Lubricant(viscosity=viscosity), model=model)
 
 
 def random_contacts(model: Model, count: int, seed: int) -> list[LineContactInputs]:
-    """Hertz pressure 0.3-3 GPa, slide-roll ratio 0-1.9, and by their logarithms mean speed, viscosity and radius."""
+    """Hertzian pressure 0.3-3 GPa, slide-roll ratio 0-1.9, and by their logarithms mean speed, viscosity and radius."""
     random = Random(seed)
 
     def between(low: float, high: float) -> float:

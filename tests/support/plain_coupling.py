@@ -35,7 +35,7 @@ class PlainMesh:
         return angles
 
     def ahead(self, phi: FloatArray) -> FloatArray:
-        """How far each tooth bears early [m]: tangential displacement and pitch error."""
+        """How far each tooth bears early [m]: tangential displacement and pitch deviation."""
         coupling, alpha = self.inputs.coupling, self.inputs.coupling.pressure_angle
         ratio, scale = coupling.crowning_ratio, self.radius * self.delta**2 / 2.0
         if self.inputs.model.kinematics == "tangential":

@@ -243,7 +243,7 @@ RECOMMENDATION_FIGURES = (
 
 
 def tooth_loads(inputs: CouplingInputs, result: CouplingResult) -> Figure:
-    """Tangential force of each tooth, mean and largest; the pitch errors behind it."""
+    """Tangential force of each tooth, mean and largest; the pitch deviations behind it."""
     load = result.load_distribution
     curves = load.curves
     angle, force = values(curves.angle), values(curves.tangential_force)
@@ -262,7 +262,7 @@ def tooth_loads(inputs: CouplingInputs, result: CouplingResult) -> Figure:
     ]
     if inputs.coupling.pitch_errors is not None:
         error = axis(CouplingDesign, "pitch_errors", "pitch deviation (positive: carries more)", magnitude=False)
-        errors = Bars("pitch error", angle, values(np.array(inputs.coupling.pitch_errors) / UM), Hue.VERMILLION)
+        errors = Bars("pitch deviation", angle, values(np.array(inputs.coupling.pitch_errors) / UM), Hue.VERMILLION)
         panels.append(Panel(x=TOOTH, y=error, bars=(errors,)))
     concentration = load.load_concentration
     share = "" if concentration is None else f"; the highest loaded takes {number(concentration)} times the mean {tilt}"

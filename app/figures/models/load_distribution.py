@@ -91,7 +91,7 @@ def flank_load(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figu
 
 
 def flank_pressure(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Hertz pressure over the flank, its maximum over all roll positions marked."""
+    """Hertzian pressure over the flank, its maximum over all roll positions marked."""
     pressure, flank, shown = result.pressure, result.flank, axis(Flank, "pressure")
     panel = over_flank(inputs.gears.face_width, flank, shown, flank.pressure, pressure.max, pressure.max_at)
     finding = NO_LOAD

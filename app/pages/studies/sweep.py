@@ -199,7 +199,7 @@ def _whole(spread: dict[str, Any]) -> dict[str, Any]:
 def _is_greatest_best(asked: Asked, output: Leaf) -> bool:
     best = asked.views.get("best", "greatest" if output.view.greatest_is_best else "least")
     if best not in {"least", "greatest"}:
-        raise Unprocessable("literal_error", "best: permissible are least, greatest", "best")
+        raise Unprocessable("literal_error", "best: must be one of least, greatest", "best")
     return best == "greatest"
 
 

@@ -102,12 +102,12 @@ def _check_load(inputs: LineContactInputs) -> None:
     """Pressure and the film to be expected: thick against the deformation it is no elastic contact any more."""
     scales = groups(inputs)
     if scales.maximum_pressure > HIGHEST_PRESSURE:
-        raise InvalidInput("pressure_range", "the Hertz pressure must not exceed 4 GPa", "line_load")
+        raise InvalidInput("pressure_range", "the Hertzian pressure must not exceed 4 GPa", "line_load")
     hottest = inputs.temperatures.inlet
     if _log_viscosity(inputs, scales.maximum_pressure, hottest) > log(HIGHEST_VISCOSITY_UNDER_PRESSURE):
         raise InvalidInput(
             "viscosity_range",
-            f"the oil's laws give it more than {HIGHEST_VISCOSITY_UNDER_PRESSURE:g} Pa s at the Hertz pressure of "
+            f"the oil's laws give it more than {HIGHEST_VISCOSITY_UNDER_PRESSURE:g} Pa s at the Hertzian pressure of "
             f"{scales.maximum_pressure * 1e-9:.2g} GPa; the pressure-viscosity coefficient or the load must be "
             "smaller, or (Roelands) the viscosity higher",
             "pressure_viscosity",

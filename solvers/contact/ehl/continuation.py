@@ -100,7 +100,7 @@ class Attempt:
 
 
 def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """Solve from the Hertz pressure, by several attempts in turn; if all fail, the one that came nearest."""
+    """Solve from the Hertzian pressure, by several attempts in turn; if all fail, the one that came nearest."""
     nearest: Attempt | None = None
     for attempt in _attempts(problem, resolution, budget):
         if attempt.converged:
@@ -157,7 +157,7 @@ def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
 
 
 def _dry_state(grid: Grid, resolution: Resolution) -> State:
-    """Hertz pressure, scaled to carry the load on this mesh, over a film of the expected thickness.
+    """Hertzian pressure, scaled to carry the load on this mesh, over a film of the expected thickness.
 
     A thick film spreads it over (2 R h)^1/2.
     """

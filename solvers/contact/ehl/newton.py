@@ -29,7 +29,7 @@ from solvers.lubricants import density, log_viscosity, pressure_part
 EARLY = 5  # iterations with a tighter clip
 KRYLOV = 10  # steps of GMRES, chosen for speed
 KRYLOV_TOLERANCE = 0.01  # of the right-hand side; Newton's method corrects the rest
-LARGEST_PRESSURE_STEP = 0.3  # of the Hertz pressure: viscosity is exponential in it
+LARGEST_PRESSURE_STEP = 0.3  # of the Hertzian pressure: viscosity is exponential in it
 LARGEST_TEMPERATURE_STEP = 40.0  # K
 LOWEST_TEMPERATURE = 200.0  # K, of iterates
 FIRST_DAMPING = 30.0  # of the temperatures, in units of their conduction across the film

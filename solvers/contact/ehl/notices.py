@@ -18,7 +18,7 @@ from solvers.notices import Notice
 
 LOWEST_PECLET = 5.0  # usual limit above which conduction along the surface is neglected
 NEWTONIAN_SLIDE_ROLL_RATIO = 0.3  # chosen: above it oils are usually no longer Newtonian
-TRACTION_RATIO = 0.1  # friction coefficients of oils seldom exceed 0.1
+TRACTION_RATIO = 0.1  # coefficients of friction of oils seldom exceed 0.1
 THIN_FILM = 0.05e-6  # m
 BALANCE_ERROR = 1e-4  # of the heat, chosen
 LARGEST_MESH_ERROR = 0.02  # chosen: the accuracy asked of film, friction and temperature

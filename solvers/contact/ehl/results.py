@@ -166,7 +166,7 @@ class Convergence:
     iterations: int = quantity("Newton steps", text="Newton steps in all")
     pressure_change: float | None = quantity(
         "last change of pressure",
-        text="last change of the pressure over the Hertz pressure; null if no step could be taken",
+        text="last change of the pressure over the Hertzian pressure; null if no step could be taken",
     )
     temperature_change: float | None = quantity(
         "last change of temperature",

@@ -54,7 +54,7 @@ def test_torque_and_stiffness_scale_forces_and_nothing_else(inputs: CouplingInpu
 
 @examples(30, 300, couplings())
 def test_sign_of_misalignment_does_not_matter_to_magnitudes(inputs: CouplingInputs) -> None:
-    # With pitch errors the mirror image is the same coupling seen half a turn later: means over a revolution agree.
+    # With pitch deviations the mirror image is the same coupling seen half a turn later: means over a revolution agree.
     mirrored = replace(inputs, operation=replace(inputs.operation, misalignment=-inputs.operation.misalignment))
     before, after = solve(inputs), solve(mirrored)
     assert after.lubrication.max_normal_force == pytest.approx(before.lubrication.max_normal_force, rel=1e-7)

@@ -74,7 +74,7 @@ def test_sleeve_equilibrium_solves_the_six_equations(
     left, right = samples.weight @ [six_equations(inputs, 0.2, velocity, angle) for angle in angles]
     force = sleeve_equilibrium(inputs, geometry, 0.2, velocity).thrust
     assert force == pytest.approx(left, rel=1e-6, abs=1e-4)
-    # Without pitch errors the sleeve is in axial balance by symmetry, though no equation asks for it.
+    # Without pitch deviations the sleeve is in axial balance by symmetry, though no equation asks for it.
     assert left == pytest.approx(right, rel=1e-6, abs=1e-4)
 
 

@@ -149,7 +149,7 @@ def assert_no_verdict(result: Scuffing) -> None:
 
 
 def test_a_refused_point_counts_and_takes_the_verdict() -> None:
-    """At 9.5 times the torque the Hertz pressure passes 4 GPa over part of the path."""
+    """At 9.5 times the torque the Hertzian pressure passes 4 GPa over part of the path."""
     strong = paper_pair(1)
     strong = replace(strong, load=replace(strong.load, pinion_torque=9.5 * strong.load.pinion_torque))
     result = solve_scuffing(ScuffingInputs(strong, temperatures=SCUFFING, film=COARSE, path_points=11))

@@ -124,7 +124,7 @@ def test_unloaded_points_have_no_numbers_and_do_not_disturb_the_others() -> None
 
 
 def test_points_outside_the_solver_are_refused_one_by_one() -> None:
-    # at 9.5 times the torque the Hertz pressure passes 4 GPa over part of the path only
+    # at 9.5 times the torque the Hertzian pressure passes 4 GPa over part of the path only
     strong = paper_pair(1)
     strong = replace(strong, load=replace(strong.load, pinion_torque=9.5 * strong.load.pinion_torque))
     result = solve_scuffing(inputs(distribution=strong))
