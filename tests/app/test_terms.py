@@ -1,0 +1,35 @@
+"""Texts that users read use the terms of ISO 1122-1, ISO 1328-1, ISO 6336-1 and ISO 21771."""
+
+import json
+import re
+
+import pytest
+
+from app.examples import examples
+from app.main import app
+from tests.support.server import ROOT
+
+TERMS = {
+    "addendum modification": "profile shift",
+    "allowable": "permissible",
+    "center distance": "centre distance",
+    "contact path": "path of contact",
+    "film parameter": "specific film thickness",
+    "friction coefficient": "coefficient of friction",
+    "hertz pressure": "Hertzian pressure",
+    "lead crowning": "helix crowning",
+    "overlap factor": "overlap ratio",
+    "pitch error": "pitch deviation",
+    "safety against": "safety factor against",
+    "sliding ratio": "slide-roll ratio",
+}
+
+
+@pytest.mark.parametrize("other", TERMS)
+def test_the_standard_term_is_used(other: str) -> None:
+    """In the API's texts, the manual and titles of examples; names of fields and functions stay."""
+    texts = [json.dumps(app.openapi()), *(example.title for example in examples().values())]
+    texts += [chapter.read_text("utf-8") for chapter in (ROOT / "app" / "manual").glob("*.md")]
+    around = re.compile(rf".{{0,60}}\b{other}(?!_).{{0,30}}", re.IGNORECASE)
+    found = [passage for text in texts for passage in around.findall(text)]
+    assert not found, TERMS[other]
