@@ -48,8 +48,8 @@ LOADED = 1e-6
 SLIDING_VELOCITY_LIMIT = 0.12
 """Steady sliding of gear couplings [m/s], Tribology Handbook B4.6; transients may tilt 1.6 times as far."""
 GRAVITY = 9.80665  # m/s^2, standard gravity (CGPM 1901)
-_PEAKS = 8  # highest samples around which the maximum is sought; more than one, as neighbours may hide the highest
-_FINER = np.arange(-1.0, 1.125, 0.125)  # steps of the second search, an eighth of the first
+_PEAKS = (8, 2)  # chosen: samples around which each search is for a maximum, as neighbours may hide the highest
+_FINER = 8  # chosen: steps of a search in one of the search before, so that two meet a peak within 1/128 of a step
 
 
 class Motion(NamedTuple):
@@ -302,20 +302,26 @@ def floating_rows(
 
 
 def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArray]) -> float:
-    """Largest value over evenly spaced rotor angles [rad], searched again in steps eight times as fine.
+    """Largest value over evenly spaced rotor angles [rad], searched twice more in steps eight times as fine.
 
-    The second search is around the local maxima that may hide the largest value, were they to rise for half a step as
-    they did before: between few loaded teeth a peak lasts but a fraction of a pitch, and each tooth has its own.
+    Each search is around the local maxima that may hide the largest value, were they to rise for half a step as they
+    did before: between few loaded teeth a peak lasts but a fraction of a pitch, and each tooth has its own.
     `values_at` takes rotor angles (rows) and returns one value each.
     """
-    coarse = values_at(angles)
-    before, after = np.roll(coarse, 1), np.roll(coarse, -1)
-    local = np.flatnonzero((coarse >= before) & (coarse >= after))
-    reach = 1.5 * coarse - 0.5 * np.minimum(before, after)
-    peaks = local[np.argsort(reach[local])[-_PEAKS:]]
-    around = (angles[1] - angles[0]) * _FINER
-    fine = values_at((angles[peaks, None] + around).ravel())
-    return float(max(coarse.max(), fine.max()))
+    coarse, step = values_at(angles), angles[1] - angles[0]
+    places = angles[:, None] + step * np.array([-1.0, 0.0, 1.0])
+    values = np.stack((np.roll(coarse, 1), coarse, np.roll(coarse, -1)), axis=1)
+    largest = coarse.max()
+    for count in _PEAKS:
+        rows, highest = np.arange(len(values)), values[:, 1:-1].argmax(axis=1) + 1
+        top, before, after = (values[rows, highest + shift] for shift in (0, -1, 1))
+        reach = np.where((top >= before) & (top >= after), 1.5 * top - 0.5 * np.minimum(before, after), -np.inf)
+        peaks = np.argsort(reach)[-count:]
+        step /= _FINER
+        places = places[peaks, highest[peaks]][:, None] + step * np.arange(-_FINER, _FINER + 1)
+        values = values_at(places.ravel()).reshape(places.shape)
+        largest = max(largest, values.max())
+    return float(largest)
 
 
 @dataclass(frozen=True, slots=True)

@@ -281,7 +281,7 @@ def test_an_answer_that_nobody_reads_is_given_up() -> None:
             connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
             connection.connect((urlsplit(address).hostname, urlsplit(address).port))
             connection.sendall(request * 10)
-        wait_until(lambda: descriptors(process.pid) >= idle + 20)
+        wait_until(lambda: descriptors(process.pid) >= idle + 10)  # slow machines give up the first before the last
         slow = stack.enter_context(connected(address))
         slow.sendall(request)
         received = 0
