@@ -266,7 +266,7 @@ def test_a_map_over_even_ratios_puts_its_points_where_the_axes_have_them() -> No
         ({"x": "operation.torque_n_m", "x.from": "5", "x.to": "5"}, "x.from", "the same"),
         ({"x": "operation.torque_n_m", "x.from": "0", "x.scale": "log"}, "x.from", "above zero"),
         ({"x": "operation.torque_n_m", "x.scale": "cubic"}, "x.scale", "linear"),
-        ({"x": "operation.torque_n_m", "x.count": "2501"}, "x.count", "at most 2500"),
+        ({"x": "operation.torque_n_m", "x.count": "2501"}, "x.count", "the limit is 2500"),
         ({"x": "operation.torque_n_m", "x.count": "1.5"}, "x.count", "whole number"),
         ({"x": "operation.misalignment_deg", "x.to": "90"}, "x.to", "90 is out of range; permissible -6 to 6"),
         ({"x": "operation.torque_n_m", "x.to": "1e99"}, "x.to", "torque: 1e+99 is out of range"),
