@@ -12,7 +12,8 @@ from solvers.contact.ehl import Contact, LineContactInputs, Model, solve_path
 from solvers.contact.ehl.model import solve
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
-from tests.support.line_contacts import POINT, grid_contacts
+from solvers.published.xue import POINT_A
+from tests.support.line_contacts import grid_contacts
 
 EYRING = Model()
 STIFF = Model(eyring_stress=10e6)
@@ -46,7 +47,7 @@ def figures() -> Iterator[Figure | MedianFigure]:
         ("thermal Ree-Eyring point A, from nothing", EYRING, 12.0),
         ("thermal Newtonian point A, from nothing", NEWTONIAN, 34.0),
     ):
-        inputs = LineContactInputs(POINT, model=model)
+        inputs = LineContactInputs(POINT_A, model=model)
         yield Figure(name, lambda inputs=inputs: solve(inputs), target)  # type: ignore[misc]
     for name, model, target in (
         ("Ree-Eyring 5 MPa", EYRING, 150.0),

@@ -60,9 +60,8 @@ def test_figure_6_reversal_has_largest_sliding_and_displacement_and_small_film_v
 
 def test_figure_6_film_velocity_vanishes_ten_degrees_before_the_reversal() -> None:
     motion = curves()
-    assert motion.angle[np.argmin(motion.hydrodynamic_velocity[: QUARTER + 1])] == pytest.approx(
-        radians(79.7), abs=radians(1.0)
-    )
+    vanishes = motion.angle[np.argmin(motion.hydrodynamic_velocity[: QUARTER + 1])]
+    assert vanishes == pytest.approx(radians(79.7), abs=radians(1.0))
 
 
 def test_figure_6_shapes_over_the_contact_position_are_a_straight_v_an_ellipse_and_a_parabola() -> None:
@@ -115,18 +114,16 @@ def test_largest_values_of_both_kinematic_models(ratio: float) -> None:
     tangential = solve(pahl_coupling(0.5, torque=100.0, crowning_ratio=ratio)).kinematics
     assert tangential.max_contact_travel == pytest.approx(ratio * PITCH_RADIUS * cot * delta, rel=1e-12)
     assert tangential.max_hydrodynamic_velocity == pytest.approx(sliding * sqrt((2 * ratio * cot) ** 2 + 1), rel=1e-12)
-    assert tangential.tangential_displacement_peak_to_peak == pytest.approx(
-        ratio * PITCH_RADIUS * cot * delta**2 / 2, rel=1e-12
-    )
+    amplitude = ratio * PITCH_RADIUS * cot * delta**2 / 2
+    assert tangential.tangential_displacement_peak_to_peak == pytest.approx(amplitude, rel=1e-12)
     spatial = solve(pahl_coupling(0.5, torque=100.0, crowning_ratio=ratio, model=SPATIAL)).kinematics
     assert spatial.max_contact_travel == pytest.approx(ratio * PITCH_RADIUS / sin(ALPHA) * delta, rel=1e-12)
-    assert spatial.max_hydrodynamic_velocity == pytest.approx(
-        sliding * sqrt((2 * ratio * cot) ** 2 + (2 * ratio - 1) ** 2), rel=1e-12
+    velocity = sliding * sqrt((2 * ratio * cot) ** 2 + (2 * ratio - 1) ** 2)
+    assert spatial.max_hydrodynamic_velocity == pytest.approx(velocity, rel=1e-12)
+    amplitude = (
+        PITCH_RADIUS * delta**2 / 2 * sqrt((ratio / sin(ALPHA) - sin(ALPHA)) ** 2 + cos(ALPHA) ** 2) / cos(ALPHA)
     )
-    spread = sqrt((ratio / sin(ALPHA) - sin(ALPHA)) ** 2 + cos(ALPHA) ** 2) / cos(ALPHA)
-    assert spatial.tangential_displacement_peak_to_peak == pytest.approx(
-        PITCH_RADIUS * delta**2 / 2 * spread, rel=1e-12
-    )
+    assert spatial.tangential_displacement_peak_to_peak == pytest.approx(amplitude, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -141,10 +138,8 @@ def test_figure_3_load_concentrates_in_the_tilt_zones(misalignment: float, conce
 def test_figure_3_fewer_teeth_carry_as_misalignment_grows(misalignment: float, loaded: int) -> None:
     load = solve(pahl_coupling(misalignment)).load_distribution
     assert load.loaded_teeth == loaded
-    carrying = load.curves.angle[load.curves.tangential_force > 0.0]
-    assert np.abs(np.sin(carrying)).min() > np.abs(np.sin(load.curves.angle[load.curves.tangential_force == 0.0])).max(
-        initial=-1.0
-    )
+    height, force = np.abs(np.sin(load.curves.angle)), load.curves.tangential_force
+    assert height[force > 0.0].min() > height[force == 0.0].max(initial=-1.0)
 
 
 @pytest.mark.parametrize(("ratio", "misalignment_deg"), [(1.0, 0.402), (11.0, 0.121)])

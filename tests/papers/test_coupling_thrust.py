@@ -4,7 +4,7 @@ Numbers without a source in the paper are those of an independent calculation of
 """
 
 from dataclasses import replace
-from math import asin, cos, log, pi, radians
+from math import asin, cos, pi, radians
 
 import numpy as np
 import pytest
@@ -13,9 +13,7 @@ from solvers.coupling.crowning import recommend
 from solvers.coupling.inputs import CouplingInputs, KinematicModel, ModelOptions, RecommendationInputs
 from solvers.coupling.model import solve
 from solvers.coupling.results import AxialThrust
-from solvers.published.pahl import PITCH_RADIUS, pahl_coupling
-
-CREEP = 2e-3  # axial velocity of the fourth curve [m/s]
+from solvers.published.pahl import CREEP, PITCH_RADIUS, pahl_coupling
 
 
 def thrust(inputs: CouplingInputs) -> AxialThrust:
@@ -37,9 +35,8 @@ def test_coaxial_thrust_is_mu_times_the_sum_of_normal_forces(torque: float, forc
 def test_figure_14a_thrust_keeps_its_value_while_axial_exceeds_sliding_velocity() -> None:
     limit = np.degrees(CREEP / (200.0 * PITCH_RADIUS))
     for misalignment in (0.0, 0.5 * limit, 0.999 * limit):
-        assert thrust(pahl_coupling(misalignment, axial_velocity=CREEP)).fraction_of_limit == pytest.approx(
-            1.0, rel=1e-9
-        )
+        fraction = thrust(pahl_coupling(misalignment, axial_velocity=CREEP)).fraction_of_limit
+        assert fraction == pytest.approx(1.0, rel=1e-9)
     assert thrust(pahl_coupling(1.2 * limit, axial_velocity=CREEP)).fraction_of_limit < 0.9
 
 
@@ -54,14 +51,11 @@ def test_figure_16_less_than_a_tenth_is_left_at_0_05_degrees() -> None:
     for torque in (1000.0, 3000.0, 5000.0):
         for velocity in (0.5e-3, 1e-3, 2e-3):
             fraction = thrust(pahl_coupling(0.05, torque=torque, axial_velocity=velocity)).fraction_of_limit
-            assert fraction is not None
             assert fraction < 0.1
 
 
 @pytest.mark.parametrize("speed", [50.0, 200.0])
-def test_figures_15_and_16_order_of_the_curves(
-    speed: float,
-) -> None:
+def test_figures_15_and_16_order_of_the_curves(speed: float) -> None:
     misalignments = (0.0, 0.02, 0.05, 0.1, 0.2)
     curve = [thrust(pahl_coupling(delta, speed=speed, axial_velocity=1e-3)).force for delta in misalignments]
     assert curve == sorted(curve, reverse=True)
@@ -106,11 +100,6 @@ def test_breakaway_from_rest_knows_no_film(friction: float | None, static: float
         assert result.coaxial_limit == pytest.approx(344.0, abs=0.5)
 
 
-def test_figure_17_self_induced_thrust_grows_as_the_square_of_friction() -> None:
-    low, high = parallel_offset(0.1, friction=0.05), parallel_offset(0.1, friction=0.3)
-    assert log(high / low) / log(6.0) == pytest.approx(2.00, abs=0.01)
-
-
 @pytest.mark.parametrize(("distance", "force"), [(0.1, 723.5), (0.2, 361.7), (0.4, 180.9)])
 def test_figure_13_the_ratio_of_diameter_to_hub_distance_matters(distance: float, force: float) -> None:
     assert parallel_offset(0.1, hub_distance=distance) == pytest.approx(force, rel=5e-3)
@@ -118,7 +107,6 @@ def test_figure_13_the_ratio_of_diameter_to_hub_distance_matters(distance: float
 
 def test_figure_13_simple_uniform_and_full_models() -> None:
     induced = thrust(pahl_coupling(0.1, arrangement="parallel_offset")).self_induced
-    assert induced is not None
     assert induced.simple_model_force == pytest.approx(1277.0, rel=1e-3)
     assert induced.uniform_load_force == pytest.approx(354.0, rel=1e-3)
     assert induced.force == pytest.approx(361.7, rel=1e-2)
@@ -127,7 +115,6 @@ def test_figure_13_simple_uniform_and_full_models() -> None:
 
 def test_figure_13_overturning_moment_of_equally_loaded_teeth() -> None:
     induced = thrust(pahl_coupling(0.001, arrangement="parallel_offset")).self_induced
-    assert induced is not None
     assert induced.overturning_moment == pytest.approx(4 / pi * 0.2 * 3000 / cos(radians(20)), rel=1e-3)
 
 
@@ -141,7 +128,6 @@ def test_angular_arrangement_has_no_thrust(misalignment: float) -> None:
 def test_both_conditions_at_the_same_time(velocity: float, force: float) -> None:
     result = thrust(pahl_coupling(0.05, axial_velocity=velocity, arrangement="parallel_offset"))
     assert result.force == pytest.approx(force, rel=1e-2)
-    assert result.self_induced is not None
     assert result.self_induced.force == pytest.approx(parallel_offset(0.05), rel=1e-12)
 
 
@@ -206,14 +192,12 @@ def test_conclusion_crowning_that_suits_a_range_of_misalignment(
     recommendation = recommend(RecommendationInputs(design, radians(low), radians(high)))
     assert recommendation.crowning_ratio == pytest.approx(ratio, rel=2e-2)
     assert recommendation.min_load_capacity_coefficient == pytest.approx(capacity, rel=2e-2)
-    assert recommendation.at_min is not None
     assert recommendation.at_min.contact_overlap < 1.0
 
 
 def test_conclusion_the_window_can_be_a_percent_wide() -> None:
     inputs = RecommendationInputs(pahl_coupling(0.1, friction=None), radians(0.05), radians(0.2))
     recommendation = recommend(inputs)
-    assert recommendation.crowning_ratio is not None
     assert 11.29 < recommendation.crowning_ratio < 11.48
     assert recommendation.min_load_capacity_coefficient == pytest.approx(0.607, rel=2e-2)
     assert not any(recommendation.scan.feasible)
@@ -224,6 +208,5 @@ def test_conclusion_medium_misalignment_gives_low_friction_and_small_thrust() ->
         RecommendationInputs(pahl_coupling(0.1, friction=None, axial_velocity=1e-3), radians(0.05), radians(0.1))
     )
     for point in (recommendation.at_min, recommendation.at_max):
-        assert point is not None
         assert point.friction_coefficient < 0.01
         assert abs(point.axial_thrust) < 0.01 * 3000.0 / PITCH_RADIUS

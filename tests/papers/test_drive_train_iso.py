@@ -5,7 +5,7 @@ implementations of DIN 3990; the example's figures as quoted in gfsReboucas/Driv
 """
 
 from dataclasses import replace
-from math import cos, hypot, pi, radians, sqrt
+from math import cos, pi, radians
 
 import numpy as np
 import pytest
@@ -15,25 +15,15 @@ from solvers.drive_train.inputs import Arrangement, DriveTrainInputs, Effects, R
 from solvers.drive_train.model import prepare
 from solvers.drive_train.outcome import outcome
 from solvers.drive_train.shafts.shaft import second_moment, shaft_model
-from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.gears.pair import meshing_path
-from solvers.scuffing.inputs import Load, LoadDistributionInputs, Modifications
+from solvers.published.standard_gears import EXAMPLE_1
+from solvers.scuffing.inputs import Load, LoadDistributionInputs
+from tests.support.changes import changed
 from tests.support.drive_trains import turbo_gear
 
 E = 206e9
 SOLID = 0.023e-6 * 1e-3  # f_sh/(F_m/b) in m per N/m
-PINION = GearTeeth(17, 0.145, 1.0, 1.4)
-GEARS = GearPairInputs(
-    PINION,
-    GearTeeth(103, 0.0, 1.0, 1.4),
-    8e-3,
-    0.1,
-    helix_angle=radians(15.8),
-    centre_distance=0.5,
-    rack_tip_radius=0.3,
-)
+GEARS = replace(EXAMPLE_1, rack_tip_radius=0.3)
 DIAMETER = 17 * 8e-3 / cos(radians(15.8))
-TORQUE = 9000.0
 
 
 def test_torsion_part_of_f_sh() -> None:
@@ -65,27 +55,6 @@ def test_tilt_part_of_f_sh() -> None:
     assert 64 / (6 * pi * E) / SOLID == pytest.approx(0.717, abs=5e-4)
 
 
-def test_face_load_factor_of_example_1_rebuilt() -> None:
-    """F_by 27.40 um (printed 27.5), K_H_beta 1.1592 (printed 1.16)."""
-    path = meshing_path(GEARS)
-    mean = 1.0033 * TORQUE / (DIAMETER / 2) / 0.1 * 1e-3  # K_V F_t/b [N/mm]
-    bending = mean * 0.023 * ((1.0 - 0.3) + 0.3) * (0.1 / DIAMETER) ** 2
-    assert bending == pytest.approx(14.71, abs=0.02)
-
-    def slope(diameter: float) -> float:
-        """ISO 1328-1 (1995) f_H_beta [um], grade 5."""
-        return 0.07 * sqrt(diameter * 1e3) + 0.45 * sqrt(100.0) + 3.0
-
-    wheel = DIAMETER * 103 / 17
-    making = hypot(slope(DIAMETER), slope(wheel))
-    assert making == pytest.approx(12.67, abs=0.05)
-    equivalent = 0.85 * (1.33 * bending + making)
-    assert equivalent == pytest.approx(27.40, rel=2e-3)
-    stiffness = 17.46485 * 0.85  # c_gamma_beta, N/(mm um)
-    assert 1 + stiffness * equivalent / (2 * mean) == pytest.approx(1.1592, rel=2e-3)
-    assert path.pair.centre_distance == 0.5
-
-
 def example_1(*, torque_at_far_end: bool) -> DriveTrainInputs:
     """The example's pinion on a solid shaft of its diameter over twice its face, rigid bearings; a rigid wheel."""
     pinion = Shaft(
@@ -95,11 +64,8 @@ def example_1(*, torque_at_far_end: bool) -> DriveTrainInputs:
         density=0.0,
     )
     wheel = replace(pinion, youngs_modulus=1e30)
-    plain = turbo_gear()
-    distribution = LoadDistributionInputs(GEARS, Load(TORQUE, 100.0), Modifications())
     return replace(
-        plain,
-        mesh=replace(plain.mesh, distribution=distribution),
+        changed(turbo_gear(), {"mesh.distribution": LoadDistributionInputs(GEARS, Load(9000.0, 100.0))}),
         face_start=0.05,
         pinion_shaft=pinion,
         wheel_shaft=wheel,

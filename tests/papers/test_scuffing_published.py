@@ -13,6 +13,7 @@ from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair, path_of_contact, reduced_radius
 from solvers.materials import Solid
+from solvers.published.standard_gears import EXAMPLE_1, example_stress
 from solvers.published.xue import PAPER_LOAD, paper_pair
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, Resolution, angular_speed
 from solvers.scuffing.load_balance import line_loads
@@ -52,25 +53,15 @@ def test_fzg_type_a_pitch_point_lies_in_double_contact() -> None:
 
 
 # ISO/TR 6336-30:2017, example 1, values as quoted in the comments of github.com/gfsReboucas/Drivetrain
-ISO_30_1 = GearPairInputs(
-    GearTeeth(17, 0.145, dedendum=1.4),
-    GearTeeth(103, 0.0, dedendum=1.4),
-    8e-3,
-    100e-3,
-    helix_angle=radians(15.8),
-    centre_distance=500e-3,
-    rack_tip_radius=0.38,
-)
 
 
 def test_iso_tr_6336_30_example_1_tangential_force() -> None:
-    radius = gear_pair(ISO_30_1).pinion.reference_radius
+    radius = gear_pair(EXAMPLE_1).pinion.reference_radius
     assert 9000 / radius == pytest.approx(127352, abs=0.5)
 
 
 def test_iso_tr_6336_30_example_1_stiffness() -> None:
-    stiffness = standard_stiffness(path_of_contact(gear_pair(ISO_30_1)))
-    assert stiffness.theoretical * 1e-9 == pytest.approx(17.85584, abs=6e-6)
+    stiffness = standard_stiffness(path_of_contact(gear_pair(EXAMPLE_1)))
     assert stiffness.single * 1e-9 == pytest.approx(12.37047, abs=6e-6)
     # The standard rounds the contact ratio: 17.46485 and 14.84512 there.
     assert stiffness.mesh * 1e-9 == pytest.approx(17.46719, abs=6e-6)
@@ -80,18 +71,13 @@ def test_iso_tr_6336_30_example_1_stiffness() -> None:
 
 def test_iso_tr_6336_30_example_1_contact_stress() -> None:
     """sigma_H0 / Z_beta is the Hertzian pressure at C under F_bt / (b eps_alpha)."""
-    pair = gear_pair(ISO_30_1)
-    path = path_of_contact(pair)
-    load = 9000 / pair.pinion.base_radius / (0.1 * path.transverse_contact_ratio)
-    radius = float(reduced_radius(path.plane, path.pitch_point - path.start))
-    pressure = hertz.maximum_pressure(load, radius, MODULUS) * 1e-6
-    assert pressure == pytest.approx(1183.47, abs=0.06)
-    assert pressure == pytest.approx(1206.58 / 1.01944, rel=1.5e-4)
+    assert example_stress() == pytest.approx(1183.47, abs=0.06)
+    assert example_stress() == pytest.approx(1206.58 / 1.01944, rel=1.5e-4)
 
 
 def straight_mismatch(torque_factor: float) -> float:
     """K_H_beta of a spur pair with uniform stiffness and the mismatch of the standard's example, load scaled."""
-    gears = replace(ISO_30_1, helix_angle=0.0, centre_distance=None)
+    gears = replace(EXAMPLE_1, helix_angle=0.0, centre_distance=None)
     path = path_of_contact(gear_pair(gears))
     inputs = LoadDistributionInputs(gears, Load(1.0, 100.0), model=UNIFORM)
     mesh = solve_load_distribution(inputs).stiffness.max * path.transverse_contact_ratio

@@ -4,9 +4,9 @@ Every check takes a generator, draws one case and raises AssertionError with the
 """
 
 from collections.abc import Callable
-from contextlib import ExitStack
-from dataclasses import replace
+from contextlib import AbstractContextManager
 from math import hypot
+from types import ModuleType
 from unittest.mock import patch
 
 import numpy as np
@@ -19,6 +19,7 @@ from solvers.coupling.model import solve
 from solvers.coupling.orbit import solve_orbit
 from solvers.coupling.results import CouplingResult
 from solvers.errors import SolverError
+from tests.support.changes import changed
 from tests.support.couplings import random_inputs
 
 
@@ -55,7 +56,7 @@ def numbers(result: CouplingResult) -> dict[str, tuple[float, float]]:
 def check_power_and_moments(random: Generator) -> None:
     """Friction power is what moment and thrust do; hub and sleeve books of moments close tooth by tooth."""
     inputs = random_inputs(random)
-    alone = replace(inputs, operation=replace(inputs.operation, arrangement="single"))
+    alone = changed(inputs, {"operation.arrangement": "single"})
     result, operation = solve(alone), inputs.operation
     losses = result.losses
     done = losses.friction_moment * abs(operation.speed * operation.misalignment)
@@ -74,12 +75,9 @@ def check_power_and_moments(random: Generator) -> None:
             assert abs(force @ lateral) < 1e-9 * force.sum(), inputs
 
 
-def finer() -> ExitStack:
-    """Every internal resolution of one operating point doubled."""
-    stack = ExitStack()
-    stack.enter_context(patch.object(kinematics, "_PITCH_NODES", 2 * kinematics._PITCH_NODES))
-    stack.enter_context(patch.object(kinematics, "_LEAST_ROTOR_POSITIONS", 2 * kinematics._LEAST_ROTOR_POSITIONS))
-    return stack
+def finer(module: ModuleType, factor: int, *names: str) -> AbstractContextManager[object]:
+    """Counts of a module multiplied: resolutions that no input sets."""
+    return patch.multiple(module, **{name: factor * getattr(module, name) for name in names})
 
 
 def check_resolution(random: Generator) -> None:
@@ -94,7 +92,7 @@ def check_resolution_of(inputs: CouplingInputs) -> None:
     may move by 1e-4 of that limit: 1 % of a thrust of a hundredth of the limit, below which it is an absolute error.
     """
     before = numbers(solve(inputs))
-    with finer():
+    with finer(kinematics, 2, "_PITCH_NODES", "_LEAST_ROTOR_POSITIONS"):
         after = numbers(solve(inputs))
     for name, (value, scale) in before.items():
         assert abs(after[name][0] - value) <= 0.01 * abs(value) + 1e-4 * scale, (name, value, after[name][0], inputs)
@@ -108,7 +106,7 @@ def check_orbit_resolution_of(inputs: CouplingInputs) -> None:
     """Twice the rotor angles move an orbit's summary by less than 1 %, or by what it states, or with a notice."""
     try:
         before = solve_orbit(inputs)
-        with patch.object(kinematics, "_LEAST_ROTOR_POSITIONS", 2 * kinematics._LEAST_ROTOR_POSITIONS):
+        with finer(kinematics, 2, "_LEAST_ROTOR_POSITIONS"):
             after = solve_orbit(inputs)
     except SolverError as refusal:
         if refusal.code not in {"sleeve_orbit", "torque_too_low"}:
@@ -129,9 +127,8 @@ def check_recommendation_resolution(random: Generator) -> None:
     low = abs(inputs.operation.misalignment)
     wanted = RecommendationInputs(inputs, low, low * random.uniform(1.0, 3.0))
     before = recommend(wanted)
-    with ExitStack() as stack:
-        for name in ("_SCAN_POINTS", "_WINDOW_POINTS"):
-            stack.enter_context(patch.object(crowning, name, 2 * getattr(crowning, name) - 1))
+    counts = {name: 2 * getattr(crowning, name) - 1 for name in ("_SCAN_POINTS", "_WINDOW_POINTS")}
+    with patch.multiple(crowning, **counts):
         after = recommend(wanted)
     assert before.feasible == after.feasible, inputs
     assert before.failed_constraint == after.failed_constraint, inputs
@@ -154,17 +151,12 @@ EDGE = ("lubrication.", "axial_thrust.", "losses.", "self_induced.")
 
 def varied(inputs: CouplingInputs, group: str, name: str, factor: float) -> CouplingInputs:
     """The inputs with one of them changed: by a factor, the pitch deviations too; the rotor angle by it in radians."""
+    value = getattr(getattr(inputs, group), name)
     if name == "pitch_errors":
-        errors = tuple(factor * error for error in inputs.coupling.pitch_errors or ())
-        return replace(inputs, coupling=replace(inputs.coupling, pitch_errors=errors))
-    part = getattr(inputs, group)
-    value = factor if name == "rotor_angle" else factor * getattr(part, name)
-    return replace(inputs, **{group: replace(part, **{name: value})})
-
-
-def on_the_tooth(inputs: CouplingInputs, result: CouplingResult) -> bool:
-    """Whether the contact stays on the tooth."""
-    return result.kinematics.max_contact_travel < inputs.coupling.face_width / 2.0
+        value = tuple(factor * error for error in value)
+    else:
+        value = factor if name == "rotor_angle" else factor * value
+    return changed(inputs, {f"{group}.{name}": value})
 
 
 def check_no_jump(random: Generator) -> None:
@@ -185,9 +177,10 @@ def check_no_jump(random: Generator) -> None:
         factors = factors[factors * inputs.coupling.pressure_angle < 0.78]
 
     def at(factor: float) -> tuple[dict[str, tuple[float, float]], bool]:
+        """Every number, and whether the contact stays on the tooth."""
         point = varied(inputs, group, name, factor)
         result = solve(point)
-        return numbers(result), on_the_tooth(point, result)
+        return numbers(result), result.kinematics.max_contact_travel < point.coupling.face_width / 2.0
 
     scan = [at(float(factor)) for factor in factors]
     for key in scan[0][0]:

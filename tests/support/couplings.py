@@ -1,11 +1,14 @@
-"""Pitch errors of the coupling of Pahl's figures, and random couplings of the kind users have."""
+"""Pitch errors of the coupling of Pahl's figures, floating sleeves, and random couplings of the kind users have."""
 
 from math import pi, radians
 
 import numpy as np
 from numpy.random import Generator
 
+from solvers.arrays import FloatArray
 from solvers.coupling.inputs import Coupling, CouplingInputs, Friction, Lubricant, ModelOptions, Operation
+from solvers.coupling.kinematics import flank_normals, mesh_motion, tooth_geometry, tooth_positions
+from solvers.coupling.tooth_loads import ToothLoads, floating_loads
 from solvers.published.pahl import TEETH
 
 
@@ -14,6 +17,18 @@ def random_pitch_errors(seed: int, rms: float = 2e-6) -> tuple[float, ...]:
     errors = np.random.default_rng(seed).normal(size=TEETH)
     errors -= errors.mean()
     return tuple(errors * rms / np.sqrt(np.mean(errors**2)))
+
+
+def floating(
+    inputs: CouplingInputs, angles: float | FloatArray, force: tuple[float, float] | FloatArray
+) -> tuple[ToothLoads, FloatArray]:
+    """Loads on a floating sleeve at rotor angles under external forces, and the teeth's lateral force (angles, 2)."""
+    coupling, angles = inputs.coupling, np.atleast_1d(angles)
+    mesh = mesh_motion(coupling, tooth_geometry(coupling), inputs.operation, inputs.model.kinematics)
+    teeth = tooth_positions(angles, coupling.teeth)
+    forces = np.array(np.broadcast_to(force, (angles.size, 2)))
+    loads = floating_loads(coupling, mesh, teeth, inputs.operation.torque, forces)
+    return loads, (loads.tangential_force[:, None] * flank_normals(mesh, teeth)).sum(axis=2)
 
 
 def spread(random: Generator, low: float, high: float) -> float:

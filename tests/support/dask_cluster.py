@@ -12,12 +12,7 @@ from distributed import Client
 
 from tests.support.server import ROOT, free_port
 
-ENVIRONMENT = {
-    **os.environ,
-    "OMP_NUM_THREADS": "1",
-    "OPENBLAS_NUM_THREADS": "1",
-    "NUMBA_NUM_THREADS": "1",
-}
+ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1"}
 START_S = 60.0
 
 
@@ -62,10 +57,7 @@ class DaskProcesses:
         """Until every worker is there."""
         end = time.monotonic() + START_S
         while True:
-            with (
-                suppress(OSError, TimeoutError),
-                Client(self.address, timeout=5, set_as_default=False) as client,
-            ):
+            with suppress(OSError, TimeoutError), Client(self.address, timeout=5, set_as_default=False) as client:
                 client.wait_for_workers(len(self.workers), timeout=START_S)
                 return
             if time.monotonic() > end:

@@ -1,9 +1,7 @@
 """The worked example of a turbo gear unit: 12 MW, 10,000 1/min, 39/130, with a gear coupling on its pinion."""
 
-from collections.abc import Mapping
 from dataclasses import replace
 from math import pi, radians
-from typing import Any
 
 from solvers.coupling.inputs import Coupling, Friction
 from solvers.drive_train.inputs import (
@@ -15,17 +13,13 @@ from solvers.drive_train.inputs import (
     ShaftSection,
     UnitCoupling,
 )
+from solvers.drive_train.states import solve
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 from solvers.pumping.inputs import PumpingSetup
-from solvers.scuffing.inputs import (
-    Load,
-    LoadDistributionInputs,
-    Modifications,
-    ScuffingInputs,
-    Temperatures,
-)
+from solvers.scuffing.inputs import Load, LoadDistributionInputs, Modifications, ScuffingInputs, Temperatures
+from tests.support.changes import changed
 
 SPEED = 10000 * pi / 30
 CELSIUS = 273.15
@@ -102,28 +96,13 @@ NO_EFFECTS = Effects(shafts=False, coupling=False, thermal=False)
 def cold(inputs: DriveTrainInputs) -> DriveTrainInputs:
     """Every tooth at its reference temperature, nothing pumped warm."""
     reference = inputs.heat.reference
-    return replace(inputs, heat=replace(inputs.heat, wall_response=0.0, pinion_bulk=reference, wheel_bulk=reference))
+    return changed(inputs, {"heat.wall_response": 0.0, "heat.pinion_bulk": reference, "heat.wheel_bulk": reference})
 
 
-def varied(inputs: DriveTrainInputs, values: Mapping[str, Any]) -> DriveTrainInputs:
-    """The inputs with other values at dotted names ("couplings.0.friction.coefficient")."""
-    for name, value in values.items():
-        inputs = _replaced(inputs, name.split("."), value)
-    return inputs
-
-
-def value_at(thing: Any, name: str) -> Any:
-    """The value at a dotted name."""
-    for step in name.split("."):
-        thing = thing[int(step)] if isinstance(thing, tuple) else getattr(thing, step)
-    return thing
-
-
-def _replaced(thing: Any, steps: list[str], value: Any) -> Any:
-    if not steps:
-        return value
-    below = _replaced(value_at(thing, steps[0]), steps[1:], value)
-    if isinstance(thing, tuple):
-        place = int(steps[0])
-        return (*thing[:place], below, *thing[place + 1 :])
-    return replace(thing, **{steps[0]: below})
+def running_axis(unit: DriveTrainInputs) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Place of the machine's hub and slope on the running axis of a pinion shaft without coupling."""
+    curves = solve(replace(unit, effects=Effects(coupling=False))).shafts[0].curves
+    reach = COUPLING.position - COUPLING.coupling.hub_distance - curves.z[0]
+    slope = [float((line[1] - line[0]) / (curves.z[1] - curves.z[0])) for line in (curves.x, curves.y)]
+    place = [float(line[0] + rise * reach) for line, rise in zip((curves.x, curves.y), slope, strict=True)]
+    return (place[0], place[1]), (slope[0], slope[1])

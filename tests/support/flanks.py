@@ -128,7 +128,6 @@ def check_books_of(inputs: LoadDistributionInputs) -> None:
     assert abs(power / result.friction_loss.power - 1.0) < 2 * tolerance, f"friction power {power}: {inputs}"
     shares = face_loads(balance, y)
     factor = shares.max() * plane.face_width / (balance.force * plane.cos_base_helix)
-    assert result.load.face_load_factor is not None
     assert factor <= result.load.face_load_factor * (1 + 1e-3), f"face load factor {factor}: {inputs}"
     peak = _loads_at_roll_positions(result, y[::8]).max()
     assert peak <= result.load.max_line_load * (1 + 5e-3), f"line load {peak}: {inputs}"

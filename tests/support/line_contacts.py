@@ -1,4 +1,4 @@
-"""Line contacts: point A of gear pair 1 of Xue, Zhang and Wang, the grid, and contacts drawn over the whole range."""
+"""Line contacts by their Hertzian pressure: a grid of them, and contacts drawn over the whole range."""
 
 from itertools import product
 from math import exp, log, pi
@@ -7,7 +7,6 @@ from random import Random
 from solvers.contact.ehl import Contact, LineContactInputs, Model
 from solvers.lubricants import Lubricant
 
-POINT = Contact(2.73e5, 4.015e-3, 1.0179, 3.7076)
 MODULUS = 226.37e9
 
 

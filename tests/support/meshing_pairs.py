@@ -39,10 +39,7 @@ def setups(draw: st.DrawFn, *, helix: bool = True) -> PumpingSetup:
     setup = PumpingSetup(gears, normal_backlash=module * draw(st.floats(0, 0.08)))
     try:
         apart = gear_pair(gears).backlash_free_centre_distance + module * draw(st.floats(0, 0.05))
-        meshed = PumpingSetup(
-            replace(gears, centre_distance=apart),
-            normal_backlash=setup.normal_backlash,
-        )
+        meshed = PumpingSetup(replace(gears, centre_distance=apart), normal_backlash=setup.normal_backlash)
         prepare(meshed)
     except InvalidInput:
         assume(False)

@@ -130,7 +130,6 @@ def check_path(inputs: ScuffingInputs, every: int = 1) -> Scuffing:
     result = solve_scuffing(inputs)
     path = result.path
     thermal = path.thermal
-    assert thermal is not None
     film, friction = thermal.minimum_film, thermal.friction_coefficient
     pinion, wheel = thermal.pinion_flash, thermal.wheel_flash
     for point, alone in points_alone(inputs, result, every).items():
@@ -138,8 +137,6 @@ def check_path(inputs: ScuffingInputs, every: int = 1) -> Scuffing:
             continue
         where = f"at psi {path.psi[point]:.4f}"
         assert path.status[point] != "no_solution", f"solved alone, not along the path, {where}; {inputs}"
-        assert alone.friction is not None
-        assert alone.temperature is not None
         pairs = (
             ("film", film[point], alone.film.minimum, 0.01, 0.0),
             ("friction", friction[point], alone.friction.coefficient, 0.01, 1e-6),

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis.strategies import SearchStrategy
 
 Test = Callable[[int], None]
@@ -19,7 +19,7 @@ def examples(
             "count", [pytest.param(few, id="few"), pytest.param(many, id="many", marks=pytest.mark.slow)]
         )
         def test(count: int) -> None:
-            settings(max_examples=count)(given(*drawn, **named)(holds))()
+            settings(max_examples=count, suppress_health_check=list(HealthCheck))(given(*drawn, **named)(holds))()
 
         test.__name__, test.__qualname__, test.__doc__ = holds.__name__, holds.__qualname__, holds.__doc__
         return test

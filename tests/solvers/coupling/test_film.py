@@ -1,6 +1,5 @@
 """Inlet factor and friction law against direct integration, limits and continuity."""
 
-from dataclasses import replace
 from math import exp, inf, radians
 
 import numpy as np
@@ -21,6 +20,7 @@ from solvers.coupling.lubrication import (
 )
 from solvers.coupling.model import solve
 from solvers.published.pahl import pahl_coupling
+from tests.support.changes import changed
 
 INLETS: tuple[InletModel, ...] = ("face", "travel", "infinite")
 LOWEST = 0.05  # of the default curve of mixed friction
@@ -43,11 +43,8 @@ def test_inlet_factor_equals_direct_integration(inlet: float) -> None:
     assert inlet_factor(inlet) * UNBOUNDED_LOAD == pytest.approx(integrated_load(inlet), rel=1e-6)
 
 
-def test_half_the_capacity_at_1_7016() -> None:
-    assert inlet_factor(1.7016) == pytest.approx(0.5, abs=1e-4)
-
-
 def test_inlet_factor_limits() -> None:
+    assert inlet_factor(1.7016) == pytest.approx(0.5, abs=1e-4)
     assert inlet_factor(0.0) == 0.0
     assert inlet_factor(inf) == 1.0
     assert inlet_factor(1e4) == pytest.approx(1.0, abs=1e-6)
@@ -60,17 +57,17 @@ def test_inlet_factor_rises_with_the_inlet(inlet: float, step: float) -> None:
     assert 0.0 <= inlet_factor(inlet) <= inlet_factor(inlet + step) + 1e-12 <= 1.0 + 1e-12
 
 
-@pytest.mark.parametrize("inlet", ["face", "travel", "infinite"])
+@pytest.mark.parametrize("inlet", INLETS)
 def test_inlet_models(inlet: InletModel) -> None:
-    film = solve(pahl_coupling(0.3, crowning_ratio=4.0, model=ModelOptions(inlet=inlet))).lubrication
-    result = solve(pahl_coupling(0.3, crowning_ratio=4.0))
-    travel, radius = result.kinematics.max_contact_travel, result.geometry.normal_flank_radius
-    length = {"face": 12e-3 - travel, "travel": travel, "infinite": None}[inlet]
-    expected = None if length is None else length / np.sqrt(2 * radius * 1e-6)
-    assert film.inlet_ratio == (None if expected is None else pytest.approx(expected, rel=1e-12))
-    given_length = ModelOptions(inlet=inlet, inlet_length=5e-3)
-    own = solve(pahl_coupling(0.3, crowning_ratio=4.0, model=given_length)).lubrication
-    assert own.inlet_ratio == pytest.approx(5e-3 / np.sqrt(2 * radius * 1e-6), rel=1e-12)
+    chosen, own = (
+        solve(pahl_coupling(0.3, crowning_ratio=4.0, model=ModelOptions(inlet=inlet, inlet_length=length)))
+        for length in (None, 5e-3)
+    )
+    travel, unit = own.kinematics.max_contact_travel, np.sqrt(2 * own.geometry.normal_flank_radius * 1e-6)
+    expected = {"face": pytest.approx((12e-3 - travel) / unit, rel=1e-12), "infinite": None}
+    expected["travel"] = pytest.approx(travel / unit, rel=1e-12)
+    assert chosen.lubrication.inlet_ratio == expected[inlet]
+    assert own.lubrication.inlet_ratio == pytest.approx(5e-3 / unit, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -91,11 +88,11 @@ def test_a_contact_that_has_left_the_tooth_has_no_film(
 
 def test_capacity_is_proportional_to_viscosity_and_inverse_to_the_film() -> None:
     base = pahl_coupling(0.2, model=ModelOptions(inlet="infinite"))
-    capacity = solve(base).lubrication.hydrodynamic_capacity
-    thick = replace(base, lubricant=replace(base.lubricant, viscosity=0.1))
-    thin = replace(base, lubricant=replace(base.lubricant, reference_film=0.5e-6))
-    assert solve(thick).lubrication.hydrodynamic_capacity == pytest.approx(4 * capacity, rel=1e-12)
-    assert solve(thin).lubrication.hydrodynamic_capacity == pytest.approx(2 * capacity, rel=1e-12)
+    plain, thick, thin = (
+        solve(changed(base, change)).lubrication.hydrodynamic_capacity
+        for change in ({}, {"lubricant.viscosity": 0.1}, {"lubricant.reference_film": 0.5e-6})
+    )
+    assert [thick, thin] == pytest.approx([4 * plain, 2 * plain], rel=1e-12)
 
 
 def test_film_at_the_reversal_uses_the_velocity_there() -> None:

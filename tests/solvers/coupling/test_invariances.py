@@ -1,6 +1,5 @@
 """What must not change the answer, and what must scale it."""
 
-from dataclasses import replace
 from math import pi, tan
 
 import numpy as np
@@ -11,6 +10,7 @@ from hypothesis import strategies as st
 from solvers.coupling.inputs import CouplingInputs, ModelOptions
 from solvers.coupling.model import solve
 from solvers.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
+from tests.support.changes import changed, value_at
 from tests.support.couplings import random_pitch_errors
 from tests.support.plain_coupling import PlainMesh, midpoints
 from tests.support.properties import examples
@@ -33,30 +33,26 @@ def couplings(draw: st.DrawFn) -> CouplingInputs:
     )
 
 
+def scaled(inputs: CouplingInputs, factor: float, *names: str) -> CouplingInputs:
+    return changed(inputs, {name: factor * value_at(inputs, name) for name in names})
+
+
 @examples(30, 300, couplings(), st.floats(0.2, 3.0))
 def test_torque_and_stiffness_scale_forces_and_nothing_else(inputs: CouplingInputs, factor: float) -> None:
-    scaled = replace(
-        inputs,
-        coupling=replace(inputs.coupling, tooth_stiffness=factor * inputs.coupling.tooth_stiffness),
-        operation=replace(inputs.operation, torque=factor * inputs.operation.torque),
-    )
-    before, after = solve(inputs), solve(scaled)
-    assert after.load_distribution.rotation == pytest.approx(before.load_distribution.rotation, rel=1e-9)
-    assert after.load_distribution.loaded_teeth == before.load_distribution.loaded_teeth
-    assert after.load_distribution.max_tangential_force == pytest.approx(
-        factor * before.load_distribution.max_tangential_force, rel=1e-7
-    )
-    assert after.axial_thrust.force == pytest.approx(
-        factor * before.axial_thrust.force, rel=1e-6, abs=1e-6 * after.axial_thrust.coaxial_limit
-    )
+    before, after = solve(inputs), solve(scaled(inputs, factor, "coupling.tooth_stiffness", "operation.torque"))
+    one, other = before.load_distribution, after.load_distribution
+    assert other.rotation == pytest.approx(one.rotation, rel=1e-9)
+    assert other.loaded_teeth == one.loaded_teeth
+    assert other.max_tangential_force == pytest.approx(factor * one.max_tangential_force, rel=1e-7)
+    thrust, small = after.axial_thrust, 1e-6 * after.axial_thrust.coaxial_limit
+    assert thrust.force == pytest.approx(factor * before.axial_thrust.force, rel=1e-6, abs=small)
     assert after.losses.friction_power == pytest.approx(factor * before.losses.friction_power, rel=1e-7)
 
 
 @examples(30, 300, couplings())
 def test_sign_of_misalignment_does_not_matter_to_magnitudes(inputs: CouplingInputs) -> None:
     # With pitch deviations the mirror image is the same coupling seen half a turn later: means over a revolution agree.
-    mirrored = replace(inputs, operation=replace(inputs.operation, misalignment=-inputs.operation.misalignment))
-    before, after = solve(inputs), solve(mirrored)
+    before, after = solve(inputs), solve(scaled(inputs, -1.0, "operation.misalignment"))
     assert after.lubrication.max_normal_force == pytest.approx(before.lubrication.max_normal_force, rel=1e-7)
     limit = before.axial_thrust.coaxial_limit
     assert after.axial_thrust.force == pytest.approx(before.axial_thrust.force, abs=1e-6 * limit)
@@ -66,11 +62,9 @@ def test_sign_of_misalignment_does_not_matter_to_magnitudes(inputs: CouplingInpu
 
 @examples(30, 300, couplings())
 def test_sense_of_rotation_does_not_matter_to_magnitudes(inputs: CouplingInputs) -> None:
-    reversed_speed = replace(inputs, operation=replace(inputs.operation, speed=-inputs.operation.speed))
-    before, after = solve(inputs), solve(reversed_speed)
-    assert after.lubrication.load_capacity_coefficient == pytest.approx(
-        before.lubrication.load_capacity_coefficient, rel=1e-7
-    )
+    before, after = solve(inputs), solve(scaled(inputs, -1.0, "operation.speed"))
+    capacity = before.lubrication.load_capacity_coefficient
+    assert after.lubrication.load_capacity_coefficient == pytest.approx(capacity, rel=1e-7)
     assert after.losses.hub_bending_moment == pytest.approx(before.losses.hub_bending_moment, rel=1e-9)
     limit = before.axial_thrust.coaxial_limit
     assert after.axial_thrust.force == pytest.approx(before.axial_thrust.force, abs=1e-6 * limit)
@@ -78,7 +72,7 @@ def test_sense_of_rotation_does_not_matter_to_magnitudes(inputs: CouplingInputs)
 
 @examples(30, 300, couplings())
 def test_thrust_moment_and_power_are_those_of_the_teeth_one_by_one(inputs: CouplingInputs) -> None:
-    centred = replace(inputs, model=replace(inputs.model, sleeve="centred"))
+    centred = changed(inputs, {"model.sleeve": "centred"})
     turns = 1 if inputs.coupling.pitch_errors is None else TEETH
     force, moment, power = PlainMesh(centred).friction(midpoints(400 * turns, 2 * pi * turns / TEETH), 0.2)
     result = solve(centred)
@@ -90,22 +84,19 @@ def test_thrust_moment_and_power_are_those_of_the_teeth_one_by_one(inputs: Coupl
 
 @examples(30, 300, couplings())
 def test_thrust_turns_with_the_axial_velocity(inputs: CouplingInputs) -> None:
-    turned = replace(inputs, operation=replace(inputs.operation, axial_velocity=-inputs.operation.axial_velocity))
-    limit = solve(inputs).axial_thrust.coaxial_limit
-    assert solve(turned).axial_thrust.force == pytest.approx(-solve(inputs).axial_thrust.force, abs=1e-6 * limit)
+    before, after = solve(inputs), solve(scaled(inputs, -1.0, "operation.axial_velocity"))
+    limit = before.axial_thrust.coaxial_limit
+    assert after.axial_thrust.force == pytest.approx(-before.axial_thrust.force, abs=1e-6 * limit)
 
 
 @examples(30, 300, couplings(), st.floats(-2e-5, 2e-5))
 def test_the_same_pitch_error_on_every_tooth_only_turns_the_hub(inputs: CouplingInputs, shift: float) -> None:
     errors = inputs.coupling.pitch_errors
     assume(errors is not None)
-    assert errors is not None
-    shifted = replace(inputs, coupling=replace(inputs.coupling, pitch_errors=tuple(p + shift for p in errors)))
-    before, after = solve(inputs), solve(shifted)
-    assert after.load_distribution.rotation == pytest.approx(before.load_distribution.rotation - shift, abs=1e-12)
-    assert after.load_distribution.curves.tangential_force == pytest.approx(
-        before.load_distribution.curves.tangential_force, abs=1e-4
-    )
+    shifted = changed(inputs, {"coupling.pitch_errors": tuple(error + shift for error in errors)})
+    before, after = solve(inputs).load_distribution, solve(shifted).load_distribution
+    assert after.rotation == pytest.approx(before.rotation - shift, abs=1e-12)
+    assert after.curves.tangential_force == pytest.approx(before.curves.tangential_force, abs=1e-4)
 
 
 @examples(30, 300, couplings(), st.floats(0.0, 6.0))
@@ -113,12 +104,8 @@ def test_moving_all_pitch_errors_by_one_tooth_is_turning_the_rotor(inputs: Coupl
     errors = inputs.coupling.pitch_errors
     assume(errors is not None)
     assert errors is not None
-    moved = replace(
-        inputs,
-        coupling=replace(inputs.coupling, pitch_errors=(errors[-1], *errors[:-1])),
-        model=replace(inputs.model, rotor_angle=angle),
-    )
-    turned = replace(inputs, model=replace(inputs.model, rotor_angle=angle + 2 * pi / TEETH))
+    moved = changed(inputs, {"coupling.pitch_errors": (errors[-1], *errors[:-1]), "model.rotor_angle": angle})
+    turned = changed(inputs, {"model.rotor_angle": angle + 2 * pi / TEETH})
     before, after = solve(turned).load_distribution, solve(moved).load_distribution
     assert after.curves.tangential_force[1:] == pytest.approx(before.curves.tangential_force[:-1], abs=1e-4)
     assert after.sleeve_displacement == pytest.approx(before.sleeve_displacement, abs=1e-12)
@@ -126,8 +113,8 @@ def test_moving_all_pitch_errors_by_one_tooth_is_turning_the_rotor(inputs: Coupl
 
 @examples(30, 300, couplings(), st.sampled_from([1, 2, 5]))
 def test_turning_by_a_pitch_changes_nothing_without_pitch_errors(inputs: CouplingInputs, pitches: int) -> None:
-    perfect = replace(inputs, coupling=replace(inputs.coupling, pitch_errors=None))
-    turned = replace(perfect, model=replace(perfect.model, rotor_angle=2 * pi * pitches / TEETH))
+    perfect = changed(inputs, {"coupling.pitch_errors": None})
+    turned = changed(perfect, {"model.rotor_angle": 2 * pi * pitches / TEETH})
     before, after = solve(perfect).load_distribution, solve(turned).load_distribution
     assert after.max_tangential_force == pytest.approx(before.max_tangential_force, rel=1e-9)
     assert after.rotation == pytest.approx(before.rotation, rel=1e-9)
@@ -136,25 +123,12 @@ def test_turning_by_a_pitch_changes_nothing_without_pitch_errors(inputs: Couplin
 @examples(30, 300, couplings(), st.floats(0.3, 3.0))
 def test_similar_couplings_behave_alike(inputs: CouplingInputs, scale: float) -> None:
     # All lengths x k, stiffness x k (E l), torque x k^3: the same strains and stresses, forces x k^2.
-    coupling = inputs.coupling
-    errors = coupling.pitch_errors
-    similar = replace(
-        inputs,
-        coupling=replace(
-            coupling,
-            module=scale * coupling.module,
-            face_width=scale * coupling.face_width,
-            tooth_height=scale * coupling.tooth_height,
-            hub_distance=scale * coupling.hub_distance,
-            tooth_stiffness=scale * coupling.tooth_stiffness,
-            pitch_errors=None if errors is None else tuple(scale * error for error in errors),
-        ),
-        operation=replace(
-            inputs.operation,
-            torque=scale**3 * inputs.operation.torque,
-            axial_velocity=scale * inputs.operation.axial_velocity,
-        ),
-    )
+    lengths = ("module", "face_width", "tooth_height", "hub_distance", "tooth_stiffness")
+    similar = scaled(inputs, scale, *(f"coupling.{name}" for name in lengths), "operation.axial_velocity")
+    similar = scaled(similar, scale**3, "operation.torque")
+    errors = inputs.coupling.pitch_errors
+    if errors is not None:
+        similar = changed(similar, {"coupling.pitch_errors": tuple(scale * error for error in errors)})
     before, after = solve(inputs), solve(similar)
     assert after.lubrication.hertz_pressure == pytest.approx(before.lubrication.hertz_pressure, rel=1e-7)
     assert after.lubrication.contact_overlap == pytest.approx(before.lubrication.contact_overlap, rel=1e-7)
@@ -178,17 +152,12 @@ def test_a_soft_ring_of_any_number_of_teeth_shares_by_closed_form(teeth: int, de
 @examples(15, 100, couplings())
 def test_contact_shift_moment_is_the_derivative_of_the_tooth_energy(inputs: CouplingInputs) -> None:
     # Virtual work: at constant torque the tilting moment is dU/d delta, with c_t u^2/2 summed and -T psi/r_o.
-    perfect = replace(inputs, coupling=replace(inputs.coupling, pitch_errors=None))
-    perfect = replace(perfect, model=replace(perfect.model, sleeve="centred", rotor_angle=0.0))
+    perfect = changed(inputs, {"coupling.pitch_errors": None, "model.sleeve": "centred", "model.rotor_angle": 0.0})
 
     def potential(factor: float) -> float:
         total = 0.0
-        for angle in ((k + 0.5) / 24 * 2 * pi / TEETH for k in range(24)):
-            at = replace(
-                perfect,
-                operation=replace(perfect.operation, misalignment=factor * perfect.operation.misalignment),
-                model=replace(perfect.model, rotor_angle=angle),
-            )
+        for angle in midpoints(24, 2 * pi / TEETH):
+            at = scaled(changed(perfect, {"model.rotor_angle": angle}), factor, "operation.misalignment")
             load = solve(at).load_distribution
             energy = (load.curves.tangential_force**2).sum() / (2 * at.coupling.tooth_stiffness)
             total += energy - at.operation.torque / PITCH_RADIUS * load.rotation

@@ -1,22 +1,18 @@
 """Friction power and moments under axial velocity: limits, closed forms, books."""
 
-from dataclasses import replace
-from math import asin, cos, hypot, pi, radians, sin, sqrt
+from math import asin, cos, hypot, pi, radians, sqrt
 
+import numpy as np
 import pytest
 
 from solvers.coupling.inputs import CouplingInputs, KinematicModel, ModelOptions
 from solvers.coupling.model import solve
-from solvers.coupling.results import CouplingResult
-from solvers.published.pahl import PITCH_RADIUS, pahl_coupling
+from solvers.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from tests.support.couplings import random_pitch_errors
+from tests.support.plain_coupling import PlainMesh, midpoints
 
 LIMIT = 0.2 * 3000.0 / (PITCH_RADIUS * cos(radians(20.0)))
 SOFT = 1e4  # tooth stiffness [N/m]: equal loads
-
-
-def indeterminate(result: CouplingResult) -> list[str]:
-    return [notice.message for notice in result.warnings if notice.code == "indeterminate_moment"]
 
 
 def test_axial_motion_faster_than_sliding_takes_all_friction() -> None:
@@ -31,8 +27,8 @@ def test_axial_motion_faster_than_sliding_takes_all_friction() -> None:
 @pytest.mark.parametrize("velocity", [0.5e-3, 1e-3, 2e-3, -2e-3])
 def test_friction_of_equal_loads_follows_its_closed_form(velocity: float) -> None:
     # M_f = (2/pi) mu T/cos(alpha) sqrt(1 - (v_ax/v_G)^2) and F_ax = F_max (2/pi) asin(v_ax/v_G) with many teeth.
-    inputs = pahl_coupling(0.01, axial_velocity=velocity, tooth_stiffness=SOFT, teeth=520, module=0.3e-3)
-    result = solve(replace(inputs, coupling=replace(inputs.coupling, tooth_height=0.06)))
+    many = {"tooth_stiffness": SOFT, "teeth": 520, "module": 0.3e-3, "tooth_height": 0.06}
+    result = solve(pahl_coupling(0.01, axial_velocity=velocity, **many))
     ratio = velocity / result.kinematics.max_sliding_velocity
     assert abs(ratio) < 1.0
     expected = 2.0 / pi * LIMIT * PITCH_RADIUS * sqrt(1.0 - ratio**2)
@@ -42,27 +38,24 @@ def test_friction_of_equal_loads_follows_its_closed_form(velocity: float) -> Non
 
 
 @pytest.mark.parametrize(
-    "inputs",
-    [pahl_coupling(0.0), pahl_coupling(0.3, speed=0.0), pahl_coupling(0.0, speed=0.0, arrangement="parallel_offset")],
-)
-def test_where_nothing_slides_the_moment_is_open_and_its_bound_is_stated(inputs: CouplingInputs) -> None:
-    result = solve(inputs)
-    assert result.losses.friction_power == result.losses.friction_moment == 0.0
-    (message,) = indeterminate(result)
-    assert "406.5 N m" in message
-
-
-@pytest.mark.parametrize(
-    "inputs",
+    ("inputs", "is_open"),
     [
-        pahl_coupling(0.1),
-        pahl_coupling(0.0, axial_velocity=1e-3),
-        pahl_coupling(0.0, torque=0.0),
-        pahl_coupling(0.0, friction=0.0),
+        (pahl_coupling(0.0), True),
+        (pahl_coupling(0.3, speed=0.0), True),
+        (pahl_coupling(0.0, speed=0.0, arrangement="parallel_offset"), True),
+        (pahl_coupling(0.1), False),
+        (pahl_coupling(0.0, axial_velocity=1e-3), False),
+        (pahl_coupling(0.0, torque=0.0), False),
+        (pahl_coupling(0.0, friction=0.0), False),
     ],
 )
-def test_the_open_moment_is_spoken_of_only_where_there_is_one(inputs: CouplingInputs) -> None:
-    assert not indeterminate(solve(inputs))
+def test_where_nothing_slides_the_moment_is_open_and_its_bound_is_stated(inputs: CouplingInputs, is_open: bool) -> None:
+    result = solve(inputs)
+    messages = [notice.message for notice in result.warnings if notice.code == "indeterminate_moment"]
+    assert len(messages) == is_open
+    if is_open:
+        assert result.losses.friction_power == result.losses.friction_moment == 0.0
+        assert "406.5 N m" in messages[0]
 
 
 @pytest.mark.parametrize("errors", [None, random_pitch_errors(4)])
@@ -78,18 +71,10 @@ def test_moments_of_the_hub_are_those_of_its_teeth(velocity: float, kinematics: 
     # Friction summed tooth by tooth over 400 rotor angles; the normal forces' part follows from the power balance
     # (T delta/2) and from virtual work (the contact shift moment, tested against the energy of the teeth).
     inputs = pahl_coupling(0.1, axial_velocity=velocity, model=ModelOptions(kinematics=kinematics))
-    rows, x, y = 400, 0.0, 0.0
-    losses = solve(inputs).losses
-    sliding = radians(0.1) * 200.0 * PITCH_RADIUS
-    for row in range(rows):
-        angle = (row + 0.5) / rows * 2.0 * pi / 52
-        turned = replace(inputs, model=replace(inputs.model, rotor_angle=angle))
-        curves = solve(turned).load_distribution.curves
-        for phi, force in zip(curves.angle, curves.tangential_force, strict=True):
-            speed = velocity + sliding * sin(phi)
-            friction = 0.2 * force / cos(radians(20.0)) * (1.0 if speed > 0.0 else -1.0)
-            x += PITCH_RADIUS * friction * sin(phi) / rows
-            y -= PITCH_RADIUS * friction * cos(phi) / rows
+    losses, mesh, rows = solve(inputs).losses, PlainMesh(inputs), 400
+    phi = mesh.angles(midpoints(rows, 2.0 * pi / TEETH))
+    arm = PITCH_RADIUS * 0.2 * mesh.forces(phi) / cos(radians(20.0)) * np.sign(velocity + mesh.sliding(phi)) / rows
+    x, y = (arm * np.sin(phi)).sum(), -(arm * np.cos(phi)).sum()
     about_pivot = x - 3000.0 * radians(0.1) / 2.0
     # Without the pivoting motion friction's moment about the tilt axis does no work: `tangential` leaves it out.
     about_tilt = losses.contact_shift_moment + (y if kinematics == "spatial" else 0.0)

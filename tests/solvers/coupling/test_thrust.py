@@ -1,6 +1,5 @@
 """Thrust and sleeve equilibrium against limits, an independent solution of the six equations and plain averaging."""
 
-from dataclasses import replace
 from math import cos, pi, radians, sin, tan
 
 import numpy as np
@@ -12,9 +11,11 @@ from scipy.optimize import root
 from solvers.coupling.inputs import Arrangement, CouplingInputs, KinematicModel, ModelOptions, OperatingPoint
 from solvers.coupling.kinematics import rotor_samples, tooth_geometry
 from solvers.coupling.model import solve
+from solvers.coupling.results import SelfInducedThrust
 from solvers.coupling.sleeve import sleeve_equilibrium, two_meshes
 from solvers.errors import NoSolution
 from solvers.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
+from tests.support.changes import changed
 from tests.support.couplings import random_pitch_errors
 from tests.support.plain_coupling import PlainMesh, midpoints
 
@@ -119,27 +120,28 @@ def test_mean_over_a_revolution_is_as_good_with_few_and_with_many_teeth(teeth: i
 
 def test_mean_of_two_meshes_agrees_with_many_midpoints() -> None:
     inputs = pahl_coupling(0.06, axial_velocity=2e-3, arrangement="parallel_offset")
-    angles = (np.arange(400) + 0.5) / 400 * 2 * pi / TEETH
+    angles = midpoints(400, 2 * pi / TEETH)
     mean = float(np.mean([six_equations(inputs, 0.2, 2e-3, angle)[0] for angle in angles]))
     assert solve(inputs).axial_thrust.force == pytest.approx(mean, abs=2 * 0.2 * 1000.0 / 400)
+
+
+def induced_thrust(inputs: CouplingInputs) -> SelfInducedThrust | None:
+    return solve(inputs).axial_thrust.self_induced
 
 
 def test_self_induced_thrust_of_equal_loads() -> None:
     for friction in (0.05, 0.2):
         # Higher orders in mu are below mu^2 (r_o/l_H)^2: 1 % at 0.2.
-        induced = solve(pahl_coupling(1e-3, friction=friction, arrangement="parallel_offset")).axial_thrust.self_induced
+        induced = induced_thrust(pahl_coupling(1e-3, friction=friction, arrangement="parallel_offset"))
         expected = 16 / pi**2 * friction**2 * 3000 * tan(ALPHA) / 0.2
-        assert induced is not None
         assert induced.uniform_load_force == pytest.approx(expected, rel=1e-12)
         assert induced.force == pytest.approx(expected, rel=2e-3)
 
 
 def test_self_induced_thrust_of_concentrated_loads_tends_to_sin_alpha() -> None:
     # kappa -> sin(alpha) and M_2 -> 2 mu T/cos(alpha) with the load in the tilt zones; soft in misalignment, so 2 %.
-    inputs = pahl_coupling(2.0, arrangement="parallel_offset", friction=0.05, teeth=520, module=0.3e-3)
-    inputs = replace(inputs, coupling=replace(inputs.coupling, tooth_height=6e-2))
-    induced = solve(inputs).axial_thrust.self_induced
-    assert induced is not None
+    many = {"teeth": 520, "module": 0.3e-3, "tooth_height": 6e-2}
+    induced = induced_thrust(pahl_coupling(2.0, arrangement="parallel_offset", friction=0.05, **many))
     assert induced.force == pytest.approx(sin(ALPHA) * 2 * 0.05**2 * 3000 / cos(ALPHA) / 0.2, rel=2e-2)
     assert induced.overturning_moment == pytest.approx(2 * 0.05 * 3000 / cos(ALPHA), rel=2e-2)
 
@@ -148,12 +150,10 @@ def test_closed_forms_of_the_angular_arrangement_are_zero() -> None:
     # One tooth pair a mesh, or equal loads: friction's moments are opposite in both meshes.
     for model in ("tangential", "spatial"):
         options = ModelOptions(kinematics=model)
-        induced = solve(pahl_coupling(0.3, arrangement="angular", model=options)).axial_thrust.self_induced
-        assert induced is not None
+        induced = induced_thrust(pahl_coupling(0.3, arrangement="angular", model=options))
         assert induced.simple_model_force == induced.uniform_load_force == 0.0
         # The full model agrees in the limit of equal loads.
-        limit = solve(pahl_coupling(1e-3, arrangement="angular", model=options)).axial_thrust.self_induced
-        assert limit is not None
+        limit = induced_thrust(pahl_coupling(1e-3, arrangement="angular", model=options))
         assert limit.force == pytest.approx(0.0, abs=1e-2)
         assert limit.overturning_moment == pytest.approx(0.0, abs=1e-2)
 
@@ -161,13 +161,11 @@ def test_closed_forms_of_the_angular_arrangement_are_zero() -> None:
 @pytest.mark.parametrize("factor", [0.0, 0.25])
 def test_one_pair_model_is_proportional_to_its_factor(factor: float) -> None:
     base, scaled = (
-        solve(
+        induced_thrust(
             pahl_coupling(0.1, arrangement="parallel_offset", model=ModelOptions(simple_thrust_factor=share))
-        ).axial_thrust.self_induced
+        )
         for share in (1.0, factor)
     )
-    assert base is not None
-    assert scaled is not None
     assert scaled.simple_model_force == pytest.approx(factor * base.simple_model_force, rel=1e-12)
     assert scaled.force == base.force
 
@@ -179,11 +177,7 @@ def test_coaxial_shafts_that_separate_are_pulled_with_the_whole_limit() -> None:
             assert result.force == pytest.approx(sign * result.coaxial_limit, rel=1e-9)
 
 
-@given(
-    misalignment=st.floats(1e-3, 2.0),
-    velocity=st.floats(-5e-3, 5e-3),
-    torque=st.floats(100.0, 5000.0),
-)
+@given(misalignment=st.floats(1e-3, 2.0), velocity=st.floats(-5e-3, 5e-3), torque=st.floats(100.0, 5000.0))
 def test_closed_form_bounds_the_thrust_of_a_centred_sleeve(misalignment: float, velocity: float, torque: float) -> None:
     result = solve(pahl_coupling(misalignment, torque=torque, axial_velocity=velocity)).axial_thrust
     # A pitch of 7 degrees: the mean over 52 teeth differs from the integral by less than 1e-3 of the limit.
@@ -229,14 +223,14 @@ def test_the_bearing_is_designed_for_the_larger_of_thrust_and_breakaway(
     arrangement: Arrangement, velocity: float, static: float | None, expected: float
 ) -> None:
     inputs = pahl_coupling(0.1, axial_velocity=velocity, arrangement=arrangement)
-    result = solve(replace(inputs, friction=replace(inputs.friction, static_coefficient=static))).axial_thrust
+    result = solve(changed(inputs, {"friction.static_coefficient": static})).axial_thrust
     assert result.design_force == pytest.approx(expected, abs=0.1)
 
 
 def test_customary_thrust_needs_a_shaft() -> None:
     inputs = pahl_coupling(0.1)
     assert solve(inputs).axial_thrust.customary_force is None
-    shaft = replace(inputs, operation=replace(inputs.operation, shaft_diameter=0.1))
+    shaft = changed(inputs, {"operation.shaft_diameter": 0.1})
     assert solve(shaft).axial_thrust.customary_force == 7500.0  # 0.25 x 3000 N m/0.1 m
 
 

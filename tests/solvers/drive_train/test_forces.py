@@ -62,7 +62,6 @@ def sums(inputs: DriveTrainInputs, found: DriveTrainResult, index: int) -> tuple
     couple -= result.thrust.mesh * arm
     couple += np.array([coupling.moment[1], -coupling.moment[0]])
     if inputs.collar_radius is not None:
-        assert result.thrust.collar is not None
         touching = inputs.collar_radius - (0.0 if index == 0 else path.pair.centre_distance)
         couple -= result.thrust.collar * touching * radial
     for bearing, given in zip(result.bearings, shaft.bearings, strict=True):
@@ -90,7 +89,6 @@ def test_collar_coupling_and_mesh_hold_each_other_along_the_pinion(fraction: flo
     pinion, wheel = (shaft.thrust for shaft in found.shafts)
     thrust = fraction * found.couplings[0].thrust_limit
     assert found.couplings[0].thrust == pytest.approx(thrust, rel=1e-12)
-    assert pinion.collar is not None
     assert pinion.collar + thrust + pinion.mesh == pytest.approx(0.0, abs=1e-9 * pinion.mesh)
     assert wheel.collar == pytest.approx(-pinion.collar, rel=1e-12)
     assert found.couplings[1].thrust == pytest.approx(-0.5 * found.couplings[1].thrust_limit, rel=1e-12)

@@ -29,8 +29,6 @@ def test_a_point_too_light_to_matter_keeps_the_verdict() -> None:
     inputs = replace(relieved_pair(200), film=COARSE)
     alone, heat = solve_scuffing(inputs), heat_of(inputs)
     assert heat.unsolved_points > 0
-    assert heat.safety is not None
-    assert alone.safety is not None
     assert heat.safety.thermal_ehl_feature == pytest.approx(alone.safety.thermal_ehl_factor, rel=1e-3)
     assert heat.safety.thermal_ehl_profile is not None
 
@@ -41,7 +39,6 @@ def test_points_that_may_decide_take_it() -> None:
     inputs = replace(inputs, lubricant=replace(inputs.lubricant, viscosity=80.0), film=COARSE)
     heat = heat_of(inputs)
     assert heat.unsolved_points > 0
-    assert heat.safety is not None
     assert (heat.safety.thermal_ehl_feature, heat.safety.thermal_ehl_profile) == (None, None)
     assert heat.safety.blok_flank is not None
 
@@ -54,6 +51,5 @@ def test_a_load_that_reaches_a_base_circle_leaves_no_safety(lubrication: str) ->
     )
     heat = heat_of(inputs)
     assert (heat.flash.feature, heat.flash.flank, heat.flash.flank_at) == (None, None, None)
-    assert heat.safety is not None
     assert (heat.safety.blok_feature, heat.safety.blok_flank, heat.safety.minimum) == (None, None, None)
     assert heat.safety.thermal_ehl_feature is None

@@ -10,20 +10,16 @@ import pytest
 from solvers.drive_train.gap.balance import uniform_force
 from solvers.drive_train.inputs import DriveTrainInputs, Effects, RigidBearing
 from solvers.drive_train.model import prepare, settle
-from solvers.drive_train.outcome import Outcome, outcome, outcome_of
+from solvers.drive_train.outcome import outcome, outcome_of
 from solvers.drive_train.states import solve
 from solvers.drive_train.uncertainty import uncertain_inputs
 from solvers.scuffing.inputs import LeadCurve, Resolution
 from solvers.scuffing.safety import safety_factor
-from tests.support.drive_trains import COUPLING, GROUND, turbo_gear, value_at, varied
+from tests.support.changes import changed, value_at
+from tests.support.drive_trains import COUPLING, GROUND, turbo_gear
 
 SHAPE = "mesh.distribution.modifications"
 STEP = 1e-3  # of a tolerance
-
-
-def coarse(inputs: DriveTrainInputs) -> DriveTrainInputs:
-    resolution = Resolution(roll_positions=48, slices=40, profile_points=61, face_points=61, feature_points=5)
-    return varied(inputs, {"mesh.distribution.resolution": resolution})
 
 
 class Derivative(NamedTuple):
@@ -40,27 +36,21 @@ def derivative(inputs: DriveTrainInputs, name: str, tolerance: float) -> Derivat
     There they are free of the jumps of a maximum between points of the face; `kink` compares those of the free maxima.
     """
     base = outcome(inputs)
-    value = float(value_at(inputs, name))
-    units = [varied(inputs, {name: value + sign * STEP * tolerance}) for sign in (1.0, -1.0)]
-    sides = [outcome(unit, base.gap) for unit in units]
     place = int(np.argmax(base.shares))
-    factors = [float(side.shares[place]) for side in sides]
-    safeties = [safety_at(unit, side, base) for unit, side in zip(units, sides, strict=True)]
-    up, down = (abs(float(side.shares.max() - base.shares.max())) for side in sides)
+    hottest = np.unravel_index(int(np.argmax(base.temperature)), base.temperature.shape)
+    factors, safeties, moves = [], [], []
+    for sign in (1.0, -1.0):
+        unit = changed(inputs, {name: float(value_at(inputs, name)) + sign * STEP * tolerance})
+        side = outcome(unit, base.gap)
+        factors.append(float(side.shares[place]))
+        safety = safety_factor(side.limit, unit.mesh.temperatures.oil, float(side.temperature[hottest]))
+        safeties.append(safety or 0.0)
+        moves.append(abs(float(side.shares.max() - base.shares.max())))
     return Derivative(
         (factors[0] - factors[1]) / (2 * STEP),
         (safeties[0] - safeties[1]) / (2 * STEP),
-        abs(up - down) > 0.1 * max(up, down) + 1e-8,
+        abs(moves[0] - moves[1]) > 0.1 * max(moves) + 1e-8,
     )
-
-
-def safety_at(inputs: DriveTrainInputs, side: Outcome, base: Outcome) -> float:
-    """Safety by the contact temperature where the unchanged unit is hottest."""
-    assert side.limit is not None
-    place = np.unravel_index(int(np.argmax(base.temperature)), base.temperature.shape)
-    found = safety_factor(side.limit, inputs.mesh.temperatures.oil, float(side.temperature[place]))
-    assert found is not None
-    return found
 
 
 # input, tolerance, change of K_Hb and of the safety over the flank
@@ -103,13 +93,14 @@ def test_an_edge_maximum_is_smooth() -> None:
     name = "couplings.0.friction.coefficient"
     slopes = [derivative(turbo_gear(), name, change).face_load_factor / change for change in (1.0, 1e-2, 1e-4)]
     assert slopes == pytest.approx([slopes[0]] * 3, rel=1e-4)
-    factors = [outcome(varied(turbo_gear(), {name: 0.15 + step})).face_load_factor or 0.0 for step in (1e-4, -1e-4)]
+    factors = [outcome(changed(turbo_gear(), {name: 0.15 + step})).face_load_factor or 0.0 for step in (1e-4, -1e-4)]
     assert slopes[0] == pytest.approx((factors[0] - factors[1]) / 2e-4, rel=1e-3)
 
 
 def test_gap_at_a_station_moves_the_load_as_the_derivative_says() -> None:
     """Change of the load at the end of the face, over its mean, by a gap at one of eleven stations."""
-    inputs = replace(coarse(turbo_gear()), face_stations=11)
+    resolution = Resolution(roll_positions=48, slices=40, profile_points=61, face_points=61, feature_points=5)
+    inputs = changed(turbo_gear(), {"face_stations": 11, "mesh.distribution.resolution": resolution})
     prepared = prepare(inputs)
     found = settle(inputs, prepared)
     assert int(np.argmax(outcome_of(inputs, prepared, found).shares)) == 60
@@ -117,8 +108,8 @@ def test_gap_at_a_station_moves_the_load_as_the_derivative_says() -> None:
     step, place = 1e-8, 4
     position = tuple(float(y) for y in prepared.unit.stations)
     hat = tuple(step * (k == place) for k in range(11))
-    changed = varied(inputs, {f"{SHAPE}.lead_curve": LeadCurve(position, hat)})
-    forces = [solve(unit).misalignment.curves.line_force for unit in (inputs, changed)]
+    lifted = changed(inputs, {f"{SHAPE}.lead_curve": LeadCurve(position, hat)})
+    forces = [solve(unit).misalignment.curves.line_force for unit in (inputs, lifted)]
     share = [force[-1] / np.trapezoid(force, dx=0.1) for force in forces]
     assert (share[1] - share[0]) / step == pytest.approx(by_gap[place], rel=1e-4)
     assert by_gap.sum() == pytest.approx(0.0, abs=1e-9 * np.abs(by_gap).max())
@@ -141,11 +132,9 @@ def test_uncertain_inputs() -> None:
 def test_uncertain_inputs_leave_out_what_moves_nothing() -> None:
     inputs = turbo_gear()
     assert uncertain_inputs(replace(inputs, effects=Effects(False, False, False))) == ()
-    aligned = replace(inputs, couplings=(replace(COUPLING, offset=(0.0, 0.0)),))
+    aligned = changed(inputs, {"couplings.0.offset": (0.0, 0.0)})
     assert not [name for one in uncertain_inputs(aligned) for name in one.names if "offset" in name]
-    rigid = replace(
-        inputs, pinion_shaft=replace(inputs.pinion_shaft, bearings=(RigidBearing(0.22), RigidBearing(0.62)))
-    )
+    rigid = changed(inputs, {"pinion_shaft.bearings": (RigidBearing(0.22), RigidBearing(0.62))})
     assert not [name for one in uncertain_inputs(rigid) for name in one.names if name.startswith("pinion_shaft")]
 
 

@@ -14,9 +14,9 @@ from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair, path_of_contact, reduced_radius
 from solvers.materials import Solid
-from solvers.published.xue import PAPER_MODIFICATIONS, paper_gears, paper_pair
+from solvers.published.xue import PAPER_LOAD, PAPER_MODIFICATIONS, paper_gears, paper_pair
 from solvers.scuffing.contact_slices import gather, slice_table
-from solvers.scuffing.inputs import LeadCurve, Model, Modifications, Resolution
+from solvers.scuffing.inputs import LeadCurve, LoadDistributionInputs, Model, Modifications, Resolution
 from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.modification import gap, gaps_at, lead_table, misalignment_slope
 from solvers.scuffing.tooth_stiffness import (
@@ -29,7 +29,6 @@ from solvers.scuffing.tooth_stiffness import (
     single_stiffness,
     tooth_shape,
 )
-from tests.support.loaded_gears import solve_gears
 
 STEEL = Solid()
 
@@ -352,4 +351,4 @@ def test_lead_curves_without_sense_are_refused(position: tuple[float, ...], amou
 def test_equal_gears_are_stiffest_at_the_pitch_point_without_rounding() -> None:
     """The profile parameter was 2e-16 there, which a figure stated as the place."""
     gears = GearPairInputs(GearTeeth(31), GearTeeth(31), 4e-3, 60e-3, helix_angle=radians(30))
-    assert solve_gears(gears).stiffness.max_at_gamma == 0.0
+    assert solve_load_distribution(LoadDistributionInputs(gears, PAPER_LOAD)).stiffness.max_at_gamma == 0.0

@@ -8,42 +8,34 @@ import pytest
 from solvers.contact.ehl import LineContactInputs, LineContactResult, Model, Temperatures, continuation
 from solvers.contact.ehl.model import solve
 from solvers.contact.ehl.shear import STRESS_LIMIT
-from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
-from tests.support.line_contacts import POINT, at_pressure, grid_contacts, random_contacts
+from solvers.published.xue import POINT_A
+from tests.support.line_contacts import at_pressure, grid_contacts, random_contacts
+from tests.support.outcomes import assert_finite, codes, refused
 
-EYRING_STRESS = Model().eyring_stress
+EYRING = Model()
 
 
-def check_solution(result: LineContactResult, thermal: bool, guarded: bool = True) -> None:
-    """All criteria of a converged result, and nothing that is not a number; `guarded` is Ree-Eyring's stress alone."""
-    convergence = result.convergence
-    assert convergence.pressure_change is not None
+def check_solution(result: LineContactResult, model: Model = EYRING) -> None:
+    """All criteria of a converged result, and nothing that is not a number."""
+    curves, convergence = result.curves, result.convergence
     assert convergence.pressure_change < 1e-5
     assert convergence.load_error < 1e-9
-    assert result.curves is not None
-    assert result.friction is not None
-    broken = result.curves.fluid_fraction < 1.0
-    assert np.all(result.curves.pressure >= 0.0)
-    assert np.all(result.curves.pressure[broken] == 0.0)
+    broken = curves.fluid_fraction < 1.0
+    assert np.all(curves.pressure >= 0.0)
+    assert np.all(curves.pressure[broken] == 0.0)
     assert np.all(np.diff(broken.astype(int)) >= 0)  # the film breaks once, behind the centre
-    assert np.all(result.curves.film > 0.0)
-    assert np.all((result.curves.fluid_fraction > 0.0) & (result.curves.fluid_fraction <= 1.0))
-    assert np.isfinite(result.friction.coefficient)
-    if guarded:
-        assert result.friction.max_pressure_stress < 2.0 * STRESS_LIMIT * EYRING_STRESS  # no guard acted
-    assert not result.curves.pressure.flags.writeable
-    if not thermal:
-        assert result.heat is None
-        assert result.temperature is None
-        return
-    assert convergence.temperature_change is not None
-    assert convergence.temperature_change < 0.01
-    assert result.heat is not None
-    assert result.heat.balance_error < 1e-4
-    assert result.field is not None
-    assert np.all(np.isfinite(result.field.temperature))
+    assert np.all(curves.film > 0.0)
+    assert np.all((curves.fluid_fraction > 0.0) & (curves.fluid_fraction <= 1.0))
+    if model.rheology == "ree_eyring":
+        assert result.friction.max_pressure_stress < 2.0 * STRESS_LIMIT * model.eyring_stress  # no guard acted
+    assert_finite(result)
+    if model.thermal:
+        assert convergence.temperature_change < 0.01
+        assert result.heat.balance_error < 1e-4
+    else:
+        assert result.heat is result.temperature is None
 
 
 def check_all(contacts: list[LineContactInputs]) -> int:
@@ -52,11 +44,10 @@ def check_all(contacts: list[LineContactInputs]) -> int:
     for inputs in contacts:
         result = solve(inputs)
         if result.status == "no_solution":
-            assert result.friction is None
-            assert result.film.minimum is None
+            assert result.friction is result.film.minimum is None
             assert result.convergence.stage in {"isothermal", "coupling", "heat_balance"}
             continue
-        check_solution(result, thermal=inputs.model.thermal, guarded=inputs.model.rheology == "ree_eyring")
+        check_solution(result, inputs.model)
         solved += 1
     return solved
 
@@ -66,13 +57,8 @@ def test_every_eyring_contact_is_solved() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [1])
-def test_every_one_of_500_eyring_contacts_is_solved(seed: int) -> None:
-    assert check_all(random_contacts(Model(), 500, seed)) == 500
-
-
-@pytest.mark.slow
-def test_every_eyring_contact_of_the_grid_is_solved() -> None:
+def test_every_one_of_500_eyring_contacts_and_of_the_grid_is_solved() -> None:
+    assert check_all(random_contacts(Model(), 500, seed=1)) == 500
     assert check_all(grid_contacts(Model())) == 200
 
 
@@ -93,10 +79,10 @@ def test_newtonian_contacts_of_the_grid_and_at_random() -> None:
 @pytest.mark.parametrize(("speed", "viscosity"), [(0.3, 0.008), (15.0, 0.08)])
 @pytest.mark.parametrize("radius", [4e-3, 20e-3])
 def test_isothermal_contacts(rheology: str, pressure: float, speed: float, viscosity: float, radius: float) -> None:
-    model = Model(thermal=False) if rheology == "ree_eyring" else Model(thermal=False, rheology="newtonian")
+    model = replace(Model(thermal=False), rheology=rheology)
     result = solve(at_pressure(pressure, 0.5, speed, viscosity, radius, model))
     assert result.status != "no_solution"
-    check_solution(result, thermal=False, guarded=rheology == "ree_eyring")
+    check_solution(result, model)
 
 
 def test_a_spike_without_a_limit_is_said_not_to_converge() -> None:
@@ -109,12 +95,9 @@ def test_a_spike_without_a_limit_is_said_not_to_converge() -> None:
     inputs = at_pressure(1e9, 0.5, 15.0, 0.08, 4e-3, model)
     result, coarse = solve(inputs), solve(replace(inputs, model=replace(model, nodes=241, refine_mesh=False)))
     assert result.convergence.nodes == 481
-    assert result.mesh_error is not None
-    assert coarse.friction is not None
-    assert result.friction is not None
     moved = abs(coarse.friction.coefficient / result.friction.coefficient - 1.0)
     assert result.mesh_error.friction == pytest.approx(moved, rel=0.02)
-    assert "mesh_error" in {warning.code for warning in result.warnings}
+    assert "mesh_error" in codes(result)
     assert result.film.minimum == pytest.approx(coarse.film.minimum, rel=0.005)
 
 
@@ -122,7 +105,7 @@ def test_a_spike_without_a_limit_is_said_not_to_converge() -> None:
 def test_film_thickness_converges_with_second_order(thermal: bool) -> None:
     """Intervals 90, 180, 360 of one grading."""
     films = [
-        solve(LineContactInputs(POINT, model=Model(thermal=thermal, nodes=n, refine_mesh=False))).film
+        solve(LineContactInputs(POINT_A, model=Model(thermal=thermal, nodes=n, refine_mesh=False))).film
         for n in (91, 181, 361)
     ]
     for values in ([f.central for f in films], [f.minimum for f in films]):
@@ -132,19 +115,13 @@ def test_film_thickness_converges_with_second_order(thermal: bool) -> None:
 
 @pytest.mark.parametrize("rheology", ["ree_eyring", "newtonian"])
 def test_exchanged_surfaces_exchange_the_results(rheology: str) -> None:
-    model = Model() if rheology == "ree_eyring" else Model(rheology="newtonian")
-    mirror = replace(POINT, speed_1=POINT.speed_2, speed_2=POINT.speed_1)
-    one, other = (solve(LineContactInputs(c, model=model)) for c in (POINT, mirror))
+    model = replace(Model(), rheology=rheology)
+    mirror = replace(POINT_A, speed_1=POINT_A.speed_2, speed_2=POINT_A.speed_1)
+    one, other = (solve(LineContactInputs(c, model=model)) for c in (POINT_A, mirror))
     assert one.film.minimum == pytest.approx(other.film.minimum, rel=1e-5)
-    assert one.friction is not None
-    assert other.friction is not None
     assert one.friction.coefficient == pytest.approx(other.friction.coefficient, rel=1e-5)
     assert one.friction.coefficient_1 == pytest.approx(other.friction.coefficient_2, rel=1e-5)
-    assert one.field is not None
-    assert other.field is not None
     assert np.abs(one.field.temperature - other.field.temperature[:, ::-1]).max() < 0.01
-    assert one.heat is not None
-    assert other.heat is not None
     assert one.heat.to_surface_1 == pytest.approx(other.heat.to_surface_2, rel=1e-5)
 
 
@@ -156,13 +133,10 @@ def test_perfect_conductors_make_it_isothermal(rheology: str, nodes: int, load: 
     """
     metal = Solid(thermal_conductivity=1e12)
     model = replace(Model(nodes=nodes), rheology=rheology)
-    at = replace(POINT, line_load=load)
+    at = replace(POINT_A, line_load=load)
     inputs = LineContactInputs(at, metal, metal, Lubricant(thermal_conductivity=1e7), model=model)
     cold = solve(inputs)
     isothermal = solve(replace(inputs, model=replace(model, thermal=False)))
-    assert cold.temperature is not None
-    assert cold.friction is not None
-    assert isothermal.friction is not None
     assert cold.temperature.film_max == pytest.approx(360.0, abs=0.01)
     assert cold.film.minimum == pytest.approx(isothermal.film.minimum, rel=0.004)
     assert cold.film.central == pytest.approx(isothermal.film.central, rel=0.004)
@@ -172,21 +146,21 @@ def test_perfect_conductors_make_it_isothermal(rheology: str, nodes: int, load: 
 def test_warmer_surroundings_shift_a_film_without_viscosity_change() -> None:
     """All temperatures and the reference up by 20 K, Barus: the same contact, 20 K warmer."""
     oil = Lubricant(pressure_viscosity_law="barus", pressure_viscosity=12e-9, compressible=False)
-    warm = Lubricant(
-        pressure_viscosity_law="barus", pressure_viscosity=12e-9, compressible=False, reference_temperature=380.0
+    one, other = (
+        solve(
+            LineContactInputs(
+                POINT_A, lubricant=replace(oil, reference_temperature=t), temperatures=Temperatures(t, t, t)
+            )
+        )
+        for t in (360.0, 380.0)
     )
-    one = solve(LineContactInputs(POINT, lubricant=oil))
-    other = solve(LineContactInputs(POINT, lubricant=warm, temperatures=Temperatures(380.0, 380.0, 380.0)))
-    assert one.temperature is not None
-    assert other.temperature is not None
     assert other.temperature.film_max - one.temperature.film_max == pytest.approx(20.0, abs=0.01)
     assert other.film.minimum == pytest.approx(one.film.minimum, rel=1e-5)
 
 
 def test_equal_speeds_are_a_regular_point() -> None:
-    result = solve(LineContactInputs(replace(POINT, speed_1=2.0, speed_2=2.0)))
-    check_solution(result, thermal=True)
-    assert result.friction is not None
+    result = solve(LineContactInputs(replace(POINT_A, speed_1=2.0, speed_2=2.0)))
+    check_solution(result)
     assert result.friction.power == 0.0
 
 
@@ -209,40 +183,37 @@ REFUSED = [
 
 @pytest.mark.parametrize(("code", "contact", "oil", "model"), REFUSED)
 def test_refused(code: str, contact: dict[str, float], oil: dict[str, float], model: dict[str, bool]) -> None:
-    inputs = LineContactInputs(
-        replace(POINT, **contact), lubricant=replace(Lubricant(), **oil), model=replace(Model(), **model)
-    )
-    with pytest.raises(InvalidInput) as refusal:
-        solve(inputs)
-    assert refusal.value.code == code
-    assert refusal.value.field
+    parts = {"lubricant": replace(Lubricant(), **oil), "model": replace(Model(), **model)}
+    found, field = refused(solve, LineContactInputs(replace(POINT_A, **contact), **parts))
+    assert found == code
+    assert field
 
 
 def test_stationary_surface_is_allowed_without_heat() -> None:
-    result = solve(LineContactInputs(replace(POINT, speed_1=0.0), model=Model(thermal=False)))
-    check_solution(result, thermal=False)
+    result = solve(LineContactInputs(replace(POINT_A, speed_1=0.0), model=Model(thermal=False)))
+    check_solution(result, Model(thermal=False))
 
 
 def test_slow_surface_is_solved_with_a_warning() -> None:
     """Pe 4.5 at A; far below it, 0.35, numbers are still returned."""
-    for speed in (POINT.speed_1, 0.08):
-        result = solve(LineContactInputs(replace(POINT, speed_1=speed)))
+    for speed in (POINT_A.speed_1, 0.08):
+        result = solve(LineContactInputs(replace(POINT_A, speed_1=speed)))
         assert result.status == "ok_with_warnings"
-        assert "low_peclet" in [w.code for w in result.warnings]
+        assert "low_peclet" in codes(result)
     assert result.dimensionless.peclet_1 == pytest.approx(0.35, abs=0.01)
 
 
 def test_thin_film_and_high_traction_are_flagged() -> None:
     thin = solve(at_pressure(3e9, 0.5, 0.3, 0.008, 3e-3, Model()))
-    assert "thin_film" in [w.code for w in thin.warnings]
+    assert "thin_film" in codes(thin)
     stiff = solve(at_pressure(1.4e9, 0.05, 2.4, 0.08, 6.5e-3, Model(rheology="newtonian")))
-    assert {"high_traction", "newtonian_low_slip"} <= {w.code for w in stiff.warnings}
+    assert {"high_traction", "newtonian_low_slip"} <= codes(stiff)
 
 
 def test_no_solution_carries_residuals_and_no_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     """With three steps a mesh nothing converges; the budget ends it."""
     monkeypatch.setattr(continuation, "STEPS_A_SOLVE", 3)
-    result = solve(LineContactInputs(POINT, model=Model(rheology="newtonian")))
+    result = solve(LineContactInputs(POINT_A, model=Model(rheology="newtonian")))
     assert result.status == "no_solution"
     assert result.convergence.stage == "coupling"
     assert (result.convergence.pressure_change or 0.0) > 0.0
@@ -254,6 +225,6 @@ def test_steps_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     """Tolerances that cannot be met end with the budget, whatever the attempts."""
     monkeypatch.setattr(continuation, "TIGHT", (0.0, 0.0))
     monkeypatch.setattr(continuation, "LOOSE", (0.0, 0.0))
-    result = solve(LineContactInputs(POINT))
+    result = solve(LineContactInputs(POINT_A))
     assert result.status == "no_solution"
     assert result.convergence.iterations < 4 * continuation.STEPS_IN_ALL  # coarse meshes are cheaper
