@@ -15,25 +15,21 @@ import numpy as np
 import pytest
 
 from solvers.contact.hertz import reduced_modulus
-from solvers.drive_train.inputs import Bearing, DriveTrainInputs, Effects, RigidBearing
+from solvers.drive_train.inputs import DriveTrainInputs, Effects
 from solvers.drive_train.results import DriveTrainResult
 from solvers.drive_train.states import solve
 from solvers.pumping.inputs import Groove
 from solvers.scuffing.flank_results import feature_line
 from solvers.scuffing.thermal.blok import blok_flash
-from tests.support.changes import changed
-from tests.support.drive_trains import GROUND, NO_EFFECTS, cold, running_axis, turbo_gear
+from tests.support.changes import changed, value_at
+from tests.support.drive_trains import GROUND, NO_EFFECTS, cold, rigid_bearings, running_axis, turbo_gear
 
 PLAIN_UNIT, GROUND_UNIT = turbo_gear(), turbo_gear(GROUND)
-SHAFTS = ("pinion_shaft", "wheel_shaft")
+BEARINGS = ("pinion_shaft.bearings", "wheel_shaft.bearings")
 
 
 def _coupled(friction: float, offset: tuple[float, float] = (0.0, 400e-6)) -> DriveTrainInputs:
     return changed(GROUND_UNIT, {"couplings.0.friction.coefficient": friction, "couplings.0.offset": offset})
-
-
-def _rigid(bearings: tuple[Bearing, ...]) -> tuple[Bearing, ...]:
-    return tuple(RigidBearing(bearing.position) for bearing in bearings)
 
 
 UNITS = {
@@ -57,7 +53,7 @@ UNITS = {
     18: changed(GROUND_UNIT, {"pumping.grooves": (Groove(0.1, 0.016),)}),
     19: cold(GROUND_UNIT),
     20: replace(GROUND_UNIT, collar_radius=0.128),
-    21: changed(GROUND_UNIT, {f"{shaft}.bearings": _rigid(getattr(GROUND_UNIT, shaft).bearings) for shaft in SHAFTS}),
+    21: changed(GROUND_UNIT, {name: rigid_bearings(value_at(GROUND_UNIT, name)) for name in BEARINGS}),
 }
 # shaft, thermal slope; K_Hb, y/b; w max, p_H, PPTE; flash line, flank; S line, S map
 SLIDING = {

@@ -11,13 +11,11 @@ from math import cos
 import numpy as np
 import pytest
 
-from solvers.contact import hertz
 from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, solve_path
 from solvers.contact.ehl.model import solve
-from solvers.contact.flash import blok_flash_temperature
 from solvers.gears.pair import gear_pair
-from solvers.materials import Solid
 from solvers.published.xue import PAPER_SPEED, POINT_A, paper_gears
+from tests.support.line_contacts import blok_flash
 from tests.support.outcomes import codes
 
 RHEOLOGIES = ("ree_eyring", "newtonian")
@@ -52,12 +50,6 @@ def path_contacts(rheology: str, points: int = 50) -> list[LineContactInputs]:
 def path(rheology: str) -> list[LineContactResult]:
     """The path solved."""
     return solve_path(path_contacts(rheology))
-
-
-def blok_flash(at: Contact, friction: float) -> float:
-    """Blok's flash temperature [K], Eq. 25, steel on steel; u_i are the rolling speeds, not as printed the sliding."""
-    half_width = hertz.half_width(at.line_load, at.radius, hertz.reduced_modulus(Solid(), Solid()))
-    return float(blok_flash_temperature(friction, at.line_load, at.speed_1, at.speed_2, half_width, Solid(), Solid()))
 
 
 # Point A against an independent calculation

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from solvers.contact import hertz
+from solvers.contact.ehl import Contact
 from solvers.contact.film import dowson_higginson_minimum, thickness_ratio, thickness_regime
-from solvers.contact.flash import blok_flash_temperature
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import reduced_radius
 from solvers.lubricants import Lubricant
@@ -20,12 +20,12 @@ from solvers.materials import Solid
 from solvers.published.xue import PAPER_SPEED, paper_gears, paper_pair
 from solvers.scuffing.inputs import ScuffingInputs, Temperatures
 from solvers.scuffing.model import solve as solve_load_distribution
+from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.safety import safety_factor, solve_scuffing
 from solvers.scuffing.safety_results import Scuffing
+from tests.support.line_contacts import blok_flash
 from tests.support.outcomes import codes, refused
 
-STEEL = Solid()
-MODULUS = hertz.reduced_modulus(STEEL, STEEL)
 HOT = Temperatures(scuffing=433.15)
 
 
@@ -34,26 +34,17 @@ def scuffing(pair: int, temperatures: Temperatures = HOT) -> Scuffing:
     return solve_scuffing(ScuffingInputs(paper_pair(pair), temperatures=temperatures, lubrication="closed_form"))
 
 
-def at_start_of_mesh(line_load: float) -> dict[str, float]:
-    """The contact at A1 of pair 1 under a line load [N/m]."""
-    path = scuffing(1).distribution.path_of_contact
-    speed_1, speed_2 = path.surface_speeds(0.0, PAPER_SPEED)
-    radius = float(reduced_radius(path.plane, 0.0))
-    return {"line_load": line_load, "speed_1": speed_1, "speed_2": speed_2, "radius": radius}
-
-
-def blok(contact: dict[str, float], friction: float = 0.06) -> float:
-    load, radius, *speeds = (contact[name] for name in ("line_load", "radius", "speed_1", "speed_2"))
-    half_width = hertz.half_width(load, radius, MODULUS)
-    return float(blok_flash_temperature(friction, load, *speeds, half_width, STEEL, STEEL))
+def contact_at(result: LoadDistribution, x: float, line_load: float) -> Contact:
+    """The contact at x along the path under a line load [N/m]."""
+    path = result.path_of_contact
+    return Contact(line_load, float(reduced_radius(path.plane, x)), *path.surface_speeds(x, PAPER_SPEED))
 
 
 def test_contact_at_the_start_of_mesh_of_pair_1() -> None:
     """Xue Eqs. 13 and 18."""
-    contact = at_start_of_mesh(273e3)
-    assert contact["radius"] * 1e3 == pytest.approx(4.0666, abs=1e-4)
-    assert contact["speed_1"] == pytest.approx(1.018, abs=1e-3)
-    assert contact["speed_2"] == pytest.approx(3.708, abs=1e-3)
+    contact = contact_at(scuffing(1).distribution, 0.0, 273e3)
+    assert contact.radius * 1e3 == pytest.approx(4.0666, abs=1e-4)
+    assert (contact.speed_1, contact.speed_2) == pytest.approx((1.018, 3.708), abs=1e-3)
 
 
 def test_fig_22_flash_temperature_of_pair_1() -> None:
@@ -71,7 +62,7 @@ def test_fig_22_the_dedendum_is_hottest_and_the_pitch_point_cold_in_every_pair(p
 
 def test_fig_22_flash_temperature_at_the_printed_line_load() -> None:
     """Xue Eq. 25."""
-    assert blok(at_start_of_mesh(273e3)) == pytest.approx(85.7, abs=0.05)
+    assert blok_flash(contact_at(scuffing(1).distribution, 0.0, 273e3), 0.06) == pytest.approx(85.7, abs=0.05)
 
 
 def test_fig_23_film_is_thinnest_in_the_dedendum_of_the_pinion() -> None:
@@ -83,14 +74,14 @@ def test_fig_23_film_is_thinnest_in_the_dedendum_of_the_pinion() -> None:
 
 def test_fig_23_film_at_the_printed_line_load() -> None:
     """Xue Eq. 27."""
-    contact, oil = at_start_of_mesh(273e3), Lubricant()
+    contact, oil = contact_at(scuffing(1).distribution, 0.0, 273e3), Lubricant()
     film = dowson_higginson_minimum(
         viscosity=oil.viscosity,
         pressure_viscosity=oil.pressure_viscosity,
-        mean_speed=(contact["speed_1"] + contact["speed_2"]) / 2,
-        radius=contact["radius"],
-        line_load=contact["line_load"],
-        modulus=MODULUS,
+        mean_speed=(contact.speed_1 + contact.speed_2) / 2,
+        radius=contact.radius,
+        line_load=contact.line_load,
+        modulus=hertz.reduced_modulus(Solid(), Solid()),
     )
     assert film * 1e6 == pytest.approx(0.507, abs=5e-4)
 
@@ -138,9 +129,7 @@ def iso_flash(gears: GearPairInputs, scale: float) -> tuple[float, float]:
     x = scale * path.length
     gamma, u = float(path.profile_parameter(x)), gears.wheel.teeth / gears.pinion.teeth
     load = 200e3
-    speed_1, speed_2 = path.surface_speeds(x, PAPER_SPEED)
-    radius = float(reduced_radius(path.plane, x))
-    own = blok({"line_load": load, "speed_1": speed_1, "speed_2": speed_2, "radius": radius})
+    own = blok_flash(contact_at(result, x, load), 0.06)
     effusivity = np.sqrt(46 * 7850 * 470) * 1e-3  # N/(mm^0.5 m^0.5 s^0.5 K)
     x_m = 50 * 13.8 / effusivity
     angle, helix = pair.working_pressure_angle, pair.base_helix_angle

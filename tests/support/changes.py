@@ -14,6 +14,11 @@ def changed(inputs: Inputs, values: Mapping[str, Any]) -> Inputs:
     return inputs
 
 
+def scaled(inputs: Inputs, factor: float, *names: str) -> Inputs:
+    """The inputs with the values at some names multiplied by a factor."""
+    return changed(inputs, {name: factor * value_at(inputs, name) for name in names})
+
+
 def value_at(thing: Any, name: str) -> Any:
     """The value at a dotted name."""
     for step in name.split("."):

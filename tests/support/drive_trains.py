@@ -5,10 +5,12 @@ from math import pi, radians
 
 from solvers.coupling.inputs import Coupling, Friction
 from solvers.drive_train.inputs import (
+    Bearing,
     DriveTrainInputs,
     Effects,
     Heat,
     JournalBearing,
+    RigidBearing,
     Shaft,
     ShaftSection,
     UnitCoupling,
@@ -97,6 +99,11 @@ def cold(inputs: DriveTrainInputs) -> DriveTrainInputs:
     """Every tooth at its reference temperature, nothing pumped warm."""
     reference = inputs.heat.reference
     return changed(inputs, {"heat.wall_response": 0.0, "heat.pinion_bulk": reference, "heat.wheel_bulk": reference})
+
+
+def rigid_bearings(bearings: tuple[Bearing, ...]) -> tuple[Bearing, ...]:
+    """Rigid bearings in the places of others."""
+    return tuple(RigidBearing(bearing.position) for bearing in bearings)
 
 
 def running_axis(unit: DriveTrainInputs) -> tuple[tuple[float, float], tuple[float, float]]:

@@ -4,7 +4,6 @@ Every `check_...` draws one case from the generator and raises AssertionError, w
 """
 
 from collections.abc import Callable
-from dataclasses import replace
 from math import radians
 
 import numpy as np
@@ -19,6 +18,7 @@ from solvers.scuffing.inputs import Load, LoadDistributionInputs, Modifications,
 from solvers.scuffing.load_balance import line_loads
 from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.results import LoadDistribution
+from tests.support.changes import changed
 
 RESOLUTIONS = ("roll_positions", "slices", "profile_points", "face_points", "feature_points")
 SCAN_STEPS = 24
@@ -98,8 +98,8 @@ def check_resolution_of(inputs: LoadDistributionInputs) -> None:
     """Doubling any number of points moves no summary number by more than 1 %."""
     plain = summary(solve_load_distribution(inputs))
     for name in RESOLUTIONS:
-        finer = replace(inputs.resolution, **{name: 2 * getattr(inputs.resolution, name)})
-        fine = summary(solve_load_distribution(replace(inputs, resolution=finer)))
+        finer = changed(inputs, {f"resolution.{name}": 2 * getattr(inputs.resolution, name)})
+        fine = summary(solve_load_distribution(finer))
         for number, (value, scale) in plain.items():
             moved = abs(fine[number][0] - value)
             assert moved <= 0.01 * scale, f"{name} moves {number} by {moved / scale:.2%}: {inputs}"
@@ -145,62 +145,42 @@ def _loads_at_roll_positions(result: LoadDistribution, y: FloatArray) -> FloatAr
     return line_loads(balance, lines[inside], across[inside])
 
 
-def _with_gears(name: str) -> Callable[[LoadDistributionInputs, float], LoadDistributionInputs]:
-    return lambda inputs, value: replace(inputs, gears=replace(inputs.gears, **{name: value}))
-
-
-def _with_modification(name: str) -> Callable[[LoadDistributionInputs, float], LoadDistributionInputs]:
-    return lambda inputs, value: replace(inputs, modifications=replace(inputs.modifications, **{name: value}))
-
-
-def _with_pinion(name: str) -> Callable[[LoadDistributionInputs, float], LoadDistributionInputs]:
-    return lambda inputs, value: replace(
-        inputs, gears=replace(inputs.gears, pinion=replace(inputs.gears.pinion, **{name: value}))
-    )
-
-
-def _with_torque(inputs: LoadDistributionInputs, value: float) -> LoadDistributionInputs:
-    return replace(inputs, load=replace(inputs.load, pinion_torque=value))
-
-
-def scans(inputs: LoadDistributionInputs) -> dict[str, tuple[Callable[..., LoadDistributionInputs], float, float]]:
-    """By the name of each continuous input: how to set it, and a range about the case to scan it over."""
+def scans(inputs: LoadDistributionInputs) -> dict[str, tuple[float, float]]:
+    """By the name of each continuous input: a range about the case to scan it over."""
     gears, module = inputs.gears, inputs.gears.normal_module
     helix = gears.helix_angle or radians(10)  # a spur gear is another gear: tests/solvers names that jump
     amplitudes = ("profile_crowning", "lead_crowning", "profile_slope", "helix_slope")
     reliefs = ("tip_relief", "root_relief", "end_relief")
     free = meshing_path(gears).pair.backlash_free_centre_distance
     return {
-        "helix_angle": (_with_gears("helix_angle"), 0.8 * helix, 1.2 * helix),
-        "face_width": (_with_gears("face_width"), 0.7 * gears.face_width, 1.4 * gears.face_width),
-        "centre_distance": (_with_gears("centre_distance"), free, free + 0.05 * module),
-        "pressure_angle": (_with_gears("pressure_angle"), radians(19.0), radians(21.0)),
-        "profile_shift": (_with_pinion("profile_shift"), gears.pinion.profile_shift, gears.pinion.profile_shift + 0.1),
-        "addendum": (_with_pinion("addendum"), 0.9, 1.05),
-        "torque": (_with_torque, 0.1 * inputs.load.pinion_torque, 2 * inputs.load.pinion_torque),
-        "relief_exponent": (_with_modification("relief_exponent"), 1.0, 3.0),
-        **{name: (_with_modification(name), -0.01 * module, 0.01 * module) for name in amplitudes},
-        **{name: (_with_modification(name), 0.0, 0.01 * module) for name in reliefs},
-        **{f"{name}_length": (_with_modification(f"{name}_length"), 0.3 * module, 6 * module) for name in reliefs},
+        "gears.helix_angle": (0.8 * helix, 1.2 * helix),
+        "gears.face_width": (0.7 * gears.face_width, 1.4 * gears.face_width),
+        "gears.centre_distance": (free, free + 0.05 * module),
+        "gears.pressure_angle": (radians(19.0), radians(21.0)),
+        "gears.pinion.profile_shift": (gears.pinion.profile_shift, gears.pinion.profile_shift + 0.1),
+        "gears.pinion.addendum": (0.9, 1.05),
+        "load.pinion_torque": (0.1 * inputs.load.pinion_torque, 2 * inputs.load.pinion_torque),
+        "modifications.relief_exponent": (1.0, 3.0),
+        **{f"modifications.{name}": (-0.01 * module, 0.01 * module) for name in amplitudes},
+        **{f"modifications.{name}": (0.0, 0.01 * module) for name in reliefs},
+        **{f"modifications.{name}_length": (0.3 * module, 6 * module) for name in reliefs},
     }
 
 
 def check_no_jump(rng: np.random.Generator) -> None:
     """No summary number jumps while one input goes through its range: a step's change shrinks with the step."""
     inputs = draw_flank(rng)
-    chosen = scans(inputs)
-    name = str(rng.choice(list(chosen)))
-    put, low, high = chosen[name]
+    ranges = scans(inputs)
+    name = str(rng.choice(list(ranges)))
 
     def numbers(value: float) -> dict[str, tuple[float, float]] | None:
         try:
-            return summary(solve_load_distribution(put(inputs, value)))
+            return summary(solve_load_distribution(changed(inputs, {name: value})))
         except InvalidInput:
             return None
 
-    values = np.linspace(low, high, SCAN_STEPS + 1)
-    found = [numbers(value) for value in values]
-    suspects = _steps_out_of_line(found)
+    values = np.linspace(*ranges[name], SCAN_STEPS + 1)
+    suspects = _steps_out_of_line([numbers(value) for value in values])
     for number, step in suspects.items():
         jump = _jump(numbers, number, values[step], values[step + 1])
         assert jump <= 0.01, f"{number} jumps by {jump:.2%} at {name} {values[step]}..{values[step + 1]}: {inputs}"
@@ -209,9 +189,10 @@ def check_no_jump(rng: np.random.Generator) -> None:
 def _steps_out_of_line(found: list[dict[str, tuple[float, float]] | None]) -> dict[str, int]:
     """By number: the largest step, where it is ten times its neighbours or more and more than 1 %."""
     suspects = {}
-    for number in {name for one in found if one is not None for name in one}:
-        series = np.array([one[number][0] if one is not None and number in one else np.nan for one in found])
-        scale = np.nanmean([one[number][1] for one in found if one is not None and number in one])
+    answers = [one or {} for one in found]
+    for number in {name for one in answers for name in one}:
+        series = np.array([one[number][0] if number in one else np.nan for one in answers])
+        scale = np.nanmean([one[number][1] for one in answers if number in one])
         steps = np.abs(np.diff(series)) / scale
         if not np.isfinite(steps).any():
             continue

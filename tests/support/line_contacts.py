@@ -1,11 +1,14 @@
-"""Line contacts by their Hertzian pressure: a grid of them, and contacts drawn over the whole range."""
+"""Line contacts by their Hertzian pressure: a grid of them, contacts drawn over the whole range; Blok's formula."""
 
 from itertools import product
 from math import exp, log, pi
 from random import Random
 
 from solvers.contact.ehl import Contact, LineContactInputs, Model
+from solvers.contact.flash import blok_flash_temperature
+from solvers.contact.hertz import half_width, reduced_modulus
 from solvers.lubricants import Lubricant
+from solvers.materials import Solid
 
 MODULUS = 226.37e9
 
@@ -43,3 +46,18 @@ def grid_contacts(model: Model) -> list[LineContactInputs]:
     """The 200 contacts on which other schemes are known to fail."""
     ranges = ((0.3e9, 0.7e9, 1.2e9, 2e9, 3e9), (0.0, 0.1, 0.5, 1.0, 1.9), (1.0, 10.0), (0.01, 0.08), (5e-3, 20e-3))
     return [at_pressure(*values, model) for values in product(*ranges)]
+
+
+def blok_flash(at: Contact, friction: float) -> float:
+    """Blok's flash temperature [K], Eq. 25, steel on steel; u_i are the rolling speeds, not as printed the sliding."""
+    steel = Solid()
+    flash = blok_flash_temperature(
+        friction=friction,
+        line_load=at.line_load,
+        speed_1=at.speed_1,
+        speed_2=at.speed_2,
+        half_width=half_width(at.line_load, at.radius, reduced_modulus(steel, steel)),
+        solid_1=steel,
+        solid_2=steel,
+    )
+    return float(flash)

@@ -36,11 +36,11 @@ def setups(draw: st.DrawFn, *, helix: bool = True) -> PumpingSetup:
         helix_angle=radians(draw(st.floats(0, 32))) if helix else 0.0,
         rack_tip_radius=draw(st.floats(0.1, 0.38)),
     )
-    setup = PumpingSetup(gears, normal_backlash=module * draw(st.floats(0, 0.08)))
+    backlash = module * draw(st.floats(0, 0.08))
     try:
         apart = gear_pair(gears).backlash_free_centre_distance + module * draw(st.floats(0, 0.05))
-        meshed = PumpingSetup(replace(gears, centre_distance=apart), normal_backlash=setup.normal_backlash)
-        prepare(meshed)
+        setup = PumpingSetup(replace(gears, centre_distance=apart), normal_backlash=backlash)
+        prepare(setup)
     except InvalidInput:
         assume(False)
-    return meshed
+    return setup

@@ -4,7 +4,7 @@ Each `check_` draws one case from a numpy generator and raises AssertionError, t
 that no pair of gears can be is drawn again.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import asdict, replace
 from math import radians
 
@@ -18,6 +18,8 @@ from solvers.pumping import Ambient, Flow, Gap, Groove, PumpingInputs, PumpingMo
 from solvers.pumping.model import solve
 from solvers.pumping.results import SpacesResult
 from solvers.pumping.spaces import prepare
+from tests.support.changes import changed, value_at
+from tests.support.outcomes import codes
 
 BOOKS = 1e-10
 PITCH_LINE_SPEEDS = (15.0, 200.0)  # m/s
@@ -156,8 +158,7 @@ def check_resolution(draw: Generator) -> None:
 
 def check_resolution_of(case: PumpingInputs) -> None:
     """Twice the slices move no number by more than 1 % or its stated uncertainty."""
-    finer = replace(case, setup=replace(case.setup, model=replace(case.setup.model, slices=200)))
-    here, there = solve(case), solve(finer)
+    here, there = solve(case), solve(changed(case, {"setup.model.slices": 200}))
     for coarse, fine in zip(spaces_of(here), spaces_of(there), strict=True):
         flow, after = coarse.mass_flow, numbers(fine)
         for name, value in numbers(coarse).items():
@@ -169,53 +170,42 @@ def check_resolution_of(case: PumpingInputs) -> None:
             assert change <= max(0.01 * abs(net), flow.net_uncertainty), (end, change, flow, case)
 
 
-Change = Callable[[PumpingInputs, float], PumpingInputs]
-
-
-def _gears(case: PumpingInputs, **changes: object) -> PumpingInputs:
-    return replace(case, setup=replace(case.setup, gears=replace(case.setup.gears, **changes)))
-
-
-def _centre_distance(case: PumpingInputs, by: float) -> PumpingInputs:
-    gears = case.setup.gears
-    return _gears(case, centre_distance=gears.centre_distance + 0.05 * by * gears.normal_module)
-
-
-def _groove(case: PumpingInputs, position: float, width: float) -> PumpingInputs:
-    b = case.setup.gears.face_width
-    return replace(case, setup=replace(case.setup, grooves=(Groove(b * position, b * width),)))
-
-
-def _ambient(case: PumpingInputs, **factors: float) -> PumpingInputs:
-    ambient = case.setup.ambient
-    changed = replace(ambient, **{name: factor * getattr(ambient, name) for name, factor in factors.items()})
-    return replace(case, setup=replace(case.setup, ambient=changed))
-
-
-def _shift(case: PumpingInputs, by: float) -> PumpingInputs:
-    teeth = case.setup.gears.pinion
-    return _gears(case, pinion=replace(teeth, profile_shift=teeth.profile_shift + 0.02 * by), centre_distance=None)
-
-
-# every continuous input, changed by a number from nought to one over the range that is scanned
-SCANS: dict[str, Change] = {
-    "speed": lambda case, by: replace(case, pinion_speed=case.pinion_speed * (1 + 0.1 * by)),
-    "backlash": lambda case, by: replace(
-        case, setup=replace(case.setup, normal_backlash=case.setup.normal_backlash * (1 + by))
-    ),
-    "centre_distance": _centre_distance,
-    "face_width": lambda case, by: _gears(case, face_width=case.setup.gears.face_width * (1 + 0.1 * by)),
-    "helix_angle": lambda case, by: _gears(
-        case, helix_angle=case.setup.gears.helix_angle * (1 + 0.05 * by), centre_distance=None
-    ),
-    "profile_shift": _shift,
-    "groove_position": lambda case, by: _groove(case, 0.4 + 0.2 * by, 0.08),
-    "groove_width": lambda case, by: _groove(case, 0.5, 0.04 + 0.08 * by),
-    "temperature": lambda case, by: _ambient(case, temperature=1 + 0.1 * by),
-    "pressure": lambda case, by: _ambient(case, pressure=1 + 0.5 * by),
-    "molar_mass": lambda case, by: _ambient(case, molar_mass=1 + 0.2 * by),
-    "isentropic_exponent": lambda case, by: _ambient(case, isentropic_exponent=1 + 0.03 * by),
+# every continuous input, and by how much of itself it is changed over its scan, if by a factor
+SCANS = {
+    "speed": ("pinion_speed", 0.1),
+    "backlash": ("setup.normal_backlash", 1.0),
+    "centre_distance": ("setup.gears.centre_distance", None),
+    "face_width": ("setup.gears.face_width", 0.1),
+    "helix_angle": ("setup.gears.helix_angle", 0.05),
+    "profile_shift": ("setup.gears.pinion.profile_shift", None),
+    "groove_position": ("setup.grooves", None),
+    "groove_width": ("setup.grooves", None),
+    "temperature": ("setup.ambient.temperature", 0.1),
+    "pressure": ("setup.ambient.pressure", 0.5),
+    "molar_mass": ("setup.ambient.molar_mass", 0.2),
+    "isentropic_exponent": ("setup.ambient.isentropic_exponent", 0.03),
 }
+
+
+def scanned(case: PumpingInputs, scan: str, by: float) -> PumpingInputs:
+    """A case with one input changed by a number from nought to one over the range that is scanned."""
+    (name, share), gears = SCANS[scan], case.setup.gears
+    before = value_at(case, name)
+    if share is not None:
+        after = before * (1 + share * by)
+    elif scan == "centre_distance":
+        after = before + 0.05 * by * gears.normal_module
+    elif scan == "profile_shift":
+        after = before + 0.02 * by
+    else:
+        position, width = (0.4 + 0.2 * by, 0.08) if scan == "groove_position" else (0.5, 0.04 + 0.08 * by)
+        after = (Groove(gears.face_width * position, gears.face_width * width),)
+    values = {name: after}
+    if scan in {"helix_angle", "profile_shift"}:
+        values["setup.gears.centre_distance"] = None
+    return changed(case, values)
+
+
 POINTS = 41
 NOISE = 3e-3  # of a number: what a grid of 40 slices leaves in a scan
 JUMP = 10.0  # times the local change
@@ -242,24 +232,24 @@ def check_no_jump(draw: Generator, name: str | None = None) -> None:
     check_no_jump_of(case, name or str(draw.choice(list(SCANS))))
 
 
-def check_no_jump_of(case: PumpingInputs, scanned: str) -> None:
+def check_no_jump_of(case: PumpingInputs, name: str) -> None:
     """A fine scan of one input has no jump.
 
     Where a stroke takes a whole step more or less, or a land between grooves a slice, numbers step: by no more than
     the answers on both sides say that they are uncertain, and by little; the radial flow, which is left of what
     passes the ends, by little of that.
     """
-    cases = [SCANS[scanned](case, k / (POINTS - 1)) for k in range(POINTS)]
+    cases = [scanned(case, name, k / (POINTS - 1)) for k in range(POINTS)]
     try:
         found = scan(cases)
     except InvalidInput:
         return  # a scan that leaves what meshes
     for number, values in found.items():
         for k in jumps(values):
-            told = (scanned, number, k, values, case)
+            told = (name, number, k, values, case)
             step = abs(values[k + 1] - values[k])
-            passing = sum(found[name][k] for name in ("front_out", "rear_out")) if number == "radial_flow" else 0.0
+            passing = sum(found[end][k] for end in ("front_out", "rear_out")) if number == "radial_flow" else 0.0
             sides = [(solve(cases[place]), values[place]) for place in (k, k + 1)]
-            named = all("area_jump" in {notice.code for notice in side.warnings} for side, _ in sides)
+            named = all("area_jump" in codes(side) for side, _ in sides)
             assert named or step <= LITTLE * (max(map(abs, values)) + passing), told
             assert step <= sum(uncertain(side, next(spaces_of(side)), number, value) for side, value in sides), told

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from solvers.coupling.inputs import CouplingInputs, ModelOptions
 from solvers.coupling.model import solve
 from solvers.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
-from tests.support.changes import changed, value_at
+from tests.support.changes import changed, scaled
 from tests.support.couplings import random_pitch_errors
 from tests.support.plain_coupling import PlainMesh, midpoints
 from tests.support.properties import examples
@@ -31,10 +31,6 @@ def couplings(draw: st.DrawFn) -> CouplingInputs:
         model=ModelOptions(kinematics=draw(kinematics), sleeve=draw(sleeves)),
         pitch_errors=None if seed is None else random_pitch_errors(seed),
     )
-
-
-def scaled(inputs: CouplingInputs, factor: float, *names: str) -> CouplingInputs:
-    return changed(inputs, {name: factor * value_at(inputs, name) for name in names})
 
 
 @examples(30, 300, couplings(), st.floats(0.2, 3.0))

@@ -11,32 +11,20 @@ from hypothesis import strategies as st
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import PathOfContact, gear_pair, path_of_contact
-from solvers.materials import Solid
 from solvers.scuffing.contact_lines import contact_lengths, roll_positions, total_lengths
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, Resolution
 from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.modification import gap, gaps_at
 from solvers.scuffing.results import LoadDistribution
+from tests.support.changes import scaled
 
-EXAMPLES = settings(
-    max_examples=200, deadline=None, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow]
-)
-AMPLITUDES = (
-    "profile_crowning",
-    "lead_crowning",
-    "profile_slope",
-    "helix_slope",
-    "tip_relief",
-    "root_relief",
-    "end_relief",
-)
+EXAMPLES = settings(max_examples=200, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
+SHAPES = ("profile_crowning", "lead_crowning", "tip_relief", "root_relief", "end_relief")
+SLOPES = ("profile_slope", "helix_slope")
+AMPLITUDES = (*SHAPES, *SLOPES)
 COARSE = Resolution(roll_positions=40, slices=25, profile_points=21, face_points=11, feature_points=11)
-MODELS = st.sampled_from(
-    [
-        Model(contact=contact, section=section)
-        for contact in ("linear", "hertzian")
-        for section in ("normal", "transverse")
-    ]
+MODELS = st.builds(
+    Model, contact=st.sampled_from(["linear", "hertzian"]), section=st.sampled_from(["normal", "transverse"])
 )
 
 
@@ -65,11 +53,8 @@ def designs(draw: st.DrawFn) -> LoadDistributionInputs:
     """A loaded, modified, misaligned pair; modifications up to several times the approach."""
     inputs = draw(gears())
     amplitude = inputs.normal_module * draw(st.floats(0.0, 0.01))
-    shape = {
-        name: amplitude * draw(st.floats(0.0, 1.0))
-        for name in ("profile_crowning", "lead_crowning", "tip_relief", "root_relief", "end_relief")
-    }
-    slopes = {name: amplitude * draw(st.floats(-1.0, 1.0)) for name in ("profile_slope", "helix_slope")}
+    shape = {name: amplitude * draw(st.floats(0.0, 1.0)) for name in SHAPES}
+    slopes = {name: amplitude * draw(st.floats(-1.0, 1.0)) for name in SLOPES}
     # Up to about 500 N per mm of face and 3 mm of module: stress of the same order for every size.
     stress = draw(st.floats(1e6, 1.5e8))
     torque = stress * inputs.face_width * inputs.normal_module * inputs.pinion.teeth * inputs.normal_module / 2
@@ -123,24 +108,15 @@ def test_contact_lengths_agree_with_their_closed_forms(inputs: GearPairInputs) -
 @EXAMPLES
 @given(designs(), st.floats(0.1, 10.0))
 def test_gears_of_another_size_under_the_same_stress_deform_alike(inputs: LoadDistributionInputs, size: float) -> None:
-    gears, shape = inputs.gears, inputs.modifications
-    scaled = replace(
-        inputs,
-        gears=replace(gears, module=gears.normal_module * size, face_width=gears.face_width * size),
-        load=replace(inputs.load, pinion_torque=inputs.load.pinion_torque * size**3),
-        modifications=replace(shape, **{name: getattr(shape, name) * size for name in AMPLITUDES}),
-    )
-    one, other = solve(inputs), solve(scaled)
+    lengths = ("gears.module", "gears.face_width", *(f"modifications.{name}" for name in AMPLITUDES))
+    similar = scaled(scaled(inputs, size, *lengths), size**3, "load.pinion_torque")
+    one, other = solve(inputs), solve(similar)
     # A roll position more or less in an interval is a matter of rounding; the shared ones are what is compared.
     assume(one.transmission_error.curves.error.size == other.transmission_error.curves.error.size)
     assert other.transmission_error.curves.error == pytest.approx(one.transmission_error.curves.error * size, rel=1e-8)
     assert other.load.max_line_load == pytest.approx(one.load.max_line_load * size, rel=1e-7)
-    if one.pressure.max is None:
-        assert other.pressure.max is None
-    else:
-        assert other.pressure.max == pytest.approx(one.pressure.max, rel=1e-7)
-    if one.friction_loss.loss_factor is not None:
-        assert other.friction_loss.loss_factor == pytest.approx(one.friction_loss.loss_factor, rel=1e-7)
+    assert other.pressure.max == pytest.approx(one.pressure.max, rel=1e-7)  # None where the other is
+    assert other.friction_loss.loss_factor == pytest.approx(one.friction_loss.loss_factor, rel=1e-7)
 
 
 @EXAMPLES
@@ -204,8 +180,7 @@ def test_unmodified_teeth_share_as_minimum_elastic_energy_does(
 @EXAMPLES
 @given(designs())
 def test_more_torque_presses_every_point_harder(inputs: LoadDistributionInputs) -> None:
-    heavier = replace(inputs, load=replace(inputs.load, pinion_torque=inputs.load.pinion_torque * 1.5))
-    one, other = solve(inputs), solve(heavier)
+    one, other = solve(inputs), solve(scaled(inputs, 1.5, "load.pinion_torque"))
     slack = 1e-9 * other.load.max_line_load
     pressed, less = other.transmission_error.curves, one.transmission_error.curves
     common = np.intersect1d(pressed.roll_position, less.roll_position)  # a bent curve has more roll positions
@@ -221,7 +196,7 @@ def test_the_gap_is_linear_in_its_amplitudes(inputs: LoadDistributionInputs) -> 
     path = path_of(inputs.gears)
     x, y = np.meshgrid(np.linspace(0, path.length, 7), np.linspace(0, inputs.gears.face_width, 5))
     single = gaps_at(gap(inputs.modifications, path), x, y)
-    double = replace(inputs.modifications, **{name: 2 * getattr(inputs.modifications, name) for name in AMPLITUDES})
+    double = scaled(inputs, 2.0, *(f"modifications.{name}" for name in AMPLITUDES)).modifications
     assert gaps_at(gap(double, path), x, y) == pytest.approx(2 * single, rel=1e-12, abs=1e-18)
 
 
@@ -229,15 +204,8 @@ def test_the_gap_is_linear_in_its_amplitudes(inputs: LoadDistributionInputs) -> 
 @given(designs(), st.floats(0.5, 2.0))
 def test_line_loads_scale_with_elasticity_as_they_do_with_torque(inputs: LoadDistributionInputs, factor: float) -> None:
     """E and torque by one factor leave every deflection as it was."""
-    stiffer = Solid(youngs_modulus=206e9 * factor)
-    scaled = replace(
-        inputs,
-        pinion_material=stiffer,
-        wheel_material=stiffer,
-        load=replace(inputs.load, pinion_torque=inputs.load.pinion_torque * factor),
-    )
-    one, other = solve(inputs), solve(scaled)
+    moduli = ("pinion_material.youngs_modulus", "wheel_material.youngs_modulus")
+    one, other = solve(inputs), solve(scaled(inputs, factor, *moduli, "load.pinion_torque"))
     assert other.transmission_error.curves.error == pytest.approx(one.transmission_error.curves.error, rel=1e-9)
-    assert other.flank.line_load == pytest.approx(
-        one.flank.line_load * factor, rel=1e-7, abs=1e-9 * other.load.max_line_load
-    )
+    small = 1e-9 * other.load.max_line_load
+    assert other.flank.line_load == pytest.approx(one.flank.line_load * factor, rel=1e-7, abs=small)

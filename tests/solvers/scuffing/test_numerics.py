@@ -1,7 +1,6 @@
 """The load distribution's numerics against independent quadrature, exact roots and their own refinement."""
 
 from dataclasses import replace
-from functools import cache
 from math import radians
 
 import numpy as np
@@ -14,7 +13,7 @@ from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair, path_of_contact, reduced_radius
 from solvers.materials import Solid
-from solvers.published.xue import PAPER_LOAD, PAPER_MODIFICATIONS, paper_gears, paper_pair
+from solvers.published.xue import PAPER_LOAD, PAPER_MODEL, PAPER_MODIFICATIONS, paper_gears, paper_pair
 from solvers.scuffing.contact_slices import gather, slice_table
 from solvers.scuffing.inputs import LeadCurve, LoadDistributionInputs, Model, Modifications, Resolution
 from solvers.scuffing.model import solve as solve_load_distribution
@@ -29,8 +28,10 @@ from solvers.scuffing.tooth_stiffness import (
     single_stiffness,
     tooth_shape,
 )
+from tests.support.gear_pairs import with_torque
 
 STEEL = Solid()
+PATH_1 = path_of_contact(gear_pair(paper_gears(1)))
 
 
 # Tooth compliance
@@ -51,11 +52,10 @@ def test_bending_and_shear_are_the_beams_integrals(place: float, section: str) -
     def width(z: float) -> float:
         return shape.root_width - taper * max(z - shape.rectangle_height, 0.0)
 
-    bending = quad(
-        lambda z: 12 * (h_x - z) ** 2 / width(z) ** 3, 0, h_x, points=[shape.rectangle_height], epsrel=1e-12
-    )[0]
-    shear = quad(lambda z: 2 * (1 + 0.3) / width(z), 0, h_x, points=[shape.rectangle_height], epsrel=1e-12)[0]
-    beam = cosine**2 * (bending + shear) / 206e9
+    def strain(z: float) -> float:
+        return 12 * (h_x - z) ** 2 / width(z) ** 3 + 2 * (1 + 0.3) / width(z)
+
+    beam = cosine**2 * quad(strain, 0, h_x, points=[shape.rectangle_height], epsrel=1e-12)[0] / 206e9
     found = bending_compliance(shape, points, STEEL) - root_rotation(shape, points, STEEL)
     assert found[0] == pytest.approx(beam, rel=1e-9)
 
@@ -75,15 +75,10 @@ def test_loads_within_the_rectangle_bend_the_rectangle_only() -> None:
 def test_the_virtual_gear_of_a_spur_gear_is_the_gear() -> None:
     pair = gear_pair(replace(paper_gears(1), helix_angle=0.0))
     virtual = section_gear(pair, pair.pinion, pair.inputs.pinion, "normal")
-    for name in (
-        "reference_radius",
-        "base_radius",
-        "tip_radius",
-        "root_radius",
-        "reference_half_angle",
-        "form_roll_length",
-    ):
-        assert getattr(virtual, name) == pytest.approx(getattr(pair.pinion, name), rel=1e-13)
+    for radius in ("reference_radius", "base_radius", "tip_radius", "root_radius"):
+        assert getattr(virtual, radius) == pytest.approx(getattr(pair.pinion, radius), rel=1e-13)
+    assert virtual.reference_half_angle == pytest.approx(pair.pinion.reference_half_angle, rel=1e-13)
+    assert virtual.form_roll_length == pytest.approx(pair.pinion.form_roll_length, rel=1e-13)
 
 
 # Contact
@@ -128,7 +123,7 @@ def test_line_load_inverts_the_half_space(load: float, section: str) -> None:
 
 
 def test_line_load_is_continuous_and_rising_across_the_half_space_limit() -> None:
-    table = pair_compliance(path_of_contact(gear_pair(paper_gears(1))), STEEL, STEEL, Model())
+    table = pair_compliance(PATH_1, STEEL, STEEL, Model())
     limit = table.limit[400]
     approaches = limit * np.linspace(0.5, 2.0, 301)
     loads = np.array([line_load(a, table.constant[400], table.logarithmic, limit, 0.0)[0] for a in approaches])
@@ -137,10 +132,9 @@ def test_line_load_is_continuous_and_rising_across_the_half_space_limit() -> Non
 
 
 def test_half_space_contact_is_several_times_softer_than_the_printed_term() -> None:
-    path = path_of_contact(gear_pair(paper_gears(1)))
-    soft = 1 / single_stiffness(pair_compliance(path, STEEL, STEEL, Model(section="transverse")), 300e3)
-    stiff = pair_compliance(path, STEEL, STEEL, Model(section="transverse", contact="linear")).constant
-    printed = 4 * (1 - 0.3**2) / (np.pi * 206e9) / path.plane.cos_base_helix
+    soft = 1 / single_stiffness(pair_compliance(PATH_1, STEEL, STEEL, Model(section="transverse")), 300e3)
+    stiff = pair_compliance(PATH_1, STEEL, STEEL, PAPER_MODEL).constant
+    printed = 4 * (1 - 0.3**2) / (np.pi * 206e9) / PATH_1.plane.cos_base_helix
     assert np.median((soft - stiff + printed) / printed) == pytest.approx(3.5, abs=0.25)
 
 
@@ -182,8 +176,7 @@ def test_every_position_carries_the_force_by_the_settled_law_of_its_slices(
 ) -> None:
     # 60 times the load presses half-spaces beyond their depth, where their compliance is held
     inputs = paper_pair(1, shape, model)
-    heavy = replace(inputs, load=replace(inputs.load, pinion_torque=times * inputs.load.pinion_torque))
-    balance = solve_load_distribution(heavy).balance
+    balance = solve_load_distribution(with_torque(inputs, times * inputs.load.pinion_torque)).balance
     mesh, law = balance.mesh, balance.mesh.compliance
     assert (balance.survey.held.sum() > 0.0) == (times > 1.0 and model.contact == "hertzian")
     for i in range(0, balance.rolls.phase.size, 13):
@@ -209,28 +202,23 @@ def test_newton_needs_few_steps(model: Model, steps: float) -> None:
     assert in_part.balance.steps.max() <= 15
 
 
-@cache
-def peak_to_peak(slices: int) -> float:
-    inputs = replace(paper_pair(1, Modifications(profile_crowning=10e-6, lead_crowning=10e-6), Model(contact="linear")))
-    resolution = Resolution(roll_positions=200, slices=slices, profile_points=5, face_points=5)
+def peak_to_peak(inputs: LoadDistributionInputs, **counts: int) -> float:
+    resolution = Resolution(profile_points=5, face_points=5, **counts)
     return solve_load_distribution(replace(inputs, resolution=resolution)).transmission_error.peak_to_peak
 
 
 def test_slices_converge_with_order_2() -> None:
-    errors = [abs(peak_to_peak(slices) - peak_to_peak(1600)) for slices in (25, 50, 100)]
-    orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
-    assert orders == pytest.approx(2.0, abs=0.3)
+    crowned = Modifications(profile_crowning=10e-6, lead_crowning=10e-6)
+    inputs = paper_pair(1, crowned, Model(contact="linear"))
+    *values, exact = (peak_to_peak(inputs, roll_positions=200, slices=slices) for slices in (25, 50, 100, 1600))
+    errors = np.abs(np.array(values) - exact)
+    assert np.log2(errors[:-1] / errors[1:]) == pytest.approx(2.0, abs=0.3)
     assert errors[-1] < 0.0005e-6
 
 
 def test_roll_positions_resolve_the_error() -> None:
-    def spread(count: int) -> float:
-        resolution = Resolution(roll_positions=count, profile_points=5, face_points=5)
-        return solve_load_distribution(
-            replace(paper_pair(4, PAPER_MODIFICATIONS), resolution=resolution)
-        ).transmission_error.peak_to_peak
-
-    assert spread(200) == pytest.approx(spread(1600), abs=0.0005e-6)
+    coarse, fine = (peak_to_peak(paper_pair(4, PAPER_MODIFICATIONS), roll_positions=count) for count in (200, 1600))
+    assert coarse == pytest.approx(fine, abs=0.0005e-6)
 
 
 def test_the_map_meets_the_lines_it_was_made_from() -> None:
@@ -252,30 +240,30 @@ def test_harmonics_rebuild_the_error() -> None:
 # Modification
 
 
-def test_reliefs_act_where_they_are_named() -> None:
-    path = path_of_contact(gear_pair(paper_gears(1)))
-    g, b = path.length, 20e-3
-    points = {"A": (0.0, b / 2), "E": (g, b / 2), "middle": (g / 2, b / 2), "start": (g / 2, 0.0), "end": (g / 2, b)}
-    x, y = (np.array([point[axis] for point in points.values()]) for axis in (0, 1))
-
-    def form(**amplitudes: float) -> dict[str, float]:
-        found = gaps_at(gap(Modifications(**amplitudes), path), x, y)
-        return dict(zip(points, found * 1e6, strict=True))
-
-    assert form(tip_relief=5e-6) == pytest.approx({"A": 0, "E": 5, "middle": 0, "start": 0, "end": 0})
-    assert form(root_relief=5e-6) == pytest.approx({"A": 5, "E": 0, "middle": 0, "start": 0, "end": 0})
-    assert form(end_relief=5e-6) == pytest.approx({"A": 0, "E": 0, "middle": 0, "start": 5, "end": 5})
-    assert form(profile_crowning=4e-6) == pytest.approx({"A": 4, "E": 4, "middle": 0, "start": 0, "end": 0})
-    assert form(lead_crowning=4e-6) == pytest.approx({"A": 0, "E": 0, "middle": 0, "start": 4, "end": 4})
-    assert form(profile_slope=6e-6) == pytest.approx({"A": -3, "E": 3, "middle": 0, "start": 0, "end": 0})
-    assert form(helix_slope=6e-6) == pytest.approx({"A": 0, "E": 0, "middle": 0, "start": -3, "end": 3})
+@pytest.mark.parametrize(
+    ("name", "amplitude", "expected"),
+    [
+        ("tip_relief", 5e-6, [0, 5, 0, 0, 0]),
+        ("root_relief", 5e-6, [5, 0, 0, 0, 0]),
+        ("end_relief", 5e-6, [0, 0, 0, 5, 5]),
+        ("profile_crowning", 4e-6, [4, 4, 0, 0, 0]),
+        ("lead_crowning", 4e-6, [0, 0, 0, 4, 4]),
+        ("profile_slope", 6e-6, [-3, 3, 0, 0, 0]),
+        ("helix_slope", 6e-6, [0, 0, 0, -3, 3]),
+    ],
+)
+def test_modifications_act_where_they_are_named(name: str, amplitude: float, expected: list[float]) -> None:
+    """In A, E and the middle of the path at half the face; at both ends of the face in the middle of the path."""
+    g, b = PATH_1.length, 20e-3
+    x, y = np.array([0, g, g / 2, g / 2, g / 2]), np.array([b / 2, b / 2, b / 2, 0, b])
+    found = gaps_at(gap(Modifications(**{name: amplitude}), PATH_1), x, y)
+    assert found * 1e6 == pytest.approx(expected)
 
 
 @pytest.mark.parametrize(("exponent", "half"), [(1.0, 2.5), (2.0, 1.25), (1.5, 5 * 0.5**1.5)])
 def test_relief_exponents(exponent: float, half: float) -> None:
-    path = path_of_contact(gear_pair(paper_gears(1)))
-    form = gap(Modifications(tip_relief=5e-6, tip_relief_length=4e-3, relief_exponent=exponent), path)
-    found = gaps_at(form, np.array([path.length - 2e-3]), np.array([0.0]))
+    form = gap(Modifications(tip_relief=5e-6, tip_relief_length=4e-3, relief_exponent=exponent), PATH_1)
+    found = gaps_at(form, np.array([PATH_1.length - 2e-3]), np.array([0.0]))
     assert found[0] * 1e6 == pytest.approx(half, rel=1e-12)
 
 
@@ -283,26 +271,21 @@ def test_shaft_misalignment_as_a_helix_slope() -> None:
     angle = radians(20)
     assert misalignment_slope(10e-6, 0.0, angle) == pytest.approx(10e-6 * np.sin(angle), rel=1e-12)
     assert misalignment_slope(0.0, 10e-6, angle) == pytest.approx(10e-6 * np.cos(angle), rel=1e-12)
-    path = path_of_contact(gear_pair(paper_gears(1)))
-    tilted = gap(Modifications(helix_slope=1e-6, in_plane_deviation=20e-6, out_of_plane_deviation=-5e-6), path)
-    expected = 1e-6 + misalignment_slope(20e-6, -5e-6, path.pair.working_pressure_angle)
+    tilted = gap(Modifications(helix_slope=1e-6, in_plane_deviation=20e-6, out_of_plane_deviation=-5e-6), PATH_1)
+    expected = 1e-6 + misalignment_slope(20e-6, -5e-6, PATH_1.pair.working_pressure_angle)
     assert tilted.helix_slope == pytest.approx(expected, rel=1e-12)
 
 
 def test_profile_shift_counts_normal_modules() -> None:
-    gears = GearPairInputs(
-        GearTeeth(23, 0.3), GearTeeth(30), 3e-3, 20e-3, helix_angle=radians(20.2), rack_tip_radius=0.38
-    )
-    pinion = gear_pair(gears).pinion
+    pinion = gear_pair(replace(paper_gears(3), pinion=GearTeeth(23, 0.3))).pinion
     assert pinion.tip_radius - pinion.reference_radius == pytest.approx(1.3 * 3e-3, rel=1e-12)
 
 
 def test_working_pressure_angle_solves_the_involute_equation() -> None:
     gears = replace(paper_gears(3), pinion=GearTeeth(23, 0.4), wheel=GearTeeth(30, 0.3))
     pair = gear_pair(gears)
-    target = (
-        np.tan(pair.transverse_pressure_angle) - pair.transverse_pressure_angle + 2 * 0.7 * np.tan(radians(20)) / 53
-    )
+    angle = pair.transverse_pressure_angle
+    target = np.tan(angle) - angle + 2 * 0.7 * np.tan(radians(20)) / 53
     assert pair.working_pressure_angle == pytest.approx(brentq(lambda a: np.tan(a) - a - target, 0.1, 1.0), rel=1e-10)
 
 
@@ -321,19 +304,17 @@ def test_a_lead_curve_is_a_gap_over_the_face() -> None:
 
 
 def test_a_lead_curve_holds_its_ends_and_adds_to_the_other_modifications() -> None:
-    path = path_of_contact(gear_pair(paper_gears(1)))
     curve = LeadCurve((5e-3, 15e-3), (2e-6, 8e-6))
     y = np.array([0.0, 5e-3, 10e-3, 15e-3, 20e-3])
-    both = gaps_at(gap(Modifications(lead_curve=curve, lead_crowning=4e-6), path), np.zeros(5), y)
-    crowned = gaps_at(gap(Modifications(lead_crowning=4e-6), path), np.zeros(5), y)
+    both = gaps_at(gap(Modifications(lead_curve=curve, lead_crowning=4e-6), PATH_1), np.zeros(5), y)
+    crowned = gaps_at(gap(Modifications(lead_crowning=4e-6), PATH_1), np.zeros(5), y)
     assert (both - crowned) * 1e6 == pytest.approx([2, 2, 5, 8, 8], rel=1e-9)
 
 
 def test_an_even_lead_curve_changes_nothing_but_the_transmission_error() -> None:
     plain = solve_load_distribution(paper_pair(3, PAPER_MODIFICATIONS))
-    lifted = solve_load_distribution(
-        paper_pair(3, replace(PAPER_MODIFICATIONS, lead_curve=LeadCurve((0.0, 20e-3), (3e-6, 3e-6))))
-    )
+    even = replace(PAPER_MODIFICATIONS, lead_curve=LeadCurve((0.0, 20e-3), (3e-6, 3e-6)))
+    lifted = solve_load_distribution(paper_pair(3, even))
     assert lifted.transmission_error.mean == pytest.approx(plain.transmission_error.mean + 3e-6, rel=1e-12)
     assert lifted.flank.line_load == pytest.approx(plain.flank.line_load, rel=1e-9)
 

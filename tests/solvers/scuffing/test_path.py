@@ -24,6 +24,7 @@ from solvers.scuffing.inputs import (
 from solvers.scuffing.safety import solve_scuffing
 from solvers.scuffing.safety_results import Scuffing
 from solvers.scuffing.thermal.thermal_path import contact_at
+from tests.support.changes import changed
 from tests.support.gear_pairs import UNDERCUT_PAIR, with_torque
 from tests.support.modified_pairs import (
     PATH_POINTS,
@@ -33,7 +34,6 @@ from tests.support.modified_pairs import (
     relieved_pair,
     search_paths,
     turbo_pair,
-    with_points,
 )
 from tests.support.outcomes import codes, refused
 from tests.support.stored import stored
@@ -58,14 +58,14 @@ def test_relieved_pair(points: int) -> None:
 @pytest.mark.parametrize("points", POINTS)
 def test_turbo_pair(slope: float, points: int) -> None:
     """Once 77, 248 and 72 K for helix slopes 0, -20 and 20 um at 50 points."""
-    result = check_path(with_points(turbo_pair(slope), points), every=points // 4)
+    result = check_path(replace(turbo_pair(slope), path_points=points), every=points // 4)
     assert 8.0 < result.flash.thermal_ehl_max < 17.0
     assert result.unsolved_points == 0
 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_random_pairs(seed: int) -> None:
-    check_path(with_points(random_pair(np.random.default_rng(seed)), 25), every=6)
+    check_path(replace(random_pair(np.random.default_rng(seed)), path_points=25), every=6)
 
 
 @pytest.mark.slow
@@ -95,14 +95,13 @@ def check_backwards(inputs: ScuffingInputs, result: Scuffing) -> None:
         if along.status == "no_solution":
             continue
         assert along.film.minimum == pytest.approx(result.path.thermal.minimum_film[k], rel=0.01)
-        assert along.temperature.surface_1_flash == pytest.approx(
-            result.path.thermal.pinion_flash[k], rel=0.01, abs=0.5
-        )
+        flash = result.path.thermal.pinion_flash[k]
+        assert along.temperature.surface_1_flash == pytest.approx(flash, rel=0.01, abs=0.5)
 
 
 @pytest.mark.parametrize("inputs", stored(ScuffingInputs, "scuffing", "path taken backwards"))
 def test_direction_does_not_matter(inputs: ScuffingInputs) -> None:
-    coarse = with_points(inputs, 25)
+    coarse = replace(inputs, path_points=25)
     check_backwards(coarse, solve_scuffing(coarse))
 
 
@@ -121,7 +120,7 @@ def test_number_of_points_does_not_decide_for_many(seed: int) -> None:
 def check_number_of_points(inputs: ScuffingInputs) -> None:
     """25 against 50 points."""
     try:
-        one, other = (solve_scuffing(with_points(inputs, points)) for points in (25, 50))
+        one, other = (solve_scuffing(replace(inputs, path_points=points)) for points in (25, 50))
     except InvalidInput:
         return
     assert one.flash.blok_max == pytest.approx(other.flash.blok_max, rel=1e-3)
@@ -175,10 +174,8 @@ def test_lightest_load_is_the_edge_of_what_is_refused() -> None:
     inputs = ehl.LineContactInputs(ehl.Contact(1.0, 4e-3, 1.0, 3.7))
     edge = ehl.lightest(inputs)
     ehl.check(edge)
-    assert (
-        refused(ehl.check, replace(edge, contact=replace(edge.contact, line_load=0.99 * edge.contact.line_load)))[0]
-        == "load_range"
-    )
+    lighter = changed(edge, {"contact.line_load": 0.99 * edge.contact.line_load})
+    assert refused(ehl.check, lighter)[0] == "load_range"
 
 
 @pytest.mark.parametrize("points", [10, 50, 100])
