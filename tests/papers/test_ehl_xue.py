@@ -131,6 +131,9 @@ def test_hertz_contact() -> None:
 def test_pressure_at_the_centre(rheology: str, thermal: bool, reference: float, nodes: int) -> None:
     result = point_a(nodes, rheology, thermal=thermal)
     assert result.pressure.centre == pytest.approx(reference, rel=0.001)
+    if rheology == "ree_eyring":  # the maximum is there, within one node
+        assert result.pressure.maximum == pytest.approx(reference, rel=0.001)
+        assert abs(result.pressure.maximum_at) < 0.035 * result.hertz.half_width
 
 
 @pytest.mark.parametrize("row", [(81, 1.671e9, 0.71), (121, 1.714e9, 0.69), (241, 1.754e9, 0.70), (481, 1.766e9, 0.69)])
@@ -139,13 +142,6 @@ def test_thermal_pressure_maximum_of_the_newtonian_film(row: tuple[int, float, f
     result = point_a(row[0], "newtonian", film_nodes=31 if row[0] >= 361 else 21)
     assert result.pressure.maximum == pytest.approx(row[1], rel=0.01)
     assert result.pressure.maximum_at / result.hertz.half_width == pytest.approx(row[2], abs=0.03)
-
-
-@pytest.mark.parametrize("nodes", [81, 121, 241])
-def test_pressure_maximum_of_the_eyring_film_is_in_the_centre(nodes: int) -> None:
-    result = point_a(nodes)
-    assert result.pressure.maximum == pytest.approx(1.546e9, rel=0.001)
-    assert abs(result.pressure.maximum_at) < 0.035 * result.hertz.half_width  # one node
 
 
 def test_isothermal_newtonian_friction_has_no_meaning() -> None:
@@ -225,6 +221,7 @@ def test_faces_heat_up_until_near_the_outlet_and_then_cool(rheology: str) -> Non
     """Fig. 21; heat flows back into the broken film and on into the solids."""
     curves = point_a(241, rheology).curves
     for face in (curves.surface_1_temperature, curves.surface_2_temperature):
+        assert face is not None
         hottest = int(face.argmax())
         assert 0.5 < curves.x[hottest] / point_a().hertz.half_width < 0.9
         # to the last Hertzian radius; in the far inlet heat of the reverse flow may leave a ripple of millikelvins

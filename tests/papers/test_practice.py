@@ -12,13 +12,7 @@ from solvers.lubricants import Lubricant, OilKind
 from solvers.materials import Solid
 from solvers.oils import KINDS, TYPICAL_VISCOSITY_100, OilSheet, iso_vg, lubricant_at, viscosity_index
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, OilSupply, angular_speed
-from solvers.scuffing.thermal.practice import (
-    bulk_temperature,
-    lubricant_factor,
-    mean_friction,
-    scuffing_risk,
-    scuffing_temperature,
-)
+from solvers.scuffing.thermal import practice
 from tests.support.gear_pairs import FZG_A, FZG_TORQUES
 from tests.support.outcomes import refused
 
@@ -71,20 +65,11 @@ def test_density_falls_by_its_expansion_from_15_degrees() -> None:
 
 
 def test_what_the_sheet_gives_wins_over_the_kind() -> None:
-    oil = OilSheet(
-        46e-6,
-        6.8e-6,
-        "ester",
-        density_15=900.0,
-        pressure_viscosity=12e-9,
-        temperature_viscosity=0.03,
-        specific_heat=1900.0,
-        thermal_conductivity=0.16,
-    )
+    given = {"pressure_viscosity": 12e-9, "temperature_viscosity": 0.03}
+    given |= {"specific_heat": 1900.0, "thermal_conductivity": 0.16}
+    oil = OilSheet(46e-6, 6.8e-6, "ester", density_15=900.0, **given)
     lubricant = oil.lubricant(350.0)
-    assert lubricant.pressure_viscosity == 12e-9
-    assert lubricant.temperature_viscosity == 0.03
-    assert (lubricant.specific_heat, lubricant.thermal_conductivity) == (1900.0, 0.16)
+    assert {name: getattr(lubricant, name) for name in given} == given
     assert lubricant.density == oil.density(350.0) != KINDS["ester"].density_15
 
 
@@ -95,14 +80,7 @@ def test_lubricant_has_the_oil_s_viscosity_at_its_reference_temperature_and_slop
 
 
 def test_a_lubricant_given_by_its_viscosity_stays_what_it_is() -> None:
-    assert lubricant_at(Lubricant(), 400.0) is not None
     assert lubricant_at(Lubricant(), 400.0) == Lubricant()
-
-
-def test_oil_that_does_not_thin_is_refused() -> None:
-    with pytest.raises(InvalidInput, match="thinner at 100") as refusal:
-        OilSheet(10e-6, 10e-6)
-    assert (refusal.value.code, refusal.value.field) == ("viscosity_order", "lubricant.kinematic_viscosity_100")
 
 
 @pytest.mark.parametrize(("viscosity_40", "viscosity_100", "index"), [(73.30, 8.86, 92.0), (22.83, 5.05, 156.0)])
@@ -130,6 +108,12 @@ def test_viscosities_that_no_oil_has_are_refused(viscosity_40: float, viscosity_
     assert refused(OilSheet, viscosity_40 * 1e-6, viscosity_100 * 1e-6) == (code, "lubricant.kinematic_viscosity_100")
 
 
+def test_oil_that_does_not_thin_is_refused() -> None:
+    with pytest.raises(InvalidInput, match="thinner at 100") as refusal:
+        OilSheet(10e-6, 10e-6)
+    assert (refusal.value.code, refusal.value.field) == ("viscosity_order", "lubricant.kinematic_viscosity_100")
+
+
 def test_the_law_ends_where_oils_hardly_flow() -> None:
     """VG 46 at -40 C has 8.9e4 mm2/s, at -41 C 1.06e5."""
     assert iso_vg(46).kinematic_viscosity(233.15) == pytest.approx(8.91e-2, rel=1e-3)
@@ -137,10 +121,8 @@ def test_the_law_ends_where_oils_hardly_flow() -> None:
 
 
 def test_a_viscosity_without_pressure_that_no_oil_has_is_refused() -> None:
-    assert refused(Lubricant(temperature_viscosity=0.2).viscosity_at, 0.0, 220.0) == (
-        "viscosity_range",
-        "lubricant.temperature_viscosity",
-    )
+    thick = Lubricant(temperature_viscosity=0.2)
+    assert refused(thick.viscosity_at, 0.0, 220.0) == ("viscosity_range", "lubricant.temperature_viscosity")
 
 
 # Scuffing: friction, scuffing and bulk temperature of a stage
@@ -158,7 +140,9 @@ def fzg(stage: int, **factors: float) -> LoadDistributionInputs:
 
 
 def friction(inputs: LoadDistributionInputs, face_load_factor: float = 1.0) -> float:
-    return mean_friction(inputs, meshing_path(inputs.gears), lubricant_factor(0.015, "mineral"), face_load_factor)
+    return practice.mean_friction(
+        inputs, meshing_path(inputs.gears), practice.lubricant_factor(0.015, "mineral"), face_load_factor
+    )
 
 
 @pytest.mark.parametrize(("stage", "expected"), [(4, 0.050), (6, 0.052), (8, 0.058), (10, 0.064), (12, 0.068)])
@@ -167,15 +151,11 @@ def test_mean_friction_of_the_load_stages(stage: int, expected: float) -> None:
 
 
 def test_mean_friction_grows_with_the_fifth_root_of_load_and_factors() -> None:
-    assert friction(fzg(8, application_factor=1.5)) / friction(fzg(8)) == pytest.approx(1.5**0.2, rel=1e-12)
-    assert friction(fzg(8, dynamic_factor=1.2, mesh_load_factor=1.1)) == pytest.approx(
-        friction(fzg(8)) * 1.32**0.2, rel=1e-12
-    )
-
-
-def test_face_load_factor_loads_the_friction_law_as_other_factors_do() -> None:
-    """K_Hbeta 1.5 raises the coefficient by 8.4 %."""
-    assert friction(fzg(8), 1.5) / friction(fzg(8)) == pytest.approx(1.5**0.2, rel=1e-12)
+    """The face load factor loads the friction law as other factors do: K_Hbeta 1.5 raises it by 8.4 %."""
+    plain = friction(fzg(8))
+    assert friction(fzg(8, application_factor=1.5)) / plain == pytest.approx(1.5**0.2, rel=1e-12)
+    assert friction(fzg(8, dynamic_factor=1.2, mesh_load_factor=1.1)) / plain == pytest.approx(1.32**0.2, rel=1e-12)
+    assert friction(fzg(8), 1.5) / plain == pytest.approx(1.5**0.2, rel=1e-12)
 
 
 def test_light_loads_count_as_150_newtons_per_millimetre() -> None:
@@ -195,34 +175,39 @@ def test_pitch_line_velocity_counts_up_to_50_metres_per_second() -> None:
     assert at(125.0) == pytest.approx(at(50.0), rel=1e-6)
 
 
-def test_lubricant_factors() -> None:
-    assert lubricant_factor(0.015, "mineral") == pytest.approx(0.873, abs=5e-4)
-    assert lubricant_factor(0.015, "pao") == pytest.approx(0.8 * 0.873, abs=5e-4)
-    assert lubricant_factor(0.015, "polyglycol") == pytest.approx(0.7 * 0.873, abs=5e-4)
-    assert lubricant_factor(0.015, "ester") == lubricant_factor(0.015, "mineral")
+@pytest.mark.parametrize(("kind", "share"), [("mineral", 1.0), ("pao", 0.8), ("polyglycol", 0.7), ("ester", 1.0)])
+def test_lubricant_factors(kind: OilKind, share: float) -> None:
+    assert practice.lubricant_factor(0.015, kind) == pytest.approx(share * 0.873, abs=5e-4)
 
 
 @pytest.mark.parametrize(("stage", "expected"), [(6, 150.74), (8, 205.76), (10, 276.50), (12, 362.97)])
 def test_scuffing_temperature_of_a_stage(stage: int, expected: float) -> None:
     """80 + 2.25 X_L S^2 with X_L = 15^-0.05 = 0.87335, by hand."""
-    factor = lubricant_factor(0.015, "mineral")
-    assert scuffing_temperature(stage, 1.0, factor) - 273.15 == pytest.approx(expected, abs=0.01)
+    factor = practice.lubricant_factor(0.015, "mineral")
+    assert practice.scuffing_temperature(stage, 1.0, factor) - 273.15 == pytest.approx(expected, abs=0.01)
 
 
 def test_structure_factor_weighs_in_the_steel() -> None:
     """80 + (0.85 + 1.4 0.45) 12^2 = 293.12 C for an austenitic share that halves X_W."""
-    assert scuffing_temperature(12, 0.45, 1.0) - 273.15 == pytest.approx(293.12, abs=1e-9)
+    assert practice.scuffing_temperature(12, 0.45, 1.0) - 273.15 == pytest.approx(293.12, abs=1e-9)
 
 
 @pytest.mark.parametrize(("supply", "share"), [("spray", 1.2), ("dip", 1.0), ("submerged", 0.2)])
 def test_bulk_takes_on_a_share_of_the_mean_flash_temperature(supply: OilSupply, share: float) -> None:
     """A flash temperature that falls linearly from 100 K to nothing has the mean 50 K."""
     psi = np.linspace(0.0, 1.0, 11)
-    assert bulk_temperature(363.15, supply, psi, 100.0 * (1.0 - psi)) == pytest.approx(363.15 + 0.47 * share * 50.0)
+    assert practice.bulk_temperature(363.15, supply, psi, 100.0 * (1.0 - psi)) == pytest.approx(
+        363.15 + 0.47 * share * 50.0
+    )
 
 
 def test_risk_words() -> None:
-    assert [scuffing_risk(value) for value in (0.99, 1.0, 2.0, 2.01)] == ["high", "moderate", "moderate", "low"]
+    assert [practice.scuffing_risk(value) for value in (0.99, 1.0, 2.0, 2.01)] == [
+        "high",
+        "moderate",
+        "moderate",
+        "low",
+    ]
 
 
 def test_speed_of_the_test_is_that_of_its_name() -> None:

@@ -35,19 +35,17 @@ def test_case_1_backlash_of_the_centre_distance() -> None:
     assert normal_backlash(gear_pair(CASE_1), 0.0) * 1e6 == pytest.approx(21.946, abs=5e-4)
 
 
-def test_fig_3_volume_is_u_shaped(fig_3: StrokeTable) -> None:
+def test_fig_3_volume_is_u_shaped_and_symmetric_without_backlash(fig_3: StrokeTable) -> None:
     area = fig_3.area * 1e6
     assert area[[0, 180, 360]] == pytest.approx([162.25, 12.158, 162.25], rel=2e-4)
     assert (np.diff(area[:181]) < 0).all()
     assert (np.diff(area[180:]) > 0).all()
+    assert fig_3.area == pytest.approx(fig_3.area[::-1], rel=1e-12)
+    assert fig_3.clearance_left == pytest.approx(fig_3.clearance_right[::-1], abs=1e-15)
 
 
-def test_fig_3_stroke(fig_3: StrokeTable) -> None:
-    assert degrees(fig_3.limits.start) == pytest.approx(-20.278, abs=1e-3)
-    assert degrees(fig_3.limits.end) == pytest.approx(20.278, abs=1e-3)
-
-
-def test_fig_3_clearance(fig_3: StrokeTable) -> None:
+def test_fig_3_stroke_and_clearance(fig_3: StrokeTable) -> None:
+    assert np.degrees((fig_3.limits.start, fig_3.limits.end)) == pytest.approx((-20.278, 20.278), abs=1e-3)
     total = (fig_3.clearance_left + fig_3.clearance_right) * 1e3
     assert total[180] == pytest.approx(0.5541, abs=1e-4)
     assert total[[0, 360]].min() > 5 * total[180]
@@ -64,20 +62,11 @@ def test_fig_3_tip_touches_the_flank_at_the_start_of_contact(fig_3: StrokeTable)
     assert gaps[4] / gaps[3] == pytest.approx(4.0, rel=0.1)
 
 
-def test_fig_3_is_symmetric_without_backlash(fig_3: StrokeTable) -> None:
-    assert fig_3.area == pytest.approx(fig_3.area[::-1], rel=1e-12)
-    assert fig_3.clearance_left == pytest.approx(fig_3.clearance_right[::-1], abs=1e-15)
-
-
 def test_contact_duration_is_the_contact_ratio(fig_3: StrokeTable) -> None:
     duration = fig_3.limits.contact_end - fig_3.limits.contact_start
-    assert duration * 47 / (2 * pi) == pytest.approx(pinion_contact_ratio(), rel=1e-12)
-
-
-def pinion_contact_ratio() -> float:
-    result = run(TABLE_1, 1000, replace(TIP, slices=None), 10, 0.0)
+    result = run(TABLE_1, 1000, TIP, 10, 0.0)
+    assert duration * 47 / (2 * pi) == pytest.approx(result.geometry.transverse_contact_ratio, rel=1e-12)
     assert pinion(result).stroke.contact_start < 0
-    return result.geometry.transverse_contact_ratio
 
 
 @pytest.mark.parametrize("gears", [TABLE_1, CASE_1, CASE_2])

@@ -41,40 +41,11 @@ def contact_at(result: LoadDistribution, x: float, line_load: float) -> Contact:
 
 
 def test_contact_at_the_start_of_mesh_of_pair_1() -> None:
-    """Xue Eqs. 13 and 18."""
-    contact = contact_at(scuffing(1).distribution, 0.0, 273e3)
+    """Xue Eqs. 13 and 18; Xue Eqs. 25 and 27 at the printed line load (Figs. 22 and 23)."""
+    contact, oil = contact_at(scuffing(1).distribution, 0.0, 273e3), Lubricant()
     assert contact.radius * 1e3 == pytest.approx(4.0666, abs=1e-4)
     assert (contact.speed_1, contact.speed_2) == pytest.approx((1.018, 3.708), abs=1e-3)
-
-
-def test_fig_22_flash_temperature_of_pair_1() -> None:
-    result = scuffing(1)
-    assert result.flash.blok_max == pytest.approx(71.5, abs=0.1)
-    assert result.path.blok_flash[-1] == pytest.approx(55.7, abs=0.1)
-
-
-@pytest.mark.parametrize("pair", [1, 2, 3, 4])
-def test_fig_22_the_dedendum_is_hottest_and_the_pitch_point_cold_in_every_pair(pair: int) -> None:
-    result = scuffing(pair)
-    assert result.flash.blok_at_psi == 0.0
-    assert result.path.blok_flash.min() < 0.05 * result.flash.blok_max
-
-
-def test_fig_22_flash_temperature_at_the_printed_line_load() -> None:
-    """Xue Eq. 25."""
-    assert blok_flash(contact_at(scuffing(1).distribution, 0.0, 273e3), 0.06) == pytest.approx(85.7, abs=0.05)
-
-
-def test_fig_23_film_is_thinnest_in_the_dedendum_of_the_pinion() -> None:
-    result = scuffing(1).film
-    assert result.min_at_psi == 0.0
-    assert result.dowson_higginson_min * 1e6 == pytest.approx(0.5235, abs=2e-4)
-    assert result.dowson_higginson_min > 0.42e-6  # the paper's thermal EHL film
-
-
-def test_fig_23_film_at_the_printed_line_load() -> None:
-    """Xue Eq. 27."""
-    contact, oil = contact_at(scuffing(1).distribution, 0.0, 273e3), Lubricant()
+    assert blok_flash(contact, 0.06) == pytest.approx(85.7, abs=0.05)
     film = dowson_higginson_minimum(
         viscosity=oil.viscosity,
         pressure_viscosity=oil.pressure_viscosity,
@@ -84,6 +55,22 @@ def test_fig_23_film_at_the_printed_line_load() -> None:
         modulus=hertz.reduced_modulus(Solid(), Solid()),
     )
     assert film * 1e6 == pytest.approx(0.507, abs=5e-4)
+
+
+def test_fig_22_and_23_flash_temperature_and_film_of_pair_1() -> None:
+    result = scuffing(1)
+    assert result.flash.blok_max == pytest.approx(71.5, abs=0.1)
+    assert result.path.blok_flash[-1] == pytest.approx(55.7, abs=0.1)
+    assert result.film.min_at_psi == 0.0
+    assert result.film.dowson_higginson_min * 1e6 == pytest.approx(0.5235, abs=2e-4)
+    assert result.film.dowson_higginson_min > 0.42e-6  # the paper's thermal EHL film
+
+
+@pytest.mark.parametrize("pair", [1, 2, 3, 4])
+def test_fig_22_the_dedendum_is_hottest_and_the_pitch_point_cold_in_every_pair(pair: int) -> None:
+    result = scuffing(pair)
+    assert result.flash.blok_at_psi == 0.0
+    assert result.path.blok_flash.min() < 0.05 * result.flash.blok_max
 
 
 @pytest.mark.parametrize(("ratio", "regime"), [(0.9, "boundary"), (1.0, "mixed"), (4.0, "mixed"), (4.1, "full_film")])

@@ -11,16 +11,17 @@ from scipy.optimize import brentq
 from solvers.contact import hertz
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.gears.pair import gear_pair, path_of_contact, reduced_radius
+from solvers.gears.pair import gear_pair, path_of_contact
 from solvers.materials import Solid
-from solvers.published.standard_gears import EXAMPLE_1, example_stress
+from solvers.published.standard_gears import EXAMPLE_1, example_stress, fzg_pressure
 from solvers.published.xue import PAPER_LOAD, paper_pair
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, Resolution, angular_speed
 from solvers.scuffing.load_balance import line_loads
 from solvers.scuffing.mesh_results import standard_stiffness
 from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.tooth_stiffness import linear_contact_compliance
-from tests.support.gear_pairs import FZG_A, FZG_TORQUES, with_torque
+from tests.support.changes import scaled
+from tests.support.gear_pairs import FZG_A, FZG_TORQUES
 
 STEEL = Solid()
 MODULUS = hertz.reduced_modulus(STEEL, STEEL)
@@ -32,11 +33,7 @@ PITCH_PRESSURES = (144.8, 295.0, 473.2, 621.2, 773.2, 927.1, 1079.3, 1232.9, 138
 @pytest.mark.parametrize(("torque", "pressure"), list(zip(FZG_TORQUES, PITCH_PRESSURES, strict=True)))
 def test_fzg_type_a_load_stages(torque: float, pressure: float) -> None:
     """Hertzian pressure at the pitch point with one pair carrying all, as the stages are defined."""
-    result = solve_load_distribution(LoadDistributionInputs(FZG_A, Load(torque, angular_speed(2250))))
-    path = result.path_of_contact
-    radius = float(reduced_radius(path.plane, path.pitch_point - path.start))
-    found = hertz.maximum_pressure(result.load.normal_force / 20e-3, radius, MODULUS)
-    assert found * 1e-6 == pytest.approx(pressure, rel=3e-3)
+    assert fzg_pressure(torque) == pytest.approx(pressure, rel=3e-3)
 
 
 def test_fzg_type_a_pitch_point_lies_in_double_contact() -> None:
@@ -55,22 +52,16 @@ def test_fzg_type_a_pitch_point_lies_in_double_contact() -> None:
 # ISO/TR 6336-30:2017, example 1, values as quoted in the comments of github.com/gfsReboucas/Drivetrain
 
 
-def test_iso_tr_6336_30_example_1_tangential_force() -> None:
-    radius = gear_pair(EXAMPLE_1).pinion.reference_radius
-    assert 9000 / radius == pytest.approx(127352, abs=0.5)
-
-
-def test_iso_tr_6336_30_example_1_stiffness() -> None:
-    stiffness = standard_stiffness(path_of_contact(gear_pair(EXAMPLE_1)))
+def test_iso_tr_6336_30_example_1() -> None:
+    """Tangential force, stiffness, and sigma_H0 / Z_beta: the Hertzian pressure at C under F_bt / (b eps_alpha)."""
+    path = path_of_contact(gear_pair(EXAMPLE_1))
+    assert 9000 / path.pair.pinion.reference_radius == pytest.approx(127352, abs=0.5)
+    stiffness = standard_stiffness(path)
     assert stiffness.single * 1e-9 == pytest.approx(12.37047, abs=6e-6)
     # The standard rounds the contact ratio: 17.46485 and 14.84512 there.
     assert stiffness.mesh * 1e-9 == pytest.approx(17.46719, abs=6e-6)
     assert stiffness.mesh * 1e-9 == pytest.approx(17.46485, rel=2e-4)
     assert stiffness.mesh_bending * 1e-9 == pytest.approx(14.84512, rel=2e-4)
-
-
-def test_iso_tr_6336_30_example_1_contact_stress() -> None:
-    """sigma_H0 / Z_beta is the Hertzian pressure at C under F_bt / (b eps_alpha)."""
     assert example_stress() == pytest.approx(1183.47, abs=0.06)
     assert example_stress() == pytest.approx(1206.58 / 1.01944, rel=1.5e-4)
 
@@ -84,19 +75,14 @@ def straight_mismatch(torque_factor: float) -> float:
     slope = 27.5e-6 * 14.845e9 / mesh
     torque = 1277.3e3 * 0.1 * path.pair.pinion.base_radius * torque_factor
     tilted = replace(inputs, load=Load(torque, 100.0), modifications=Modifications(helix_slope=slope))
-    factor = solve_load_distribution(tilted).load.face_load_factor
-    assert factor is not None
-    return factor
+    return solve_load_distribution(tilted).load.face_load_factor or 0.0
 
 
 def test_iso_face_load_factor_of_a_straight_mismatch() -> None:
-    """1 + F c_gamma b / (2 F_m) with 27.5 um, 14.845 N/(mm um), 1277.3 N/mm."""
+    """1 + F c_gamma b / (2 F_m) with 27.5 um, 14.845 N/(mm um), 1277.3 N/mm; it falls as the inverse of torque."""
     # The flank map of 200 steps smears the two jumps of a spur gear's load over one step each.
     assert straight_mismatch(1.0) == pytest.approx(1 + 27.5 * 14.845 / (2 * 1277.3), abs=2e-4)
     assert straight_mismatch(1.0) == pytest.approx(1.160, abs=5e-4)
-
-
-def test_iso_face_load_factor_falls_as_the_inverse_of_torque_above_lift_off() -> None:
     assert straight_mismatch(2.0) - 1 == pytest.approx((straight_mismatch(1.0) - 1) / 2, rel=1e-9)
     # Lift-off begins at 2 for one pair; where two share, their half of the load lifts off sooner.
     assert straight_mismatch(0.05) > 2
@@ -160,13 +146,11 @@ def test_gearpie_single_stiffness_of_the_spur_pair() -> None:
 
 def test_gearpie_h951_has_no_tip_clearance() -> None:
     """Its shifts 1.6915/2.0003 at the backlash-free centre distance leave -0.58 mm without tip shortening."""
-    gears = GearPairInputs(
-        GearTeeth(38, 1.6915), GearTeeth(57, 2.0003), 1.75e-3, 21.2418e-3, helix_angle=radians(15), rack_tip_radius=0.38
-    )
-    with pytest.raises(InvalidInput) as refusal:
+    teeth = GearTeeth(38, 1.6915), GearTeeth(57, 2.0003)
+    gears = GearPairInputs(*teeth, 1.75e-3, 21.2418e-3, helix_angle=radians(15), rack_tip_radius=0.38)
+    with pytest.raises(InvalidInput, match=r"0\.58") as refusal:
         solve_load_distribution(LoadDistributionInputs(gears, PAPER_LOAD))
     assert refusal.value.code == "no_tip_clearance"
-    assert "0.58" in refusal.value.message
 
 
 # Directions of the transmission error
@@ -175,16 +159,9 @@ def test_gearpie_h951_has_no_tip_clearance() -> None:
 @cache
 def variation(overlap: float) -> float:
     """Peak to peak of the transmission error of pair 1 with uniform stiffness, the width set to the overlap ratio."""
-    inputs = paper_pair(1, model=UNIFORM)
-    width = overlap * pi * 3e-3 / sin(radians(9.8))
-    scaled = with_torque(inputs, inputs.load.pinion_torque * width / 20e-3)
-    result = solve_load_distribution(
-        replace(
-            scaled,
-            gears=replace(inputs.gears, face_width=width),
-            resolution=Resolution(profile_points=11, face_points=11),
-        )
-    )
+    wider = overlap * pi * 3e-3 / sin(radians(9.8)) / 20e-3
+    inputs = scaled(paper_pair(1, model=UNIFORM), wider, "load.pinion_torque", "gears.face_width")
+    result = solve_load_distribution(replace(inputs, resolution=Resolution(profile_points=11, face_points=11)))
     return result.transmission_error.peak_to_peak / result.transmission_error.mean
 
 

@@ -45,19 +45,18 @@ def package(tmp_path: Path) -> Path:
     return folder
 
 
-def outcome(
-    package: Path, cache: str | None = None, module: str = "solvers.outer", head: str = "", **variables: str
-) -> tuple[float, bool, str]:
-    """What the outer kernel answers, whether it came from the cache, and what was logged."""
+def run(package: Path, program: str, **variables: str) -> subprocess.CompletedProcess[str]:
+    """A program in a process of its own, with the cache where it is by default."""
     environment = {name: value for name, value in os.environ.items() if name not in {"NUMBA_CACHE_DIR", "PYTHONPATH"}}
-    result = subprocess.run(
-        [sys.executable, "-c", head + PROGRAM.format(module=module)],
-        cwd=package.parent,
-        env=environment | variables | ({"NUMBA_CACHE_DIR": cache} if cache else {}),
-        check=True,
-        capture_output=True,
-        text=True,
+    command = [sys.executable, "-c", program]
+    return subprocess.run(
+        command, cwd=package.parent, env=environment | variables, check=True, capture_output=True, text=True
     )
+
+
+def outcome(package: Path, module: str = "solvers.outer", head: str = "", **variables: str) -> tuple[float, bool, str]:
+    """What the outer kernel answers, whether it came from the cache, and what was logged."""
+    result = run(package, head + PROGRAM.format(module=module), **variables)
     value, hits = result.stdout.split()
     return float(value), hits == "1", result.stderr
 
@@ -111,9 +110,7 @@ def test_broken_files_are_compiled_again_with_a_word(package: Path, kind: str, s
 
 def marked_complete(package: Path) -> None:
     outcome(package)
-    program = "from solvers.kernel_cache import mark_complete; mark_complete('all')"
-    environment = {name: value for name, value in os.environ.items() if name not in {"NUMBA_CACHE_DIR", "PYTHONPATH"}}
-    subprocess.run([sys.executable, "-c", program], cwd=package.parent, env=environment, check=True)
+    run(package, "from solvers.kernel_cache import mark_complete; mark_complete('all')")
 
 
 @pytest.mark.slow
@@ -133,8 +130,7 @@ def test_a_flipped_bit_in_a_complete_cache_is_noticed(package: Path) -> None:
 @pytest.mark.slow
 def test_a_kernel_compiled_after_the_cache_was_complete_is_no_damage(package: Path) -> None:
     marked_complete(package)
-    program = PROGRAM.replace("outer(1.0)", "outer(1)")
-    subprocess.run([sys.executable, "-c", program.format(module="solvers.outer")], cwd=package.parent, check=True)
+    run(package, PROGRAM.replace("outer(1.0)", "outer(1)").format(module="solvers.outer"))
     assert outcome(package) == (3.0, True, "")
 
 
@@ -171,12 +167,7 @@ def test_a_read_only_folder_is_read_and_what_it_lacks_is_kept_elsewhere(package:
     outcome(package)
     kept = package / "__pycache__" / "kernels"
     before = {file: file.read_bytes() for file in kept.rglob("*.nb?")}
-    answers = [
-        subprocess.run(
-            [sys.executable, "-c", WITH_INTEGERS], cwd=package.parent, check=True, capture_output=True, text=True
-        ).stdout.split()
-        for _ in range(2)
-    ]
+    answers = [run(package, WITH_INTEGERS).stdout.split() for _ in range(2)]
     assert answers == [["3.0", "1", "3.0", "1"], ["3.0", "1", "3.0", "2"]]
     assert {file: file.read_bytes() for file in kept.rglob("*.nb?")} == before
 
@@ -192,4 +183,4 @@ def test_kernels_of_others_are_left_to_numba(package: Path) -> None:
 
 @pytest.mark.slow
 def test_without_any_place_kernels_live_in_memory(package: Path) -> None:
-    assert outcome(package, "/proc/no-such-place") == (3.0, False, "")
+    assert outcome(package, NUMBA_CACHE_DIR="/proc/no-such-place") == (3.0, False, "")

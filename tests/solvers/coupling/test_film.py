@@ -111,11 +111,9 @@ def test_hertz_contact_of_the_highest_loaded_tooth() -> None:
 
 
 def test_lubrication_belongs_to_the_tilt_position_whatever_the_rotor_angle() -> None:
-    films = [
-        solve(pahl_coupling(0.8, teeth=51, model=ModelOptions(rotor_angle=angle))).lubrication.max_normal_force
-        for angle in (0.0, 0.02, 0.05)
-    ]
-    assert films == [films[0]] * 3
+    options = [ModelOptions(rotor_angle=angle) for angle in (0.0, 0.02, 0.05)]
+    films = {solve(pahl_coupling(0.8, teeth=51, model=model)).lubrication.max_normal_force for model in options}
+    assert len(films) == 1
 
 
 @given(

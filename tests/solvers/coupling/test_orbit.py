@@ -90,10 +90,8 @@ def test_force_grows_with_the_square_of_speed_while_small() -> None:
 
 @pytest.mark.parametrize("torque", [0.0, 1.0])
 def test_low_torque_cannot_centre_the_sleeve(torque: float) -> None:
-    assert refused(solve_orbit, pahl_coupling(0.1, torque=torque, speed=2000.0, pitch_errors=ERRORS)) == (
-        "torque_too_low",
-        "torque",
-    )
+    inputs = pahl_coupling(0.1, torque=torque, speed=2000.0, pitch_errors=ERRORS)
+    assert refused(solve_orbit, inputs) == ("torque_too_low", "torque")
 
 
 def test_inertia_beyond_the_mesh_stiffness_has_no_solution() -> None:
@@ -151,8 +149,7 @@ def test_an_orbit_that_happens_to_agree_with_twice_its_angles_is_not_called_cert
 
 def test_an_orbit_that_twice_the_orders_unsettle_says_so() -> None:
     result = solve_orbit(pahl_coupling(1.0, speed=1000.0, pitch_errors=ERRORS))
-    assert result.displacement_uncertainty is None
-    assert result.harmonics_uncertainty is None
+    assert (result.displacement_uncertainty, result.harmonics_uncertainty) == (None,) * 2
     assert [(notice.code, notice.field) for notice in result.warnings] == [("orbit_resolution", "speed")]
 
 

@@ -4,7 +4,7 @@ from math import asin, cos, hypot, pi, radians, sin, sqrt, tan
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import root
 
@@ -170,22 +170,13 @@ def test_one_pair_model_is_proportional_to_its_factor(factor: float) -> None:
     assert scaled.force == base.force
 
 
-def test_coaxial_shafts_that_separate_are_pulled_with_the_whole_limit() -> None:
-    for arrangement in ("parallel_offset", "angular"):
-        for sign in (1, -1):
-            result = solve(pahl_coupling(0.0, axial_velocity=sign * 1e-3, arrangement=arrangement)).axial_thrust
-            assert result.force == pytest.approx(sign * result.coaxial_limit, rel=1e-9)
+@pytest.mark.parametrize("arrangement", ["parallel_offset", "angular"])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_coaxial_shafts_that_separate_are_pulled_with_the_whole_limit(arrangement: Arrangement, sign: int) -> None:
+    result = solve(pahl_coupling(0.0, axial_velocity=sign * 1e-3, arrangement=arrangement)).axial_thrust
+    assert result.force == pytest.approx(sign * result.coaxial_limit, rel=1e-9)
 
 
-@given(misalignment=st.floats(1e-3, 2.0), velocity=st.floats(-5e-3, 5e-3), torque=st.floats(100.0, 5000.0))
-def test_closed_form_bounds_the_thrust_of_a_centred_sleeve(misalignment: float, velocity: float, torque: float) -> None:
-    result = solve(pahl_coupling(misalignment, torque=torque, axial_velocity=velocity)).axial_thrust
-    # A pitch of 7 degrees: the mean over 52 teeth differs from the integral by less than 1e-3 of the limit.
-    assert abs(result.force) <= abs(result.uniform_load_force) + 1e-3 * result.coaxial_limit
-    assert result.force * velocity >= -1e-9
-
-
-@settings(max_examples=60)
 @given(
     misalignment=st.floats(1e-3, 3.0),
     velocity=st.floats(-5e-3, 5e-3),

@@ -49,12 +49,6 @@ def test_largest_force_while_all_teeth_carry() -> None:
     assert load.unloading_misalignment == pytest.approx(unloading, rel=1e-12)
 
 
-def test_teeth_unload_exactly_beyond_the_unloading_misalignment() -> None:
-    limit = np.degrees(solve(pahl_coupling(0.2)).load_distribution.unloading_misalignment)
-    assert solve(pahl_coupling(0.999 * limit)).load_distribution.loaded_teeth == TEETH
-    assert solve(pahl_coupling(1.001 * limit)).load_distribution.loaded_teeth < TEETH
-
-
 @pytest.mark.parametrize("misalignment", [0.6, 1.0, 2.0])
 def test_many_teeth_approach_the_continuous_half_zone(misalignment: float) -> None:
     teeth, stiffness = 4000, STIFFNESS * TEETH / 4000
@@ -171,26 +165,22 @@ def test_floating_sleeve_minimises_the_energy() -> None:
         u = state[0] + ahead - state[1:] @ normal
         return float(0.5 * (np.maximum(u, 0.0) ** 2).sum() - state[0] - 0.2 * state[1] + 0.1 * state[2])
 
-    options = {"xatol": 1e-10, "fatol": 1e-14, "maxiter": 5000}
-    found = minimize(energy, np.zeros(3), method="Nelder-Mead", options=options)
+    found = minimize(
+        energy, np.zeros(3), method="Nelder-Mead", options={"xatol": 1e-10, "fatol": 1e-14, "maxiter": 5000}
+    )
     loads, _ = floating(inputs, 0.3, (0.2 * unit * STIFFNESS, -0.1 * unit * STIFFNESS))
     state = np.array([loads.rotation[0], *loads.displacement[0]]) / unit
     assert energy(state) <= found.fun + 1e-12
     assert state == pytest.approx(found.x, abs=1e-5)
 
 
-def test_lateral_stiffness_of_the_loaded_mesh() -> None:
-    inputs = pahl_coupling(0.0)
-    loads, _ = floating(inputs, 0.3, (100.0, 0.0))
-    stiffness = solve(inputs).limits.lateral_stiffness
-    assert loads.displacement[0] == pytest.approx([100.0 / stiffness, 0.0], rel=1e-9, abs=1e-18)
-    assert stiffness == pytest.approx(TEETH * STIFFNESS / (2 * COSINE**2), rel=1e-12)
-
-
-def test_torsional_stiffness_of_the_loaded_mesh() -> None:
+def test_stiffness_of_the_loaded_mesh() -> None:
     result = solve(pahl_coupling(0.0))
-    stiffness = 3000.0 / (result.load_distribution.rotation / PITCH_RADIUS)
-    assert result.limits.torsional_stiffness == pytest.approx(stiffness, rel=1e-12)
+    loads, _ = floating(pahl_coupling(0.0), 0.3, (100.0, 0.0))
+    lateral, torsional = result.limits.lateral_stiffness, result.limits.torsional_stiffness
+    assert loads.displacement[0] == pytest.approx([100.0 / lateral, 0.0], rel=1e-9, abs=1e-18)
+    assert lateral == pytest.approx(TEETH * STIFFNESS / (2 * COSINE**2), rel=1e-12)
+    assert torsional == pytest.approx(3000.0 / (result.load_distribution.rotation / PITCH_RADIUS), rel=1e-12)
 
 
 def test_sleeve_weight_is_held_by_loaded_teeth_from_the_centring_torque_on() -> None:

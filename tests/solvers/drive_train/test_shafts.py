@@ -23,6 +23,7 @@ from solvers.drive_train.shafts.influence import Unit, unit
 from solvers.drive_train.shafts.shaft import GRAVITY, area, second_moment, shaft_model, shear_coefficient
 from solvers.errors import NoSolution
 from solvers.scuffing.model import mesh_of
+from tests.support.changes import changed
 from tests.support.drive_trains import turbo_gear
 
 # Bearings
@@ -83,27 +84,21 @@ def test_a_counterclockwise_shaft_under_its_weight_moves_to_plus_x() -> None:
 )
 def test_flexibility_is_the_derivative(bearing: JournalBearing | LinearBearing, load: tuple[float, float]) -> None:
     step = 0.1
-    columns = [
-        (
-            bearing_state(bearing, np.array(load) + change, SPEED, -1.0).displacement
-            - bearing_state(bearing, np.array(load) - change, SPEED, -1.0).displacement
-        )
-        / (2 * step)
-        for change in step * np.eye(2)
-    ]
+
+    def moved(change: FloatArray) -> FloatArray:
+        return bearing_state(bearing, np.array(load) + change, SPEED, -1.0).displacement
+
+    columns = [(moved(change) - moved(-change)) / (2 * step) for change in step * np.eye(2)]
     exact = bearing_state(bearing, np.array(load), SPEED, -1.0).flexibility
     assert pytest.approx(exact, rel=2e-5, abs=1e-5 * np.abs(exact).max()) == np.array(columns).T
 
 
-def test_springs_and_rigid_bearings() -> None:
+def test_springs_rigid_bearings_and_clearances_left_open() -> None:
     matrix = ((3e8, 1e8), (-2e8, 5e8))
     state = bearing_state(LinearBearing(0.0, matrix), np.array([1e4, 2e4]), SPEED, 1.0)
     assert np.array(matrix) @ state.displacement == pytest.approx([1e4, 2e4])
     assert not np.any(bearing_state(RigidBearing(0.0), np.array([1e4, 2e4]), SPEED, 1.0).displacement)
-
-
-def test_clearance_left_open_is_a_share_of_the_radius() -> None:
-    assert replace(JOURNAL, radial_clearance=None).clearance == pytest.approx(1.5e-3 * 0.08)
+    assert replace(JOURNAL, radial_clearance=None).clearance == pytest.approx(1.5e-3 * 0.08)  # a share of the radius
 
 
 def test_a_film_that_cannot_carry_is_no_solution() -> None:
@@ -196,10 +191,11 @@ def test_shear_of_timoshenko() -> None:
     assert bend(shaft, (span + overhang, force, 0.0), at=span + overhang)[0] == pytest.approx(end, rel=1e-9)
 
 
-def test_cowpers_coefficient() -> None:
-    """6(1 + nu)/(7 + 6 nu) of a solid circle, 2(1 + nu)/(4 + 3 nu) of a thin tube."""
+def test_section_properties() -> None:
+    """Cowper: 6(1 + nu)/(7 + 6 nu) of a solid circle, 2(1 + nu)/(4 + 3 nu) of a thin tube; I of a tube."""
     assert shear_coefficient(0.3, 0.0) == pytest.approx(7.8 / 8.8)
     assert shear_coefficient(0.3, 1.0) == pytest.approx(2.6 / 4.9)
+    assert second_moment(ShaftSection(1.0, 0.2, 0.1)) == pytest.approx(pi / 64 * (0.2**4 - 0.1**4))
 
 
 def test_tilt_of_a_load_off_the_middle() -> None:
@@ -222,10 +218,9 @@ def test_a_sections_cut_changes_nothing() -> None:
         model = shaft_model(shaft, 0.0, places)
         line = model.flexibility @ model.weight
         lines.append([line[offset + model.node(place)] for place in places for offset in (0, model.z.size)])
-        assert model.weight[: model.z.size].sum() == pytest.approx(
-            GRAVITY * 7850 * sum(area(section) * section.length for section in shaft.sections)
-        )
-        assert (model.bearing_share @ model.weight).sum() == pytest.approx(model.weight[: model.z.size].sum())
+        weight = GRAVITY * 7850 * sum(area(section) * section.length for section in shaft.sections)
+        assert model.weight[: model.z.size].sum() == pytest.approx(weight)
+        assert (model.bearing_share @ model.weight).sum() == pytest.approx(weight)
     assert lines[0] == pytest.approx(lines[1], rel=1e-9)
 
 
@@ -249,11 +244,9 @@ def unit_of(inputs: DriveTrainInputs) -> Unit:
 
 def test_twist_under_a_uniform_load() -> None:
     """T/(G J)(y - y^2/2b) from the end where torque enters; along the line of action F_bt b r_b^2/(2 G J) over all."""
-    inputs = turbo_gear()
-    shaft = Shaft(
-        (ShaftSection(0.2, 0.234),), (RigidBearing(0.32), RigidBearing(0.52)), start=0.32, torque_position=0.32
-    )
-    inputs = replace(inputs, pinion_shaft=shaft, couplings=())
+    bearings = RigidBearing(0.32), RigidBearing(0.52)
+    shaft = Shaft((ShaftSection(0.2, 0.234),), bearings, start=0.32, torque_position=0.32)
+    inputs = replace(turbo_gear(), pinion_shaft=shaft, couplings=())
     system, path = unit_of(inputs), mesh_of(inputs.mesh.distribution).path
     count, force = system.stations.size, 1e5
     weights = np.full(count, force / (count - 1))
@@ -270,8 +263,7 @@ def test_twist_under_a_uniform_load() -> None:
 
 @pytest.mark.parametrize("hand", ["right", "left"])
 def test_influence_is_symmetric_and_twice_the_strain_energy(hand: str) -> None:
-    inputs = turbo_gear()
-    system = unit_of(replace(inputs, arrangement=replace(inputs.arrangement, hand=hand)))
+    system = unit_of(changed(turbo_gear(), {"arrangement.hand": hand}))
     own = system.elastic[:41, :41]
     assert own == pytest.approx(own.T, abs=1e-10 * np.abs(own).max())
     assert np.linalg.eigvalsh((own + own.T) / 2).min() >= -1e-10 * np.abs(own).max()
@@ -307,9 +299,7 @@ def _strain_energy(system: Unit, force: FloatArray) -> float:
 
 def test_reversing_the_hand_reverses_the_tilting_moment_alone() -> None:
     inputs = replace(turbo_gear(), effects=Effects(coupling=False, thermal=False))
-    right, left = (
-        unit_of(replace(inputs, arrangement=replace(inputs.arrangement, hand=hand))) for hand in ("right", "left")
-    )
+    right, left = (unit_of(changed(inputs, {"arrangement.hand": hand})) for hand in ("right", "left"))
     assert left.frame.force[2] == -right.frame.force[2]
     assert left.frame.face_direction == -right.frame.face_direction
     for one, other in zip(right.shafts, left.shafts, strict=True):
@@ -320,16 +310,11 @@ def test_reversing_the_hand_reverses_the_tilting_moment_alone() -> None:
 
 
 def test_a_symmetric_spur_pinion_gets_its_slope_from_twist_alone() -> None:
-    inputs = replace(turbo_gear(), couplings=())
-    gears = replace(inputs.mesh.distribution.gears, helix_angle=0.0)
-    distribution = replace(inputs.mesh.distribution, gears=gears)
     shaft = Shaft((ShaftSection(0.6, 0.2),), (RigidBearing(0.22), RigidBearing(0.62)), start=0.12, torque_position=0.12)
-    system = unit_of(replace(inputs, mesh=replace(inputs.mesh, distribution=distribution), pinion_shaft=shaft))
-    force = np.full(41, 1e3)
-    side = system.shafts[0]
-    bending = (
-        side.loads[0].T @ side.motion(side.loads @ force)[0] + side.loads[1].T @ side.motion(side.loads @ force)[1]
-    )
+    values = {"couplings": (), "pinion_shaft": shaft, "mesh.distribution.gears.helix_angle": 0.0}
+    side, force = unit_of(changed(turbo_gear(), values)).shafts[0], np.full(41, 1e3)
+    motion = side.motion(side.loads @ force)
+    bending = side.loads[0].T @ motion[0] + side.loads[1].T @ motion[1]
     twist = side.torques.T @ (side.model.torsion @ (side.torques @ force))
     assert face_slope(bending) == pytest.approx(0.0, abs=1e-12 * np.ptp(bending))
     assert abs(face_slope(twist)) > 0.5 * np.ptp(twist)
@@ -345,7 +330,3 @@ def test_slope_crown_and_mean_are_exact_of_lines_and_close_of_parabolas() -> Non
     assert face_slope(5.0 * (2 * fine - 1) ** 2) == pytest.approx(0.0, abs=1e-12)
     kinked = np.where(eta < 0.5, 0.0, eta - 0.5)
     assert face_slope(kinked) == pytest.approx(12 * (0.5**3 / 3), rel=1e-12)
-
-
-def test_second_moment_of_a_tube() -> None:
-    assert second_moment(ShaftSection(1.0, 0.2, 0.1)) == pytest.approx(pi / 64 * (0.2**4 - 0.1**4))

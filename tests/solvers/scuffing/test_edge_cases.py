@@ -113,7 +113,7 @@ def test_undercut_takes_the_verdict_and_nothing_else() -> None:
     assert 0 < refused.sum() == result.unsolved_points < 5
     for curve in (result.path.blok_flash, result.path.dowson_higginson):
         assert np.all(np.isnan(curve) == refused)
-    assert result.flash.blok_max is result.film.dowson_higginson_min is result.distribution.pressure.max is None
+    assert (result.flash.blok_max, result.film.dowson_higginson_min, result.distribution.pressure.max) == (None,) * 3
     assert [notice.code for notice in result.warnings].count("path_reaches_base_circle") == 1
     assert "no_film" not in codes(result)
 
@@ -211,18 +211,19 @@ def test_contact_is_lost_over_part_of_the_flank() -> None:
     assert everything_finite(result)
 
 
-def test_no_film_where_the_feature_line_is_not_loaded() -> None:
-    result = closed_form(paper_pair(4, Modifications(lead_crowning=80e-6)))
-    assert np.all(result.distribution.feature_line.line_load[[0, -1]] == 0)
-    assert np.isnan(result.path.dowson_higginson[0])
-    assert result.path.blok_flash[0] == 0.0
+@pytest.mark.parametrize(
+    ("inputs", "bare"),
+    [
+        (paper_pair(4, Modifications(lead_crowning=80e-6)), [0, -1]),
+        (with_torque(paper_pair(4, Modifications(lead_crowning=-400e-6)), 1.0), [25]),  # hollow
+    ],
+)
+def test_no_film_where_the_feature_line_is_not_loaded(inputs: LoadDistributionInputs, bare: list[int]) -> None:
+    result = closed_form(inputs)
+    assert np.all(result.distribution.feature_line.line_load[bare] == 0.0)
+    assert np.isnan(result.path.dowson_higginson[bare[0]])
+    assert result.path.blok_flash[bare[0]] == 0.0
     assert result.film.dowson_higginson_min is not None
-    assert ("no_film", "modifications") in {(notice.code, notice.field) for notice in result.warnings}
-
-
-def test_no_film_in_the_middle_of_a_hollow_flank_is_for_its_crowning() -> None:
-    result = closed_form(with_torque(paper_pair(4, Modifications(lead_crowning=-400e-6)), 1.0))
-    assert result.distribution.feature_line.line_load[25] == 0.0
     assert ("no_film", "modifications") in {(notice.code, notice.field) for notice in result.warnings}
 
 
@@ -247,14 +248,9 @@ def test_without_torque_the_transmission_error_is_kinematic(model: Model) -> Non
     result = solve_load_distribution(with_torque(paper_pair(3, shape, model), 0.0))
     assert "no_load" in codes(result)
     assert result.transmission_error.curves.error == pytest.approx(result.balance.unloaded_error, abs=0.0)
-    assert result.load.max_line_load == 0.0
-    assert result.load.max_at is None
-    assert result.load.contact_fraction == 0.0
-    assert result.load.face_load_factor is None
-    assert result.stiffness.mean_mesh is None
-    assert result.friction_loss.loss_factor is None
-    assert result.friction_loss.power == 0.0
-    assert result.feature_line.load_sharing is None
+    assert result.load.max_line_load == result.load.contact_fraction == result.friction_loss.power == 0.0
+    assert (result.load.max_at, result.load.face_load_factor, result.feature_line.load_sharing) == (None,) * 3
+    assert (result.stiffness.mean_mesh, result.friction_loss.loss_factor) == (None,) * 2
     assert not np.any(result.flank.line_load)
 
 
@@ -273,7 +269,7 @@ def test_scuffing_without_torque_or_speed_has_neither_flash_nor_film(load: Load)
     assert result.flash.blok_max == 0.0
     assert result.film.dowson_higginson_min is None
     if load.pinion_torque == 0.0:
-        assert result.flash.blok_at_psi is result.film.thickness_regime is None
+        assert (result.flash.blok_at_psi, result.film.thickness_regime) == (None,) * 2
         assert ("no_film", "pinion_torque") in {(notice.code, notice.field) for notice in result.warnings}
 
 
@@ -332,23 +328,18 @@ def test_without_a_force_nothing_presses_between_the_slices_either(slope: float)
 # Spur gears and unusual contact ratios: limits of the load distribution, not cases of their own
 
 
-def test_spur_gears_jump_between_one_and_two_pairs() -> None:
-    result = solve_gears(SPUR, model=LINEAR)
-    lengths = np.unique(result.contact_lines.curves.length.round(12))
-    assert lengths == pytest.approx([20e-3, 40e-3], rel=1e-12)
-    assert result.contact_lines.min_length == pytest.approx(20e-3, rel=1e-12)
-    assert result.contact_lines.max_length == pytest.approx(40e-3, rel=1e-12)
+def test_spur_gears_jump_between_one_and_two_pairs_and_keep_both_limits() -> None:
+    result = solve_gears(SPUR, LINEAR)
+    lines, curves = result.contact_lines, result.transmission_error.curves
+    assert np.unique(lines.curves.length.round(12)) == pytest.approx([20e-3, 40e-3], rel=1e-12)
+    assert (lines.min_length, lines.max_length) == pytest.approx((20e-3, 40e-3), rel=1e-12)
     assert result.load.max_line_load == pytest.approx(result.load.normal_force / 20e-3, rel=1e-9)
-
-
-def test_spur_gears_keep_both_limits_of_a_jump() -> None:
-    result = solve_gears(SPUR, model=LINEAR)
-    curves, geometry = result.transmission_error.curves, result.geometry
-    jump = geometry.transverse_contact_ratio % 1
-    both = curves.error[np.isclose(curves.roll_position, jump, atol=1e-12)]
+    both = curves.error[np.isclose(curves.roll_position, result.geometry.transverse_contact_ratio % 1, atol=1e-12)]
     assert both.size == 2
     assert both[1] > 1.5 * both[0]
     assert curves.error[-1] > 1.5 * curves.error[0]  # the new pair has come in, and has not yet, one limit earlier
+    ends = result.flank.line_load[[0, -1]]
+    assert np.all((ends > 0.2 * result.load.max_line_load) & (ends < 0.7 * result.load.max_line_load))
 
 
 def test_spur_gears_without_modification_are_springs_in_parallel() -> None:
@@ -386,13 +377,6 @@ def test_a_helix_below_rounding_is_a_spur_gear() -> None:
     straight, hair = solve_gears(SPUR), solve_gears(replace(SPUR, helix_angle=1e-12))
     assert hair.geometry.overlap_ratio == 0.0
     assert hair.transmission_error.peak_to_peak == pytest.approx(straight.transmission_error.peak_to_peak, rel=1e-9)
-
-
-def test_the_ends_of_the_path_of_a_spur_gear_carry_their_share() -> None:
-    result = solve_gears(SPUR, model=LINEAR)
-    ends = result.flank.line_load[[0, -1]]
-    assert np.all(ends < 0.7 * result.load.max_line_load)
-    assert np.all(ends > 0.2 * result.load.max_line_load)
 
 
 def test_a_contact_ratio_below_1_needs_overlap() -> None:

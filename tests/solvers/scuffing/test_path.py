@@ -24,22 +24,14 @@ from solvers.scuffing.inputs import (
 from solvers.scuffing.safety import solve_scuffing
 from solvers.scuffing.safety_results import Scuffing
 from solvers.scuffing.thermal.thermal_path import contact_at
+from tests.support import modified_pairs
 from tests.support.changes import changed
 from tests.support.gear_pairs import UNDERCUT_PAIR, with_torque
-from tests.support.modified_pairs import (
-    PATH_POINTS,
-    check_path,
-    points_of,
-    random_pair,
-    relieved_pair,
-    search_paths,
-    turbo_pair,
-)
 from tests.support.outcomes import codes, refused
 from tests.support.stored import stored
 
 SCUFFING = Temperatures(scuffing=573.15)
-POINTS = [pytest.param(points, marks=() if points < 100 else pytest.mark.slow) for points in PATH_POINTS]
+POINTS = [pytest.param(points, marks=() if points < 100 else pytest.mark.slow) for points in modified_pairs.PATH_POINTS]
 COARSE = ehl.Model(nodes=61, film_nodes=11)
 AS_GIVEN = replace(COARSE, refine_mesh=False)
 STRONG = with_torque(paper_pair(1), 9.5 * paper_pair(1).load.pinion_torque)
@@ -49,7 +41,7 @@ STRONG = with_torque(paper_pair(1), 9.5 * paper_pair(1).load.pinion_torque)
 @pytest.mark.parametrize("points", POINTS)
 def test_relieved_pair(points: int) -> None:
     """Once 48, 48, 271 and 3026 K; each point alone says 25.5 K."""
-    result = check_path(relieved_pair(points), every=points // 5)
+    result = modified_pairs.check_path(modified_pairs.relieved_pair(points), every=points // 5)
     assert result.flash.thermal_ehl_max == pytest.approx(25.5, abs=0.2)
     assert result.safety.thermal_ehl_factor == pytest.approx(4.59, abs=0.03)
 
@@ -58,23 +50,23 @@ def test_relieved_pair(points: int) -> None:
 @pytest.mark.parametrize("points", POINTS)
 def test_turbo_pair(slope: float, points: int) -> None:
     """Once 77, 248 and 72 K for helix slopes 0, -20 and 20 um at 50 points."""
-    result = check_path(replace(turbo_pair(slope), path_points=points), every=points // 4)
+    result = modified_pairs.check_path(replace(modified_pairs.turbo_pair(slope), path_points=points), every=points // 4)
     assert 8.0 < result.flash.thermal_ehl_max < 17.0
     assert result.unsolved_points == 0
 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_random_pairs(seed: int) -> None:
-    check_path(replace(random_pair(np.random.default_rng(seed)), path_points=25), every=6)
+    modified_pairs.check_path(replace(modified_pairs.random_pair(np.random.default_rng(seed)), path_points=25), every=6)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(60))
 def test_many_random_pairs_and_backwards(seed: int) -> None:
     """All points of 25, every eighth of 200."""
-    inputs = random_pair(np.random.default_rng([2, seed]))
+    inputs = modified_pairs.random_pair(np.random.default_rng([2, seed]))
     try:
-        result = check_path(inputs, every=inputs.path_points // 25)
+        result = modified_pairs.check_path(inputs, every=inputs.path_points // 25)
     except InvalidInput:
         return
     check_backwards(inputs, result)
@@ -83,13 +75,13 @@ def test_many_random_pairs_and_backwards(seed: int) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_search_draws_and_checks(seed: int) -> None:
-    search_paths(np.random.default_rng([3, seed]))
+    modified_pairs.search_paths(np.random.default_rng([3, seed]))
 
 
 def check_backwards(inputs: ScuffingInputs, result: Scuffing) -> None:
     """From E2 to A1 as from A1 to E2."""
     solved = [k for k, status in enumerate(result.path.status) if status in {"ok", "ok_with_warnings"}]
-    points = points_of(inputs, result)
+    points = modified_pairs.points_of(inputs, result)
     backward = ehl.solve_path([contact_at(inputs, points, k) for k in reversed(solved)])
     for k, along in zip(reversed(solved), backward, strict=True):
         if along.status == "no_solution":
@@ -114,7 +106,7 @@ def test_number_of_points_does_not_decide(inputs: ScuffingInputs) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(30))
 def test_number_of_points_does_not_decide_for_many(seed: int) -> None:
-    check_number_of_points(random_pair(np.random.default_rng([4, seed])))
+    check_number_of_points(modified_pairs.random_pair(np.random.default_rng([4, seed])))
 
 
 def check_number_of_points(inputs: ScuffingInputs) -> None:
@@ -133,7 +125,7 @@ def check_number_of_points(inputs: ScuffingInputs) -> None:
 
 def test_a_path_with_unsolved_points_gives_no_verdict() -> None:
     """80 instead of 0.08 Pa s: once S 1.84 and full film from the other 20 of 50 points."""
-    inputs = replace(relieved_pair(8), lubricant=Lubricant(viscosity=80.0), film=AS_GIVEN)
+    inputs = replace(modified_pairs.relieved_pair(8), lubricant=Lubricant(viscosity=80.0), film=AS_GIVEN)
     result = solve_scuffing(inputs)
     missing = result.path.status.count("no_solution") + result.path.status.count("refused")
     assert 0 < missing == result.unsolved_points
@@ -146,9 +138,8 @@ def test_a_path_with_unsolved_points_gives_no_verdict() -> None:
 
 def assert_no_verdict(result: Scuffing) -> None:
     """Nothing of the thermal solution is stated of the whole path."""
-    assert (result.flash.thermal_ehl_max, result.flash.thermal_ehl_at_psi) == (None, None)
-    assert result.contact_temperature.thermal_ehl_max is None
-    film = result.film
+    flash, film = result.flash, result.film
+    assert (flash.thermal_ehl_max, flash.thermal_ehl_at_psi, result.contact_temperature.thermal_ehl_max) == (None,) * 3
     assert (film.thermal_ehl_min, film.min_at_psi, film.thickness_ratio, film.thickness_regime) == (None,) * 4
     assert result.safety is None or result.safety.thermal_ehl_factor is None
 
@@ -162,7 +153,7 @@ def test_a_refused_point_counts_and_takes_the_verdict() -> None:
 
 def test_a_point_too_light_to_matter_keeps_the_verdict() -> None:
     """200 points of the relieved pair: one carries next to nothing, and more load would not make it the hottest."""
-    result = solve_scuffing(replace(relieved_pair(200), film=AS_GIVEN))
+    result = solve_scuffing(replace(modified_pairs.relieved_pair(200), film=AS_GIVEN))
     assert result.path.status.count("refused") == result.unsolved_points > 0
     assert result.flash.thermal_ehl_max is not None
     assert result.safety.thermal_ehl_factor is not None
@@ -212,36 +203,28 @@ def numbers(result: Scuffing) -> np.ndarray:
     return np.array((path.pinion_flash, path.wheel_flash, path.minimum_film, path.friction_coefficient))
 
 
-def test_every_point_is_solved(pair_1: Scuffing) -> None:
+def test_every_point_is_solved_and_formulas_stand_beside_the_solution_unchanged(pair_1: Scuffing) -> None:
     assert pair_1.unsolved_points == 0
     assert set(pair_1.path.status) <= {"ok", "ok_with_warnings"}
     assert np.isfinite(numbers(pair_1)).all()
-
-
-def test_formulas_stand_beside_the_solution_unchanged(pair_1: Scuffing) -> None:
     formulas = solve_scuffing(inputs(lubrication="closed_form"))
     assert pair_1.path.blok_flash == pytest.approx(formulas.path.blok_flash, rel=1e-15)
     assert pair_1.path.dowson_higginson == pytest.approx(formulas.path.dowson_higginson, rel=1e-15)
     assert pair_1.flash.blok_max == formulas.flash.blok_max
-    assert formulas.flash.thermal_ehl_max is None
-    assert formulas.path.thermal is None
+    assert (formulas.flash.thermal_ehl_max, formulas.path.thermal) == (None,) * 2
 
 
-def test_thermal_film_is_thinner_than_the_formula_along_the_whole_path(pair_1: Scuffing) -> None:
+def test_film_is_thinnest_and_flash_highest_at_the_pinion_root_and_the_slower_flank_the_hotter(
+    pair_1: Scuffing,
+) -> None:
+    thermal = pair_1.path.thermal
     # the paper: "h_min of the TEHL is below Dowson's"
-    assert (pair_1.path.thermal.minimum_film < pair_1.path.dowson_higginson).all()
-
-
-def test_film_is_thinnest_and_flash_highest_where_the_pinion_root_meets(pair_1: Scuffing) -> None:
-    assert pair_1.film.min_at_psi == 0.0
-    assert pair_1.flash.thermal_ehl_at_psi == 0.0
-
-
-def test_the_slower_flank_is_the_hotter_one(pair_1: Scuffing) -> None:
+    assert (thermal.minimum_film < pair_1.path.dowson_higginson).all()
+    assert pair_1.film.min_at_psi == pair_1.flash.thermal_ehl_at_psi == 0.0
     sliding = pair_1.distribution.feature_line.sliding[[0, -1]]
     assert sliding[0] < 0.0 < sliding[1]
-    assert pair_1.path.thermal.pinion_flash[0] > pair_1.path.thermal.wheel_flash[0]
-    assert pair_1.path.thermal.pinion_flash[-1] < pair_1.path.thermal.wheel_flash[-1]
+    assert thermal.pinion_flash[0] > thermal.wheel_flash[0]
+    assert thermal.pinion_flash[-1] < thermal.wheel_flash[-1]
 
 
 def test_maxima_and_safety_follow_from_the_path() -> None:

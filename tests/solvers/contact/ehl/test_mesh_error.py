@@ -186,13 +186,10 @@ def departure_with(result: LineContactResult, place: tuple[int | slice, int | sl
     return departure(INPUTS, result.curves, replace(result.field, temperature=temperature))
 
 
-def test_uniform_flux_heats_with_the_root_of_the_distance() -> None:
+def test_fluxes_heat_as_their_integrals() -> None:
+    """A uniform one with the root of the distance, a linear one: int_0^x s (x - s)^-1/2 ds = 4/3 x^(3/2)."""
     x = np.linspace(-1.0, 1.0, 50) ** 3
     assert strip_integral(x, np.full(50, 3.0)) == pytest.approx(6.0 * np.sqrt(x - x[0]), abs=1e-12)
-
-
-def test_linear_flux_heats_with_the_three_halves_power() -> None:
-    """int_0^x s (x - s)^-1/2 ds = 4/3 x^(3/2)."""
     x = np.linspace(0.0, 1.0, 30) ** 2
     assert strip_integral(x, x) == pytest.approx(4.0 / 3.0 * x**1.5, abs=1e-12)
 

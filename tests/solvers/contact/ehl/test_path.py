@@ -14,6 +14,7 @@ from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.state import State
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant
+from tests.support.changes import scaled
 from tests.support.outcomes import refused
 
 
@@ -37,9 +38,7 @@ def test_path_is_what_its_points_are_alone() -> None:
 def test_path_from_heavy_to_light_loads_gets_meshes_for_each() -> None:
     """A thousandfold load: every film is that of the contact alone, but for what one grading differs from another."""
     at = contacts(1)[0]
-    heavy_to_light = [
-        replace(at, contact=replace(at.contact, line_load=at.contact.line_load * 10.0 ** (-k / 5))) for k in range(16)
-    ]
+    heavy_to_light = [scaled(at, 10.0 ** (-k / 5), "contact.line_load") for k in range(16)]
     for alone, along in zip([solve(c) for c in heavy_to_light], solve_path(heavy_to_light), strict=True):
         assert along.status != "no_solution"
         assert along.film.minimum == pytest.approx(alone.film.minimum, rel=0.02)
@@ -169,30 +168,22 @@ def test_many_failures_in_a_row_take_the_steps_but_not_the_chance_of_those_behin
     assert [result.status != "no_solution" for result in results] == [False] * (path.HOPELESS + 2) + [True] * 4
 
 
-def test_empty_path() -> None:
+def test_empty_and_isothermal_paths() -> None:
     assert solve_path([]) == []
-
-
-def test_isothermal_path() -> None:
     results = solve_path([replace(c, model=Model(thermal=False)) for c in contacts()])
     assert {r.status for r in results} == {"ok"}
 
 
-def test_bad_point_is_refused_at_once() -> None:
-    bad = [*contacts(2), LineContactInputs(Contact(2.5e5, 4e-3, 0.0, 3.0))]
+def test_bad_points_and_mixed_models_are_refused_at_once() -> None:
     with pytest.raises(InvalidInput, match="both speeds must be positive"):
-        solve_path(bad)
-
-
-def test_models_of_a_path_must_agree() -> None:
-    mixed = [*contacts(2), replace(contacts(3)[2], model=Model(nodes=91))]
-    assert refused(solve_path, mixed)[0] == "mixed_models"
+        solve_path([*contacts(2), LineContactInputs(Contact(2.5e5, 4e-3, 0.0, 3.0))])
+    assert refused(solve_path, [*contacts(2), replace(contacts(3)[2], model=Model(nodes=91))])[0] == "mixed_models"
 
 
 def test_another_mesh_costs_no_steps() -> None:
     """Loads that fall to a fifth, over five meshes: once a pressure left at the inlet's end made 60 steps of 5."""
     at = contacts(1)[0]
-    falling = [replace(at, contact=replace(at.contact, line_load=2.5e5 * 0.96**k)) for k in range(40)]
+    falling = [scaled(at, 0.96**k, "contact.line_load") for k in range(40)]
     results = solve_path(falling)
     assert len({result.curves.x[0] / result.hertz.half_width for result in results if result.curves is not None}) > 2
     assert max(result.convergence.iterations for result in results[1:]) < 12
