@@ -149,7 +149,7 @@ def test_an_orbit_that_happens_to_agree_with_twice_its_angles_is_not_called_cert
 
 def test_an_orbit_that_twice_the_orders_unsettle_says_so() -> None:
     result = solve_orbit(pahl_coupling(1.0, speed=1000.0, pitch_errors=ERRORS))
-    assert (result.displacement_uncertainty, result.harmonics_uncertainty) == (None,) * 2
+    assert (result.displacement_uncertainty, result.harmonics_uncertainty) == (None, None)
     assert [(notice.code, notice.field) for notice in result.warnings] == [("orbit_resolution", "speed")]
 
 

@@ -230,7 +230,7 @@ def test_a_result_is_finite_and_its_arrays_are_read_only() -> None:
 def test_a_helix_too_small_for_numbers_is_a_spur_gear() -> None:
     """Found by generated requests: the meshing point's speed along the face was endless."""
     result = solve(PumpingInputs(gears(helix_angle=2e-310, centre_distance=None), 1000.0))
-    assert (result.total.axial_meshing_speed, result.total.axial_meshing_mach) == (None,) * 2
+    assert (result.total.axial_meshing_speed, result.total.axial_meshing_mach) == (None, None)
     assert "spur_gear" in codes(result)
 
 

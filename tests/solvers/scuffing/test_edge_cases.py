@@ -250,7 +250,7 @@ def test_without_torque_the_transmission_error_is_kinematic(model: Model) -> Non
     assert result.transmission_error.curves.error == pytest.approx(result.balance.unloaded_error, abs=0.0)
     assert result.load.max_line_load == result.load.contact_fraction == result.friction_loss.power == 0.0
     assert (result.load.max_at, result.load.face_load_factor, result.feature_line.load_sharing) == (None,) * 3
-    assert (result.stiffness.mean_mesh, result.friction_loss.loss_factor) == (None,) * 2
+    assert (result.stiffness.mean_mesh, result.friction_loss.loss_factor) == (None, None)
     assert not np.any(result.flank.line_load)
 
 
@@ -269,7 +269,7 @@ def test_scuffing_without_torque_or_speed_has_neither_flash_nor_film(load: Load)
     assert result.flash.blok_max == 0.0
     assert result.film.dowson_higginson_min is None
     if load.pinion_torque == 0.0:
-        assert (result.flash.blok_at_psi, result.film.thickness_regime) == (None,) * 2
+        assert (result.flash.blok_at_psi, result.film.thickness_regime) == (None, None)
         assert ("no_film", "pinion_torque") in {(notice.code, notice.field) for notice in result.warnings}
 
 

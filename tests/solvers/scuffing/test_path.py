@@ -211,7 +211,7 @@ def test_every_point_is_solved_and_formulas_stand_beside_the_solution_unchanged(
     assert pair_1.path.blok_flash == pytest.approx(formulas.path.blok_flash, rel=1e-15)
     assert pair_1.path.dowson_higginson == pytest.approx(formulas.path.dowson_higginson, rel=1e-15)
     assert pair_1.flash.blok_max == formulas.flash.blok_max
-    assert (formulas.flash.thermal_ehl_max, formulas.path.thermal) == (None,) * 2
+    assert (formulas.flash.thermal_ehl_max, formulas.path.thermal) == (None, None)
 
 
 def test_film_is_thinnest_and_flash_highest_at_the_pinion_root_and_the_slower_flank_the_hotter(

@@ -35,7 +35,7 @@ def check_solution(result: LineContactResult, model: Model = EYRING) -> None:
         assert convergence.temperature_change < 0.01
         assert result.heat.balance_error < 1e-4
     else:
-        assert (result.heat, result.temperature) == (None,) * 2
+        assert (result.heat, result.temperature) == (None, None)
 
 
 def check_all(contacts: list[LineContactInputs]) -> int:
@@ -44,7 +44,7 @@ def check_all(contacts: list[LineContactInputs]) -> int:
     for inputs in contacts:
         result = solve(inputs)
         if result.status == "no_solution":
-            assert (result.friction, result.film.minimum) == (None,) * 2
+            assert (result.friction, result.film.minimum) == (None, None)
             assert result.convergence.stage in {"isothermal", "coupling", "heat_balance"}
             continue
         check_solution(result, inputs.model)
