@@ -21,7 +21,7 @@ LOAD = "/v1/scuffing/load-distribution"
 
 
 def answer(unit: Unit | bytes) -> dict[str, Any]:
-    return gear_unit(read(unit if isinstance(unit, bytes) else unit.xml(), MOST_BYTES))
+    return gear_unit(read(unit if isinstance(unit, bytes) else unit.xml(), MOST_BYTES).model)
 
 
 def codes(found: dict[str, Any]) -> set[str]:
@@ -385,7 +385,7 @@ def test_damaged_files_never_raise(data: st.DataObject) -> None:
             relation = data.draw(st.sampled_from(unit.relations))
             role = data.draw(st.sampled_from(sorted(relation["roles"])))
             relation["roles"][role] = data.draw(st.integers(0, len(unit.components) + 2))
-    found = gear_unit(read(unit.json(), MOST_BYTES))
+    found = gear_unit(read(unit.json(), MOST_BYTES).model)
     for stage in found["stages"]:
         lacking = {each["field"] for each in stage["missing"]}
         for endpoint, request in stage["requests"].items():
