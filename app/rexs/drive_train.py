@@ -34,7 +34,7 @@ def add_drive_train(stage: StageDraft) -> bool:
     """Add the fields of the drive train to the draft of a stage; False where it cannot be formed, and why is noted."""
     reasons = list(_obstacles(stage))
     for component, reason in reasons:
-        stage.draft.lacks("/v1/drive-train", component, None, reason)
+        stage.lacks("/v1/drive-train", component, None, reason)
     return not reasons and _DriveTrain(stage).fill()
 
 
@@ -71,7 +71,7 @@ class _DriveTrain:
     """Fills the fields of one drive train."""
 
     def __init__(self, stage: StageDraft) -> None:
-        self._stage, self._draft, self._reading = stage, stage.draft, stage.reading
+        self._stage, self._reading = stage, stage.reading
         found = [shaft_axis(self._reading, shaft) for shaft in stage.shafts]
         self._axes = [axis for axis in found if axis is not None]
         z, y = self._axes[0].direction, self._reading.vector(stage.shafts[0], "w_axis_vector")
@@ -84,13 +84,13 @@ class _DriveTrain:
 
     def fill(self) -> bool:
         """Set all fields; False where the shafts' sections do not make a shaft."""
-        stage, draft = self._stage, self._draft
+        stage = self._stage
         faces = [stage.face_interval(place) for place in (0, 1)]
         start = max(each[0] for each in faces if each is not None)
-        draft.put("face_start_mm", start, stage.gears[0], "u_coordinate_on_shaft")
+        stage.put("face_start_mm", start, stage.gears[0], "u_coordinate_on_shaft")
         speed = stage.flow.speed[stage.shafts[0].id]
         rotation = "counterclockwise" if speed > 0.0 else "clockwise"
-        draft.put("operation.rotation", rotation, stage.shafts[0], "rotational_speed")
+        stage.put("operation.rotation", rotation, stage.shafts[0], "rotational_speed")
         self._directions()
         for place in (0, 1):
             if not self._shaft(place, start):
@@ -101,14 +101,14 @@ class _DriveTrain:
     def _directions(self) -> None:
         (pinion, wheel), reading = self._axes, self._reading
         x, y, z = (b - a for a, b in zip(pinion.origin, wheel.origin, strict=True))
-        self._draft.put("operation.wheel_angle_deg", self._angle((x, y, z)), self._stage.shafts[1], "support_vector")
+        self._stage.put("operation.wheel_angle_deg", self._angle((x, y, z)), self._stage.shafts[1], "support_vector")
         unit, path = reading.model.first("gear_unit"), "operation.gravity_angle_deg"
         parts = [reading.number(unit, f"direction_vector_gravity_{axis}") for axis in "uvw"]
         if unit is None or None in parts or not any(parts):
-            self._draft.assume(path, -90.0, "the file gives no direction of gravity")
+            self._stage.assume(path, -90.0, "the file gives no direction of gravity")
             return
         u, v, w = (each or 0.0 for each in parts)
-        self._draft.put(path, self._angle(self._in_file(unit, (u, v, w))), unit, "direction_vector_gravity_v")
+        self._stage.put(path, self._angle(self._in_file(unit, (u, v, w))), unit, "direction_vector_gravity_v")
 
     def _angle(self, direction: Vector) -> float:
         """The angle of a direction from X towards Y [deg]."""
@@ -122,26 +122,26 @@ class _DriveTrain:
         return x, y, z
 
     def _shaft(self, place: int, face_start: float) -> bool:
-        draft, shaft, name = self._draft, self._stage.shafts[place], NAMES[place]
+        stage, shaft, name = self._stage, self._stage.shafts[place], NAMES[place]
         sections = self._sections(shaft)
         if not sections:
-            draft.lacks("/v1/drive-train", shaft, None, "the file has no sections of the shaft")
+            stage.lacks("/v1/drive-train", shaft, None, "the file has no sections of the shaft")
             return False
-        draft.put(f"{name}.start_mm", sections[0].begin, shaft)
+        stage.put(f"{name}.start_mm", sections[0].begin, shaft)
         cylinders = [
             {"length_mm": end - begin, "outer_diameter_mm": outer, "inner_diameter_mm": inner}
             for begin, end, outer, inner in self._under_teeth(place, sections, face_start)
         ]
-        draft.put(f"{name}.sections", cylinders, shaft)
+        stage.put(f"{name}.sections", cylinders, shaft)
         bearings = [
             self._bearing(each, shaft, f"{name}.bearings.{index}")
             for index, each in enumerate(_bearings(self._stage, shaft))
         ]
         bearings.sort(key=lambda each: each.get("position_mm", 0.0))
-        draft.put(f"{name}.bearings", bearings, shaft)
+        stage.put(f"{name}.bearings", bearings, shaft)
         material = self._reading.model.reference_of([shaft], "material")
         for row in table.MATERIAL:
-            draft.take(row, material, f"{name}.")
+            stage.take(row, material, f"{name}.")
         self._torque_position(shaft, f"{name}.torque_position_mm")
         return True
 
@@ -184,7 +184,7 @@ class _DriveTrain:
 
     def _under_teeth(self, place: int, sections: list[Section], face_start: float) -> list[Section]:
         """Under the teeth the shaft has at least the reference diameter, as ISO 6336-1 counts an integral pinion."""
-        gear, width = self._stage.involute(place), self._draft.fields.get(table.FACE_WIDTH.field)
+        gear, width = self._stage.involute(place), self._stage.fields.get(table.FACE_WIDTH.field)
         if gear is None or width is None:
             return sections
         ends = (face_start, face_start + width)
@@ -199,16 +199,16 @@ class _DriveTrain:
                     found.append(Section(low, high, gear.reference_diameter if grown else outer, inner))
         if changed:
             reason = "under the teeth the reference diameter, as in ISO 6336-1"
-            self._draft.note(f"{NAMES[place]}.sections", gear.reference_diameter, reason)
+            self._stage.note(f"{NAMES[place]}.sections", gear.reference_diameter, reason)
         return found
 
     def _bearing(self, bearing: Component, shaft: Component, path: str) -> dict[str, Any]:
-        reading, draft = self._reading, self._draft
+        reading, stage = self._reading, self._stage
         made: dict[str, Any] = {}
         position = self._stage.position(bearing, shaft)
         if position is None:
             attribute = "u_coordinate_on_shaft_inner_side"
-            draft.lacks(f"{path}.position_mm", bearing, attribute, "where the bearing sits")
+            stage.lacks(f"{path}.position_mm", bearing, attribute, "where the bearing sits")
         else:
             made["position_mm"] = position
         v, w = (reading.number(bearing, f"misalignment_in_{axis}_direction", "um") or 0.0 for axis in "vw")
@@ -226,7 +226,7 @@ class _DriveTrain:
             return made | {"type": "rigid"}
         if not stiffness or stiffness < 0.0:
             message = "the file has no radial stiffness of the bearing"
-            draft.lacks(f"{path}.stiffness_n_per_um", bearing, "radial_stiffness", message)
+            stage.lacks(f"{path}.stiffness_n_per_um", bearing, "radial_stiffness", message)
             return made | {"type": "linear"}
         return made | {"type": "linear", "stiffness_n_per_um": stiffness}
 
@@ -236,16 +236,16 @@ class _DriveTrain:
                 continue
             position = self._stage.position(load, shaft)
             if position is not None:
-                self._draft.put(path, position, load, "u_coordinate_on_shaft")
+                self._stage.put(path, position, load, "u_coordinate_on_shaft")
                 return
-        self._draft.lacks(path, shaft, None, "where the torque enters or leaves the shaft")
+        self._stage.lacks(path, shaft, None, "where the torque enters or leaves the shaft")
 
     def _couplings(self) -> None:
         """A coupling has no tooth data in the file: the drive train is formed without it."""
         for shaft in self._stage.shafts:
             for part in self._reading.model.related("side", "inner_part", shaft.id, "assembly"):
                 if part.type in {"coupling", "switchable_coupling"}:
-                    self._draft.lacks("couplings", part, None, "the file has no tooth data of the coupling; left out")
+                    self._stage.lacks("couplings", part, None, "the file has no tooth data of the coupling; left out")
 
 
 def _dot(a: Vector, b: Vector) -> float:

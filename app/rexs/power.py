@@ -38,6 +38,10 @@ class Flow:
     speed: dict[int, float] = field(default_factory=dict)
     mesh_torque: dict[int, tuple[float, float]] = field(default_factory=dict)
 
+    def knows(self, pair: Pair) -> bool:
+        """Whether torque and speed of a stage are known."""
+        return pair.stage.id in self.mesh_torque and pair.shafts[0].id in self.speed
+
     def driver(self, pair: Pair) -> int | None:
         """0 or 1: the gear that gives power to the other one; None where that is not known."""
         for place, torque in enumerate(self.mesh_torque.get(pair.stage.id, ())):

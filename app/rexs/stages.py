@@ -11,7 +11,7 @@ from app.rexs.reading import Draft, Reading, Vector
 from solvers.gears.gear import involute
 from solvers.gears.pair import inverse_involute
 
-ISO_53_A = {"addendum": 1.0, "dedendum": 1.25, "rack_tip_radius": 0.38}  # in modules
+ISO_53_A = {"addendum": 1.0, "dedendum": 1.25, "gears.rack_tip_radius": 0.38}  # in modules
 SAME = 1e-6  # chosen: numbers stated twice that differ by less are equal
 ROLES = ("pinion", "wheel")
 TORQUE, SPEED = "load.pinion_torque_n_m", "load.pinion_speed_rpm"
@@ -54,11 +54,11 @@ def _pair(reading: Reading, stage: Component) -> Pair | None:
 
 def _shaft_of(reading: Reading, gear: Component) -> Component | None:
     """The shaft that a gear is part of, else the one to which a coupling fastens it."""
-    fastened = (each for each in reading.model.related("side", "outer_part", gear.id, "inner_part"))
+    fastened = reading.model.related("side", "outer_part", gear.id, "inner_part")
     return reading.model.whole_of(gear.id, "shaft") or next((each for each in fastened if each.type == "shaft"), None)
 
 
-class StageDraft:
+class StageDraft(Draft):
     """One mesh on its way to requests. Its pinion is the gear that drives, else the smaller one.
 
     `order`, `driver`: places of pinion and wheel, and of the driving gear where it is known, in the file's pair.
@@ -68,7 +68,7 @@ class StageDraft:
     def __init__(
         self, reading: Reading, pair: Pair, flow: Flow, senses: dict[int, float], case: LoadCase | None
     ) -> None:
-        self.reading, self.draft = reading, Draft(reading)
+        super().__init__(reading)
         self.flow, self.senses, self.case = flow, senses, case
         self.driver = flow.driver(pair)
         first = self.driver if self.driver is not None else int(pair.teeth[1] < pair.teeth[0])
@@ -77,31 +77,41 @@ class StageDraft:
         turn = -1 if first else 1
         self.gears, self.shafts, self.teeth = pair.gears[::turn], pair.shafts[::turn], pair.teeth[::turn]
 
-    def fill(self) -> Draft:
-        """All that the file says of the mesh."""
-        self._gears()
+    def fill(self) -> None:
+        """Take over all that the file says of the mesh."""
+        for row in table.STAGE:
+            self.take(row, self.stage)
+        for place, role in enumerate(ROLES):
+            self.put(f"gears.{role}.teeth", self.teeth[place], self.gears[place], "number_of_teeth")
+        self._module()
+        self._helix()
+        self._face_width()
+        self._pressure_angle()
+        for place in (0, 1):
+            self._profile_shift(place)
+            self._rack(place)
+        self._rack_tip_radius()
+        self._backlash()
         self._load()
-        self._materials()
+        for place, role in enumerate(ROLES):
+            self.take(table.ROUGHNESS, self.gears[place], f"materials.{role}.")
+            for row in table.MATERIAL:
+                self.take(row, self.material(place), f"materials.{role}.")
         self._oil()
         Modifications(self).fill()
-        return self.draft
 
-    def flank(self, place: int, side: str) -> Component | None:
-        """The left or right flank of pinion (0) or wheel (1)."""
-        return next(self.reading.model.related("flank", "gear", self.gears[place].id, side), None)
-
-    def flanks(self, place: int) -> list[Component]:
-        """Both flanks of a gear, as far as the file has them."""
-        return [each for side in ("left", "right") if (each := self.flank(place, side)) is not None]
+    def flanks(self, place: int) -> dict[str, Component]:
+        """Left and right flank of pinion (0) or wheel (1), as far as the file has them."""
+        relation = "flank", "gear", self.gears[place].id
+        found = {side: next(self.reading.model.related(*relation, side), None) for side in ("left", "right")}
+        return {side: flank for side, flank in found.items() if flank is not None}
 
     def tool(self, place: int) -> Component | None:
         """The rack-shaped tool that made a gear."""
-        model, flanks = self.reading.model, self.flanks(place)
-        for flank in flanks:
-            for tool in model.related("manufacturing_step", "workpiece", flank.id, "tool"):
-                if tool.type == table.TOOL:
-                    return tool
-        return model.reference_of((self.gears[place], *flanks), table.TOOL)
+        model, flanks = self.reading.model, self.flanks(place).values()
+        steps = (tool for each in flanks for tool in model.related("manufacturing_step", "workpiece", each.id, "tool"))
+        made_by = next((tool for tool in steps if tool.type == table.TOOL), None)
+        return made_by or model.reference_of((self.gears[place], *flanks), table.TOOL)
 
     def material(self, place: int) -> Component | None:
         """The gear's material, else its shaft's."""
@@ -168,7 +178,7 @@ class StageDraft:
 
     def involute(self, place: int) -> "Involute | None":
         """The transverse geometry of a gear, where the file gives enough."""
-        fields, module = self.draft.fields, self._normal_module
+        fields, module = self.fields, self._normal_module
         angle, helix = fields.get(table.PRESSURE_ANGLE.field), fields.get(table.HELIX_ANGLE.field, 0.0)
         if not module or module < 0.0 or angle is None or not 0.0 < angle < 45.0 or not helix < 80.0:
             return None
@@ -177,25 +187,10 @@ class StageDraft:
 
     @property
     def _normal_module(self) -> float | None:
-        module = self.draft.fields.get(table.MODULE.field)
-        if module is None or self.draft.fields.get("gears.module_plane") != "transverse":
+        module = self.fields.get(table.MODULE.field)
+        if module is None or self.fields.get("gears.module_plane") != "transverse":
             return module
-        return float(module) * cos(radians(self.draft.fields.get(table.HELIX_ANGLE.field, 0.0)))
-
-    def _gears(self) -> None:
-        for row in table.STAGE:
-            self.draft.take(row, self.stage)
-        for place, role in enumerate(ROLES):
-            self.draft.put(f"gears.{role}.teeth", self.teeth[place], self.gears[place], "number_of_teeth")
-        self._module()
-        self._helix()
-        self._face_width()
-        self._pressure_angle()
-        for place in (0, 1):
-            self._profile_shift(place)
-            self._rack(place)
-        self._rack_tip_radius()
-        self._backlash()
+        return float(module) * cos(radians(self.fields.get(table.HELIX_ANGLE.field, 0.0)))
 
     def _known(self, components: Iterable[Component], row: table.Row) -> list[tuple[float, Component]]:
         """The values that the components have, each with its component."""
@@ -206,14 +201,14 @@ class StageDraft:
         row, pinion = table.MODULE, self.gears[0]
         known = self._known(self.gears, row)
         if not known:
-            self.draft.lacks(row.field, pinion, row.name, f"the file has no {row.name}")
+            self.lacks(row.field, pinion, row.name, f"the file has no {row.name}")
             return
         if abs(known[0][0] - known[-1][0]) > SAME * abs(known[0][0]):
             message = "both gears must have one module; the pinion's is used"
             self.reading.find("gears_differ", known[-1][1], row.name, message)
-        self.draft.put(row.field, *known[0], row.name)
+        self.put(row.field, *known[0], row.name)
         if "normal_module" not in pinion.attributes:
-            self.draft.put("gears.module_plane", "transverse", pinion, "transverse_module")
+            self.put("gears.module_plane", "transverse", pinion, "transverse_module")
 
     def _helix(self) -> None:
         row, gear = table.HELIX_ANGLE, self.gears[0]
@@ -223,17 +218,17 @@ class StageDraft:
             self.reading.find("helix_angles", self.gears[1], row.name, message)
         if pinion is None:
             if wheel is None:
-                self.draft.assume(row.field, 0.0, "the file has no helix angle: spur gears")
+                self.assume(row.field, 0.0, "the file has no helix angle: spur gears")
                 return
             pinion = -wheel
-        self.draft.put(row.field, abs(pinion), gear, row.name)
-        self.draft.put("gears.hand", "right" if pinion >= 0.0 else "left", gear, row.name)
+        self.put(row.field, abs(pinion), gear, row.name)
+        self.put("gears.hand", "right" if pinion >= 0.0 else "left", gear, row.name)
 
     def _face_width(self) -> None:
         row, gear = table.FACE_WIDTH, self.gears[0]
         widths = [value for value, _ in self._known(self.gears, row)]
         if not widths:
-            self.draft.lacks(row.field, gear, row.name, "the file has no face width")
+            self.lacks(row.field, gear, row.name, "the file has no face width")
             return
         common = min(widths)
         first, second = self.face_interval(0), self.face_interval(1)
@@ -243,15 +238,15 @@ class StageDraft:
                 common = min(common, overlap)
             else:
                 self.reading.find("faces_apart", self.stage, None, "by their positions the faces do not overlap")
-        self.draft.put(row.field, common, gear, row.name)
+        self.put(row.field, common, gear, row.name)
         if any(abs(each - common) > SAME * common for each in widths):
-            self.draft.note(row.field, common, "the face that both gears have in common")
+            self.note(row.field, common, "the face that both gears have in common")
 
     def _pressure_angle(self) -> None:
         row = table.PRESSURE_ANGLE
         wheel, pinion = self._of_flanks(1, row, row.field), self._of_flanks(0, row, row.field)  # the pinion's counts
         if wheel is None and pinion is None:
-            self.draft.assume(row.field, 20.0, "the file has no pressure angle: ISO 53")
+            self.assume(row.field, 20.0, "the file has no pressure angle: ISO 53")
         elif wheel is not None and pinion is not None and abs(wheel - pinion) > SAME:
             message = "both gears must have one pressure angle; the pinion's is used"
             self.reading.find("gears_differ", self.gears[1], row.name, message)
@@ -260,34 +255,34 @@ class StageDraft:
         path = f"gears.{ROLES[place]}.profile_shift"
         if self._of_flanks(place, table.PROFILE_SHIFT, path) is not None:
             return
-        flank, module = next(iter(self.flanks(place)), None), self.draft.fields.get(table.MODULE.field)
+        flank, module = next(iter(self.flanks(place).values()), None), self.fields.get(table.MODULE.field)
         length = self.reading.number(flank, "addendum_modification", "mm")
         if flank is not None and length is not None and module:
-            self.draft.put(path, length / module, flank, "addendum_modification")
+            self.put(path, length / module, flank, "addendum_modification")
         else:
-            self.draft.assume(path, 0.0, "the file has no profile shift")
+            self.assume(path, 0.0, "the file has no profile shift")
 
     def _of_flanks(self, place: int, row: table.Row, path: str) -> float | None:
         """A number of the flanks, which both must share."""
-        known = self._known(self.flanks(place), row)
+        known = self._known(self.flanks(place).values(), row)
         if not known:
             return None
         if any(abs(value - known[0][0]) > SAME for value, _ in known):
             message = "left and right flank differ, which is not modelled; the left one's is used"
             self.reading.find("flanks_differ", known[1][1], row.attributes[-1], message)
-        self.draft.put(path, *known[0], row.attributes[-1])
+        self.put(path, *known[0], row.attributes[-1])
         return known[0][0]
 
     def _rack(self, place: int) -> None:
         """Addendum and dedendum coefficients: from tool or basic profile, else from the diameters, else ISO 53 A."""
         prefix, tool = f"gears.{ROLES[place]}.", self.tool(place)
         if self._of_flanks(place, table.BASIC_ADDENDUM, f"{prefix}addendum") is None:
-            self._from_diameter(place, table.TIP_DIAMETER, 1.0)
+            self._from_diameter(place, table.TIP_DIAMETER)
         dedendum = self._of_tool(tool, table.TOOL_ADDENDUM, table.TOOL_ADDENDUM_LENGTH)
         if tool is not None and dedendum is not None:
-            self.draft.put(f"{prefix}dedendum", dedendum, tool, table.TOOL_ADDENDUM.name)
+            self.put(f"{prefix}dedendum", dedendum, tool, table.TOOL_ADDENDUM.name)
         else:
-            self._from_diameter(place, table.ROOT_DIAMETER, -1.0)
+            self._from_diameter(place, table.ROOT_DIAMETER)
 
     def _of_tool(self, tool: Component | None, row: table.Row, length_row: table.Row) -> float | None:
         """A coefficient of the rack, which the file gives in modules or as a length."""
@@ -295,18 +290,19 @@ class StageDraft:
         module = self._normal_module
         return length / module if found is None and length is not None and module else found
 
-    def _from_diameter(self, place: int, row: table.Row, sign: float) -> None:
+    def _from_diameter(self, place: int, row: table.Row) -> None:
         """A rack coefficient from the tip or root diameter; an impossible diameter is a finding and not used."""
         path, gear = f"gears.{ROLES[place]}.{row.field}", self.gears[place]
         diameter, flank = self.reading.number(gear, row), self.involute(place)
         if diameter is not None and flank is not None:
-            fault = flank.tip_fault(diameter) if sign > 0.0 else flank.root_fault(diameter)
+            tip = row is table.TIP_DIAMETER
+            fault = flank.tip_fault(diameter) if tip else flank.root_fault(diameter)
             if fault is None:
-                height = (diameter - flank.reference_diameter) / (2.0 * flank.module)
-                self.draft.put(path, sign * (height - flank.shift), gear, row.name)
+                height = (diameter - flank.reference_diameter) / (2.0 * flank.module) - flank.shift
+                self.put(path, height if tip else -height, gear, row.name)
                 return
             self.reading.find("diameter", gear, row.name, f"{row.name} {fault}; not used")
-        self.draft.assume(path, ISO_53_A[row.field], f"the file gives no {row.field}: ISO 53, profile A")
+        self.assume(path, ISO_53_A[row.field], f"the file gives no {row.field}: ISO 53, profile A")
 
     def _rack_tip_radius(self) -> None:
         found = []
@@ -316,13 +312,12 @@ class StageDraft:
                 found.append((radius, tool))
         path = "gears.rack_tip_radius"
         if not found:
-            reason = "the file gives no tip radius of a tool: ISO 53, profile A"
-            self.draft.assume(path, ISO_53_A["rack_tip_radius"], reason)
+            self.assume(path, ISO_53_A[path], "the file gives no tip radius of a tool: ISO 53, profile A")
             return
         smallest, tool = min(found, key=lambda each: each[0])
-        self.draft.put(path, smallest, tool, table.TOOL_TIP_RADIUS.attributes[-1])
+        self.put(path, smallest, tool, table.TOOL_TIP_RADIUS.attributes[-1])
         if abs(found[0][0] - found[-1][0]) > SAME:
-            self.draft.note(path, smallest, "the tools differ; the smaller radius serves both gears")
+            self.note(path, smallest, "the tools differ; the smaller radius serves both gears")
 
     def _backlash(self) -> None:
         """The normal backlash of the file less the one that the centre distance gives by itself."""
@@ -330,7 +325,7 @@ class StageDraft:
         values = [self.reading.number(self.stage, each, "mm") for each in table.BACKLASH]
         known = [each for each in values if each is not None]
         if not known:
-            self.draft.lacks(path, self.stage, name, "the pumping calculation needs the normal backlash")
+            self.lacks(path, self.stage, name, "the pumping calculation needs the normal backlash")
             return
         stated = sum(known) / len(known)
         own = self._backlash_of_centre_distance()
@@ -338,14 +333,14 @@ class StageDraft:
             message = f"the backlash stated, {stated:.4g} mm, is smaller than what the centre distance gives"
             self.reading.find("backlash", self.stage, name, message)
             own = stated
-        self.draft.put(path, max(stated - own, 0.0), self.stage, name)
+        self.put(path, max(stated - own, 0.0), self.stage, name)
         if known[0] != known[-1]:
-            self.draft.note(path, stated - own, "mean of the least and the largest backlash")
+            self.note(path, stated - own, "mean of the least and the largest backlash")
 
     def _backlash_of_centre_distance(self) -> float | None:
         """Normal backlash [mm] of unthinned teeth at the centre distance: 2 a cos alpha_wt (inv - inv_0) cos beta_b."""
         pinion, wheel = self.involute(0), self.involute(1)
-        distance = self.draft.fields.get("gears.centre_distance_mm")
+        distance = self.fields.get("gears.centre_distance_mm")
         if pinion is None or wheel is None:
             return None
         if distance is None:
@@ -362,48 +357,38 @@ class StageDraft:
         load = self.load(self.flow)
         for path, what in ((TORQUE, "torque"), (SPEED, "speed")):
             if path in load:
-                self.draft.put(path, load[path], self.shafts[0])
+                self.put(path, load[path], self.shafts[0])
             else:
-                message = f"the {what} of this stage does not follow from the file"
-                self.draft.lacks(path, self.shafts[0], None, message)
+                self.lacks(path, self.shafts[0], None, f"the {what} of this stage does not follow from the file")
         if self.driver is None:
-            reason = "which gear drives is not known; the smaller one is taken"
-            self.draft.note("gears.pinion", self.gears[0].id, reason)
-
-    def _materials(self) -> None:
-        for place, role in enumerate(ROLES):
-            self.draft.take(table.ROUGHNESS, self.gears[place], f"materials.{role}.")
-            material = self.material(place)
-            for row in table.MATERIAL:
-                self.draft.take(row, material, f"materials.{role}.")
+            self.note("gears.pinion", self.gears[0].id, "which gear drives is not known; the smaller one is taken")
 
     def _oil(self) -> None:
-        draft, oil = self.draft, self.lubricant
+        oil = self.lubricant
         for origin in self.oil_origins:
-            if draft.take(table.OIL_TEMPERATURE, origin, case=self.case) is not None:
+            if self.take(table.OIL_TEMPERATURE, origin, case=self.case) is not None:
                 break
         if oil is None:
-            draft.lacks("lubricant", self.stage, None, "film and scuffing safety need an oil")
+            self.lacks("lubricant", self.stage, None, "film and scuffing safety need an oil")
             return
         kind = self.reading.text(oil, "kind")
         if kind == "grease":
             self.reading.find("grease", oil, "kind", "the lubricant is a grease, which is not modelled; not used")
-            draft.lacks("lubricant", oil, "kind", "film and scuffing safety need an oil")
+            self.lacks("lubricant", oil, "kind", "film and scuffing safety need an oil")
             return
         *viscosities, density = table.OIL
-        if None in [draft.take(row, oil, "lubricant.") for row in viscosities]:
+        if None in [self.take(row, oil, "lubricant.") for row in viscosities]:
             for row in viscosities:
-                draft.fields.pop(f"lubricant.{row.field}", None)
-            message = "the oil's viscosities at 40 and 100 C are needed"
-            draft.lacks("lubricant", oil, viscosities[0].name, message)
+                self.fields.pop(f"lubricant.{row.field}", None)
+            self.lacks("lubricant", oil, viscosities[0].name, "the oil's viscosities at 40 and 100 C are needed")
             return
-        draft.take(density, oil, "lubricant.")
+        self.take(density, oil, "lubricant.")
         words = " ".join(filter(None, (kind, self.reading.text(oil, "basis"), self.reading.text(oil, "name"))))
         known = next((ours for word, ours in table.BASE_OILS.items() if word in words), None)
         if known is None:
-            draft.assume("lubricant.kind", "mineral", "the file does not give the base oil")
+            self.assume("lubricant.kind", "mineral", "the file does not give the base oil")
         else:
-            draft.put("lubricant.kind", known, oil, "basis")
+            self.put("lubricant.kind", known, oil, "basis")
 
 
 class Axis(NamedTuple):
@@ -430,52 +415,29 @@ def shaft_axis(reading: Reading, shaft: Component) -> Axis | None:
     return Axis(origin, (x / size, y / size, z / size))
 
 
-class Involute(NamedTuple):
-    """Transverse geometry of one gear: teeth, normal module [mm], angles [rad], profile shift coefficient."""
+class Involute:
+    """Transverse geometry of one gear: normal module and diameters [mm], angles [rad], profile shift coefficient."""
 
-    teeth: int
-    module: float
-    normal_angle: float
-    helix: float
-    shift: float
-
-    @property
-    def transverse_angle(self) -> float:
-        """Transverse pressure angle [rad]."""
-        return atan(tan(self.normal_angle) / cos(self.helix))
-
-    @property
-    def base_helix(self) -> float:
-        """Base helix angle [rad]."""
-        return atan(tan(self.helix) * cos(self.transverse_angle))
-
-    @property
-    def reference_diameter(self) -> float:
-        """Reference diameter [mm]."""
-        return self.module * self.teeth / cos(self.helix)
-
-    @property
-    def base_diameter(self) -> float:
-        """Base diameter [mm]."""
-        return self.reference_diameter * cos(self.transverse_angle)
+    def __init__(self, teeth: int, module: float, normal_angle: float, helix: float, shift: float) -> None:
+        self.teeth, self.module, self.normal_angle, self.shift = teeth, module, normal_angle, shift
+        self.transverse_angle = atan(tan(normal_angle) / cos(helix))
+        self.base_helix = atan(tan(helix) * cos(self.transverse_angle))
+        self.reference_diameter = module * teeth / cos(helix)
+        self.base_diameter = self.reference_diameter * cos(self.transverse_angle)
 
     def roll_length(self, diameter: float) -> float:
         """Distance from the base tangent point along the line of action [mm]; 0 inside the base circle."""
         return sqrt(max(diameter**2 - self.base_diameter**2, 0.0)) / 2.0
 
-    @property
-    def pointed_diameter(self) -> float:
-        """Diameter at which the tooth has no thickness left [mm]."""
-        half = pi / (2 * self.teeth) + 2.0 * self.shift * tan(self.normal_angle) / self.teeth
-        reach = half + involute(self.transverse_angle)
-        return self.base_diameter / cos(inverse_involute(reach)) if reach > 0.0 else self.base_diameter
-
     def tip_fault(self, diameter: float) -> str | None:
         """What is wrong with a tip diameter [mm], or None."""
+        half = pi / (2 * self.teeth) + 2.0 * self.shift * tan(self.normal_angle) / self.teeth
+        reach = half + involute(self.transverse_angle)
+        pointed = self.base_diameter / cos(inverse_involute(reach)) if reach > 0.0 else self.base_diameter
         if diameter < self.reference_diameter:
             return f"is {diameter:.6g} mm, below the reference circle of {self.reference_diameter:.6g} mm"
-        if diameter > self.pointed_diameter:
-            return f"is {diameter:.6g} mm, where the tooth is pointed at {self.pointed_diameter:.6g} mm"
+        if diameter > pointed:
+            return f"is {diameter:.6g} mm, where the tooth is pointed at {pointed:.6g} mm"
         return None
 
     def root_fault(self, diameter: float) -> str | None:
@@ -492,7 +454,7 @@ class Modifications:
     """
 
     def __init__(self, stage: StageDraft) -> None:
-        self._stage, self._draft, self._reading = stage, stage.draft, stage.reading
+        self._stage, self._reading = stage, stage.reading
         self._carried: list[tuple[int, Component]] = []  # each with the place of its gear
 
     def fill(self) -> None:
@@ -507,20 +469,18 @@ class Modifications:
 
     def _of_working_flank(self, place: int) -> list[Component]:
         """Modifications of the flank of pinion (0) or wheel (1) that carries the load."""
-        sides = {}
-        for side in ("left", "right"):
-            flank = self._stage.flank(place, side)
-            sides[side] = [] if flank is None else modifications_of(self._reading, flank)
+        sides = {side: modifications_of(self._reading, each) for side, each in self._stage.flanks(place).items()}
         if not any(sides.values()):
             return []
-        side = self._working_side(place) or ""
-        if not side:
-            side = "right" if sides["right"] else "left"
-            self._draft.note("modifications", side, "which flank carries the load is not known")
-        for each in sides[side]:
+        side = self._working_side(place)
+        if side is None:
+            side = "right" if sides.get("right") else "left"
+            self._stage.note("modifications", side, "which flank carries the load is not known")
+        found = sides.get(side, [])
+        for each in found:
             if each.type in table.OTHER_MODIFICATIONS:
                 self._reading.find("modification", each, None, f"{table.OTHER_MODIFICATIONS[each.type]}; left out")
-        return [each for each in sides[side] if each.type in table.MODIFICATIONS]
+        return [each for each in found if each.type in table.MODIFICATIONS]
 
     def _working_side(self, place: int) -> str | None:
         """The flank that carries the load: as the file says, else by sense of rotation and driver.
@@ -552,7 +512,7 @@ class Modifications:
             means.append(sum(known) / len(known))
             origin = origin or each
         if origin is not None:
-            self._draft.put(f"modifications.{field}", sum(means), origin, kind + ends[0])
+            self._stage.put(f"modifications.{field}", sum(means), origin, kind + ends[0])
 
     def _relief(self, name: str, kinds: tuple[str, str]) -> None:
         """A relief at one end of the path: amounts add, length and shape are those of the larger one.
@@ -569,22 +529,22 @@ class Modifications:
             return
         path = f"modifications.{name}"
         largest, component, kind, place = max(found, key=lambda each: abs(each[0]))
-        self._draft.put(f"{path}_um", sum(each[0] for each in found), component, f"{kind}_depth")
+        self._stage.put(f"{path}_um", sum(each[0] for each in found), component, f"{kind}_depth")
         length = self._relief_length(component, kind, place)
         if length is not None:
-            self._draft.put(f"{path}_length_mm", length, component, f"{kind}_datum_length")
+            self._stage.put(f"{path}_length_mm", length, component, f"{kind}_datum_length")
         if len(found) > 1:
             reason = "both gears are relieved there; amounts add, length and shape of the larger one"
-            self._draft.note(f"{path}_um", largest, reason)
+            self._stage.note(f"{path}_um", largest, reason)
         shape = self._reading.text(component, "shape_of_relief")
         exponent = {"linear": 1.0, "parabolic": 2.0}.get(shape)
         path = "modifications.relief_exponent"
         if exponent is None:
-            self._draft.assume(path, 1.0, f"the shape of the relief is {shape[:30] or 'not stated'}; linear is used")
-        elif self._draft.fields.get(path, exponent) != exponent:
-            self._draft.note(path, self._draft.fields[path], "tip and root relief have different shapes")
+            self._stage.assume(path, 1.0, f"the shape of the relief is {shape[:30] or 'not stated'}; linear is used")
+        elif self._stage.fields.get(path, exponent) != exponent:
+            self._stage.note(path, self._stage.fields[path], "tip and root relief have different shapes")
         else:
-            self._draft.put(path, exponent, component, "shape_of_relief")
+            self._stage.put(path, exponent, component, "shape_of_relief")
 
     def _relief_length(self, component: Component, kind: str, place: int) -> float | None:
         """Length of a relief along the line of action [mm], from its length or from the diameter where it begins."""
@@ -600,13 +560,13 @@ class Modifications:
             return self._tip_roll(place, gear) - begin
         base = (gear.base_diameter + mate.base_diameter) / 2.0
         own_distance = (gear.reference_diameter + mate.reference_diameter) / 2
-        distance = self._draft.fields.get("gears.centre_distance_mm") or own_distance
+        distance = self._stage.fields.get("gears.centre_distance_mm") or own_distance
         line = sqrt(max(distance**2 - base**2, 0.0))
         return begin - (line - self._tip_roll(1 - place, mate))
 
     def _tip_roll(self, place: int, gear: Involute) -> float:
         """Roll length of a gear's tip [mm]."""
-        addendum = self._draft.fields.get(f"gears.{ROLES[place]}.addendum", 1.0)
+        addendum = self._stage.fields.get(f"gears.{ROLES[place]}.addendum", 1.0)
         return gear.roll_length(gear.reference_diameter + 2.0 * gear.module * (addendum + gear.shift))
 
     def _slopes(self) -> None:
@@ -627,8 +587,8 @@ class Modifications:
         for kind, total in sums.items():
             if kind in origins:
                 path = f"modifications.{kind}_um"
-                self._draft.put(path, total, origins[kind], kind)
-                self._draft.note(path, total, f"positive amounts remove material at the {where[kind]}")
+                self._stage.put(path, total, origins[kind], kind)
+                self._stage.note(path, total, f"positive amounts remove material at the {where[kind]}")
 
     def _end_sense(self, place: int) -> float | None:
         """+1 where u of this gear's shaft grows towards the end that leaves the mesh last.
@@ -640,7 +600,7 @@ class Modifications:
         speed = stage.flow.speed.get(stage.shafts[0].id)
         if not speed:
             return None
-        hand = -1.0 if self._draft.fields.get("gears.hand") == "left" else 1.0
+        hand = -1.0 if self._stage.fields.get("gears.hand") == "left" else 1.0
         return -(1.0 if speed > 0.0 else -1.0) * hand * stage.along(stage.shafts[place])
 
     def _end_relief(self) -> None:
@@ -659,11 +619,11 @@ class Modifications:
         datum, other = (sum(each[1] for each in found if each[0] == end) for end in ("datum_face", "non_datum_face"))
         if abs(datum - other) > 0.01:
             self._reading.find("ends_differ", origin, None, "end reliefs differ; their mean is used at both ends")
-        self._draft.put("modifications.end_relief_um", (datum + other) / 2.0, origin, "end_relief_depth_datum_face")
+        self._stage.put("modifications.end_relief_um", (datum + other) / 2.0, origin, "end_relief_depth_datum_face")
         lengths = [each[2] for each in found if each[2]]
         if lengths:
             path = "modifications.end_relief_length_mm"
-            self._draft.put(path, sum(lengths) / len(lengths), origin, "end_relief_length_datum_face")
+            self._stage.put(path, sum(lengths) / len(lengths), origin, "end_relief_length_datum_face")
 
 
 def modifications_of(reading: Reading, flank: Component) -> list[Component]:
@@ -676,7 +636,7 @@ def related_components(stage: StageDraft) -> Iterator[Component]:
     yield stage.stage
     for place in (0, 1):
         yield stage.gears[place]
-        for flank in stage.flanks(place):
+        for flank in stage.flanks(place).values():
             yield flank
             yield from modifications_of(stage.reading, flank)
         yield from filter(None, (stage.tool(place), stage.material(place)))

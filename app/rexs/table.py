@@ -4,73 +4,42 @@ Sources: the specification and the published schemas of REXS 1.0 to 2.0 (https:/
 are used here; of other names that versions have had, the preferred one comes first.
 """
 
+from math import pi
 from typing import NamedTuple
 
-
-class Unit(NamedTuple):
-    """A unit: what it measures, and its size and zero in SI."""
-
-    quantity: str
-    factor: float
-    zero: float = 0.0
-
-
-DEGREE = 0.017453292519943295  # rad
-REVOLUTION_PER_MINUTE = 0.10471975511965977  # rad/s
-
-UNITS = {
-    "": Unit("number", 1.0),
-    "none": Unit("number", 1.0),
-    "%": Unit("number", 0.01),
-    "m": Unit("length", 1.0),
-    "mm": Unit("length", 1e-3),
-    "mum": Unit("length", 1e-6),
-    "um": Unit("length", 1e-6),
-    "µm": Unit("length", 1e-6),
-    "rad": Unit("angle", 1.0),
-    "deg": Unit("angle", DEGREE),
-    "°": Unit("angle", DEGREE),
-    "1/min": Unit("speed", REVOLUTION_PER_MINUTE),
-    "1/s": Unit("speed", 60.0 * REVOLUTION_PER_MINUTE),
-    "rad/s": Unit("speed", 1.0),
-    "Nm": Unit("torque", 1.0),
-    "kNm": Unit("torque", 1e3),
-    "Nmm": Unit("torque", 1e-3),
-    "W": Unit("power", 1.0),
-    "kW": Unit("power", 1e3),
-    "C": Unit("temperature", 1.0, 273.15),
-    "°C": Unit("temperature", 1.0, 273.15),
-    "K": Unit("temperature", 1.0),
-    "mm^2/s": Unit("kinematic viscosity", 1e-6),
-    "m^2/s": Unit("kinematic viscosity", 1.0),
-    "kg/dm^3": Unit("density", 1e3),
-    "kg/m^3": Unit("density", 1.0),
-    "N/mm^2": Unit("pressure", 1e6),
-    "MPa": Unit("pressure", 1e6),
-    "GPa": Unit("pressure", 1e9),
-    "Pa": Unit("pressure", 1.0),
-    "N/m": Unit("stiffness", 1.0),
-    "N/mm": Unit("stiffness", 1e3),
-    "N/mum": Unit("stiffness", 1e6),
-    "N/um": Unit("stiffness", 1e6),
-    "h": Unit("time", 3600.0),
-    "s": Unit("time", 1.0),
-}
-"""Units as files spell them, without blanks.
+REVOLUTION_PER_MINUTE = pi / 30.0  # rad/s
+UNITS = (
+    {"": 1.0, "none": 1.0, "%": 0.01},
+    {"m": 1.0, "mm": 1e-3, "mum": 1e-6, "um": 1e-6, "µm": 1e-6},
+    {"rad": 1.0, "deg": pi / 180.0, "°": pi / 180.0},
+    {"1/min": REVOLUTION_PER_MINUTE, "1/s": 60.0 * REVOLUTION_PER_MINUTE, "rad/s": 1.0},
+    {"Nm": 1.0, "kNm": 1e3, "Nmm": 1e-3},
+    {"W": 1.0, "kW": 1e3},
+    {"C": 1.0, "°C": 1.0, "K": 1.0},
+    {"mm^2/s": 1e-6, "m^2/s": 1.0},
+    {"kg/dm^3": 1e3, "kg/m^3": 1.0},
+    {"N/mm^2": 1e6, "MPa": 1e6, "GPa": 1e9, "Pa": 1.0},
+    {"N/m": 1.0, "N/mm": 1e3, "N/mum": 1e6, "N/um": 1e6},
+    {"h": 3600.0, "s": 1.0},
+)
+"""Units of each quantity as files spell them, without blanks, and their size in SI.
 
 A file states the unit of each attribute, so a value is converted by that text and never by the version of the file:
 degrees are "°" up to version 1.3 and "deg" from 1.4, modifications are in "mum" or in "mm".
 """
+ZEROS = {"C": 273.15, "°C": 273.15}  # K
 
 
 def converted(value: float, stated: str, wanted: str) -> float | None:
     """The value in the wanted unit, or None where the stated unit measures something else or is not known."""
-    found, target = UNITS.get("".join(stated.split())), UNITS[wanted]
-    if found is None or found.quantity != target.quantity:
+    stated = "".join(stated.split())
+    sizes = next(each for each in UNITS if wanted in each)
+    if stated not in sizes:
         return None
-    if found == target:
+    shift = ZEROS.get(stated, 0.0) - ZEROS.get(wanted, 0.0)
+    if sizes[stated] == sizes[wanted] and shift == 0.0:
         return value
-    return (value * found.factor + found.zero - target.zero) / target.factor
+    return (value * sizes[stated] + shift) / sizes[wanted]
 
 
 class Row(NamedTuple):

@@ -29,86 +29,75 @@ def gear_unit(model: Model) -> dict[str, Any]:
         message = f"the unit has more than {MOST_STAGES} stages; the first ones are read"
         reading.find("too_many_stages", None, None, message)
         del found[MOST_STAGES:]
-    unit = _Unit(reading, found)
-    gear_unit = model.first("gear_unit")
+    senses = _senses(reading)
+    cases = model.load_cases[:MOST_CASES]
+    if len(cases) < len(model.load_cases):
+        reading.find("too_many_cases", None, None, f"the first {MOST_CASES} load cases are read")
+    if len(cases) > MOST_SPECTRUM_CASES:
+        message = f"a load spectrum of more than {MOST_SPECTRUM_CASES} load cases cannot be asked as it stands"
+        reading.find("too_many_cases", None, None, message)
+    train = Train(reading, found, senses)
+    base, flows = train.flow(), [(case, train.flow(case)) for case in cases]
+    unit = model.first("gear_unit")
     return {
         "version": model.version,
         "application": model.application,
-        "name": gear_unit.name if gear_unit else "",
+        "name": unit.name if unit else "",
         "shafts": [{"id": each.id, "name": each.name} for each in model.by_type["shaft"]],
-        "stages": [unit.stage(pair) for pair in found],
+        "stages": [_stage(reading, pair, senses, base, flows) for pair in found],
         "findings": _rows(islice(reading.findings, MOST_FINDINGS)),
     }
 
 
-class _Unit:
-    """What the stages of one unit share: senses of the axes, and speeds and torques of every case."""
+def _stage(
+    reading: Reading, pair: Pair, senses: dict[int, float], base: Flow, flows: list[tuple[LoadCase, Flow]]
+) -> dict[str, Any]:
+    """One stage of the answer, with the load of the base model, or where it states none of the first load case."""
+    stated: list[tuple[LoadCase | None, Flow]] = [(None, base), *flows]
+    case, flow = next((each for each in stated if each[1].knows(pair)), stated[0])
+    stage = StageDraft(reading, pair, flow, senses, case)
+    stage.fill()
+    if case is not None:
+        for path in (TORQUE, SPEED, table.OIL_TEMPERATURE.field):
+            if path in stage.fields:
+                stage.note(path, stage.fields[path], f"of the load case {case.name}; the model itself states none")
+    # the mesh first, then the oil
+    paths = sorted({**stage.fields, **stage.missing}, key=lambda path: path.partition(".")[0] not in MESH)
+    requests = {endpoint: stage.request(endpoint, paths) for endpoint in SECTIONS}
+    if add_drive_train(stage):
+        requests["/v1/drive-train"] = stage.request("/v1/drive-train", {**stage.fields, **stage.missing})
+    cases = _cases(stage, flows)
+    askable = 0 < len(cases) <= MOST_SPECTRUM_CASES
+    return {
+        "id": pair.stage.id,
+        "name": pair.stage.name,
+        "pinion": stage.gears[0].id,
+        "wheel": stage.gears[1].id,
+        "driver": None if stage.driver is None else pair.gears[stage.driver].id,
+        "hand": stage.fields.get("gears.hand"),
+        "requests": requests,
+        "cases": cases,
+        "spectra": {endpoint: _spectrum(endpoint, cases) for endpoint in requests if askable},
+        "missing": _rows(stage.missing.values()),
+        "assumed": _rows(stage.assumed.values()),
+        "ignored": _rows(reading.ignored(related_components(stage))),
+    }
 
-    def __init__(self, reading: Reading, found: list[Pair]) -> None:
-        self._reading = reading
-        self._senses = _senses(reading)
-        cases = reading.model.load_cases[:MOST_CASES]
-        if len(cases) < len(reading.model.load_cases):
-            reading.find("too_many_cases", None, None, f"the first {MOST_CASES} load cases are read")
-        if len(cases) > MOST_SPECTRUM_CASES:
-            message = f"a load spectrum of more than {MOST_SPECTRUM_CASES} load cases cannot be asked as it stands"
-            reading.find("too_many_cases", None, None, message)
-        train = Train(reading, found, self._senses)
-        self._base = train.flow()
-        self._flows = [(case, train.flow(case)) for case in cases]
 
-    def stage(self, pair: Pair) -> dict[str, Any]:
-        """One stage of the answer."""
-        flow, case = self._flow_of(pair)
-        stage = StageDraft(self._reading, pair, flow, self._senses, case)
-        draft = stage.fill()
-        if case is not None:
-            for path in (TORQUE, SPEED, table.OIL_TEMPERATURE.field):
-                if path in draft.fields:
-                    draft.note(path, draft.fields[path], f"of the load case {case.name}; the model itself states none")
-        # the mesh first, then the oil
-        paths = sorted({**draft.fields, **draft.missing}, key=lambda path: path.partition(".")[0] not in MESH)
-        requests = {endpoint: draft.request(endpoint, paths) for endpoint in SECTIONS}
-        if add_drive_train(stage):
-            requests["/v1/drive-train"] = draft.request("/v1/drive-train", {**draft.fields, **draft.missing})
-        cases = self._cases(stage)
-        askable = 0 < len(cases) <= MOST_SPECTRUM_CASES
-        return {
-            "id": pair.stage.id,
-            "name": pair.stage.name,
-            "pinion": stage.gears[0].id,
-            "wheel": stage.gears[1].id,
-            "driver": None if stage.driver is None else pair.gears[stage.driver].id,
-            "hand": draft.fields.get("gears.hand"),
-            "requests": requests,
-            "cases": cases,
-            "spectra": {endpoint: _spectrum(endpoint, cases) for endpoint in requests if askable},
-            "missing": _rows(draft.missing.values()),
-            "assumed": _rows(draft.assumed.values()),
-            "ignored": _rows(self._reading.ignored(related_components(stage))),
-        }
-
-    def _flow_of(self, pair: Pair) -> tuple[Flow, LoadCase | None]:
-        """The base model's flow of power, or where it states none that of the first load case, and the case."""
-        for case, flow in ((None, self._base), *self._flows):
-            if pair.stage.id in flow.mesh_torque and pair.shafts[0].id in flow.speed:
-                return flow, case
-        return self._base, None
-
-    def _cases(self, stage: StageDraft) -> list[dict[str, Any]]:
-        """The load spectrum as overrides of the stage's request."""
-        found, row = [], table.OIL_TEMPERATURE
-        shares, reason = _shares(self._reading, [case for case, _ in self._flows])
-        for (case, flow), share in zip(self._flows, shares, strict=True):
-            overrides = stage.load(flow)
-            stated = (self._reading.number(origin, row, case=case) for origin in stage.oil_origins)
-            temperature = next((value for value in stated if value is not None), None)
-            if temperature is not None:
-                overrides[row.field] = temperature
-            found.append({"name": case.name, "share": share, "overrides": overrides})
-        if reason:
-            stage.draft.note("cases", None, reason)
-        return found
+def _cases(stage: StageDraft, flows: list[tuple[LoadCase, Flow]]) -> list[dict[str, Any]]:
+    """The load spectrum as overrides of the stage's request."""
+    found, row = [], table.OIL_TEMPERATURE
+    shares, reason = _shares(stage.reading, [case for case, _ in flows])
+    for (case, flow), share in zip(flows, shares, strict=True):
+        overrides = stage.load(flow)
+        stated = (stage.reading.number(origin, row, case=case) for origin in stage.oil_origins)
+        temperature = next((value for value in stated if value is not None), None)
+        if temperature is not None:
+            overrides[row.field] = temperature
+        found.append({"name": case.name, "share": share, "overrides": overrides})
+    if reason:
+        stage.note("cases", None, reason)
+    return found
 
 
 def _rows(found: Iterable[BaseModel]) -> list[dict[str, Any]]:
