@@ -13,6 +13,7 @@ from solvers.gears.pair import inverse_involute
 
 ISO_53_A = {"addendum": 1.0, "dedendum": 1.25, "gears.rack_tip_radius": 0.38}  # in modules
 SAME = 1e-6  # chosen: numbers stated twice that differ by less are equal
+MOST_INVOLUTE = 1e8  # its inverse is known up to 1e9; a larger one comes from a profile shift that no gear has
 ROLES = ("pinion", "wheel")
 TORQUE, SPEED = "load.pinion_torque_n_m", "load.pinion_speed_rpm"
 
@@ -432,8 +433,8 @@ class Involute:
     def tip_fault(self, diameter: float) -> str | None:
         """What is wrong with a tip diameter [mm], or None."""
         half = pi / (2 * self.teeth) + 2.0 * self.shift * tan(self.normal_angle) / self.teeth
-        reach = half + involute(self.transverse_angle)
-        pointed = self.base_diameter / cos(inverse_involute(reach)) if reach > 0.0 else self.base_diameter
+        reach = min(max(half + involute(self.transverse_angle), 0.0), MOST_INVOLUTE)
+        pointed = self.base_diameter / cos(inverse_involute(reach))
         if diameter < self.reference_diameter:
             return f"is {diameter:.6g} mm, below the reference circle of {self.reference_diameter:.6g} mm"
         if diameter > pointed:

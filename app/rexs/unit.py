@@ -120,7 +120,7 @@ def _shares(reading: Reading, cases: list[LoadCase]) -> tuple[list[float], str |
         return [], None
     unit, standard = reading.model.first("gear_unit"), dict(SHARES)
     stated = {name for case in cases for each in case.attributes.values() for name in each}
-    own = sorted(name for name in stated if name.endswith("_fraction"))
+    own = sorted(name for name in stated if name.endswith("_fraction") and name not in standard)
     for name, size in (standard | dict.fromkeys(own, "")).items() if unit else ():
         values = [reading.number(unit, name, size, case) for case in cases]
         known = [value for value in values if value is not None and value >= 0.0]

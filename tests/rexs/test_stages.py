@@ -125,6 +125,7 @@ def test_load_cases() -> None:
         )
     stages = answer(unit)["stages"]
     assert [each["share"] for each in stages[0]["cases"]] == pytest.approx([0.2, 0.8])
+    assert "cases" not in {each["field"] for each in stages[0]["assumed"]}  # the attribute is of the standard
     expected = {"load.pinion_torque_n_m": 5.0 * 67 / 23, "load.pinion_speed_rpm": 543.0 * 23 / 67}
     assert stages[1]["cases"][0]["overrides"] == pytest.approx({**expected, "temperatures.oil_c": 70.0})
     own = stages[1]["cases"][0]["overrides"]
@@ -365,6 +366,15 @@ def test_one_extreme_number_leaves_the_answer_finite(extreme: float) -> None:
                 unit = turbo_unit()
                 unit.components[place]["attributes"][name] = (extreme, size)
                 json.dumps(answer(unit.json()), allow_nan=False)
+
+
+@pytest.mark.parametrize("shift", [-1e29, -1e12, 1e12, 1e29])
+def test_a_profile_shift_that_no_gear_has_is_found(shift: float) -> None:
+    unit = three_stages("1.4")
+    unit.of(gear_of(unit, 0))["tip_diameter"] = (29.0, "mm")
+    flank = next(each["id"] for each in unit.components if each["type"] == "cylindrical_gear_flank")
+    unit.of(flank)["addendum_modification_coefficient"] = (shift, "none")
+    assert "out_of_range" in codes(answer(unit))
 
 
 numbers = st.one_of(
