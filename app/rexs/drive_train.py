@@ -95,7 +95,10 @@ class _DriveTrain:
         for place in (0, 1):
             if not self._shaft(place, start):
                 return False
-        self._couplings()
+        for shaft in stage.shafts:
+            for part in self._reading.model.related("side", "inner_part", shaft.id, "assembly"):
+                if part.type in {"coupling", "switchable_coupling"}:
+                    stage.lacks("couplings", part, None, "the file has no tooth data of the coupling; left out")
         return True
 
     def _directions(self) -> None:
@@ -239,13 +242,6 @@ class _DriveTrain:
                 self._stage.put(path, position, load, "u_coordinate_on_shaft")
                 return
         self._stage.lacks(path, shaft, None, "where the torque enters or leaves the shaft")
-
-    def _couplings(self) -> None:
-        """A coupling has no tooth data in the file: the drive train is formed without it."""
-        for shaft in self._stage.shafts:
-            for part in self._reading.model.related("side", "inner_part", shaft.id, "assembly"):
-                if part.type in {"coupling", "switchable_coupling"}:
-                    self._stage.lacks("couplings", part, None, "the file has no tooth data of the coupling; left out")
 
 
 def _dot(a: Vector, b: Vector) -> float:
