@@ -66,10 +66,10 @@ class Train:
             self._shafts, self._pairs = [], []
         self._group = self._groups()
         self._elsewhere = self._not_modelled()
-        self._at: dict[int, list[tuple[int, int]]] = defaultdict(list)  # meshes of a group, and which gear is its own
-        for index, pair in enumerate(self._pairs):
+        self._at: dict[int, list[tuple[Pair, int]]] = defaultdict(list)  # meshes of a group, and which gear is its own
+        for pair in self._pairs:
             for place, shaft in enumerate(pair.shafts):
-                self._at[self._group[shaft.id]].append((index, place))
+                self._at[self._group[shaft.id]].append((pair, place))
 
     def flow(self, case: LoadCase | None = None) -> Flow:
         """Speeds and torques of the base model or of a load case."""
@@ -79,8 +79,9 @@ class Train:
             speed = speeds.get(self._group[shaft.id], nan)
             if isfinite(speed):
                 flow.speed[shaft.id] = speed * self._sense(shaft)
-        for index, force in self._forces(speeds, case).items():
-            pair = self._pairs[index]
+        forces = self._forces(speeds, case)
+        for pair in self._pairs:
+            force = forces.get(pair.stage.id, nan)
             first, second = (pair.teeth[place] * force * self._sense(pair.shafts[place]) for place in (0, 1))
             if isfinite(first) and isfinite(second):
                 flow.mesh_torque[pair.stage.id] = first, second
@@ -123,27 +124,26 @@ class Train:
         waiting = [start]
         while waiting:
             group = waiting.pop()
-            for index, place in self._at[group]:
-                pair = self._pairs[index]
+            for pair, place in self._at[group]:
                 other = self._group[pair.shafts[1 - place].id]
                 if other not in speeds:
                     speeds[other] = -speeds[group] * pair.teeth[place] / pair.teeth[1 - place]
                     waiting.append(other)
 
     def _forces(self, speeds: dict[int, float], case: LoadCase | None) -> dict[int, float]:
-        """Torque of each mesh per tooth [N m], where the torques that the file states determine it."""
+        """Torque of each stage's mesh per tooth [N m], where the torques that the file states determine it."""
         known, opened = self._loads(speeds, case)
         forces: dict[int, float] = {}
         waiting = list(self._at) if known else []
         while waiting:
             group = waiting.pop()
-            unknown = [(index, place) for index, place in self._at[group] if index not in forces]
+            unknown = [each for each in self._at[group] if each[0].stage.id not in forces]
             if len(unknown) != 1 or group in opened:
                 continue
-            carried = sum(forces[i] * self._pairs[i].teeth[p] for i, p in self._at[group] if i in forces)
-            index, place = unknown[0]
-            pair = self._pairs[index]
-            forces[index] = -(known.get(group, 0.0) + carried) / pair.teeth[place]
+            here = ((pair.stage.id, pair.teeth[place]) for pair, place in self._at[group])
+            carried = sum(forces[stage] * teeth for stage, teeth in here if stage in forces)
+            pair, place = unknown[0]
+            forces[pair.stage.id] = -(known.get(group, 0.0) + carried) / pair.teeth[place]
             waiting.append(self._group[pair.shafts[1 - place].id])
         return forces
 

@@ -82,9 +82,9 @@ class Reading:
         A value that is no number or has a unit of another quantity is a finding and not used. `case` may override
         it.
         """
-        names, unit = (wanted.attributes, wanted.unit) if isinstance(wanted, Row) else ((wanted,), unit)
         if component is None:
             return None
+        names, unit = (wanted.attributes, wanted.unit) if isinstance(wanted, Row) else ((wanted,), unit)
         for name in names:
             attribute = self._attribute(component, name, case)
             found = None if attribute is None else self._in_unit(component, attribute, unit)
@@ -110,10 +110,10 @@ class Reading:
             return None
         try:
             x, y, z = (float(each) for each in attribute.value)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             self.find("not_a_number", component, name, "the vector is not three numbers")
             return None
-        if not max(abs(x), abs(y), abs(z)) <= LARGEST:
+        if not all(abs(each) <= LARGEST for each in (x, y, z)):
             self.find("not_a_number", component, name, "the vector is not three finite numbers")
             return None
         scale = converted(1.0, attribute.unit, "mm") or 1.0

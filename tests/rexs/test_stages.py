@@ -377,6 +377,14 @@ def test_a_profile_shift_that_no_gear_has_is_found(shift: float) -> None:
     assert "out_of_range" in codes(answer(unit))
 
 
+@pytest.mark.parametrize("number", ["nan", "wide", 1e31, 10**400])
+def test_a_vector_of_impossible_numbers_is_found(number: Value) -> None:
+    unit = turbo_unit()
+    shaft = next(each["id"] for each in unit.components if each["type"] == "shaft")
+    unit.of(shaft)["support_vector"] = ([0.0, number, 0.0], "mm")
+    assert "not_a_number" in codes(answer(unit.json()))
+
+
 numbers = st.one_of(
     st.floats(allow_nan=False, allow_infinity=False), st.integers(-(10**20), 10**20), st.text(max_size=5), st.booleans()
 )

@@ -10,6 +10,7 @@ from app.http.problems import documented
 from app.http.routes.pages import KNOWN_ERRORS, error_page, html, root_of
 from app.pages.overview import problem_page
 from app.rexs import answer
+from app.rexs.document import File
 from app.settings import MEBIBYTE, Settings
 from app.workers.pool import Runner
 
@@ -63,7 +64,7 @@ async def write_results(
     content, request = await _upload(http)
     limits: Settings = http.app.state.settings
     arguments = (content, _most_bytes(http), stage, request, limits.deadline_s)
-    file: answer.File = await _runner(http).run(http, answer.with_results, *arguments)
+    file: File = await _runner(http).run(http, answer.with_results, *arguments)
     headers = {"Content-Disposition": f'attachment; filename="results{file.suffix}"'}
     return Response(file.content, media_type=file.media_type, headers=headers)
 
