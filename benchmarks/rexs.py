@@ -103,7 +103,7 @@ def measure(path: str) -> None:
     content = Path(path).read_bytes()
     started = time.process_time()
     try:
-        found = gear_unit(read(content, LIMIT))
+        found = gear_unit(read(content, LIMIT).model)
         outcome = f"{len(found['stages'])} stages, {len(found['findings'])} findings"
     except NotRexs as error:
         outcome = f"refused: {str(error).splitlines()[0][:60]}"

@@ -1,7 +1,7 @@
 """What a worker does with a gear unit's file: the answer of /v1/rexs, its page, and the file with results in it."""
 
 import json
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any
 
 from pydantic import BaseModel
 
@@ -9,8 +9,10 @@ from app.calculations import BY_PATH
 from app.errors import Unprocessable
 from app.evaluate import content_of, evaluate, refuse_endless
 from app.pages.rexs import unit_page
-from app.rexs import document
-from app.rexs.results import TABLES, write_results
+from app.rexs import table
+from app.rexs.document import Document, File, NotRexs, read, with_attributes
+from app.rexs.model import Attribute
+from app.rexs.reading import AssumedValue, Fault, MissingValue, Unused
 from app.rexs.unit import gear_unit
 from app.schema.quantities import Output
 from app.schema.reading import validated
@@ -41,31 +43,6 @@ class SpectrumCase(BaseModel):
     set: Annotated[dict[str, float], Output("what it changes in the request of the endpoint, by dotted path")]
 
 
-class MissingValue(BaseModel):
-    """A field that a calculation needs and the file does not contain."""
-
-    field: Annotated[str, Output("dotted path of the field, or the endpoint that cannot be asked")]
-    component: Annotated[int | None, Output("component in the file that could give it")]
-    attribute: Annotated[str | None, Output("attribute that could give it")]
-    message: Annotated[str, Output("what is missing")]
-
-
-class AssumedValue(BaseModel):
-    """What stands in place of something that the file does not give."""
-
-    field: Annotated[str, Output("dotted path of the field")]
-    value: Annotated[Any, Output("value used")]
-    reason: Annotated[str, Output("why")]
-
-
-class Unused(BaseModel):
-    """What the file says and the models cannot use."""
-
-    component: Annotated[int, Output("component in the file")]
-    attribute: Annotated[str | None, Output("attribute, or the whole component")]
-    reason: Annotated[str, Output("why")]
-
-
 class Stage(BaseModel):
     """A cylindrical stage with ready requests."""
 
@@ -85,15 +62,6 @@ class Stage(BaseModel):
     ignored: Annotated[list[Unused], Output("what could not be used")]
 
 
-class Fault(BaseModel):
-    """Something wrong in the file."""
-
-    code: Annotated[str, Output("stable name, meant for programs")]
-    component: Annotated[int | None, Output("component in the file")]
-    attribute: Annotated[str | None, Output("attribute")]
-    message: Annotated[str, Output("what is wrong, and what was done about it")]
-
-
 class GearUnit(BaseModel):
     """A gear unit read from a file; nothing is solved."""
 
@@ -105,17 +73,9 @@ class GearUnit(BaseModel):
     findings: Annotated[list[Fault], Output("what is wrong in the file")]
 
 
-class File(NamedTuple):
-    """A file to be sent back."""
-
-    content: bytes
-    media_type: str
-    suffix: str
-
-
 def unit_of(content: bytes, most_bytes: int) -> dict[str, Any]:
     """The answer of /v1/rexs; raises Unprocessable where the file is no REXS that can be read."""
-    return gear_unit(_read(content, most_bytes))
+    return gear_unit(_read(content, most_bytes).model)
 
 
 def unit_json(content: bytes, most_bytes: int) -> bytes:
@@ -134,27 +94,42 @@ def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | N
     `request` is the stage's request as edited, else the one of the file is solved: of the drive train where it can be
     formed, else of /v1/scuffing. Raises Unprocessable, and what reading a request raises.
     """
-    file = _read(content, most_bytes)
-    found = next((each for each in gear_unit(file)["stages"] if each["id"] == stage), None)
+    document = _read(content, most_bytes)
+    found = next((each for each in gear_unit(document.model)["stages"] if each["id"] == stage), None)
     if found is None:
         raise Unprocessable("unknown_stage", f"the file has no stage {stage} that can be calculated", None)
-    endpoints = [path for path in reversed(found["requests"]) if path in TABLES]
     if request is None:
-        endpoint = endpoints[0]
-        body = json.dumps(found["requests"][endpoint]).encode()
+        endpoint = "/v1/drive-train" if "/v1/drive-train" in found["requests"] else "/v1/scuffing"
+        request = json.dumps(found["requests"][endpoint]).encode()
     else:
-        body = request
         endpoint = "/v1/drive-train" if b'"pinion_shaft"' in request else "/v1/scuffing"
     calculation = BY_PATH[endpoint]
-    asked = validated(calculation.request, content_of(body))
+    asked = validated(calculation.request, content_of(request))
     refuse_endless(calculation, asked, deadline_s)
     answer = evaluate(calculation, asked).model_dump(mode="json", exclude_unset=True)
-    write_results(file, stage, endpoint, answer)
-    return File(file.content(), file.media_type, file.suffix)
+    return with_answer(document, stage, endpoint, answer)
 
 
-def _read(content: bytes, most_bytes: int) -> document.Document:
+def with_answer(document: Document, stage: int, endpoint: str, answer: dict[str, Any]) -> File:
+    """The file with the numbers of an answer, its status and its case at the stage's component.
+
+    A quantity for which the file's version has an attribute is written under that name; every other one under a name
+    of our own that begins with `custom_tribodrive_`, as REXS provides for programs.
+    """
+    major, written = int(document.model.version.split(".")[0]), []
+    for path, name, unit in table.RESULTS[endpoint]:
+        value: Any = answer
+        for part in path.split("."):
+            value = value.get(part) if isinstance(value, dict) else None
+        if value is not None:
+            custom = major < table.STANDARD_FROM.get(name, major + 1)
+            written.append(Attribute(f"{table.CUSTOM if custom else ''}{name}", unit, value))
+    written += [Attribute(f"{table.CUSTOM}{name}", "none", answer[name]) for name in ("status", "case")]
+    return with_attributes(document.file, stage, written)
+
+
+def _read(content: bytes, most_bytes: int) -> Document:
     try:
-        return document.read(content, most_bytes)
-    except document.NotRexs as error:
+        return read(content, most_bytes)
+    except NotRexs as error:
         raise Unprocessable("not_rexs", str(error), None) from error

@@ -7,11 +7,11 @@ parser would turn into many small objects is counted before it is parsed.
 import base64
 import io
 import json
+import re
 import zipfile
 import zlib
-from collections import defaultdict
 from collections.abc import Iterable
-from typing import Any, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 from lxml import etree
@@ -23,25 +23,25 @@ VERSIONS = ("1", "2")
 CODES = {"float32": "<f4", "float64": "<f8", "int32": "<i4"}
 SAFE = {"resolve_entities": False, "load_dtd": False, "no_network": True, "huge_tree": False, "remove_pis": False}
 """No entities, no other files, libxml2's limits of depth and length."""
-_ARRAYS = ("array", "matrix", "array_of_arrays")
 
 
 class NotRexs(Exception):
     """The file is not a REXS model that can be read; the message says where and why."""
 
 
-class Document(Protocol):
-    """A file that was read: its model, and the file itself, to which attributes can be added."""
+class File(NamedTuple):
+    """A file in XML or JSON."""
 
-    model: Model
+    content: bytes
     media_type: str
     suffix: str
 
-    def add(self, component: int, attributes: Iterable[Attribute]) -> None:
-        """Give attributes to a component, in place of those of the same names."""
 
-    def content(self) -> bytes:
-        """The file with what was added; everything else as it was."""
+class Document(NamedTuple):
+    """A file, unpacked, and the model in it."""
+
+    file: File
+    model: Model
 
 
 def read(content: bytes, most_bytes: int) -> Document:
@@ -53,194 +53,162 @@ def read(content: bytes, most_bytes: int) -> Document:
     start = content.lstrip(b"\xef\xbb\xbf \t\r\n")[:1]
     if not start:
         raise NotRexs("the file is empty")
-    return _Json(content) if start == b"{" else _Xml(content)
+    if start == b"{":
+        return Document(File(content, "application/json", ".rexsj"), _model_of_json(content))
+    return Document(File(content, "application/xml", ".rexs"), _model_of_xml(content))
+
+
+def with_attributes(file: File, component: int, attributes: Iterable[Attribute]) -> File:
+    """The file with attributes of a component in place of those of the same names; everything else as it was."""
+    write = _json_with if file.suffix == ".rexsj" else _xml_with
+    return file._replace(content=write(file.content, component, attributes))
 
 
 def _unpacked(content: bytes, most_bytes: int) -> bytes:
     """The one model in a zip archive, read no further than allowed whatever the archive says of its size."""
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            models = [
-                each for each in archive.infolist() if each.filename.lower().endswith((".rexs", ".rexsj", ".xml"))
-            ]
+            models = [name for name in archive.namelist() if name.lower().endswith((".rexs", ".rexsj", ".xml"))]
             if len(models) != 1:
                 raise NotRexs(f"the archive holds {len(models)} models (.rexs or .rexsj); it must hold one")
             with archive.open(models[0]) as packed:
                 return packed.read(most_bytes + 1)
-    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, OSError, EOFError) as error:
+    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, OSError, EOFError, ValueError) as error:
         raise NotRexs("the archive is damaged, encrypted or packed in a way that cannot be read") from error
 
 
-class _Xml:
-    """A model in XML (.rexs)."""
-
-    media_type = "application/xml"
-    suffix = ".rexs"
-
-    def __init__(self, content: bytes) -> None:
-        if content.count(b"<") + content.count(b"=") > MOST_ELEMENTS:
-            raise NotRexs(f"the file has more than {MOST_ELEMENTS} tags and attributes")
-        self._content = content
-        self._added: dict[int, list[Attribute]] = defaultdict(list)
-        try:
-            self.model = self._read()
-        except etree.XMLSyntaxError as error:
-            raise NotRexs(f"line {error.lineno}: {error.msg}") from error
-
-    def _read(self) -> Model:
-        """The model, read part by part, so that the tree of a large file is never there as a whole."""
-        tags = ("component", "relation", "load_case")
-        steps = etree.iterparse(io.BytesIO(self._content), events=("end",), tag=tags, **SAFE)
-        found: dict[str, list[Any]] = {tag: [] for tag in tags}
-        for _, element in steps:
-            if element.tag == "component" and element.getparent().tag != "components":
-                continue  # of a load case, which is read as a whole
-            found[element.tag].append(PARTS[element.tag](element))
-            element.clear(keep_tail=False)
-        root = steps.root
-        if root.getroottree().docinfo.internalDTD is not None:
-            raise NotRexs("the file has a document type declaration; REXS has none")
-        if root.tag != "model":
-            raise NotRexs("the outermost element is not <model>")
-        return Model(
-            version=_checked_version(root.get("version")),
-            application=" ".join(filter(None, (root.get("applicationId"), root.get("applicationVersion")))),
-            components=_by_id(found["component"]),
-            relations=tuple(found["relation"]),
-            load_cases=tuple(found["load_case"]),
-        )
-
-    def add(self, component: int, attributes: Iterable[Attribute]) -> None:
-        self._added[component].extend(attributes)
-
-    def content(self) -> bytes:
-        root = etree.fromstring(self._content, etree.XMLParser(**SAFE))
-        for element in root.iterfind("components/component"):
-            added = self._added.get(int(element.get("id")), ())
-            present = {each.get("id"): each for each in element.iterfind("attribute")}
-            for attribute in added:
-                if (old := present.get(attribute.name)) is not None:
-                    element.remove(old)
-                new = etree.SubElement(element, "attribute", id=attribute.name, unit=attribute.unit)
-                new.text = _text(attribute.value)
-        return bytes(etree.tostring(root.getroottree(), xml_declaration=True, encoding="UTF-8"))
-
-
-def _by_id(components: Iterable[Component]) -> dict[int, Component]:
-    found: dict[int, Component] = {}
+def _model(
+    version: object,
+    application: Iterable[str | None],
+    components: list[Component],
+    relations: Iterable[Relation],
+    load_cases: Iterable[LoadCase],
+) -> Model:
+    version = str(version or "").strip()
+    if version.split(".")[0] not in VERSIONS:
+        raise NotRexs("the version of the model is not 1.x or 2.x" if version else "the model states no version")
+    by_id: dict[int, Component] = {}
     for component in components:
-        if component.id in found:
+        if component.id in by_id:
             raise NotRexs(f"component {component.id} is there twice")
-        found[component.id] = component
-    return found
+        by_id[component.id] = component
+    return Model(version[:20], " ".join(filter(None, application)), by_id, tuple(relations), tuple(load_cases))
 
 
-def _component_of(element: Any) -> Component:
-    attributes = (_attribute_of(each) for each in element.iterfind("attribute"))
-    return Component(
-        id=_whole(element.get("id"), element),
-        type=element.get("type") or "",
-        name=element.get("name") or "",
-        attributes={each.name: each for each in attributes},
-    )
+def _numbers(code: object, text: object) -> list[Any] | None:
+    """The numbers of an array in base64 (little-endian), or None where it is damaged."""
+    try:
+        raw = base64.b64decode(str(text).strip(), validate=True)
+        numbers: list[Any] = np.frombuffer(raw, dtype=CODES[str(code)]).tolist()
+    except (ValueError, KeyError):
+        return None
+    return numbers
 
 
-def _attribute_of(element: Any) -> Attribute:
-    array = next((child for child in element if child.tag in _ARRAYS), None)
-    value: Any = (element.text or "").strip()
-    if array is not None:
-        value = _array_of(array)
-    return Attribute(element.get("id") or "", element.get("unit") or "", value)
+def _model_of_xml(content: bytes) -> Model:
+    """The model, read part by part, so that the tree of a large file is never there as a whole."""
+    if content.count(b"<") + content.count(b"=") > MOST_ELEMENTS:
+        raise NotRexs(f"the file has more than {MOST_ELEMENTS} tags and attributes")
+    readers = {"component": _xml_component, "relation": _xml_relation, "load_case": _xml_load_case}
+    found: dict[str, list[Any]] = {tag: [] for tag in readers}
+    steps = etree.iterparse(io.BytesIO(content), events=("end",), tag=tuple(readers), **SAFE)
+    try:
+        for _, element in steps:
+            parent = element.getparent()
+            if element.tag == "component" and (parent is None or parent.tag != "components"):
+                continue  # of a load case, which is read as a whole
+            found[element.tag].append(readers[element.tag](element))
+            element.clear(keep_tail=False)
+    except etree.XMLSyntaxError as error:
+        raise NotRexs(f"line {error.lineno}: {error.msg}") from error
+    root = steps.root
+    if root.getroottree().docinfo.internalDTD is not None:
+        raise NotRexs("the file has a document type declaration; REXS has none")
+    if root.tag != "model":
+        raise NotRexs("the outermost element is not <model>")
+    application = root.get("applicationId"), root.get("applicationVersion")
+    return _model(root.get("version"), application, found["component"], found["relation"], found["load_case"])
 
 
-def _array_of(element: Any) -> list[Any] | None:
+def _xml_component(element: Any) -> Component:
+    attributes = {}
+    for each in element.iterfind("attribute"):
+        name = each.get("id") or ""
+        array = next((child for child in each if child.tag in {"array", "matrix", "array_of_arrays"}), None)
+        value = _text_of(each) if array is None else _xml_array(array)
+        attributes[name] = Attribute(name, each.get("unit") or "", value)
+    return Component(_xml_id(element), element.get("type") or "", element.get("name") or "", attributes)
+
+
+def _xml_array(element: Any) -> list[Any] | None:
     """An array; matrices and arrays of arrays as lists of their rows."""
     if code := element.get("code"):
-        return _decoded(code, element.text)
+        return _numbers(code, element.text)
     if element.tag == "array":
-        return [(cell.text or "").strip() for cell in element.iterfind("c")]
-    rows = element.iterfind("r") if element.tag == "matrix" else element.iterfind("array")
-    return [[(cell.text or "").strip() for cell in row.iterfind("c")] for row in rows]
+        return [_text_of(cell) for cell in element.iterfind("c")]
+    rows = element.iterfind("r" if element.tag == "matrix" else "array")
+    return [[_text_of(cell) for cell in row.iterfind("c")] for row in rows]
 
 
-def _relation_of(element: Any) -> Relation:
-    order = element.get("order")
-    return Relation(
-        type=element.get("type") or "",
-        order=None if order is None else _whole(order, element),
-        parts=tuple((each.get("role") or "", _whole(each.get("id"), each)) for each in element.iterfind("ref")),
-    )
+def _text_of(element: Any) -> str:
+    return (element.text or "").strip()
 
 
-def _load_case_of(element: Any) -> LoadCase:
-    parts = (_component_of(each) for each in element.iterfind("component"))
-    return LoadCase(str(element.get("name") or element.get("id") or ""), {each.id: each.attributes for each in parts})
+def _xml_relation(element: Any) -> Relation:
+    order = None if element.get("order") is None else _xml_id(element, "order")
+    parts = tuple((each.get("role") or "", _xml_id(each)) for each in element.iterfind("ref"))
+    return Relation(element.get("type") or "", order, parts)
 
 
-PARTS = {"component": _component_of, "relation": _relation_of, "load_case": _load_case_of}
-"""What reads each part of the file."""
+def _xml_load_case(element: Any) -> LoadCase:
+    parts = [_xml_component(each) for each in element.iterfind("component")]
+    return LoadCase(element.get("name") or element.get("id") or "", {each.id: each.attributes for each in parts})
 
 
-def _whole(text: str | None, element: Any) -> int:
-    if text is None or not text.strip().lstrip("-").isdecimal() or len(text) > 18:
+def _xml_id(element: Any, attribute: str = "id") -> int:
+    text = (element.get(attribute) or "").strip()
+    if not re.fullmatch(r"-?\d{1,18}", text):
         raise NotRexs(f"line {element.sourceline}: <{element.tag}> needs a whole number as its id or order")
     return int(text)
 
 
-def _text(value: float | str | bool) -> str:
-    if isinstance(value, bool):
-        return str(value).lower()
-    return repr(float(value)) if isinstance(value, float) else str(value)
+def _xml_with(content: bytes, component: int, attributes: Iterable[Attribute]) -> bytes:
+    root = etree.fromstring(content, etree.XMLParser(**SAFE))
+    element = next(each for each in root.iterfind("components/component") if int(each.get("id")) == component)
+    present = {each.get("id"): each for each in element.iterfind("attribute")}
+    for attribute in attributes:
+        if (old := present.get(attribute.name)) is not None:
+            element.remove(old)
+        new = etree.SubElement(element, "attribute", id=attribute.name, unit=attribute.unit)
+        new.text = str(attribute.value)
+    return bytes(etree.tostring(root.getroottree(), xml_declaration=True, encoding="UTF-8"))
 
 
-class _Json:
-    """A model in JSON (.rexsj)."""
-
-    media_type = "application/json"
-    suffix = ".rexsj"
-
-    def __init__(self, content: bytes) -> None:
-        if content.count(b"{") + content.count(b"[") > MOST_ELEMENTS:
-            raise NotRexs(f"the file has more than {MOST_ELEMENTS} objects and arrays")
-        try:
-            self._document = json.loads(content, parse_constant=_refuse_constant)
-        except json.JSONDecodeError as error:
-            raise NotRexs(f"line {error.lineno}: {error.msg}") from error
-        except (ValueError, RecursionError) as error:  # not UTF-8, a number of thousands of digits, too deep
-            raise NotRexs("the file is not JSON that can be read") from error
-        model = _member(self._document, "model", dict)
-        items = _objects(model, "components")
-        components = [_component_of_json(item) for item in items]
-        self._items = {component.id: item for component, item in zip(components, items, strict=True)}
-        spectrum = model.get("load_spectrum") or {}
-        self.model = Model(
-            version=_checked_version(model.get("version")),
-            application=f"{model.get('applicationId') or ''} {model.get('applicationVersion') or ''}".strip(),
-            components=_by_id(components),
-            relations=tuple(_relation_of_json(each) for each in _objects(model, "relations")),
-            load_cases=tuple(_load_case_of_json(each) for each in _objects(spectrum, "load_cases")),
-        )
-
-    def add(self, component: int, attributes: Iterable[Attribute]) -> None:
-        listed = self._items[component].setdefault("attributes", [])
-        for attribute in attributes:
-            listed[:] = [each for each in listed if each.get("id") != attribute.name]
-            kind = "floating_point" if isinstance(attribute.value, float) else "string"
-            listed.append({"id": attribute.name, "unit": attribute.unit, kind: attribute.value})
-
-    def content(self) -> bytes:
-        return json.dumps(self._document, ensure_ascii=False, indent=1).encode()
+def _model_of_json(content: bytes) -> Model:
+    if content.count(b"{") + content.count(b"[") > MOST_ELEMENTS:
+        raise NotRexs(f"the file has more than {MOST_ELEMENTS} objects and arrays")
+    try:
+        document = json.loads(content, parse_constant=_refuse_constant)
+        if b"\\ud" in content.lower():
+            json.dumps(document, ensure_ascii=False).encode()  # refuses half a surrogate pair
+    except json.JSONDecodeError as error:
+        raise NotRexs(f"line {error.lineno}: {error.msg}") from error
+    except (ValueError, RecursionError) as error:  # not UTF-8, a number of thousands of digits, too deep
+        raise NotRexs("the file is not JSON that can be read") from error
+    model = document.get("model")
+    if not isinstance(model, dict):
+        raise NotRexs("model is missing or of the wrong kind")
+    return _model(
+        model.get("version"),
+        (str(model.get(name) or "") for name in ("applicationId", "applicationVersion")),
+        [_json_component(each) for each in _objects(model, "components")],
+        (_json_relation(each) for each in _objects(model, "relations")),
+        (_json_load_case(each) for each in _objects(model.get("load_spectrum") or {}, "load_cases")),
+    )
 
 
 def _refuse_constant(name: str) -> float:
     raise ValueError(name)
-
-
-def _member(of: Any, name: str, kind: type) -> Any:
-    found = of.get(name) if isinstance(of, dict) else None
-    if not isinstance(found, kind):
-        raise NotRexs(f"{name} is missing or of the wrong kind")
-    return found
 
 
 def _objects(of: Any, name: str) -> list[dict[str, Any]]:
@@ -251,48 +219,41 @@ def _objects(of: Any, name: str) -> list[dict[str, Any]]:
     return found
 
 
-def _component_of_json(item: dict[str, Any]) -> Component:
+def _json_component(item: dict[str, Any]) -> Component:
     attributes = {}
     for each in _objects(item, "attributes"):
         name = str(each.get("id") or "")
-        kind = next((key for key in each if key not in {"id", "unit"}), None)
-        value = each.get(kind) if kind else None
+        value = next((each[key] for key in each if key not in {"id", "unit"}), None)  # under the name of its type
         if isinstance(value, dict):
-            value = _decoded(value.get("code"), value.get("value"))
+            value = _numbers(value.get("code"), value.get("value"))
         attributes[name] = Attribute(name, str(each.get("unit") or ""), value)
-    return Component(_id(item), str(item.get("type") or ""), str(item.get("name") or ""), attributes)
+    return Component(_json_id(item), str(item.get("type") or ""), str(item.get("name") or ""), attributes)
 
 
-def _relation_of_json(item: dict[str, Any]) -> Relation:
+def _json_relation(item: dict[str, Any]) -> Relation:
     order = item.get("order")
-    parts = tuple((str(each.get("role") or ""), _id(each)) for each in _objects(item, "refs"))
+    parts = tuple((str(each.get("role") or ""), _json_id(each)) for each in _objects(item, "refs"))
     return Relation(str(item.get("type") or ""), order if isinstance(order, int) else None, parts)
 
 
-def _load_case_of_json(item: dict[str, Any]) -> LoadCase:
-    parts = (_component_of_json(each) for each in _objects(item, "components"))
+def _json_load_case(item: dict[str, Any]) -> LoadCase:
+    parts = [_json_component(each) for each in _objects(item, "components")]
     return LoadCase(str(item.get("name") or item.get("id") or ""), {each.id: each.attributes for each in parts})
 
 
-def _id(item: dict[str, Any]) -> int:
+def _json_id(item: dict[str, Any]) -> int:
     found = item.get("id")
     if not isinstance(found, int) or isinstance(found, bool):
         raise NotRexs("every component, and every ref of a relation, needs a whole number as its id")
     return found
 
 
-def _checked_version(version: object) -> str:
-    text = str(version or "").strip()
-    if text.split(".")[0] not in VERSIONS:
-        raise NotRexs("the version of the model is not 1.x or 2.x" if text else "the model states no version")
-    return text[:20]
-
-
-def _decoded(code: object, text: object) -> list[Any] | None:
-    """The numbers of an array in base64 (little-endian), or None where it is damaged."""
-    try:
-        raw = base64.b64decode(str(text).strip(), validate=True)
-        numbers: list[Any] = np.frombuffer(raw, dtype=CODES[str(code)]).tolist()
-    except (ValueError, KeyError):
-        return None
-    return numbers
+def _json_with(content: bytes, component: int, attributes: Iterable[Attribute]) -> bytes:
+    document = json.loads(content)
+    item = next(each for each in document["model"]["components"] if each["id"] == component)
+    listed = item.setdefault("attributes", [])
+    for attribute in attributes:
+        listed[:] = [each for each in listed if each.get("id") != attribute.name]
+        kind = "floating_point" if isinstance(attribute.value, float) else "string"
+        listed.append({"id": attribute.name, "unit": attribute.unit, kind: attribute.value})
+    return json.dumps(document, ensure_ascii=False, indent=1).encode()

@@ -4,69 +4,62 @@ It is formed where each of the two shafts carries the one gear of this stage and
 casing. Z is the u axis of the pinion's shaft, X and Y are its v and w axes.
 """
 
-from dataclasses import dataclass
+from collections.abc import Iterator
 from itertools import pairwise
 from math import atan2, degrees
-from typing import Any
+from typing import Any, NamedTuple
 
 from app.rexs import table
-from app.rexs.draft import Draft
 from app.rexs.model import Component
 from app.rexs.reading import Vector
 from app.rexs.stages import StageDraft, shaft_axis
 
-MOST_SECTIONS = 40  # of a shaft, as the request allows
+MOST_PIECES = 10  # of a cone; a request allows 40 sections of a shaft
 LONGEST_PIECE = 10.0  # mm of a cone that one cylinder stands for
 SHORTEST_SECTION = 0.1  # mm
 RIGID_FROM_N_PER_UM = 1e5  # chosen: some hundred times a plain bearing's stiffness
 NAMES = ("pinion_shaft", "wheel_shaft")
 
 
-@dataclass(frozen=True, slots=True)
-class Frame:
-    """Axes of the unit's frame as the drive train knows it, in the coordinates of the file."""
+class Section(NamedTuple):
+    """A cylinder of a shaft: its ends along Z and its diameters [mm]."""
 
-    x: Vector
-    y: Vector
-    z: Vector
+    begin: float
+    end: float
+    outer: float
+    inner: float
 
 
-def add_drive_train(stage: StageDraft, draft: Draft) -> bool:
+def add_drive_train(stage: StageDraft) -> bool:
     """Add the fields of the drive train to the draft of a stage; False where it cannot be formed, and why is noted."""
     reasons = list(_obstacles(stage))
     for component, reason in reasons:
-        draft.lacks("/v1/drive-train", component, None, reason)
-    if reasons:
-        return False
-    return _Unit(stage, draft).fill()
+        stage.lacks("/v1/drive-train", component, None, reason)
+    return not reasons and _DriveTrain(stage).fill()
 
 
-def _obstacles(stage: StageDraft) -> list[tuple[Component, str]]:
+def _obstacles(stage: StageDraft) -> Iterator[tuple[Component, str]]:
     """The reasons why the file does not describe a drive train that can be calculated."""
-    found = []
-    for place, shaft in enumerate(stage.shafts):
-        gears = [each for each in stage.reading.model.parts_of(shaft.id) if "gear" in each.type.split("_")]
-        others = [each for each in gears if each.id != stage.gears[place].id]
-        if others:
-            found.append((shaft, "the shaft carries another gear; a shaft with two meshes is not modelled"))
+    for gear, shaft, place in zip(stage.gears, stage.shafts, (0, 1), strict=True):
+        parts = stage.reading.model.parts_of(shaft.id)
+        if any("gear" in each.type.split("_") and each.id != gear.id for each in parts):
+            yield shaft, "the shaft carries another gear; a shaft with two meshes is not modelled"
         bearings = _bearings(stage, shaft)
         if len(bearings) != len(NAMES):
-            found.append((shaft, f"the shaft has {len(bearings)} radial bearings in the casing; two are needed"))
+            yield shaft, f"the shaft has {len(bearings)} radial bearings in the casing; two are needed"
         if shaft_axis(stage.reading, shaft) is None:
-            found.append((shaft, "the file does not say where the shaft lies (support_vector)"))
+            yield shaft, "the file does not say where the shaft lies (support_vector)"
         if stage.face_interval(place) is None:
-            found.append((stage.gears[place], "the file does not say where on its shaft the gear sits"))
+            yield gear, "the file does not say where on its shaft the gear sits"
     if stage.driver is None:
-        found.append((stage.pair.stage, "power and speed of this stage do not follow from the file"))
-    return found
+        yield stage.stage, "power and speed of this stage do not follow from the file"
 
 
 def _bearings(stage: StageDraft, shaft: Component) -> list[Component]:
     """Radial bearings between the shaft and the casing."""
-    found = []
-    for relation in stage.reading.model.relations_of("side", "inner_part", shaft.id):
-        components = stage.reading.model.components
-        bearing, outer = (components.get(relation.part(role) or -1) for role in ("assembly", "outer_part"))
+    found, model = [], stage.reading.model
+    for relation in model.relations_of("side", "inner_part", shaft.id):
+        bearing, outer = model.part(relation, "assembly"), model.part(relation, "outer_part")
         if bearing is None or bearing.type not in table.RADIAL_BEARINGS or outer is None or outer.type != "gear_casing":
             continue
         if stage.reading.flag(bearing, "radial_force_absorption") is not False:
@@ -74,153 +67,127 @@ def _bearings(stage: StageDraft, shaft: Component) -> list[Component]:
     return found
 
 
-class _Unit:
+class _DriveTrain:
     """Fills the fields of one drive train."""
 
-    def __init__(self, stage: StageDraft, draft: Draft) -> None:
-        self._stage, self._draft, self._reading = stage, draft, stage.reading
-        self._frame = self._axes()
-
-    def fill(self) -> bool:
-        """Set all fields; False where the shafts' sections do not make a shaft."""
-        stage, draft = self._stage, self._draft
-        faces = [stage.face_interval(place) for place in (0, 1)]
-        start = max(each[0] for each in faces if each is not None)
-        draft.put("face_start_mm", start, stage.gears[0], "u_coordinate_on_shaft")
-        speed = stage.flow.speed[stage.shafts[0].id]
-        rotation = "counterclockwise" if speed > 0.0 else "clockwise"
-        draft.put("operation.rotation", rotation, stage.shafts[0], "rotational_speed")
-        self._directions()
-        for place, name in enumerate(NAMES):
-            if not self._shaft(place, name, start):
-                return False
-        self._couplings()
-        return True
-
-    def _axes(self) -> Frame:
-        shaft = self._stage.shafts[0]
-        axis = shaft_axis(self._reading, shaft)
-        z = axis.direction if axis else (1.0, 0.0, 0.0)
-        y = self._reading.vector(shaft, "w_axis_vector")
+    def __init__(self, stage: StageDraft) -> None:
+        self._stage, self._reading = stage, stage.reading
+        found = [shaft_axis(self._reading, shaft) for shaft in stage.shafts]
+        self._axes = [axis for axis in found if axis is not None]
+        z, y = self._axes[0].direction, self._reading.vector(stage.shafts[0], "w_axis_vector")
         if y is None or abs(_dot(y, z)) > 1e-6 or _dot(y, y) <= 0.0:
             y = min(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), key=lambda each: abs(_dot(each, z)))
             y = _cross(_cross(z, y), z)
         size = _dot(y, y) ** 0.5
-        y = (y[0] / size, y[1] / size, y[2] / size)
-        return Frame(_cross(y, z), y, z)
+        self._y = y[0] / size, y[1] / size, y[2] / size
+        self._x = _cross(self._y, z)
+
+    def fill(self) -> bool:
+        """Set all fields; False where the shafts' sections do not make a shaft."""
+        stage = self._stage
+        faces = [stage.face_interval(place) for place in (0, 1)]
+        start = max(each[0] for each in faces if each is not None)
+        stage.put("face_start_mm", start, stage.gears[0], "u_coordinate_on_shaft")
+        speed = stage.flow.speed[stage.shafts[0].id]
+        rotation = "counterclockwise" if speed > 0.0 else "clockwise"
+        stage.put("operation.rotation", rotation, stage.shafts[0], "rotational_speed")
+        self._directions()
+        for place in (0, 1):
+            if not self._shaft(place, start):
+                return False
+        for shaft in stage.shafts:
+            for part in self._reading.model.related("side", "inner_part", shaft.id, "assembly"):
+                if part.type in {"coupling", "switchable_coupling"}:
+                    stage.lacks("couplings", part, None, "the file has no tooth data of the coupling; left out")
+        return True
 
     def _directions(self) -> None:
-        stage, frame = self._stage, self._frame
-        axes = [shaft_axis(self._reading, shaft) for shaft in stage.shafts]
-        if axes[0] is not None and axes[1] is not None:
-            between = _minus(axes[1].origin, axes[0].origin)
-            angle = degrees(atan2(_dot(between, frame.y), _dot(between, frame.x)))
-            self._draft.put("operation.wheel_angle_deg", angle, stage.shafts[1], "support_vector")
-        unit = next((c for c in self._reading.model.components.values() if c.type == "gear_unit"), None)
-        parts = [self._reading.number(unit, f"direction_vector_gravity_{axis}") for axis in "uvw"] if unit else [None]
+        (pinion, wheel), reading = self._axes, self._reading
+        x, y, z = (b - a for a, b in zip(pinion.origin, wheel.origin, strict=True))
+        self._stage.put("operation.wheel_angle_deg", self._angle((x, y, z)), self._stage.shafts[1], "support_vector")
+        unit, path = reading.model.first("gear_unit"), "operation.gravity_angle_deg"
+        parts = [reading.number(unit, f"direction_vector_gravity_{axis}") for axis in "uvw"]
         if unit is None or None in parts or not any(parts):
-            self._draft.assume("operation.gravity_angle_deg", -90.0, "the file gives no direction of gravity")
+            self._stage.assume(path, -90.0, "the file gives no direction of gravity")
             return
-        u, v, w = (float(each or 0.0) for each in parts)
-        direction = self._in_file(unit, (u, v, w))
-        angle = degrees(atan2(_dot(direction, frame.y), _dot(direction, frame.x)))
-        self._draft.put("operation.gravity_angle_deg", angle, unit, "direction_vector_gravity_v")
+        u, v, w = (each or 0.0 for each in parts)
+        self._stage.put(path, self._angle(self._in_file(unit, (u, v, w))), unit, "direction_vector_gravity_v")
+
+    def _angle(self, direction: Vector) -> float:
+        """The angle of a direction from X towards Y [deg]."""
+        return degrees(atan2(_dot(direction, self._y), _dot(direction, self._x)))
 
     def _in_file(self, component: Component, along: Vector) -> Vector:
         """A vector given along a component's own u, v, w axes, in the coordinates of the file."""
         u = self._reading.vector(component, "u_axis_vector") or (1.0, 0.0, 0.0)
         w = self._reading.vector(component, "w_axis_vector") or (0.0, 0.0, 1.0)
-        v = _cross(w, u)
-        return (
-            along[0] * u[0] + along[1] * v[0] + along[2] * w[0],
-            along[0] * u[1] + along[1] * v[1] + along[2] * w[1],
-            along[0] * u[2] + along[1] * v[2] + along[2] * w[2],
-        )
+        x, y, z = (_dot(along, axes) for axes in zip(u, _cross(w, u), w, strict=True))
+        return x, y, z
 
-    def _shaft(self, place: int, name: str, face_start: float) -> bool:
-        stage, shaft = self._stage, self._stage.shafts[place]
-        sections = self._sections(place)
+    def _shaft(self, place: int, face_start: float) -> bool:
+        stage, shaft, name = self._stage, self._stage.shafts[place], NAMES[place]
+        sections = self._sections(shaft)
         if not sections:
-            self._draft.lacks("/v1/drive-train", shaft, None, "the file has no sections of the shaft")
+            stage.lacks("/v1/drive-train", shaft, None, "the file has no sections of the shaft")
             return False
-        start = sections[0][0]
-        self._draft.put(f"{name}.start_mm", start, shaft)
-        sections = self._under_teeth(place, name, sections, face_start)
+        stage.put(f"{name}.start_mm", sections[0].begin, shaft)
         cylinders = [
             {"length_mm": end - begin, "outer_diameter_mm": outer, "inner_diameter_mm": inner}
-            for begin, end, outer, inner in sections
+            for begin, end, outer, inner in self._under_teeth(place, sections, face_start)
         ]
-        self._draft.put(f"{name}.sections", cylinders, shaft)
-        bearings = sorted(
-            (self._bearing(each, shaft, name, index) for index, each in enumerate(_bearings(stage, shaft))),
-            key=lambda each: float(each.get("position_mm", 0.0)),
-        )
-        self._draft.put(f"{name}.bearings", bearings, shaft)
-        material = next(iter(self._reading.model.references_of(shaft.id, "material")), None)
-        for row in table.MATERIAL if material is not None else ():
-            self._draft.take(row, material, f"{name}.")  # type: ignore[arg-type]
-        self._torque_position(place, name)
+        stage.put(f"{name}.sections", cylinders, shaft)
+        bearings = [
+            self._bearing(each, shaft, f"{name}.bearings.{index}")
+            for index, each in enumerate(_bearings(self._stage, shaft))
+        ]
+        bearings.sort(key=lambda each: each.get("position_mm", 0.0))
+        stage.put(f"{name}.bearings", bearings, shaft)
+        material = self._reading.model.reference_of([shaft], "material")
+        for row in table.MATERIAL:
+            stage.take(row, material, f"{name}.")
+        self._torque_position(shaft, f"{name}.torque_position_mm")
         return True
 
-    def _sections(self, place: int) -> list[tuple[float, float, float, float]]:
-        """Begin, end, outer and inner diameter [mm] of each cylinder along Z; cones in pieces of their mean."""
-        stage, shaft = self._stage, self._stage.shafts[place]
-        reading = self._reading
+    def _sections(self, shaft: Component) -> list[Section]:
+        """The cylinders of a shaft; cones in pieces of their mean diameter."""
+        reading, stage = self._reading, self._stage
+        base, sense = stage.position_of_coordinate(shaft, 0.0) or 0.0, stage.along(shaft)
         found, stacked = [], 0.0
         for part in reading.model.parts_of(shaft.id):
             if part.type != "shaft_section":
                 continue
             length = reading.number(part, "length", "mm")
-            outer = [reading.number(part, f"outer_diameter_{end}", "mm") for end in ("begin", "end")]
-            inner = [reading.number(part, f"inner_diameter_{end}", "mm") or 0.0 for end in ("begin", "end")]
-            if length is None or length <= 0.0 or outer[0] is None or outer[1] is None:
+            outer, end_outer = (reading.number(part, f"outer_diameter_{end}", "mm") for end in ("begin", "end"))
+            inner, end_inner = (reading.number(part, f"inner_diameter_{end}", "mm") or 0.0 for end in ("begin", "end"))
+            if length is None or length <= 0.0 or outer is None or end_outer is None:
                 reading.find("section", part, "length", "the section has no length or no diameters; left out")
                 continue
             begin = reading.number(part, "u_coordinate_on_shaft", "mm")
             begin = stacked if begin is None else begin
             stacked = begin + length
-            pieces = 1 if outer[0] == outer[1] and inner[0] == inner[1] else _pieces(length)
+            cone = outer != end_outer or inner != end_inner
+            pieces = min(max(int(-(-length // LONGEST_PIECE)), 1), MOST_PIECES) if cone else 1
             for piece in range(pieces):
                 share = (piece + 0.5) / pieces
-                found.append(
-                    (
-                        begin + length * piece / pieces,
-                        begin + length * (piece + 1) / pieces,
-                        outer[0] + share * (outer[1] - outer[0]),
-                        inner[0] + share * (inner[1] - inner[0]),
-                    )
-                )
-        base = stage.position_of_coordinate(shaft, 0.0)
-        sense = stage.along(shaft)
-        if base is None:
-            return []
-        along = [
-            (base + sense * begin, base + sense * end, outer, inner)
-            if sense > 0.0
-            else (base + sense * end, base + sense * begin, outer, inner)
-            for begin, end, outer, inner in found
-        ]
-        return self._contiguous(sorted(along), shaft)
+                low, high = sorted(base + sense * (begin + length * each / pieces) for each in (piece, piece + 1))
+                diameters = outer + share * (end_outer - outer), inner + share * (end_inner - inner)
+                found.append(Section(low, high, *diameters))
+        return self._contiguous(sorted(found), shaft)
 
-    def _contiguous(
-        self, sections: list[tuple[float, float, float, float]], shaft: Component
-    ) -> list[tuple[float, float, float, float]]:
+    def _contiguous(self, sections: list[Section], shaft: Component) -> list[Section]:
         """The sections without gaps and overlaps; both are findings."""
-        joined: list[tuple[float, float, float, float]] = []
-        for begin, end, outer, inner in sections:
-            here = joined[-1][1] if joined else begin
-            if abs(begin - here) > SHORTEST_SECTION:
+        joined: list[Section] = []
+        for section in sections:
+            here = joined[-1].end if joined else section.begin
+            if abs(section.begin - here) > SHORTEST_SECTION:
                 self._reading.find("section", shaft, None, "the sections of the shaft leave a gap or overlap")
-            if end - here >= SHORTEST_SECTION:
-                joined.append((here, end, outer, inner))
+            if section.end - here >= SHORTEST_SECTION:
+                joined.append(section._replace(begin=here))
         return joined
 
-    def _under_teeth(
-        self, place: int, name: str, sections: list[tuple[float, float, float, float]], face_start: float
-    ) -> list[tuple[float, float, float, float]]:
+    def _under_teeth(self, place: int, sections: list[Section], face_start: float) -> list[Section]:
         """Under the teeth the shaft has at least the reference diameter, as ISO 6336-1 counts an integral pinion."""
-        gear = self._stage.involute(place)
-        width = self._draft.fields.get(table.FACE_WIDTH.field)
+        gear, width = self._stage.involute(place), self._stage.fields.get(table.FACE_WIDTH.field)
         if gear is None or width is None:
             return sections
         ends = (face_start, face_start + width)
@@ -231,95 +198,54 @@ class _Unit:
                 covered = low >= ends[0] - SHORTEST_SECTION and high <= ends[1] + SHORTEST_SECTION
                 grown = covered and outer < gear.reference_diameter
                 changed |= grown
-                found.append((low, high, gear.reference_diameter if grown else outer, inner))
+                if high - low >= SHORTEST_SECTION:
+                    found.append(Section(low, high, gear.reference_diameter if grown else outer, inner))
         if changed:
             reason = "under the teeth the reference diameter, as in ISO 6336-1"
-            self._draft.note(f"{name}.sections", gear.reference_diameter, reason)
-        return [each for each in found if each[1] - each[0] >= SHORTEST_SECTION]
+            self._stage.note(f"{NAMES[place]}.sections", gear.reference_diameter, reason)
+        return found
 
-    def _bearing(self, bearing: Component, shaft: Component, name: str, index: int) -> dict[str, Any]:
-        reading = self._reading
-        path = f"{name}.bearings.{index}"
+    def _bearing(self, bearing: Component, shaft: Component, path: str) -> dict[str, Any]:
+        reading, stage = self._reading, self._stage
         made: dict[str, Any] = {}
         position = self._stage.position(bearing, shaft)
         if position is None:
-            self._draft.lacks(
-                f"{path}.position_mm", bearing, "u_coordinate_on_shaft_inner_side", "where the bearing sits"
-            )
+            attribute = "u_coordinate_on_shaft_inner_side"
+            stage.lacks(f"{path}.position_mm", bearing, attribute, "where the bearing sits")
         else:
             made["position_mm"] = position
-        offsets = [reading.number(bearing, f"misalignment_in_{axis}_direction", "um") for axis in "vw"]
-        if any(offsets):
-            moved = self._in_file(shaft, (0.0, offsets[0] or 0.0, offsets[1] or 0.0))
-            made["offset_um"] = [_dot(moved, self._frame.x), _dot(moved, self._frame.y)]
+        v, w = (reading.number(bearing, f"misalignment_in_{axis}_direction", "um") or 0.0 for axis in "vw")
+        if v or w:
+            moved = self._in_file(shaft, (0.0, v, w))
+            made["offset_um"] = [_dot(moved, self._x), _dot(moved, self._y)]
         if bearing.type == "hydrodynamic_radial_plain_bearing":
-            return made | self._journal(bearing)
+            made["type"] = "journal"
+            for row in table.JOURNAL:
+                if (value := reading.number(bearing, row)) is not None:
+                    made[row.field] = value / 2.0 if row.field == "radial_clearance_um" else value
+            return made
         stiffness = reading.number(bearing, "radial_stiffness", "N/um")
         if stiffness is not None and stiffness >= RIGID_FROM_N_PER_UM:
             return made | {"type": "rigid"}
         if not stiffness or stiffness < 0.0:
             message = "the file has no radial stiffness of the bearing"
-            self._draft.lacks(f"{path}.stiffness_n_per_um", bearing, "radial_stiffness", message)
+            stage.lacks(f"{path}.stiffness_n_per_um", bearing, "radial_stiffness", message)
             return made | {"type": "linear"}
         return made | {"type": "linear", "stiffness_n_per_um": stiffness}
 
-    def _journal(self, bearing: Component) -> dict[str, Any]:
-        reading = self._reading
-        made: dict[str, Any] = {"type": "journal"}
-        rows = (
-            ("diameter_mm", "inner_diameter", "mm", 1.0),
-            ("width_mm", "width", "mm", 1.0),
-            ("radial_clearance_um", "diameter_clearance_plain_bearing", "um", 0.5),
-            ("film_temperature_c", "lubricant_feed_temperature", "C", 1.0),
-        )
-        for ours, attribute, unit, factor in rows:
-            value = reading.number(bearing, attribute, unit)
-            if value is not None:
-                made[ours] = factor * value
-        return made
-
-    def _torque_position(self, place: int, name: str) -> None:
-        shaft = self._stage.shafts[place]
-        loads = [each for each in self._reading.model.parts_of(shaft.id) if each.type == "external_load"]
-        turning = [each for each in loads if self._reading.flag(each, "transmits_torque") is not False]
-        for load in turning:
+    def _torque_position(self, shaft: Component, path: str) -> None:
+        for load in self._reading.model.parts_of(shaft.id):
+            if load.type != "external_load" or self._reading.flag(load, "transmits_torque") is False:
+                continue
             position = self._stage.position(load, shaft)
             if position is not None:
-                self._draft.put(f"{name}.torque_position_mm", position, load, "u_coordinate_on_shaft")
+                self._stage.put(path, position, load, "u_coordinate_on_shaft")
                 return
-        self._draft.lacks(f"{name}.torque_position_mm", shaft, None, "where the torque enters or leaves the shaft")
-
-    def _couplings(self) -> None:
-        """A coupling has no tooth data in the file: the drive train is formed without it."""
-        for shaft in self._stage.shafts:
-            for relation in self._reading.model.relations_of("side", "inner_part", shaft.id):
-                part = self._reading.model.components.get(relation.part("assembly") or -1)
-                if part is not None and part.type in {"coupling", "switchable_coupling"}:
-                    self._draft.lacks("couplings", part, None, "the file has no tooth data of the coupling; left out")
-
-
-def _pieces(length: float) -> int:
-    return min(max(int(-(-length // LONGEST_PIECE)), 1), MOST_SECTIONS // 4)
-
-
-def paths(draft: Draft) -> dict[str, str]:
-    """Path in the draft -> path in the request of /v1/drive-train."""
-    known = {}
-    for path in {**draft.fields, **draft.missing}:
-        section = path.split(".")[0]
-        if section == "load":
-            known[path] = path.replace("load.", "operation.", 1)
-        elif not path.startswith("/"):
-            known[path] = path
-    return known
+        self._stage.lacks(path, shaft, None, "where the torque enters or leaves the shaft")
 
 
 def _dot(a: Vector, b: Vector) -> float:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def _minus(a: Vector, b: Vector) -> Vector:
-    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
 def _cross(a: Vector, b: Vector) -> Vector:

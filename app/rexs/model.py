@@ -5,7 +5,7 @@ to 2.0 share this structure; the names of some components and attributes differ 
 """
 
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -42,7 +42,7 @@ class Relation:
     parts: tuple[tuple[str, int], ...]
 
     def part(self, role: str) -> int | None:
-        """The component in a role."""
+        """The id of the component in a role."""
         return next((each for name, each in self.parts if name == role), None)
 
 
@@ -65,6 +65,14 @@ class Model:
     load_cases: tuple[LoadCase, ...] = ()
 
     @cached_property
+    def by_type(self) -> defaultdict[str, list[Component]]:
+        """The components of each type, in the order of the file."""
+        found = defaultdict(list)
+        for component in self.components.values():
+            found[component.type].append(component)
+        return found
+
+    @cached_property
     def _by_part(self) -> dict[tuple[str, str, int], list[Relation]]:
         found = defaultdict(list)
         for relation in self.relations:
@@ -72,36 +80,40 @@ class Model:
                 found[relation.type, role, component].append(relation)
         return found
 
-    @cached_property
-    def casing(self) -> Component | None:
-        """The casing of the unit."""
-        return next((each for each in self.components.values() if each.type == "gear_casing"), None)
+    def first(self, type_: str) -> Component | None:
+        """The only component of a type such as `gear_unit` or `gear_casing`; the first one where there are several."""
+        return next(iter(self.by_type[type_]), None)
 
-    def relations_of(self, type_: str, role: str, component: int) -> tuple[Relation, ...]:
+    def part(self, relation: Relation, role: str) -> Component | None:
+        """The component in a role of a relation."""
+        id_ = relation.part(role)
+        return None if id_ is None else self.components.get(id_)
+
+    def relations_of(self, type_: str, role: str, component: int) -> Sequence[Relation]:
         """The relations of a type in which the component has the role, by their order where they state one."""
         found = self._by_part.get((type_, role, component), ())
-        return tuple(sorted(found, key=lambda each: (each.order is None, each.order or 0)))
+        return sorted(found, key=lambda each: (each.order is None, each.order or 0))
 
     def related(self, type_: str, role: str, component: int, other: str) -> Iterator[Component]:
         """The components in the role `other` of relations in which the component has the role `role`."""
-        for relation in self.relations_of(type_, role, component):
-            found = relation.part(other)
-            if found in self.components:
-                yield self.components[found]
+        found = (self.part(relation, other) for relation in self.relations_of(type_, role, component))
+        return (each for each in found if each is not None)
 
-    def parts_of(self, assembly: int) -> Iterator[Component]:
+    def parts_of(self, assembly: int) -> Sequence[Component]:
         """The parts of an assembly (ordered or not), each once."""
-        seen = set()
-        for type_ in ("ordered_assembly", "assembly"):
-            for part in self.related(type_, "assembly", assembly, "part"):
-                if part.id not in seen:
-                    seen.add(part.id)
-                    yield part
+        found = [*self.related("ordered_assembly", "assembly", assembly, "part")]
+        found += self.related("assembly", "assembly", assembly, "part")
+        return list({part.id: part for part in found}.values())
 
-    def whole_of(self, part: int, *types: str) -> Component | None:
-        """The assembly of one of the types that the component is a part of."""
+    def whole_of(self, part: int, type_: str) -> Component | None:
+        """The assembly of a type that the component is a part of."""
         wholes = self.related("assembly", "part", part, "assembly")
-        return next((each for each in wholes if each.type in types), None)
+        return next((each for each in wholes if each.type == type_), None)
+
+    def reference_of(self, origins: Iterable[Component | None], type_: str) -> Component | None:
+        """The first component of a type that one of these refers to."""
+        found = (each for origin in origins if origin is not None for each in self.references_of(origin.id, type_))
+        return next(found, None)
 
     def references_of(self, origin: int, *types: str) -> Iterator[Component]:
         """What a component refers to (its lubricant, material, modifications, tools)."""

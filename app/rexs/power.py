@@ -6,24 +6,24 @@ power splitting there is always an equation with one unknown left, until all is 
 """
 
 from collections import defaultdict
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from math import isfinite, nan
 from typing import NamedTuple
 
 from app.rexs.model import Component, LoadCase
 from app.rexs.reading import Reading
-from app.rexs.units import REVOLUTION_PER_MINUTE
+from app.rexs.table import REVOLUTION_PER_MINUTE
 
 MOST_SHAFTS = 200  # chosen: far beyond any gear unit
 BALANCE = 0.02  # of the largest torque: what files with efficiencies leave unbalanced without being wrong
 
 
-class Mesh(NamedTuple):
-    """Two external gears in mesh, by the shafts they sit on."""
+class Pair(NamedTuple):
+    """A stage of two external gears, each on its shaft, in the order of the file."""
 
-    stage: int
-    shafts: tuple[int, int]
+    stage: Component
+    gears: tuple[Component, Component]
+    shafts: tuple[Component, Component]
     teeth: tuple[int, int]
 
 
@@ -38,85 +38,80 @@ class Flow:
     speed: dict[int, float] = field(default_factory=dict)
     mesh_torque: dict[int, tuple[float, float]] = field(default_factory=dict)
 
-    def driver(self, mesh: Mesh) -> int | None:
+    def knows(self, pair: Pair) -> bool:
+        """Whether torque and speed of a stage are known."""
+        return pair.stage.id in self.mesh_torque and pair.shafts[0].id in self.speed
+
+    def driver(self, pair: Pair) -> int | None:
         """0 or 1: the gear that gives power to the other one; None where that is not known."""
-        torques = self.mesh_torque.get(mesh.stage)
-        if torques is None:
-            return None
-        for place in (0, 1):
-            speed = self.speed.get(mesh.shafts[place])
-            if speed and torques[place]:
-                gives = torques[place] * speed < 0.0
-                return place if gives else 1 - place
+        for place, torque in enumerate(self.mesh_torque.get(pair.stage.id, ())):
+            speed = self.speed.get(pair.shafts[place].id)
+            if speed and torque:
+                return place if torque * speed < 0.0 else 1 - place
         return None
 
 
-def power_flow(
-    reading: Reading,
-    meshes: list[Mesh],
-    joined: list[tuple[int, int]],
-    opened: set[int],
-    senses: dict[int, float],
-    case: LoadCase | None = None,
-) -> Flow:
-    """Speeds and torques of the base model or of a load case.
+class Train:
+    """The shafts of a unit in groups that turn as one, and the meshes between the groups.
 
-    `joined`: pairs of shafts that turn as one. `opened`: shafts from which power flows through stages that are not
-    modelled. `senses`: +1 or -1, the sense of each shaft's u axis in the unit.
+    `senses`: +1 or -1, the sense of each shaft's u axis in the unit.
     """
-    shafts = [each for each in reading.model.components.values() if each.type == "shaft"]
-    if len(shafts) > MOST_SHAFTS:
-        reading.find("too_many_shafts", None, None, f"speeds and torques of {len(shafts)} shafts are not looked for")
-        return Flow()
-    return _Solution(reading, shafts, meshes, joined, opened, senses, case).flow()
 
+    def __init__(self, reading: Reading, pairs: list[Pair], senses: dict[int, float]) -> None:
+        self._reading, self._pairs, self._senses = reading, pairs, senses
+        self._shafts = reading.model.by_type["shaft"]
+        if len(self._shafts) > MOST_SHAFTS:
+            message = f"speeds and torques of {len(self._shafts)} shafts are not looked for"
+            reading.find("too_many_shafts", None, None, message)
+            self._shafts, self._pairs = [], []
+        self._group = self._groups()
+        self._elsewhere = self._not_modelled()
+        self._at: dict[int, list[tuple[Pair, int]]] = defaultdict(list)  # meshes of a group, and which gear is its own
+        for pair in self._pairs:
+            for place, shaft in enumerate(pair.shafts):
+                self._at[self._group[shaft.id]].append((pair, place))
 
-class _Solution:
-    """One solution: groups of shafts that turn as one, their speeds, and the torques between them."""
-
-    def __init__(
-        self,
-        reading: Reading,
-        shafts: list[Component],
-        meshes: list[Mesh],
-        joined: list[tuple[int, int]],
-        opened: set[int],
-        senses: dict[int, float],
-        case: LoadCase | None,
-    ) -> None:
-        self._reading, self._meshes, self._case, self._senses = reading, meshes, case, senses
-        self._group = _groups((each.id for each in shafts), joined)
-        self._shafts = shafts
-        self._elsewhere = {self._group[shaft] for shaft in opened if shaft in self._group}
-        self._at: dict[int, list[tuple[int, int]]] = defaultdict(list)
-        for index, mesh in enumerate(meshes):
-            for place in (0, 1):
-                self._at[self._group[mesh.shafts[place]]].append((index, place))
-
-    def flow(self) -> Flow:
-        speeds = self._speeds()
-        forces = self._forces(speeds)
+    def flow(self, case: LoadCase | None = None) -> Flow:
+        """Speeds and torques of the base model or of a load case."""
+        speeds = self._speeds(case)
         flow = Flow()
         for shaft in self._shafts:
-            group = self._group[shaft.id]
-            if isfinite(speeds.get(group, nan)):
-                flow.speed[shaft.id] = speeds[group] * self._senses.get(shaft.id, 1.0)
-        for index, force in forces.items():
-            mesh = self._meshes[index]
-            first, second = (mesh.teeth[place] * force * self._senses.get(mesh.shafts[place], 1.0) for place in (0, 1))
+            speed = speeds.get(self._group[shaft.id], nan)
+            if isfinite(speed):
+                flow.speed[shaft.id] = speed * self._sense(shaft)
+        forces = self._forces(speeds, case)
+        for pair in self._pairs:
+            force = forces.get(pair.stage.id, nan)
+            first, second = (pair.teeth[place] * force * self._sense(pair.shafts[place]) for place in (0, 1))
             if isfinite(first) and isfinite(second):
-                flow.mesh_torque[mesh.stage] = first, second
+                flow.mesh_torque[pair.stage.id] = first, second
         return flow
 
-    def _speeds(self) -> dict[int, float]:
+    def _sense(self, shaft: Component) -> float:
+        return self._senses.get(shaft.id, 1.0)
+
+    def _groups(self) -> dict[int, int]:
+        """For each shaft one shaft that stands for all that turn with it."""
+        model = self._reading.model
+        group = {shaft.id: shaft.id for shaft in self._shafts}
+        for relation in model.relations if group else ():
+            coupling = model.part(relation, "assembly")
+            if relation.type == "side" and coupling is not None and coupling.type in {"coupling", "fixed_coupling"}:
+                ends = [relation.part(role) for role in ("inner_part", "outer_part")]
+                joined = [group[end] for end in ends if end in group]
+                if len(joined) == len(ends) and joined[0] != joined[1]:
+                    group = {shaft: joined[0] if own == joined[1] else own for shaft, own in group.items()}
+        return group
+
+    def _speeds(self, case: LoadCase | None) -> dict[int, float]:
         """Speeds of the groups [1/min], seen along the unit's axis."""
         speeds: dict[int, float] = {}
-        stated = [(each, self._stated_speed(each)) for each in self._shafts]
+        stated = [(shaft, self._reading.number(shaft, "rotational_speed", "1/min", case)) for shaft in self._shafts]
         stated.sort(key=lambda each: not self._reading.flag(each[0], "defines_speed"))
-        for shaft, speed in stated:
-            if speed is None:
+        for shaft, own in stated:
+            if own is None:
                 continue
-            group = self._group[shaft.id]
+            speed, group = own * self._sense(shaft), self._group[shaft.id]
             if group not in speeds:
                 self._spread(group, speed, speeds)
             elif abs(speeds[group] - speed) > BALANCE * max(abs(speed), abs(speeds[group])):
@@ -124,92 +119,69 @@ class _Solution:
                 self._reading.find("speed_conflict", shaft, "rotational_speed", message)
         return speeds
 
-    def _stated_speed(self, shaft: Component) -> float | None:
-        speed = self._reading.number(shaft, "rotational_speed", "1/min", case=self._case)
-        return None if speed is None else speed * self._senses.get(shaft.id, 1.0)
-
     def _spread(self, start: int, speed: float, speeds: dict[int, float]) -> None:
         speeds[start] = speed
         waiting = [start]
         while waiting:
             group = waiting.pop()
-            for index, place in self._at[group]:
-                mesh = self._meshes[index]
-                other = self._group[mesh.shafts[1 - place]]
+            for pair, place in self._at[group]:
+                other = self._group[pair.shafts[1 - place].id]
                 if other not in speeds:
-                    speeds[other] = -speeds[group] * mesh.teeth[place] / mesh.teeth[1 - place]
+                    speeds[other] = -speeds[group] * pair.teeth[place] / pair.teeth[1 - place]
                     waiting.append(other)
 
-    def _forces(self, speeds: dict[int, float]) -> dict[int, float]:
-        """Torque of each mesh per tooth [N m], where the torques that the file states determine it."""
-        known, opened = self._loads(speeds)
+    def _forces(self, speeds: dict[int, float], case: LoadCase | None) -> dict[int, float]:
+        """Torque of each stage's mesh per tooth [N m], where the torques that the file states determine it."""
+        known, opened = self._loads(speeds, case)
         forces: dict[int, float] = {}
-        if not known:
-            return forces
-        waiting = list(self._at)
+        waiting = list(self._at) if known else []
         while waiting:
             group = waiting.pop()
-            unknown = [(index, place) for index, place in self._at[group] if index not in forces]
+            unknown = [each for each in self._at[group] if each[0].stage.id not in forces]
             if len(unknown) != 1 or group in opened:
                 continue
-            carried = sum(forces[i] * self._meshes[i].teeth[p] for i, p in self._at[group] if i in forces)
-            index, place = unknown[0]
-            mesh = self._meshes[index]
-            forces[index] = -(known.get(group, 0.0) + carried) / mesh.teeth[place]
-            waiting.append(self._group[mesh.shafts[1 - place]])
+            here = ((pair.stage.id, pair.teeth[place]) for pair, place in self._at[group])
+            carried = sum(forces[stage] * teeth for stage, teeth in here if stage in forces)
+            pair, place = unknown[0]
+            forces[pair.stage.id] = -(known.get(group, 0.0) + carried) / pair.teeth[place]
+            waiting.append(self._group[pair.shafts[1 - place].id])
         return forces
 
-    def _loads(self, speeds: dict[int, float]) -> tuple[dict[int, float], set[int]]:
+    def _loads(self, speeds: dict[int, float], case: LoadCase | None) -> tuple[dict[int, float], set[int]]:
         """Stated torques by group [N m], and the groups at which a torque that is not stated enters or leaves."""
         known: dict[int, float] = defaultdict(float)
         opened, leaving = set(self._elsewhere), set()
-        for group, load in self._external_loads():
-            torque = self._stated_torque(load, group, speeds)
-            if torque is None:
-                if self._reading.flag(load, "transmits_torque") is not False:
+        for shaft in self._shafts:
+            group = self._group[shaft.id]
+            for load in self._reading.model.parts_of(shaft.id):
+                if load.type != "external_load":
+                    continue
+                torque = self._stated_torque(load, speeds.get(group), case)
+                if torque is not None:
+                    known[group] += torque
+                    if torque * speeds.get(group, 0.0) < 0.0:
+                        leaving.add(group)
+                elif self._reading.flag(load, "transmits_torque") is not False:
                     opened.add(group)
-                continue
-            known[group] += torque
-            if torque * speeds.get(group, 0.0) < 0.0:
-                leaving.add(group)
-        if not opened and known:
-            ends = {group for group, meshes in self._at.items() if len(meshes) == 1 and group not in known}
-            opened = ends or leaving or set()
+        if known and not opened:
+            opened = {group for group, meshes in self._at.items() if len(meshes) == 1 and group not in known} or leaving
         return known, opened
 
-    def _external_loads(self) -> Iterator[tuple[int, Component]]:
-        for shaft in self._shafts:
-            for part in self._reading.model.parts_of(shaft.id):
-                if part.type == "external_load":
-                    yield self._group[shaft.id], part
+    def _not_modelled(self) -> set[int]:
+        """The groups with gears in stages that are not modelled: what passes there is not known."""
+        model, modelled = self._reading.model, {pair.stage.id for pair in self._pairs}
+        others = (each for each in model.relations if each.type == "stage" and each.part("stage") not in modelled)
+        parts = (part for relation in others for role, part in relation.parts if role != "stage")
+        shafts = (model.whole_of(part, "shaft") for part in parts)
+        return {self._group[shaft.id] for shaft in shafts if shaft is not None and shaft.id in self._group}
 
-    def _stated_torque(self, load: Component, group: int, speeds: dict[int, float]) -> float | None:
+    def _stated_torque(self, load: Component, speed: float | None, case: LoadCase | None) -> float | None:
         """The torque of a load about the unit's axis [N m], where the load defines it."""
         if self._reading.flag(load, "defines_torque") is False:
             return None
-        shaft = self._reading.model.whole_of(load.id, "shaft")
-        sense = self._senses.get(shaft.id, 1.0) if shaft else 1.0
-        torque = self._reading.number(load, "torque_around_u_axis", "Nm", case=self._case)
+        torque = self._reading.number(load, "torque_around_u_axis", "Nm", case)
         if torque is not None:
-            return torque * sense
-        power, speed = self._reading.number(load, "power", "W", case=self._case), speeds.get(group)
+            shaft = self._reading.model.whole_of(load.id, "shaft")
+            return torque * self._sense(shaft) if shaft else torque
+        power = self._reading.number(load, "power", "W", case)
         return power / (speed * REVOLUTION_PER_MINUTE) if power is not None and speed else None
-
-
-def _groups(shafts: Iterator[int], joined: list[tuple[int, int]]) -> dict[int, int]:
-    """For each shaft one shaft that stands for all that turn with it."""
-    neighbours: dict[int, list[int]] = defaultdict(list)
-    for one, other in joined:
-        neighbours[one].append(other)
-        neighbours[other].append(one)
-    group: dict[int, int] = {}
-    for start in shafts:
-        if start in group:
-            continue
-        waiting = [start]
-        while waiting:
-            shaft = waiting.pop()
-            if shaft not in group:
-                group[shaft] = start
-                waiting.extend(neighbours[shaft])
-    return group

@@ -1,53 +1,64 @@
-"""Attributes read as numbers in the units that the requests use, with account of what was wrong and what was used."""
+"""Attributes read as numbers in the units of the requests, and the draft of a request that they fill.
 
-from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass, field
+Whatever happens on the way is recorded for the answer: what is wrong in the file, missing, assumed or not used.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
 from math import isfinite
-from typing import Any
+from typing import Annotated, Any
 
+from pydantic import BaseModel, ValidationError
+
+from app.calculations import BY_PATH
 from app.rexs.model import Attribute, Component, LoadCase, Model
-from app.rexs.units import converted
+from app.rexs.table import IGNORED, Row, converted
+from app.schema.quantities import Output
+from app.schema.reading import faults
 
 LARGEST = 1e30  # in any unit; keeps sums and products of a hostile file finite
+MESH = {"gears", "load", "materials", "modifications"}
+SECTIONS = {
+    "/v1/scuffing/load-distribution": MESH,
+    "/v1/scuffing": MESH | {"temperatures", "lubricant"},
+    "/v1/pumping": {"gears"},
+}
+"""What of a draft is in the requests for a single mesh."""
 Vector = tuple[float, float, float]
 
 
-@dataclass(frozen=True, slots=True)
-class Finding:
+class Fault(BaseModel, frozen=True):
     """Something wrong in the file."""
 
-    code: str
-    component: int | None
-    attribute: str | None
-    message: str
+    code: Annotated[str, Output("stable name, meant for programs")]
+    component: Annotated[int | None, Output("component in the file")]
+    attribute: Annotated[str | None, Output("attribute")]
+    message: Annotated[str, Output("what is wrong, and what was done about it")]
 
 
-@dataclass(frozen=True, slots=True)
-class Missing:
-    """A field of a request that the file does not give: the calculation needs it."""
+class MissingValue(BaseModel):
+    """A field that a calculation needs and the file does not contain."""
 
-    field: str
-    component: int | None
-    attribute: str | None
-    message: str
-
-
-@dataclass(frozen=True, slots=True)
-class Assumed:
-    """A field of a request that the file does not give, and what was put there."""
-
-    field: str
-    value: Any
-    reason: str
+    field: Annotated[str, Output("dotted path of the field, or the endpoint that cannot be asked")]
+    component: Annotated[int | None, Output("component in the file that could give it")]
+    attribute: Annotated[str | None, Output("attribute that could give it")]
+    message: Annotated[str, Output("what is missing")]
 
 
-@dataclass(frozen=True, slots=True)
-class Ignored:
+class AssumedValue(BaseModel):
+    """What stands in place of something that the file does not give."""
+
+    field: Annotated[str, Output("dotted path of the field")]
+    value: Annotated[Any, Output("value used")]
+    reason: Annotated[str, Output("why")]
+
+
+class Unused(BaseModel):
     """What the file says and the models cannot use."""
 
-    component: int
-    attribute: str | None
-    reason: str
+    component: Annotated[int, Output("component in the file")]
+    attribute: Annotated[str | None, Output("attribute, or the whole component")]
+    reason: Annotated[str, Output("why")]
 
 
 @dataclass
@@ -55,47 +66,42 @@ class Reading:
     """The model, read once: every attribute asked for is noted, and every fault becomes a finding."""
 
     model: Model
-    findings: dict[Finding, None] = field(default_factory=dict)
+    findings: dict[Fault, None] = field(default_factory=dict)
     used: set[tuple[int, str]] = field(default_factory=set)
 
     def find(self, code: str, component: Component | None, attribute: str | None, message: str) -> None:
         """Note a fault, once."""
-        self.findings[Finding(code, component.id if component else None, attribute, message)] = None
+        id_ = component.id if component else None
+        self.findings[Fault(code=code, component=id_, attribute=attribute, message=message)] = None
 
     def number(
-        self,
-        component: Component,
-        names: str | Sequence[str],
-        unit: str = "",
-        case: LoadCase | None = None,
+        self, component: Component | None, wanted: Row | str, unit: str = "", case: LoadCase | None = None
     ) -> float | None:
-        """The first of the attributes that is there, in `unit`, or None.
+        """The first of the attributes of a row that is there, in its unit, or an attribute in `unit`; else None.
 
         A value that is no number or has a unit of another quantity is a finding and not used. `case` may override
         it.
         """
-        for name in (names,) if isinstance(names, str) else names:
+        if component is None:
+            return None
+        names, unit = (wanted.attributes, wanted.unit) if isinstance(wanted, Row) else ((wanted,), unit)
+        for name in names:
             attribute = self._attribute(component, name, case)
-            if attribute is not None:
-                found = self._in_unit(component, attribute, unit)
-                if found is not None:
-                    return found
+            found = None if attribute is None else self._in_unit(component, attribute, unit)
+            if found is not None:
+                return found
         return None
 
-    def text(self, component: Component, names: str | Sequence[str]) -> str | None:
-        """The first of the attributes that is there, as text in lower case."""
-        for name in (names,) if isinstance(names, str) else names:
-            attribute = self._attribute(component, name)
-            if attribute is not None and isinstance(attribute.value, str) and attribute.value:
-                return attribute.value.lower()
-        return None
+    def text(self, component: Component, name: str) -> str:
+        """A text in lower case; empty where the attribute is not there."""
+        attribute = self._attribute(component, name)
+        return str(attribute.value).lower() if attribute is not None and isinstance(attribute.value, str) else ""
 
     def flag(self, component: Component, name: str) -> bool | None:
         """A yes or no, or None."""
         attribute = self._attribute(component, name)
-        if attribute is None:
-            return None
-        return {"true": True, "1": True, "false": False, "0": False}.get(str(attribute.value).lower())
+        said = "" if attribute is None else str(attribute.value).lower()
+        return {"true": True, "1": True, "false": False, "0": False}.get(said)
 
     def vector(self, component: Component, name: str) -> Vector | None:
         """Three numbers (lengths in mm where the attribute is a length), or None."""
@@ -104,23 +110,23 @@ class Reading:
             return None
         try:
             x, y, z = (float(each) for each in attribute.value)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             self.find("not_a_number", component, name, "the vector is not three numbers")
             return None
-        if not max(abs(x), abs(y), abs(z)) <= LARGEST:
+        if not all(abs(each) <= LARGEST for each in (x, y, z)):
             self.find("not_a_number", component, name, "the vector is not three finite numbers")
             return None
         scale = converted(1.0, attribute.unit, "mm") or 1.0
         return x * scale, y * scale, z * scale
 
-    def ignored(self, components: Iterable[Component], reasons: dict[str, str]) -> list[Ignored]:
-        """What these components say that was not asked for; `reasons` by the attribute's name or its beginning."""
+    def ignored(self, components: Iterable[Component]) -> list[Unused]:
+        """What these components say that was not asked for."""
         found = []
         for component in components:
             for name in component.attributes:
                 if (component.id, name) not in self.used:
-                    reason = next((why for start, why in reasons.items() if name.startswith(start)), reasons[""])
-                    found.append(Ignored(component.id, name, reason))
+                    reason = next(why for start, why in IGNORED.items() if name.startswith(start))
+                    found.append(Unused(component=component.id, attribute=name, reason=reason))
         return found
 
     def _attribute(self, component: Component, name: str, case: LoadCase | None = None) -> Attribute | None:
@@ -132,25 +138,118 @@ class Reading:
         return found
 
     def _in_unit(self, component: Component, attribute: Attribute, unit: str) -> float | None:
+        code, name = "not_a_number", attribute.name
         try:
             value = float(attribute.value)
         except (TypeError, ValueError, OverflowError):
-            self.find("not_a_number", component, attribute.name, f"{attribute.name} is not a number; not used")
-            return None
-        if not isfinite(value):
-            self.find("not_a_number", component, attribute.name, f"{attribute.name} is not finite; not used")
+            self.find(code, component, name, f"{name} is not a number; not used")
             return None
         found = converted(value, attribute.unit, unit)
-        if found is None:
-            stated = attribute.unit[:20] or "no unit"
-            message = f"{attribute.name} is in {stated}, which is not a unit of its quantity ({unit}); not used"
-            self.find("unit", component, attribute.name, message)
+        if not isfinite(value):
+            fault = "is not finite"
+        elif found is None:
+            code, stated = "unit", attribute.unit[:20] or "no unit"
+            fault = f"is in {stated}, which is not a unit of its quantity ({unit})"
         elif abs(found) > LARGEST:
-            self.find("not_a_number", component, attribute.name, f"{attribute.name} is beyond any machine; not used")
-            return None
+            fault = "is beyond any machine"
+        else:
+            return found
+        self.find(code, component, name, f"{name} {fault}; not used")
+        return None
+
+
+@dataclass
+class Draft:
+    """Fields by their dotted path in the request of /v1/scuffing, and where in the file they come from."""
+
+    reading: Reading
+    fields: dict[str, Any] = field(default_factory=dict)
+    origins: dict[str, tuple[Component, str | None]] = field(default_factory=dict)
+    missing: dict[str, MissingValue] = field(default_factory=dict)
+    assumed: dict[str, AssumedValue] = field(default_factory=dict)
+
+    def put(self, path: str, value: Any, component: Component, attribute: str | None = None) -> None:
+        """Set a field from the file."""
+        self.fields[path] = value
+        self.origins[path] = component, attribute
+
+    def assume(self, path: str, value: Any, reason: str) -> None:
+        """Set a field that the file does not give."""
+        self.fields[path] = value
+        self.note(path, value, reason)
+
+    def note(self, path: str, value: Any, reason: str) -> None:
+        """Say how the value of a field was chosen, where the file leaves a choice."""
+        self.assumed[path] = AssumedValue(field=path, value=value, reason=reason)
+
+    def lacks(self, path: str, component: Component | None, attribute: str | None, message: str) -> None:
+        """Record that the file does not contain a field without a default."""
+        id_ = component.id if component else None
+        self.missing.setdefault(path, MissingValue(field=path, component=id_, attribute=attribute, message=message))
+
+    def take(
+        self, row: Row, component: Component | None, prefix: str = "", case: LoadCase | None = None
+    ) -> float | None:
+        """Take a number over as it stands."""
+        found = self.reading.number(component, row, case=case)
+        if component is not None and found is not None:
+            self.put(prefix + row.field, found, component, row.name)
         return found
 
+    def request(self, endpoint: str, paths: Iterable[str]) -> dict[str, Any]:
+        """The request of an endpoint from these fields, without those that it does not know or refuses.
 
-def rows(found: Iterable[Any]) -> list[dict[str, Any]]:
-    """Findings, missing, assumed or ignored values as JSON objects."""
-    return [asdict(each) for each in found]
+        What the endpoint refuses is a finding with its range where it comes from the file; what it needs and does not
+        get is missing.
+        """
+        known = {ours: theirs for ours in paths if (theirs := path_in(endpoint, ours)) is not None}
+        own = {ours: theirs for ours, theirs in known.items() if ours in self.fields}
+        model = BY_PATH[endpoint].request
+        while True:
+            request = _nested({theirs: self.fields[ours] for ours, theirs in own.items()})
+            try:
+                model.model_validate(request)
+            except ValidationError as error:
+                found = faults(model, map(dict, error.errors()))
+            else:
+                return request
+            accepted = len(own)
+            for fault in found:
+                at = fault.pointer.strip("/").replace("/", ".")
+                if any(_within(path, at) or _within(at, path) for path in self.missing):
+                    continue  # known to be missing
+                ours = next((each for each, theirs in own.items() if _within(at, theirs)), None)
+                if ours is None:
+                    back = next((each for each, theirs in known.items() if theirs == at), at)
+                    self.lacks(back, None, None, fault.message)
+                    continue
+                component, attribute = self.origins.get(ours, (None, None))
+                self.reading.find("out_of_range", component, attribute, f"{ours}: {fault.message}; not used")
+                self.lacks(ours, component, attribute, f"the file's value is not possible: {fault.message}")
+                del own[ours]
+            if len(own) == accepted:
+                return request
+
+
+def path_in(endpoint: str, path: str) -> str | None:
+    """Where a field of the draft is in the request of an endpoint; None where the endpoint has no such field."""
+    if endpoint == "/v1/drive-train" or (endpoint, path) == ("/v1/pumping", "load.pinion_speed_rpm"):
+        return path.replace("load.", "operation.", 1)
+    unknown = {"gears.hand"} if endpoint == "/v1/pumping" else {"gears.hand", "gears.normal_backlash_mm"}
+    return path if path.partition(".")[0] in SECTIONS[endpoint] and path not in unknown else None
+
+
+def _within(path: str, section: str) -> bool:
+    return path == section or path.startswith(section + ".")
+
+
+def _nested(fields: dict[str, Any]) -> dict[str, Any]:
+    """Sections within sections, from dotted paths."""
+    request: dict[str, Any] = {}
+    for path, value in fields.items():
+        *sections, name = path.split(".")
+        here = request
+        for section in sections:
+            here = here.setdefault(section, {})
+        here[name] = value
+    return request

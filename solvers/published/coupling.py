@@ -4,190 +4,89 @@ from math import asin, pi, radians
 
 from solvers.published import pahl
 from solvers.published.bloch import END_CONTACT, bloch
-from solvers.published.statement import INDEPENDENT, Statement, above, below, between, equals
+from solvers.published.statement import INDEPENDENT, Says, Statement
 
 PAHL = "Pahl 1978"
 BLOCH = "Bloch, Improving Machinery Reliability, pp. 208-210"
 
 STATEMENTS: tuple[Statement, ...] = (
-    equals(
-        "load concentrates in the tilt zones: largest over mean, 0.2°",
-        f"{PAHL}, Fig. 3",
-        1.247,
-        "-",
-        lambda: pahl.concentration(0.2),
-        5e-3,
-        INDEPENDENT,
+    Says(f"{PAHL}, Fig. 3", "load concentrates in the tilt zones: largest over mean, 0.2°").equals(
+        1.247, "-", lambda: pahl.concentration(0.2), 5e-3, INDEPENDENT
     ),
-    equals("the same at 1°", f"{PAHL}, Fig. 3", 4.018, "-", lambda: pahl.concentration(1.0), 5e-3, INDEPENDENT),
-    equals(
-        "fewer teeth carry as the misalignment grows: teeth at 1°",
-        f"{PAHL}, Fig. 3",
-        22,
-        "-",
-        lambda: pahl.loaded(1.0),
-        0.0,
-        INDEPENDENT,
+    Says(f"{PAHL}, Fig. 3", "the same at 1°").equals(4.018, "-", lambda: pahl.concentration(1.0), 5e-3, INDEPENDENT),
+    Says(f"{PAHL}, Fig. 3", "fewer teeth carry as the misalignment grows: teeth at 1°").equals(
+        22, "-", lambda: pahl.loaded(1.0), 0.0, INDEPENDENT
     ),
-    equals(
-        "inertia force, third over first harmonic at 0.3°",
-        f"{PAHL}, Fig. 5",
-        0.546,
-        "-",
-        lambda: pahl.third_over_first(0.3),
-        2e-2,
-        INDEPENDENT,
+    Says(f"{PAHL}, Fig. 5", "inertia force, third over first harmonic at 0.3°").equals(
+        0.546, "-", lambda: pahl.third_over_first(0.3), 2e-2, INDEPENDENT
     ),
-    below("the same at 0.1°: a sinusoid", f"{PAHL}, Fig. 5", 1e-3, "-", lambda: pahl.third_over_first(0.1)),
-    equals(
-        "contact overlap 1, heavily crowned, at",
-        f"{PAHL}, Fig. 7",
-        0.168,
-        "°",
-        lambda: pahl.overlap_one(pahl.HEAVY),
-        1e-2,
-        INDEPENDENT,
+    Says(f"{PAHL}, Fig. 5", "the same at 0.1°: a sinusoid").below(1e-3, "-", lambda: pahl.third_over_first(0.1)),
+    Says(f"{PAHL}, Fig. 7", "contact overlap 1, heavily crowned, at").equals(
+        0.168, "°", lambda: pahl.overlap_one(pahl.HEAVY), 1e-2, INDEPENDENT
     ),
-    equals(
-        "contact overlap 1, slightly crowned, at",
-        f"{PAHL}, Fig. 7",
-        0.0507,
-        "°",
-        lambda: pahl.overlap_one(pahl.SLIGHT),
-        1e-2,
-        INDEPENDENT,
+    Says(f"{PAHL}, Fig. 7", "contact overlap 1, slightly crowned, at").equals(
+        0.0507, "°", lambda: pahl.overlap_one(pahl.SLIGHT), 1e-2, INDEPENDENT
     ),
-    equals(
-        "a short inlet halves the film of large flank radii: inlet factor, 0.2°",
-        f"{PAHL}, Fig. 8",
-        0.494,
-        "-",
-        lambda: pahl.film(0.2, pahl.SLIGHT).lubrication.inlet_factor,
-        2e-3,
-        INDEPENDENT,
+    Says(f"{PAHL}, Fig. 8", "a short inlet halves the film of large flank radii: inlet factor, 0.2°").equals(
+        0.494, "-", lambda: pahl.film(0.2, pahl.SLIGHT).lubrication.inlet_factor, 2e-3, INDEPENDENT
     ),
-    below(
-        "load capacity coefficient of the heavily crowned coupling at 0.4°: area 1.1",
-        f"{PAHL}, Fig. 9",
-        0.2,
-        "-",
-        lambda: pahl.film(0.4, pahl.HEAVY).lubrication.load_capacity_coefficient or 0.0,
+    Says(f"{PAHL}, Fig. 9", "load capacity coefficient of the heavily crowned coupling at 0.4°: area 1.1").below(
+        0.2, "-", lambda: pahl.film(0.4, pahl.HEAVY).lubrication.load_capacity_coefficient or 0.0
     ),
-    equals(
-        "least friction of the heavily crowned coupling",
-        f"{PAHL}, Fig. 11",
+    Says(f"{PAHL}, Fig. 11", "least friction of the heavily crowned coupling").equals(
         0.05,
         "-",
         lambda: pahl.least_friction(pahl.HEAVY, 0.2, 0.8)[1],
         1e-2,
         "its sliding velocity is a calibration of ours",
     ),
-    equals(
-        "at a misalignment of", f"{PAHL}, Fig. 11", 0.4, "°", lambda: pahl.least_friction(pahl.HEAVY, 0.2, 0.8)[0], 2e-2
+    Says(f"{PAHL}, Fig. 11", "at a misalignment of").equals(
+        0.4, "°", lambda: pahl.least_friction(pahl.HEAVY, 0.2, 0.8)[0], 2e-2
     ),
-    below(
-        "least friction of the slightly crowned coupling",
-        f"{PAHL}, Fig. 11",
-        0.01,
-        "-",
-        lambda: pahl.least_friction(pahl.SLIGHT, 0.05, 0.2)[1],
+    Says(f"{PAHL}, Fig. 11", "least friction of the slightly crowned coupling").below(
+        0.01, "-", lambda: pahl.least_friction(pahl.SLIGHT, 0.05, 0.2)[1]
     ),
-    equals(
-        "at a misalignment of",
-        f"{PAHL}, Fig. 11",
-        0.1,
-        "°",
-        lambda: pahl.least_friction(pahl.SLIGHT, 0.05, 0.2)[0],
-        0.1,
+    Says(f"{PAHL}, Fig. 11", "at a misalignment of").equals(
+        0.1, "°", lambda: pahl.least_friction(pahl.SLIGHT, 0.05, 0.2)[0], 0.1
     ),
-    equals(
-        "coaxial thrust at 3000 N m",
-        f"{PAHL}, Fig. 14",
-        8186.0,
-        "N",
-        lambda: pahl.pahl(0.0, axial_velocity=pahl.CREEP).axial_thrust.force,
-        1e-5,
-        INDEPENDENT,
+    Says(f"{PAHL}, Fig. 14", "coaxial thrust at 3000 N m").equals(
+        8186.0, "N", lambda: pahl.pahl(0.0, axial_velocity=pahl.CREEP).axial_thrust.force, 1e-5, INDEPENDENT
     ),
-    below(
-        "share of the coaxial thrust that is left at 0.05°, 200 1/s",
-        f"{PAHL}, Fig. 16",
-        0.1,
-        "-",
-        lambda: pahl.fraction(200.0),
+    Says(f"{PAHL}, Fig. 16", "share of the coaxial thrust that is left at 0.05°, 200 1/s").below(
+        0.1, "-", lambda: pahl.fraction(200.0)
     ),
-    above("share that is left at a quarter of the speed", f"{PAHL}, Fig. 15", 0.1, "-", lambda: pahl.fraction(50.0)),
-    equals(
-        "thrust of equally loaded teeth, closed form",
-        f"{PAHL}, Fig. 14",
+    Says(f"{PAHL}, Fig. 15", "share that is left at a quarter of the speed").above(
+        0.1, "-", lambda: pahl.fraction(50.0)
+    ),
+    Says(f"{PAHL}, Fig. 14", "thrust of equally loaded teeth, closed form").equals(
         8186.0 * 2 / pi * asin(pahl.CREEP / (radians(0.05) * 200 * 0.078)),
         "N",
         lambda: pahl.pahl(0.05, axial_velocity=pahl.CREEP).axial_thrust.uniform_load_force,
         1e-5,
     ),
-    equals(
-        "self-induced thrust grows as the square of friction: exponent",
-        f"{PAHL}, Fig. 17",
-        2.0,
-        "-",
-        pahl.friction_exponent,
-        5e-3,
+    Says(f"{PAHL}, Fig. 17", "self-induced thrust grows as the square of friction: exponent").equals(
+        2.0, "-", pahl.friction_exponent, 5e-3
     ),
-    equals(
-        "and as diameter over hub distance: thrust at half the distance over thrust",
-        f"{PAHL}, Fig. 13",
-        2.0,
-        "-",
-        lambda: pahl.offset_thrust(hub_distance=0.1) / pahl.offset_thrust(),
-        1e-2,
+    Says(f"{PAHL}, Fig. 13", "and as diameter over hub distance: thrust at half the distance over thrust").equals(
+        2.0, "-", lambda: pahl.offset_thrust(hub_distance=0.1) / pahl.offset_thrust(), 1e-2
     ),
-    below(
-        "angular arrangement: thrust over T/r_o",
-        f"{PAHL}, Fig. 13",
-        1e-6,
-        "-",
-        lambda: abs(pahl.pahl(0.3, arrangement="angular").axial_thrust.force) * 0.078 / 3000.0,
+    Says(f"{PAHL}, Fig. 13", "angular arrangement: thrust over T/r_o").below(
+        1e-6, "-", lambda: abs(pahl.pahl(0.3, arrangement="angular").axial_thrust.force) * 0.078 / 3000.0
     ),
-    equals(
-        "crowning ratio for 0.05° to 0.1°",
-        f"{PAHL}, conclusion",
-        17.2,
-        "-",
-        lambda: pahl.crowning(0.05, 0.1),
-        2e-2,
-        INDEPENDENT,
+    Says(f"{PAHL}, conclusion", "crowning ratio for 0.05° to 0.1°").equals(
+        17.2, "-", lambda: pahl.crowning(0.05, 0.1), 2e-2, INDEPENDENT
     ),
-    equals(
-        "crowning ratio for 0.1° to 0.3°",
-        f"{PAHL}, conclusion",
-        6.97,
-        "-",
-        lambda: pahl.crowning(0.1, 0.3),
-        2e-2,
-        INDEPENDENT,
+    Says(f"{PAHL}, conclusion", "crowning ratio for 0.1° to 0.3°").equals(
+        6.97, "-", lambda: pahl.crowning(0.1, 0.3), 2e-2, INDEPENDENT
     ),
-    equals("axial force, coaxial limit", BLOCH, 60.9e3, "N", lambda: bloch().axial_thrust.coaxial_limit, 1e-3),
-    between(
-        "friction moment between equal loads and load on the worst teeth",
-        BLOCH,
-        4165.0,
-        6542.0,
-        "N m",
-        lambda: bloch().losses.friction_moment,
+    Says(BLOCH, "axial force, coaxial limit").equals(60.9e3, "N", lambda: bloch().axial_thrust.coaxial_limit, 1e-3),
+    Says(BLOCH, "friction moment between equal loads and load on the worst teeth").between(
+        4165.0, 6542.0, "N m", lambda: bloch().losses.friction_moment
     ),
-    equals(
-        "contact-shift moment, all load at the tooth's end",
-        BLOCH,
-        3150.0,
-        "N m",
-        lambda: bloch(END_CONTACT, 1e14).losses.contact_shift_moment,
-        2e-3,
+    Says(BLOCH, "contact-shift moment, all load at the tooth's end").equals(
+        3150.0, "N m", lambda: bloch(END_CONTACT, 1e14).losses.contact_shift_moment, 2e-3
     ),
-    below(
-        "friction measured on high-speed couplings, at 0.1°",
-        "Calistrat, J. Mech. Des. 103 (1981)",
-        0.16,
-        "-",
-        lambda: pahl.film(0.1, pahl.HEAVY).lubrication.friction_coefficient,
+    Says("Calistrat, J. Mech. Des. 103 (1981)", "friction measured on high-speed couplings, at 0.1°").below(
+        0.16, "-", lambda: pahl.film(0.1, pahl.HEAVY).lubrication.friction_coefficient
     ),
 )

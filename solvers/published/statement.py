@@ -43,31 +43,35 @@ class Statement:
         return Row(self.says, self.source, self.printed, computed, self.unit, deviation, holds, self.remark)
 
 
-def equals(
-    says: str, source: str, number: float, unit: str, compute: Callable[[], float], tolerance: float, remark: str = ""
-) -> Statement:
-    """A printed number with a relative tolerance."""
-    margin = tolerance * abs(number)
-    return Statement(says, source, f"{number:g}", unit, compute, number - margin, number + margin, number, remark)
+@dataclass(frozen=True, slots=True)
+class Says:
+    """What a source says, in words; each method adds the number and how it is computed here."""
 
+    source: str
+    words: str
 
-def below(says: str, source: str, bound: float, unit: str, compute: Callable[[], float]) -> Statement:
-    """A printed upper bound."""
-    return Statement(says, source, f"below {bound:g}", unit, compute, -inf, bound)
+    def equals(
+        self, number: float, unit: str, compute: Callable[[], float], tolerance: float, remark: str = ""
+    ) -> Statement:
+        """A printed number with a relative tolerance."""
+        least, most = number - tolerance * abs(number), number + tolerance * abs(number)
+        return Statement(self.words, self.source, f"{number:g}", unit, compute, least, most, number, remark)
 
+    def below(self, bound: float, unit: str, compute: Callable[[], float]) -> Statement:
+        """A printed upper bound."""
+        return Statement(self.words, self.source, f"below {bound:g}", unit, compute, -inf, bound)
 
-def above(says: str, source: str, bound: float, unit: str, compute: Callable[[], float]) -> Statement:
-    """A printed lower bound."""
-    return Statement(says, source, f"above {bound:g}", unit, compute, bound, inf)
+    def above(self, bound: float, unit: str, compute: Callable[[], float]) -> Statement:
+        """A printed lower bound."""
+        return Statement(self.words, self.source, f"above {bound:g}", unit, compute, bound, inf)
 
+    def between(self, low: float, high: float, unit: str, compute: Callable[[], float]) -> Statement:
+        """A printed range."""
+        return Statement(self.words, self.source, f"{low:g} to {high:g}", unit, compute, low, high)
 
-def between(says: str, source: str, low: float, high: float, unit: str, compute: Callable[[], float]) -> Statement:
-    """A printed range."""
-    return Statement(says, source, f"{low:g} to {high:g}", unit, compute, low, high)
-
-
-def not_reproduced(
-    says: str, source: str, number: float, unit: str, compute: Callable[[], float], found: float, remark: str
-) -> Statement:
-    """A printed number that its own equations do not give; the test holds on to what they do give, to 3 %."""
-    return Statement(says, source, f"{number:g}", unit, compute, 0.97 * found, 1.03 * found, number, remark)
+    def not_reproduced(
+        self, number: float, unit: str, compute: Callable[[], float], found: float, remark: str
+    ) -> Statement:
+        """A printed number that its own equations do not give; the test holds on to what they do give, to 3 %."""
+        least, most = 0.97 * found, 1.03 * found
+        return Statement(self.words, self.source, f"{number:g}", unit, compute, least, most, number, remark)

@@ -21,7 +21,7 @@ LOAD = "/v1/scuffing/load-distribution"
 
 
 def answer(unit: Unit | bytes) -> dict[str, Any]:
-    return gear_unit(read(unit if isinstance(unit, bytes) else unit.xml(), MOST_BYTES))
+    return gear_unit(read(unit if isinstance(unit, bytes) else unit.xml(), MOST_BYTES).model)
 
 
 def codes(found: dict[str, Any]) -> set[str]:
@@ -125,6 +125,7 @@ def test_load_cases() -> None:
         )
     stages = answer(unit)["stages"]
     assert [each["share"] for each in stages[0]["cases"]] == pytest.approx([0.2, 0.8])
+    assert "cases" not in {each["field"] for each in stages[0]["assumed"]}  # the attribute is of the standard
     expected = {"load.pinion_torque_n_m": 5.0 * 67 / 23, "load.pinion_speed_rpm": 543.0 * 23 / 67}
     assert stages[1]["cases"][0]["overrides"] == pytest.approx({**expected, "temperatures.oil_c": 70.0})
     own = stages[1]["cases"][0]["overrides"]
@@ -367,6 +368,23 @@ def test_one_extreme_number_leaves_the_answer_finite(extreme: float) -> None:
                 json.dumps(answer(unit.json()), allow_nan=False)
 
 
+@pytest.mark.parametrize("shift", [-1e29, -1e12, 1e12, 1e29])
+def test_a_profile_shift_that_no_gear_has_is_found(shift: float) -> None:
+    unit = three_stages("1.4")
+    unit.of(gear_of(unit, 0))["tip_diameter"] = (29.0, "mm")
+    flank = next(each["id"] for each in unit.components if each["type"] == "cylindrical_gear_flank")
+    unit.of(flank)["addendum_modification_coefficient"] = (shift, "none")
+    assert "out_of_range" in codes(answer(unit))
+
+
+@pytest.mark.parametrize("number", ["nan", "wide", 1e31, 10**400])
+def test_a_vector_of_impossible_numbers_is_found(number: Value) -> None:
+    unit = turbo_unit()
+    shaft = next(each["id"] for each in unit.components if each["type"] == "shaft")
+    unit.of(shaft)["support_vector"] = ([0.0, number, 0.0], "mm")
+    assert "not_a_number" in codes(answer(unit.json()))
+
+
 numbers = st.one_of(
     st.floats(allow_nan=False, allow_infinity=False), st.integers(-(10**20), 10**20), st.text(max_size=5), st.booleans()
 )
@@ -385,7 +403,7 @@ def test_damaged_files_never_raise(data: st.DataObject) -> None:
             relation = data.draw(st.sampled_from(unit.relations))
             role = data.draw(st.sampled_from(sorted(relation["roles"])))
             relation["roles"][role] = data.draw(st.integers(0, len(unit.components) + 2))
-    found = gear_unit(read(unit.json(), MOST_BYTES))
+    found = gear_unit(read(unit.json(), MOST_BYTES).model)
     for stage in found["stages"]:
         lacking = {each["field"] for each in stage["missing"]}
         for endpoint, request in stage["requests"].items():

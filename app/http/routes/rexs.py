@@ -10,38 +10,30 @@ from app.http.problems import documented
 from app.http.routes.pages import KNOWN_ERRORS, error_page, html, root_of
 from app.pages.overview import problem_page
 from app.rexs import answer
+from app.rexs.document import File
 from app.settings import MEBIBYTE, Settings
 from app.workers.pool import Runner
 
-TYPES = ("application/xml", "text/xml", "application/json", "application/zip", "application/octet-stream")
+DOCUMENTED_TYPES = ("application/xml", "application/json", "application/zip")
+TYPES = (*DOCUMENTED_TYPES, "text/xml", "application/octet-stream")
 FORM = "multipart/form-data"
 FILE = {"type": "string", "format": "binary"}
-FORM_OF_FILE = {"type": "object", "required": ["file"], "additionalProperties": False}
-UPLOAD: dict[str, Any] = {
-    "requestBody": {
-        "required": True,
-        "content": {
-            **{each: {"schema": FILE} for each in TYPES[:1] + TYPES[2:4]},
-            FORM: {"schema": {**FORM_OF_FILE, "properties": {"file": FILE}}},
-        },
+
+
+def _body(types: tuple[str, ...], **form: dict[str, str]) -> dict[str, Any]:
+    """The body of an operation: a file of one of the types, or a form with the file and these parts."""
+    schema = {
+        "type": "object",
+        "required": ["file"],
+        "additionalProperties": False,
+        "properties": {"file": FILE, **form},
     }
-}
-UPLOAD_WITH_REQUEST: dict[str, Any] = {
-    "requestBody": {
-        "required": True,
-        "content": {
-            FORM: {
-                "schema": {
-                    **FORM_OF_FILE,
-                    "properties": {
-                        "file": FILE,
-                        "request": {"type": "string", "description": "the stage's request as edited, JSON"},
-                    },
-                }
-            }
-        },
-    }
-}
+    content = {**{each: {"schema": FILE} for each in types}, FORM: {"schema": schema}}
+    return {"requestBody": {"required": True, "content": content}}
+
+
+UPLOAD = _body(DOCUMENTED_TYPES)
+UPLOAD_WITH_REQUEST = _body((), request={"type": "string", "description": "the stage's request as edited, JSON"})
 
 router = APIRouter(tags=["files"], responses=documented(400, 408, 413, 415, 422, 431, 500, 503, 504))
 pages = APIRouter(include_in_schema=False)
@@ -72,7 +64,7 @@ async def write_results(
     content, request = await _upload(http)
     limits: Settings = http.app.state.settings
     arguments = (content, _most_bytes(http), stage, request, limits.deadline_s)
-    file: answer.File = await _runner(http).run(http, answer.with_results, *arguments)
+    file: File = await _runner(http).run(http, answer.with_results, *arguments)
     headers = {"Content-Disposition": f'attachment; filename="results{file.suffix}"'}
     return Response(file.content, media_type=file.media_type, headers=headers)
 
@@ -101,7 +93,7 @@ async def _upload(http: Request) -> tuple[bytes, bytes | None]:
     if media_type in TYPES:
         return await http.body(), None
     if media_type != FORM:
-        raise HTTPException(415, f"send the file as {', '.join(TYPES[:1] + TYPES[2:4])} or as {FORM}")
+        raise HTTPException(415, f"send the file as {', '.join(DOCUMENTED_TYPES)} or as {FORM}")
     async with http.form(max_files=2, max_fields=2, max_part_size=_most_bytes(http)) as form:
         parts = {name: await part.read() if not isinstance(part, str) else part.encode() for name, part in form.items()}
     if "file" not in parts:
