@@ -15,12 +15,12 @@ def subscripts(text: str, typeset: Callable[[str, str], str]) -> str:
     return _SUBSCRIPT.sub(lambda found: typeset(*found.groups()), text)
 
 
-def number(value: float, unit: str = "", digits: int = 3) -> str:
+def number(value: float, unit: str | None = None, digits: int = 3) -> str:
     """The value with so many significant digits, a true minus sign and its unit; integers keep all their digits."""
     value += 0.0  # no negative zero
     text = _plain(value, digits) if value == 0.0 or PLAIN[0] <= abs(value) < PLAIN[1] else _power(value, digits)
-    glue = "" if unit in {"", "°"} else " "
-    return f"{text.replace('-', '−')}{glue}{unit}"
+    glue = "" if unit in {None, "", "°"} else " "
+    return f"{text.replace('-', '−')}{glue}{unit or ''}"
 
 
 def _plain(value: float, digits: int) -> str:
@@ -44,7 +44,7 @@ def percent(fraction: float) -> str:
     return number(0.0 if abs(fraction) < 1e-9 else 100.0 * fraction, "%")
 
 
-def ratio(value: float, unit: str = "") -> str:
+def ratio(value: float, unit: str | None = None) -> str:
     """A ratio around 1, with as many digits as show how far from it."""
     return number(value, unit, digits=3 if abs(value - 1.0) > 0.01 else 6)
 

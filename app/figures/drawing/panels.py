@@ -15,13 +15,13 @@ from matplotlib.text import Text
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.transforms import Bbox, BboxBase
 
-from app.figures.data import Bars, Line, Map, Panel, Part, Role, Row, Scale
+from app.figures.data import Line, Map, Panel, Part, Role, Row, Scale
 from app.figures.drawing.style import DASHES, LETTER, LIMIT_DASHES, LINE_HEIGHT, REFERENCE_DASHES, TEXT, Theme
 from app.figures.wording import number
 
 FARTHEST_LEVEL = 4.0  # a limit beyond so many times the values is named at the edge instead of flattening them
 NAME_LENGTH, ROW_NAME_LENGTH = 17, 36  # characters of a line of a name at the right of the axes, and of a row's
-BAR_SHARE, FAINT, TINT = 0.8, 0.6, 0.2  # of the spacing; opacity of bars beside the extreme one, and of fills
+BAR_SHARE, TINT = 0.8, 0.2  # of the spacing; opacity of fills
 ROW = 0.52  # height of a row's bar
 RING = 5  # pixels
 BEHIND = 1.9  # in the order of drawing: over the grid, under curves
@@ -128,7 +128,7 @@ def _bar_style(role: Role, color: str) -> Style:
     return {"facecolor": color}
 
 
-def _draw_bars(axes: Axes, bars: Bars, beside: list[Bars], theme: Theme) -> None:
+def _draw_bars(axes: Axes, bars: Line, beside: list[Line], theme: Theme) -> None:
     """Bars of one of the series that stand beside each other."""
     pitch = float(np.diff(bars.x).min()) if len(bars.x) > 1 else 1.0
     width = BAR_SHARE * pitch / len(beside)
@@ -136,9 +136,7 @@ def _draw_bars(axes: Axes, bars: Bars, beside: list[Bars], theme: Theme) -> None
     style = _bar_style(bars.role, theme.drawing[bars.hue])
     if bars.role is not Role.VARIANT and len(beside) > 1:
         style["label"] = fill(bars.title, NAME_LENGTH)
-    drawn = axes.bar(left, np.nan_to_num(bars.height), width, align="edge", **style)
-    for index, patch in enumerate(drawn.patches if bars.strong is not None else ()):
-        patch.set_alpha(1.0 if index == bars.strong else FAINT)
+    axes.bar(left, np.nan_to_num(bars.y), width, align="edge", **style)
 
 
 def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
