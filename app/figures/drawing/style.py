@@ -42,6 +42,11 @@ class Theme:
     drawing: dict[Hue, str]
     writing: dict[Hue, str]
 
+    @property
+    def patch(self) -> dict[str, Any]:
+        """The box of a text that lies over other things."""
+        return {"facecolor": self.background, "alpha": 0.78, "linewidth": 0, "pad": 0.8}
+
     def written(self, color: str) -> str:
         """The colour of the text about what is drawn in a colour."""
         return next((self.writing[hue] for hue, drawn in self.drawing.items() if drawn == color), color)

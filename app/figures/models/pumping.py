@@ -66,18 +66,18 @@ def _maps(inputs: PumpingInputs, result: PumpingResult, name: str, scale: Scale,
     if any(grid is None for grid in grids):
         raise _without_temperatures()
     # Of a ratio the smallest value says as much as the largest.
-    wording, ends = (ratio, (False, True)) if scale is Scale.RATIO else (number, (False,))
+    wording, extremes = (ratio, (False, True)) if scale is Scale.RATIO else (number, (False,))
     panels = []
-    for (gear, field), grid in zip(fields.items(), grids, strict=True):
-        quantity = axis(field, name)
-        chart = Map(quantity.title, quantity.unit, field.position, field.angle, grid, scale, critical)
+    for gear, field in fields.items():
+        known = axis(field, name)
+        chart = Map(known.title, known.unit, field.position, field.angle, getattr(field, name), scale, critical)
         chart = replace(chart, range=replace(chart, values=np.array(grids).ravel()).ends, bar=gear == [*fields][-1])
         panel = Panel(
             x=face(inputs.setup.gears.face_width),
             y=axis(field, "angle", f"angle of the {gear}", magnitude=False),
             title=f"spaces of the {gear}",
             map=chart,
-            marks=[parts.extreme_of_map(chart, wording, least=least) for least in ends],
+            marks=[parts.extreme_of_map(chart, wording, least=least) for least in extremes],
             spans=parts.unnamed(_grooves(inputs)),
         )
         panels.append(panel)
@@ -99,31 +99,25 @@ def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves)
     Gas dynamics: where the gas in the outermost slice is itself supersonic, its own Mach number stands in place of the
     one that an expansion to ambient pressure would ask for, and which is larger. The curve bends there.
     """
-    critical, mach = critical_ratio(inputs.setup), curves.exit_mach
-    limits = {
-        "clearances": Level(critical, f"clearances sonic, {number(critical)}", limit=True),
-        "ends": Level(1.0, "ends sonic", limit=True),
-    }
-    texts, levels = [], {}
-    for (name, limit), speed in zip(
-        limits.items(), (result.radial_choking_speed, result.axial_choking_speed), strict=True
+    critical, mach, peak = critical_ratio(inputs.setup), curves.exit_mach, curves.peak_pressure_ratio
+    clearances = [Level(critical, f"clearances sonic, {number(critical)}", limit=True)]
+    ends = [Level(1.0, "ends sonic", limit=True)]
+    texts = []
+    for name, speed, levels in (
+        ("clearances", result.radial_choking_speed, clearances),
+        ("ends", result.axial_choking_speed, ends),
     ):
         if speed is None:
             texts.append(f"{name} not up to {number(inputs.search_limit / RPM, '1/min')}")
-            levels[name] = [limit]
         else:
-            at = number(speed, "1/min")
-            texts.append(f"{name} from {at}")
-            levels[name] = [limit, Level(speed, f"{name}: {at}", vertical=True)]
+            texts.append(f"{name} from {number(speed, '1/min')}")
+            levels.append(Level(speed, f"{name}: {number(speed, '1/min')}", vertical=True))
     x = axis(curves, "pinion_speed", "pinion speed", magnitude=False)
     demand = axis(curves, "exit_mach", "Mach number that the ambient pressure asks for at the ends")
-    pressure, peak = (
-        axis(curves, "peak_pressure_ratio", "peak pressure over ambient pressure"),
-        curves.peak_pressure_ratio,
-    )
+    pressure = axis(curves, "peak_pressure_ratio", "peak pressure over ambient pressure")
     panels = [
-        parts.curve(x, demand, curves.pinion_speed, mach, levels=levels["ends"]),
-        parts.curve(x, pressure, curves.pinion_speed, peak, Hue.VERMILLION, levels=levels["clearances"]),
+        parts.curve(x, demand, curves.pinion_speed, mach, levels=ends),
+        parts.curve(x, pressure, curves.pinion_speed, peak, Hue.VERMILLION, levels=clearances),
     ]
     bend = inputs.setup.model.flow is Flow.GAS_DYNAMICS and np.nanmax(mach, initial=0.0) > 1.0
     bends = "; a bend above 1: from there the gas reaches an end supersonic" if bend else ""
