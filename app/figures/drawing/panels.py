@@ -277,21 +277,23 @@ def _name_on_top(axes: Axes, panel: Panel, text: str, x: float, color: str, them
 
 def _name_beside(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
     """Names at the right of the axes: where lines and levels end if these ends are apart, else in a legend."""
-    handles, ends, line_height = axes.get_legend_handles_labels()[0], dict[Line2D, float](), LINE_HEIGHT / height
+    handles = axes.get_legend_handles_labels()[0]
+    ends = list[tuple[float, float, Line2D]]()  # of each line: middle of its name, half the name's height
     for line in (each for each in handles if isinstance(each, Line2D)):
         y = np.asarray(line.get_ydata(), dtype=np.float64)
         last = (axes.transData - axes.transAxes).transform((axes.get_xlim()[0], y[np.isfinite(y)][-1]))[1]
-        ends[line] = float(np.clip(last, line_height, 1.0 - line_height))
-    lines = sorted(ends, key=lambda line: -ends[line])
-    crowded = any(ends[upper] - ends[lower] < 2.0 * line_height for upper, lower in pairwise(lines))
-    if panel.equal or crowded or len(lines) < len(handles):
-        known = {str(each.get_label()): each for each in handles if each not in ends}  # filled in several pieces
-        known |= {str(each.get_label()): each for each in lines}
-        axes.legend(known.values(), known, bbox_to_anchor=(1.02, 1.0))
-        return
-    for line in lines:
-        style = {"xycoords": "axes fraction", "va": "center", "color": theme.written(str(line.get_color()))}
-        _write(axes, str(line.get_label()), (1.0, ends[line]), 5, **style)
+        half = (1 + str(line.get_label()).count("\n")) * LINE_HEIGHT / 2.0 / height
+        ends.append((float(np.clip(last, half, 1.0 - half)), half, line))
+    if len(ends) == len(handles) and not panel.equal:
+        ends.sort(key=lambda each: -each[0])
+        handles = [line for _, _, line in ends]
+        if all(upper[0] - lower[0] >= upper[1] + lower[1] for upper, lower in pairwise(ends)):
+            for end, _, line in ends:
+                style = {"xycoords": "axes fraction", "va": "center", "color": theme.written(str(line.get_color()))}
+                _write(axes, str(line.get_label()), (1.0, end), 5, **style)
+            return
+    known = {str(each.get_label()): each for each in handles}  # what is filled may be drawn in several pieces
+    axes.legend(known.values(), known, bbox_to_anchor=(1.02, 1.0))
 
 
 def place_texts(axes: Axes, panel: Panel, theme: Theme, renderer: RendererBase) -> None:
