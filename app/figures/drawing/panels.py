@@ -150,7 +150,8 @@ def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
         axes.axvline(0.0, color=theme.frame, linewidth=0.9)
     for row in panel.rows:
         left, place = 0.0, places[row.name]
-        for part in () if row.dots else row.parts or (Part("", float(np.nan_to_num(row.value)), row.hue),):
+        whole = [] if row.dots else [Part("", float(np.nan_to_num(row.value)), row.hue)]
+        for part in row.parts or whole:
             label = fill(part.title, NAME_LENGTH)
             axes.barh(place, part.value, ROW, left=left, label=label, **_bar_style(row.role, theme.drawing[part.hue]))
             left += part.value
@@ -182,8 +183,7 @@ def _draw_dots(axes: Axes, place: int, row: Row, theme: Theme) -> None:
 def _write_value(axes: Axes, place: int, row: Row, panel: Panel, theme: Theme) -> None:
     """The value of a row at its right, and those of its bounds at their ends; rounding errors are zero."""
     scale = max((abs(each.value) for each in panel.rows if np.isfinite(each.value)), default=0.0)
-    ends = [(each.value, *(each.bounds or ())) for each in panel.rows if each.name == row.name]
-    tip, unit = np.nanmax([0.0, *sum(ends, ())]), panel.x.unit
+    alike, unit = [each for each in panel.rows if each.name == row.name], panel.x.unit
     text = "not calculated"
     if np.isfinite(row.value):
         text = number(0.0 if abs(row.value) <= NOISE * scale else row.value, unit)
@@ -194,6 +194,7 @@ def _write_value(axes: Axes, place: int, row: Row, panel: Panel, theme: Theme) -
         above = _write(axes, number(high, unit), (high, place), 5, color=theme.muted, bbox=theme.patch)
         _write(axes, text, (1, 0.5), 4, xycoords=above, **strong)
     else:
+        tip = np.nanmax([0.0, *(end for each in alike for end in (each.value, *(each.bounds or ())))])
         _write(axes, text, (tip, place), 4, **strong)
 
 

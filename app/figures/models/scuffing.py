@@ -155,11 +155,11 @@ def _warned(result: Scuffing) -> list[Span]:
     """Stretches of the path whose points carry warnings, to the middle between points; the first is named."""
     psi, spans = result.path.psi, list[Span]()
     edges = np.concatenate([psi[:1], (psi[:-1] + psi[1:]) / 2.0, psi[-1:]])
-    for status, group in groupby(range(psi.size), key=result.path.status.__getitem__):
+    for status, group in groupby(range(psi.size), key=lambda place: result.path.status[place]):
         if status == "ok_with_warnings":
-            places = [*group]
-            name = "" if spans else WARNED
-            spans.append(Span(float(edges[places[0]]), float(edges[places[-1] + 1]), name))
+            places = list(group)
+            start, stop = float(edges[places[0]]), float(edges[places[-1] + 1])
+            spans.append(Span(start, stop, "" if spans else WARNED))
     return spans
 
 
