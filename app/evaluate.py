@@ -120,7 +120,7 @@ def drawn(
 ) -> bytes:
     """Solve the request and write a figure; raises Unprocessable as `evaluate` does and where there is no figure."""
     asked = request.model_copy(update={"detail": "summary"})
-    figure = rendering.figure_of(declaration, asked, evaluate(calculation, asked))
+    figure = declaration.figure(asked, evaluate(calculation, asked))
     return rendering.written(figure, image_format, theme)
 
 

@@ -2,10 +2,11 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from app.figures.data import Bars, Figure, Hue, Line, Panel, Role, Row
+from app.figures.data import Figure, Hue, Line, Panel, Role, Row
 
 OWN = "this case"
 
@@ -20,9 +21,9 @@ def compared(figure: Figure, variant: Figure, name: str) -> Figure:
         return replace(figure, finding=finding, panels=maps, beside=place == "right", unsolved=unsolved)
     others = {_key(panel): panel for panel in variant.panels}
     panels = tuple(_overlaid(panel, others.pop(_key(panel), panel), name) for panel in figure.panels)
-    alone = tuple(replace(panel, title=f"{name}: {panel.title or panel.y.title}") for panel in others.values())
-    how = "the same in" if panels + alone == figure.panels else "dashed:"
-    return replace(figure, finding=f"{how} {name} · {figure.finding}", panels=panels + alone, unsolved=unsolved)
+    panels += tuple(replace(panel, title=f"{name}: {panel.title or panel.y.title}") for panel in others.values())
+    how = "the same in" if panels == tuple(figure.panels) else "dashed:"
+    return replace(figure, finding=f"{how} {name} · {figure.finding}", panels=panels, unsolved=unsolved)
 
 
 def _key(panel: Panel) -> tuple[str, str | None]:
@@ -32,60 +33,60 @@ def _key(panel: Panel) -> tuple[str, str | None]:
 def _overlaid(panel: Panel, other: Panel, name: str) -> Panel:
     """The panel with what differs in the other one: curves, edges of what is filled, limits, its point on a plane."""
     known = {(level.name, level.value) for level in panel.levels}
-    levels = (
-        replace(each, name=f"{each.name}, {name}") for each in other.levels if (each.name, each.value) not in known
-    )
-    marks = (replace(mark, text=name, hue=Hue.VERMILLION) for mark in other.marks if panel.areas)
-    added = {
-        "lines": tuple(_lines(panel, other, name)),
-        "bars": tuple(_bars(panel, other)),
-        "rows": tuple(_rows(panel, other, name)),
-        "levels": tuple(levels),
-        "marks": tuple(marks),
+    levels = (level for level in other.levels if (level.name, level.value) not in known)
+    added: dict[str, list[Any]] = {
+        "lines": _lines(panel, other, name),
+        "bars": _bars(panel, other),
+        "rows": _rows(panel, other, name),
+        "levels": [replace(level, name=f"{level.name}, {name}") for level in levels],
+        "marks": [replace(mark, text=name, hue=Hue.VERMILLION) for mark in other.marks if panel.areas],
     }
     if other is panel or not any(added.values()):
         return panel
-    return replace(panel, **{part: getattr(panel, part) + more for part, more in added.items()})
+    both: dict[str, Any] = {part: (*getattr(panel, part), *more) for part, more in added.items()}
+    return replace(panel, **both)
 
 
-def _lines(panel: Panel, other: Panel, name: str) -> Iterator[Line]:
+def _lines(panel: Panel, other: Panel, name: str) -> list[Line]:
     """Curves and edges that this panel lacks, each in the hue of its namesake; one without a namesake is named."""
     own = [*panel.lines, *_edges(panel)]
     hues = {line.title: line.hue for line in own}
     known = {(line.x.tobytes(), line.y.tobytes()) for line in own}
-    for line in (*other.lines, *_edges(other)):
-        if (line.x.tobytes(), line.y.tobytes()) in known:
-            continue
-        if line.title in hues:
-            yield replace(line, role=Role.VARIANT, hue=hues[line.title], named=False)
-        else:
-            yield replace(line, role=Role.VARIANT, title=f"{line.title}, {name}")
+    return [
+        replace(line, role=Role.VARIANT, hue=hues[line.title], named=False)
+        if line.title in hues
+        else replace(line, role=Role.VARIANT, title=f"{line.title}, {name}")
+        for line in (*other.lines, *_edges(other))
+        if (line.x.tobytes(), line.y.tobytes()) not in known
+    ]
 
 
 def _edges(panel: Panel) -> Iterator[Line]:
     """The outlines of polygons and bands."""
     for shape in panel.shapes:
-        yield Line(shape.title, np.append(shape.x, shape.x[:1]), np.append(shape.y, shape.y[:1]), shape.hue)
+        yield replace(shape, x=np.append(shape.x, shape.x[:1]), y=np.append(shape.y, shape.y[:1]))
     for ribbon in panel.ribbons:
         yield from (Line(ribbon.title, ribbon.x, edge, ribbon.hue) for edge in (ribbon.low, ribbon.high))
 
 
-def _bars(panel: Panel, other: Panel) -> Iterator[Bars]:
+def _bars(panel: Panel, other: Panel) -> list[Line]:
     """All bars if some of them differ, because their widths depend on how many stand beside each other."""
+    if [bars.y.tobytes() for bars in panel.bars] == [bars.y.tobytes() for bars in other.bars]:
+        return []
     hues = {bars.title: bars.hue for bars in panel.bars}
-    if [bars.height.tobytes() for bars in panel.bars] != [bars.height.tobytes() for bars in other.bars]:
-        yield from (replace(bars, role=Role.VARIANT, hue=hues.get(bars.title, bars.hue)) for bars in other.bars)
+    return [replace(bars, role=Role.VARIANT, hue=hues.get(bars.title, bars.hue)) for bars in other.bars]
 
 
-def _rows(panel: Panel, other: Panel, name: str) -> Iterator[Row]:
+def _rows(panel: Panel, other: Panel, name: str) -> list[Row]:
     """Rows that differ, each over its namesake; one without a namesake is a row of its own."""
-    known = {row.name: row for row in panel.rows}
+    known, rows = {row.name: row for row in panel.rows}, []
     for row in other.rows:
         own = known.get(row.name)
         if own is None:
-            yield replace(row, name=f"{row.name}, {name}")
+            rows.append(replace(row, name=f"{row.name}, {name}"))
         elif repr((own.value, own.parts, own.bounds)) != repr((row.value, row.parts, row.bounds)):  # NaN equals NaN
-            yield replace(row, role=Role.VARIANT, hue=own.hue)
+            rows.append(replace(row, role=Role.VARIANT, hue=own.hue))
+    return rows
 
 
 def _maps(figures: dict[str, Figure]) -> tuple[Panel, ...]:

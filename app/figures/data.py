@@ -1,6 +1,7 @@
 """What a figure shows, without how it looks: panels of lines, bars, rows and maps with their limits and marks.
 
-Every number is in the unit of its axis and equals the answer's; NaN is a point without a value, and a gap.
+Every number is in the unit of its axis and equals the answer's; NaN is a point without a value, and a gap. Sequences
+are not changed once they are part of a figure.
 """
 
 import re
@@ -12,10 +13,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from app.errors import Unprocessable
+
 Values = NDArray[np.float64]
 NO_BREAK = "\u00a0"
-
-
 ThemeName = Literal["light", "dark"]
 
 
@@ -58,7 +59,7 @@ class Axis:
     log: bool = False
     magnitude: bool = True
     limits: tuple[float, float] | None = None
-    ticks: tuple[float, ...] | None = None
+    ticks: Sequence[float] | None = None
     symbol: str = ""
 
     @property
@@ -68,9 +69,22 @@ class Axis:
         return f"{title},{NO_BREAK}{self.unit}" if self.unit else title
 
 
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """A point with a text, usually the extreme with its value."""
+
+    x: float
+    y: float
+    text: str
+    hue: Hue = Hue.BLUE
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Line:
-    """A curve; a line that is not named needs no label, because its axis says what it is."""
+    """Points over an abscissa: a curve, bars or the outline of a polygon.
+
+    One that is not named needs no label, because its axis says what it is. Polygons of one title are named once.
+    """
 
     title: str
     x: Values
@@ -78,6 +92,10 @@ class Line:
     hue: Hue = Hue.BLUE
     role: Role = Role.RESULT
     named: bool = True
+
+    def mark(self, index: int, text: str) -> Mark:
+        """A mark at one of the points, in the hue of the line."""
+        return Mark(float(self.x[index]), float(self.y[index]), text, self.hue)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,28 +107,6 @@ class Ribbon:
     low: Values
     high: Values
     hue: Hue = Hue.BLUE
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Shape:
-    """A polygon, filled; shapes of one title are named once."""
-
-    title: str
-    x: Values
-    y: Values
-    hue: Hue = Hue.BLUE
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Bars:
-    """Bars side by side over an abscissa; those of `strong` are the extreme ones."""
-
-    title: str
-    x: Values
-    height: Values
-    hue: Hue = Hue.BLUE
-    strong: int | None = None
-    role: Role = Role.RESULT
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,8 +131,8 @@ class Row:
     hue: Hue = Hue.BLUE
     bounds: tuple[float, float] | None = None
     role: Role = Role.RESULT
-    parts: tuple[Part, ...] = ()
-    dots: tuple[Part, ...] = ()
+    parts: Sequence[Part] = ()
+    dots: Sequence[Part] = ()
 
 
 class Scale(StrEnum):
@@ -148,16 +144,18 @@ class Scale(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Critical:
-    """A value of a map where something happens; drawn as a dashed contour with its name at the colour bar."""
+class Level:
+    """A straight line across the panel: a limit, or a reference; `vertical` stands at an abscissa."""
 
     value: float
     name: str
+    limit: bool = False
+    vertical: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Map:
-    """Values over two coordinates, `[y][x]`.
+    """Values over two coordinates, `[y][x]`; `critical` are values at which something happens.
 
     Maps that are compared share the `range` of the colours, and the last of them shows the `bar`.
     """
@@ -168,7 +166,7 @@ class Map:
     y: Values
     values: Values
     scale: Scale = Scale.MAGNITUDE
-    critical: tuple[Critical, ...] = ()
+    critical: Sequence[Level] = ()
     range: tuple[float, float] | None = None
     bar: bool = True
 
@@ -192,32 +190,12 @@ class Map:
 
 
 @dataclass(frozen=True, slots=True)
-class Level:
-    """A straight line across the panel: a limit, or a reference; `vertical` stands at an abscissa."""
-
-    value: float
-    name: str
-    limit: bool = False
-    vertical: bool = False
-
-
-@dataclass(frozen=True, slots=True)
 class Span:
-    """A range of the abscissa that is shaded, with its reason; of the ordinate if not `vertical`."""
+    """A range of the abscissa that is shaded, with its reason."""
 
     start: float
     stop: float
     name: str
-
-
-@dataclass(frozen=True, slots=True)
-class Mark:
-    """A point with a text, usually the extreme with its value."""
-
-    x: float
-    y: float
-    text: str
-    hue: Hue = Hue.BLUE
 
 
 @dataclass(frozen=True, slots=True)
@@ -234,21 +212,21 @@ class Area:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Panel:
-    """One pair of axes and all that is drawn in it; `equal` axes show a path without distortion."""
+    """One pair of axes and all that is drawn in it; `shapes` are polygons; `equal` axes distort nothing."""
 
     x: Axis
     y: Axis
     title: str | None = None
-    lines: tuple[Line, ...] = ()
-    ribbons: tuple[Ribbon, ...] = ()
-    shapes: tuple[Shape, ...] = ()
-    bars: tuple[Bars, ...] = ()
-    rows: tuple[Row, ...] = ()
+    lines: Sequence[Line] = ()
+    ribbons: Sequence[Ribbon] = ()
+    shapes: Sequence[Line] = ()
+    bars: Sequence[Line] = ()
+    rows: Sequence[Row] = ()
     map: Map | None = None
-    areas: tuple[Area, ...] = ()
-    levels: tuple[Level, ...] = ()
-    spans: tuple[Span, ...] = ()
-    marks: tuple[Mark, ...] = ()
+    areas: Sequence[Area] = ()
+    levels: Sequence[Level] = ()
+    spans: Sequence[Span] = ()
+    marks: Sequence[Mark] = ()
     equal: bool = False
 
 
@@ -260,7 +238,7 @@ class Figure:
     """
 
     finding: str
-    panels: tuple[Panel, ...]
+    panels: Sequence[Panel]
     title: str = ""
     source: str = ""
     beside: bool = False
@@ -273,11 +251,8 @@ class Figure:
         return " · ".join(part for part in (gaps, self.finding, self.source.replace(" ", NO_BREAK)) if part)
 
 
-class NoFigure(Exception):
-    """The case lacks what the figure shows; `field` is the dotted request field that decides it."""
+class NoFigure(Unprocessable):
+    """The case lacks what the figure shows; `path` is the dotted request field that decides it."""
 
-    def __init__(self, code: str, message: str, field: str | None = None) -> None:
-        super().__init__(code, message, field)
-        self.code = code
-        self.message = message
-        self.field = field
+    def __init__(self, code: str, message: str, path: str | None = None) -> None:
+        super().__init__(code, message, path)

@@ -1,12 +1,9 @@
-"""From a request and its answer to the bytes of one of its figures; runs in a worker process."""
+"""From a figure to the bytes of an image or of a table; runs in a worker process."""
 
-from typing import Any, Literal
+from typing import Literal
 
-from app.errors import Unprocessable
-from app.figures.data import Figure, NoFigure, ThemeName
-from app.figures.declaration import Declaration
+from app.figures.data import Figure, ThemeName
 from app.figures.tables import table
-from app.schema.model import Request
 
 Format = Literal["svg", "png", "pdf", "csv"]
 MEDIA_TYPES: dict[Format, str] = {
@@ -15,14 +12,6 @@ MEDIA_TYPES: dict[Format, str] = {
     "pdf": "application/pdf",
     "csv": "text/csv; charset=utf-8",
 }
-
-
-def figure_of(declaration: Declaration, request: Request, response: Any) -> Figure:
-    """The data of a figure; raises Unprocessable where the case has none."""
-    try:
-        return declaration.figure(request, response)
-    except NoFigure as reason:
-        raise Unprocessable(reason.code, reason.message, reason.field) from reason
 
 
 def written(figure: Figure, image_format: Format, theme: ThemeName) -> bytes:

@@ -1,14 +1,15 @@
 """Sketches of machine parts, to scale: the transverse section of a gear pair, the shafts of a unit."""
 
+from itertools import pairwise
 from math import cos, pi, sin
 
 import numpy as np
 
-from app.figures.data import Axis, Figure, Hue, Line, Mark, Panel, Role, Shape, Values, values
+from app.figures.data import Axis, Figure, Hue, Line, Mark, Panel, Role, Values, values
 from app.figures.units import MM
 from app.figures.wording import number
-from solvers.drive_train.inputs import Bearing, DriveTrainInputs, JournalBearing, Shaft, UnitCoupling
-from solvers.gears.gear import Gear, RackFillet, fillet_point, root_profile
+from solvers.drive_train.inputs import Bearing, DriveTrainInputs, JournalBearing, Shaft
+from solvers.gears.gear import Gear, fillet_point, root_profile
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import PathOfContact, meshing_path
 
@@ -36,32 +37,31 @@ def transverse_section(inputs: GearPairInputs) -> Figure:
         contact = (touching - tangent) * along - (0.0, centre)
         tooth = np.arctan2(contact[1], contact[0]) + gear.half_tooth_angle(np.hypot(gear.base_radius, roll))
         outline = _placed(*_outline(inputs, teeth, gear, tooth, reach[0]), centre)
-        shapes.append(Shape(f"{name}, {gear.teeth} teeth", values(outline[0] / MM), values(outline[1] / MM), hue))
+        shapes.append(Line(f"{name}, {gear.teeth} teeth", *outline, hue))
         radius = np.hypot(gear.base_radius, np.linspace(gear.usable_roll_length, gear.tip_roll_length, POINTS))
         flank = _placed(radius, tooth - np.array([gear.half_tooth_angle(each) for each in radius]), centre)
-        lines.append(Line("usable flanks", values(flank[0] / MM), values(flank[1] / MM), Hue.GREEN, named=side > 0.0))
+        lines.append(Line("usable flanks", *flank, Hue.GREEN, named=side > 0.0))
     for title, ends, hue, role in (
         ("line of action", (0.0, pair.line_of_action), Hue.GREY, Role.REFERENCE),
         ("path of contact", (path.start, path.end), Hue.PURPLE, Role.RESULT),
     ):
         x, y = np.outer(along, np.array(ends) - tangent) / MM
-        lines.append(Line(title, values(x), values(y), hue, role))
+        lines.append(Line(title, x, y, hue, role))
     points = ((name, (roll - tangent) / MM) for name, roll in points_of_contact(path).items())
-    marks = tuple(Mark(place * cos(angle), place * sin(angle), name, Hue.PURPLE) for name, place in points)
     (across, up), ratio = reach / MM, path.transverse_contact_ratio
     panel = Panel(
         x=Axis("across the line of centres", "mm", magnitude=False, limits=(-across, across)),
         y=Axis("along the line of centres", "mm", magnitude=False, limits=(-up, up)),
-        shapes=tuple(shapes),
-        lines=tuple(lines),
-        marks=marks,
+        shapes=shapes,
+        lines=lines,
+        marks=[Mark(place * cos(angle), place * sin(angle), name, Hue.PURPLE) for name, place in points],
         equal=True,
     )
     diameters = (
         f"{name} usable from {number(2e3 * gear.form_radius, digits=4)} to {number(2e3 * gear.tip_radius, 'mm', 4)}"
         for name, gear in (("pinion", pair.pinion), ("wheel", pair.wheel))
     )
-    return Figure(f"ε_α = {number(ratio)}; {', '.join(diameters)} in diameter", (panel,))
+    return Figure(f"ε_α = {number(ratio)}; {', '.join(diameters)} in diameter", [panel])
 
 
 def points_of_contact(path: PathOfContact) -> dict[str, float]:
@@ -78,7 +78,7 @@ def points_of_contact(path: PathOfContact) -> dict[str, float]:
 def _outline(inputs: GearPairInputs, teeth: GearTeeth, gear: Gear, tooth: float, width: float) -> tuple[Values, Values]:
     """Radius [m] and polar angle [rad] of the teeth as wide as the window to both sides of one at an angle."""
     root = root_profile(inputs, teeth, gear)
-    fillet = np.array([_fillet(root.fillet, t) for t in np.linspace(0.0, root.fillet.end, POINTS)])
+    fillet = np.array([fillet_point(root.fillet, t) for t in np.linspace(0.0, root.fillet.end, POINTS)])
     flank = np.hypot(gear.base_radius, np.linspace(root.involute_roll, gear.tip_roll_length, POINTS))
     half = pi / gear.teeth
     space = np.array([half - gear.half_tooth_angle(each) for each in flank])
@@ -91,59 +91,55 @@ def _outline(inputs: GearPairInputs, teeth: GearTeeth, gear: Gear, tooth: float,
     return np.concatenate([np.tile(one[0], pitches.size), [inner, inner]]), np.append(around, around[[-1, 0]])
 
 
-def _fillet(fillet: RackFillet, t: float) -> tuple[float, float]:
-    return fillet_point(fillet, t)
-
-
-def _placed(radius: Values, angle: Values, centre: float) -> Values:
-    """Polar coordinates about a centre on the ordinate as x and y [m]."""
-    return np.array([radius * np.cos(angle), centre + radius * np.sin(angle)])
+def _placed(radius: Values, angle: Values, centre: float) -> tuple[Values, Values]:
+    """Polar coordinates [m] about a centre on the ordinate as x and y [mm]."""
+    return radius * np.cos(angle) / MM, (centre + radius * np.sin(angle)) / MM
 
 
 def shafts(inputs: DriveTrainInputs, _: object) -> Figure:
     """Shafts with their gears, bearings and coupling hubs in the plane of both axes."""
     gears = inputs.mesh.distribution.gears
     pair = meshing_path(gears).pair
-    heights = {"pinion": 0.0, "wheel": pair.centre_distance}
-    shapes, lines, marks = list[Shape](), list[Line](), list[Mark]()
-    for (name, height), shaft, gear in zip(heights.items(), inputs.shafts, (pair.pinion, pair.wheel), strict=True):
-        shapes += _sections(shaft, height)
-        start, end = inputs.face_start, inputs.face_start + gears.face_width
-        shapes.append(_box("gears", start, end, height, gear.tip_radius, Hue.SKY))
+    face_end, distance = inputs.face_start + gears.face_width, pair.centre_distance
+    shapes, lines, marks = list[Line](), list[Line](), list[Mark]()
+    for name, height, shaft, gear in zip(
+        ("pinion", "wheel"), (0.0, distance), inputs.shafts, (pair.pinion, pair.wheel), strict=True
+    ):
+        ends = shaft.start + np.cumsum([0.0, *(each.length for each in shaft.sections)])
+        for (start, end), each in zip(pairwise(ends), shaft.sections, strict=True):
+            shapes.append(_box("shafts", start, end, height, each.outer_diameter / 2.0, Hue.GREY))
+        shapes.append(_box("gears", inputs.face_start, face_end, height, gear.tip_radius, Hue.SKY))
         hubs = [each for each in inputs.couplings if each.shaft == name]
-        shapes += [_hub(each, height) for each in hubs]
+        for hub in hubs:
+            design, place, half = hub.coupling, hub.position, hub.coupling.face_width / 2.0
+            radius = design.teeth * design.module / 2.0
+            shapes.append(_box("coupling hubs", place - half, place + half, height, radius, Hue.ORANGE))
         shapes += [_bearing(each, shaft, height) for each in shaft.bearings]
         marks += [Mark(each.position / MM, height / MM, f"{place}") for place, each in enumerate(shaft.bearings, 1)]
-        ends = [shaft.start, shaft.end, *(_machine(each) for each in hubs)]
-        axis = values([min(ends) / MM, max(ends) / MM]), values([height / MM] * 2)
-        lines.append(Line("axis", *axis, Hue.GREY, Role.REFERENCE, named=False))
-        marks += [Mark(_machine(each) / MM, height / MM, "machine", Hue.ORANGE) for each in hubs]
+        machines = [
+            each.position + each.coupling.hub_distance * (1.0 if each.machine_side == "plus" else -1.0) for each in hubs
+        ]
+        marks += [Mark(each / MM, height / MM, "machine", Hue.ORANGE) for each in machines]
+        far = values([min(shaft.start, shaft.end, *machines) / MM, max(shaft.start, shaft.end, *machines) / MM])
+        lines.append(Line("axis", far, values([height / MM] * 2), Hue.GREY, Role.REFERENCE, named=False))
     panel = Panel(
         x=Axis("position along Z", "mm", magnitude=False),
         y=Axis("height above the axis of the pinion", "mm", magnitude=False),
-        shapes=tuple(shapes),
-        lines=tuple(lines),
-        marks=tuple(marks),
+        shapes=shapes,
+        lines=lines,
+        marks=marks,
         equal=True,
     )
-    return Figure(f"pinion below, wheel {number(pair.centre_distance / MM, 'mm', digits=4)} above it", (panel,))
+    return Figure(f"pinion below, wheel {number(distance / MM, 'mm', digits=4)} above it", [panel])
 
 
-def _box(title: str, start: float, end: float, height: float, radius: float, hue: Hue) -> Shape:
+def _box(title: str, start: float, end: float, height: float, radius: float, hue: Hue) -> Line:
     """A cylinder seen from the side; lengths [m]."""
     x, y = np.array([start, end, end, start]) / MM, (height + radius * np.array([-1.0, -1.0, 1.0, 1.0])) / MM
-    return Shape(title, values(x), values(y), hue)
+    return Line(title, x, y, hue)
 
 
-def _sections(shaft: Shaft, height: float) -> list[Shape]:
-    ends = shaft.start + np.cumsum([0.0, *(each.length for each in shaft.sections)])
-    return [
-        _box("shafts", float(ends[place]), float(ends[place + 1]), height, each.outer_diameter / 2.0, Hue.GREY)
-        for place, each in enumerate(shaft.sections)
-    ]
-
-
-def _bearing(bearing: Bearing, shaft: Shaft, height: float) -> Shape:
+def _bearing(bearing: Bearing, shaft: Shaft, height: float) -> Line:
     """A plain bearing as long as it is; another one a triangle under the shaft."""
     place = bearing.position
     if isinstance(bearing, JournalBearing):
@@ -152,16 +148,4 @@ def _bearing(bearing: Bearing, shaft: Shaft, height: float) -> Shape:
     ends = shaft.start + np.cumsum([each.length for each in shaft.sections])
     diameter = shaft.sections[min(int(np.searchsorted(ends, place)), len(ends) - 1)].outer_diameter
     x, y = place + diameter * np.array([-0.5, 0.5, 0.0]), height - diameter * np.array([1.4, 1.4, 0.5])
-    return Shape("bearings", values(x / MM), values(y / MM), Hue.BLUE)
-
-
-def _hub(coupling: UnitCoupling, height: float) -> Shape:
-    """The teeth of the hub."""
-    design, place = coupling.coupling, coupling.position
-    radius, half = design.teeth * design.module / 2.0, design.face_width / 2.0
-    return _box("coupling hubs", place - half, place + half, height, radius, Hue.ORANGE)
-
-
-def _machine(coupling: UnitCoupling) -> float:
-    """Where the machine's hub is [m]."""
-    return coupling.position + coupling.coupling.hub_distance * (1.0 if coupling.machine_side == "plus" else -1.0)
+    return Line("bearings", x / MM, y / MM, Hue.BLUE)

@@ -5,21 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.figures.data import (
-    ORDER,
-    Axis,
-    Figure,
-    Hue,
-    Level,
-    Line,
-    NoFigure,
-    Panel,
-    Part,
-    Ribbon,
-    Row,
-    Span,
-    values,
-)
+from app.figures.data import ORDER, Axis, Figure, Hue, Level, Line, NoFigure, Panel, Part, Ribbon, Row, Span, Values
 from app.figures.wording import number, percent
 
 BAND = 1.6448536  # deviations from 5 to 50 %
@@ -49,7 +35,7 @@ class Chance:
     @property
     def is_tiny(self) -> bool:
         """Whether it is not to be told from none, but is no count of none."""
-        most = self.high if self.interval is None else max(self.high, self.interval[1])
+        most: float = max((self.high, *(self.interval or ())))
         return 0.0 < most < LEAST
 
     @property
@@ -63,8 +49,8 @@ class Chance:
 
     def row(self, name: str, hue: Hue) -> Row:
         """The larger bound, with the interval, in per cent."""
-        bounds = self.interval if self.interval is not None else (self.low, self.high)
-        return Row(name, 100.0 * self.high, hue, (100.0 * bounds[0], 100.0 * bounds[1]))
+        low, high = self.interval or (self.low, self.high)
+        return Row(name, 100.0 * self.high, hue, (100.0 * low, 100.0 * high))
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,53 +83,54 @@ class Limited:
     influences: dict[str, float] = field(default_factory=dict)
 
     @property
+    def side(self) -> str:
+        """On which side of the limit it must not be."""
+        return "above" if self.above else "below"
+
+    @property
     def sentence(self) -> str:
         """The probability in words."""
-        side = "above" if self.above else "below"
-        interval = self.chance.interval
-        known = interval is not None and not self.chance.is_tiny
-        reach = f", 90 % interval {percent(interval[0])} to {percent(interval[1])}" if interval and known else ""
-        return f"probability of being {side} the limit {self.chance.text}{reach}: {self.risk} risk"
+        interval = None if self.chance.is_tiny else self.chance.interval
+        reach = f", 90 % interval {percent(interval[0])} to {percent(interval[1])}" if interval else ""
+        return f"probability of being {self.side} the limit {self.chance.text}{reach}: {self.risk} risk"
 
 
 def overlap(found: Limited) -> Figure:
     """The densities of the worst case and of the limit, and below them the band of every case."""
     axis = replace(found.output, magnitude=False)
-    cases = [each for each in found.cases if each.band is not None]
-    if not cases:
+    rows = [
+        Row(each.name, each.band.middle, Hue.BLUE, (each.band.low, each.band.high))
+        for each in found.cases
+        if each.band is not None
+    ]
+    if not rows:
         raise NoFigure("no_solution", "no case has a solution")
     panels = [_densities(found, axis)] if found.deviation or found.edges else []
-    rows = tuple(
-        Row(each.name, each.band.middle, Hue.BLUE, (each.band.low, each.band.high)) for each in cases if each.band
-    )
-    name = f"limit {number(found.mean, found.output.unit or '')}"
-    spans: tuple[Span, ...] = ()
-    if found.deviation:
-        reach = BAND * found.deviation
-        spans = (Span(found.mean - reach, found.mean + reach, ""),)
-    levels = (Level(found.mean, name, limit=True, vertical=True),)
+    levels = [Level(found.mean, f"limit {number(found.mean, axis.unit)}", limit=True, vertical=True)]
+    reach = BAND * (found.deviation or 0.0)
+    spans = [Span(found.mean - reach, found.mean + reach, "")] if reach else []
     panels.append(Panel(x=axis, y=Axis("case"), rows=rows, spans=spans, levels=levels))
     title = f"{found.output.title[0].upper()}{found.output.title[1:]} against its limit"
-    return Figure(f"{found.sentence}; bars to the median, lines and shade from 5 to 95 %", tuple(panels), title=title)
+    return Figure(f"{found.sentence}; bars to the median, lines and shade from 5 to 95 %", panels, title=title)
 
 
 def _densities(found: Limited, axis: Axis) -> Panel:
     """What the worst case reaches and what the limit is, as densities scaled to one height."""
-    ribbons, lines, levels = [], [], []
+    curves, levels = list[tuple[str, Values, Values, Hue]](), list[Level]()
     if found.edges:
-        x = np.repeat(found.edges, 2)
         y = np.concatenate([[0.0], np.repeat(np.array(found.density) / max(found.density), 2), [0.0]])
-        ribbons.append(Ribbon("worst case", values(x), values(np.zeros_like(y)), values(y), Hue.BLUE))
-        lines.append(Line("worst case", values(x), values(y), Hue.BLUE))
+        curves.append(("worst case", np.repeat(found.edges, 2), y, Hue.BLUE))
     if found.deviation:
         x = found.mean + found.deviation * np.linspace(-REACH, REACH, CURVE_POINTS)
-        y = np.exp(-(((x - found.mean) / found.deviation) ** 2) / 2.0)
-        ribbons.append(Ribbon("limit", values(x), values(np.zeros_like(y)), values(y), Hue.VERMILLION))
-        lines.append(Line("limit", values(x), values(y), Hue.VERMILLION))
+        curves.append(("limit", x, np.exp(-(((x - found.mean) / found.deviation) ** 2) / 2.0), Hue.VERMILLION))
     else:
         levels.append(Level(found.mean, "", limit=True, vertical=True))
     return Panel(
-        x=axis, y=Axis("density over its largest"), ribbons=tuple(ribbons), lines=tuple(lines), levels=tuple(levels)
+        x=axis,
+        y=Axis("density over its largest"),
+        ribbons=[Ribbon(title, x, np.zeros_like(y), y, hue) for title, x, y, hue in curves],
+        lines=[Line(*curve) for curve in curves],
+        levels=levels,
     )
 
 
@@ -151,39 +138,36 @@ def chances(found: Limited) -> Figure:
     """The probability of each case as if it were alone, and of the spectrum."""
     if found.chance.is_tiny:
         raise NoFigure("tiny", f"the probability is {found.chance.text} in every case")
-    rows = (*(each.chance.row(each.name, Hue.BLUE) for each in found.cases), found.chance.row(SPECTRUM, Hue.VERMILLION))
-    side = "above" if found.above else "below"
-    panel = Panel(x=Axis(f"probability of being {side} the limit", "%"), y=Axis("case"), rows=rows)
+    rows = [each.chance.row(each.name, Hue.BLUE) for each in found.cases]
+    rows.append(found.chance.row(SPECTRUM, Hue.VERMILLION))
+    panel = Panel(x=Axis(f"probability of being {found.side} the limit", "%"), y=Axis("case"), rows=rows)
     finding = "each case as if it were alone; of the spectrum the worst case of each machine counts"
-    return Figure(finding, (panel,), title=f"Probability: {found.output.title} {side} its limit")
+    return Figure(finding, [panel], title=f"Probability: {found.output.title} {found.side} its limit")
 
 
 def deciding(found: Limited) -> Figure:
     """How often each case is the worst one, and which tolerance goes with it."""
-    known = [each for each in found.cases if each.decides is not None]
-    if not known:
+    rows = [Row(each.name, 100.0 * each.decides) for each in found.cases if each.decides is not None]
+    if not rows:
         raise NoFigure("no_solution", "no machine is solved in every case")
-    rows = tuple(Row(each.name, 100.0 * (each.decides or 0.0)) for each in known)
     panels = [Panel(x=Axis("machines whose worst case it is", "%"), y=Axis("case"), rows=rows)]
+    most = max(rows, key=lambda row: row.value)
+    finding = f"{most.name} in {number(most.value, '%')} of the machines"
     strongest = sorted(found.influences.items(), key=lambda each: -abs(each[1]))[:NAMED]
     if strongest:
         axis = Axis("rank correlation with the worst case")
-        panels.append(Panel(x=axis, y=Axis("tolerance"), rows=tuple(Row(name, value) for name, value in strongest)))
-    most = max(known, key=lambda each: each.decides or 0.0)
-    finding = f"{most.name} in {percent(most.decides or 0.0)} of the machines" + (
-        f"; {strongest[0][0]} matters most" if strongest else ""
-    )
-    return Figure(finding, tuple(panels), title="What decides")
+        panels.append(Panel(x=axis, y=Axis("tolerance"), rows=[Row(name, value) for name, value in strongest]))
+        finding += f"; {strongest[0][0]} matters most"
+    return Figure(finding, panels, title="What decides")
 
 
 def losses(cases: dict[str, dict[str, float]], mean: dict[str, float], energy: float | None) -> Figure:
     """Mean losses [kW] by their kinds, of every case and over the operating time; with the energy of a year [MWh]."""
-    kinds = list(mean)
-    hues = {kind: ORDER[place % len(ORDER)] for place, kind in enumerate(kinds)}
-    rows = tuple(
-        Row(name, sum(own.values()), parts=tuple(Part(kind, own[kind], hues[kind]) for kind in kinds if kind in own))
-        for name, own in (*cases.items(), (SPECTRUM, mean))
-    )
+    hues = {kind: ORDER[place % len(ORDER)] for place, kind in enumerate(mean)}
+    rows = []
+    for name, own in (*cases.items(), (SPECTRUM, mean)):
+        shares = [Part(kind, own[kind], hue) for kind, hue in hues.items() if kind in own]
+        rows.append(Row(name, sum(own.values()), parts=shares))
     year = "" if energy is None else f", {number(energy, 'MWh')} a year"
     finding = f"{number(sum(mean.values()), 'kW')} over the operating time{year}"
-    return Figure(finding, (Panel(x=Axis("mean loss", "kW"), y=Axis("case"), rows=rows),), title="Mean losses")
+    return Figure(finding, [Panel(x=Axis("mean loss", "kW"), y=Axis("case"), rows=rows)], title="Mean losses")

@@ -6,11 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from app.figures import parts
 from app.figures.data import (
     NO_BREAK,
     ORDER,
     Axis,
-    Critical,
     Figure,
     Hue,
     Level,
@@ -24,13 +24,14 @@ from app.figures.data import (
     Row,
     Span,
     Values,
-    values,
 )
-from app.figures.parts import extreme, extreme_of_map
 from app.figures.wording import listed, number
 
 MOST_CURVES = 6  # beyond it two fields make a map
 FLAT = 0.5  # of the largest value: an output that stays above it is not drawn from zero
+MOST_ROWS = 12  # of bars that can be read at once
+NAMED = 3  # in the finding
+STAR = f"{NO_BREAK}*"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,13 +49,7 @@ class Coordinate:
 
     def named(self, index: int) -> str:
         """A value as people read it."""
-        return self.words[index] if self.words else number(float(self.values[index]), self.axis.unit or "")
-
-    @property
-    def span(self) -> str:
-        """From the first value to the last."""
-        low, high = (float(self.values[end]) for end in (0, -1))
-        return f"{number(low)} to {number(high, self.axis.unit or '')}"
+        return self.words[index] if self.words else number(float(self.values[index]), self.axis.unit)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -101,83 +96,85 @@ def figures_of(grid: Grid) -> dict[str, Figure]:
 
 def curve(grid: Grid) -> Figure:
     """The output along the field; shaded where it does not hold, with rings where it is doubtful."""
-    line = Line(grid.output.title, grid.x.values, grid.values, named=False)
-    panel = Panel(
-        x=grid.x.axis,
-        y=_ordinate(grid),
-        lines=(line,),
-        levels=(*_limit(grid), *_own(grid.x)),
-        spans=_invalid(grid),
-        marks=(*_doubtful(grid), *_crossings(grid), *extreme([line], grid.output.unit, least=not grid.greatest)),
-    )
-    return _figure(grid, f"{grid.output.title} over {grid.x.axis.title}", panel)
+    x, own = grid.x, grid.x.own
+    line = Line(grid.output.title, x.values, grid.values, named=False)
+    levels, spans, start = _limit(grid), list[Span](), 0
+    if own is not None and x.values[0] <= own <= x.values[-1]:
+        levels.append(Level(own, f"this case: {number(own, x.axis.unit)}", vertical=True))
+    for reason, group in groupby(grid.invalid):
+        stop = start + len(list(group))
+        if reason is not None:
+            spans.append(Span(float(x.values[start]), float(x.values[stop - 1]), reason))
+        start = stop
+    doubtful = [at for at, doubt in enumerate(grid.doubtful) if doubt and np.isfinite(grid.values[at])]
+    rings = [replace(line.mark(at, ""), hue=Hue.ORANGE) for at in doubtful]
+    crossings = [Mark(at, grid.limit or 0.0, number(at, x.axis.unit)) for at in _crossings(grid)]
+    finding = _finding(grid)
+    if grid.best is not None and any(grid.doubtful):
+        finding += "; orange rings: doubtful, a limit of validity is left"
+    if grid.best is not None and crossings:
+        finding = f"crosses its limit at {listed([each.text for each in crossings])}; {finding}"
+    marks = [*rings, *crossings, *parts.extreme([line], grid.output.unit, least=not grid.greatest)]
+    panel = Panel(x=x.axis, y=_ordinate(grid), lines=[line], levels=levels, spans=spans, marks=marks)
+    return _figure(grid, f"{grid.output.title} over {x.axis.title}", panel, finding)
 
 
 def family(grid: Grid, y: Coordinate) -> Figure:
     """A curve for each value of the second field."""
-    lines = tuple(
-        Line(y.named(index), grid.x.values, values(grid.values[:, index]), ORDER[index % len(ORDER)])
+    lines = [
+        Line(y.named(index), grid.x.values, grid.values[:, index], ORDER[index % len(ORDER)])
         for index in range(y.values.size)
-    )
-    marks = extreme(lines, grid.output.unit, least=not grid.greatest)
+    ]
+    marks = parts.extreme(lines, grid.output.unit, least=not grid.greatest)
     panel = Panel(x=grid.x.axis, y=_ordinate(grid), lines=lines, levels=_limit(grid), marks=marks)
-    return _figure(grid, f"{grid.output.title} over {grid.x.axis.title}, by {y.axis.title}", panel)
+    title = f"{grid.output.title} over {grid.x.axis.title}, by {y.axis.title}"
+    return _figure(grid, title, panel, _finding(grid))
 
 
 def chart(grid: Grid, y: Coordinate) -> Figure:
     """The output over both fields as a map with its best point."""
-    unit = grid.output.unit
+    x, output = grid.x, grid.output
     finite = grid.values[np.isfinite(grid.values)]
-    ends = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
-    colours = Map(
-        grid.output.title,
-        unit,
-        grid.x.values,
-        y.values,
-        values(grid.values.T),
-        critical=() if grid.limit is None else (Critical(grid.limit, f"limit {number(grid.limit)}"),),
-        range=ends if ends[1] > ends[0] else (ends[0] - 0.5, ends[0] + 0.5),
-    )
-    marks = () if grid.best is None else (extreme_of_map(colours, least=not grid.greatest),)
-    if grid.x.own is not None and y.own is not None:
-        marks = (*marks, Mark(grid.x.own, y.own, "as described", Hue.VERMILLION))
-    panel = Panel(x=grid.x.axis, y=y.axis, map=colours, marks=marks)
-    return _figure(grid, f"{grid.output.title} over {grid.x.axis.title} and {y.axis.title}", panel)
+    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    ends = (low, high) if high > low else (low - 0.5, low + 0.5)
+    critical = [] if grid.limit is None else [Level(grid.limit, f"limit {number(grid.limit)}")]
+    colours = Map(output.title, output.unit, x.values, y.values, grid.values.T, critical=critical, range=ends)
+    marks = [] if grid.best is None else [parts.extreme_of_map(colours, least=not grid.greatest)]
+    if x.own is not None and y.own is not None:
+        marks.append(Mark(x.own, y.own, "as described", Hue.VERMILLION))
+    title = f"{output.title} over {x.axis.title} and {y.axis.title}"
+    return _figure(grid, title, Panel(x=x.axis, y=y.axis, map=colours, marks=marks), _finding(grid))
 
 
 def worst(grid: Grid, y: Coordinate) -> Figure:
     """For each value of the second field the worst along the first; unknown where a point of it is."""
-    x, unit = grid.x, grid.output.unit or ""
-    reached = values(grid.values.min(axis=0) if grid.greatest else grid.values.max(axis=0))
+    x, finding = grid.x, ""
+    reached = grid.values.min(axis=0) if grid.greatest else grid.values.max(axis=0)
     lines = [Line("worst", y.values, reached, ORDER[1])]
     if x.own is not None and (at := np.flatnonzero(np.isclose(x.values, x.own))).size:
-        lines.append(Line(f"at {x.named(int(at[0]))}", y.values, values(grid.values[at[0]]), ORDER[0]))
-    marks, finding = extreme(lines[:1], unit, least=not grid.greatest), ""
+        lines.append(Line(f"at {x.named(int(at[0]))}", y.values, grid.values[at[0]], ORDER[0]))
+    marks = parts.extreme(lines[:1], grid.output.unit, least=not grid.greatest)
     for mark in marks:
         side = "above" if grid.greatest else "below"
         place = y.named(int(np.flatnonzero(y.values == mark.x)[0]))
         finding = f"{y.axis.title} {place} keeps {grid.output.title} {side} {mark.text}"
-    panel = Panel(x=y.axis, y=_ordinate(grid), lines=tuple(lines), levels=_limit(grid), marks=marks)
-    title = f"Which {y.axis.title} forgives {x.axis.title} from {x.span}?"
-    return Figure(finding, (panel,), title=title, unsolved=grid.unsolved)
+    panel = Panel(x=y.axis, y=_ordinate(grid), lines=lines, levels=_limit(grid), marks=marks)
+    span = f"{number(float(x.values[0]))} to {number(float(x.values[-1]), x.axis.unit)}"
+    return _figure(grid, f"Which {y.axis.title} forgives {x.axis.title} from {span}?", panel, finding)
 
 
-def _figure(grid: Grid, title: str, panel: Panel) -> Figure:
-    return Figure(_finding(grid), (panel,), title=title[0].upper() + title[1:], unsolved=grid.unsolved)
+def _figure(grid: Grid, title: str, panel: Panel, finding: str) -> Figure:
+    return Figure(finding, [panel], title=title[0].upper() + title[1:], unsolved=grid.unsolved)
 
 
 def _finding(grid: Grid) -> str:
+    """The best value and where it is."""
     if grid.best is None:
         return ""
-    fields = (grid.x,) if grid.y is None else (grid.x, grid.y)
-    places = ", ".join(
-        f"{field.axis.title} {field.named(index)}" for field, index in zip(fields, grid.best, strict=True)
-    )
-    value = number(float(grid.values[grid.best]), grid.output.unit or "")
-    rings = "; orange rings: doubtful, a limit of validity is left" if any(grid.doubtful) else ""
-    best = f"{'greatest' if grid.greatest else 'least'} {value} at {places}{rings}"
-    crossed = [each.text for each in _crossings(grid)]
-    return f"crosses its limit at {listed(crossed)}; {best}" if crossed else best
+    fields = [grid.x] if grid.y is None else [grid.x, grid.y]
+    places = [f"{field.axis.title} {field.named(index)}" for field, index in zip(fields, grid.best, strict=True)]
+    value = number(float(grid.values[grid.best]), grid.output.unit)
+    return f"{'greatest' if grid.greatest else 'least'} {value} at {', '.join(places)}"
 
 
 def _ordinate(grid: Grid) -> Axis:
@@ -187,50 +184,21 @@ def _ordinate(grid: Grid) -> Axis:
     return replace(grid.output, magnitude=not flat)
 
 
-def _limit(grid: Grid) -> tuple[Level, ...]:
+def _limit(grid: Grid) -> list[Level]:
     if grid.limit is None:
-        return ()
-    return (Level(grid.limit, f"limit {number(grid.limit, grid.output.unit or '')}", limit=True),)
+        return []
+    return [Level(grid.limit, f"limit {number(grid.limit, grid.output.unit)}", limit=True)]
 
 
-def _own(x: Coordinate) -> tuple[Level, ...]:
-    """Where the case itself stands."""
-    if x.own is None or not x.values[0] <= x.own <= x.values[-1]:
-        return ()
-    return (Level(x.own, f"this case: {number(x.own, x.axis.unit or '')}", vertical=True),)
-
-
-def _crossings(grid: Grid) -> tuple[Mark, ...]:
+def _crossings(grid: Grid) -> list[float]:
     """Where a curve crosses its limit, on straight lines between its points."""
-    if grid.limit is None or grid.y is not None or grid.x.words:
-        return ()
+    if grid.limit is None or grid.x.words:
+        return []
     x, beyond = grid.x.values, grid.values - grid.limit
     before = np.flatnonzero(beyond[:-1] * beyond[1:] < 0.0)
     share = beyond[before] / (beyond[before] - beyond[before + 1])
-    places = x[before] + share * (x[before + 1] - x[before])
-    return tuple(Mark(float(place), grid.limit, number(float(place), grid.x.axis.unit or "")) for place in places)
-
-
-def _doubtful(grid: Grid) -> tuple[Mark, ...]:
-    """The points at which a limit of validity is left."""
-    points = zip(grid.x.values, grid.values, grid.doubtful, strict=False)
-    return tuple(Mark(float(x), float(y), "", Hue.ORANGE) for x, y, doubtful in points if doubtful and np.isfinite(y))
-
-
-def _invalid(grid: Grid) -> tuple[Span, ...]:
-    """Runs of points without meaning for the same reason."""
-    x, spans, start = grid.x.values, [], 0
-    for reason, group in groupby(grid.invalid):
-        stop = start + len(list(group))
-        if reason is not None:
-            spans.append(Span(float(x[start]), float(x[stop - 1]), reason))
-        start = stop
-    return tuple(spans)
-
-
-MOST_ROWS = 12  # of bars that can be read at once
-NAMED = 3  # in the finding
-STAR = f"{NO_BREAK}*"
+    places: list[float] = (x[before] + share * (x[before + 1] - x[before])).tolist()
+    return places
 
 
 @dataclass(frozen=True, slots=True)
@@ -246,21 +214,17 @@ class Influence:
 def influence(output: Axis, value: float, found: list[Influence]) -> Figure:
     """Horizontal bars in the hue of their sign, the most influential input first; a star where the sides differ."""
     moving = [each for each in found if each.change][:MOST_ROWS]
-    rows = tuple(
-        Row(
-            f"{each.name}, {each.step.replace(' ', NO_BREAK)}{STAR if each.kink else ''}",
-            each.change,
-            Hue.BLUE if each.change > 0.0 else Hue.VERMILLION,
-        )
-        for each in moving
-    )
     title = f"What moves the {output.title} most"
-    if not rows:
-        return Figure("nothing does", (), title=title)
+    if not moving:
+        return Figure("nothing does", [], title=title)
+    rows = []
+    for each in moving:
+        name = f"{each.name}, {each.step.replace(' ', NO_BREAK)}{STAR if each.kink else ''}"
+        rows.append(Row(name, each.change, Hue.BLUE if each.change > 0.0 else Hue.VERMILLION))
     kinks = f";{STAR} a step down changes it by another amount" if any(each.kink for each in moving) else ""
-    finding = f"{number(value, output.unit or '')} now; {listed([each.name for each in moving[:NAMED]])} first{kinks}"
+    finding = f"{number(value, output.unit)} now; {listed([each.name for each in moving[:NAMED]])} first{kinks}"
     axis = Axis(f"change of the {output.title} by one step up, from the steeper side", output.unit)
-    return Figure(finding, (Panel(x=axis, y=axis, rows=rows),), title=title)
+    return Figure(finding, [Panel(x=axis, y=axis, rows=rows)], title=title)
 
 
 @dataclass(frozen=True, slots=True)
@@ -274,22 +238,19 @@ class Uncertain:
 
 def corners(output: Axis, found: list[Uncertain], nominal: float | None) -> Figure:
     """A line for each input, from the worst output with one of its values to that with another; the case as it is."""
-    unit = output.unit or ""
-    rows = tuple(
-        Row(
-            each.name,
-            each.worst[each.decides],
-            dots=tuple(
-                Part(text, worst, Hue.VERMILLION if text == each.decides else Hue.BLUE)
-                for text, worst in each.worst.items()
-            ),
-        )
-        for each in found
-    )
-    levels = () if nominal is None else (Level(nominal, f"as described {number(nominal, unit)}", vertical=True),)
-    finding = f"worst {number(rows[0].value, unit)}, where the values in red meet"
+    rows = []
+    for each in found:
+        dots = [
+            Part(text, reached, Hue.VERMILLION if text == each.decides else Hue.BLUE)
+            for text, reached in each.worst.items()
+        ]
+        rows.append(Row(each.name, each.worst[each.decides], dots=dots))
+    levels = []
+    if nominal is not None:
+        levels = [Level(nominal, f"as described {number(nominal, output.unit)}", vertical=True)]
+    finding = f"worst {number(rows[0].value, output.unit)}, where the values in red meet"
     panel = Panel(x=replace(output, magnitude=False), y=Axis("uncertain input"), rows=rows, levels=levels)
-    return Figure(finding, (panel,), title="The worst that each uncertain input can lead to")
+    return Figure(finding, [panel], title="The worst that each uncertain input can lead to")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -306,7 +267,7 @@ class LeadTrace:
     def depth(self, slope: float, crowning: float) -> Values:
         """Material to remove below the plain helix at the middle of the face [um]."""
         eta = self.face_fraction - 0.5
-        return values(slope * eta + 4.0 * crowning * eta**2)
+        return slope * eta + 4.0 * crowning * eta**2
 
 
 def lead_chart(trace: LeadTrace, before: tuple[float, float], ends: tuple[str, str]) -> Figure:
@@ -314,20 +275,20 @@ def lead_chart(trace: LeadTrace, before: tuple[float, float], ends: tuple[str, s
 
     `before` are slope and crowning as described, `ends` what the ends of the face are called.
     """
-    wanted = -trace.depth(trace.slope, trace.crowning)
+    z, wanted = trace.position, -trace.depth(trace.slope, trace.crowning)
     off = trace.depth(0.0, trace.crowning_tolerance) + np.abs(trace.depth(trace.slope_tolerance, 0.0))
     panel = Panel(
         x=Axis("position on the unit's axis Z", "mm", magnitude=False),
         y=Axis("flank, removed material downwards", "µm", magnitude=False),
-        lines=(
-            Line("to grind", trace.position, values(wanted)),
-            Line("as described", trace.position, values(-trace.depth(*before)), Hue.GREY, Role.REFERENCE),
-        ),
-        ribbons=(Ribbon("tolerance", trace.position, values(wanted - off), values(wanted + off)),),
+        lines=[
+            Line("to grind", z, wanted),
+            Line("as described", z, -trace.depth(*before), Hue.GREY, Role.REFERENCE),
+        ],
+        ribbons=[Ribbon("tolerance", z, wanted - off, wanted + off)],
     )
-    low, high = sorted(zip(trace.position[[0, -1]], ends, strict=True))
+    low, high = sorted(zip(z[[0, -1]], ends, strict=True))
     finding = f"left {low[1]}, right {high[1]}; shaded: tolerances"
-    return Figure(finding, (panel,), title="Lead chart of the pinion's working flank")
+    return Figure(finding, [panel], title="Lead chart of the pinion's working flank")
 
 
 class Tried(NamedTuple):
@@ -341,18 +302,12 @@ def search(output: Axis, tried: list[Tried], *, greatest: bool) -> Figure:
     """The corrections in the order in which they were tried."""
     reached = np.array([each.reached if each.solved else np.nan for each in tried])
     so_far = np.fmax.accumulate(reached) if greatest else np.fmin.accumulate(reached)
-    order = values(np.arange(1, reached.size + 1, dtype=np.float64))
-    unit = output.unit or ""
-    lines = (
-        Line("tried", order, values(reached), Hue.GREY, Role.REFERENCE),
-        Line("best so far", order, values(so_far), Hue.BLUE),
-    )
-    panel = Panel(
-        x=Axis("correction tried", magnitude=False),
-        y=replace(output, title=f"{output.title} at the worst corner", magnitude=False),
-        lines=lines,
-        marks=tuple(replace(mark, hue=Hue.BLUE) for mark in extreme(lines[:1], unit, least=not greatest)),
-    )
-    finding = f"from {number(float(reached[0]), unit)} to {number(float(so_far[-1]), unit, digits=4)}"
+    order = np.arange(1, reached.size + 1, dtype=np.float64)
+    lines = [Line("tried", order, reached, Hue.GREY, Role.REFERENCE), Line("best so far", order, so_far)]
+    marks = [replace(mark, hue=Hue.BLUE) for mark in parts.extreme(lines[:1], output.unit, least=not greatest)]
+    x = Axis("correction tried", magnitude=False)
+    y = replace(output, title=f"{output.title} at the worst corner", magnitude=False)
+    panel = Panel(x=x, y=y, lines=lines, marks=marks)
+    finding = f"from {number(float(reached[0]), output.unit)} to {number(float(so_far[-1]), output.unit, digits=4)}"
     unsolved = sum(not each.solved for each in tried)
-    return Figure(finding, (panel,), title="What the search reached at the worst corner", unsolved=unsolved)
+    return Figure(finding, [panel], title="What the search reached at the worst corner", unsolved=unsolved)

@@ -25,9 +25,9 @@ def shown(data: T) -> T:
     return converted
 
 
-def axis(kind: Any, name: str, title: str = "", **known: Any) -> Axis:
-    """The axis of a declared quantity: its unit, its title unless another is given, its symbol likewise."""
-    declared = quantities(kind)[name]
+def axis(data: Any, name: str, title: str = "", **known: Any) -> Axis:
+    """The axis of a quantity that a dataclass declares: its unit, its symbol, its title unless another is given."""
+    declared = quantities(data if isinstance(data, type) else type(data))[name]
     unit = UNITS[declared.unit].symbol if declared.unit else None
     return Axis(title or declared.title, unit, **{"symbol": declared.symbol or "", **known})
 
@@ -38,9 +38,16 @@ def axis_of(leaf: Leaf, **known: Any) -> Axis:
 
 
 def _converted(value: Any, declared: Quantity | None) -> Any:
-    """A value in its unit; `declared` is that of the field that holds it."""
+    """A value in its unit; `declared` is that of the field that holds it, which counts where one inside has none."""
     if is_dataclass(value) and not isinstance(value, type):
-        return _copy(value, declared)
+        kind: Any = type(value)
+        known = quantities(kind)
+        copy = object.__new__(_plain(kind))
+        for name in {*(each.name for each in fields(value)), *known}:
+            own = known.get(name)
+            inner = own if declared is None or (own is not None and own.unit is not None) else declared
+            object.__setattr__(copy, name, _converted(getattr(value, name), inner))
+        return copy
     if isinstance(value, tuple | list):
         return tuple(_converted(item, declared) for item in value)
     if declared is None or not isinstance(value, float | np.ndarray):
@@ -48,24 +55,8 @@ def _converted(value: Any, declared: Quantity | None) -> Any:
     return declared.from_si(value)
 
 
-def _copy(data: Any, outer: Quantity | None) -> Any:
-    """The copy; `outer` declares what has no unit of its own."""
-    kind: Any = type(data)
-    declared = quantities(kind)
-    copy = object.__new__(_plain(kind))
-    for name in (*(each.name for each in fields(data)), *_computed(kind)):
-        own = declared.get(name)
-        known = outer if outer is not None and (own is None or own.unit is None) else own
-        object.__setattr__(copy, name, _converted(getattr(data, name), known))
-    return copy
-
-
-def _computed(kind: Any) -> list[str]:
-    held = {each.name for each in fields(kind)}
-    return [name for name in quantities(kind) if name not in held]
-
-
 @cache
 def _plain(kind: Any) -> Any:
-    """A subclass that holds what the dataclass computes."""
-    return type(kind.__name__, (kind,), {"__slots__": tuple(_computed(kind)), "__doc__": kind.__doc__})
+    """A subclass with slots for what the dataclass computes."""
+    computed = quantities(kind).keys() - {each.name for each in fields(kind)}
+    return type(kind.__name__, (kind,), {"__slots__": tuple(computed), "__doc__": kind.__doc__})

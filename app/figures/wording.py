@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Callable
-from math import floor, log10
 
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 PLAIN = (1e-3, 1e6)  # magnitudes written without a power of ten
@@ -15,28 +14,20 @@ def subscripts(text: str, typeset: Callable[[str, str], str]) -> str:
     return _SUBSCRIPT.sub(lambda found: typeset(*found.groups()), text)
 
 
-def number(value: float, unit: str = "", digits: int = 3) -> str:
+def number(value: float, unit: str | None = None, digits: int = 3) -> str:
     """The value with so many significant digits, a true minus sign and its unit; integers keep all their digits."""
     value += 0.0  # no negative zero
-    text = _plain(value, digits) if value == 0.0 or PLAIN[0] <= abs(value) < PLAIN[1] else _power(value, digits)
-    glue = "" if unit in {"", "°"} else " "
-    return f"{text.replace('-', '−')}{glue}{unit}"
-
-
-def _plain(value: float, digits: int) -> str:
-    if abs(value) >= 10.0 ** (digits - 1):
-        whole = f"{value:.0f}" if abs(value) >= 10.0**digits else f"{value:.{digits}g}"
-        return f"{float(whole):,.0f}".replace(",", " ") if abs(value) >= 1e4 else whole
-    return f"{value:.{digits}g}"
-
-
-def _power(value: float, digits: int) -> str:
-    exponent = floor(log10(abs(value)))
-    mantissa = f"{value / 10.0**exponent:.{digits}g}"
-    if mantissa.lstrip("-") == "10":
-        mantissa, exponent = mantissa.replace("10", "1"), exponent + 1
-    power = f"10{str(exponent).translate(SUPERSCRIPTS)}"
-    return {"1": power, "-1": f"-{power}"}.get(mantissa, f"{mantissa}·{power}")
+    if value != 0.0 and not PLAIN[0] <= abs(value) < PLAIN[1]:
+        mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+        power = f"10{str(int(exponent)).translate(SUPERSCRIPTS)}"
+        mantissa = f"{float(mantissa):g}"
+        text = {"1": power, "-1": f"-{power}"}.get(mantissa, f"{mantissa}·{power}")
+    elif abs(value) < 10.0 ** (digits - 1):
+        text = f"{value:.{digits}g}"
+    else:
+        text = f"{value:,.0f}".replace(",", " ") if abs(value) >= 1e4 else f"{value:.0f}"
+    glue = "" if unit in {None, "", "°"} else " "
+    return f"{text.replace('-', '−')}{glue}{unit or ''}"
 
 
 def percent(fraction: float) -> str:
@@ -44,7 +35,7 @@ def percent(fraction: float) -> str:
     return number(0.0 if abs(fraction) < 1e-9 else 100.0 * fraction, "%")
 
 
-def ratio(value: float, unit: str = "") -> str:
+def ratio(value: float, unit: str | None = None) -> str:
     """A ratio around 1, with as many digits as show how far from it."""
     return number(value, unit, digits=3 if abs(value - 1.0) > 0.01 else 6)
 

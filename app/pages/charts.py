@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from app.figures.comparison import compared
-from app.figures.data import Bars, Figure, Line, NoFigure, Role, ThemeName, Values
+from app.figures.data import Figure, Line, NoFigure, Role, ThemeName, Values
 from app.figures.declaration import Declaration
 from app.figures.rendering import written
 from app.figures.tables import columns_of
@@ -84,7 +84,7 @@ def charts(
         try:
             found.append(chart(declaration, figure_of(declaration, case, variant) if known else None))
         except NoFigure as reason:
-            missing.append(Missing(declaration.title, reason.message, reason.field))
+            missing.append(Missing(declaration.title, reason.message, reason.path))
     return found, missing
 
 
@@ -177,10 +177,9 @@ def _panels(figure: Figure) -> list[dict[str, Any]]:
     ]
 
 
-def _curve(unit: str, series: Line | Bars) -> dict[str, Any]:
-    ordinate = series.height if isinstance(series, Bars) else series.y
+def _curve(unit: str, series: Line) -> dict[str, Any]:
     name = f"{series.title} ({VARIANT})" if series.role is Role.VARIANT else series.title
-    return {"name": name, "unit": unit, "x": _numbers(series.x), "y": _numbers(ordinate)}
+    return {"name": name, "unit": unit, "x": _numbers(series.x), "y": _numbers(series.y)}
 
 
 def _numbers(values: Values) -> list[float | None]:

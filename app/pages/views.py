@@ -6,7 +6,7 @@ from typing import Any, Literal, NamedTuple, get_args
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import InvalidBody, Unprocessable, Unreadable
 from app.evaluate import written as json_written
-from app.figures.data import Figure, NoFigure, ThemeName
+from app.figures.data import Figure, ThemeName
 from app.figures.declaration import Declaration
 from app.figures.rendering import Format, written
 from app.pages import csv
@@ -191,10 +191,7 @@ def figure(asked: Asked, name: str, image_format: Format | Literal["json"]) -> S
     case = solved(asked.calculation, asked.pairs, asked.kept)
     variant, _ = _variant(asked)
     declaration = next(each for each in asked.calculation.figures if each.name == name)
-    try:
-        data = figure_of(declaration, case, variant)
-    except NoFigure as reason:
-        raise Unprocessable(reason.code, reason.message, reason.field) from reason
+    data = figure_of(declaration, case, variant)
     content = values_of(data) if image_format == "json" else written(data, image_format, asked.theme or "light")
     return Shown(content, keep=_keep(asked, case, variant))
 

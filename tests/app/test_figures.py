@@ -187,7 +187,7 @@ def test_examples_give_figures_with_finite_numbers_and_findings(name: str) -> No
         assert data.source, which
         for panel in data.panels:
             assert panel.lines or panel.bars or panel.rows or panel.map or panel.areas, which
-            shown = [line.y for line in panel.lines] + [bars.height for bars in panel.bars]
+            shown = [line.y for line in panel.lines] + [bars.y for bars in panel.bars]
             for series in shown:
                 assert np.isfinite(series).any(), which
             for mark in panel.marks:
@@ -206,7 +206,7 @@ def test_curves_and_maps_are_the_answers_numbers_in_the_unit_of_their_axis(name:
     seen = 0
     for which, data in figures(name):
         for panel in data.panels if which not in DERIVED else ():
-            series = [(line.title, line.y) for line in panel.lines] + [(bar.title, bar.height) for bar in panel.bars]
+            series = [(line.title, line.y) for line in panel.lines] + [(bar.title, bar.y) for bar in panel.bars]
             if panel.map is not None:
                 series.append((panel.map.title, panel.map.values))
             for title, shown in series:
@@ -524,7 +524,7 @@ def test_bounds_of_the_axial_load_are_labelled_at_their_ends() -> None:
 def test_flanks_without_modification_are_one_sentence() -> None:
     with pytest.raises(NoFigure, match="not modified") as reason:
         figure("xue-pair-1", "modification")
-    assert reason.value.field == "modifications"
+    assert reason.value.path == "modifications"
 
 
 def test_the_path_of_contact_has_its_points_a_to_e() -> None:

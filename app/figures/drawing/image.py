@@ -70,25 +70,39 @@ def places(figure: Figure) -> list[Place]:
 
 def size(figure: Figure) -> tuple[float, float]:
     """Width and height of the image in inches."""
-    return WIDTH, EDGE + _head(figure)[2] + _body_height(figure)
+    heights = [_height(panel, figure) for panel in figure.panels]
+    named = sum(bool(panel.rows) or panel.x != below.x for panel, below in pairwise(figure.panels))
+    body = max(heights) + ABSCISSA if figure.beside else sum(heights) + ABSCISSA * (1 + named)
+    return WIDTH, body + EDGE + _head(figure)[-1]
 
 
-def _head(figure: Figure) -> tuple[str, str, float]:
-    """Title and finding in lines, and the height down to the panels."""
+def _head(figure: Figure) -> tuple[str, str, float, float]:
+    """Title and finding in lines, and how far below the top of the image the finding begins and the panels."""
     title, finding = fill(figure.title, TITLE_LENGTH), fill(figure.subtitle, FINDING_LENGTH)
-    return title, finding, EDGE + TITLE_LINE * (1 + title.count("\n")) + FINDING_LINE * (1 + finding.count("\n"))
+    below = EDGE + TITLE_LINE * (1 + title.count("\n"))
+    return title, finding, below, below + FINDING_LINE * (1 + finding.count("\n"))
+
+
+def _height(panel: Panel, figure: Figure) -> float:
+    """Height of a panel without what stands below it, in inches."""
+    if panel.rows:
+        names = {row.name for row in panel.rows}
+        height = WRAPPED_ROW_HEIGHT if any(len(name) > ROW_NAME_LENGTH for name in names) else ROW_HEIGHT
+        return height * (len(names) + (1 if panel.levels or panel.title else 0.3))
+    if panel.equal or panel.areas:
+        return PLANE_HEIGHT / 1.5 if figure.beside else PLANE_HEIGHT
+    return HEIGHTS[1 if figure.beside else min(len(figure.panels), max(HEIGHTS))]
 
 
 def laid_out(figure: Figure, theme: Theme) -> tuple[Sheet, list[Axes]]:
     """The sheet with everything on it at its place, and the axes of the panels; inside the theme's settings."""
-    (title, finding, _), (width, height) = _head(figure), size(figure)
-    engine = ConstrainedLayoutEngine(rect=(0, 0, 1, _body_height(figure) / height), w_pad=EDGE, h_pad=EDGE / 2)
+    (title, finding, below, above), (width, height) = _head(figure), size(figure)
+    engine = ConstrainedLayoutEngine(rect=(0, 0, 1, 1.0 - (above + EDGE) / height), w_pad=EDGE, h_pad=EDGE / 2)
     sheet = Sheet(figsize=(width, height), dpi=DPI["svg"], layout=engine)
     canvas: Any = FigureCanvasAgg(sheet)
-    left, top = EDGE / WIDTH, 1.0 - EDGE / height
-    sheet.text(left, top, title, fontsize=TITLE, fontweight="bold", va="top", linespacing=1.2)
-    below = top - TITLE_LINE * (1 + title.count("\n")) / height
-    sheet.text(left, below, finding, fontsize=TEXT, color=theme.muted, va="top", linespacing=1.2)
+    style: dict[str, Any] = {"va": "top", "linespacing": 1.2}
+    sheet.text(EDGE / width, 1.0 - EDGE / height, title, fontsize=TITLE, fontweight="bold", **style)
+    sheet.text(EDGE / width, 1.0 - below / height, finding, fontsize=TEXT, color=theme.muted, **style)
     axes = _axes(sheet, figure) if figure.panels else []
     for each, panel in zip(axes, figure.panels, strict=True):
         draw_panel(each, panel, theme, _height(panel, figure))
@@ -126,22 +140,3 @@ def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
                 above.tick_params(labelbottom=False)
                 above.xaxis.label.set_visible(False)
     return axes
-
-
-def _body_height(figure: Figure) -> float:
-    heights = [_height(panel, figure) for panel in figure.panels]
-    if figure.beside:
-        return max(heights) + ABSCISSA
-    named = sum(bool(panel.rows) or panel.x != below.x for panel, below in pairwise(figure.panels))
-    return sum(heights) + ABSCISSA * (1 + named)
-
-
-def _height(panel: Panel, figure: Figure) -> float:
-    """Height of a panel without what stands below it, in inches."""
-    if panel.rows:
-        names = {row.name for row in panel.rows}
-        height = WRAPPED_ROW_HEIGHT if any(len(name) > ROW_NAME_LENGTH for name in names) else ROW_HEIGHT
-        return height * (len(names) + (1 if panel.levels or panel.title else 0.3))
-    if panel.equal or panel.areas:
-        return PLANE_HEIGHT / 1.5 if figure.beside else PLANE_HEIGHT
-    return HEIGHTS[1 if figure.beside else min(len(figure.panels), max(HEIGHTS))]

@@ -10,26 +10,24 @@ from matplotlib.backend_bases import RendererBase
 from matplotlib.colors import LogNorm, Normalize, to_rgba
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
-from matplotlib.path import Path
 from matplotlib.text import Text
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.transforms import Bbox, BboxBase
 
-from app.figures.data import Bars, Line, Map, Panel, Part, Role, Row, Scale
+from app.figures.data import Line, Map, Panel, Part, Role, Row, Scale
 from app.figures.drawing.style import DASHES, LETTER, LIMIT_DASHES, LINE_HEIGHT, REFERENCE_DASHES, TEXT, Theme
 from app.figures.wording import number
 
 FARTHEST_LEVEL = 4.0  # a limit beyond so many times the values is named at the edge instead of flattening them
 NAME_LENGTH, ROW_NAME_LENGTH = 17, 36  # characters of a line of a name at the right of the axes, and of a row's
-BAR_SHARE, FAINT, TINT = 0.8, 0.6, 0.2  # of the spacing; opacity of bars beside the extreme one, and of fills
+BAR_SHARE, TINT = 0.8, 0.2  # of the spacing; opacity of fills
 ROW = 0.52  # height of a row's bar
 RING = 5  # pixels
 BEHIND = 1.9  # in the order of drawing: over the grid, under curves
 SIDES = {"above": 1, "below": -1}  # of a point, on which its text is tried first; other texts stay where they are
 COLOURS = {Scale.MAGNITUDE: "cividis", Scale.RATIO: "RdBu_r", Scale.SIGNED: "RdBu_r"}
-# Of a ratio on a logarithmic axis.
-RATIO_TICKS = (0.1, 0.2, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0)
-LINEAR_RATIO = 1.3  # up to which a ratio's ticks are evenly spaced
+# Of a ratio on a logarithmic axis; up to the next number its ticks are evenly spaced.
+RATIO_TICKS, LINEAR_RATIO = (0.1, 0.2, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0), 1.3
 CROWDED = 0.05  # of the colour bar: a tick nearer to a critical value gives way
 BESIDE_DOTS, BESIDE_BARS = 0.5, 0.3  # of the reach of rows, for texts at the ends of dots, of bounds and of parts
 WIDE = 0.15  # of the longest bar: bounds farther apart have their values at their ends
@@ -42,16 +40,14 @@ Style = dict[str, Any]  # of matplotlib's artists
 
 def draw_panel(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
     """Everything of a panel of a height in inches; the texts of points and areas stay for `place_texts`."""
-    for which, quantity in (("x", panel.x), ("y", panel.y)):
-        axis = axes.xaxis if which == "x" else axes.yaxis
-        if quantity.log:
-            axes.set(**{f"{which}scale": "log"})
+    scales = ["log" if quantity.log else "linear" for quantity in (panel.x, panel.y)]
+    axes.set(xscale=scales[0], yscale=scales[1], title=panel.title or "")
+    for axis, quantity in ((axes.xaxis, panel.x), (axes.yaxis, panel.y)):
         axis.set_major_locator(LogLocator(numticks=7) if quantity.log else MaxNLocator(nbins=6, steps=STEPS))
         axis.set_minor_locator(NullLocator())
         if quantity.ticks is not None:
             axis.set_ticks(quantity.ticks)
         axis.set_major_formatter(NUMBERS)
-    axes.set_title(panel.title or "")
     axes.set_xlabel(panel.x.label, loc="right" if panel.rows else "center")  # it may be wider than the axes of rows
     if panel.rows:
         _draw_rows(axes, panel, theme)
@@ -64,7 +60,13 @@ def draw_panel(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
         _draw_bars(axes, bars, [each for each in panel.bars if each.role is bars.role], theme)
     for line in panel.lines:
         _draw_line(axes, line, theme)
-    _draw_marks(axes, panel, theme)
+    several = len({mark.hue for mark in panel.marks}) > 1
+    rising = sorted(panel.marks, key=lambda mark: mark.y)
+    for mark in rising:
+        style: Style = {"markersize": 5.5, "color": theme.background, "mec": theme.drawing[mark.hue], "mew": 1.6}
+        axes.plot(mark.x, mark.y, "o", clip_on=False, zorder=5, **style)
+        color, side = theme.writing[mark.hue] if several else theme.ink, "above" if mark is rising[-1] else "below"
+        _name(axes, mark.text, (mark.x, mark.y), color, theme, gid=side, fontsize=TEXT, fontweight="bold")
     _draw_levels(axes, panel, theme)
     for span in panel.spans:
         axes.axvspan(span.start, span.stop, facecolor=theme.shade, edgecolor="none", zorder=2 if panel.map else 0)
@@ -104,21 +106,20 @@ def _draw_fills(axes: Axes, panel: Panel, theme: Theme) -> None:
         axes.fill_between(ribbon.x, ribbon.low, ribbon.high, facecolor=color, alpha=TINT, linewidth=0)
         axes.plot(ribbon.x, np.column_stack([ribbon.low, ribbon.high]), color=color, linewidth=0.8)
     for shape in panel.shapes:
-        color = theme.drawing[shape.hue]
-        style: Style = {"facecolor": to_rgba(color, TINT), "edgecolor": color, "linewidth": 1.0}
-        axes.fill(shape.x, shape.y, label=fill(shape.title, NAME_LENGTH), **style)
+        color, label = theme.drawing[shape.hue], fill(shape.title, NAME_LENGTH)
+        axes.fill(shape.x, shape.y, facecolor=to_rgba(color, TINT), edgecolor=color, linewidth=1.0, label=label)
 
 
 def _draw_line(axes: Axes, line: Line, theme: Theme) -> None:
     """A curve; a point whose neighbours have no value, which a line would not show, as a dot."""
     known = np.isfinite(line.y)
     alone = known & ~np.append(False, known[:-1]) & ~np.append(known[1:], False)
-    style: Style = {"color": theme.drawing[line.hue], "linestyle": DASHES[line.role], "markersize": 2.6}
+    style: Style = {"color": theme.drawing[line.hue], "linestyle": DASHES[line.role]}
     if line.named and known.any():
         style["label"] = fill(line.title, NAME_LENGTH)
     if alone.any():
-        style |= {"marker": "o", "markevery": alone}
-    axes.plot(line.x, line.y, linewidth=1.6 if line.role is Role.RESULT else 1.4, **style)
+        style |= {"marker": "o", "markersize": 2.6, "markevery": alone}
+    axes.plot(line.x, line.y, **style)
 
 
 def _bar_style(role: Role, color: str) -> Style:
@@ -128,7 +129,7 @@ def _bar_style(role: Role, color: str) -> Style:
     return {"facecolor": color}
 
 
-def _draw_bars(axes: Axes, bars: Bars, beside: list[Bars], theme: Theme) -> None:
+def _draw_bars(axes: Axes, bars: Line, beside: list[Line], theme: Theme) -> None:
     """Bars of one of the series that stand beside each other."""
     pitch = float(np.diff(bars.x).min()) if len(bars.x) > 1 else 1.0
     width = BAR_SHARE * pitch / len(beside)
@@ -136,9 +137,7 @@ def _draw_bars(axes: Axes, bars: Bars, beside: list[Bars], theme: Theme) -> None
     style = _bar_style(bars.role, theme.drawing[bars.hue])
     if bars.role is not Role.VARIANT and len(beside) > 1:
         style["label"] = fill(bars.title, NAME_LENGTH)
-    drawn = axes.bar(left, np.nan_to_num(bars.height), width, align="edge", **style)
-    for index, patch in enumerate(drawn.patches if bars.strong is not None else ()):
-        patch.set_alpha(1.0 if index == bars.strong else FAINT)
+    axes.bar(left, np.nan_to_num(bars.y), width, align="edge", **style)
 
 
 def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
@@ -151,9 +150,10 @@ def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
         axes.axvline(0.0, color=theme.frame, linewidth=0.9)
     for row in panel.rows:
         left, place = 0.0, places[row.name]
-        for part in () if row.dots else row.parts or (Part("", float(np.nan_to_num(row.value)), row.hue),):
-            style = _bar_style(row.role, theme.drawing[part.hue]) | {"label": fill(part.title, NAME_LENGTH)}
-            axes.barh(place, part.value, ROW, left=left, **style)
+        whole = [] if row.dots else [Part("", float(np.nan_to_num(row.value)), row.hue)]
+        for part in row.parts or whole:
+            label = fill(part.title, NAME_LENGTH)
+            axes.barh(place, part.value, ROW, left=left, label=label, **_bar_style(row.role, theme.drawing[part.hue]))
             left += part.value
         if row.bounds is not None and row.bounds[0] < row.bounds[1]:
             color = theme.ink if row.role is Role.RESULT else theme.drawing[row.hue]
@@ -166,27 +166,8 @@ def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
             _write_value(axes, place, row, panel, theme)
     axes.set_yticks(range(len(own)), [fill(row.name, ROW_NAME_LENGTH) for row in own])
     axes.set_ylim(len(own) - 0.5, -1.2 if panel.levels else -0.5)
-    for label, row in zip(axes.get_yticklabels(), own, strict=True):
-        label.set_color(theme.writing[row.hue])
-
-
-def _write_value(axes: Axes, place: int, row: Row, panel: Panel, theme: Theme) -> None:
-    """The value of a row at its right, and those of its bounds at their ends; rounding errors are zero."""
-    scale = max((abs(each.value) for each in panel.rows if np.isfinite(each.value)), default=0.0)
-    alike = [each for each in panel.rows if each.name == row.name]
-    ends = np.array([(each.value, *(each.bounds or (0.0, 0.0))) for each in alike])
-    tip: Any = (np.nanmax(ends, initial=0.0), place)
-    style: Style = {"va": "center_baseline", "bbox": _patch(theme), "textcoords": "offset points"}
-    unit, after = panel.x.unit or "", Style()
-    if row.bounds is not None and row.bounds[1] - row.bounds[0] > WIDE * scale:
-        low, high = (number(end, unit) for end in row.bounds)
-        axes.annotate(low, (row.bounds[0], place), (-5, 0), color=theme.muted, ha="right", **style)
-        beside = axes.annotate(high, (row.bounds[1], place), (5, 0), color=theme.muted, ha="left", **style)
-        tip, after = (1, 0.5), {"xycoords": beside}
-    text = "not calculated"
-    if np.isfinite(row.value):
-        text = number(0.0 if abs(row.value) <= NOISE * scale else row.value, unit)
-    axes.annotate(text, tip, (4, 0), ha="left", fontsize=TEXT, fontweight="bold", **style, **after)
+    for text, row in zip(axes.get_yticklabels(), own, strict=True):
+        text.set_color(theme.writing[row.hue])
 
 
 def _draw_dots(axes: Axes, place: int, row: Row, theme: Theme) -> None:
@@ -195,9 +176,32 @@ def _draw_dots(axes: Axes, place: int, row: Row, theme: Theme) -> None:
     axes.plot([dot.value for dot in dots], [place] * len(dots), color=theme.frame, linewidth=3.0, zorder=1)
     for dot in dots:
         axes.plot(dot.value, place, "o", color=theme.drawing[dot.hue], markersize=7)
-    style: Style = {"va": "center_baseline", "textcoords": "offset points"}
-    for dot, offset, side in ((dots[0], -7, "right"), (dots[-1], 7, "left")):
-        axes.annotate(dot.title, (dot.value, place), (offset, 0), ha=side, color=theme.writing[dot.hue], **style)
+    for dot, offset in ((dots[0], -7), (dots[-1], 7)):
+        _write(axes, dot.title, (dot.value, place), offset, color=theme.writing[dot.hue])
+
+
+def _write_value(axes: Axes, place: int, row: Row, panel: Panel, theme: Theme) -> None:
+    """The value of a row at its right, and those of its bounds at their ends; rounding errors are zero."""
+    scale = max((abs(each.value) for each in panel.rows if np.isfinite(each.value)), default=0.0)
+    alike, unit = [each for each in panel.rows if each.name == row.name], panel.x.unit
+    text = "not calculated"
+    if np.isfinite(row.value):
+        text = number(0.0 if abs(row.value) <= NOISE * scale else row.value, unit)
+    strong: Style = {"fontsize": TEXT, "fontweight": "bold", "bbox": theme.patch}
+    if row.bounds is not None and row.bounds[1] - row.bounds[0] > WIDE * scale:
+        low, high = row.bounds
+        _write(axes, number(low, unit), (low, place), -5, color=theme.muted, bbox=theme.patch)
+        above = _write(axes, number(high, unit), (high, place), 5, color=theme.muted, bbox=theme.patch)
+        _write(axes, text, (1, 0.5), 4, xycoords=above, **strong)
+    else:
+        tip = np.nanmax([0.0, *(end for each in alike for end in (each.value, *(each.bounds or ())))])
+        _write(axes, text, (tip, place), 4, **strong)
+
+
+def _write(axes: Axes, text: str, xy: tuple[float, float], offset: float, **style: Any) -> Text:
+    """A text in the line of a point, so many typographic points to its right; to its left if negative."""
+    style = {"textcoords": "offset points", "va": "center_baseline", "ha": "left" if offset > 0.0 else "right", **style}
+    return axes.annotate(text, xy, (offset, 0), **style)
 
 
 def _draw_map(axes: Axes, panel: Panel, chart: Map, theme: Theme) -> None:
@@ -235,20 +239,8 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map, theme: Theme) -> None:
         bar.ax.axhline(value, color=theme.limit, linewidth=1.6, linestyle=(0, (2, 1)))
 
 
-def _draw_marks(axes: Axes, panel: Panel, theme: Theme) -> None:
-    """Rings with texts, the lowest first; in the hues of their curves where there are several."""
-    several = len({mark.hue for mark in panel.marks}) > 1
-    rising = sorted(panel.marks, key=lambda mark: mark.y)
-    for mark in rising:
-        style: Style = {"markersize": 5.5, "color": theme.background, "mec": theme.drawing[mark.hue], "mew": 1.6}
-        axes.plot(mark.x, mark.y, "o", clip_on=False, zorder=5, **style)
-        color = theme.writing[mark.hue] if several else theme.ink
-        side = "above" if mark is rising[-1] else "below"
-        _name(axes, mark.text, (mark.x, mark.y), color, theme, gid=side, fontsize=TEXT, fontweight="bold")
-
-
 def _draw_levels(axes: Axes, panel: Panel, theme: Theme) -> None:
-    """Limits dashed in red and references dotted in grey; zero where it is crossed."""
+    """Limits dashed in red and references dotted in grey, an arrow in the name of a distant one; zero if crossed."""
     if panel.map is None and not panel.rows and not panel.y.log and panel.y.limits is None:
         low, high = axes.dataLim.intervaly
         if panel.y.magnitude or low < 0.0 < high:
@@ -259,14 +251,13 @@ def _draw_levels(axes: Axes, panel: Panel, theme: Theme) -> None:
         reach = FARTHEST_LEVEL * (high - low)
         near = (panel.x if level.vertical else panel.y).log or low - reach <= level.value <= high + reach
         color, dashes = (theme.limit, LIMIT_DASHES) if level.limit else (theme.muted, REFERENCE_DASHES)
-        place, across = [level.value] * 2, [0.0, 1.0]
-        line = Line2D(*((place, across) if level.vertical else (across, place)), color=color, linestyle=dashes)
-        line.set(linewidth=1.3 if level.limit else 1.0, clip_on=True)
-        line.set_transform(axes.get_xaxis_transform() if level.vertical else axes.get_yaxis_transform())
+        style: Style = {"color": color, "linestyle": dashes, "linewidth": 1.3 if level.limit else 1.0, "clip_on": True}
         if level.vertical:
+            line = Line2D([level.value] * 2, [0.0, 1.0], transform=axes.get_xaxis_transform(), **style)
             _name_on_top(axes, panel, level.name, level.value, color, theme)
         else:
-            line.set_label(fill(level.name, NAME_LENGTH))
+            style["label"] = fill(level.name + ("" if near else " ↑" if level.value > high else " ↓"), NAME_LENGTH)
+            line = Line2D([0.0, 1.0], [level.value] * 2, transform=axes.get_yaxis_transform(), **style)
         (axes.add_line if near else axes.add_artist)(line)  # the second leaves the ends of the axes where they are
 
 
@@ -276,7 +267,7 @@ def _name(
     """A text for a point, on a patch of background; `place_texts` finds its place."""
     style = {"gid": "below", "textcoords": "offset points", "in_layout": False, "zorder": 6, **style}
     if text:
-        axes.annotate(text, xy, (0, 0), xycoords, color=color, bbox=_patch(theme), annotation_clip=False, **style)
+        axes.annotate(text, xy, (0, 0), xycoords, color=color, bbox=theme.patch, annotation_clip=False, **style)
 
 
 def _name_on_top(axes: Axes, panel: Panel, text: str, x: float, color: str, theme: Theme) -> None:
@@ -285,36 +276,25 @@ def _name_on_top(axes: Axes, panel: Panel, text: str, x: float, color: str, them
     _name(axes, text, (x, 1.0), color, theme, axes.get_xaxis_transform(), **style)
 
 
-def _patch(theme: Theme) -> Style:
-    return {"facecolor": theme.background, "alpha": 0.78, "linewidth": 0, "pad": 0.8}
-
-
 def _name_beside(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
     """Names at the right of the axes: where lines and levels end if these ends are apart, else in a legend."""
-    handles, texts = axes.get_legend_handles_labels()
-    if panel.equal or not all(isinstance(each, Line2D) for each in handles):
-        known = dict(zip(texts, handles, strict=True))  # what is filled may be drawn in several pieces
-        axes.legend(known.values(), known, bbox_to_anchor=(1.02, 1.0))
-        return
-    lines: list[Any] = sorted(handles, key=lambda line: -_end_of(line, axes))
-    ends = [_end_of(line, axes) for line in lines]
-    texts = [line.get_label() + " ↑" * (end > 1.0) + " ↓" * (end < 0.0) for line, end in zip(lines, ends, strict=True)]
-    halves = [(1 + text.count("\n")) * LINE_HEIGHT / 2 / height for text in texts]
-    places = [min(max(end, half), 1.0 - half) for end, half in zip(ends, halves, strict=True)]
-    near = (upper - one < lower + other for (upper, one), (lower, other) in pairwise(zip(places, halves, strict=True)))
-    if any(near):
-        axes.legend(lines, texts, bbox_to_anchor=(1.02, 1.0))
-        return
-    style: Style = {"xycoords": "axes fraction", "textcoords": "offset points", "va": "center"}
-    for line, text, place in zip(lines, texts, places, strict=True):
-        axes.annotate(text, (1.0, place), (5, 0), color=theme.written(line.get_color()), **style)
-
-
-def _end_of(line: Any, axes: Axes) -> float:
-    """Where a line ends, from 0 at the bottom of the axes to 1 at their top."""
-    y = np.asarray(line.get_ydata(), dtype=np.float64)
-    last = y[np.isfinite(y)][-1]
-    return float((axes.transData - axes.transAxes).transform((axes.get_xlim()[0], last))[1])
+    handles = axes.get_legend_handles_labels()[0]
+    ends = list[tuple[float, float, Line2D]]()  # of each line: middle of its name, half the name's height
+    for line in (each for each in handles if isinstance(each, Line2D)):
+        y = np.asarray(line.get_ydata(), dtype=np.float64)
+        last = (axes.transData - axes.transAxes).transform((axes.get_xlim()[0], y[np.isfinite(y)][-1]))[1]
+        half = (1 + str(line.get_label()).count("\n")) * LINE_HEIGHT / 2.0 / height
+        ends.append((float(np.clip(last, half, 1.0 - half)), half, line))
+    if len(ends) == len(handles) and not panel.equal:
+        ends.sort(key=lambda each: -each[0])
+        handles = [line for _, _, line in ends]
+        if all(upper[0] - lower[0] >= upper[1] + lower[1] for upper, lower in pairwise(ends)):
+            for end, _, line in ends:
+                style = {"xycoords": "axes fraction", "va": "center", "color": theme.written(str(line.get_color()))}
+                _write(axes, str(line.get_label()), (1.0, end), 5, **style)
+            return
+    known = {str(each.get_label()): each for each in handles}  # what is filled may be drawn in several pieces
+    axes.legend(known.values(), known, bbox_to_anchor=(1.02, 1.0))
 
 
 def place_texts(axes: Axes, panel: Panel, theme: Theme, renderer: RendererBase) -> None:
@@ -331,28 +311,21 @@ def place_texts(axes: Axes, panel: Panel, theme: Theme, renderer: RendererBase) 
     shapes = [line for line in axes.lines if line.get_linestyle() != "None"]
     shapes += [bar for each in axes.containers for bar in each]
     curves = [shape.get_path().transformed(shape.get_transform()) for shape in shapes]
+    point = float(np.asarray(renderer.points_to_pixels(1.0)))
     for text in axes.texts:
-        if text.get_gid() in SIDES:
-            taken.append(_place(axes.bbox, text, taken, curves, renderer))
-
-
-def _place(axes: BboxBase, text: Text, taken: list[BboxBase], curves: list[Path], renderer: RendererBase) -> BboxBase:
-    """Move the text to the first of the places around its point that cover least; the box it fills there."""
-    text.set(ha="center", va="center")
-    side = SIDES[str(text.get_gid())]
-    size, point = text.get_window_extent(renderer), float(np.asarray(renderer.points_to_pixels(1.0)))
-
-    def cost(place: tuple[float, float]) -> float:
-        box = size.translated(*place)
-        outside = max(axes.x0 - box.x0, box.x1 - axes.x1, 0.0) + max(axes.y0 - box.y0, box.y1 - axes.y1, 0.0)
-        crossed = sum(curve.intersects_bbox(box, filled=False) for curve in curves)
-        return float(crossed + 10.0 * sum(box.overlaps(other) for other in taken) + outside)
-
-    places = [
-        (across * (reach * point + size.width / 2), up * (reach * point + size.height / 2))
-        for reach in (7, 12, 20, 32, 48, 64)
-        for across, up in ((0, side), (0, -side), (1, 0), (-1, 0), (1, 0.7), (-1, 0.7), (1, -0.7), (-1, -0.7))
-    ]
-    best = min(places, key=cost)
-    text.set_position((best[0] / point, best[1] / point))
-    return size.translated(*best)
+        if text.get_gid() not in SIDES:
+            continue
+        text.set(ha="center", va="center")
+        size, side = text.get_window_extent(renderer), SIDES[str(text.get_gid())]
+        # Of the places around the point the first that covers least.
+        costs = {}
+        for reach in (7, 12, 20, 32, 48, 64):
+            for across, up in ((0, side), (0, -side), (1, 0), (-1, 0), (1, 0.7), (-1, 0.7), (1, -0.7), (-1, -0.7)):
+                place = across * (reach * point + size.width / 2), up * (reach * point + size.height / 2)
+                box, room = size.translated(*place), axes.bbox
+                outside = max(room.x0 - box.x0, box.x1 - room.x1, 0.0) + max(room.y0 - box.y0, box.y1 - room.y1, 0.0)
+                crossed = sum(curve.intersects_bbox(box, filled=False) for curve in curves)
+                costs[place] = crossed + 10.0 * sum(box.overlaps(other) for other in taken) + outside
+        best = min(costs, key=costs.__getitem__)
+        text.set_position((best[0] / point, best[1] / point))
+        taken.append(size.translated(*best))

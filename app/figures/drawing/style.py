@@ -12,20 +12,9 @@ from app.figures.data import Hue, Role, ThemeName
 WIDTH = 5.6  # inches
 DPI = {"svg": 100, "png": 180, "pdf": 180}  # of the maps inside the vector formats too
 TITLE, TEXT, SMALL = 11.0, 8.5, 8.0  # points; the texts of axes, as the style sheet has it, are small
-LETTER = 0.58 * SMALL / 72.0  # mean width of a character, in inches
-LINE_HEIGHT = 1.3 * SMALL / 72.0  # inches
+LETTER, LINE_HEIGHT = 0.58 * SMALL / 72.0, 1.3 * SMALL / 72.0  # inches: mean width of a character, height of a line
 DASHES: dict[Role, Any] = {Role.RESULT: "solid", Role.REFERENCE: (0, (1.2, 1.8)), Role.VARIANT: (0, (4.5, 2.2))}
 LIMIT_DASHES, REFERENCE_DASHES = (0, (5.0, 2.5)), (0, (1.0, 2.0))  # line widths on and off
-# Hues of Okabe and Ito: how they are drawn and written on light, and on dark.
-HUES = {
-    Hue.BLUE: ("#0072B2", "#0068A3", "#3D9BDC", "#5AAEE8"),
-    Hue.VERMILLION: ("#D55E00", "#B34F00", "#D55E00", "#F08A3C"),
-    Hue.GREEN: ("#009E73", "#00795A", "#1DB58A", "#2CC79A"),
-    Hue.SKY: ("#56B4E9", "#1C74AC", "#9AD2F7", "#9AD2F7"),
-    Hue.ORANGE: ("#E69F00", "#8F6200", "#E69F00", "#F0B429"),
-    Hue.PURPLE: ("#CC79A7", "#A64C7D", "#CC79A7", "#E19BC1"),
-    Hue.GREY: ("#6B7280", "#5B6472", "#9AA4B2", "#A3ADBB"),
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,18 +31,32 @@ class Theme:
     drawing: dict[Hue, str]
     writing: dict[Hue, str]
 
+    @property
+    def patch(self) -> dict[str, Any]:
+        """The box of a text that lies over other things."""
+        return {"facecolor": self.background, "alpha": 0.78, "linewidth": 0, "pad": 0.8}
+
     def written(self, color: str) -> str:
         """The colour of the text about what is drawn in a colour."""
         return next((self.writing[hue] for hue, drawn in self.drawing.items() if drawn == color), color)
 
 
-def _hues(column: int) -> dict[Hue, str]:
-    return {hue: shades[column] for hue, shades in HUES.items()}
+def _hues(*colours: str) -> dict[Hue, str]:
+    """Shades of the hues of Okabe and Ito, in the order of `Hue`."""
+    return dict(zip(Hue, colours, strict=True))
 
 
 THEMES: dict[ThemeName, Theme] = {
-    "light": Theme("#FFFFFF", "#1F2937", "#5B6472", "#9CA3AF", "#E5E7EB", "#E8ECF2", "#C22525", _hues(0), _hues(1)),
-    "dark": Theme("#12171F", "#E5E9F0", "#A3ADBB", "#5A6575", "#28303C", "#202936", "#FF7B72", _hues(2), _hues(3)),
+    "light": Theme(
+        *("#FFFFFF", "#1F2937", "#5B6472", "#9CA3AF", "#E5E7EB", "#E8ECF2", "#C22525"),
+        drawing=_hues("#0072B2", "#D55E00", "#009E73", "#56B4E9", "#E69F00", "#CC79A7", "#6B7280"),
+        writing=_hues("#0068A3", "#B34F00", "#00795A", "#1C74AC", "#8F6200", "#A64C7D", "#5B6472"),
+    ),
+    "dark": Theme(
+        *("#12171F", "#E5E9F0", "#A3ADBB", "#5A6575", "#28303C", "#202936", "#FF7B72"),
+        drawing=_hues("#3D9BDC", "#D55E00", "#1DB58A", "#9AD2F7", "#E69F00", "#CC79A7", "#9AA4B2"),
+        writing=_hues("#5AAEE8", "#F08A3C", "#2CC79A", "#9AD2F7", "#F0B429", "#E19BC1", "#A3ADBB"),
+    ),
 }
 
 

@@ -1,14 +1,15 @@
 """Figures of the couplings: friction map, loads, motion, thrust and losses; sleeve orbit; recommended crowning."""
 
 from dataclasses import replace
+from itertools import pairwise
 from math import degrees, exp, inf, log
 
 import numpy as np
 
+from app.figures import parts
 from app.figures.data import (
     Area,
     Axis,
-    Bars,
     Figure,
     Hue,
     Level,
@@ -20,26 +21,15 @@ from app.figures.data import (
     Role,
     Row,
     Span,
-    Values,
     values,
 )
 from app.figures.declaration import Declaration, present
-from app.figures.parts import curve
 from app.figures.units import UM, axis
 from app.figures.wording import number, percent
-from solvers.coupling.crowning import CrowningScan, Recommendation
-from solvers.coupling.inputs import CouplingDesign, CouplingInputs, RecommendationInputs
+from solvers.coupling.crowning import Recommendation
+from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
 from solvers.coupling.lubrication import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES, friction_regime
-from solvers.coupling.results import (
-    AxialThrust,
-    CouplingResult,
-    InertiaForce,
-    KinematicCurves,
-    LoadCurves,
-    Lubrication,
-    Orbit,
-    OrbitResult,
-)
+from solvers.coupling.results import CouplingResult, Orbit, OrbitResult
 
 TINTS = {"full": Hue.GREEN, "unstable": Hue.PURPLE, "transition": Hue.ORANGE, "boundary": Hue.VERMILLION}
 MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}  # of the axes, with room around Pahl's boundaries
@@ -51,23 +41,21 @@ def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
     regime, found = lubrication.regime, (lubrication.contact_overlap, lubrication.load_capacity_coefficient)
     overlap, capacity = (inf if each is None else each for each in found)  # at the edge of the map
     across, up = _around("overlap", overlap), _around("capacity", capacity)
-    x = axis(Lubrication, "contact_overlap", log=True, limits=across, ticks=_ticks(*OVERLAP_BOUNDARIES))
-    y = axis(Lubrication, "load_capacity_coefficient", log=True, limits=up, ticks=_ticks(*CAPACITY_BOUNDARIES))
-    x = replace(x, title=f"{x.title} (right: worse supply of oil)")
-    y = replace(y, title=f"{y.title} (up: stronger film)")
+    x = axis(lubrication, "contact_overlap", log=True, limits=across, ticks=_ticks(*OVERLAP_BOUNDARIES))
+    y = axis(lubrication, "load_capacity_coefficient", log=True, limits=up, ticks=_ticks(*CAPACITY_BOUNDARIES))
     at = min(max(overlap, across[0]), across[1]), min(max(capacity, up[0]), up[1])
     distance = regime.distance_to_boundary
     away = "" if distance is None else f", a factor {number(exp(distance))} from the next area"
     texts = ("∞" if value is None else number(value) for value in found)
     panel = Panel(
-        x=x,
-        y=y,
+        x=replace(x, title=f"{x.title} (right: worse supply of oil)"),
+        y=replace(y, title=f"{y.title} (up: stronger film)"),
         areas=_areas(across, up),
-        lines=() if distance is None else (_to_boundary(*at, distance),),
-        marks=(Mark(*at, "Pu = {}\nTr = {}".format(*texts)),),
+        lines=[] if distance is None else [_to_boundary(*at, distance)],
+        marks=[Mark(*at, "Pu = {}\nTr = {}".format(*texts))],
     )
     finding = f"area {regime.area}, {regime.name}{away}; μ = {number(lubrication.friction_coefficient)}"
-    return Figure(finding, (panel,))
+    return Figure(finding, [panel])
 
 
 def _around(which: str, value: float) -> tuple[float, float]:
@@ -78,34 +66,31 @@ def _around(which: str, value: float) -> tuple[float, float]:
     return min(low, 10.0 ** np.floor(np.log10(value / 1.2))), max(high, 10.0 ** np.ceil(np.log10(value * 1.2)))
 
 
-def _ticks(low: float, high: float) -> tuple[float, ...]:
+def _ticks(low: float, high: float) -> list[float]:
     """The boundaries and the decades that do not crowd them."""
     decades = (10.0**exponent for exponent in range(-12, 13))
-    far = (decade for decade in decades if decade <= low / 1.9 or decade >= high * 1.9)
-    return tuple(sorted({low, high, *far}))
+    return sorted({low, high, *(decade for decade in decades if decade <= low / 1.9 or decade >= high * 1.9)})
 
 
-def _areas(x: tuple[float, float], y: tuple[float, float]) -> tuple[Area, ...]:
+def _areas(x: tuple[float, float], y: tuple[float, float]) -> list[Area]:
     """The nine areas with what the model itself says of each."""
-    columns = list(zip((x[0], *OVERLAP_BOUNDARIES), (*OVERLAP_BOUNDARIES, x[1]), strict=True))
-    rows = list(zip((y[0], *CAPACITY_BOUNDARIES), (*CAPACITY_BOUNDARIES, y[1]), strict=True))
-    return tuple(_one_area(column, row) for row in rows for column in columns)
-
-
-def _one_area(x: tuple[float, float], y: tuple[float, float]) -> Area:
-    regime = friction_regime((x[0] * x[1]) ** 0.5, (y[0] * y[1]) ** 0.5)
     words = {"transition from mixed to boundary lubrication": "transition", "mixed lubrication, unstable": "unstable"}
-    name = words.get(regime.name, regime.name.replace(" lubrication", "").replace("predominantly ", ""))
-    texts = (regime.area, name.partition(" or ")[0], _band(regime.friction_min, regime.friction_max))
-    hue = next((hue for word, hue in TINTS.items() if word in regime.name), Hue.SKY)
-    return Area(*x, *y, "\n".join(texts).strip(), hue)
+    areas = []
+    for bottom, top in pairwise((y[0], *CAPACITY_BOUNDARIES, y[1])):
+        for left, right in pairwise((x[0], *OVERLAP_BOUNDARIES, x[1])):
+            regime = friction_regime((left * right) ** 0.5, (bottom * top) ** 0.5)
+            name = words.get(regime.name, regime.name.replace(" lubrication", "").replace("predominantly ", ""))
+            texts = (regime.area, name.partition(" or ")[0], _band(regime.friction_min, regime.friction_max))
+            hue = next((hue for word, hue in TINTS.items() if word in regime.name), Hue.SKY)
+            areas.append(Area(left, right, bottom, top, "\n".join(texts).strip(), hue))
+    return areas
 
 
 def _band(low: float | None, high: float | None) -> str:
-    if low is None and high is None:
-        return ""
-    if low is None or high is None:
-        return f"μ < {high:g}" if high is not None else f"μ > {low:g}"
+    if low is None:
+        return "" if high is None else f"μ < {high:g}"
+    if high is None:
+        return f"μ > {low:g}"
     return f"μ ≈ {low:g}" if low == high else f"μ {low:g} to {high:g}"
 
 
@@ -119,7 +104,7 @@ def _to_boundary(overlap: float, capacity: float, distance: float) -> Line:
 QUARTERS = tuple(45.0 * each for each in range(9))
 ROTOR = axis(Orbit, "rotor_angle", limits=(0.0, 360.0), ticks=QUARTERS)
 TOOTH = Axis("tooth position (tilt at 90° and 270°)", "°", limits=(0.0, 360.0), ticks=QUARTERS, symbol="φ")
-TILTS = (Span(82.0, 98.0, ""), Span(262.0, 278.0, ""))  # marks at 90° and 270°, wide enough to be seen
+TILTS = [Span(82.0, 98.0, ""), Span(262.0, 278.0, "")]  # marks at 90° and 270°, wide enough to be seen
 ORBIT_SOURCE = "Pahl 1978, Fig. 5"
 CONSTRAINTS = {
     "contact_overlap": "the overlap cannot fall below 1",
@@ -133,103 +118,76 @@ CONSTRAINTS = {
 def orbit(_: CouplingInputs, result: OrbitResult) -> Figure:
     """Path of the sleeve centre in equal axes."""
     path, largest = result.orbit, number(result.max_displacement, "µm")
-    x, y = values([*path.x, path.x[0]]), values([*path.y, path.y[0]])
-    farthest = int(np.argmax(np.hypot(x, y)))
+    line = Line("path", np.append(path.x, path.x[0]), np.append(path.y, path.y[0]), named=False)
     panel = Panel(
-        x=axis(Orbit, "x", magnitude=False),
-        y=axis(Orbit, "y", magnitude=False),
-        lines=(Line("path", x, y, named=False),),
-        marks=(Mark(float(x[farthest]), float(y[farthest]), largest),),
-        levels=(Level(0.0, ""), Level(0.0, "", vertical=True)),
+        x=axis(path, "x", magnitude=False),
+        y=axis(path, "y", magnitude=False),
+        lines=[line],
+        marks=[line.mark(int(np.argmax(np.hypot(line.x, line.y))), largest)],
+        levels=[Level(0.0, ""), Level(0.0, "", vertical=True)],
         equal=True,
     )
-    return Figure(f"the centre strays up to {largest} from the axis", (panel,))
+    return Figure(f"the centre strays up to {largest} from the axis", [panel])
 
 
 def inertia_force(_: CouplingInputs, result: OrbitResult) -> Figure:
     """Inertia force of the sleeve in both directions over the revolution."""
-    path, force = result.orbit, result.inertia_force
-    angle = values([*path.rotor_angle, path.rotor_angle[0] + 360.0])
-    directions = (("along x", force.x, Hue.BLUE), ("along y", force.y, Hue.VERMILLION))
-    lines = [Line(title, angle, values([*curve, curve[0]]), hue) for title, curve, hue in directions]
+    angle, force = result.orbit.rotor_angle, result.inertia_force
+    directions = {"along x": np.append(force.x, force.x[0]), "along y": np.append(force.y, force.y[0])}
+    lines = parts.lines(np.append(angle, angle[0] + 360.0), directions)
     strongest = max(lines, key=lambda line: float(np.abs(line.y).max()))
     at = int(np.argmax(np.abs(strongest.y)))
     value = float(strongest.y[at])
-    y = axis(InertiaForce, "x", "inertia force of the sleeve mass of one mesh", magnitude=False, symbol="F")
-    mark = Mark(float(angle[at]), value, number(value, "N"), strongest.hue)
-    panel = Panel(x=ROTOR, y=y, lines=tuple(lines), marks=(mark,))
-    return Figure(f"up to {number(abs(value), 'N')} {strongest.title}", (panel,))
+    y = axis(force, "x", "inertia force of the sleeve mass of one mesh", magnitude=False, symbol="F")
+    panel = Panel(x=ROTOR, y=y, lines=lines, marks=[strongest.mark(at, number(value, "N"))])
+    return Figure(f"up to {number(abs(value), 'N')} {strongest.title}", [panel])
 
 
 def orders(_: CouplingInputs, result: OrbitResult) -> Figure:
     """Harmonics of the inertia force."""
     force = result.inertia_force
-    order = values([float(order) for order in range(len(force.harmonics_x))])
-    series = (
-        Bars("along x", order, values(force.harmonics_x), Hue.BLUE),
-        Bars("along y", order, values(force.harmonics_y), Hue.VERMILLION),
-    )
-    panel = Panel(
-        x=Axis("order of the revolution (0: the mean)", magnitude=False, ticks=tuple(order.tolist()), symbol="k"),
-        y=Axis("amplitude of the inertia force", "N", symbol="F_k"),
-        bars=series,
-    )
-    both = np.hypot(series[0].height, series[1].height)[1:]
-    finding = f"strongest at order {int(np.argmax(both)) + 1}" if both.any() else "no force"
-    return Figure(finding, (panel,))
+    amplitude = Axis("amplitude of the inertia force", "N", symbol="F_k")
+    series = {"along x": force.harmonics_x, "along y": force.harmonics_y}
+    panel = parts.orders("order of the revolution (0: the mean)", amplitude, 0, series, symbol="k")
+    both = np.hypot(*series.values())[1:]
+    return Figure(f"strongest at order {int(np.argmax(both)) + 1}" if both.any() else "no force", [panel])
 
 
 def crowning_scan(inputs: RecommendationInputs, result: Recommendation) -> Figure:
     """Least load capacity and largest overlap over the crowning ratio, the feasible window and the choice."""
-    scan = result.scan
-    if not scan.crowning_ratio.size:
+    scan, best = result.scan, result.crowning_ratio
+    ratio, capacity = scan.crowning_ratio, scan.min_load_capacity_coefficient
+    if not ratio.size:
         raise NoFigure("no_contact_to_scan", "No crowning ratio gives a contact that can be computed")
-    ratio, best = values(scan.crowning_ratio), result.crowning_ratio
-    x = axis(CrowningScan, "crowning_ratio", "crowning ratio (left: heavily, right: slightly crowned)", log=True)
-    inside = [*ratio[np.array(scan.feasible, dtype=bool)].tolist(), *([] if best is None else [best])]
-    window = (Span(min(inside), max(inside), "feasible"),) if inside else ()
-    choice = () if best is None else (Level(best, "", vertical=True),)
-    capacity = axis(CrowningScan, "min_load_capacity_coefficient", log=True)
-    capacity = replace(capacity, limits=_decades_shown(values(scan.min_load_capacity_coefficient)))
-    overlap = axis(CrowningScan, "max_contact_overlap", log=True)
-    boundaries = tuple(Level(each, f"Tr = {each:g}") for each in CAPACITY_BOUNDARIES)
-    supply = Level(OVERLAP_BOUNDARIES[0], "Pu = 1: supply of oil ends", limit=True)
-    least = curve(x, capacity, ratio, scan.min_load_capacity_coefficient, levels=(*boundaries, *choice), spans=window)
-    panels = (
-        replace(least, marks=_chosen(best, result.min_load_capacity_coefficient)),
-        curve(
-            x,
-            overlap,
-            ratio,
-            scan.max_contact_overlap,
-            Hue.GREEN,
-            levels=(supply, *choice),
-            spans=tuple(replace(span, name="") for span in window),
-        ),
+    # Down to a thousandth of the best: where the film tears off, its capacity falls to nothing.
+    top = 10.0 ** np.ceil(np.log10(max(float(np.nanmax(capacity)), CAPACITY_BOUNDARIES[1])))
+    x = axis(scan, "crowning_ratio", "crowning ratio (left: heavily, right: slightly crowned)", log=True)
+    strength = axis(scan, "min_load_capacity_coefficient", log=True, limits=(top / 1e4, top))
+    supply = axis(scan, "max_contact_overlap", log=True)
+    choice, marks = list[Level](), list[Mark]()
+    inside = ratio[np.array(scan.feasible, dtype=bool)].tolist()
+    if best is None:
+        failed = result.failed_constraint or ""
+        finding = f"no crowning serves this range: {CONSTRAINTS.get(failed, failed.replace('_', ' '))}"
+    else:
+        least = present(result.min_load_capacity_coefficient)
+        most = max(present(result.at_min).contact_overlap, present(result.at_max).contact_overlap)
+        finding = f"ε = {number(best)}: least Tr = {number(least)} with Pu up to {number(most)}"
+        choice, marks = (
+            [Level(best, "", vertical=True)],
+            [Mark(best, least, f"ε = {number(best)}, Tr = {number(least)}")],
+        )
+        inside.append(best)
+    window = [Span(min(inside), max(inside), "feasible")] if inside else []
+    areas = [Level(each, f"Tr = {each:g}") for each in CAPACITY_BOUNDARIES]
+    ends = Level(OVERLAP_BOUNDARIES[0], "Pu = 1: supply of oil ends", limit=True)
+    film = parts.curve(x, strength, ratio, capacity, levels=[*areas, *choice], spans=window)
+    oil = parts.curve(
+        x, supply, ratio, scan.max_contact_overlap, Hue.GREEN, levels=[ends, *choice], spans=parts.unnamed(window)
     )
     low, high = degrees(inputs.min_misalignment), degrees(inputs.max_misalignment)
-    return Figure(_choice(result), panels, title=f"Crowning for {number(low)}° to {number(high)}°")
-
-
-def _chosen(best: float | None, capacity: float | None) -> tuple[Mark, ...]:
-    if best is None or capacity is None:
-        return ()
-    return (Mark(best, capacity, f"ε = {number(best)}, Tr = {number(capacity)}"),)
-
-
-def _decades_shown(capacity: Values) -> tuple[float, float]:
-    """Down to a thousandth of the best: where the film tears off, its capacity falls to nothing."""
-    top = 10.0 ** np.ceil(np.log10(max(float(np.nanmax(capacity)), CAPACITY_BOUNDARIES[1])))
-    return top / 1e4, top
-
-
-def _choice(result: Recommendation) -> str:
-    if result.crowning_ratio is None:
-        failed = result.failed_constraint or ""
-        return f"no crowning serves this range: {CONSTRAINTS.get(failed, failed.replace('_', ' '))}"
-    capacity = present(result.min_load_capacity_coefficient)
-    overlap = max(present(result.at_min).contact_overlap, present(result.at_max).contact_overlap)
-    return f"ε = {number(result.crowning_ratio)}: least Tr = {number(capacity)} with Pu up to {number(overlap)}"
+    title = f"Crowning for {number(low)}° to {number(high)}°"
+    return Figure(finding, [replace(film, marks=marks), oil], title=title)
 
 
 ORBIT_FIGURES = (
@@ -244,56 +202,45 @@ RECOMMENDATION_FIGURES = (
 
 def tooth_loads(inputs: CouplingInputs, result: CouplingResult) -> Figure:
     """Tangential force of each tooth, mean and largest; the pitch deviations behind it."""
-    load = result.load_distribution
-    curves = load.curves
-    angle, force = values(curves.angle), values(curves.tangential_force)
-    largest, mean = int(np.argmax(force)), load.mean_tangential_force
-    teeth = f"{load.loaded_teeth} of {force.size} teeth carry"
-    tilt = f"at {number(abs(degrees(inputs.operation.misalignment)))}° tilt"
-    bars = Bars("tangential force", angle, force, Hue.BLUE, strong=largest)
+    load, deviations = result.load_distribution, inputs.coupling.pitch_errors
+    curves, mean = load.curves, load.mean_tangential_force
+    bars = Line("tangential force", curves.angle, curves.tangential_force)
     panels = [
         Panel(
             x=TOOTH,
-            y=axis(LoadCurves, "tangential_force", "tangential force"),
-            bars=(bars,),
-            levels=(Level(mean, f"mean {number(mean, 'N')}"),),
-            marks=(Mark(float(angle[largest]), float(force[largest]), number(float(force[largest]), "N")),),
+            y=axis(curves, "tangential_force", "tangential force"),
+            bars=[bars],
+            levels=[Level(mean, f"mean {number(mean, 'N')}")],
+            marks=parts.extreme([bars], "N"),
         )
     ]
-    if inputs.coupling.pitch_errors is not None:
-        error = axis(CouplingDesign, "pitch_errors", "pitch deviation (positive: carries more)", magnitude=False)
-        errors = Bars("pitch deviation", angle, values(np.array(inputs.coupling.pitch_errors) / UM), Hue.VERMILLION)
-        panels.append(Panel(x=TOOTH, y=error, bars=(errors,)))
-    concentration = load.load_concentration
-    share = "" if concentration is None else f"; the highest loaded takes {number(concentration)} times the mean {tilt}"
-    return Figure(f"{teeth}{share}", tuple(panels))
+    if deviations is not None:
+        y = axis(inputs.coupling, "pitch_errors", "pitch deviation (positive: carries more)", magnitude=False)
+        errors = Line("pitch deviation", curves.angle, values(np.array(deviations) / UM), Hue.VERMILLION)
+        panels.append(Panel(x=TOOTH, y=y, bars=[errors]))
+    finding = f"{load.loaded_teeth} of {curves.angle.size} teeth carry"
+    if load.load_concentration is not None:
+        tilt = f"at {number(abs(degrees(inputs.operation.misalignment)))}° tilt"
+        finding += f"; the highest loaded takes {number(load.load_concentration)} times the mean {tilt}"
+    return Figure(finding, panels)
 
 
 def tooth_motion(_: CouplingInputs, result: CouplingResult) -> Figure:
     """What wears, what builds the film and what loads a tooth over a revolution."""
     kinematics, limit = result.kinematics, result.limits.sliding_velocity_limit
-    panels = tuple(
-        curve(
-            TOOTH,
-            axis(KinematicCurves, name, title),
-            kinematics.curves.angle,
-            getattr(kinematics.curves, name),
-            hue,
-            marked=bool(levels),
-            levels=levels,
-            spans=TILTS,
+    curves, lasting = kinematics.curves, Level(limit, f"lasting limit {number(limit, 'm/s')}", limit=True)
+
+    def panel(name: str, title: str, hue: Hue, *levels: Level) -> Panel:
+        y, marked = axis(curves, name, title), bool(levels)
+        return parts.curve(
+            TOOTH, y, curves.angle, getattr(curves, name), hue, marked=marked, levels=levels, spans=TILTS
         )
-        for name, title, hue, levels in (
-            (
-                "sliding_velocity",
-                "sliding velocity, that wears",
-                Hue.VERMILLION,
-                (Level(limit, f"lasting limit {number(limit, 'm/s')}", limit=True),),
-            ),
-            ("hydrodynamic_velocity", "hydrodynamic velocity, that builds the film", Hue.BLUE, ()),
-            ("tangential_displacement", "tangential displacement, that loads the tooth", Hue.GREEN, ()),
-        )
-    )
+
+    panels = [
+        panel("sliding_velocity", "sliding velocity, that wears", Hue.VERMILLION, lasting),
+        panel("hydrodynamic_velocity", "hydrodynamic velocity, that builds the film", Hue.BLUE),
+        panel("tangential_displacement", "tangential displacement, that loads the tooth", Hue.GREEN),
+    ]
     share = percent(kinematics.max_sliding_velocity / limit)
     return Figure(f"sliding reaches {share} of its lasting limit; least film velocity near the tilt positions", panels)
 
@@ -301,29 +248,22 @@ def tooth_motion(_: CouplingInputs, result: CouplingResult) -> Figure:
 def contact_track(_: CouplingInputs, result: CouplingResult) -> Figure:
     """Where the contact is on the face, and how wide."""
     curves, lubrication = result.kinematics.curves, result.lubrication
-    angle, position = values(curves.angle), values(curves.contact_position)
-    half, width = lubrication.hertz_half_width, result.derived.face_width
-    edge = width / 2.0
-    reach = float(np.abs(position).max()) + half
+    position, half, edge = curves.contact_position, lubrication.hertz_half_width, result.derived.face_width / 2.0
     panel = Panel(
         x=TOOTH,
-        y=axis(KinematicCurves, "contact_position", "position on the hub tooth from its middle", magnitude=False),
-        lines=(Line("middle", angle, position, Hue.BLUE),),
-        ribbons=(Ribbon("contact", angle, position - half, position + half),),
-        levels=(Level(edge, "edge of the face", limit=True), Level(-edge, "edge of the face", limit=True)),
+        y=axis(curves, "contact_position", "position on the hub tooth from its middle", magnitude=False),
+        lines=[Line("middle", curves.angle, position)],
+        ribbons=[Ribbon("contact", curves.angle, position - half, position + half)],
+        levels=[Level(each, "edge of the face", limit=True) for each in (edge, -edge)],
     )
-    overlap = lubrication.contact_overlap
+    overlap, reach = lubrication.contact_overlap, float(np.abs(position).max()) + half
     supply = "without travel no oil comes in" if overlap is None else f"overlap Pu = {number(overlap)}"
-    finding = f"contact reaches {number(reach, 'mm')} of {number(edge, 'mm')} to the edge; {supply}"
-    return Figure(finding, (panel,))
+    return Figure(f"contact reaches {number(reach, 'mm')} of {number(edge, 'mm')} to the edge; {supply}", [panel])
 
 
 def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
     """Which teeth slide which way, and the thrust that is left of the coaxial one."""
-    thrust, curves = result.axial_thrust, result.kinematics.curves
-    axial = inputs.operation.axial_velocity
-    sliding = values(curves.sliding_velocity)
-    opposed = float(np.mean(sliding[:-1] > abs(axial)))
+    thrust, curves, axial = result.axial_thrust, result.kinematics.curves, inputs.operation.axial_velocity
     rows = [
         Row("thrust", thrust.force, Hue.BLUE, (thrust.lower_bound, thrust.upper_bound)),
         Row("if all teeth carried alike", thrust.uniform_load_force, Hue.GREY),
@@ -335,45 +275,39 @@ def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
             Row("self-induced, one-pair model", thrust.self_induced.simple_model_force, Hue.GREY),
         ]
     limit = Level(thrust.coaxial_limit, "coaxial limit", limit=True, vertical=True)
+    forces = Panel(x=axis(thrust, "force", "thrust"), y=Axis("thrust"), rows=rows, levels=[limit])
     motion = Panel(
         x=TOOTH,
-        y=axis(KinematicCurves, "sliding_velocity", "velocity along the tooth"),
-        lines=(Line("sliding by tilt", values(curves.angle), sliding, Hue.VERMILLION),),
-        levels=(Level(axial, f"axial velocity {number(axial * 1e3, 'mm/s')}"),) if axial else (),
+        y=axis(curves, "sliding_velocity", "velocity along the tooth"),
+        lines=[Line("sliding by tilt", curves.angle, curves.sliding_velocity, Hue.VERMILLION)],
+        levels=[Level(axial, f"axial velocity {number(axial * 1e3, 'mm/s')}")] if axial else [],
     )
-    share = (
-        "no limit without load or friction"
-        if thrust.fraction_of_limit is None
-        else f"{percent(thrust.fraction_of_limit)} of the coaxial limit"
-    )
-    state = (
-        "friction at rest is indeterminate"
-        if thrust.indeterminate
-        else f"{percent(opposed)} of the revolution slides against the axial motion"
-    )
-    finding = f"{share}; {state}" if axial or thrust.indeterminate else share
-    return Figure(
-        finding,
-        (Panel(x=axis(AxialThrust, "force", "thrust"), y=Axis("thrust"), rows=tuple(rows), levels=(limit,)), motion),
-    )
+    finding = "no limit without load or friction"
+    if thrust.fraction_of_limit is not None:
+        finding = f"{percent(thrust.fraction_of_limit)} of the coaxial limit"
+    if thrust.indeterminate:
+        finding += "; friction at rest is indeterminate"
+    elif axial:
+        opposed = float(np.mean(curves.sliding_velocity[:-1] > abs(axial)))
+        finding += f"; {percent(opposed)} of the revolution slides against the axial motion"
+    return Figure(finding, [forces, motion])
 
 
 def losses(_: CouplingInputs, result: CouplingResult) -> Figure:
     """Moments on shaft and bearings, and the power that becomes heat."""
     loss = result.losses
-    moments = (
+    moments = [
         Row("friction", loss.friction_moment, Hue.VERMILLION),
         Row("shift of the contacts", loss.contact_shift_moment, Hue.BLUE),
         Row("bending of the hub, resultant", loss.hub_bending_moment, Hue.GREY),
-    )
-    power = (Row("friction power of one mesh", loss.friction_power, Hue.VERMILLION),)
-    bending = number(loss.hub_bending_moment, "N m")
-    finding = f"{number(loss.friction_power, 'W')} of heat and {bending} of bending in one mesh"
-    panels = (
+    ]
+    power = [Row("friction power of one mesh", loss.friction_power, Hue.VERMILLION)]
+    panels = [
         Panel(x=Axis("moment", "N m", symbol="M"), y=Axis("moment"), rows=moments),
         Panel(x=Axis("power", "W", symbol="P"), y=Axis("power"), rows=power),
-    )
-    return Figure(finding, panels)
+    ]
+    bending = number(loss.hub_bending_moment, "N m")
+    return Figure(f"{number(loss.friction_power, 'W')} of heat and {bending} of bending in one mesh", panels)
 
 
 FIGURES = (

@@ -6,22 +6,8 @@ from math import atan2, copysign, hypot, pi, sin
 
 import numpy as np
 
-from app.figures.data import (
-    Axis,
-    Critical,
-    Figure,
-    Hue,
-    Level,
-    Line,
-    Mark,
-    NoFigure,
-    Panel,
-    Role,
-    Row,
-    Span,
-    Values,
-    values,
-)
+from app.figures import parts
+from app.figures.data import Axis, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Role, Row, Span, Values, values
 from app.figures.declaration import Declaration
 from app.figures.models.load_distribution import face, over_flank, section
 from app.figures.sketches import shafts
@@ -29,46 +15,20 @@ from app.figures.units import MM, axis
 from app.figures.wording import number, percent
 from solvers.drive_train import solve
 from solvers.drive_train.inputs import DriveTrainInputs, Effects, JournalBearing, Shaft, Vector2
-from solvers.drive_train.results import DriveTrainResult, FlankMaps, GapCurves, Misalignment, ShaftCurves, ShaftResult
+from solvers.drive_train.results import DriveTrainResult, ShaftResult
 from solvers.drive_train.shafts.bearings import attitude_angle
-
-
-def flank_load(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Line load over the flank under the gap that all parts agreed on."""
-    flank, load, shown = result.flank, result.load, axis(FlankMaps, "line_load")
-    panel = over_flank(face_width(inputs), flank, shown, flank.line_load, load.max_line_load, None)
-    finding = f"highest {number(load.max_line_load, 'N/mm')}; contact pattern {percent(load.contact_fraction)}"
-    factor = "" if load.face_load_factor is None else f", K_Hβ = {number(load.face_load_factor)}"
-    return Figure(f"{finding}{factor}" if factor else "no load", (panel,))
-
-
-def contact_temperature(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Contact temperature by Blok over the whole flank, with its corners."""
-    flank, shown = result.flank, axis(FlankMaps, "contact_temperature", "contact temperature")
-    grid, limit = flank.contact_temperature, result.derived.temperatures.scuffing
-    if result.derived.temperatures.bulk is None:
-        raise NoFigure("no_oil", "Without an oil and a bulk temperature there is no contact temperature", "lubricant")
-    if not np.isfinite(grid).all():
-        raise NoFigure(
-            "no_temperature",
-            "The loaded path of contact reaches a base circle, where no temperature is defined",
-            "gears",
-        )
-    low, high = float(grid.min()), float(grid.max())
-    panel = over_flank(face_width(inputs), flank, shown, grid, high if high > low else None, None)
-    assert panel.map is not None
-    critical = (Critical(limit, "scuffing"),) if limit is not None and low < limit < high else ()
-    colours = replace(panel.map, critical=critical, range=(low, high if high > low else low + 1.0))
-    safety = result.safety.blok_flank if result.safety is not None else None
-    finding = "" if safety is None else f", safety factor S_B = {number(safety)}"
-    return Figure(f"up to {number(high, '°C', digits=4)}{finding}", (replace(panel, map=colours),))
-
 
 OWN = "own derivation"
 ROUND = np.linspace(0.0, 2.0 * pi, 181)  # a circle in steps of 2°
 WALLS = -1.05, 1.05  # of the clearance, with some room
 NEWTONS = 1e3  # per kilonewton
 NOISE = 1e-9  # of a whole: a smaller part is rounding
+HUES = {
+    "without coupling": Hue.ORANGE,
+    "without heat": Hue.VERMILLION,
+    "without shafts": Hue.GREEN,
+    "mesh alone": Hue.GREY,
+}
 PARTS = (
     ("bearings of the pinion", "films_pinion", Hue.BLUE),
     ("bearings of the wheel", "films_wheel", Hue.BLUE),
@@ -82,44 +42,65 @@ PARTS = (
 )
 
 
+def flank_load(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
+    """Line load over the flank under the gap that all parts agreed on."""
+    flank, load = result.flank, result.load
+    panel = over_flank(face_width(inputs), flank, axis(flank, "line_load"), flank.line_load, load.max_line_load, None)
+    if load.face_load_factor is None:
+        return Figure("no load", [panel])
+    pattern = f"contact pattern {percent(load.contact_fraction)}, K_Hβ = {number(load.face_load_factor)}"
+    return Figure(f"highest {number(load.max_line_load, 'N/mm')}; {pattern}", [panel])
+
+
+def contact_temperature(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
+    """Contact temperature by Blok over the whole flank, with its corners."""
+    flank, temperatures = result.flank, result.derived.temperatures
+    grid, shown = flank.contact_temperature, axis(flank, "contact_temperature", "contact temperature")
+    if temperatures.bulk is None:
+        raise NoFigure("no_oil", "Without an oil and a bulk temperature there is no contact temperature", "lubricant")
+    if not np.isfinite(grid).all():
+        message = "The loaded path of contact reaches a base circle, where no temperature is defined"
+        raise NoFigure("no_temperature", message, "gears")
+    low, high, limit = float(grid.min()), float(grid.max()), temperatures.scuffing
+    panel = over_flank(face_width(inputs), flank, shown, grid, high if high > low else None, None)
+    assert panel.map is not None
+    critical = [Level(limit, "scuffing")] if limit is not None and low < limit < high else []
+    colours = replace(panel.map, critical=critical, range=(low, high if high > low else low + 1.0))
+    safety = result.safety.blok_flank if result.safety is not None else None
+    finding = "" if safety is None else f", safety factor S_B = {number(safety)}"
+    return Figure(f"up to {number(high, '°C', digits=4)}{finding}", [replace(panel, map=colours)])
+
+
 def shaft_lines(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Displaced axes of both shafts in both planes, with the reactions of their bearings."""
     states = result.shafts
     z = np.concatenate([state.curves.z for state in states])
-    along = axis(
-        ShaftCurves, "z", "position along Z", magnitude=False, symbol="", limits=(float(z.min()), float(z.max()))
-    )
-    panels = tuple(
+    ends = float(z.min()), float(z.max())
+    along = axis(states[0].curves, "z", "position along Z", magnitude=False, symbol="", limits=ends)
+    panels = [
         _shaft(inputs, name, own, state, along)
         for name, own, state in zip(("pinion", "wheel"), inputs.shafts, states, strict=True)
-    )
+    ]
     loads = [hypot(*bearing.reaction) for state in states for bearing in state.bearings]
     finding = f"bearings carry {number(min(loads) / NEWTONS)} to {number(max(loads) / NEWTONS, 'kN')}"
     return Figure(f"{finding}; marks are their reactions", panels)
 
 
 def _shaft(inputs: DriveTrainInputs, name: str, given: Shaft, state: ShaftResult, along: Axis) -> Panel:
-    curves = state.curves
-    z = values(curves.z)
-    lines, marks = [], []
-    for plane, (title, shown, hue) in enumerate(
-        (("along X", curves.x, Hue.BLUE), ("along Y", curves.y, Hue.VERMILLION))
-    ):
-        line = Line(title, z, values(shown), hue)
-        lines.append(line)
+    curves, marks = state.curves, []
+    lines = parts.lines(curves.z, {"along X": curves.x, "along Y": curves.y})
+    for plane, line in enumerate(lines):
         for bearing, found in zip(given.bearings, state.bearings, strict=True):
             place = bearing.position / MM
-            height = float(np.interp(place, z, line.y))
             reaction = _without_rounding(found.reaction[plane], hypot(*found.reaction)) / NEWTONS
-            marks.append(Mark(place, height, number(reaction, "kN"), hue))
-    hubs = [Level(each.position / MM, "hub", vertical=True) for each in inputs.couplings if each.shaft == name]
+            marks.append(Mark(place, float(np.interp(place, line.x, line.y)), number(reaction, "kN"), line.hue))
     return Panel(
         x=along,
-        y=axis(ShaftCurves, "x", f"displacement of the {name} shaft", magnitude=False, symbol="u, v"),
-        lines=tuple(lines),
-        marks=tuple(marks),
-        levels=tuple(hubs),
-        spans=(Span(inputs.face_start / MM, (inputs.face_start + face_width(inputs)) / MM, "face"),),
+        y=axis(curves, "x", f"displacement of the {name} shaft", magnitude=False, symbol="u, v"),
+        lines=lines,
+        marks=marks,
+        levels=[Level(each.position / MM, "hub", vertical=True) for each in inputs.couplings if each.shaft == name],
+        spans=[Span(inputs.face_start / MM, (inputs.face_start + face_width(inputs)) / MM, "face")],
     )
 
 
@@ -135,44 +116,32 @@ def _without_rounding(value: float, whole: float) -> float:
 
 def gap(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Gap over the face by shafts, heat and what is ground."""
-    found = result.misalignment
-    curves = found.curves
-    y = values(curves.position)
-    lines = (
-        Line("shafts", y, values(curves.shaft), Hue.BLUE),
-        Line("heat", y, values(curves.thermal), Hue.VERMILLION),
-        Line("as ground", y, values(curves.modification), Hue.GREEN),
-        Line("total", y, values(curves.total), Hue.PURPLE),
-    )
-    opened = axis(GapCurves, "total", "gap, positive where the flanks part", magnitude=False)
-    tilt, heat = (
-        _without_rounding(slope, span)
-        for slope, span in (
-            (found.shaft_slope, found.shaft_range),
-            (found.thermal_slope, found.thermal_range),
-        )
-    )
-    slopes = f"shafts {number(tilt)}, heat {number(heat, 'µm')} over the face"
+    found, curves = result.misalignment, result.misalignment.curves
+    gaps = {"shafts": curves.shaft, "heat": curves.thermal, "as ground": curves.modification, "total": curves.total}
+    opened = axis(curves, "total", "gap, positive where the flanks part", magnitude=False)
+    tilt = number(_without_rounding(found.shaft_slope, found.shaft_range))
+    heat = number(_without_rounding(found.thermal_slope, found.thermal_range), "µm")
     wanted = f"first estimate of the helix slope to grind {number(found.recommended_helix_slope, 'µm')}"
-    return Figure(f"{slopes}; {wanted}", (Panel(x=face(face_width(inputs)), y=opened, lines=lines),))
+    panel = Panel(x=face(face_width(inputs)), y=opened, lines=parts.lines(curves.position, gaps))
+    return Figure(f"shafts {tilt}, heat {heat} over the face; {wanted}", [panel])
 
 
 def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Where the misalignment comes from."""
     found = result.misalignment
-    rows = [Row(name, getattr(found.parts, part), hue) for name, part, hue in PARTS]
-    rows += [
+    causes = [Row(name, getattr(found.parts, part), hue) for name, part, hue in PARTS]
+    totals = [
         Row("shafts, total", found.shaft_slope, Hue.PURPLE),
         Row("heat", found.thermal_slope, Hue.VERMILLION),
         Row("shafts and heat", found.total_slope, Hue.PURPLE),
     ]
-    shown = tuple(row for row in rows if row.value != 0.0)
-    if not shown:
+    rows = [row for row in (*causes, *totals) if row.value != 0.0]
+    if not rows:
         raise NoFigure("no_misalignment", "Neither shafts nor heat open a gap, so there is nothing to draw", "effects")
-    slope = axis(Misalignment, "total_slope", "slope of the gap over the face", magnitude=False)
-    largest = max(rows[: len(PARTS)], key=lambda row: abs(row.value))
+    slope = axis(found, "total_slope", "slope of the gap over the face", magnitude=False)
+    largest = max(causes, key=lambda row: abs(row.value))
     finding = f"most by the {largest.name}: {number(largest.value, 'µm')}" if largest.value else "heat alone"
-    return Figure(finding, (Panel(x=slope, y=Axis("cause"), rows=shown),))
+    return Figure(finding, [Panel(x=slope, y=Axis("cause"), rows=rows)])
 
 
 def effects_apart(inputs: DriveTrainInputs, _: DriveTrainResult) -> dict[str, Values]:
@@ -185,45 +154,39 @@ def effects_apart(inputs: DriveTrainInputs, _: DriveTrainResult) -> dict[str, Va
         variants["without shafts"] = replace(own, shafts=False)
     if own.thermal or own.shafts:
         variants["mesh alone"] = Effects(shafts=False, coupling=False, thermal=False)
-    return {name: _line_force(replace(inputs, effects=effects)) for name, effects in variants.items()}
-
-
-def _line_force(inputs: DriveTrainInputs) -> Values:
-    """Transverse force per face [N/mm]; no film is asked for."""
-    closed = replace(inputs, mesh=replace(inputs.mesh, lubrication="closed_form"), states=("hot",))
-    return values(solve(closed).misalignment.curves.line_force / 1e3)
+    plain = replace(
+        inputs, mesh=replace(inputs.mesh, lubrication="closed_form"), states=("hot",)
+    )  # no film is asked for
+    solved = {name: solve(replace(plain, effects=effects)) for name, effects in variants.items()}
+    return {name: values(each.misalignment.curves.line_force / 1e3) for name, each in solved.items()}
 
 
 def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[str, Values]) -> Figure:
     """Load along the face with all effects and without each."""
     curves, load = result.misalignment.curves, result.load
-    y = values(curves.position)
-    hues = {
-        "without coupling": Hue.ORANGE,
-        "without heat": Hue.VERMILLION,
-        "without shafts": Hue.GREEN,
-        "mesh alone": Hue.GREY,
-    }
-    lines = [Line("as asked", y, values(curves.line_force), Hue.BLUE)]
-    lines += [Line(name, y, force, hues[name], Role.REFERENCE) for name, force in others.items()]
     if load.face_load_factor is None or load.face_load_at is None:
         raise NoFigure("no_load", "Without load there is none along the face", "operation")
-    place = f"at {percent(load.face_load_at)} of the face"
-    panel = Panel(
-        x=face(face_width(inputs)),
-        y=axis(GapCurves, "line_force", "transverse force per face, mean over the roll"),
-        lines=tuple(lines),
-    )
-    return Figure(f"K_Hβ = {number(load.face_load_factor)} {place}", (panel,))
+    lines = [Line("as asked", curves.position, curves.line_force)]
+    lines += [Line(name, curves.position, force, HUES[name], Role.REFERENCE) for name, force in others.items()]
+    y = axis(curves, "line_force", "transverse force per face, mean over the roll")
+    finding = f"K_Hβ = {number(load.face_load_factor)} at {percent(load.face_load_at)} of the face"
+    return Figure(finding, [Panel(x=face(face_width(inputs)), y=y, lines=lines)])
 
 
 def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Journal positions of the plain bearings in their clearances, and their paths as the load changes (Ocvirk)."""
-    panels = []
+    wall = Line("clearance", np.cos(ROUND), np.sin(ROUND), Hue.GREY, named=False)
+    across, up = (
+        Axis(f"displacement over clearance, along {way}", magnitude=False, limits=WALLS, symbol=symbol)
+        for way, symbol in (("X", "u_B/c"), ("Y", "v_B/c"))
+    )
+    panels, films = [], list[float]()
     used = (result.derived.pinion_shaft, result.derived.wheel_shaft)
     for name, state, known in zip(("pinion", "wheel"), result.shafts, used, strict=True):
         lines, marks = [], []
         for index, (bearing, given) in enumerate(zip(state.bearings, known.bearings, strict=True)):
+            if bearing.min_film is not None:
+                films.append(bearing.min_film)
             if bearing.eccentricity_ratio is None or given.radial_clearance is None:
                 continue
             x, y = (float(each) / given.radial_clearance for each in bearing.displacement)
@@ -232,20 +195,13 @@ def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
             lines.append(Line(f"bearing {index + 1}", *_locus(x, y, bearing.reaction), hue, named=named))
             marks.append(Mark(x, y, f"ε = {number(bearing.eccentricity_ratio)}", hue))
         if lines:
-            wall = Line("clearance", values(np.cos(ROUND)), values(np.sin(ROUND)), Hue.GREY, named=False)
-            across, up = (
-                Axis(f"displacement over clearance, along {way}", magnitude=False, limits=WALLS, symbol=symbol)
-                for way, symbol in (("X", "u_B/c"), ("Y", "v_B/c"))
-            )
-            panels.append(
-                Panel(x=across, y=up, title=f"{name} shaft", lines=(wall, *lines), marks=tuple(marks), equal=True)
-            )
+            panel = Panel(x=across, y=up, title=f"{name} shaft", lines=[wall, *lines], marks=marks, equal=True)
+            panels.append(panel)
     if not panels:
-        raise NoFigure(
-            "no_plain_bearing", "Only plain bearings have a clearance in which a journal moves", "pinion_shaft"
-        )
-    least = min(each.min_film for state in result.shafts for each in state.bearings if each.min_film is not None)
-    return Figure(f"thinnest film {number(least, 'µm')}; lines: as the load falls to zero", tuple(panels), beside=True)
+        message = "Only plain bearings have a clearance in which a journal moves"
+        raise NoFigure("no_plain_bearing", message, "pinion_shaft")
+    finding = f"thinnest film {number(min(films), 'µm')}; lines: as the load falls to zero"
+    return Figure(finding, panels, beside=True)
 
 
 def _locus(x: float, y: float, reaction: Vector2) -> tuple[Values, Values]:
@@ -254,60 +210,49 @@ def _locus(x: float, y: float, reaction: Vector2) -> tuple[Values, Values]:
     side = copysign(1.0, sin(atan2(y, x) - load))
     eccentricity = np.linspace(0.0, hypot(x, y), 60)
     angle = np.array([load + side * attitude_angle(float(each)) for each in eccentricity])
-    return values(eccentricity * np.cos(angle)), values(eccentricity * np.sin(angle))
+    return eccentricity * np.cos(angle), eccentricity * np.sin(angle)
 
 
 def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Axial load of both shafts between the bounds that the couplings' friction leaves."""
-    named = tuple(zip(("pinion", "wheel"), inputs.shafts, result.shafts, strict=True))
-    rows = []
-    for name, _, state in named:
-        low, high = state.thrust.lower, state.thrust.upper
-        known = None if low is None or high is None else (low, high)
-        rows.append(Row(f"{name} shaft", state.thrust.mesh, Hue.GREY if known is None else Hue.BLUE, known))
-    usable = {name: 0.5 * shaft.ultimate_thrust for name, shaft, _ in named if shaft.ultimate_thrust is not None}
-    alike = len(set(usable.values())) == 1
-    limits = {
-        load: "half the ultimate load" if alike else f"half the ultimate, {name}" for name, load in usable.items()
-    }
-    levels = [
-        Level(sign * load, text if sign > 0.0 else "", limit=True, vertical=True)
-        for load, text in limits.items()
-        for sign in (1.0, -1.0)
-    ]
-    reversing = [name for name, _, state in named if state.thrust.reverses]
+    rows, usable, reversing = [], dict[float, list[str]](), []
+    for name, given, state in zip(("pinion", "wheel"), inputs.shafts, result.shafts, strict=True):
+        found = state.thrust
+        known = None if found.lower is None or found.upper is None else (found.lower, found.upper)
+        rows.append(Row(f"{name} shaft", found.mesh, Hue.GREY if known is None else Hue.BLUE, known))
+        if found.reverses:
+            reversing.append(name)
+        if given.ultimate_thrust is not None:
+            usable.setdefault(0.5 * given.ultimate_thrust, []).append(name)
+    levels = []
+    for load, names in usable.items():
+        text = "half the ultimate load" if len(usable) == 1 else f"half the ultimate, {names[0]}"
+        levels += [Level(end, name, limit=True, vertical=True) for end, name in ((load, text), (-load, ""))]
+    title = "axial load towards +Z: of the mesh, and its bounds with the couplings"
+    x = Axis(title, "N", magnitude=False, symbol="F_a")
     finding = f"friction can reverse the load of the {reversing[0]}" if reversing else "no load reverses"
-    panel = Panel(
-        x=Axis(
-            "axial load towards +Z: of the mesh, and its bounds with the couplings", "N", magnitude=False, symbol="F_a"
-        ),
-        y=Axis("shaft"),
-        rows=tuple(rows),
-        levels=tuple(levels),
-    )
-    return Figure(finding, (panel,))
+    return Figure(finding, [Panel(x=x, y=Axis("shaft"), rows=rows, levels=levels)])
 
 
 def losses(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """What the unit loses, and where."""
-    found = result.losses
-    bearings = (*inputs.pinion_shaft.bearings, *inputs.wheel_shaft.bearings)
+    found, bearings = result.losses, (*inputs.pinion_shaft.bearings, *inputs.wheel_shaft.bearings)
     plain = any(isinstance(each, JournalBearing) for each in bearings)  # no friction is known of other bearings
-    parts = (
+    powers = (
         ("plain bearings" if plain else "bearings", found.bearings if plain else None, Hue.BLUE),
         ("mesh", found.mesh, Hue.VERMILLION),
         ("pumping of air and mist", found.pumping, Hue.GREEN),
         ("couplings", found.coupling, Hue.ORANGE),
     )
-    rows = tuple(Row(name, np.nan if power is None else power, hue) for name, power, hue in parts)
-    efficiency = "" if found.efficiency is None else f", efficiency {number(100 * found.efficiency, '%', digits=4)}"
-    if found.total is None:
-        finding = "without the loss of the mesh, whose coefficient of friction is not known"
-    else:
-        finding = f"total {number(found.total / NEWTONS, 'kW')}{efficiency}" + (
-            "" if plain else "; without the bearings"
-        )
-    return Figure(finding, (Panel(x=Axis("power lost", "W", symbol="P"), y=Axis("where"), rows=rows),))
+    rows = [Row(name, np.nan if power is None else power, hue) for name, power, hue in powers]
+    finding = "without the loss of the mesh, whose coefficient of friction is not known"
+    if found.total is not None:
+        finding = f"total {number(found.total / NEWTONS, 'kW')}"
+        if found.efficiency is not None:
+            finding += f", efficiency {number(100 * found.efficiency, '%', digits=4)}"
+        if not plain:
+            finding += "; without the bearings"
+    return Figure(finding, [Panel(x=Axis("power lost", "W", symbol="P"), y=Axis("where"), rows=rows)])
 
 
 LOAD_ALONE = Declaration("face-load", "Load along the face", OWN, partial(face_load, others={}))

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
+from app.figures import parts
 from app.figures.data import (
     ORDER,
     Axis,
-    Bars,
     Figure,
     Hue,
     Level,
@@ -25,8 +25,7 @@ from app.figures.data import (
     Values,
     values,
 )
-from app.figures.declaration import Declaration, present
-from app.figures.parts import curve, extreme, extreme_of_map
+from app.figures.declaration import Declaration
 from app.figures.sketches import points_of_contact, transverse_section
 from app.figures.units import MM, axis
 from app.figures.wording import number, percent
@@ -34,16 +33,7 @@ from solvers.drive_train.results import FlankMaps
 from solvers.gears.inputs import GearPairInputs
 from solvers.gears.pair import meshing_path
 from solvers.scuffing.inputs import LoadDistributionInputs
-from solvers.scuffing.results import (
-    ContactPoints,
-    ErrorCurves,
-    FeatureLine,
-    Flank,
-    LengthCurves,
-    LoadDistribution,
-    Place,
-    StiffnessCurves,
-)
+from solvers.scuffing.results import Flank, LoadDistribution, Place
 
 MOST_LINES = 12  # of contact on either side of one
 FIFTHS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)  # ticks of an axis from 0 to 1
@@ -70,13 +60,13 @@ def over_flank(
     """A map of a quantity over the flank of a face width [m], its largest value marked at its place or in the map."""
     y = values(flank.face_fraction * width / MM)
     ends = 0.0, max(float(np.nanmax(grid, initial=0.0)), largest or 0.0) or 1.0
-    mapped = Map(shown.title, shown.unit, y, values(flank.profile_fraction), grid, range=ends)
-    marks: tuple[Mark, ...] = ()
+    mapped = Map(shown.title, shown.unit, y, flank.profile_fraction, grid, range=ends)
+    marks = []
     if largest:
-        mark = replace(extreme_of_map(mapped), text=number(largest, shown.unit or ""))
+        mark = replace(parts.extreme_of_map(mapped), text=number(largest, shown.unit))
         if at is not None:
             mark = replace(mark, x=at.face_fraction * width / MM, y=at.profile_fraction)
-        marks = (mark,)
+        marks = [mark]
     return Panel(x=face(width), y=PROFILE, map=mapped, marks=marks)
 
 
@@ -87,32 +77,29 @@ def flank_load(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figu
     spread = "" if load.face_load_factor is None else f", K_Hβ = {number(load.face_load_factor)}"
     carrying = f"contact pattern {percent(load.contact_fraction)}"
     finding = f"highest {number(load.max_line_load, 'N/mm')}{spread}; {carrying}"
-    return Figure(finding if load.max_at else NO_LOAD, (panel,))
+    return Figure(finding if load.max_at else NO_LOAD, [panel])
 
 
 def flank_pressure(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Hertzian pressure over the flank, its maximum over all roll positions marked."""
-    pressure, flank, shown = result.pressure, result.flank, axis(Flank, "pressure")
-    panel = over_flank(inputs.gears.face_width, flank, shown, flank.pressure, pressure.max, pressure.max_at)
+    largest, at, flank = result.pressure.max, result.pressure.max_at, result.flank
+    panel = over_flank(inputs.gears.face_width, flank, axis(flank, "pressure"), flank.pressure, largest, at)
     finding = NO_LOAD
-    if pressure.max is None:
+    if largest is None:
         finding = "no largest pressure: the path reaches a base circle"
-    elif pressure.max and pressure.max_at:
-        face_at, profile_at = (
-            percent(each) for each in (pressure.max_at.face_fraction, pressure.max_at.profile_fraction)
-        )
-        finding = f"highest {number(pressure.max, 'MPa')} at {face_at} of the face, {profile_at} of the profile"
-    return Figure(finding, (panel,), unsolved=int(np.isnan(flank.pressure).sum()))
+    elif largest and at:
+        place = f"{percent(at.face_fraction)} of the face, {percent(at.profile_fraction)} of the profile"
+        finding = f"highest {number(largest, 'MPa')} at {place}"
+    return Figure(finding, [panel], unsolved=int(np.isnan(flank.pressure).sum()))
 
 
 def modification(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Gap between the unloaded flanks."""
-    flank, width = result.flank, inputs.gears.face_width
-    gap = _modified(flank)
-    y, title = values(flank.face_fraction * width / MM), "gap between the unloaded flanks"
-    mapped = Map(title, "µm", y, values(flank.profile_fraction), gap, Scale.SIGNED)
+    flank, width, gap = result.flank, inputs.gears.face_width, _modified(result.flank)
+    y = values(flank.face_fraction * width / MM)
+    mapped = Map("gap between the unloaded flanks", "µm", y, flank.profile_fraction, gap, Scale.SIGNED)
     finding = f"from {number(float(gap.min()))} to {number(float(gap.max()), 'µm')}"
-    return Figure(finding, (Panel(x=face(width), y=PROFILE, map=mapped),))
+    return Figure(finding, [Panel(x=face(width), y=PROFILE, map=mapped)])
 
 
 def _modified(flank: Flank) -> Values:
@@ -138,15 +125,16 @@ def traces(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
         ("wheel", pair.wheel, pair.line_of_action, Hue.VERMILLION),
     ):
         diameter = 2.0 * np.hypot(gear.base_radius, roll - side) / MM
-        points = tuple(
+        points = [
             Level(2.0 * float(np.hypot(gear.base_radius, at - side)) / MM, point, vertical=True)
             for point, at in points_of_contact(path).items()
-        )
+        ]
         x = Axis(f"diameter of the {name}", "mm", magnitude=False, symbol="d_y")
-        panels.append(curve(x, depth, diameter, profile, hue, title=f"profile of the {name}", levels=points))
-    panels.append(curve(face(width), depth, flank.face_fraction * width / MM, helix, title="helix of either"))
+        panels.append(parts.curve(x, depth, diameter, profile, hue, title=f"profile of the {name}", levels=points))
+    along = values(flank.face_fraction * width / MM)
+    panels.append(parts.curve(face(width), depth, along, helix, title="helix of either"))
     ranges = [number(float(np.ptp(each)), "µm") for each in (profile, helix)]
-    return Figure(f"profile over {ranges[0]}, helix over {ranges[1]}, each as if on one gear alone", tuple(panels))
+    return Figure(f"profile over {ranges[0]}, helix over {ranges[1]}, each as if on one gear alone", panels)
 
 
 def contact_line_load(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
@@ -169,82 +157,53 @@ def contact_line_load(inputs: LoadDistributionInputs, result: LoadDistribution) 
         along = known(np.column_stack([profile + across / geometry.path_of_contact, y]))
         if np.isfinite(along).sum() > 1:
             name = f"{abs(pitches)} {'ahead' if pitches > 0 else 'behind'}" if pitches else "highest loaded line"
-            lines.append(Line(name, y, values(along), ORDER[pitches % len(ORDER)]))
+            lines.append(Line(name, y, along, ORDER[pitches % len(ORDER)]))
     highest = number(load.max_line_load, "N/mm")
-    panel = Panel(
-        x=face(width), y=axis(Flank, "line_load"), lines=tuple(lines), marks=(Mark(start, load.max_line_load, highest),)
-    )
+    marks = [Mark(start, load.max_line_load, highest)]
     factor = "" if load.face_load_factor is None else f"K_Hβ = {number(load.face_load_factor)}; "
-    return Figure(f"{factor}highest {highest} at {number(start, 'mm')}", (panel,))
+    finding = f"{factor}highest {highest} at {number(start, 'mm')}"
+    return Figure(finding, [Panel(x=face(width), y=axis(flank, "line_load"), lines=lines, marks=marks)])
 
 
 def transmission_error(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Transmission error and length of contact over the roll, and the orders of the error."""
     error, lines = result.transmission_error, result.contact_lines
-    order = values([float(order) for order in range(1, len(error.harmonics) + 1)])
-    mean = (Level(error.mean, f"mean {number(error.mean, 'µm')}"),)
-    length, roll = axis(LengthCurves, "length"), lines.curves.roll_position
+    y, mean = axis(error.curves, "error", magnitude=False), Level(error.mean, f"mean {number(error.mean, 'µm')}")
+    length = axis(lines.curves, "length")
     amplitude = Axis("amplitude of the transmission error", "µm", symbol="TE_k")
-    panels = (
-        curve(
-            ROLL,
-            axis(ErrorCurves, "error", magnitude=False),
-            error.curves.roll_position,
-            error.curves.error,
-            levels=mean,
-        ),
-        curve(ROLL, length, roll, lines.curves.length, Hue.GREEN),
-        Panel(
-            x=Axis("order of the mesh", magnitude=False, ticks=tuple(order.tolist())),
-            y=amplitude,
-            bars=(Bars("amplitude", order, values(error.harmonics)),),
-        ),
-    )
+    panels = [
+        parts.curve(ROLL, y, error.curves.roll_position, error.curves.error, levels=[mean]),
+        parts.curve(ROLL, length, lines.curves.roll_position, lines.curves.length, Hue.GREEN),
+        parts.orders("order of the mesh", amplitude, 1, {"amplitude": error.harmonics}),
+    ]
     contact = f"contact from {number(lines.min_length)} to {number(lines.max_length, 'mm')}"
     return Figure(f"peak to peak {number(error.peak_to_peak, 'µm')}; {contact}", panels)
 
 
 def path_of_contact(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Line load, pressure and sliding along the feature line."""
-    curves, load, pressure = result.feature_line, result.load, result.pressure
+    curves, psi, pressure = result.feature_line, result.feature_line.psi, result.pressure.max
     points = path_points(inputs.gears)
+    plain = parts.unnamed(points)
+    load, hertz = axis(curves, "line_load", "line load"), axis(curves, "pressure", "Hertzian pressure")
     speed = Axis("sliding speed", "m/s", symbol="|u_1−u_2|")
-    panels = (
-        curve(
-            PATH,
-            axis(ContactPoints, "line_load", "line load"),
-            curves.psi,
-            curves.line_load,
-            marked=True,
-            levels=points,
-        ),
-        curve(
-            PATH,
-            axis(ContactPoints, "pressure", "Hertzian pressure"),
-            curves.psi,
-            curves.pressure,
-            Hue.VERMILLION,
-            marked=True,
-            levels=unnamed(points),
-        ),
-        curve(PATH, speed, curves.psi, np.abs(curves.sliding), Hue.GREEN, levels=unnamed(points)),
-    )
-    finding = f"on the whole flank up to {number(load.max_line_load, 'N/mm')}"
-    if pressure.max is not None:
-        finding += f" and {number(pressure.max, 'MPa')}"
-    return Figure(NO_LOAD if load.max_at is None else finding, panels, unsolved=int(np.isnan(curves.pressure).sum()))
+    panels = [
+        parts.curve(PATH, load, psi, curves.line_load, marked=True, levels=points),
+        parts.curve(PATH, hertz, psi, curves.pressure, Hue.VERMILLION, marked=True, levels=plain),
+        parts.curve(PATH, speed, psi, np.abs(curves.sliding), Hue.GREEN, levels=plain),
+    ]
+    finding = f"on the whole flank up to {number(result.load.max_line_load, 'N/mm')}"
+    if pressure is not None:
+        finding += f" and {number(pressure, 'MPa')}"
+    unsolved = int(np.isnan(curves.pressure).sum())
+    return Figure(NO_LOAD if result.load.max_at is None else finding, panels, unsolved=unsolved)
 
 
-def path_points(gears: GearPairInputs) -> tuple[Level, ...]:
+def path_points(gears: GearPairInputs) -> list[Level]:
     """The points A to E of the path of contact, as fractions of it."""
     path = meshing_path(gears)
     fractions = {name: (roll - path.start) / path.length for name, roll in points_of_contact(path).items()}
-    return tuple(Level(fraction, name, vertical=True) for name, fraction in fractions.items())
-
-
-def unnamed(levels: tuple[Level, ...]) -> tuple[Level, ...]:
-    """The same lines without their names, for the panels below."""
-    return tuple(replace(level, name="") for level in levels)
+    return [Level(fraction, name, vertical=True) for name, fraction in fractions.items()]
 
 
 def stiffness(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
@@ -255,51 +214,42 @@ def stiffness(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figur
         levels.append(Level(stiff.mean_mesh, f"mean of the loaded mesh: {number(stiff.mean_mesh)}"))
     for name, roll in points_of_contact(path).items():
         levels.append(Level(path.profile_parameter(roll - path.start), name, vertical=True))
-    y = axis(StiffnessCurves, "single", "stiffness of one pair per face width")
-    x = axis(StiffnessCurves, "gamma", "profile parameter", magnitude=False)
-    panel = curve(x, y, stiff.curves.gamma, stiff.curves.single, levels=tuple(levels))
-    mark = Mark(stiff.max_at_gamma, stiff.max, number(stiff.max, y.unit or ""))
+    x = axis(stiff.curves, "gamma", "profile parameter", magnitude=False)
+    y = axis(stiff.curves, "single", "stiffness of one pair per face width")
+    panel = parts.curve(x, y, stiff.curves.gamma, stiff.curves.single, levels=levels)
+    marks = [Mark(stiff.max_at_gamma, stiff.max, number(stiff.max, y.unit))]
     highest = f"highest {number(stiff.max)} at Γ = {number(stiff.max_at_gamma)}"
-    ends = f"{number(stiff.approach)} at A, {number(stiff.recess, y.unit or '')} at E"
-    return Figure(f"{highest}, {ends}", (replace(panel, marks=(mark,)),))
+    ends = f"{number(stiff.approach)} at A, {number(stiff.recess, y.unit)} at E"
+    return Figure(f"{highest}, {ends}", [replace(panel, marks=marks)])
 
 
 def load_sharing(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Load sharing factor beside the standard's diagram."""
-    curves, lines = result.feature_line, []
+    curves, lines, finding = result.feature_line, list[Line](), NO_LOAD
     if curves.load_sharing is not None:
-        lines.append(Line("this mesh", values(curves.psi), values(curves.load_sharing)))
-    marks = extreme(lines)
+        lines.append(Line("this mesh", curves.psi, curves.load_sharing))
+    marks = parts.extreme(lines)
+    for mark in marks:
+        finding = f"line load up to {number(mark.y)} times the force per face width, at Ψ = {number(mark.x)}"
     if curves.iso_load_sharing is not None:
-        standard = values(curves.iso_load_sharing)
-        lines.append(Line("ISO/TS 6336-20", values(curves.psi), standard, Hue.GREY, Role.REFERENCE))
-    y = axis(FeatureLine, "load_sharing", "load sharing factor, w b / F_bt")
-    panel = Panel(x=PATH, y=y, lines=tuple(lines), levels=path_points(inputs.gears), marks=marks)
-    most = [
-        f"line load up to {number(mark.y)} times the force per face width, at Ψ = {number(mark.x)}" for mark in marks
-    ]
-    return Figure(most[0] if most else NO_LOAD, (panel,))
+        lines.append(Line("ISO/TS 6336-20", curves.psi, curves.iso_load_sharing, Hue.GREY, Role.REFERENCE))
+    y = axis(curves, "load_sharing", "load sharing factor, w b / F_bt")
+    return Figure(finding, [Panel(x=PATH, y=y, lines=lines, levels=path_points(inputs.gears), marks=marks)])
 
 
 def pair_share(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Share of the force on each line of contact over the roll."""
-    load, curves = result.load, present(result.transmission_error.curves)
-    if load.pair_share is None:
+    if result.load.pair_share is None:
         raise NoFigure("no_load", "Without load no pair of teeth carries a share of it", "load")
-    carrying = [values(share) for share in load.pair_share if np.any(np.asarray(share) != 0.0)]
-    lines = tuple(
-        Line(
-            f"line {index + 1}",
-            values(curves.roll_position),
-            share,
-            ORDER[index % len(ORDER)],
-            Role.RESULT if index < len(ORDER) else Role.REFERENCE,
-        )
-        for index, share in enumerate(carrying)
-    )
-    panel = Panel(x=ROLL, y=Axis("share of the normal force", symbol="F_i/F"), lines=lines)
+    roll, lines = result.transmission_error.curves.roll_position, list[Line]()
+    for share in map(values, result.load.pair_share):
+        if share.any():
+            place = len(lines)
+            role = Role.RESULT if place < len(ORDER) else Role.REFERENCE
+            lines.append(Line(f"line {place + 1}", roll, share, ORDER[place % len(ORDER)], role))
     most = max(float(line.y.max()) for line in lines)
-    return Figure(f"one line of contact carries up to {percent(most)} of the force", (panel,))
+    panel = Panel(x=ROLL, y=Axis("share of the normal force", symbol="F_i/F"), lines=lines)
+    return Figure(f"one line of contact carries up to {percent(most)} of the force", [panel])
 
 
 FIGURES = (

@@ -4,34 +4,21 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.figures.data import (
-    Axis,
-    Bars,
-    Critical,
-    Figure,
-    Hue,
-    Level,
-    Line,
-    Map,
-    Mark,
-    NoFigure,
-    Panel,
-    Role,
-    Row,
-    Scale,
-    Span,
-    Values,
-    values,
-)
+from app.figures import parts
+from app.figures.data import Axis, Figure, Hue, Level, Line, Map, Mark, NoFigure, Panel, Role, Row, Scale, Span, Values
 from app.figures.declaration import Declaration, present
 from app.figures.models.load_distribution import face, section
-from app.figures.parts import curve, extreme, extreme_of_map
-from app.figures.units import MM, RPM, axis
+from app.figures.units import MM, RPM, axis, shown
 from app.figures.wording import number, ratio
 from solvers.pumping.inputs import ChokingInputs, Flow, PumpingInputs, PumpingSetup
-from solvers.pumping.results import ChokingCurves, ChokingSpeeds, FaceProfile, GasField, PumpingResult, SpacesResult
-from solvers.pumping.space.stroke import StrokeTable
+from solvers.pumping.results import ChokingCurves, ChokingSpeeds, FaceProfile, PumpingResult, SpacesResult
 from solvers.pumping.speed_scan import speed_scan
+
+HUES = {"pinion": Hue.BLUE, "wheel": Hue.VERMILLION}
+NO_FLOW = 1e-9  # g/s
+SPEEDS = 24  # of the scan, chosen: the curve looks smooth
+BEYOND = 1.5  # times the highest choking speed, where the scan ends
+LOWEST = 0.25  # of that, where it starts
 
 
 def spaces(result: PumpingResult) -> list[tuple[str, SpacesResult]]:
@@ -49,7 +36,7 @@ def critical_ratio(setup: PumpingSetup) -> float:
 def pressure_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
     """Pressure over ambient pressure; the ratio at which clearances become sonic."""
     sonic = critical_ratio(inputs.setup)
-    panels = _maps(inputs, result, "pressure_ratio", Scale.RATIO, (Critical(sonic, f"sonic {number(sonic)}"),))
+    panels = _maps(inputs, result, "pressure_ratio", Scale.RATIO, Level(sonic, f"sonic {number(sonic)}"))
     peak = max(space.peak_pressure_ratio for _, space in spaces(result))
     least = min(space.min_pressure_ratio for _, space in spaces(result))
     return Figure(f"highest {ratio(peak)}, lowest {ratio(least)} of ambient pressure", panels, beside=True)
@@ -57,7 +44,7 @@ def pressure_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 def mach_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
     """Axial Mach number, signed towards the end that meshes last; sonic both ways."""
-    panels = _maps(inputs, result, "axial_mach", Scale.SIGNED, (Critical(1.0, "sonic"), Critical(-1.0, "sonic")))
+    panels = _maps(inputs, result, "axial_mach", Scale.SIGNED, Level(1.0, "sonic"), Level(-1.0, "sonic"))
     peak = max(space.peak_axial_mach for _, space in spaces(result))
     choked = [gear for gear, space in spaces(result) if space.axial_choked]
     state = f"an end of the {' and '.join(choked)} becomes sonic" if choked else "no end becomes sonic"
@@ -72,45 +59,38 @@ def temperature_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
     return Figure(finding, panels, beside=True)
 
 
-def _maps(
-    inputs: PumpingInputs, result: PumpingResult, name: str, scale: Scale, critical: tuple[Critical, ...] = ()
-) -> tuple[Panel, ...]:
+def _maps(inputs: PumpingInputs, result: PumpingResult, name: str, scale: Scale, *critical: Level) -> list[Panel]:
     """A map of a part of the field for each gear's spaces, all in the same colours, extremes marked."""
-    fields = [(gear, space.field) for gear, space in spaces(result)]
-    grids: list[Values] = [getattr(field, name) for _, field in fields]
+    fields = {gear: space.field for gear, space in spaces(result)}
+    grids: list[Values] = [getattr(field, name) for field in fields.values()]
     if any(grid is None for grid in grids):
         raise _without_temperatures()
-    shown, width = axis(GasField, name), face(inputs.setup.gears.face_width)
     # Of a ratio the smallest value says as much as the largest.
-    wording, ends = (ratio, (False, True)) if scale is Scale.RATIO else (number, (False,))
+    wording, extremes = (ratio, (False, True)) if scale is Scale.RATIO else (number, (False,))
     panels = []
-    for (gear, field), grid in zip(fields, grids, strict=True):
-        chart = Map(shown.title, shown.unit, values(field.position), values(field.angle), grid, scale, critical)
-        chart = replace(chart, range=replace(chart, values=np.array(grids).ravel()).ends, bar=gear == fields[-1][0])
+    for gear, field in fields.items():
+        known = axis(field, name)
+        chart = Map(known.title, known.unit, field.position, field.angle, getattr(field, name), scale, critical)
+        chart = replace(chart, range=replace(chart, values=np.array(grids).ravel()).ends, bar=gear == [*fields][-1])
         panel = Panel(
-            x=width,
-            y=axis(GasField, "angle", f"angle of the {gear}", magnitude=False),
+            x=face(inputs.setup.gears.face_width),
+            y=axis(field, "angle", f"angle of the {gear}", magnitude=False),
             title=f"spaces of the {gear}",
             map=chart,
-            marks=tuple(extreme_of_map(chart, wording, least=least) for least in ends),
-            spans=tuple(replace(groove, name="") for groove in _grooves(inputs)),
+            marks=[parts.extreme_of_map(chart, wording, least=least) for least in extremes],
+            spans=parts.unnamed(_grooves(inputs)),
         )
         panels.append(panel)
-    return tuple(panels)
-
-
-SPEEDS = 24  # of the scan, chosen: the curve looks smooth
-BEYOND = 1.5  # times the highest choking speed, where the scan ends
-LOWEST = 0.25  # of that, where it starts
+    return panels
 
 
 def scan(inputs: ChokingInputs, result: ChokingSpeeds) -> ChokingCurves:
     """Exit Mach number and peak pressure at evenly spaced speeds around the choking speeds."""
-    found = [speed for _, speed in _choking(result) if speed is not None]
+    found = [speed for speed in (result.radial_choking_speed, result.axial_choking_speed) if speed is not None]
     limit = inputs.search_limit / RPM
     end = min(BEYOND * max(found), limit) if len(found) == 2 else limit
     start = min([LOWEST * end, *(0.8 * speed for speed in found)])
-    return speed_scan(inputs.setup, np.linspace(start, end, SPEEDS) * RPM)
+    return shown(speed_scan(inputs.setup, np.linspace(start, end, SPEEDS) * RPM))
 
 
 def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves) -> Figure:
@@ -119,37 +99,29 @@ def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves)
     Gas dynamics: where the gas in the outermost slice is itself supersonic, its own Mach number stands in place of the
     one that an expansion to ambient pressure would ask for, and which is larger. The curve bends there.
     """
-    critical, speeds = critical_ratio(inputs.setup), dict(_choking(result))
-    speed, mach = values(curves.pinion_speed / RPM), values(curves.exit_mach)
-    x = axis(ChokingCurves, "pinion_speed", "pinion speed", magnitude=False)
-    demand = axis(ChokingCurves, "exit_mach", "Mach number that the ambient pressure asks for at the ends")
-    pressure = axis(ChokingCurves, "peak_pressure_ratio", "peak pressure over ambient pressure")
-    sonic = Level(1.0, "ends sonic", limit=True), Level(critical, f"clearances sonic, {number(critical)}", limit=True)
-    panels = (
-        curve(x, demand, speed, mach, levels=(sonic[0], *_at("ends", speeds["ends"]))),
-        curve(
-            x,
-            pressure,
-            speed,
-            curves.peak_pressure_ratio,
-            Hue.VERMILLION,
-            levels=(sonic[1], *_at("clearances", speeds["clearances"])),
-        ),
-    )
-    limit = number(inputs.search_limit / RPM, "1/min")
-    onsets = (f"not up to {limit}" if at is None else f"from {number(at, '1/min')}" for at in speeds.values())
-    texts = ", ".join(f"{name} {onset}" for name, onset in zip(speeds, onsets, strict=True))
+    critical, mach, peak = critical_ratio(inputs.setup), curves.exit_mach, curves.peak_pressure_ratio
+    clearances = [Level(critical, f"clearances sonic, {number(critical)}", limit=True)]
+    ends = [Level(1.0, "ends sonic", limit=True)]
+    texts = []
+    for name, speed, levels in (
+        ("clearances", result.radial_choking_speed, clearances),
+        ("ends", result.axial_choking_speed, ends),
+    ):
+        if speed is None:
+            texts.append(f"{name} not up to {number(inputs.search_limit / RPM, '1/min')}")
+        else:
+            texts.append(f"{name} from {number(speed, '1/min')}")
+            levels.append(Level(speed, f"{name}: {number(speed, '1/min')}", vertical=True))
+    x = axis(curves, "pinion_speed", "pinion speed", magnitude=False)
+    demand = axis(curves, "exit_mach", "Mach number that the ambient pressure asks for at the ends")
+    pressure = axis(curves, "peak_pressure_ratio", "peak pressure over ambient pressure")
+    panels = [
+        parts.curve(x, demand, curves.pinion_speed, mach, levels=ends),
+        parts.curve(x, pressure, curves.pinion_speed, peak, Hue.VERMILLION, levels=clearances),
+    ]
     bend = inputs.setup.model.flow is Flow.GAS_DYNAMICS and np.nanmax(mach, initial=0.0) > 1.0
-    finding = f"sonic: {texts}" + ("; a bend above 1: from there the gas reaches an end supersonic" if bend else "")
-    return Figure(finding, panels, unsolved=int(np.isnan(mach).sum()))
-
-
-def _choking(result: ChokingSpeeds) -> tuple[tuple[str, float | None], ...]:
-    return ("clearances", result.radial_choking_speed), ("ends", result.axial_choking_speed)
-
-
-def _at(name: str, speed: float | None) -> tuple[Level, ...]:
-    return () if speed is None else (Level(speed, f"{name}: {number(speed, '1/min')}", vertical=True),)
+    bends = "; a bend above 1: from there the gas reaches an end supersonic" if bend else ""
+    return Figure(f"sonic: {', '.join(texts)}{bends}", panels, unsolved=int(np.isnan(mach).sum()))
 
 
 CHOKING_FIGURES = (
@@ -157,118 +129,93 @@ CHOKING_FIGURES = (
 )
 
 
-HUES = {"pinion": Hue.BLUE, "wheel": Hue.VERMILLION}
-NO_FLOW = 1e-9  # g/s
-
-
 def stroke(_: PumpingInputs, result: PumpingResult) -> Figure:
     """Section left by the mating tooth and its clearances; flanks in contact shaded."""
     gear, first = spaces(result)[0]
     found, curves = first.stroke, first.stroke.curves
-    x = axis(StrokeTable, "angle", f"angle of the {gear} from the line of centres", magnitude=False)
-    area = axis(StrokeTable, "area", "area left by the mating tooth")
-    contact = Span(found.contact_start, found.contact_end, "driving flanks in contact")
-    section = curve(x, area, curves.angle, curves.area, spans=(contact,))
-    lines = (
-        Line("behind, L₁", values(curves.angle), values(curves.clearance_left), Hue.VERMILLION),
-        Line("ahead, L₂", values(curves.angle), values(curves.clearance_right), Hue.GREEN),
+    x = axis(curves, "angle", f"angle of the {gear} from the line of centres", magnitude=False)
+    area = axis(curves, "area", "area left by the mating tooth")
+    contact = [Span(found.contact_start, found.contact_end, "driving flanks in contact")]
+    left = parts.curve(x, area, curves.angle, curves.area, spans=contact)
+    clearances = [
+        Line("behind, L₁", curves.angle, curves.clearance_left, Hue.VERMILLION),
+        Line("ahead, L₂", curves.angle, curves.clearance_right, Hue.GREEN),
+    ]
+    y = Axis("radial clearance", "mm", symbol="L")
+    panels = [
+        replace(left, marks=parts.extreme(left.lines, area.unit, least=True)),
+        Panel(x=x, y=y, lines=clearances, spans=parts.unnamed(contact)),
+    ]
+    return Figure(
+        f"the {gear}'s space shrinks from {number(found.max_area)} to {number(found.min_area, 'mm²')}", panels
     )
-    panels = (
-        replace(section, marks=extreme(section.lines, area.unit, least=True)),
-        Panel(x=x, y=Axis("radial clearance", "mm", symbol="L"), lines=lines, spans=(replace(contact, name=""),)),
-    )
-    ends = f"{number(found.max_area)} to {number(found.min_area, 'mm²')}"
-    return Figure(f"the {gear}'s space shrinks from {ends}", panels)
 
 
 def heating(inputs: PumpingInputs, result: PumpingResult) -> Figure:
     """Stroke mean of the temperature along the face of both gears, hottest place marked."""
     lines, marks, texts = [], [], []
     for gear, space in spaces(result):
-        profile = space.profile
-        if profile.temperature_rise is None or space.max_temperature_rise is None:
+        profile, most = space.profile, space.max_temperature_rise
+        if profile.temperature_rise is None or most is None:
             raise _without_temperatures()
-        line = _along(inputs, gear, profile.position, profile.temperature_rise, HUES[gear])
-        lines.append(line)
-        hottest = present(space.hottest_position)
-        marks.append(Mark(hottest, space.max_temperature_rise, number(space.max_temperature_rise, "K"), line.hue))
-        texts.append(f"{gear} {number(space.max_temperature_rise, 'K')} at {number(hottest, 'mm')}")
-    panel = Panel(
-        x=face(inputs.setup.gears.face_width),
-        y=axis(FaceProfile, "temperature_rise", "temperature rise above ambient"),
-        lines=tuple(lines),
-        marks=tuple(marks),
-        spans=_grooves(inputs),
-    )
+        place = present(space.hottest_position)
+        lines.append(_along(inputs, gear, profile.position, profile.temperature_rise, HUES[gear]))
+        marks.append(Mark(place, most, number(most, "K"), HUES[gear]))
+        texts.append(f"{gear} {number(most, 'K')} at {number(place, 'mm')}")
+    x, y = face(inputs.setup.gears.face_width), axis(FaceProfile, "temperature_rise", "temperature rise above ambient")
     finding = f"hottest: {', '.join(texts)}; of the gas, trends rather than kelvins of the teeth"
-    return Figure(finding, (panel,))
+    return Figure(finding, [Panel(x=x, y=y, lines=lines, marks=marks, spans=_grooves(inputs))])
 
 
 def peak_pressure(inputs: PumpingInputs, result: PumpingResult) -> Figure:
     """Largest pressure of the stroke along the face, with the ratio at which clearances become sonic."""
     lines, marks = [], []
     for gear, space in spaces(result):
-        profile = space.profile
-        line = _along(inputs, gear, profile.position, profile.peak_pressure_ratio, HUES[gear])
+        line = _along(inputs, gear, space.profile.position, space.profile.peak_pressure_ratio, HUES[gear])
         at = int(np.nanargmax(line.y))
         lines.append(line)
-        marks.append(Mark(float(line.x[at]), float(line.y[at]), ratio(float(line.y[at])), line.hue))
+        marks.append(line.mark(at, ratio(float(line.y[at]))))
     critical = critical_ratio(inputs.setup)
     panel = Panel(
         x=face(inputs.setup.gears.face_width),
         y=axis(FaceProfile, "peak_pressure_ratio", "largest pressure over ambient pressure"),
-        lines=tuple(lines),
-        marks=tuple(marks),
-        levels=(Level(critical, f"clearances sonic from {number(critical)}", limit=True), Level(1.0, "ambient")),
+        lines=lines,
+        marks=marks,
+        levels=[Level(critical, f"clearances sonic from {number(critical)}", limit=True), Level(1.0, "ambient")],
         spans=_grooves(inputs),
     )
     choked = [gear for gear, space in spaces(result) if space.radial_choked]
     state = f"clearances of the {' and '.join(choked)} become sonic" if choked else "no clearance becomes sonic"
-    return Figure(state, (panel,))
+    return Figure(state, [panel])
 
 
 def lead_correction(inputs: PumpingInputs, result: PumpingResult) -> Figure:
     """Thermal growth of the pinion's flank and what undoes it."""
     lead = result.lead_correction
     if lead is None:
-        raise NoFigure(
-            "no_lead_correction", "A lead correction needs the temperatures of the pinion's spaces", "model.spaces"
-        )
+        message = "A lead correction needs the temperatures of the pinion's spaces"
+        raise NoFigure("no_lead_correction", message, "model.spaces")
     curves = lead.curves
-    panel = Panel(
-        x=face(inputs.setup.gears.face_width),
-        y=Axis("normal to the flank of the pinion", "µm", magnitude=False, symbol="C"),
-        lines=(
-            _along(inputs, "growth", curves.position, curves.growth, Hue.VERMILLION),
-            replace(
-                _along(inputs, "by the radius alone", curves.position, curves.radial_only, Hue.VERMILLION),
-                role=Role.REFERENCE,
-            ),
-            _along(inputs, "correction", curves.position, curves.correction, Hue.BLUE),
-        ),
-        spans=_grooves(inputs),
-    )
+    radial = _along(inputs, "by the radius alone", curves.position, curves.radial_only, Hue.VERMILLION)
+    lines = [
+        _along(inputs, "growth", curves.position, curves.growth, Hue.VERMILLION),
+        replace(radial, role=Role.REFERENCE),
+        _along(inputs, "correction", curves.position, curves.correction, Hue.BLUE),
+    ]
+    x = face(inputs.setup.gears.face_width)
+    y = Axis("normal to the flank of the pinion", "µm", magnitude=False, symbol="C")
     shape = f"slope {number(lead.slope, 'µm')}, crown {number(lead.crown, 'µm')}"
     finding = f"growth ranges over {number(lead.range, 'µm')}; {shape}"
-    return Figure(finding, (panel,))
+    return Figure(finding, [Panel(x=x, y=y, lines=lines, spans=_grooves(inputs))])
 
 
 def pulsation(_: PumpingInputs, result: PumpingResult) -> Figure:
     """Amplitudes of the mass flow at both ends by multiples of the meshing frequency."""
-    pulse, total = result.pulsation, result.total
-    orders = values([float(order) for order in range(1, len(pulse.frequency) + 1)])
-    series = (
-        Bars("end that meshes first", orders, values(pulse.front_mass_flow), Hue.BLUE),
-        Bars("end that meshes last", orders, values(pulse.rear_mass_flow), Hue.VERMILLION),
-    )
-    frequency = number(total.meshing_frequency, "Hz")
-    panel = Panel(
-        x=Axis(f"multiple of the meshing frequency of {frequency}", magnitude=False, ticks=tuple(orders.tolist())),
-        y=Axis("amplitude of the mass flow", "g/s", symbol="m_k"),
-        bars=series,
-    )
-    peak = max(float(each.height.max()) for each in series)
-    return Figure(f"up to {number(peak, 'g/s')}", (panel,))
+    pulse, frequency = result.pulsation, number(result.total.meshing_frequency, "Hz")
+    series = {"end that meshes first": pulse.front_mass_flow, "end that meshes last": pulse.rear_mass_flow}
+    amplitude = Axis("amplitude of the mass flow", "g/s", symbol="m_k")
+    panel = parts.orders(f"multiple of the meshing frequency of {frequency}", amplitude, 1, series)
+    return Figure(f"up to {number(max(float(each.max()) for each in series.values()), 'g/s')}", [panel])
 
 
 def mass_flow(_: PumpingInputs, result: PumpingResult) -> Figure:
@@ -276,7 +223,7 @@ def mass_flow(_: PumpingInputs, result: PumpingResult) -> Figure:
     exits = {gear: _exits(space) for gear, space in spaces(result)}
     still = all(abs(row.value) < NO_FLOW for rows in exits.values() for row in rows)
     x = Axis("mass flow (net: out; negative: in)", "g/s", limits=(0.0, 1.0) if still else None, symbol="m")
-    panels = tuple(Panel(x=x, y=Axis("exit"), title=f"spaces of the {gear}", rows=rows) for gear, rows in exits.items())
+    panels = [Panel(x=x, y=Axis("exit"), title=f"spaces of the {gear}", rows=rows) for gear, rows in exits.items()]
     flows = [space.mass_flow for _, space in spaces(result)]
     net = sum(flow.front + flow.rear for flow in flows)
     out = number(sum(flow.front_out + flow.rear_out for flow in flows), "g/s")
@@ -286,9 +233,9 @@ def mass_flow(_: PumpingInputs, result: PumpingResult) -> Figure:
     return Figure("nothing flows" if still else finding, panels)
 
 
-def _exits(space: SpacesResult) -> tuple[Row, ...]:
+def _exits(space: SpacesResult) -> list[Row]:
     flow, known = space.mass_flow, space.mass_flow.net_uncertainty
-    return (
+    return [
         Row("first end: out", flow.front_out, Hue.BLUE),
         Row("first end: in", flow.front_in, Hue.BLUE),
         Row("first end: net", flow.front, Hue.BLUE, (flow.front - known, flow.front + known)),
@@ -298,20 +245,19 @@ def _exits(space: SpacesResult) -> tuple[Row, ...]:
         Row("radial clearances: net", flow.radial, Hue.GREEN),
         Row("grooves: net", flow.grooves, Hue.ORANGE),
         Row("given back between strokes", flow.reset, Hue.GREY),
-    )
+    ]
 
 
-def _grooves(inputs: PumpingInputs) -> tuple[Span, ...]:
+def _grooves(inputs: PumpingInputs) -> list[Span]:
     halves = ((each.position / MM, each.width / 2.0 / MM) for each in inputs.setup.grooves)
-    return tuple(Span(middle - half, middle + half, "groove") for middle, half in halves)
+    return [Span(middle - half, middle + half, "groove") for middle, half in halves]
 
 
 def _along(inputs: PumpingInputs, title: str, position: Values, items: Values, hue: Hue) -> Line:
     """A line along the face, broken where a groove is."""
-    x, y = values(position), values(items)
-    middles = np.array(sorted(groove.position / MM for groove in inputs.setup.grooves))
-    at = np.searchsorted(x, middles)
-    return Line(title, values(np.insert(x, at, middles)), values(np.insert(y, at, np.nan)), hue)
+    middles = sorted(groove.position / MM for groove in inputs.setup.grooves)
+    at = np.searchsorted(position, middles)
+    return Line(title, np.insert(position, at, middles), np.insert(items, at, np.nan), hue)
 
 
 def _without_temperatures() -> NoFigure:

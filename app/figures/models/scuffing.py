@@ -1,15 +1,16 @@
 """Figures of the check against scuffing along the path of contact."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import groupby
 
 import numpy as np
 
-from app.figures.data import Axis, Figure, Hue, Level, Line, NoFigure, Panel, Role, Span, Values, values
+from app.figures import parts
+from app.figures.data import Axis, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Role, Span
 from app.figures.declaration import Build, Declaration, present
 from app.figures.models import load_distribution
-from app.figures.models.load_distribution import PATH, path_points, unnamed
-from app.figures.parts import curve, extreme
+from app.figures.models.load_distribution import PATH, path_points
 from app.figures.units import UM, axis
 from app.figures.wording import number
 from solvers.quantity import UNITS
@@ -21,55 +22,48 @@ WARNED = "outside validity"
 SHOWN_SAFETIES = 4.0  # times the least, up to which safeties are shown: at the pitch point nothing slides
 
 
-def _of_distribution(build: Build) -> Build:
-    """A figure of the load distribution that the check rests on."""
-    return lambda inputs, result: build(inputs.distribution, result.distribution)
-
-
 def contact_temperature(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """Bulk and flash of both flanks by thermal EHL beside Blok, against the scuffing temperature."""
     _with_oil(result)
-    bulk = present(result.contact_temperature).bulk
-    lines = [replace(line, y=values(bulk + line.y)) for line in _flashes(result)]
-    levels = [Level(bulk, f"bulk {number(bulk, '°C', digits=4)}")]
-    if result.safety is not None:
-        limit = result.safety.scuffing
-        levels.append(Level(limit, f"scuffing temperature {number(limit, '°C')}", limit=True))
+    contact, safety = present(result.contact_temperature), result.safety
+    lines = [replace(line, y=contact.bulk + line.y) for line in _flashes(result)]
+    levels = [Level(contact.bulk, f"bulk {number(contact.bulk, '°C', digits=4)}")]
+    finding = "" if contact.blok_max is None else f"up to {number(contact.blok_max, '°C')} by Blok"
+    if contact.thermal_ehl_max is not None:
+        finding = f"up to {number(contact.thermal_ehl_max, '°C')} by thermal EHL"
+    if safety is not None:
+        levels.append(Level(safety.scuffing, f"scuffing temperature {number(safety.scuffing, '°C')}", limit=True))
+        factors = {"thermal EHL": safety.thermal_ehl_factor, "Blok": safety.blok_factor}
+        texts = [f"{number(factor)} by {method}" for method, factor in factors.items() if factor is not None]
+        finding = f"safety factor {', '.join(texts)}" if texts else finding
     y = Axis("contact temperature, bulk and flash", "°C", magnitude=False, symbol="θ_B")
-    return _along(inputs, result, y, lines, levels, _safety(result), marked=lines[:-1] or lines)
+    marks = parts.extreme(lines[:-1] or lines, y.unit)
+    return _along(inputs, result, y, lines, levels, marks, finding)
 
 
 def _flashes(result: Scuffing) -> list[Line]:
     """Flash temperatures along the path: of both flanks where they are known, and by Blok."""
-    path, psi, lines = result.path, values(result.path.psi), []
+    path, lines = result.path, list[Line]()
     if path.thermal is not None:
-        lines.append(Line("pinion", psi, path.thermal.pinion_flash, Hue.BLUE))
-        lines.append(Line("wheel", psi, path.thermal.wheel_flash, Hue.VERMILLION))
+        lines.append(Line("pinion", path.psi, path.thermal.pinion_flash, Hue.BLUE))
+        lines.append(Line("wheel", path.psi, path.thermal.wheel_flash, Hue.VERMILLION))
     hue, role = (Hue.GREY, Role.REFERENCE) if lines else (Hue.BLUE, Role.RESULT)
-    return [*lines, Line("Blok", psi, values(path.blok_flash), hue, role)]
+    return [*lines, Line("Blok", path.psi, path.blok_flash, hue, role)]
 
 
 def _along(
     inputs: ScuffingInputs,
     result: Scuffing,
     y: Axis,
-    lines: list[Line],
-    levels: list[Level],
+    lines: Sequence[Line],
+    levels: Sequence[Level],
+    marks: Sequence[Mark],
     finding: str,
-    *,
-    marked: list[Line],
-    least: bool = False,
 ) -> Figure:
-    """Lines along the path of contact with an extreme of those marked, and the range in which the check holds."""
-    panel = Panel(
-        x=PATH,
-        y=y,
-        lines=tuple(lines),
-        levels=(*levels, *_points(inputs, result)),
-        spans=_warned(result),
-        marks=extreme(marked, y.unit, least=least),
-    )
-    return Figure(finding, (panel,), unsolved=_unsolved(result))
+    """Lines along the path of contact with its points, and the range in which the check does not hold."""
+    known = [*levels, *_points(inputs, result)]
+    panel = Panel(x=PATH, y=y, lines=lines, levels=known, spans=_warned(result), marks=marks)
+    return Figure(finding, [panel], unsolved=_unsolved(result))
 
 
 def _with_oil(result: Scuffing) -> None:
@@ -79,17 +73,6 @@ def _with_oil(result: Scuffing) -> None:
             "Without an oil and the bulk temperature at which it enters there is neither film nor contact temperature"
         )
         raise NoFigure("no_oil", message, "lubricant")
-
-
-def _safety(result: Scuffing) -> str:
-    safety, contact = result.safety, present(result.contact_temperature)
-    known = () if safety is None else ((safety.thermal_ehl_factor, "thermal EHL"), (safety.blok_factor, "Blok"))
-    factors = [f"{number(factor)} by {method}" for factor, method in known if factor is not None]
-    if factors:
-        return f"safety factor {', '.join(factors)}"
-    if contact.thermal_ehl_max is not None:
-        return f"up to {number(contact.thermal_ehl_max, '°C')} by thermal EHL"
-    return "" if contact.blok_max is None else f"up to {number(contact.blok_max, '°C')} by Blok"
 
 
 def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
@@ -102,105 +85,87 @@ def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     *flanks, blok = _flashes(result)
     flashes = [replace(blok, role=Role.RESULT)]
     if flanks:
-        hotter = values(np.fmax(*(line.y for line in flanks)))
+        hotter = np.fmax(*(line.y for line in flanks))
         flashes.insert(0, Line("thermal EHL", blok.x, hotter, Hue.VERMILLION))
     rises = [(line, np.where(above_oil + line.y > 0.0, above_oil + line.y, np.nan)) for line in flashes]
-    lines = [replace(line, y=values(reserve / rise)) for line, rise in rises if np.isfinite(rise).any()]
+    lines = [replace(line, y=reserve / rise) for line, rise in rises if np.isfinite(rise).any()]
     if not lines:
         raise NoFigure("no_rise", "The contact is nowhere hotter than the oil, so no safety is defined", "temperatures")
-    (mark,) = extreme(lines, least=True)
-    top = max(1.5, min(SHOWN_SAFETIES * mark.y, *(1.1 * float(np.nanmax(line.y)) for line in lines)))
-    method = next(line.title for line in lines if line.hue is mark.hue)
-    finding = f"least {number(mark.y)} by {method}, at Ψ = {number(mark.x)}"
-    y, limit = (
-        axis(Safety, "blok_factor", "safety factor against scuffing", limits=(0.0, top)),
-        Level(1.0, "scuffing below 1", limit=True),
-    )
-    return _along(inputs, result, y, lines, [limit], finding, marked=lines, least=True)
+    marks = parts.extreme(lines, least=True)
+    least = marks[0]
+    top = max(1.5, min(SHOWN_SAFETIES * least.y, *(1.1 * float(np.nanmax(line.y)) for line in lines)))
+    method = next(line.title for line in lines if line.hue is least.hue)
+    y = axis(Safety, "blok_factor", "safety factor against scuffing", limits=(0.0, top))
+    limit = Level(1.0, "scuffing below 1", limit=True)
+    finding = f"least {number(least.y)} by {method}, at Ψ = {number(least.x)}"
+    return _along(inputs, result, y, lines, [limit], marks, finding)
 
 
 def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """Minimum and central film, the formula, and the film that is as thick as the roughness."""
     _with_oil(result)
-    path, thinnest, psi = result.path, present(result.film), values(result.path.psi)
-    lines = []
+    path, thinnest, pair, lines = result.path, present(result.film), inputs.distribution, list[Line]()
     if path.thermal is not None:
-        lines.append(Line("minimum", psi, path.thermal.minimum_film))
-        lines.append(Line("central", psi, path.thermal.central_film, Hue.SKY))
+        lines.append(Line("minimum", path.psi, path.thermal.minimum_film))
+        lines.append(Line("central", path.psi, path.thermal.central_film, Hue.SKY))
     hue, role = (Hue.GREY, Role.REFERENCE) if lines else (Hue.BLUE, Role.RESULT)
-    lines.append(Line("Dowson-Higginson", psi, values(path.dowson_higginson), hue, role))
+    lines.append(Line("Dowson-Higginson", path.psi, path.dowson_higginson, hue, role))
     if thinnest.thickness_ratio is None:
         finding = "no film is known everywhere" if _unsolved(result) else "no load"
     else:
         regime = present(thinnest.thickness_regime).replace("_", " ")
         finding = f"λ = {number(thinnest.thickness_ratio)} at the thinnest: {regime}"
-    limit = Level(roughness(inputs), "λ = 1, film as thick as the roughness", limit=True)
+    roughness = float(np.hypot(pair.pinion_material.roughness, pair.wheel_material.roughness)) / UM  # Eq. 28
+    limit = Level(roughness, "λ = 1, film as thick as the roughness", limit=True)
     y = Axis("film thickness", "µm", symbol="h")
-    return _along(inputs, result, y, lines, [limit], finding, marked=lines[:1], least=True)
-
-
-def roughness(inputs: ScuffingInputs) -> float:
-    """Film thickness of a thickness ratio of 1 in µm (Eq. 28)."""
-    pair = inputs.distribution
-    return float(np.hypot(pair.pinion_material.roughness, pair.wheel_material.roughness)) / UM
+    return _along(inputs, result, y, lines, [limit], parts.extreme(lines[:1], y.unit, least=True), finding)
 
 
 def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """Coefficient of friction and film pressure along the path, from thermal EHL, beside the mean one in force."""
     _with_oil(result)
-    path, thermal, mean = result.path, result.path.thermal, result.distribution.friction_loss.coefficient
+    psi, thermal, mean = result.path.psi, result.path.thermal, result.distribution.friction_loss.coefficient
     if thermal is None:
-        raise NoFigure(
-            "closed_form", "Friction along the path comes from the thermal EHL solution only", "model.lubrication"
-        )
-    points, warned = _points(inputs, result), _warned(result)
+        message = "Friction along the path comes from the thermal EHL solution only"
+        raise NoFigure("closed_form", message, "model.lubrication")
+    points, warned, coefficient = _points(inputs, result), _warned(result), thermal.friction_coefficient
     # The coefficient that Blok's flash temperature and the losses take.
-    means = () if mean is None else (Level(mean, f"mean of the formulas {number(mean)}"),)
-    coefficient = axis(ThermalPath, "friction_coefficient", "coefficient of friction")
-    panels = (
-        curve(
-            PATH,
-            coefficient,
-            path.psi,
-            thermal.friction_coefficient,
-            marked=True,
-            levels=(*points, *means),
-            spans=warned,
-        ),
-        curve(
-            PATH,
-            axis(ThermalPath, "max_pressure"),
-            path.psi,
-            thermal.max_pressure,
-            Hue.VERMILLION,
-            marked=True,
-            levels=unnamed(points),
-            spans=tuple(replace(span, name="") for span in warned),
-        ),
-    )
-    known = thermal.friction_coefficient[np.isfinite(thermal.friction_coefficient)]
+    levels = points if mean is None else [*points, Level(mean, f"mean of the formulas {number(mean)}")]
+    plain = {"levels": parts.unnamed(points), "spans": parts.unnamed(warned)}
+    local = axis(ThermalPath, "friction_coefficient", "coefficient of friction")
+    pressure = axis(ThermalPath, "max_pressure")
+    panels = [
+        parts.curve(PATH, local, psi, coefficient, marked=True, levels=levels, spans=warned),
+        parts.curve(PATH, pressure, psi, thermal.max_pressure, Hue.VERMILLION, marked=True, **plain),
+    ]
+    known = coefficient[np.isfinite(coefficient)]
     finding = f"μ from {number(float(known.min()))} to {number(float(known.max()))}" if known.size else "nowhere known"
     return Figure(finding, panels, unsolved=_unsolved(result))
 
 
-def _points(inputs: ScuffingInputs, result: Scuffing) -> tuple[Level, ...]:
-    return path_points(inputs.distribution.gears) if len(result.path.psi) > 1 else ()
+def _points(inputs: ScuffingInputs, result: Scuffing) -> list[Level]:
+    return path_points(inputs.distribution.gears) if len(result.path.psi) > 1 else []
 
 
 def _unsolved(result: Scuffing) -> int:
     return sum(status in UNSOLVED for status in result.path.status)
 
 
-def _warned(result: Scuffing) -> tuple[Span, ...]:
-    """Stretches of the path whose points carry warnings, to the middle between points."""
-    psi: Values = values(result.path.psi)
+def _warned(result: Scuffing) -> list[Span]:
+    """Stretches of the path whose points carry warnings, to the middle between points; the first is named."""
+    psi, spans = result.path.psi, list[Span]()
     edges = np.concatenate([psi[:1], (psi[:-1] + psi[1:]) / 2.0, psi[-1:]])
-    runs = groupby(range(psi.size), key=lambda index: result.path.status[index] == "ok_with_warnings")
-    places = [list(group) for warned, group in runs if warned]
-    return tuple(
-        Span(float(edges[each[0]]), float(edges[each[-1] + 1]), "" if place else WARNED)
-        for place, each in enumerate(places)
-    )
+    for status, group in groupby(range(psi.size), key=lambda place: result.path.status[place]):
+        if status == "ok_with_warnings":
+            places = list(group)
+            start, stop = float(edges[places[0]]), float(edges[places[-1] + 1])
+            spans.append(Span(start, stop, "" if spans else WARNED))
+    return spans
+
+
+def _of_distribution(build: Build) -> Build:
+    """A figure of the load distribution that the check rests on."""
+    return lambda inputs, result: build(inputs.distribution, result.distribution)
 
 
 OWN = ("section", "flank-pressure")  # of the figures of the load distribution: where the pair can scuff
