@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterator
-from functools import cache, reduce
+from functools import reduce
 from hashlib import sha256
 from typing import Any
 
@@ -12,8 +12,7 @@ from app.figures import rendering
 from app.figures.data import ThemeName
 from app.figures.declaration import Declaration
 from app.schema.fields import field_path
-from app.schema.model import MODEL_VERSION, Notice, Request, Response, Section, above, from_si, group_of
-from app.schema.quantities import Input
+from app.schema.model import MODEL_VERSION, Notice, Request, Response, Section, above, from_si, members
 from app.schema.reading import validated
 from app.sources import SOURCES
 from solvers import notices
@@ -22,7 +21,6 @@ from solvers.quantity import Detail
 
 MOST_MEMBERS = 1000  # fields of one object, chosen: no section has nearly as many
 MOST_OBJECTS = 10_000  # in a body, chosen: no study within its limits names nearly as many
-_COMMON = frozenset(Response.model_fields)
 _CANONICAL = json.JSONEncoder(sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
 
 
@@ -157,9 +155,7 @@ def response_to(calculation: Calculation, request: Request, result: Any) -> Resp
     else:
         ranked = sorted(result.warnings, key=lambda each: notices.RANKS.index(each.rank))
         warnings = [_notice(request, warning) for warning in ranked]
-        content = from_si(
-            calculation.response, result, request.detail, skip=_COMMON.difference(calculation.response.origins)
-        )
+        content = from_si(calculation.response, result, request.detail)
         content |= {"status": "ok_with_warnings" if warnings else "ok", "warnings": warnings}
         if getattr(result, "status", None) == "no_solution":
             content |= {"status": "no_solution", "residuals": result.residuals}
@@ -201,27 +197,17 @@ def _assumptions(
     dotted names that the sections around leave out.
     """
     unused |= {prefix + name for name in section.unused()}
-    for name, reason in _reasons(type(section)).items():
+    for member in members(type(section)):
+        name, reason = member.name, member.meaning.assumed
         path, value = prefix + name, getattr(section, name)
         if path in unused:
             continue
         if isinstance(value, Section):
             yield from _assumptions(value, derived.get(name, derived) or {}, f"{path}.", unused)
-        elif isinstance(value, list) and group_of(type(section).model_fields[name].annotation):
+        elif isinstance(value, list) and member.group:
             known = derived.get(name) or [{}] * len(value)
             for index, (item, own) in enumerate(zip(value, known, strict=True)):
                 yield from _assumptions(item, own, f"{path}.{index}.", unused)
         elif reason and (value is None or name not in section.model_fields_set):
             used = derived.get(name, value)
             yield {"field": path, "value": section.stands_for_null(name) if used is None else used, "reason": reason}
-
-
-@cache
-def _reasons(section: type[Section]) -> dict[str, str | None]:
-    """The reason of each assumed default by field; None for sections, which may hold more."""
-    reasons = {}
-    for name, info in section.model_fields.items():
-        reason = next((item.assumed for item in info.metadata if isinstance(item, Input)), None)
-        if reason or group_of(info.annotation):
-            reasons[name] = reason
-    return reasons

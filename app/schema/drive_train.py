@@ -9,7 +9,7 @@ from pydantic import BeforeValidator, Field, model_validator
 from app.schema.coupling import CouplingFriction, CrownedCoupling
 from app.schema.gears import BacklashGears, GearMaterials
 from app.schema.load_distribution import FlankModifications, MeshDerived, ScuffingLoad
-from app.schema.model import Group, Response, Section, declared
+from app.schema.model import Group, Response, Section
 from app.schema.oil import CouplingLubricant, Oil
 from app.schema.pumping import GearGroove, Mist, PumpingOptions
 from app.schema.quantities import Input, View
@@ -23,7 +23,6 @@ from solvers.gears.inputs import GROUND_FILLET, RACK_A, GearPairInputs
 from solvers.lubricants import Lubricant, OilInUse
 from solvers.oils import OilSheet
 from solvers.pumping import inputs as pumping
-from solvers.quantity import UNITS
 from solvers.scuffing import inputs as mesh
 
 
@@ -113,7 +112,7 @@ class ShaftBearing(Section, of=si.ShaftBearing):
 class ThrustBearing(Section):
     """What holds a shaft axially."""
 
-    ultimate_load_n: Annotated[float | None, declared(si.Shaft, "ultimate_thrust")] = None
+    ultimate_load_n: Annotated[float | None, Input.of(si.Shaft, "ultimate_thrust")] = None
 
 
 class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
@@ -161,7 +160,7 @@ class TrainTemperatures(ContactTemperatures, of=si.DriveTrainInputs, only=("loca
 
     bulk_c: Annotated[
         float | None,
-        declared(
+        Input.of(
             mesh.Temperatures,
             "bulk",
             text="bulk temperature of the contact, at which the oil enters",
@@ -178,7 +177,7 @@ class TrainEffects(Section, of=si.Effects):
 class ThrustCollar(Section):
     """A collar on the pinion that takes the place of its thrust bearing."""
 
-    radius_mm: Annotated[float | None, declared(si.DriveTrainInputs, "collar_radius")] = None
+    radius_mm: Annotated[float | None, Input.of(si.DriveTrainInputs, "collar_radius")] = None
 
 
 class DriveTrainRequest(MeshInOil):
@@ -194,24 +193,24 @@ class DriveTrainRequest(MeshInOil):
         list[GearGroove], Field(max_length=50), Input("grooves", text="circumferential grooves; they do not carry less")
     ] = Field(default_factory=list)
     operation: Annotated[TrainOperation, Input("operating point")]
-    face_start_mm: Annotated[float, declared(si.DriveTrainInputs, "face_start")]
-    pinion_shaft: Annotated[UnitShaft, declared(si.DriveTrainInputs, "pinion_shaft")]
-    wheel_shaft: Annotated[UnitShaft, declared(si.DriveTrainInputs, "wheel_shaft")]
+    face_start_mm: Annotated[float, Input.of(si.DriveTrainInputs, "face_start")]
+    pinion_shaft: Annotated[UnitShaft, Input.of(si.DriveTrainInputs, "pinion_shaft")]
+    wheel_shaft: Annotated[UnitShaft, Input.of(si.DriveTrainInputs, "wheel_shaft")]
     thrust_collar: Annotated[ThrustCollar, Input("thrust collar")] = ThrustCollar()
-    couplings: Annotated[list[UnitCoupling], Field(max_length=10), declared(si.DriveTrainInputs, "couplings")] = Field(
+    couplings: Annotated[list[UnitCoupling], Field(max_length=10), Input.of(si.DriveTrainInputs, "couplings")] = Field(
         default_factory=list
     )
     modifications: Annotated[
         TrainModifications, Input("modifications", text="what is ground, and misalignment from elsewhere")
     ] = TrainModifications()
-    thermal: Annotated[ToothHeat, declared(si.DriveTrainInputs, "heat")] = ToothHeat()
-    effects: Annotated[TrainEffects, declared(si.DriveTrainInputs, "effects")] = TrainEffects()
+    thermal: Annotated[ToothHeat, Input.of(si.DriveTrainInputs, "heat")] = ToothHeat()
+    effects: Annotated[TrainEffects, Input.of(si.DriveTrainInputs, "effects")] = TrainEffects()
     ambient: Annotated[Mist, Input("ambient", text="the mist around the mesh")] = Mist()
     materials: Annotated[GearMaterials, Input("materials", text="materials of the pair")] = GearMaterials()
     lubricant: Annotated[Oil, Input("oil")] = Oil()
     temperatures: Annotated[TrainTemperatures, Input("temperatures", text="of contact and oil")] = TrainTemperatures()
     friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
-    states: Annotated[list[si.State], Field(min_length=1, max_length=2), declared(si.DriveTrainInputs, "states")] = (
+    states: Annotated[list[si.State], Field(min_length=1, max_length=2), Input.of(si.DriveTrainInputs, "states")] = (
         Field(default_factory=_only_hot)
     )
     model: Annotated[TrainModel, Input("model", text="choices where the papers leave room", advanced=True)] = (
@@ -339,7 +338,7 @@ class DriveTrainDerived(MeshDerived, of=derived.Derived):
 class MisalignmentParts(Group, of=results.Parts):
     """Slope of the shafts' gap over the face by its causes, as the load lies that shafts and mesh agreed on."""
 
-    member_unit: ClassVar = UNITS["um"]
+    member_unit: ClassVar = "um"
 
 
 class GapCurves(Group, of=results.GapCurves):

@@ -3,14 +3,14 @@
 from typing import Annotated, ClassVar
 
 from app.schema.gears import GearMaterials, ScuffingGears
-from app.schema.model import Derived, Group, Request, Response, Section, declared
+from app.schema.model import Derived, Group, Request, Response, Section
 from app.schema.quantities import Input, View
 from solvers.gears.inputs import GearPairInputs
 from solvers.materials import Solid
 from solvers.scuffing import inputs as si
 from solvers.scuffing import results
 
-FRICTION_COEFFICIENT = declared(si.LoadDistributionInputs, "friction_coefficient")
+FRICTION_COEFFICIENT = Input.of(si.LoadDistributionInputs, "friction_coefficient")
 
 
 class FlankModifications(Section, of=si.Modifications, without=("lead_curve",)):

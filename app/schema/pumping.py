@@ -8,7 +8,6 @@ from app.schema.quantities import Input, View
 from solvers.pumping import inputs as si
 from solvers.pumping import lead_correction, pulsation, results
 from solvers.pumping.space import stroke
-from solvers.quantity import UNITS
 
 AXIAL_SPEED_ONLY = (
     "the stagnation temperature counts the axial speed only; air drawn in from rest meets a tooth at the pitch-line "
@@ -90,7 +89,7 @@ class PumpingStroke(Group, of=results.Stroke):
 class PumpingMassFlow(Group, of=results.MassFlow):
     """Mass flow out of the tooth spaces: net by exit, the first five sum to zero; gross at the ends."""
 
-    member_unit: ClassVar = UNITS["g_per_s"]
+    member_unit: ClassVar = "g_per_s"
 
 
 class PumpingBalance(Group, of=results.Balance):

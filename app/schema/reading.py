@@ -11,9 +11,9 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from app.errors import Fault, InvalidBody, pointer
-from app.schema.model import Documented, kinds
+from app.schema.model import kinds
 from app.schema.quantities import Input, meaning_of
-from solvers.quantity import allowed
+from solvers.quantity import UNITS, allowed
 
 M = TypeVar("M", bound=BaseModel)
 Models = tuple[type[BaseModel], ...]
@@ -145,6 +145,5 @@ def _allowed(sections: Models, name: str) -> str:
         field = section.model_fields.get(name)
         given = meaning_of(field) if field else None
         if isinstance(given, Input):
-            unit = section.unit_of(name) if issubclass(section, Documented) else None
-            return f"{allowed(given)} {unit.symbol}" if unit else allowed(given)
+            return f"{allowed(given)} {UNITS[given.unit].symbol}" if given.unit else allowed(given)
     return "is another range"
