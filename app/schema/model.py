@@ -201,7 +201,7 @@ class Member:
 
     `record` is None where that may be any dataclass. `group` is the section or group that the field holds, alone,
     optional or as the items of a list; None of plain values. `dimensions` is 0 for a scalar, 1 for a list, 2 for a
-    matrix.
+    matrix. `level` is that of the least detail at which an answer has it.
     """
 
     name: str
@@ -211,10 +211,7 @@ class Member:
     unit: Unit | None
     group: type[Documented] | None
     dimensions: int
-
-    def within(self, detail: Detail) -> bool:
-        """Whether an answer of this level of detail holds it."""
-        return LEVELS.index(self.meaning.detail) <= LEVELS.index(detail)
+    level: int
 
 
 @cache
@@ -228,7 +225,8 @@ def members(model: type[BaseModel]) -> tuple[Member, ...]:
             group = next((kind for kind in allowed if issubclass(kind, Documented)), None)
             unit = UNITS[meaning.unit] if meaning.unit else None
             record, theirs = meaning.origin or (None, split_unit(name)[0])
-            found.append(Member(name, meaning, record, theirs, unit, group, _dimensions(info.annotation)))
+            level = LEVELS.index(meaning.detail)
+            found.append(Member(name, meaning, record, theirs, unit, group, _dimensions(info.annotation), level))
     return tuple(found)
 
 
@@ -264,11 +262,13 @@ def _record_in(hint: Any) -> Any:
 
 
 def _in_si(value: Any, unit: Unit | None, record: Any) -> Any:
-    if isinstance(value, Documented):
-        return built(record, (value,), {})
+    if value is None:
+        return None
     if isinstance(value, list):
         return tuple(_in_si(item, unit, record) for item in value)
-    return value if unit is None or value is None else value * unit.scale + unit.offset
+    if record is not None:
+        return built(record, (value,), {})
+    return value if unit is None else value * unit.scale + unit.offset
 
 
 def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, Any]:
@@ -278,8 +278,9 @@ def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, A
     """
     content: dict[str, Any] = {}
     kind: Any = type(result)
+    level = LEVELS.index(detail)
     for member, holder in _sources(group, kind):
-        if member.within(detail):
+        if member.level <= level:
             part = getattr(result, holder) if holder else result
             value = None if part is None else getattr(part, member.solver_name)
             content[member.name] = _displayed(value, member, detail)
@@ -322,7 +323,7 @@ def above(group: type[Documented], detail: Detail) -> dict[str, Any]:
     """The fields of a group above a level of detail, as pydantic's `exclude` names them."""
     found: dict[str, Any] = {}
     for member in members(group):
-        if not member.within(detail):
+        if member.level > LEVELS.index(detail):
             found[member.name] = True
         elif member.group is not None and (inner := above(member.group, detail)):
             found[member.name] = {"__all__": inner} if member.dimensions else inner

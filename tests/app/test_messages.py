@@ -89,6 +89,8 @@ def test_items_of_a_list_are_pointed_at() -> None:
     fault = refused(CouplingRequest, COUPLING, "coupling.pitch_errors_um", [1.0, "2", 3.0])[0]
     assert fault.pointer == "/coupling/pitch_errors_um/1"
     assert fault.message == 'give a number, not text: 2 instead of "2"'
+    fault = refused(CouplingRequest, COUPLING, "coupling.pitch_errors_um", [1.0, 2e6])[0]
+    assert fault.message == "pitch_errors_um is 2000000; permissible -10000 to 10000 µm"
 
 
 def test_at_most_a_hundred_faults_are_told() -> None:
