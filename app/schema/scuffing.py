@@ -21,6 +21,7 @@ from app.schema.quantities import Input, View
 from solvers.contact import ehl
 from solvers.gears.inputs import GearPairInputs
 from solvers.lubricants import OilInUse
+from solvers.oils import OilChoice
 from solvers.scuffing import inputs as si
 from solvers.scuffing import safety_results
 
@@ -120,7 +121,7 @@ class MeshInOil(Request):
             self.model,
             distribution=distribution_inputs(self, gears, load),
             lubricant=None,
-            oil=self.lubricant.oil(),
+            oil=self.lubricant.si(OilChoice).resolve(),
             film=self.model.si(ehl.Model),
         )
 
