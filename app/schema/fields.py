@@ -11,7 +11,7 @@ from functools import cache
 from types import NoneType
 from typing import Any, Literal, get_args, get_origin
 
-from app.schema.model import Documented, Member, kinds, members
+from app.schema.model import Documented, Member, members
 from app.schema.quantities import Output, View
 from solvers.quantity import Detail, Quantity
 
@@ -176,15 +176,14 @@ def _members(
             each.group,
             tuple(_members(each.group, (*path, ITEM) if repeated else path, **said)),
             repeated,
-            NoneType in get_args(model.model_fields[each.name].annotation),
+            NoneType in get_args(each.info.annotation),
             meaning.advanced,
         )
 
 
 def _leaf(model: type[Documented], member: Member, place: tuple[str, ...], *, advanced: bool, detail: Detail) -> Leaf:
-    info, meaning, prefix = model.model_fields[member.name], member.meaning, ".".join(place[:-1])
-    allowed = tuple(kinds(info.annotation))
-    options = _options(allowed)
+    info, meaning, prefix = member.info, member.meaning, ".".join(place[:-1])
+    options = _options(member.kinds)
     fellows = (each for group in model.exclusive if member.name in group for each in group if each != member.name)
     return Leaf(
         path=".".join(place),
@@ -193,7 +192,7 @@ def _leaf(model: type[Documented], member: Member, place: tuple[str, ...], *, ad
         view=meaning if isinstance(meaning, Output) else View(),
         description=meaning.description,
         unit=member.unit.symbol if member.unit else None,
-        kind=next((_KINDS[kind] for kind in allowed if kind in _KINDS), "text" if options else "other"),
+        kind=next((_KINDS[kind] for kind in member.kinds if kind in _KINDS), "text" if options else "other"),
         dimensions=member.dimensions,
         nullable=NoneType in get_args(info.annotation),
         required=info.is_required(),

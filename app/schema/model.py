@@ -33,6 +33,7 @@ from typing import (
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, PrivateAttr, model_validator
+from pydantic.fields import FieldInfo
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError
 
@@ -175,40 +176,34 @@ def _list_of(kind: Any) -> Any:
     return list[kind]
 
 
-def kinds(annotation: Any) -> Iterator[Any]:
-    """The types of single values that an annotation allows, alone, as one of several or as items of a list."""
-    if get_origin(annotation) is Annotated:
-        yield from kinds(get_args(annotation)[0])
-    elif get_origin(annotation) in {Union, UnionType, list, tuple}:
+def kinds(annotation: Any, lists: int = 0) -> Iterator[tuple[Any, int]]:
+    """The types of single values that an annotation allows, each with the number of lists around it."""
+    origin = get_origin(annotation)
+    if origin is Annotated:
+        yield from kinds(get_args(annotation)[0], lists)
+    elif origin in {Union, UnionType, list, tuple}:
         for kind in get_args(annotation):
-            yield from kinds(kind)
+            yield from kinds(kind, lists + (origin is list))
     elif annotation is not NoneType:
-        yield annotation
-
-
-def _dimensions(annotation: Any) -> int:
-    """How many lists stand around a value: 0 for a scalar, 1 for a list, 2 for a matrix."""
-    if get_origin(annotation) in {Annotated, list}:
-        return (get_origin(annotation) is list) + _dimensions(get_args(annotation)[0])
-    if get_origin(annotation) in {Union, UnionType}:
-        return max(_dimensions(kind) for kind in get_args(annotation))
-    return 0
+        yield annotation, lists
 
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """A field of a model: what it means, what it holds, and the dataclass and its field that fill it or are filled.
+    """A field of a model: what it means and holds, and the field of a solver's dataclass that it fills or is read from.
 
-    `record` is None where that may be any dataclass. `group` is the section or group that the field holds, alone,
-    optional or as the items of a list; None of plain values. `dimensions` is 0 for a scalar, 1 for a list, 2 for a
-    matrix. `level` is that of the least detail at which an answer has it.
+    `record` is that dataclass, None where it may be any. `kinds` are the types of single values, `group` the section or
+    group among them, alone, optional or as the items of a list. `dimensions` is 0 for a scalar, 1 for a list, 2 for a
+    matrix. `level` is that of the least detail at which an answer has the field.
     """
 
     name: str
+    info: FieldInfo
     meaning: Input | Output
     record: type | None
     solver_name: str
     unit: Unit | None
+    kinds: tuple[Any, ...]
     group: type[Documented] | None
     dimensions: int
     level: int
@@ -219,14 +214,24 @@ def members(model: type[BaseModel]) -> tuple[Member, ...]:
     """The fields of a model that are declared."""
     found = []
     for name, info in model.model_fields.items():
-        meaning = meaning_of(info)
-        if meaning is not None:
-            allowed = (kind for kind in kinds(info.annotation) if isinstance(kind, type))
-            group = next((kind for kind in allowed if issubclass(kind, Documented)), None)
-            unit = UNITS[meaning.unit] if meaning.unit else None
-            record, theirs = meaning.origin or (None, split_unit(name)[0])
-            level = LEVELS.index(meaning.detail)
-            found.append(Member(name, meaning, record, theirs, unit, group, _dimensions(info.annotation), level))
+        if meaning := meaning_of(info):
+            record, solver_name = meaning.origin or (None, split_unit(name)[0])
+            allowed, lists = zip(*kinds(info.annotation), strict=True)
+            groups = (kind for kind in allowed if isinstance(kind, type) and issubclass(kind, Documented))
+            found.append(
+                Member(
+                    name=name,
+                    info=info,
+                    meaning=meaning,
+                    record=record,
+                    solver_name=solver_name,
+                    unit=UNITS[meaning.unit] if meaning.unit else None,
+                    kinds=allowed,
+                    group=next(groups, None),
+                    dimensions=max(lists),
+                    level=LEVELS.index(meaning.detail),
+                )
+            )
     return tuple(found)
 
 
@@ -258,7 +263,7 @@ def _fillings(model: type[Documented], record: Any) -> tuple[tuple[str, Member, 
 
 def _record_in(hint: Any) -> Any:
     """The dataclass in a type, alone, optional or as the item of a tuple; None where there is none."""
-    return next(filter(is_dataclass, kinds(hint)), None)
+    return next((kind for kind, _ in kinds(hint) if is_dataclass(kind)), None)
 
 
 def _in_si(value: Any, unit: Unit | None, record: Any) -> Any:

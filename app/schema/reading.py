@@ -56,7 +56,7 @@ def _located(model: type[BaseModel], location: tuple[str | int, ...]) -> tuple[l
         if isinstance(part, int) or known or not here or last:
             kept.append(part)
         if known and not last:
-            inner = (kind for field in known for kind in kinds(field.annotation))
+            inner = (kind for field in known for kind, _ in kinds(field.annotation))
             here = tuple(kind for kind in inner if isinstance(kind, type) and issubclass(kind, BaseModel)) or here
     return kept, here
 
