@@ -8,12 +8,20 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from app.schema.coupling import CouplingFriction, CrownedCoupling
 from app.schema.gears import BacklashGears, GearMaterials
-from app.schema.load_distribution import FlankModifications, MeshDerived, ScuffingLoad
 from app.schema.model import Group, Response, Section
 from app.schema.oil import CouplingLubricant, Oil
 from app.schema.pumping import GearGroove, Mist, PumpingOptions
 from app.schema.quantities import Input, View
-from app.schema.scuffing import PRACTICAL_FRICTION, ContactTemperatures, MeshInOil, ScuffingModel, with_default
+from app.schema.scuffing import (
+    PRACTICAL_FRICTION,
+    ContactTemperatures,
+    FlankModifications,
+    MeshDerived,
+    MeshInOil,
+    ScuffingLoad,
+    ScuffingModel,
+    with_default,
+)
 from solvers.coupling.inputs import Coupling, CouplingDesign, CouplingOil
 from solvers.drive_train import derived, results
 from solvers.drive_train import inputs as si

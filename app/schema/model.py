@@ -235,20 +235,6 @@ def members(model: type[BaseModel]) -> tuple[Member, ...]:
     return tuple(found)
 
 
-def built(kind: type[T], sections: tuple[Documented, ...], known: dict[str, Any]) -> T:
-    """The solver's dataclass in SI from the sections that have its fields, the first of several that has one.
-
-    Sections inside these fill the dataclasses inside it; what is `known` stands for fields of its own.
-    """
-    given: dict[str, Any] = {}
-    record: Any = kind
-    for section in reversed(sections):
-        for name, member, inner in _fillings(type(section), record):
-            if name not in known:
-                given[name] = _in_si(getattr(section, member.name), member.unit, inner)
-    return kind(**given | known)
-
-
 @cache
 def _fillings(model: type[Documented], record: Any) -> tuple[tuple[str, Member, Any], ...]:
     """The fields of a dataclass that a section has, and the dataclass inside each, None of plain values."""
@@ -272,7 +258,7 @@ def _in_si(value: Any, unit: Unit | None, record: Any) -> Any:
     if isinstance(value, list):
         return tuple(_in_si(item, unit, record) for item in value)
     if record is not None:
-        return built(record, (value,), {})
+        return value.si(record)
     return value if unit is None else value * unit.scale + unit.offset
 
 
@@ -360,8 +346,17 @@ class Section(Documented):
         return self
 
     def si(self, kind: type[T], *others: "Section", **known: Any) -> T:
-        """The solver's dataclass in SI that these fields fill, with those of others and with what is known of it."""
-        return built(kind, (self, *others), known)
+        """The solver's dataclass in SI that these fields fill, then those of other sections.
+
+        Sections inside these fill the dataclasses inside it; what is `known` stands for fields of its own.
+        """
+        given: dict[str, Any] = {}
+        record: Any = kind
+        for section in reversed((self, *others)):
+            for name, member, inner in _fillings(type(section), record):
+                if name not in known:
+                    given[name] = _in_si(getattr(section, member.name), member.unit, inner)
+        return kind(**given | known)
 
     def unused(self) -> set[str]:
         """Names, dotted below this section, of fields and sections that the values given leave out of a result."""
@@ -396,8 +391,7 @@ class Request(Section):
 
     def options(self) -> dict[str, Any]:
         """The options in force, by their names in the contract."""
-        options: dict[str, Any] = self.model.model_dump()
-        return options
+        return self.model.model_dump()  # type: ignore[no-any-return]
 
     def assumed_by_the_model(self) -> dict[str, str]:
         """What the options in force take for granted whatever else is given: reasons by dotted names of options."""
@@ -459,21 +453,14 @@ class Response(Group):
     ]
     model_version: Annotated[str, Output("model version", text="version of the model that computed this result")]
     sources: Annotated[
-        str,
-        Output("sources of the solvers", text="SHA-256 of the solvers' syntax trees; equal for equal calculations"),
+        str, Output("sources of the solvers", text="SHA-256 of the solvers' syntax trees; equal for equal calculations")
     ]
     model: Annotated[dict[str, Any], Output("options in force")]
     derived: Annotated[Derived | None, Output("derived", text="what follows from the request before any physics")] = (
         None
     )
-    inputs: Annotated[
-        dict[str, Any],
-        Output("inputs", text="the request with its defaults, to be posted"),
-    ]
-    case: Annotated[
-        str,
-        Output("case", text="SHA-256 of endpoint, inputs and sources; equal cases have equal results"),
-    ]
+    inputs: Annotated[dict[str, Any], Output("inputs", text="the request with its defaults, to be posted")]
+    case: Annotated[str, Output("case", text="SHA-256 of endpoint, inputs and sources; equal cases have equal results")]
 
     _result: Any = PrivateAttr(default=None)
 

@@ -8,9 +8,9 @@ from pydantic import ValidationError
 
 from app.errors import Fault
 from app.schema.coupling import CouplingRequest
-from app.schema.load_distribution import LoadDistributionRequest
 from app.schema.model import Request
 from app.schema.reading import faults
+from app.schema.scuffing import LoadDistributionRequest
 
 COUPLING: dict[str, Any] = {
     "coupling": {"teeth": 52, "module_mm": 3.0},
