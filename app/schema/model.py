@@ -58,7 +58,7 @@ class Documented(BaseModel):
     member_unit: ClassVar[str | None] = None
     views: ClassVar[dict[str, View]] = {}
     _declares: ClassVar[type[Input] | type[Output]] = Input
-    _optional: ClassVar[bool] = False
+    _optional: ClassVar[bool] = False  # whether filled fields may be missing: where there is no solution
 
     if TYPE_CHECKING:
 
@@ -87,19 +87,20 @@ class Documented(BaseModel):
             if name in quantities(record) and name not in without
         ]
         inherited = {each.solver_name: each.name for base in cls.__bases__ for each in members(base) if each.record}
-        names = inherited | {
-            name: name if declared.unit in {None, cls.member_unit} else f"{name}_{declared.unit}"
-            for _, name, declared in chosen
-        }
+        names = dict(inherited)  # in the interface, by the solver's
+        for _, name, declared in chosen:
+            names[name] = name if declared.unit in {None, cls.member_unit} else f"{name}_{declared.unit}"
         unknown = {*only, *vars(cls).get("views", {})} - {*names}
         if unknown:
             raise TypeError(f"{cls.__name__} names fields that are not declared: {', '.join(sorted(unknown))}")
-        own = get_annotations(cls)
+        own = get_annotations(cls)  # change the type of a filled field, or stand beside it
         filled: dict[str, Any] = {}
         for record, name, declared in chosen:
             field = names[name]
+            if field in inherited.values() and field not in own:
+                continue
             kind = own.get(field) or _published(type_of(record, name), declared, cls._declares)
-            if _declaration(kind) or (field in inherited.values() and field not in own):
+            if meaning_of(getattr(kind, "__metadata__", ())):  # brings its own declaration
                 continue
             optional = cls._optional or declared.detail != "summary"
             nullable = optional or (cls._declares is Output and record is not records[0])
@@ -146,11 +147,6 @@ class Documented(BaseModel):
 
 _MODELS: dict[tuple[type, type], type[Documented]] = {}
 """The first model filled from a dataclass stands for it wherever another dataclass holds it."""
-
-
-def _declaration(annotation: Any) -> Input | Output | None:
-    """The declaration that an annotation brings."""
-    return next((each for each in getattr(annotation, "__metadata__", ()) if isinstance(each, Input | Output)), None)
 
 
 def _published(hint: Any, declared: Quantity, declares: type) -> Any:
@@ -214,8 +210,9 @@ def members(model: type[BaseModel]) -> tuple[Member, ...]:
     """The fields of a model that are declared."""
     found = []
     for name, info in model.model_fields.items():
-        if meaning := meaning_of(info):
-            record, solver_name = meaning.origin or (None, split_unit(name)[0])
+        if meaning := meaning_of(info.metadata):
+            bare_name, unit = split_unit(name)
+            record, solver_name = meaning.origin or (None, bare_name)
             allowed, lists = zip(*kinds(info.annotation), strict=True)
             groups = (kind for kind in allowed if isinstance(kind, type) and issubclass(kind, Documented))
             found.append(
@@ -225,7 +222,7 @@ def members(model: type[BaseModel]) -> tuple[Member, ...]:
                     meaning=meaning,
                     record=record,
                     solver_name=solver_name,
-                    unit=UNITS[meaning.unit] if meaning.unit else None,
+                    unit=UNITS[meaning.unit] if meaning.unit else unit,
                     kinds=allowed,
                     group=next(groups, None),
                     dimensions=max(lists),

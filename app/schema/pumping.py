@@ -56,9 +56,6 @@ class _PumpingSetup(Request, of=si.PumpingSetup, without=("normal_backlash",)):
         """A flow with temperatures knows one speed only."""
         return {} if self.model.flow == "incompressible" else {"model.flow": AXIAL_SPEED_ONLY}
 
-    def _setup(self) -> si.PumpingSetup:
-        return self.si(si.PumpingSetup, self.gears)
-
 
 class PumpingRequest(_PumpingSetup):
     """A gear pair that pumps the mist around it, at one speed."""
@@ -67,7 +64,7 @@ class PumpingRequest(_PumpingSetup):
 
     def inputs(self) -> si.PumpingInputs:
         """The solver's inputs."""
-        return self.operation.si(si.PumpingInputs, setup=self._setup())
+        return self.operation.si(si.PumpingInputs, setup=self.si(si.PumpingSetup, self.gears))
 
 
 class ChokingSpeedRequest(_PumpingSetup, of=si.ChokingInputs):
@@ -75,7 +72,7 @@ class ChokingSpeedRequest(_PumpingSetup, of=si.ChokingInputs):
 
     def inputs(self) -> si.ChokingInputs:
         """The solver's inputs."""
-        return self.si(si.ChokingInputs, setup=self._setup())
+        return self.si(si.ChokingInputs, setup=self.si(si.PumpingSetup, self.gears))
 
 
 class StrokeCurves(Group, of=stroke.StrokeTable):

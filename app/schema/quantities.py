@@ -3,12 +3,12 @@
 Units stand in field names: `face_width_mm` is the face width in millimetres.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, ClassVar, Literal, Self
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
-from pydantic.fields import FieldInfo
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
@@ -121,9 +121,9 @@ class Output(View, _Declaration):
         return (self.axis,) if isinstance(self.axis, str) else self.axis or ()
 
 
-def meaning_of(field: FieldInfo) -> Input | Output | None:
-    """The declaration of a model's field, if it has one."""
-    return next((each for each in field.metadata if isinstance(each, Input | Output)), None)
+def meaning_of(metadata: Iterable[Any]) -> Input | Output | None:
+    """The declaration among what stands beside a field's type, if there is one."""
+    return next((each for each in metadata if isinstance(each, Input | Output)), None)
 
 
 @cache

@@ -125,7 +125,7 @@ def _allowed(sections: Models, name: str) -> str:
     """The range of a field with its unit."""
     for section in sections:
         field = section.model_fields.get(name)
-        given = meaning_of(field) if field else None
+        given = meaning_of(field.metadata) if field else None
         if given:
             return f"{allowed(given)} {UNITS[given.unit].symbol}" if given.unit else allowed(given)
     return "is another range"
