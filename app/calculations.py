@@ -21,10 +21,14 @@ from app.schema.coupling import (
 )
 from app.schema.drive_train import DriveTrainRequest, DriveTrainResponse
 from app.schema.line_contact import LineContactRequest, LineContactResponse
-from app.schema.load_distribution import LoadDistributionRequest, LoadDistributionResponse
 from app.schema.model import Request, Response
 from app.schema.pumping import ChokingSpeedRequest, ChokingSpeedResponse, PumpingRequest, PumpingResponse
-from app.schema.scuffing import ScuffingRequest, ScuffingResponse
+from app.schema.scuffing import (
+    LoadDistributionRequest,
+    LoadDistributionResponse,
+    ScuffingRequest,
+    ScuffingResponse,
+)
 from solvers import coupling, drive_train, pumping, scuffing
 from solvers.contact import ehl
 from solvers.contact.ehl.continuation import Resolution, price

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterator
-from functools import cache, reduce
+from functools import reduce
 from hashlib import sha256
 from typing import Any
 
@@ -12,8 +12,7 @@ from app.figures import rendering
 from app.figures.data import ThemeName
 from app.figures.declaration import Declaration
 from app.schema.fields import field_path
-from app.schema.model import MODEL_VERSION, Notice, Request, Response, Section, above, from_si, group_of
-from app.schema.quantities import Input
+from app.schema.model import MODEL_VERSION, Notice, Request, Response, Section, above, from_si, members
 from app.schema.reading import validated
 from app.sources import SOURCES
 from solvers import notices
@@ -22,40 +21,34 @@ from solvers.quantity import Detail
 
 MOST_MEMBERS = 1000  # fields of one object, chosen: no section has nearly as many
 MOST_OBJECTS = 10_000  # in a body, chosen: no study within its limits names nearly as many
-_COMMON = frozenset(Response.model_fields)
 _CANONICAL = json.JSONEncoder(sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
 
 
 def content_of(body: bytes) -> Any:
-    """What the JSON of a body says."""
+    """What the JSON of a body says: no more objects than any request could need, nor more fields in one."""
+    objects = 0
+
+    def members_of(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        nonlocal objects
+        objects += 1
+        if objects > MOST_OBJECTS:
+            raise InvalidBody([Fault("", "too_many_objects", f"the body has more than {MOST_OBJECTS} objects")])
+        if len(pairs) > MOST_MEMBERS:
+            raise InvalidBody([Fault("", "too_many_fields", f"an object has more than {MOST_MEMBERS} fields")])
+        found = dict(pairs)
+        if len(found) < len(pairs):
+            raise Unreadable("A name stands twice in one object of the body")
+        return found
+
     if not body:
         raise InvalidBody([Fault("", "missing", "the request needs a body")])
     try:
-        return json.loads(body, object_pairs_hook=_Objects().members)
+        return json.loads(body, object_pairs_hook=members_of)
     except json.JSONDecodeError as error:
         message = f"the body is no JSON: {error.msg} at position {error.pos}"
         raise InvalidBody([Fault("", "json_invalid", message)]) from None
     except (ValueError, RecursionError):  # bytes that are no text, numbers without end, brackets without end
         raise Unreadable("The body cannot be read as JSON") from None
-
-
-class _Objects:
-    """The objects of a body: not more than any request could need, nor more fields in one, and no name twice."""
-
-    def __init__(self) -> None:
-        self._count = 0
-
-    def members(self, pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-        """One object."""
-        self._count += 1
-        if self._count > MOST_OBJECTS:
-            raise InvalidBody([Fault("", "too_many_objects", f"the body has more than {MOST_OBJECTS} objects")])
-        if len(pairs) > MOST_MEMBERS:
-            raise InvalidBody([Fault("", "too_many_fields", f"an object has more than {MOST_MEMBERS} fields")])
-        members = dict(pairs)
-        if len(members) < len(pairs):
-            raise Unreadable("A name stands twice in one object of the body")
-        return members
 
 
 def refuse_endless(calculation: Calculation, request: Request, deadline_s: float) -> None:
@@ -146,32 +139,33 @@ def solve(calculation: Calculation, request: Request) -> Any:
 
 def response_to(calculation: Calculation, request: Request, result: Any) -> Response:
     """The answer made of a result or of a NoSolution; raises a validation error if a number is not finite."""
+    content: dict[str, Any]
     if isinstance(result, NoSolution):
-        failure, result = result, None
-        warning = Notice(rank="invalid", code=failure.code, message=failure.message)
-        content: dict[str, Any] = {
-            "status": "no_solution",
-            "warnings": [warning],
-            "residuals": failure.residuals,
-        }
+        warning = Notice(rank="invalid", code=result.code, message=result.message)
+        content = {"status": "no_solution", "warnings": [warning], "residuals": result.residuals}
+        result = None
     else:
         ranked = sorted(result.warnings, key=lambda each: notices.RANKS.index(each.rank))
-        warnings = [_notice(request, warning) for warning in ranked]
-        content = from_si(
-            calculation.response, result, request.detail, skip=_COMMON.difference(calculation.response.origins)
-        )
+        warnings = [
+            Notice(
+                rank=each.rank,
+                code=each.code,
+                message=each.message,
+                field=field_path(request, each.field) if each.field else None,
+            )
+            for each in ranked
+        ]
+        content = from_si(calculation.response, result, request.detail)
         content |= {"status": "ok_with_warnings" if warnings else "ok", "warnings": warnings}
         if getattr(result, "status", None) == "no_solution":
             content |= {"status": "no_solution", "residuals": result.residuals}
+    taken_for_granted = [
+        {"field": path, "value": reduce(getattr, path.split("."), request), "reason": reason}
+        for path, reason in request.assumed_by_the_model().items()
+    ]
     inputs = request.model_dump(exclude={"detail"})
     content |= {
-        "assumptions": [
-            *_assumptions(request, content.get("derived", {})),
-            *(
-                {"field": path, "value": reduce(getattr, path.split("."), request), "reason": reason}
-                for path, reason in request.assumed_by_the_model().items()
-            ),
-        ],
+        "assumptions": [*_assumptions(request, content.get("derived", {})), *taken_for_granted],
         "model_version": MODEL_VERSION,
         "sources": SOURCES,
         "model": request.options(),
@@ -187,11 +181,6 @@ def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
     return sha256(_CANONICAL.encode(content).encode()).hexdigest()
 
 
-def _notice(request: Request, warning: notices.Notice) -> Notice:
-    field = field_path(request, warning.field) if warning.field else None
-    return Notice(rank=warning.rank, code=warning.code, message=warning.message, field=field)
-
-
 def _assumptions(
     section: Section, derived: dict[str, Any], prefix: str = "", unused: frozenset[str] = frozenset()
 ) -> Iterator[dict[str, Any]]:
@@ -201,27 +190,18 @@ def _assumptions(
     dotted names that the sections around leave out.
     """
     unused |= {prefix + name for name in section.unused()}
-    for name, reason in _reasons(type(section)).items():
-        path, value = prefix + name, getattr(section, name)
-        if path in unused:
+    for member in members(type(section)):
+        name, reason = member.name, member.meaning.assumed
+        path = prefix + name
+        if path in unused or not (reason or member.group):
             continue
+        value = getattr(section, name)
         if isinstance(value, Section):
             yield from _assumptions(value, derived.get(name, derived) or {}, f"{path}.", unused)
-        elif isinstance(value, list) and group_of(type(section).model_fields[name].annotation):
+        elif isinstance(value, list) and member.group:
             known = derived.get(name) or [{}] * len(value)
             for index, (item, own) in enumerate(zip(value, known, strict=True)):
                 yield from _assumptions(item, own, f"{path}.{index}.", unused)
         elif reason and (value is None or name not in section.model_fields_set):
             used = derived.get(name, value)
             yield {"field": path, "value": section.stands_for_null(name) if used is None else used, "reason": reason}
-
-
-@cache
-def _reasons(section: type[Section]) -> dict[str, str | None]:
-    """The reason of each assumed default by field; None for sections, which may hold more."""
-    reasons = {}
-    for name, info in section.model_fields.items():
-        reason = next((item.assumed for item in info.metadata if isinstance(item, Input)), None)
-        if reason or group_of(info.annotation):
-            reasons[name] = reason
-    return reasons

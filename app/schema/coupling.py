@@ -79,7 +79,8 @@ class _CouplingRequest(Request):
 
     def _design(self, operation: si.Operation) -> si.CouplingInputs:
         coupling = self.coupling.si(si.CouplingDesign).coupling()
-        return self.si(si.CouplingInputs, coupling=coupling, operation=operation, lubricant=self.lubricant.lubricant())
+        lubricant = self.lubricant.si(si.CouplingOil).lubricant()
+        return self.si(si.CouplingInputs, coupling=coupling, operation=operation, lubricant=lubricant)
 
 
 class CouplingRequest(_CouplingRequest):

@@ -8,22 +8,28 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from app.schema.coupling import CouplingFriction, CrownedCoupling
 from app.schema.gears import BacklashGears, GearMaterials
-from app.schema.load_distribution import FlankModifications, MeshDerived, ScuffingLoad
-from app.schema.model import Group, Response, Section, declared
+from app.schema.model import Group, Response, Section
 from app.schema.oil import CouplingLubricant, Oil
 from app.schema.pumping import GearGroove, Mist, PumpingOptions
 from app.schema.quantities import Input, View
-from app.schema.scuffing import PRACTICAL_FRICTION, ContactTemperatures, MeshInOil, ScuffingModel, with_default
-from solvers.coupling.inputs import Coupling, CouplingDesign
+from app.schema.scuffing import (
+    PRACTICAL_FRICTION,
+    ContactTemperatures,
+    FlankModifications,
+    MeshDerived,
+    MeshInOil,
+    ScuffingLoad,
+    ScuffingModel,
+    with_default,
+)
+from solvers.coupling.inputs import Coupling, CouplingDesign, CouplingOil
 from solvers.drive_train import derived, results
 from solvers.drive_train import inputs as si
 from solvers.drive_train.shafts import thrust_budget
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GROUND_FILLET, RACK_A, GearPairInputs
-from solvers.lubricants import Lubricant, OilInUse
-from solvers.oils import OilSheet
+from solvers.lubricants import OilInUse
 from solvers.pumping import inputs as pumping
-from solvers.quantity import UNITS
 from solvers.scuffing import inputs as mesh
 
 
@@ -36,29 +42,17 @@ class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
 
     rack_tip_radius: Annotated[
         float | None,
-        Input(
-            "root fillet radius coefficient",
-            "ρ_fP*",
-            "ISO 53",
+        Input.of(
+            GearPairInputs,
+            "rack_tip_radius",
             text="tip radius coefficient of the rack, of mesh and pumped spaces alike",
-            ge=0,
-            le=0.6,
-            tolerance=0.02,
             default_text=f"{RACK_A} for the mesh, {GROUND_FILLET} for the pumped spaces",
             assumed=f"rack A of ISO 53, {RACK_A}, for the mesh; a ground fillet, {GROUND_FILLET}, for the spaces",
         ),
     ] = None
 
-    def mesh_pair(self) -> GearPairInputs:
-        """The pair of the load distribution."""
-        return self._pair(RACK_A)
-
-    def pumping_pair(self) -> GearPairInputs:
-        """The pair of the pumped spaces."""
-        return self._pair(GROUND_FILLET)
-
-    def _pair(self, rack_tip_radius: float) -> GearPairInputs:
-        """The pair; `rack_tip_radius` counts where none is given."""
+    def pair(self, rack_tip_radius: float) -> GearPairInputs:
+        """The solver's pair; `rack_tip_radius` counts where none is given."""
         pair = self.si(GearPairInputs)
         return pair if self.rack_tip_radius is not None else replace(pair, rack_tip_radius=rack_tip_radius)
 
@@ -90,10 +84,7 @@ def _isotropic(value: Any) -> Any:
 
 Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
 Matrix = Annotated[list[Pair], Field(min_length=2, max_length=2)]
-Stiffness = Annotated[
-    Matrix,
-    BeforeValidator(_isotropic, json_schema_input_type=float | Matrix),
-]
+Stiffness = Annotated[Matrix, BeforeValidator(_isotropic, json_schema_input_type=float | Matrix)]
 
 
 class CylindricalSection(Section, of=si.ShaftSection):
@@ -113,7 +104,7 @@ class ShaftBearing(Section, of=si.ShaftBearing):
 class ThrustBearing(Section):
     """What holds a shaft axially."""
 
-    ultimate_load_n: Annotated[float | None, declared(si.Shaft, "ultimate_thrust")] = None
+    ultimate_load_n: Annotated[float | None, Input.of(si.Shaft, "ultimate_thrust")] = None
 
 
 class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
@@ -121,14 +112,6 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
 
     bearings: list[ShaftBearing]
     thrust_bearing: Annotated[ThrustBearing, Input("thrust bearing")] = ThrustBearing()
-
-    def shaft(self, name: str, oil: OilSheet | Lubricant | None, oil_temperature: float) -> si.Shaft:
-        """The solver's shaft, of this name; plain bearings without viscosity run in the gears' oil [K].
-
-        Raises what `bearings_of` raises.
-        """
-        described = tuple(bearing.si(si.ShaftBearing) for bearing in self.bearings)
-        return self.si(si.Shaft, self.thrust_bearing, bearings=si.bearings_of(name, described, oil, oil_temperature))
 
 
 class ShaftAlignment(Section, of=si.Alignment):
@@ -141,11 +124,6 @@ class UnitCoupling(Section, of=si.UnitCoupling):
     coupling: CrownedCoupling
     lubricant: CouplingLubricant
     friction: CouplingFriction
-
-    def unit_coupling(self) -> si.UnitCoupling:
-        """The solver's coupling."""
-        coupling = self.coupling.si(CouplingDesign).coupling()
-        return self.si(si.UnitCoupling, coupling=coupling, lubricant=self.lubricant.lubricant())
 
     def unused(self) -> set[str]:
         """Friction at rest, for the shaft rotates; with a coefficient of friction the oil."""
@@ -161,7 +139,7 @@ class TrainTemperatures(ContactTemperatures, of=si.DriveTrainInputs, only=("loca
 
     bulk_c: Annotated[
         float | None,
-        declared(
+        Input.of(
             mesh.Temperatures,
             "bulk",
             text="bulk temperature of the contact, at which the oil enters",
@@ -178,40 +156,35 @@ class TrainEffects(Section, of=si.Effects):
 class ThrustCollar(Section):
     """A collar on the pinion that takes the place of its thrust bearing."""
 
-    radius_mm: Annotated[float | None, declared(si.DriveTrainInputs, "collar_radius")] = None
+    radius_mm: Annotated[float | None, Input.of(si.DriveTrainInputs, "collar_radius")] = None
 
 
 class DriveTrainRequest(MeshInOil):
     """A single-stage gear unit with its shafts, bearings, couplings and heat."""
-
-    solver_names: ClassVar = {
-        "ultimate_thrust": "thrust_bearing.ultimate_thrust",
-        "mesh.distribution.modifications": "modifications",
-    }
 
     gears: Annotated[TrainGears, Input("gear pair")]
     grooves: Annotated[
         list[GearGroove], Field(max_length=50), Input("grooves", text="circumferential grooves; they do not carry less")
     ] = Field(default_factory=list)
     operation: Annotated[TrainOperation, Input("operating point")]
-    face_start_mm: Annotated[float, declared(si.DriveTrainInputs, "face_start")]
-    pinion_shaft: Annotated[UnitShaft, declared(si.DriveTrainInputs, "pinion_shaft")]
-    wheel_shaft: Annotated[UnitShaft, declared(si.DriveTrainInputs, "wheel_shaft")]
+    face_start_mm: Annotated[float, Input.of(si.DriveTrainInputs, "face_start")]
+    pinion_shaft: Annotated[UnitShaft, Input.of(si.DriveTrainInputs, "pinion_shaft")]
+    wheel_shaft: Annotated[UnitShaft, Input.of(si.DriveTrainInputs, "wheel_shaft")]
     thrust_collar: Annotated[ThrustCollar, Input("thrust collar")] = ThrustCollar()
-    couplings: Annotated[list[UnitCoupling], Field(max_length=10), declared(si.DriveTrainInputs, "couplings")] = Field(
+    couplings: Annotated[list[UnitCoupling], Field(max_length=10), Input.of(si.DriveTrainInputs, "couplings")] = Field(
         default_factory=list
     )
     modifications: Annotated[
         TrainModifications, Input("modifications", text="what is ground, and misalignment from elsewhere")
     ] = TrainModifications()
-    thermal: Annotated[ToothHeat, declared(si.DriveTrainInputs, "heat")] = ToothHeat()
-    effects: Annotated[TrainEffects, declared(si.DriveTrainInputs, "effects")] = TrainEffects()
+    thermal: Annotated[ToothHeat, Input.of(si.DriveTrainInputs, "heat")] = ToothHeat()
+    effects: Annotated[TrainEffects, Input.of(si.DriveTrainInputs, "effects")] = TrainEffects()
     ambient: Annotated[Mist, Input("ambient", text="the mist around the mesh")] = Mist()
     materials: Annotated[GearMaterials, Input("materials", text="materials of the pair")] = GearMaterials()
     lubricant: Annotated[Oil, Input("oil")] = Oil()
     temperatures: Annotated[TrainTemperatures, Input("temperatures", text="of contact and oil")] = TrainTemperatures()
     friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
-    states: Annotated[list[si.State], Field(min_length=1, max_length=2), declared(si.DriveTrainInputs, "states")] = (
+    states: Annotated[list[si.State], Field(min_length=1, max_length=2), Input.of(si.DriveTrainInputs, "states")] = (
         Field(default_factory=_only_hot)
     )
     model: Annotated[TrainModel, Input("model", text="choices where the papers leave room", advanced=True)] = (
@@ -229,32 +202,36 @@ class DriveTrainRequest(MeshInOil):
 
     def inputs(self) -> si.DriveTrainInputs:
         """The solver's inputs. Raises InvalidInput no_oil where a plain bearing has neither a viscosity nor an oil."""
-        scuffing = self.scuffing_inputs(self.gears.mesh_pair(), self.operation.si(mesh.Load))
-        shafts = [
-            shaft.shaft(name, scuffing.oil, scuffing.temperatures.oil)
-            for name, shaft in (("pinion_shaft", self.pinion_shaft), ("wheel_shaft", self.wheel_shaft))
-        ]
+        scuffing = self.scuffing_inputs(self.gears.pair(RACK_A), self.operation.si(mesh.Load))
         return self.si(
             si.DriveTrainInputs,
             self.model,
             self.temperatures,
             self.thrust_collar,
             mesh=scuffing,
-            pumping=self.si(pumping.PumpingSetup, self.gears, gears=self.gears.pumping_pair()),
-            pinion_shaft=shafts[0],
-            wheel_shaft=shafts[1],
+            pumping=self.si(pumping.PumpingSetup, self.gears, gears=self.gears.pair(GROUND_FILLET)),
+            pinion_shaft=self._shaft("pinion_shaft", scuffing),
+            wheel_shaft=self._shaft("wheel_shaft", scuffing),
             arrangement=self.operation.si(si.Arrangement, self.gears),
             couplings=tuple(self._couplings()),
             bulk_given=self.temperatures.bulk_c is not None,
         )
 
+    def _shaft(self, name: str, scuffing: mesh.ScuffingInputs) -> si.Shaft:
+        """The solver's shaft; plain bearings without viscosity run in the gears' oil."""
+        shaft = getattr(self, name)
+        described = tuple(bearing.si(si.ShaftBearing) for bearing in shaft.bearings)
+        bearings = si.bearings_of(name, described, scuffing.oil, scuffing.temperatures.oil)
+        return shaft.si(si.Shaft, shaft.thrust_bearing, bearings=bearings)  # type: ignore[no-any-return]
+
     def _couplings(self) -> Iterator[si.UnitCoupling]:
         """The solver's couplings; an oil that none can be is that of its own coupling."""
-        for k, coupling in enumerate(self.couplings):
+        for k, unit in enumerate(self.couplings):
             try:
-                yield coupling.unit_coupling()
+                lubricant = unit.lubricant.si(CouplingOil).lubricant()
             except InvalidInput as error:
                 raise InvalidInput(error.code, error.message, f"couplings.{k}.{error.field}") from error
+            yield unit.si(si.UnitCoupling, coupling=unit.coupling.si(CouplingDesign).coupling(), lubricant=lubricant)
 
     def options(self) -> dict[str, Any]:
         """The model section, the number of slices filled in."""
@@ -339,7 +316,7 @@ class DriveTrainDerived(MeshDerived, of=derived.Derived):
 class MisalignmentParts(Group, of=results.Parts):
     """Slope of the shafts' gap over the face by its causes, as the load lies that shafts and mesh agreed on."""
 
-    member_unit: ClassVar = UNITS["um"]
+    member_unit: ClassVar = "um"
 
 
 class GapCurves(Group, of=results.GapCurves):

@@ -11,10 +11,8 @@ from functools import cache
 from types import NoneType
 from typing import Any, Literal, get_args, get_origin
 
-from pydantic.fields import FieldInfo
-
-from app.schema.model import Documented, dimensions, group_of, kinds
-from app.schema.quantities import Input, Output, View, meaning_of
+from app.schema.model import Documented, Member, members
+from app.schema.quantities import Output, View
 from solvers.quantity import Detail, Quantity
 
 Kind = Literal["number", "integer", "boolean", "text", "other"]
@@ -88,8 +86,21 @@ class Branch:
 
 @cache
 def tree(model: type[Documented]) -> Branch:
-    """The whole request or response as one section without a name."""
-    return _titled(Branch("", "", "", model, tuple(_members(model, _Place()))))
+    """The whole request or response as one section without a name.
+
+    Titles tell its leaves apart: each names the nearest section that its namesakes lack.
+    """
+    root = Branch("", "", "", model, tuple(_members(model)))
+    namesakes = defaultdict(list)
+    for leaf, sections in _placed(root):
+        namesakes[leaf.title].append((leaf.path, sections))
+    titles = {}
+    for title, places in namesakes.items():
+        for path, sections in places:
+            telling = (name for name in reversed(sections) if sum(name in others for _, others in places) == 1)
+            section = next(telling, None)
+            titles[path] = f"{title}, {section}" if section and len(places) > 1 else title
+    return _retitled(root, titles)
 
 
 @cache
@@ -136,82 +147,60 @@ def _placed(branch: Branch, titles: tuple[str, ...] = ()) -> Iterator[tuple[Leaf
             yield from _placed(member, (*titles, member.title))
 
 
-def _titled(root: Branch) -> Branch:
-    """The tree with titles that tell its leaves apart: each names the nearest section that its namesakes lack."""
-    namesakes = defaultdict(list)
-    for leaf, titles in _placed(root):
-        namesakes[leaf.title].append((leaf.path, titles))
-    distinct = {}
-    for title, places in namesakes.items():
-        for path, titles in places:
-            telling = (name for name in reversed(titles) if sum(name in others for _, others in places) == 1)
-            section = next(telling, None)
-            distinct[path] = f"{title}, {section}" if section and len(places) > 1 else title
-    return _renamed(root, distinct)
-
-
-def _renamed(branch: Branch, titles: dict[str, str]) -> Branch:
+def _retitled(branch: Branch, titles: dict[str, str]) -> Branch:
     members = (
-        replace(member, title=titles[member.path]) if isinstance(member, Leaf) else _renamed(member, titles)
+        replace(member, title=titles[member.path]) if isinstance(member, Leaf) else _retitled(member, titles)
         for member in branch.members
     )
     return replace(branch, members=tuple(members))
 
 
-@dataclass(frozen=True, slots=True)
-class _Place:
-    """Where the walk is: the path so far, and what its sections hand down."""
-
-    path: tuple[str, ...] = ()
-    advanced: bool = False
-    detail: Detail = "summary"
-
-
-def _members(model: type[Documented], around: _Place) -> Iterator[Leaf | Branch]:
-    for name, info in model.model_fields.items():
-        meaning = meaning_of(info)
-        if meaning is None:
+def _members(
+    model: type[Documented], place: tuple[str, ...] = (), *, advanced: bool = False, detail: Detail = "summary"
+) -> Iterator[Leaf | Branch]:
+    """The fields and sections of a model; it hands down where it is and what the sections around say."""
+    for each in members(model):
+        meaning, path = each.meaning, (*place, each.name)
+        said: Any = {
+            "advanced": advanced or meaning.advanced,
+            "detail": detail if meaning.detail == "summary" else meaning.detail,
+        }
+        if each.group is None:
+            yield _leaf(model, each, path, **said)
             continue
-        detail = meaning.detail if isinstance(meaning, Output) and meaning.detail != "summary" else around.detail
-        place = _Place((*around.path, name), around.advanced or meaning.advanced, detail)
-        group = group_of(info.annotation)
-        if group is None:
-            yield _leaf(model, info, meaning, place)
-            continue
-        repeated = dimensions(info.annotation) > 0
-        inside = replace(place, path=(*place.path, ITEM)) if repeated else place
+        repeated = each.dimensions > 0
         yield Branch(
-            ".".join(place.path),
+            ".".join(path),
             meaning.title,
             meaning.description,
-            group,
-            tuple(_members(group, inside)),
+            each.group,
+            tuple(_members(each.group, (*path, ITEM) if repeated else path, **said)),
             repeated,
-            NoneType in get_args(info.annotation),
+            NoneType in get_args(each.info.annotation),
             meaning.advanced,
         )
 
 
-def _leaf(model: type[Documented], info: FieldInfo, meaning: Input | Output, place: _Place) -> Leaf:
-    *sections, name = place.path
-    prefix, unit, allowed = ".".join(sections), model.unit_of(name), tuple(kinds(info.annotation))
-    fellows = (each for group in model.exclusive if name in group for each in group if each != name)
+def _leaf(model: type[Documented], member: Member, place: tuple[str, ...], *, advanced: bool, detail: Detail) -> Leaf:
+    info, meaning, prefix = member.info, member.meaning, ".".join(place[:-1])
+    options = _options(member.kinds)
+    fellows = (each for group in model.exclusive if member.name in group for each in group if each != member.name)
     return Leaf(
-        path=".".join(place.path),
+        path=".".join(place),
         title=meaning.title,
         declared=meaning,
         view=meaning if isinstance(meaning, Output) else View(),
         description=meaning.description,
-        unit=unit.symbol if unit else None,
-        kind=next((_KINDS[kind] for kind in allowed if kind in _KINDS), "text" if _options(allowed) else "other"),
-        dimensions=dimensions(info.annotation),
+        unit=member.unit.symbol if member.unit else None,
+        kind=next((_KINDS[kind] for kind in member.kinds if kind in _KINDS), "text" if options else "other"),
+        dimensions=member.dimensions,
         nullable=NoneType in get_args(info.annotation),
         required=info.is_required(),
         default=None if info.is_required() else info.get_default(call_default_factory=True),
-        options=_options(allowed),
-        advanced=place.advanced,
+        options=options,
+        advanced=advanced,
         exclusive=tuple(_absolute(each, prefix) for each in fellows),
-        detail=place.detail,
+        detail=detail,
         axes=tuple(_absolute(axis, prefix) for axis in meaning.axes) if isinstance(meaning, Output) else (),
     )
 
@@ -240,12 +229,10 @@ def field_path(request: Documented, name: str) -> str | None:
     Of several it is the outermost, of fields that exclude each other the one that was sent; where an item of a list
     lacks what the solver names in it, it is the item.
     """
-    for theirs, ours in request.solver_names.items():
-        name = f".{name}.".replace(f".{theirs}.", f".{ours}.").strip(".")
     indices = [part for part in name.split(".") if part.isdecimal()]
     wanted = tuple(ITEM if part.isdecimal() else part for part in name.split("."))
     while wanted:
-        found = _fields(type(request)).get(wanted)
+        found = _meant(type(request), wanted)
         if found and (path := _sent(request, found, iter(indices))):
             return path
         wanted = wanted[:-1] if ITEM in wanted[:-1] else ()
@@ -253,35 +240,42 @@ def field_path(request: Documented, name: str) -> str | None:
 
 
 @cache
-def _fields(model: type[Documented]) -> dict[_Names, _Names]:
-    """The fields of a request by every end of the solver's names for them, the outermost first."""
-    found: dict[_Names, _Names] = {}
-    for theirs, ours in sorted(_named(model), key=lambda each: len(each[0])):
-        for end in _ends(theirs):
-            found.setdefault(end, ours)
-    return found
+def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
+    """The path of the outermost field that a solver means by these names.
+
+    The solver may leave out sections, but not lists; before a name at the root it may name parts of its inputs that
+    the request does not have.
+    """
+    for start in range(len(wanted)):
+        found = [
+            (theirs, ours)
+            for theirs, ours in _named(model)
+            if theirs[-1] == wanted[-1]
+            and theirs.count(ITEM) == wanted.count(ITEM)
+            and _in_order(wanted[start:], theirs)
+            and (start == 0 or theirs[0] == wanted[start])
+        ]
+        if found:
+            return min(found, key=lambda each: len(each[0]))[1]
+    return None
+
+
+def _in_order(names: _Names, path: _Names) -> bool:
+    """Whether a path has all these names, in their order."""
+    rest = iter(path)
+    return all(name in rest for name in names)
 
 
 def _named(model: type[Documented], theirs: _Names = (), ours: _Names = ()) -> Iterator[tuple[_Names, _Names]]:
     """Every field and list item of a model: the solver's names on its path, and its own."""
-    for name, info in model.model_fields.items():
-        si_path, path = (*theirs, model.solver_name(name)), (*ours, name)
+    for each in members(model):
+        si_path, path = (*theirs, each.solver_name), (*ours, each.name)
         yield si_path, path
-        if dimensions(info.annotation):
+        if each.dimensions:
             si_path, path = (*si_path, ITEM), (*path, ITEM)
             yield si_path, path
-        if group := group_of(info.annotation):
-            yield from _named(group, si_path, path)
-
-
-def _ends(path: _Names) -> Iterator[_Names]:
-    """The names by which a solver may mean a field: between a list item and the end it may leave sections out."""
-    if ITEM not in path:
-        yield from (path[start:] for start in range(len(path)))
-        return
-    after = len(path) - path[::-1].index(ITEM)
-    for start in range(after - 1):
-        yield from (path[start:after] + path[end:] for end in range(after, max(after + 1, len(path))))
+        if each.group:
+            yield from _named(each.group, si_path, path)
 
 
 def _sent(request: Documented, path: _Names, indices: Iterator[str]) -> str | None:

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from app.schema.model import Section, declared
+from app.schema.model import Section
 from app.schema.quantities import Input
 from solvers.gears.inputs import RACK_A, GearPairInputs, GearTeeth
 from solvers.materials import Solid
@@ -25,7 +25,7 @@ class ScuffingGears(Gears):
 
     rack_tip_radius: Annotated[
         float,
-        declared(
+        Input.of(
             GearPairInputs,
             "rack_tip_radius",
             text="tip radius coefficient of the rack",

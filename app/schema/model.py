@@ -11,8 +11,8 @@ itself is an ordinary field of pydantic: under the name of a filled field it cha
 
 from abc import abstractmethod
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass, fields, is_dataclass
-from functools import cache
+from dataclasses import MISSING, dataclass, fields, is_dataclass
+from functools import cache, partial
 from importlib.metadata import version
 from inspect import get_annotations
 from types import NoneType, UnionType
@@ -23,7 +23,6 @@ from typing import (
     ClassVar,
     Literal,
     LiteralString,
-    NamedTuple,
     Self,
     TypeVar,
     Union,
@@ -47,31 +46,19 @@ LEVELS: tuple[Detail, ...] = ("summary", "curves", "fields")
 MODEL_VERSION = version("tribodrive")
 
 
-class Origin(NamedTuple):
-    """The field of a solver's dataclass that fills a field of a model; `member` of the result holds that dataclass."""
-
-    record: type
-    name: str
-    member: str | None = None
-
-
 class Documented(BaseModel):
-    """A model whose JSON schema states the unit of every field that has one.
+    """A model with fields for the declarations of dataclasses.
 
     `exclusive` lists groups of fields of which at most one is given. `member_unit` is the unit of the fields whose own
     names carry none: a group `mass_flow_g_per_s` says it once for its members. `views` are the judgements of outputs,
-    by the solver's names. `solver_names` are the parts of dotted names that the solver spells otherwise, with the
-    fields' spelling.
+    by the solver's names.
     """
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
-    member_unit: ClassVar[Unit | None] = None
+    member_unit: ClassVar[str | None] = None
     views: ClassVar[dict[str, View]] = {}
-    solver_names: ClassVar[dict[str, str]] = {}
-    origins: ClassVar[dict[str, Origin]] = {}
-    """Where filled fields come from."""
     _declares: ClassVar[type[Input] | type[Output]] = Input
-    _optional: ClassVar[bool] = False
+    _optional: ClassVar[bool] = False  # whether filled fields may be missing: where there is no solution
 
     if TYPE_CHECKING:
 
@@ -88,143 +75,78 @@ class Documented(BaseModel):
     ) -> None:
         """Fill the model from the declarations of dataclasses: all, `only` some, or all `without` some.
 
-        Of several the first is the solver's result, and has a member that is the other. Fields that a base has stay as
-        they are, but for the member of the result that holds them.
+        Of several the first is the solver's result; the others are members of it, which may be None. Fields that a base
+        has stay as they are.
         """
         super().__init_subclass__(**config)
-        records = of if isinstance(of, tuple) else (of,)
-        inherited = {
-            name: each for base in reversed(cls.__mro__) for name, each in vars(base).get("origins", {}).items()
-        }
-        for name, kind in get_annotations(cls).items():
-            given = _declaration(kind)
-            if isinstance(given, Input) and given.origin is not None:
-                inherited[name] = Origin(*given.origin)
-        if not records:
-            cls.origins = inherited
-            return
-        members = _holders(records[0])
-        cls.origins = {name: each._replace(member=members.get(each.record)) for name, each in inherited.items()}
+        records: tuple[Any, ...] = of if isinstance(of, tuple) else (of,)
+        chosen = [
+            (record, name, quantities(record)[name])
+            for record in records
+            for name in only or quantities(record)
+            if name in quantities(record) and name not in without
+        ]
+        inherited = {each.solver_name: each.name for base in cls.__bases__ for each in members(base) if each.record}
+        names = dict(inherited)  # in the interface, by the solver's
+        for _, name, declared in chosen:
+            names[name] = name if declared.unit in {None, cls.member_unit} else f"{name}_{declared.unit}"
+        unknown = {*only, *vars(cls).get("views", {})} - {*names}
+        if unknown:
+            raise TypeError(f"{cls.__name__} names fields that are not declared: {', '.join(sorted(unknown))}")
+        own = get_annotations(cls)  # change the type of a filled field, or stand beside it
         filled: dict[str, Any] = {}
-        for record in records:
-            chosen = {name: each for name, each in quantities(record).items() if name not in without}
-            if only:
-                chosen = {name: chosen[name] for name in only if name in chosen}
-            filled |= cls._filled(record, chosen, members.get(record))
-        cls._check_names({*only, *vars(cls).get("views", {})})
-        own = get_annotations(cls)
+        for record, name, declared in chosen:
+            field = names[name]
+            if field in inherited.values() and field not in own:
+                continue
+            kind = own.get(field) or _published(type_of(record, name), declared, cls._declares)
+            if meaning_of(getattr(kind, "__metadata__", ())):  # brings its own declaration
+                continue
+            optional = cls._optional or declared.detail != "summary"
+            nullable = optional or (cls._declares is Output and record is not records[0])
+            filled[field] = cls._annotated(kind | None if nullable else kind, record, name, names)
+            if field not in vars(cls):
+                setattr(cls, field, None if optional else cls._default(kind, record, name))
         cls.__annotations__ = filled | {name: kind for name, kind in own.items() if name not in filled}
-        if not only and not without:
+        if records and not only and not without:
             _MODELS.setdefault((cls._declares, records[0]), cls)
 
     @classmethod
-    def _check_names(cls, named: set[str]) -> None:
-        """Raise TypeError for names that no dataclass declares."""
-        unknown = named - {each.name for each in cls.origins.values()}
-        if unknown:
-            raise TypeError(f"{cls.__name__} names fields that are not declared: {', '.join(sorted(unknown))}")
-
-    @classmethod
-    def _filled(cls, record: type[Any], chosen: dict[str, Quantity], member: str | None) -> dict[str, Any]:
-        """Annotations for the declared fields of a dataclass that the model lacks; their defaults are set."""
-        own, inherited = get_annotations(cls), {*cls.origins}
-        shown = {each.name: name for name, each in cls.origins.items()}
-        shown |= {name: cls._shown(each, name) for name, each in chosen.items()}
-        factories = {each.name for each in fields(record) if callable(each.default_factory)}
-        filled = {}
-        for name, declared in chosen.items():
-            api_name = shown[name]
-            if api_name in inherited and api_name not in own:
-                continue
-            cls.origins[api_name] = Origin(record, name, member)
-            if _declaration(own.get(api_name)):
-                continue
-            kind = own[api_name] if api_name in own else _published(type_of(record, name), declared, cls._declares)
-            optional = cls._optional or declared.detail != "summary"
-            filled[api_name] = cls._annotated(kind | None if optional or member else kind, name, declared, shown)
-            if api_name not in cls.__dict__:
-                cls._set_default(api_name, kind, declared, optional=optional, factory=name in factories)
-        return filled
-
-    @classmethod
-    def _shown(cls, declared: Quantity, name: str) -> str:
-        bare = declared.unit is None or UNITS[declared.unit] == cls.member_unit
-        return name if bare else f"{name}_{declared.unit}"
-
-    @classmethod
-    def _annotated(cls, kind: Any, name: str, declared: Quantity, shown: dict[str, str]) -> Any:
-        known: dict[str, Any] = {each.name: getattr(declared, each.name) for each in fields(declared)}
-        if declared.axis:
-            axes = tuple(shown.get(axis, axis) for axis in np.atleast_1d(declared.axis).tolist())
-            known["axis"] = axes if isinstance(declared.axis, tuple) else axes[0]
+    def _annotated(cls, kind: Any, record: type, name: str, names: dict[Any, Any]) -> Any:
+        """A type with its declaration, which knows other fields by their names in the interface."""
+        declared = quantities(record)[name]
+        unit = declared.unit or getattr(kind, "member_unit", None)
+        axis = declared.axis
+        axis = tuple(names.get(each, each) for each in axis) if isinstance(axis, tuple) else names.get(axis, axis)
         if cls._declares is Output:
-            return Annotated[kind, Output(**known, **asdict(cls.views.get(name, View())))]
+            return Annotated[kind, Output.of(record, name, unit=unit, axis=axis, **vars(cls.views.get(name, View())))]
         if declared.length:
             least, most = declared.length
-            return Annotated[kind, Field(min_length=least or None, max_length=most), Input(**known)]
-        return Annotated[kind, Input(**known)]
+            kind = Annotated[kind, Field(min_length=least or None, max_length=most)]
+        return Annotated[kind, Input.of(record, name)]
 
     @classmethod
-    def _set_default(cls, name: str, kind: Any, declared: Quantity, *, optional: bool, factory: bool) -> None:
-        """The default of a filled field; results have none."""
-        if optional:
-            setattr(cls, name, None)
-        elif cls._declares is Input and isinstance(declared.default, tuple):
-            setattr(cls, name, Field(default_factory=lambda: [*declared.default]))
-        elif cls._declares is Input and declared.default is not ...:
-            setattr(cls, name, declared.default)
-        elif cls._declares is Input and factory:
-            setattr(cls, name, kind())
-
-    @classmethod
-    def solver_name(cls, name: str) -> str:
-        """The solver's name of a field."""
-        return cls.origins[name].name if name in cls.origins else split_unit(name)[0]
-
-    @classmethod
-    def unit_of(cls, name: str) -> Unit | None:
-        """The unit of a field."""
-        return split_unit(name)[1] or cls.member_unit
+    def _default(cls, kind: Any, record: Any, name: str) -> Any:
+        """The default of a filled field, `...` without one; results have none."""
+        default = quantities(record)[name].default
+        if cls._declares is Output:
+            return ...
+        if isinstance(default, tuple):
+            return Field(default_factory=partial(list, default))
+        made = default is ... and record.__dataclass_fields__[name].default_factory is not MISSING
+        return kind() if made else default
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        """The schema with `x-unit` added field by field, and `x-exclusive`."""
+        """The schema with `x-exclusive`."""
         document = handler(schema)
-        definition = handler.resolve_ref_schema(document)
-        for name, field in definition.get("properties", {}).items():
-            unit = cls.unit_of(name) or getattr(cls.model_fields[name].annotation, "member_unit", None)
-            if unit is not None:
-                field["x-unit"] = unit.symbol
         if cls.exclusive:
-            definition["x-exclusive"] = [list(group) for group in cls.exclusive]
+            handler.resolve_ref_schema(document)["x-exclusive"] = [list(group) for group in cls.exclusive]
         return document
 
 
 _MODELS: dict[tuple[type, type], type[Documented]] = {}
 """The first model filled from a dataclass stands for it wherever another dataclass holds it."""
-
-
-def declared(kind: type, name: str, **changes: Any) -> Input:
-    """The declaration of a dataclass's field, changed for one request."""
-    known = quantities(kind)[name]
-    return Input(**{each.name: getattr(known, each.name) for each in fields(known)} | changes, origin=(kind, name))
-
-
-def _holders(record: type) -> dict[Any, str]:
-    """The members of a dataclass by the dataclass that each holds, alone or optional."""
-    hints = get_type_hints(record)
-    found: dict[Any, str] = {}
-    for each in fields(record):
-        hint = hints[each.name]
-        kinds = get_args(hint) if get_origin(hint) in {Union, UnionType} else (hint,)
-        found |= {kind: each.name for kind in kinds if is_dataclass(kind)}
-    return found
-
-
-def _declaration(annotation: Any) -> Input | Output | None:
-    """The declaration that an annotation brings."""
-    metadata = get_args(annotation)[1:] if get_origin(annotation) is Annotated else ()
-    return next((each for each in metadata if isinstance(each, Input | Output)), None)
 
 
 def _published(hint: Any, declared: Quantity, declares: type) -> Any:
@@ -250,167 +172,150 @@ def _list_of(kind: Any) -> Any:
     return list[kind]
 
 
+def kinds(annotation: Any, lists: int = 0) -> Iterator[tuple[Any, int]]:
+    """The types of single values that an annotation allows, each with the number of lists around it."""
+    origin = get_origin(annotation)
+    if origin is Annotated:
+        yield from kinds(get_args(annotation)[0], lists)
+    elif origin in {Union, UnionType, list, tuple}:
+        for kind in get_args(annotation):
+            yield from kinds(kind, lists + (origin is list))
+    elif annotation is not NoneType:
+        yield annotation, lists
+
+
 @dataclass(frozen=True, slots=True)
-class _Field:
-    """How one field of a schema maps to the solver."""
+class Member:
+    """A field of a model: what it means and holds, and the field of a solver's dataclass that it fills or is read from.
+
+    `record` is that dataclass, None where it may be any. `kinds` are the types of single values, `group` the section or
+    group among them, alone, optional or as the items of a list. `dimensions` is 0 for a scalar, 1 for a list, 2 for a
+    matrix. `level` is that of the least detail at which an answer has the field.
+    """
 
     name: str
-    si_name: str
+    info: FieldInfo
+    meaning: Input | Output
+    record: type | None
+    solver_name: str
     unit: Unit | None
-    level: int
+    kinds: tuple[Any, ...]
     group: type[Documented] | None
-    record: type[Any] | None
-    holder: str | None
-
-    def value(self, result: Any) -> Any:
-        """What a solver's result holds for it; None where it lacks the member that would."""
-        part = getattr(result, self.holder) if self.holder else result
-        return None if part is None else getattr(part, self.si_name)
+    dimensions: int
+    level: int
 
 
 @cache
-def _fields(model: type[Documented]) -> tuple[_Field, ...]:
-    return tuple(_field(model, name, info) for name, info in model.model_fields.items())
-
-
-def _field(model: type[Documented], name: str, info: FieldInfo) -> _Field:
-    meaning = meaning_of(info)
-    level = LEVELS.index(meaning.detail) if isinstance(meaning, Output) else 0
-    origin = model.origins.get(name)
-    record, member = (origin.record, origin.member) if origin else (None, None)
-    return _Field(name, model.solver_name(name), model.unit_of(name), level, group_of(info.annotation), record, member)
-
-
-def kinds(annotation: Any) -> Iterator[Any]:
-    """The types of single values that an annotation allows, alone, as one of several or as items of a list."""
-    if get_origin(annotation) is Annotated:
-        yield from kinds(get_args(annotation)[0])
-    elif get_origin(annotation) in {Union, UnionType, list, tuple}:
-        for kind in get_args(annotation):
-            yield from kinds(kind)
-    elif annotation is not NoneType:
-        yield annotation
-
-
-def dimensions(annotation: Any) -> int:
-    """How many lists stand around a value: 0 for a scalar, 1 for a list, 2 for a matrix."""
-    if get_origin(annotation) is Annotated:
-        return dimensions(get_args(annotation)[0])
-    if get_origin(annotation) is list:
-        return 1 + dimensions(get_args(annotation)[0])
-    if get_origin(annotation) in {Union, UnionType}:
-        return max(dimensions(kind) for kind in get_args(annotation))
-    return 0
-
-
-def group_of(annotation: Any) -> type[Documented] | None:
-    """The group or section that a field holds, alone, optional or as the item of a list; None for plain values."""
-    return next((kind for kind in kinds(annotation) if isinstance(kind, type) and issubclass(kind, Documented)), None)
-
-
-def built(kind: type[T], sections: tuple[Documented, ...], known: dict[str, Any]) -> T:
-    """The solver's dataclass in SI from the sections that have its fields, the first of several that has one.
-
-    Sections inside these fill the dataclasses inside it; what is `known` stands for fields of its own.
-    """
-    given: dict[str, Any] = {}
-    record: Any = kind
-    for section in reversed(sections):
-        for name, field, inner in _members(type(section), record):
-            if name not in known:
-                value = getattr(section, field.name)
-                given[name] = _scaled(value, field.unit) if inner is None else _inner(value, inner)
-    return kind(**given | known)
-
-
-def _inner(value: Any, kind: type[Any]) -> Any:
-    if value is None:
-        return None
-    return tuple(built(kind, (each,), {}) for each in value) if isinstance(value, list) else built(kind, (value,), {})
+def members(model: type[BaseModel]) -> tuple[Member, ...]:
+    """The fields of a model that are declared."""
+    found = []
+    for name, info in model.model_fields.items():
+        if meaning := meaning_of(info.metadata):
+            bare_name, unit = split_unit(name)
+            record, solver_name = meaning.origin or (None, bare_name)
+            allowed, lists = zip(*kinds(info.annotation), strict=True)
+            groups = (kind for kind in allowed if isinstance(kind, type) and issubclass(kind, Documented))
+            found.append(
+                Member(
+                    name=name,
+                    info=info,
+                    meaning=meaning,
+                    record=record,
+                    solver_name=solver_name,
+                    unit=UNITS[meaning.unit] if meaning.unit else unit,
+                    kinds=allowed,
+                    group=next(groups, None),
+                    dimensions=max(lists),
+                    level=LEVELS.index(meaning.detail),
+                )
+            )
+    return tuple(found)
 
 
 @cache
-def _members(model: type[Documented], kind: Any) -> tuple[tuple[str, _Field, type[Any] | None], ...]:
-    """The fields that a dataclass takes from a section, and the dataclass of a section inside it."""
-    known = {field.si_name: field for field in _fields(model) if field.record is None or issubclass(kind, field.record)}
-    hints = get_type_hints(kind)
+def _fillings(model: type[Documented], record: Any) -> tuple[tuple[str, Member, Any], ...]:
+    """The fields of a dataclass that a section has, and the dataclass inside each, None of plain values."""
+    known = {each.solver_name: each for each in members(model) if not each.record or issubclass(record, each.record)}
+    hints = get_type_hints(record)
     return tuple(
         (each.name, known[each.name], _record_in(hints[each.name]))
-        for each in fields(kind)
+        for each in fields(record)
         if each.init and each.name in known
     )
 
 
 def _record_in(hint: Any) -> Any:
     """The dataclass in a type, alone, optional or as the item of a tuple; None where there is none."""
-    return next(filter(is_dataclass, kinds(hint)), None)
+    return next((kind for kind, _ in kinds(hint) if is_dataclass(kind)), None)
 
 
-def _scaled(value: Any, unit: Unit | None) -> Any:
-    match value:
-        case float():
-            return value if unit is None else value * unit.scale + unit.offset
-        case None | bool() | str():
-            return value
-        case list() | tuple():
-            return tuple(_scaled(item, unit) for item in value)
-        case _:
-            return value if unit is None else value * unit.scale + unit.offset
+def _in_si(value: Any, unit: Unit | None, record: Any) -> Any:
+    if value is None:
+        return None
+    if isinstance(value, list):
+        return tuple(_in_si(item, unit, record) for item in value)
+    if record is not None:
+        return value.si(record)
+    return value if unit is None else value * unit.scale + unit.offset
 
 
-def from_si(group: type[Documented], result: Any, detail: Detail, skip: frozenset[str] = frozenset()) -> dict[str, Any]:
-    """The fields of a response group read from the solver's result, in the units of their names.
+def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, Any]:
+    """The fields of a response group that a solver's result declares, in the units of their names.
 
-    Fields above the level of detail are left out, as are those to `skip`.
+    Fields above the level of detail are left out.
     """
-    level = LEVELS.index(detail)
     content: dict[str, Any] = {}
-    for field in _fields(group):
-        if field.level <= level and field.name not in skip:
-            value, unit = field.value(result), field.unit
-            if field.group is not None and isinstance(value, tuple | list):
-                content[field.name] = [from_si(field.group, item, detail) for item in value]
-            elif field.group is not None and value is not None:
-                content[field.name] = from_si(field.group, value, detail)
-            else:
-                content[field.name] = value if unit is None and type(value) is float else _displayed(value, unit)
+    kind: Any = type(result)
+    level = LEVELS.index(detail)
+    for member, holder in _sources(group, kind):
+        if member.level <= level:
+            part = getattr(result, holder) if holder else result
+            value = None if part is None else getattr(part, member.solver_name)
+            content[member.name] = _displayed(value, member, detail)
     return content
+
+
+@cache
+def _sources(group: type[Documented], record: Any) -> tuple[tuple[Member, str | None], ...]:
+    """The fields of a group that a result has, and the member that holds each; None of the result's own."""
+    hints = get_type_hints(record)
+    inner = {name: held for name, hint in hints.items() if (held := _record_in(hint))}
+    found: list[tuple[Member, str | None]] = []
+    for each in members(group):
+        if each.record and issubclass(record, each.record):
+            found.append((each, None))
+        elif each.record:
+            found.append((each, next(name for name, held in inner.items() if issubclass(held, each.record))))
+    return tuple(found)
+
+
+def _displayed(value: Any, member: Member, detail: Detail) -> Any:
+    """A value in the unit of its field; NaN inside an array marks a point without a value and becomes None."""
+    unit = member.unit
+    if isinstance(value, tuple | list):
+        return [_displayed(item, member, detail) for item in value]
+    if member.group is not None and value is not None:
+        return from_si(member.group, value, detail)
+    if unit is not None and value is not None:
+        value = (value - unit.offset) / unit.scale
+    if not isinstance(value, np.ndarray):
+        return value
+    if value.dtype.kind == "f" and np.isnan(value).any():
+        missing, value = np.isnan(value), value.astype(object)
+        value[missing] = None
+    return value.tolist()
 
 
 @cache
 def above(group: type[Documented], detail: Detail) -> dict[str, Any]:
     """The fields of a group above a level of detail, as pydantic's `exclude` names them."""
-    level = LEVELS.index(detail)
     found: dict[str, Any] = {}
-    for field in _fields(group):
-        if field.level > level:
-            found[field.name] = True
-        elif field.group is not None and (inner := above(field.group, detail)):
-            found[field.name] = {"__all__": inner} if dimensions(group.model_fields[field.name].annotation) else inner
+    for member in members(group):
+        if member.level > LEVELS.index(detail):
+            found[member.name] = True
+        elif member.group is not None and (inner := above(member.group, detail)):
+            found[member.name] = {"__all__": inner} if member.dimensions else inner
     return found
-
-
-def _displayed(value: Any, unit: Unit | None) -> Any:
-    """A value in the unit of its field; NaN inside an array marks a point without a value and becomes None."""
-    match value:
-        case None | bool() | str():
-            return value
-        case np.ndarray():
-            return _displayed_array(value, unit)
-        case tuple() | list():
-            return [_displayed(item, unit) for item in value]
-        case _:
-            return value if unit is None else (value - unit.offset) / unit.scale
-
-
-def _displayed_array(values: np.ndarray[Any, Any], unit: Unit | None) -> list[Any]:
-    if unit is not None:
-        values = (values - unit.offset) / unit.scale
-    if values.dtype.kind == "f" and np.isnan(values).any():
-        missing = np.isnan(values)
-        values = values.astype(object)
-        values[missing] = None
-    return values.tolist()  # type: ignore[no-any-return]
 
 
 class Section(Documented):
@@ -438,8 +343,17 @@ class Section(Documented):
         return self
 
     def si(self, kind: type[T], *others: "Section", **known: Any) -> T:
-        """The solver's dataclass in SI that these fields fill, with those of others and with what is known of it."""
-        return built(kind, (self, *others), known)
+        """The solver's dataclass in SI that these fields fill, then those of other sections.
+
+        Sections inside these fill the dataclasses inside it; what is `known` stands for fields of its own.
+        """
+        given: dict[str, Any] = {}
+        record: Any = kind
+        for section in reversed((self, *others)):
+            for name, member, inner in _fillings(type(section), record):
+                if name not in known:
+                    given[name] = _in_si(getattr(section, member.name), member.unit, inner)
+        return kind(**given | known)
 
     def unused(self) -> set[str]:
         """Names, dotted below this section, of fields and sections that the values given leave out of a result."""
@@ -474,8 +388,7 @@ class Request(Section):
 
     def options(self) -> dict[str, Any]:
         """The options in force, by their names in the contract."""
-        options: dict[str, Any] = self.model.model_dump()
-        return options
+        return self.model.model_dump()  # type: ignore[no-any-return]
 
     def assumed_by_the_model(self) -> dict[str, str]:
         """What the options in force take for granted whatever else is given: reasons by dotted names of options."""
@@ -537,21 +450,14 @@ class Response(Group):
     ]
     model_version: Annotated[str, Output("model version", text="version of the model that computed this result")]
     sources: Annotated[
-        str,
-        Output("sources of the solvers", text="SHA-256 of the solvers' syntax trees; equal for equal calculations"),
+        str, Output("sources of the solvers", text="SHA-256 of the solvers' syntax trees; equal for equal calculations")
     ]
     model: Annotated[dict[str, Any], Output("options in force")]
     derived: Annotated[Derived | None, Output("derived", text="what follows from the request before any physics")] = (
         None
     )
-    inputs: Annotated[
-        dict[str, Any],
-        Output("inputs", text="the request with its defaults, to be posted"),
-    ]
-    case: Annotated[
-        str,
-        Output("case", text="SHA-256 of endpoint, inputs and sources; equal cases have equal results"),
-    ]
+    inputs: Annotated[dict[str, Any], Output("inputs", text="the request with its defaults, to be posted")]
+    case: Annotated[str, Output("case", text="SHA-256 of endpoint, inputs and sources; equal cases have equal results")]
 
     _result: Any = PrivateAttr(default=None)
 

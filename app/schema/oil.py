@@ -7,9 +7,8 @@ from pydantic_core import PydanticCustomError
 
 from app.schema.model import Derived, Section
 from solvers.coupling.inputs import CouplingOil
-from solvers.coupling.inputs import Lubricant as CouplingLubricantInUse
 from solvers.lubricants import Lubricant, OilInUse
-from solvers.oils import SQUARE_MILLIMETRE, OilBySheet, OilChoice, OilSheet, iso_vg
+from solvers.oils import SQUARE_MILLIMETRE, OilBySheet, OilChoice, iso_vg
 
 _BY_SHEET = ("iso_vg", "kinematic_viscosity_40_mm2_per_s", "kinematic_viscosity_100_mm2_per_s")
 
@@ -30,8 +29,7 @@ class SheetOil(Section, of=OilBySheet):
     @model_validator(mode="after")
     def one_way(self) -> Self:
         """A grade, or both viscosities."""
-        pair = [self.kinematic_viscosity_40_mm2_per_s, self.kinematic_viscosity_100_mm2_per_s]
-        given = [value is not None for value in pair]
+        given = [getattr(self, name) is not None for name in _BY_SHEET[1:]]
         if self.iso_vg is not None and any(given):
             raise PydanticCustomError("exclusive", "iso_vg and kinematic viscosities are both given; keep one")
         if any(given) and not all(given):
@@ -101,10 +99,6 @@ class Oil(SheetOil, of=OilChoice):
         """Whether an oil is given."""
         return self.by_sheet or self.viscosity_pa_s is not None
 
-    def oil(self) -> OilSheet | Lubricant | None:
-        """The solver's oil. Raises what `OilChoice.resolve` raises."""
-        return self.si(OilChoice).resolve()
-
     def unused(self) -> set[str]:
         """What this way of giving the oil leaves out of a result; whether its kind counts is the request's to say."""
         if not self.known:
@@ -138,10 +132,6 @@ class CouplingLubricant(SheetOil, of=CouplingOil):
         if not self.by_sheet and self.viscosity_pa_s is None:
             raise PydanticCustomError("missing_property", "give viscosity_pa_s, or the oil by its grade or data sheet")
         return self
-
-    def lubricant(self) -> CouplingLubricantInUse:
-        """The solver's lubricant."""
-        return self.si(CouplingOil).lubricant()
 
     def unused(self) -> set[str]:
         """What this way of giving the oil leaves out of a result."""

@@ -8,7 +8,6 @@ from app.schema.quantities import Input, View
 from solvers.pumping import inputs as si
 from solvers.pumping import lead_correction, pulsation, results
 from solvers.pumping.space import stroke
-from solvers.quantity import UNITS
 
 AXIAL_SPEED_ONLY = (
     "the stagnation temperature counts the axial speed only; air drawn in from rest meets a tooth at the pitch-line "
@@ -57,9 +56,6 @@ class _PumpingSetup(Request, of=si.PumpingSetup, without=("normal_backlash",)):
         """A flow with temperatures knows one speed only."""
         return {} if self.model.flow == "incompressible" else {"model.flow": AXIAL_SPEED_ONLY}
 
-    def _setup(self) -> si.PumpingSetup:
-        return self.si(si.PumpingSetup, self.gears)
-
 
 class PumpingRequest(_PumpingSetup):
     """A gear pair that pumps the mist around it, at one speed."""
@@ -68,7 +64,7 @@ class PumpingRequest(_PumpingSetup):
 
     def inputs(self) -> si.PumpingInputs:
         """The solver's inputs."""
-        return self.operation.si(si.PumpingInputs, setup=self._setup())
+        return self.operation.si(si.PumpingInputs, setup=self.si(si.PumpingSetup, self.gears))
 
 
 class ChokingSpeedRequest(_PumpingSetup, of=si.ChokingInputs):
@@ -76,7 +72,7 @@ class ChokingSpeedRequest(_PumpingSetup, of=si.ChokingInputs):
 
     def inputs(self) -> si.ChokingInputs:
         """The solver's inputs."""
-        return self.si(si.ChokingInputs, setup=self._setup())
+        return self.si(si.ChokingInputs, setup=self.si(si.PumpingSetup, self.gears))
 
 
 class StrokeCurves(Group, of=stroke.StrokeTable):
@@ -90,7 +86,7 @@ class PumpingStroke(Group, of=results.Stroke):
 class PumpingMassFlow(Group, of=results.MassFlow):
     """Mass flow out of the tooth spaces: net by exit, the first five sum to zero; gross at the ends."""
 
-    member_unit: ClassVar = UNITS["g_per_s"]
+    member_unit: ClassVar = "g_per_s"
 
 
 class PumpingBalance(Group, of=results.Balance):

@@ -3,48 +3,56 @@
 Units stand in field names: `face_width_mm` is the face width in millimetres.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal, Self
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
-from pydantic.fields import FieldInfo
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
-from solvers.quantity import UNITS, Quantity, Unit
+from solvers.quantity import UNITS, Quantity, Unit, quantities
 
 Bound = Literal["upper", "lower"]
 
 
 @dataclass(frozen=True)
 class _Declaration(Quantity):
-    """A declaration that documents its field in the JSON schema."""
+    """A declaration that documents its field in the JSON schema.
+
+    `origin` is the solver's dataclass and its field that it was taken from, if it was. `in_schema` lists the attributes
+    that the JSON schema states: `default_text` as `x-default-text`.
+    """
+
+    origin: tuple[type, str] | None = None
+    in_schema: ClassVar[tuple[str, ...]]
+
+    @classmethod
+    def of(cls, record: type, name: str, **changes: Any) -> Self:
+        """What the solver's dataclass declares of one of its fields, with changes."""
+        return cls(**vars(quantities(record)[name]) | {"origin": (record, name)} | changes)
 
     @property
     def description(self) -> str:
         """The text, else the title."""
         return self.text or self.title
 
-    @property
-    def extras(self) -> dict[str, Any]:
-        """What the schema says beside title and description."""
-        return {"x-symbol": self.symbol, "x-source": self.source}
-
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         """The type's own JSON schema and what the field means."""
-        extras = {key: value for key, value in self.extras.items() if value is not None}
-        return {**handler(schema), "title": self.title, "description": self.description, **extras}
+        document = {**handler(schema), "title": self.title, "description": self.description}
+        for name in self.in_schema:
+            value = getattr(self, name)
+            if value is not None and value is not False:
+                document[f"x-{name.replace('_', '-')}"] = list(value) if isinstance(value, tuple) else value
+        return document | {"x-unit": UNITS[self.unit].symbol} if self.unit else document
 
 
 @dataclass(frozen=True)
 class Input(_Declaration):
-    """The declaration of a field of a request; the unit is in the field's name.
+    """The declaration of a field of a request."""
 
-    `origin` is the dataclass and its field that it was taken from, if it was.
-    """
-
-    origin: tuple[type, str] | None = None
+    in_schema = ("symbol", "source", "assumed", "default_text", "advanced", "tolerance", "relative_tolerance")
 
     @property
     def description(self) -> str:
@@ -52,27 +60,16 @@ class Input(_Declaration):
         text = super().description
         return f"{text}; null: {self.default_text}" if self.default_text else text
 
-    @property
-    def extras(self) -> dict[str, Any]:
-        """What the schema says beside title and description."""
-        return super().extras | {
-            "x-assumed": self.assumed,
-            "x-default-text": self.default_text,
-            "x-advanced": self.advanced or None,
-            "x-tolerance": self.tolerance,
-            "x-relative-tolerance": self.relative_tolerance,
-        }
-
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         """The type's own schema; its numbers are finite and in range, and neither text nor booleans."""
         return self._strict(handler(source))
 
     def _strict(self, schema: CoreSchema) -> CoreSchema:
+        bounds: Any = self.bounds
         match schema["type"]:
-            case "float" | "int" as kind:
-                bounds: Any = self.bounds
-                if kind == "float":  # strict: text and booleans are no numbers
-                    return core_schema.float_schema(strict=True, allow_inf_nan=False, **bounds)
+            case "float":  # strict: text and booleans are no numbers
+                return core_schema.float_schema(strict=True, allow_inf_nan=False, **bounds)
+            case "int":
                 # A strict int would refuse 3.0. So: a number, of at most 2^53, up to which floats hold whole numbers
                 # exactly, then a whole one in its range.
                 number = core_schema.custom_error_schema(core_schema.float_schema(strict=True), "int_type")
@@ -81,12 +78,12 @@ class Input(_Declaration):
                 return core_schema.json_or_python_schema(core_schema.int_schema(strict=True, **bounds), whole)
             case "bool":
                 return core_schema.bool_schema(strict=True)
-            case "union":
-                return core_schema.union_schema([self._strict(choice) for choice in _kinds(schema["choices"])])
+            case "union":  # of schemas, each alone or before its name
+                kinds = (choice[0] if isinstance(choice, tuple) else choice for choice in schema["choices"])
+                return core_schema.union_schema([self._strict(kind) for kind in kinds])
             case _:
                 within = ("items_schema", "schema", "json_schema_input_schema")
-                parts = {name: self._strict(part) for name in within if (part := schema.get(name))}
-                return {**schema, **parts}
+                return {**schema, **{name: self._strict(part) for name in within if (part := schema.get(name))}}
 
 
 @dataclass(frozen=True)
@@ -116,28 +113,17 @@ class View:
 class Output(View, _Declaration):
     """The declaration of a field of a response."""
 
+    in_schema = ("symbol", "source", "axis", "index", "headline", "limit", "bound", "needs", "verdict")
+
     @property
     def axes(self) -> tuple[str, ...]:
         """The fields it runs over, in the order of its dimensions."""
         return (self.axis,) if isinstance(self.axis, str) else self.axis or ()
 
-    @property
-    def extras(self) -> dict[str, Any]:
-        """What the schema says beside title and description."""
-        return super().extras | {
-            "x-axis": list(self.axis) if isinstance(self.axis, tuple) else self.axis,
-            "x-index": self.index,
-            "x-headline": self.headline,
-            "x-limit": self.limit,
-            "x-bound": self.bound,
-            "x-needs": self.needs,
-            "x-verdict": self.verdict,
-        }
 
-
-def meaning_of(field: FieldInfo) -> Input | Output | None:
-    """The declaration of a model's field, if it has one."""
-    return next((each for each in field.metadata if isinstance(each, Input | Output)), None)
+def meaning_of(metadata: Iterable[Any]) -> Input | Output | None:
+    """The declaration among what stands beside a field's type, if there is one."""
+    return next((each for each in metadata if isinstance(each, Input | Output)), None)
 
 
 @cache
@@ -149,8 +135,3 @@ def split_unit(name: str) -> tuple[str, Unit | None]:
         if unit is not None:
             return "_".join(words[:start]), unit
     return name, None
-
-
-def _kinds(choices: list[Any]) -> list[CoreSchema]:
-    """The kinds of a union, without the names that may stand beside them."""
-    return [choice[0] if isinstance(choice, tuple) else choice for choice in choices]

@@ -6,14 +6,15 @@ Numbers, digit-only text and field names of at most 40 letters may be repeated; 
 import re
 from collections.abc import Iterable
 from difflib import get_close_matches
+from itertools import islice
 from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
 from app.errors import Fault, InvalidBody, pointer
-from app.schema.model import Documented, kinds
-from app.schema.quantities import Input, meaning_of
-from solvers.quantity import allowed
+from app.schema.model import kinds
+from app.schema.quantities import meaning_of
+from solvers.quantity import UNITS, allowed
 
 M = TypeVar("M", bound=BaseModel)
 Models = tuple[type[BaseModel], ...]
@@ -37,51 +38,32 @@ def validated(model: type[M], content: Any) -> M:
 def faults(model: type[BaseModel], items: Iterable[dict[str, Any]]) -> list[Fault]:
     """The faults that a validation of `model` found, at most a hundred; items are pydantic's, their loc within it."""
     found = []
-    for item, _ in zip(items, range(MOST_FAULTS), strict=False):
-        loc = _fields_only(model, item["loc"])
+    for item in islice(items, MOST_FAULTS):
+        place, sections = _located(model, item["loc"])
         no_number = item["type"] in _NUMBER_TYPES and isinstance(item.get("input"), bool | str)
         code = "number_type" if no_number else str(item["type"])
-        found.append(Fault(pointer(loc), code, _message(model, loc, item)))
+        found.append(Fault(pointer(place), code, _message(place, sections, item)))
     return found
 
 
-def _below(models: Models, field: str) -> Models:
-    """The models below a field of these."""
-    return tuple(
-        inner
-        for model in models
-        if field in model.model_fields
-        for inner in kinds(model.model_fields[field].annotation)
-        if isinstance(inner, type) and issubclass(inner, BaseModel)
-    )
-
-
-def _fields_only(model: type[BaseModel], location: tuple[str | int, ...]) -> tuple[str | int, ...]:
-    """The location without the names of the types that a value could have had."""
+def _located(model: type[BaseModel], location: tuple[str | int, ...]) -> tuple[list[str | int], Models]:
+    """The location without the names of the types that a value could have had, and the sections that hold the field."""
     kept: list[str | int] = []
     here: Models = (model,)
     for place, part in enumerate(location):
         last = place == len(location) - 1
-        known = isinstance(part, str) and any(part in each.model_fields for each in here)
-        if isinstance(part, int) or not here or last or known:
+        known = [each.model_fields[part] for each in here if part in each.model_fields] if isinstance(part, str) else []
+        if isinstance(part, int) or known or not here or last:
             kept.append(part)
-            if known:
-                here = _below(here, str(part))
-    return tuple(kept)
+        if known and not last:
+            inner = (kind for field in known for kind, _ in kinds(field.annotation))
+            here = tuple(kind for kind in inner if isinstance(kind, type) and issubclass(kind, BaseModel)) or here
+    return kept, here
 
 
-def _sections(model: type[BaseModel], location: tuple[str | int, ...]) -> Models:
-    """The section that holds the field at a location, or those of which it is one."""
-    here: Models = (model,)
-    for part in location[:-1]:
-        if isinstance(part, str):
-            here = _below(here, part)
-    return here
-
-
-def _message(model: type[BaseModel], location: tuple[str | int, ...], item: dict[str, Any]) -> str:
+def _message(location: list[str | int], sections: Models, item: dict[str, Any]) -> str:
     """The one sentence that says what to change."""
-    kind, value, sections = item["type"], item.get("input"), _sections(model, location)
+    kind, value = item["type"], item.get("input")
     name = next((part for part in reversed(location) if isinstance(part, str)), "")
     if kind == "extra_forbidden":
         return _unknown(str(location[-1]), sections)
@@ -143,8 +125,7 @@ def _allowed(sections: Models, name: str) -> str:
     """The range of a field with its unit."""
     for section in sections:
         field = section.model_fields.get(name)
-        given = meaning_of(field) if field else None
-        if isinstance(given, Input):
-            unit = section.unit_of(name) if issubclass(section, Documented) else None
-            return f"{allowed(given)} {unit.symbol}" if unit else allowed(given)
+        given = meaning_of(field.metadata) if field else None
+        if given:
+            return f"{allowed(given)} {UNITS[given.unit].symbol}" if given.unit else allowed(given)
     return "is another range"

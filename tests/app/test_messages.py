@@ -8,9 +8,9 @@ from pydantic import ValidationError
 
 from app.errors import Fault
 from app.schema.coupling import CouplingRequest
-from app.schema.load_distribution import LoadDistributionRequest
 from app.schema.model import Request
 from app.schema.reading import faults
+from app.schema.scuffing import LoadDistributionRequest
 
 COUPLING: dict[str, Any] = {
     "coupling": {"teeth": 52, "module_mm": 3.0},
@@ -89,6 +89,8 @@ def test_items_of_a_list_are_pointed_at() -> None:
     fault = refused(CouplingRequest, COUPLING, "coupling.pitch_errors_um", [1.0, "2", 3.0])[0]
     assert fault.pointer == "/coupling/pitch_errors_um/1"
     assert fault.message == 'give a number, not text: 2 instead of "2"'
+    fault = refused(CouplingRequest, COUPLING, "coupling.pitch_errors_um", [1.0, 2e6])[0]
+    assert fault.message == "pitch_errors_um is 2000000; permissible -10000 to 10000 µm"
 
 
 def test_at_most_a_hundred_faults_are_told() -> None:
