@@ -11,11 +11,10 @@ from typing import Any
 
 from app.errors import Unprocessable
 from app.schema.fields import ITEM, Leaf, leaves
-from app.schema.reading import validated
-from app.studies.base_request import BaseRequest, check_count, check_distinct
-from app.studies.engine import Clock, Line, Lines, Pool, Study, case_of_study, output_header, paths_of
+from app.studies import engine
+from app.studies.engine import Clock, Line, Lines, Pool, Study, output_header, paths_of
 from app.studies.fields import NUMBERS, fault, scalar_at, value_at
-from app.studies.points import Point
+from app.studies.points import BaseRequest, Point, check_count, check_distinct
 from app.studies.requests import Overrides, SensitivityRequest
 
 PATH = "/v1/sensitivity"
@@ -65,11 +64,6 @@ class Differences:
     outputs: dict[float, float | None]
 
     @property
-    def base(self) -> float | None:
-        """The output of the case itself."""
-        return self.outputs[self.input.value]
-
-    @property
     def derivative(self) -> float | None:
         """Central where both sides have answers, else one-sided [output per input]."""
         return self._slope(-self.input.step, self.input.step)
@@ -77,10 +71,10 @@ class Differences:
     @property
     def elasticity(self) -> float | None:
         """Per cent of the output for a per cent of the input; none at zero and for a temperature in degrees."""
-        derivative, moved = self.derivative, self.input
-        if derivative is None or not self.base or not moved.value or moved.leaf.unit == "°C":
+        derivative, base, moved = self.derivative, self.outputs[self.input.value], self.input
+        if derivative is None or not base or not moved.value or moved.leaf.unit == "°C":
             return None
-        return derivative * moved.value / self.base
+        return derivative * moved.value / base
 
     @property
     def change(self) -> float | None:
@@ -104,21 +98,18 @@ class Differences:
 
     def _slope(self, below: float, above: float) -> float | None:
         """Difference quotient between two steps; from the base to the other side where one has no answer."""
-        at = self.input.value
-        known = [
-            (place, value) for step in (below, 0, above) if (value := self.outputs.get(place := at + step)) is not None
-        ]
-        if self.base is None or known[0][0] == known[-1][0]:
+        places = [self.input.value + step for step in (below, 0, above)]
+        known = [(place, value) for place in places if (value := self.outputs.get(place)) is not None]
+        if self.outputs[self.input.value] is None or known[0][0] == known[-1][0]:
             return None
         return (known[-1][1] - known[0][1]) / (known[-1][0] - known[0][0])
 
     def _disagree(self, one: float | None, other: float | None) -> bool | None:
-        if one is None or other is None or self.base is None:
+        base = self.outputs[self.input.value]
+        if one is None or other is None or base is None:
             return None
         largest = max(abs(one), abs(other))
-        if largest * self.input.step <= NOISE * abs(self.base):
-            return False
-        return abs(one - other) > DISAGREEMENT * largest
+        return largest * self.input.step > NOISE * abs(base) and abs(one - other) > DISAGREEMENT * largest
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -130,19 +121,29 @@ class Sensitivity(Study):
     @property
     def total(self) -> int:
         """How many points it has."""
-        return len(self._points())
+        return 1 + sum(len(each.places) for each in self.perturbations)
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
         """A line for each output and input, the most influential input of an output first; then the end."""
-        overrides, points = self._points(), list[Point]()
-        async for _, found in self.solve(pool, clock, overrides.__getitem__, range(len(overrides))):
+        moved: list[Overrides] = [{each.leaf.path: place} for each in self.perturbations for place in each.places]
+        overrides, points = [{}, *moved], list[Point]()
+        async for _, found in engine.in_order(pool, self.question, overrides.__getitem__, range(self.total), clock):
             points += found
         yield [line for column in range(len(self.outputs)) for line in self._ranked(column, points)]
-        yield [self._end(points, clock)]
-
-    def _points(self) -> list[Overrides]:
-        moved: list[Overrides] = [{each.leaf.path: place} for each in self.perturbations for place in each.places]
-        return [{}, *moved]
+        base = points[0]
+        outputs = zip(self.outputs, base.out, strict=True)
+        end = self.header(
+            "end",
+            inputs=[{**output_header(each.leaf), "value": each.value} for each in self.perturbations],
+            outputs=[{**output_header(leaf), "value": value} for leaf, value in outputs],
+            points=len(points),
+            counts=dict(sorted(Counter(point.status for point in points).items())),
+            status=base.status,
+            warnings=base.warnings,
+            error=base.error,
+            assumptions=base.assumptions,
+        )
+        yield [{**end, "elapsed_s": clock.elapsed_s}]
 
     def _ranked(self, column: int, points: list[Point]) -> Iterator[Line]:
         """The lines of one output."""
@@ -165,43 +166,22 @@ class Sensitivity(Study):
                 "curved": each.curved,
             }
 
-    def _end(self, points: list[Point], clock: Clock) -> Line:
-        base = points[0]
-        line = self.header(
-            "end",
-            inputs=[{**output_header(each.leaf), "value": each.value} for each in self.perturbations],
-            outputs=[
-                {**output_header(leaf), "value": value} for leaf, value in zip(self.outputs, base.out, strict=True)
-            ],
-            points=len(points),
-            counts=dict(sorted(Counter(point.status for point in points).items())),
-            status=base.status,
-            warnings=base.warnings,
-            error=base.error,
-            assumptions=base.assumptions,
-        )
-        return {**line, "elapsed_s": clock.elapsed_s}
-
 
 def _number(value: Any) -> float | None:
     return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
 
 
 def sensitivity_study(content: Any, most: int, deadline_s: float) -> Sensitivity:
-    """The sensitivity in a body, of at most `most` points; runs in a worker.
-
-    `content` is the body as JSON's objects, or validated. Raises InvalidBody and Unprocessable, with locations in it.
-    """
-    request = validated(SensitivityRequest, content)
-    base = BaseRequest.of(request)
+    """The sensitivity in a body."""
+    request, base = engine.asked(SensitivityRequest, content)
     outputs = base.outputs(request.outputs)
     case = base.checked({}).model_dump()
     inputs = _every_number(base, case) if request.inputs is None else _named(base, case, request.inputs)
     perturbations = [each for leaf in inputs if (each := perturbation(leaf, value_at(case, leaf.path))).places]
     study = Sensitivity(
-        question=base.question(paths_of(outputs), deadline_s, reduced=True),
+        question=base.question(paths_of(outputs), deadline_s),
         outputs=outputs,
-        case=case_of_study(PATH, request),
+        case=engine.case_of_study(PATH, request),
         perturbations=perturbations,
     )
     check_count(study.total, most, "inputs")
@@ -231,9 +211,8 @@ def places(path: str, case: dict[str, Any]) -> list[str]:
 def _named(base: BaseRequest, case: dict[str, Any], paths: list[str]) -> list[Leaf]:
     """The numbers at these paths; raises Unprocessable."""
     check_distinct(paths, "inputs", numbered=True)
-    named = [
-        scalar_at(base.calculation.request, path, f"inputs.{place}", "unknown_path") for place, path in enumerate(paths)
-    ]
+    model = base.calculation.request
+    named = [scalar_at(model, path, f"inputs.{place}", "unknown_path") for place, path in enumerate(paths)]
     for place, leaf in enumerate(named):
         if leaf.kind not in NUMBERS or value_at(case, leaf.path) is None:
             raise Unprocessable("not_scalar", f"{leaf.path} has no number in this case", f"inputs.{place}")

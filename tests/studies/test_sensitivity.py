@@ -10,10 +10,9 @@ import pytest
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.examples import examples
 from app.schema.fields import Leaf, leaf_at, leaves
-from app.studies.engine import Clock
+from app.studies.engine import Clock, encoded, guarded, json_line
 from app.studies.fields import fault
 from app.studies.sensitivity import Differences, perturbation, sensitivity_study
-from app.studies.stream import encoded, guarded, json_line
 from app.studies.sweep import sweep_study
 from tests.support.pools import InlinePool
 

@@ -14,13 +14,11 @@ from scipy.stats import spearmanr
 from app.errors import Unprocessable
 from app.examples import examples
 from app.schema.fields import Leaf
-from app.studies.engine import Clock
+from app.studies.engine import Clock, encoded, guarded, json_line
 from app.studies.point_sets import CheckedAxis, PointSet
 from app.studies.points import Point
 from app.studies.requests import Best
-from app.studies.stream import Table, encoded, guarded, json_line
-from app.studies.summary import Summary, statistics
-from app.studies.sweep import sweep_study
+from app.studies.sweep import Summary, Table, statistics, sweep_study
 from tests.support.pools import InlinePool
 
 COUPLING = examples()["pahl-axial-displacement"]

@@ -16,7 +16,7 @@ from app.http.problems import documented
 from app.settings import Settings
 from app.studies import design, sensitivity, spectrum, sweep
 from app.studies.admission import StudyAdmission
-from app.studies.engine import Clock, Line, Lines, Study
+from app.studies.engine import PROGRESS_S, Clock, Line, Lines, Study, encoded, guarded, json_line
 from app.studies.requests import (
     EXAMPLES,
     CornersRequest,
@@ -25,7 +25,6 @@ from app.studies.requests import (
     SpectrumRequest,
     SweepRequest,
 )
-from app.studies.stream import PROGRESS_S, encoded, guarded, json_line
 from app.workers.start_up import StartUp
 
 Format = Literal["ndjson", "csv"]
@@ -105,7 +104,11 @@ async def started(
 
 def encoder(study: Study, written_as: str) -> Callable[[Line], bytes]:
     """Writes the lines of a study; those of a sweep also as the rows of a table."""
-    return study.table().encode if isinstance(study, sweep.Sweep) and written_as == "csv" else json_line
+    return (
+        sweep.Table(study.points, study.outputs).encode
+        if isinstance(study, sweep.Sweep) and written_as == "csv"
+        else json_line
+    )
 
 
 def wanted_format(http: Request, named: Format) -> Format:
