@@ -46,22 +46,6 @@ class DesignVariable(NamedTuple):
         return min(max(float(f"{steps * self.step:.12g}"), self.low), self.high)
 
 
-class Trial(NamedTuple):
-    """Values of the variables, the objective at their worst case, and that case; None where a case has no solution.
-
-    `figures` are the objectives of all cases with the sign that the search minimises.
-    """
-
-    values: Overrides
-    objective: float | None
-    worst: Overrides
-    figures: list[float] | None = None
-
-    def content(self) -> Line:
-        """Values and objective."""
-        return {"at": self.values, "objective": self.objective}
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Design(Study):
     """A search over `variables`, each trial solved at all `cases`; its output is the objective.
@@ -105,46 +89,48 @@ class Design(Study):
                 evaluations=self.evaluations,
             )
         ]
-        trials: list[Trial] = []
+        trials: list[Line] = []
         figures: list[list[float] | None] = []
         while place := await engine.twice_if_lost(pool, next_place, self.start, figures, self.evaluations):
             shares = zip(self.variables, place, strict=True)
             values = [each.low + share * (each.high - each.low) for each, share in shares]
-            trial = await self._trial(pool, clock, values)
-            yield [{"type": "trial", "index": len(trials), **trial.content(), "worst_corner": trial.worst}]
+            trial, found = await self._trial(pool, clock, values)
+            yield [{"type": "trial", "index": len(trials), **trial}]
             trials.append(trial)
-            figures.append(trial.figures)
+            figures.append(found)
             if figures[0] is None:
                 message = "the unit that the search starts from has no answer at its worst corner"
                 yield [clock.error("no_start", message)]
                 return
-        best = min(trials, key=lambda trial: max(trial.figures or [inf]))
+        start, best = trials[0], trials[min(range(len(trials)), key=lambda index: max(figures[index] or [inf]))]
         rounded: Line = {}
         if self.is_rounded:
-            values = [each.rounded(float(best.values[each.leaves[0].path] or 0.0)) for each in self.variables]
-            trial = await self._trial(pool, clock, values)
-            rounded = {"rounded": {**trial.content(), "worst_corner": trial.worst}}
+            values = [each.rounded(best["at"][each.leaves[0].path]) for each in self.variables]
+            rounded["rounded"], _ = await self._trial(pool, clock, values)
         yield [
             {
                 "type": "end",
-                "start": trials[0].values,
-                "best": best.values,
-                "objective_start": trials[0].objective,
-                "objective_best": best.objective,
-                "worst_corner": best.worst,
+                "start": start["at"],
+                "best": best["at"],
+                "objective_start": start["objective"],
+                "objective_best": best["objective"],
+                "worst_corner": best["worst_corner"],
                 "evaluations": len(trials),
                 **rounded,
-                "unsolved": sum(trial.objective is None for trial in trials),
-                "history": [trial.content() for trial in trials],
+                "unsolved": figures.count(None),
+                "history": [{"at": each["at"], "objective": each["objective"]} for each in trials],
                 "elapsed_s": clock.elapsed_s,
             }
         ]
 
-    async def _trial(self, pool: Pool, clock: Clock, values: Sequence[float]) -> Trial:
-        """The values of the variables, solved until a case has no solution."""
-        at: Overrides = {
-            leaf.path: value for variable, value in zip(self.variables, values, strict=True) for leaf in variable.leaves
-        }
+    async def _trial(self, pool: Pool, clock: Clock, values: list[float]) -> tuple[Line, list[float] | None]:
+        """The values of the variables, the objective at their worst case, and that case; null without a solution.
+
+        Behind them the objectives of all cases with the sign that the search minimises; None where the first case
+        without solution ended the trial.
+        """
+        pairs = zip(self.variables, values, strict=True)
+        at: Overrides = {leaf.path: value for variable, value in pairs for leaf in variable.leaves}
         objectives: list[float] = []
         indices = range(len(self.cases))
         runs = engine.in_order(pool, self.question, lambda index: {**at, **self.cases[index]}, indices, clock)
@@ -153,11 +139,11 @@ class Design(Study):
                 for index, point in zip(solved, points, strict=True):
                     (objective,) = point.out
                     if objective is None:
-                        return Trial(at, None, self.cases[index])
+                        return {"at": at, "objective": None, "worst_corner": self.cases[index]}, None
                     objectives.append(objective)
         figures = [self.sign * objective for objective in objectives]
         worst = figures.index(max(figures))
-        return Trial(at, objectives[worst], self.cases[worst], figures)
+        return {"at": at, "objective": objectives[worst], "worst_corner": self.cases[worst]}, figures
 
 
 def design_study(content: Any, most: int, deadline_s: float) -> Design:
@@ -174,9 +160,9 @@ def design_study(content: Any, most: int, deadline_s: float) -> Design:
         raise Unprocessable("direction_missing", message, "direction")
     maximised = objective.view.greatest_is_best if request.direction is None else request.direction == "maximise"
     study = Design(
-        question=base.question([objective.path], deadline_s),
-        outputs=(objective,),
-        case=engine.case_of_study(PATH, request),
+        base.question([objective.path], deadline_s),
+        (objective,),
+        engine.case_of_study(PATH, request),
         variables=variables,
         cases=cases,
         sign=-1.0 if maximised else 1.0,

@@ -171,7 +171,7 @@ def case_of_study(path: str, body: StudyRequest | DriveTrainStudy) -> str:
         raise Unprocessable("not_json", message, "request") from None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Study(ABC):
     """A study that has passed its checks; `outputs` are in the order of the columns of `Point.out`."""
 

@@ -178,12 +178,8 @@ def sensitivity_study(content: Any, most: int, deadline_s: float) -> Sensitivity
     case = base.checked({}).model_dump()
     inputs = _every_number(base, case) if request.inputs is None else _named(base, case, request.inputs)
     perturbations = [each for leaf in inputs if (each := perturbation(leaf, value_at(case, leaf.path))).places]
-    study = Sensitivity(
-        question=base.question(paths_of(outputs), deadline_s),
-        outputs=outputs,
-        case=engine.case_of_study(PATH, request),
-        perturbations=perturbations,
-    )
+    question = base.question(paths_of(outputs), deadline_s)
+    study = Sensitivity(question, outputs, engine.case_of_study(PATH, request), perturbations=perturbations)
     check_count(study.total, most, "inputs")
     return study
 

@@ -256,9 +256,9 @@ def spectrum_study(content: Any, most: int, deadline_s: float) -> Spectrum:
         message = _too_many(question, {**typical, **request.cases[0].set}, total, most)
         raise Unprocessable("too_many_points", message, "tolerances.count" if tolerances else "cases")
     return Spectrum(
-        question=question,
-        outputs=outputs,
-        case=engine.case_of_study(PATH, request),
+        question,
+        outputs,
+        engine.case_of_study(PATH, request),
         cases=_with_shares(request.cases),
         scattering=Scattering(tolerances, leaves, _machines(tolerances, leaves)) if tolerances else None,
         limits=None if request.limits is None and assumed else [_limit(each) for each in request.limits or ()],

@@ -3,8 +3,8 @@
 import operator
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import isnan
-from typing import Any, ClassVar, NamedTuple
+from math import isnan, nan
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -25,26 +25,21 @@ PATH = "/v1/sweep"
 CORNERS_PATH = "/v1/drive-train/corners"
 
 
-class Extreme(NamedTuple):
-    """A value as the answer has it, and the point where it is."""
-
-    value: float
-    point: int
-
-
 class Summary(engine.Tally):
     """The end of a sweep; of a grid it keeps the extremes only, of a sample every number.
 
-    `extremes` are the least and the largest value of every output that has any, as `min` and `max`.
+    `extremes` are the least and the largest value of every output that has any, as `min` and `max`, each with the
+    index of its point.
     """
 
     def __init__(self, points: PointSet, outputs: list[str], best: Best | None, first: int = 0) -> None:
         super().__init__(outputs)
-        self.extremes: dict[str, dict[str, Extreme]] = {}
+        self.extremes: dict[str, dict[str, tuple[float, int]]] = {}
         self._points = points
         self._best = best
         self._next = first
-        self._best_so_far: tuple[Extreme, list[Any]] | None = None
+        self._best_so_far: Line | None = None
+        self._best_value = nan
 
     def add(self, point: Point) -> None:
         """Take in the next point, in order."""
@@ -52,7 +47,7 @@ class Summary(engine.Tally):
         index, self._next = self._next, self._next + 1
         for path, value in zip(self.outputs, point.out, strict=True):
             if is_number(value):
-                found = Extreme(value, index)
+                found = (value, index)
                 known = self.extremes.setdefault(path, {"min": found, "max": found})
                 for end, choose in (("min", min), ("max", max)):  # of equals the first
                     known[end] = choose(known[end], found, key=operator.itemgetter(0))
@@ -63,17 +58,13 @@ class Summary(engine.Tally):
 
     def line(self, statistics: Line, elapsed_s: float) -> Line:
         """The last line of the answer."""
-        best = None
-        if self._best_so_far is not None:
-            (_, index), out = self._best_so_far
-            best = {"index": index, "at": self._points.at(index), "out": out}
         return {
             "type": "end",
             "points": self.counts.total(),
             "counts": dict(sorted(self.counts.items())),
             "ranges": self.extremes,
             **statistics,
-            "best": best,
+            "best": self._best_so_far,
             "assumptions": list(self.assumptions.values()),
             "elapsed_s": elapsed_s,
         }
@@ -89,9 +80,9 @@ class Summary(engine.Tally):
             for bound in best.where
         )
         better = operator.lt if best.minimise else operator.gt
-        known = self._best_so_far
-        if limited and is_number(value) and (known is None or better(value, known[0].value)):
-            self._best_so_far = Extreme(value, index), out
+        if limited and is_number(value) and (self._best_so_far is None or better(value, self._best_value)):
+            self._best_so_far = {"index": index, "at": self._points.at(index), "out": out}
+            self._best_value = value
 
 
 def statistics(inputs: FloatArray, outputs: FloatArray, input_paths: list[str], output_paths: list[str]) -> Line:
@@ -223,14 +214,9 @@ def sweep_study(content: Any, most: int, deadline_s: float) -> Sweep:
     else:
         points = grid(request.vary or [], base, most, "vary")
     _check_first(request.from_index, points, base)
-    return Sweep(
-        question=base.question(paths_of(outputs), deadline_s, reduced=False),
-        outputs=outputs,
-        case=engine.case_of_study(PATH, request),
-        points=points,
-        best=request.best,
-        first=request.from_index,
-    )
+    question = base.question(paths_of(outputs), deadline_s, reduced=False)
+    case = engine.case_of_study(PATH, request)
+    return Sweep(question, outputs, case, points=points, best=request.best, first=request.from_index)
 
 
 def corners_study(content: Any, most: int, deadline_s: float) -> Corners:
@@ -242,13 +228,9 @@ def corners_study(content: Any, most: int, deadline_s: float) -> Corners:
         raise Unprocessable("no_corners", "nothing is uncertain here; name what is", "ranges")
     points = grid(ranges, base, min(most, MOST_CORNERS), "ranges")
     _check_first(request.from_index, points, base)
-    return Corners(
-        question=base.question(paths_of(outputs), deadline_s),
-        outputs=outputs,
-        case=engine.case_of_study(CORNERS_PATH, request),
-        points=points,
-        first=request.from_index,
-    )
+    question = base.question(paths_of(outputs), deadline_s)
+    case = engine.case_of_study(CORNERS_PATH, request)
+    return Corners(question, outputs, case, points=points, first=request.from_index)
 
 
 def _sampled(sample: Sample, base: BaseRequest, most: int) -> PointSet:
