@@ -7,7 +7,7 @@ from math import ceil, floor, inf
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.optimize import Bounds, NonlinearConstraint, minimize
+from scipy.optimize import NonlinearConstraint, minimize
 
 from app.errors import Unprocessable
 from app.schema.fields import Leaf
@@ -266,7 +266,7 @@ def search(objectives: Callable[[FloatArray], FloatArray | None], start: FloatAr
         scaled(place)
         return float(place[-1])
 
-    free = np.full(start.size, 1.0)
+    bounds = [*[(0.0, 1.0)] * start.size, (-np.inf, np.inf)]
     before = np.inf
     while True:
         best = min(known, key=lambda place: float(known[place].max()))
@@ -279,7 +279,7 @@ def search(objectives: Callable[[FloatArray], FloatArray | None], start: FloatAr
                 level,
                 np.append(np.frombuffer(best), lowest),
                 method="COBYQA",
-                bounds=Bounds(np.append(0.0 * free, -np.inf), np.append(free, np.inf)),
+                bounds=bounds,
                 constraints=[NonlinearConstraint(lambda place: scaled(place) - place[-1], -np.inf, 0.0)],
                 options={
                     "maxfev": MOST_STEPS * evaluations,

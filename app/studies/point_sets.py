@@ -83,18 +83,22 @@ def _each(value: Scalar | list[Scalar], leaves: tuple[Leaf, ...]) -> list[Scalar
 def listed(cases: list[Overrides], base: BaseRequest, most: int, place: str) -> PointSet:
     """The points of the list of cases at `place` of a study, at most `most`; raises Unprocessable."""
     check_count(len(cases), most, place)
-    leaves: dict[str, Leaf] = {}
+    return PointSet([], len(cases), tuple(fields_set(cases, base, place + ".{}").values()), cases=cases)
+
+
+def fields_set(cases: Sequence[Overrides], base: BaseRequest, place: str) -> dict[str, Leaf]:
+    """The fields that cases set, by their paths.
+
+    Raises Unprocessable for what there is not, or what its field does not take, at `place` of the study, in which `{}`
+    stands for the number of the case.
+    """
+    known: dict[str, Leaf] = {}
     for number, case in enumerate(cases):
-        check_case(case, base, f"{place}.{number}", leaves)
-    return PointSet([], len(cases), tuple(leaves.values()), cases=cases)
-
-
-def check_case(case: Overrides, base: BaseRequest, place: str, known: dict[str, Leaf]) -> None:
-    """Refuse a case that sets what there is not, or what its field does not take; `known` gathers the fields."""
-    for path, value in case.items():
-        if path not in known:
-            known[path] = base.leaf(path, place)
-        check_value(known[path], value, place)
+        for path, value in case.items():
+            if path not in known:
+                known[path] = base.leaf(path, place.format(number))
+            check_value(known[path], value, place.format(number))
+    return known
 
 
 def grid(axes: list[Axis], base: BaseRequest, most: int, place: str) -> PointSet:

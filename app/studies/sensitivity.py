@@ -56,60 +56,52 @@ def perturbation(leaf: Leaf, value: float) -> Perturbation:
     return Perturbation(leaf, value, KELVIN_STEP if leaf.unit == "°C" else RELATIVE_STEP * abs(value))
 
 
-@dataclass(frozen=True, slots=True)
-class Differences:
-    """Values of an output by the value of an input; None where there is no answer."""
+def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line:
+    """What an output does where one input is moved.
 
-    input: Perturbation
-    outputs: dict[float, float | None]
+    Parameters
+    ----------
+    moved
+        The input.
+    outputs
+        The output by the value of the input; None where there is no answer.
 
-    @property
-    def derivative(self) -> float | None:
-        """Central where both sides have answers, else one-sided [output per input]."""
-        return self._slope(-self.input.step, self.input.step)
+    Returns
+    -------
+    The derivative [output per input], central where both sides have answers, else one-sided; `elasticity`, per cent of
+    the output for a per cent of the input, none at zero and for a temperature in degrees; the step; `change` by one
+    step upwards, from the side where it is larger; `kink`: the slopes of both sides differ by more than a tenth, None
+    where one is missing; `curved`: half the step gives a derivative that differs by more than a tenth, None where it is
+    not checked.
 
-    @property
-    def elasticity(self) -> float | None:
-        """Per cent of the output for a per cent of the input; none at zero and for a temperature in degrees."""
-        derivative, base, moved = self.derivative, self.outputs[self.input.value], self.input
-        if derivative is None or not base or not moved.value or moved.leaf.unit == "°C":
-            return None
-        return derivative * moved.value / base
+    """
+    base, step, half = outputs[moved.value], moved.step, moved.half
 
-    @property
-    def change(self) -> float | None:
-        """Change of the output by one step upwards, from the side where it is larger."""
-        steps = [slope * self.input.step for slope in self._sides() if slope is not None]
-        return max(steps, key=abs, default=None)
-
-    @property
-    def kink(self) -> bool | None:
-        """Whether the slopes of both sides differ by more than a tenth; None where one is missing."""
-        return self._disagree(*self._sides())
-
-    @property
-    def curved(self) -> bool | None:
-        """Whether half the step gives a derivative that differs by more than a tenth; None where it is not checked."""
-        half = self.input.half
-        return None if half is None else self._disagree(self.derivative, self._slope(-half, half))
-
-    def _sides(self) -> tuple[float | None, float | None]:
-        return self._slope(-self.input.step, 0), self._slope(0, self.input.step)
-
-    def _slope(self, below: float, above: float) -> float | None:
+    def slope(below: float, above: float) -> float | None:
         """Difference quotient between two steps; from the base to the other side where one has no answer."""
-        places = [self.input.value + step for step in (below, 0, above)]
-        known = [(place, value) for place in places if (value := self.outputs.get(place)) is not None]
-        if self.outputs[self.input.value] is None or known[0][0] == known[-1][0]:
+        places = [moved.value + each for each in (below, 0, above)]
+        known = [(place, value) for place in places if (value := outputs.get(place)) is not None]
+        if base is None or known[0][0] == known[-1][0]:
             return None
         return (known[-1][1] - known[0][1]) / (known[-1][0] - known[0][0])
 
-    def _disagree(self, one: float | None, other: float | None) -> bool | None:
-        base = self.outputs[self.input.value]
+    def disagree(one: float | None, other: float | None) -> bool | None:
         if one is None or other is None or base is None:
             return None
         largest = max(abs(one), abs(other))
-        return largest * self.input.step > NOISE * abs(base) and abs(one - other) > DISAGREEMENT * largest
+        return largest * step > NOISE * abs(base) and abs(one - other) > DISAGREEMENT * largest
+
+    derivative, elasticity, sides = slope(-step, step), None, (slope(-step, 0), slope(0, step))
+    if derivative is not None and base and moved.value and moved.leaf.unit != "°C":
+        elasticity = derivative * moved.value / base
+    return {
+        "derivative": derivative,
+        "elasticity": elasticity,
+        "step": step,
+        "change": max((each * step for each in sides if each is not None), key=abs, default=None),
+        "kink": disagree(*sides),
+        "curved": None if half is None else disagree(derivative, slope(-half, half)),
+    }
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -149,22 +141,12 @@ class Sensitivity(Study):
         """The lines of one output."""
         base, *moved = (_number(point.out[column]) for point in points)
         rest = iter(moved)
-        found = [
-            Differences(each, {each.value: base, **{place: next(rest) for place in each.places}})
-            for each in self.perturbations
-        ]
-        for each in sorted(found, key=lambda differences: -abs(differences.change or 0.0)):
-            yield {
-                "type": "sensitivity",
-                "output": self.outputs[column].path,
-                "path": each.input.leaf.path,
-                "derivative": each.derivative,
-                "elasticity": each.elasticity,
-                "step": each.input.step,
-                "change": each.change,
-                "kink": each.kink,
-                "curved": each.curved,
-            }
+        found = []
+        for each in self.perturbations:
+            outputs = {each.value: base, **{place: next(rest) for place in each.places}}
+            found.append({"path": each.leaf.path, **differences(each, outputs)})
+        for line in sorted(found, key=lambda line: -abs(line["change"] or 0.0)):
+            yield {"type": "sensitivity", "output": self.outputs[column].path, **line}
 
 
 def _number(value: Any) -> float | None:

@@ -12,7 +12,7 @@ from app.schema.fields import Leaf
 from app.studies import engine, probability
 from app.studies.engine import Clock, Line, Lines, Pool, Study, output_header, paths_of
 from app.studies.fields import NUMBERS
-from app.studies.point_sets import anchors, check_case, cut, drawn, scattering, unit_cube
+from app.studies.point_sets import anchors, cut, drawn, fields_set, scattering, unit_cube
 from app.studies.points import SOLVED, BaseRequest, Question, solve_point
 from app.studies.probability import Limit
 from app.studies.requests import DRIVE_TRAIN, LoadCase, Overrides, SpectrumLimit, SpectrumRequest, Tolerances
@@ -235,9 +235,7 @@ def spectrum_study(content: Any, most: int, deadline_s: float) -> Spectrum:
     """The spectrum in a body."""
     request, base = engine.asked(SpectrumRequest, content)
     outputs = _outputs(base, request)
-    known: dict[str, Leaf] = {}
-    for place, case in enumerate(request.cases):
-        check_case(case.set, base, f"cases.{place}.set", known)
+    known = fields_set([case.set for case in request.cases], base, "cases.{}.set")
     tolerances = request.tolerances
     leaves = scattering(tolerances.inputs, base, "tolerances.inputs") if tolerances else ()
     for place, leaf in enumerate(leaves):

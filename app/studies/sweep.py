@@ -14,7 +14,16 @@ from app.spreadsheet import csv_of
 from app.studies import engine
 from app.studies.engine import Clock, Line, Lines, Pool, Study, output_header, paths_of
 from app.studies.fields import did_you_mean, is_number
-from app.studies.point_sets import CheckedAxis, PointSet, drawn, grid, listed, scattering, unit_cube, usual_corners
+from app.studies.point_sets import (
+    CheckedAxis,
+    PointSet,
+    drawn,
+    grid,
+    listed,
+    scattering,
+    unit_cube,
+    usual_corners,
+)
 from app.studies.points import SOLVED, BaseRequest, Point, check_count
 from app.studies.probability import CONFIDENCE, QUANTILES, rank_correlation
 from app.studies.requests import Best, CornersRequest, Range, Sample, Scatter, SweepRequest
