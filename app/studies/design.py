@@ -75,12 +75,7 @@ class Design(Study):
             self.header(
                 "design",
                 variables=[
-                    {
-                        "path": paths_of(each.leaves),
-                        "unit": common_unit(each.leaves),
-                        "min": each.low,
-                        "max": each.high,
-                    }
+                    {"path": paths_of(each.leaves), "unit": common_unit(each.leaves), "min": each.low, "max": each.high}
                     for each in self.variables
                 ],
                 objective=output_header(self.outputs[0]),

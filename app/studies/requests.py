@@ -248,8 +248,7 @@ class Tolerances(Part):
     method: Annotated[Method, METHOD] = "sobol"
     count: Annotated[int, COUNT] = 128
     replicates: Annotated[
-        int,
-        Input("replicates", text="independent samples; the scatter of their means is the error", ge=1, le=1000),
+        int, Input("replicates", text="independent samples; the scatter of their means is the error", ge=1, le=1000)
     ] = 8
     seed: Seed = 1
     inputs: Annotated[Inputs, Input("distributions", text="the fields and their distributions")]

@@ -4,7 +4,7 @@ import operator
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isnan, nan
-from typing import Any, ClassVar
+from typing import Any, Literal
 
 import numpy as np
 
@@ -14,16 +14,7 @@ from app.spreadsheet import csv_of
 from app.studies import engine
 from app.studies.engine import Clock, Line, Lines, Pool, Study, output_header, paths_of
 from app.studies.fields import did_you_mean, is_number
-from app.studies.point_sets import (
-    CheckedAxis,
-    PointSet,
-    drawn,
-    grid,
-    listed,
-    scattering,
-    unit_cube,
-    usual_corners,
-)
+from app.studies.point_sets import CheckedAxis, PointSet, drawn, grid, listed, scattering, unit_cube, usual_corners
 from app.studies.points import SOLVED, BaseRequest, Point, check_count
 from app.studies.probability import CONFIDENCE, QUANTILES, rank_correlation
 from app.studies.requests import Best, CornersRequest, Range, Sample, Scatter, SweepRequest
@@ -119,10 +110,10 @@ def statistics(inputs: FloatArray, outputs: FloatArray, input_paths: list[str], 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sweep(Study):
-    """A request solved at the points of a set from `first` on."""
+    """A request solved at the points of a set from `first` on; corners name the points of the extremes."""
 
-    kind: ClassVar[str] = "sweep"
     points: PointSet
+    kind: Literal["sweep", "corners"] = "sweep"
     best: Best | None = None
     first: int = 0
 
@@ -154,29 +145,20 @@ class Sweep(Study):
         if self.points.sample is not None:
             sample, inputs = self.points.sample[self.first :], paths_of(self.points.varied)
             found = await engine.twice_if_lost(pool, statistics, sample, summary.values, inputs, outputs)
-        yield self.closing(summary, summary.line(found, clock.elapsed_s))
+        end = summary.line(found, clock.elapsed_s)
+        yield [end] if self.kind == "sweep" else self._of_corners(summary, end)
 
-    def closing(self, summary: Summary, last: Line) -> list[Line]:  # noqa: ARG002  corners have more lines
-        """The last lines."""
-        return [last]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Corners(Sweep):
-    """A sweep over the combinations of uncertain inputs, which names the points of the extremes."""
-
-    kind: ClassVar[str] = "corners"
-
-    def closing(self, summary: Summary, last: Line) -> list[Line]:
-        """The extremes of every output, and a warning where corners have no solution."""
+    def _of_corners(self, summary: Summary, end: Line) -> list[Line]:
+        """The extremes of every output, and the end with a warning where corners have no solution."""
         extremes: list[Line] = []
+        at = self.points.overrides
         for path, found in summary.extremes.items():
-            ends = {end: {"value": value, "at": self.points.overrides(point)} for end, (value, point) in found.items()}
+            ends = {name: {"value": value, "at": at(point)} for name, (value, point) in found.items()}
             extremes.append({"type": "extremes", "output": path, **ends})
         unsolved = self.total - sum(summary.counts[status] for status in SOLVED)
         notice = no_convergence(unsolved)
         warning = {"rank": notice.rank, "code": notice.code, "message": notice.message}
-        return [*extremes, {**last, "warnings": [warning] if unsolved else []}]
+        return [*extremes, {**end, "warnings": [warning] if unsolved else []}]
 
 
 class Table:
@@ -228,7 +210,7 @@ def sweep_study(content: Any, most: int, deadline_s: float) -> Sweep:
     return Sweep(question, outputs, case, points=points, best=request.best, first=request.from_index)
 
 
-def corners_study(content: Any, most: int, deadline_s: float) -> Corners:
+def corners_study(content: Any, most: int, deadline_s: float) -> Sweep:
     """The corners of a gear unit in a body."""
     request, base = engine.asked(CornersRequest, content)
     outputs = base.outputs(request.outputs)
@@ -239,7 +221,7 @@ def corners_study(content: Any, most: int, deadline_s: float) -> Corners:
     _check_first(request.from_index, points, base)
     question = base.question(paths_of(outputs), deadline_s)
     case = engine.case_of_study(CORNERS_PATH, request)
-    return Corners(question, outputs, case, points=points, first=request.from_index)
+    return Sweep(question, outputs, case, kind="corners", points=points, first=request.from_index)
 
 
 def _sampled(sample: Sample, base: BaseRequest, most: int) -> PointSet:
