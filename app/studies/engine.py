@@ -261,27 +261,23 @@ async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float 
                     if left > progress_s:
                         yield [clock.line()]
                     continue
-                group, end = _outcome(upcoming, clock)
+                try:
+                    group = upcoming.result()
+                except PoolLost as error:
+                    yield [clock.error(error.code, str(error))]
+                    return
+                except Exception:
+                    logger.exception("a study failed")
+                    yield [clock.error("internal_error", "something went wrong in the service; the log has the cause")]
+                    return
+                if group is None:
+                    return
                 if group:
                     yield group
-                if end:
-                    return
                 upcoming = asyncio.ensure_future(anext(lines, None))
         finally:
             upcoming.cancel()
             await asyncio.gather(upcoming, return_exceptions=True)
-
-
-def _outcome(upcoming: asyncio.Future[list[Line] | None], clock: Clock) -> tuple[list[Line], bool]:
-    """The next lines, and whether they are the last."""
-    try:
-        group = upcoming.result()
-    except PoolLost as error:
-        return [clock.error(error.code, str(error))], True
-    except Exception:
-        logger.exception("a study failed")
-        return [clock.error("internal_error", "something went wrong in the service; the log has the cause")], True
-    return group or [], group is None
 
 
 async def encoded(lines: Lines, encode: Callable[[Line], bytes]) -> AsyncGenerator[bytes, None]:

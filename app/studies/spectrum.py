@@ -67,7 +67,7 @@ class Scattering(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Spectrum(Study):
-    """A machine, drawn `draws` times, over its cases; the points are every case of the first machine, then the next.
+    """The drawn machines over their cases; the points are every case of the first machine, then of the next.
 
     Where no limits are given, the columns behind the outputs hold the scuffing temperature.
     """
@@ -220,14 +220,11 @@ def _of_output(study: Spectrum, leaf: Leaf, column: FloatArray) -> Line:
     scale = KILOWATTS.get(leaf.unit or "")
     if mean is not None and scale is not None and study.hours_per_year is not None:
         content["energy_kwh_per_year"] = mean.mean * scale * study.hours_per_year
-    known = not np.isnan(column).all()
-    for end, place_of in (("min", np.nanargmin), ("max", np.nanargmax)):
-        content[end] = None
-        if known:
-            index = int(place_of(column))
-            draw, case = divmod(index, len(study.cases))
-            value = float(column.flat[index])
-            content[end] = {"value": value, "case": case, "draw": draw, "at": study.overrides(index)}
+    if np.isnan(column).all():
+        return {**content, "min": None, "max": None}
+    for end, index in {"min": int(np.nanargmin(column)), "max": int(np.nanargmax(column))}.items():
+        draw, case = divmod(index, len(study.cases))
+        content[end] = {"value": float(column.flat[index]), "case": case, "draw": draw, "at": study.overrides(index)}
     return content
 
 
