@@ -161,35 +161,30 @@ class Sweep(Study):
         return [*extremes, {**end, "warnings": [warning] if unsolved else []}]
 
 
-class Table:
-    """A sweep as comma-separated values: a header with units, then a row a point."""
+def table_row(points: PointSet, outputs: tuple[Leaf, ...], line: Line) -> bytes:
+    """A line of a sweep as comma-separated values, the first one as a header with units.
 
-    def __init__(self, points: PointSet, outputs: tuple[Leaf, ...]) -> None:
-        self._points = points
-        self._outputs = outputs
-
-    def encode(self, line: Line) -> bytes:
-        """The row of a line: none for progress and end; an error has a row with its message."""
-        varied, outputs = self._points.varied, self._outputs
-        error = line if line["type"] == "error" else line.get("error")
-        message = f"{error['code']}: {error['message']}" if error else None
-        row: list[Any]
-        match line["type"]:
-            case "sweep":
-                inputs, results = (
-                    [f"{leaf.path} [{leaf.unit}]" if leaf.unit else leaf.path for leaf in leaves]
-                    for leaves in (varied, outputs)
-                )
-                row = ["index", *inputs, "status", *results, "warnings", "error"]
-            case "point":
-                overrides = self._points.overrides(line["index"])
-                at = [overrides.get(leaf.path) for leaf in varied]
-                row = [line["index"], *at, line["status"], *line["out"], " ".join(line["warnings"]), message]
-            case "error":
-                row = [None, *[None] * len(varied), "error", *[None] * len(outputs), None, message]
-            case _:
-                return b""
-        return csv_of([row])
+    Nothing for progress and end; an error has a row with its message.
+    """
+    error = line if line["type"] == "error" else line.get("error")
+    message = f"{error['code']}: {error['message']}" if error else None
+    row: list[Any]
+    match line["type"]:
+        case "sweep":
+            inputs, results = (
+                [f"{leaf.path} [{leaf.unit}]" if leaf.unit else leaf.path for leaf in leaves]
+                for leaves in (points.varied, outputs)
+            )
+            row = ["index", *inputs, "status", *results, "warnings", "error"]
+        case "point":
+            overrides = points.overrides(line["index"])
+            at = [overrides.get(leaf.path) for leaf in points.varied]
+            row = [line["index"], *at, line["status"], *line["out"], " ".join(line["warnings"]), message]
+        case "error":
+            row = [None, *[None] * len(points.varied), "error", *[None] * len(outputs), None, message]
+        case _:
+            return b""
+    return csv_of([row])
 
 
 def sweep_study(content: Any, most: int, deadline_s: float) -> Sweep:

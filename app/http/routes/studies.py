@@ -91,7 +91,7 @@ async def started(
 def encoder(study: Study, written_as: str) -> Callable[[Line], bytes]:
     """Writes the lines of a study; those of a sweep also as the rows of a table."""
     if isinstance(study, sweep.Sweep) and written_as == "csv":
-        return sweep.Table(study.points, study.outputs).encode
+        return partial(sweep.table_row, study.points, study.outputs)
     return json_line
 
 
