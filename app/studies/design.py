@@ -97,7 +97,8 @@ class Design(Study):
                 message = "the unit that the search starts from has no answer at its worst corner"
                 yield [clock.error("no_start", message)]
                 return
-        start, best = trials[0], trials[min(range(len(trials)), key=lambda index: max(figures[index] or [inf]))]
+        start = trials[0]
+        best, _ = min(zip(trials, figures, strict=True), key=lambda each: max(each[1] or [inf]))
         rounded: Line = {}
         if self.is_rounded:
             values = [each.rounded(best["at"][each.leaves[0].path]) for each in self.variables]
