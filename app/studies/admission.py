@@ -19,26 +19,23 @@ if TYPE_CHECKING:
 logger = logging.getLogger("tribodrive")
 
 
-def _cluster(address: str, deadline_s: float) -> "DaskCluster":
-    from app.studies.cluster import DaskCluster  # noqa: PLC0415  an extra, and a second of imports
-
-    return DaskCluster(address, deadline_s)
-
-
 class StudyAdmission:
     """How many studies run at once, and the pool that solves their points."""
 
     def __init__(self, settings: Settings, workers: WorkerPool) -> None:
-        self._most = settings.studies
         self._settings = settings
         self._workers = workers
-        self._cluster = _cluster(settings.scheduler, settings.study_deadline_s) if settings.scheduler else None
         self._running = 0
+        self._cluster: DaskCluster | None = None
+        if settings.scheduler:
+            from app.studies import cluster  # noqa: PLC0415  an extra, and a second of imports
+
+            self._cluster = cluster.DaskCluster(settings.scheduler, settings.study_deadline_s)
 
     @contextmanager
     def place(self) -> Iterator[None]:
         """Count a study among the running ones while the context is open; raises StudiesFull."""
-        if self._running >= self._most:
+        if self._running >= self._settings.studies:
             raise StudiesFull
         self._running += 1
         STUDIES.set(self._running)
@@ -61,19 +58,16 @@ class StudyAdmission:
     @asynccontextmanager
     async def open(self) -> AsyncIterator[None]:
         """Prepare the cluster in the background while the context is open, so that the first study need not wait."""
-        if self._cluster is None:
-            yield
-            return
-        preparation = asyncio.create_task(_prepare(self._cluster))
+        preparation = asyncio.create_task(self._prepare())
         try:
             yield
         finally:
             preparation.cancel()
-            await asyncio.to_thread(self._cluster.close)
+            if self._cluster is not None:
+                await asyncio.to_thread(self._cluster.close)
 
-
-async def _prepare(cluster: "DaskCluster") -> None:
-    try:
-        await cluster.ready()
-    except SchedulerUnavailable as error:
-        logger.warning("%s; the next study tries again", error.detail)
+    async def _prepare(self) -> None:
+        try:
+            await self.pool()
+        except SchedulerUnavailable as error:
+            logger.warning("%s; the next study tries again", error.detail)

@@ -1,27 +1,36 @@
 """Design: values of some inputs whose worst case is best, searched trial by trial."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import aclosing
 from dataclasses import dataclass
 from math import ceil, floor, inf
-from typing import Any
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.optimize import NonlinearConstraint, minimize
 
 from app.errors import Unprocessable
 from app.schema.fields import Leaf
-from app.schema.reading import validated
-from app.studies.base_request import BaseRequest, check_count, check_distinct, check_value
-from app.studies.engine import Clock, Line, Lines, Pool, Study, case_of_study, output_header, paths_of, twice_if_lost
-from app.studies.fields import NUMBERS, value_at
-from app.studies.minimax import next_place
+from app.studies import engine
+from app.studies.engine import Clock, Line, Lines, Pool, Study, output_header, paths_of
+from app.studies.fields import NUMBERS, check_value, value_at
 from app.studies.point_sets import common_unit, grid, listed
+from app.studies.points import BaseRequest, check_count, check_distinct
 from app.studies.requests import DesignRequest, Overrides, Variable
+from solvers.arrays import FloatArray
 from solvers.drive_train.uncertainty import MOST_CORNERS
+from solvers.errors import NoSolution
 
 PATH = "/v1/drive-train/design"
+FIRST_STEP = 0.15  # of a variable's range
+LAST_STEP = 2e-3  # of a variable's range, chosen
+LEAST_GAIN = 1e-3  # of the objective at the start; a restart that gained less is the last
+VALUE_SCALE = 0.2  # of the objective at the start: a change that counts as much as a variable's whole range
+PENALTY = 5.0  # scaled, above the worst known objective: that of a point without solution
+MOST_STEPS = 100  # of COBYQA for each evaluation; steps that change the level alone need no evaluation
 
 
-@dataclass(frozen=True, slots=True)
-class DesignVariable:
+class DesignVariable(NamedTuple):
     """Fields that take one value, and the range of the search."""
 
     leaves: tuple[Leaf, ...]
@@ -29,42 +38,12 @@ class DesignVariable:
     high: float
     step: float | None
 
-    def value(self, share: float) -> float:
-        """The value at a share of the range."""
-        return self.low + share * (self.high - self.low)
-
     def rounded(self, value: float) -> float:
         """The nearest multiple of the step inside the range, or the value itself where there is none."""
         if self.step is None:
             return value
         steps = min(max(round(value / self.step), ceil(self.low / self.step)), floor(self.high / self.step))
         return min(max(float(f"{steps * self.step:.12g}"), self.low), self.high)
-
-    def header(self) -> Line:
-        """The variable in the first line."""
-        return {
-            "path": paths_of(self.leaves),
-            "unit": common_unit(self.leaves),
-            "min": self.low,
-            "max": self.high,
-        }
-
-
-@dataclass(frozen=True, slots=True)
-class Trial:
-    """Values of the variables, the objective at their worst case, and that case; None where a case has no solution.
-
-    `figures` are the objectives of all cases with the sign that the search minimises.
-    """
-
-    values: Overrides
-    objective: float | None
-    worst: Overrides
-    figures: list[float] | None = None
-
-    def content(self) -> Line:
-        """Values and objective."""
-        return {"at": self.values, "objective": self.objective}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -95,88 +74,94 @@ class Design(Study):
         yield [
             self.header(
                 "design",
-                variables=[variable.header() for variable in self.variables],
+                variables=[
+                    {"path": paths_of(each.leaves), "unit": common_unit(each.leaves), "min": each.low, "max": each.high}
+                    for each in self.variables
+                ],
                 objective=output_header(self.outputs[0]),
                 direction="minimise" if self.sign > 0.0 else "maximise",
                 corners=len(self.cases),
                 evaluations=self.evaluations,
             )
         ]
-        trials: list[Trial] = []
-        while place := await twice_if_lost(
-            pool, next_place, self.start, [trial.figures for trial in trials], self.evaluations
-        ):
-            values = (variable.value(share) for variable, share in zip(self.variables, place, strict=True))
-            trial = await self._trial(pool, clock, list(values))
-            yield [{"type": "trial", "index": len(trials), **trial.content(), "worst_corner": trial.worst}]
+        trials: list[Line] = []
+        figures: list[list[float] | None] = []
+        while place := await engine.twice_if_lost(pool, next_place, self.start, figures, self.evaluations):
+            shares = zip(self.variables, place, strict=True)
+            values = [each.low + share * (each.high - each.low) for each, share in shares]
+            trial, found = await self._trial(pool, clock, values)
+            yield [{"type": "trial", "index": len(trials), **trial}]
             trials.append(trial)
-            if trials[0].figures is None:
+            figures.append(found)
+            if figures[0] is None:
                 message = "the unit that the search starts from has no answer at its worst corner"
                 yield [clock.error("no_start", message)]
                 return
-        best = min(trials, key=lambda trial: max(trial.figures or [inf]))
-        rounded = None
+        start = trials[0]
+        best, _ = min(zip(trials, figures, strict=True), key=lambda each: max(each[1] or [inf]))
+        rounded: Line = {}
         if self.is_rounded:
-            values = (
-                variable.rounded(float(best.values[variable.leaves[0].path] or 0.0)) for variable in self.variables
-            )
-            rounded = await self._trial(pool, clock, list(values))
-        yield [self._end(trials, best, rounded, clock)]
+            values = [each.rounded(best["at"][each.leaves[0].path]) for each in self.variables]
+            rounded["rounded"], _ = await self._trial(pool, clock, values)
+        yield [
+            {
+                "type": "end",
+                "start": start["at"],
+                "best": best["at"],
+                "objective_start": start["objective"],
+                "objective_best": best["objective"],
+                "worst_corner": best["worst_corner"],
+                "evaluations": len(trials),
+                **rounded,
+                "unsolved": figures.count(None),
+                "history": [{"at": each["at"], "objective": each["objective"]} for each in trials],
+                "elapsed_s": clock.elapsed_s,
+            }
+        ]
 
-    async def _trial(self, pool: Pool, clock: Clock, values: Sequence[float]) -> Trial:
-        """The values of the variables, solved until a case has no solution."""
-        at: Overrides = {
-            leaf.path: value for variable, value in zip(self.variables, values, strict=True) for leaf in variable.leaves
-        }
+    async def _trial(self, pool: Pool, clock: Clock, values: list[float]) -> tuple[Line, list[float] | None]:
+        """The values of the variables, the objective at their worst case, and that case; null without a solution.
+
+        Behind them the objectives of all cases with the sign that the search minimises; None where the first case
+        without solution ended the trial.
+        """
+        pairs = zip(self.variables, values, strict=True)
+        at: Overrides = {leaf.path: value for variable, value in pairs for leaf in variable.leaves}
         objectives: list[float] = []
-        runs = self.solve(pool, clock, lambda index: {**at, **self.cases[index]}, range(len(self.cases)))
+        indices = range(len(self.cases))
+        runs = engine.in_order(pool, self.question, lambda index: {**at, **self.cases[index]}, indices, clock)
         async with aclosing(runs):
-            async for indices, points in runs:
-                for index, point in zip(indices, points, strict=True):
+            async for solved, points in runs:
+                for index, point in zip(solved, points, strict=True):
                     (objective,) = point.out
                     if objective is None:
-                        return Trial(at, None, self.cases[index])
+                        return {"at": at, "objective": None, "worst_corner": self.cases[index]}, None
                     objectives.append(objective)
         figures = [self.sign * objective for objective in objectives]
         worst = figures.index(max(figures))
-        return Trial(at, objectives[worst], self.cases[worst], figures)
-
-    def _end(self, trials: list[Trial], best: Trial, rounded: Trial | None, clock: Clock) -> Line:
-        return {
-            "type": "end",
-            "start": trials[0].values,
-            "best": best.values,
-            "objective_start": trials[0].objective,
-            "objective_best": best.objective,
-            "worst_corner": best.worst,
-            "evaluations": len(trials),
-            **({"rounded": {**rounded.content(), "worst_corner": rounded.worst}} if rounded else {}),
-            "unsolved": sum(trial.objective is None for trial in trials),
-            "history": [trial.content() for trial in trials],
-            "elapsed_s": clock.elapsed_s,
-        }
+        return {"at": at, "objective": objectives[worst], "worst_corner": self.cases[worst]}, figures
 
 
 def design_study(content: Any, most: int, deadline_s: float) -> Design:
-    """The search in a body, of at most `most` points; runs in a worker.
-
-    `content` is the body as JSON's objects, or validated. Raises InvalidBody and Unprocessable, with locations in it.
-    """
-    request = validated(DesignRequest, content)
-    base = BaseRequest.of(request)
+    """The search in a body."""
+    request, base = engine.asked(DesignRequest, content)
     objective = base.output(request.objective, "objective")
     if objective.kind not in NUMBERS:
         raise Unprocessable("unknown_output", f"{request.objective} is no number", "objective")
     variables = tuple(_variable(each, base, f"variables.{place}") for place, each in enumerate(request.variables))
     cases = _cases(request, base)
     case = base.checked(cases[0]).model_dump()
+    if request.direction is None and objective.view.bound is None:
+        message = f"{objective.path} has no safe side of its own; say maximise or minimise"
+        raise Unprocessable("direction_missing", message, "direction")
+    maximised = objective.view.greatest_is_best if request.direction is None else request.direction == "maximise"
     study = Design(
-        question=base.question([objective.path], deadline_s, reduced=True),
-        outputs=(objective,),
-        case=case_of_study(PATH, request),
+        base.question([objective.path], deadline_s),
+        (objective,),
+        engine.case_of_study(PATH, request),
         variables=variables,
         cases=cases,
-        sign=_sign(request, objective),
+        sign=-1.0 if maximised else 1.0,
         start=tuple(_share(variable, case) for variable in variables),
         evaluations=request.evaluations,
     )
@@ -205,30 +190,103 @@ def _cases(request: DesignRequest, base: BaseRequest) -> list[Overrides]:
         combined = grid(request.corners, base, MOST_CORNERS, "corners")
         corners = [combined.overrides(index) for index in range(combined.total)]
     points = [{}] if request.collective is None else request.collective
-    listed(points, base, MOST_CORNERS, "collective")
+    set_by_points = paths_of(listed(points, base, MOST_CORNERS, "collective").varied)
     check_count(len(points) * len(corners), MOST_CORNERS, "corners")
     known = [path for variable in request.variables for path in variable.paths]
-    for place, paths in (
-        ("variables", []),
-        ("corners", corners[0]),
-        ("collective", {path for p in points for path in p}),
-    ):
+    for place, paths in {"variables": [], "corners": list(corners[0]), "collective": set_by_points}.items():
         known += paths
         check_distinct(known, place)
     return [{**point, **corner} for point in points for corner in corners]
-
-
-def _sign(request: DesignRequest, objective: Leaf) -> float:
-    """Factor with which the objective is minimised."""
-    if request.direction is not None:
-        return -1.0 if request.direction == "maximise" else 1.0
-    if objective.view.bound is None:
-        message = f"{objective.path} has no safe side of its own; say maximise or minimise"
-        raise Unprocessable("direction_missing", message, "direction")
-    return -1.0 if objective.view.greatest_is_best else 1.0
 
 
 def _share(variable: DesignVariable, case: dict[str, Any]) -> float:
     """The case's own value as a share of the range; 0 where it has none."""
     own = value_at(case, variable.leaves[0].path)
     return 0.0 if own is None else min(max((own - variable.low) / (variable.high - variable.low), 0.0), 1.0)
+
+
+class _Unknown(Exception):
+    """The search needs the objectives at a point, the argument."""
+
+
+class _NoEvaluationLeft(Exception):
+    """All evaluations are used."""
+
+
+def next_place(start: Sequence[float], known_objectives: Sequence[list[float] | None], most: int) -> list[float] | None:
+    """The next point that the search evaluates after those known, or None at its end; runs in a worker.
+
+    The search is repeated up to there, which takes some milliseconds a point and needs no thread that waits.
+    """
+    known = iter(known_objectives)
+
+    def objectives(place: FloatArray) -> FloatArray | None:
+        for found in known:
+            return None if found is None else np.array(found)
+        raise _Unknown(place.tolist())
+
+    try:
+        search(objectives, np.array(start), most)
+    except _Unknown as unknown:
+        return list(unknown.args[0])
+    return None
+
+
+def search(objectives: Callable[[FloatArray], FloatArray | None], start: FloatArray, evaluations: int) -> None:
+    """Minimise the largest objective over the unit cube with at most so many evaluations.
+
+    `objectives` are those at a point; None where there is no solution.
+    COBYQA, which needs no derivatives, minimises a level under the constraints that no objective exceeds it: each
+    objective has a smooth model of its own, also along a ridge where two are equally large. It is restarted at the best
+    point as long as that gains anything. Raises NoSolution design where the start has no solution.
+    """
+    known: dict[bytes, FloatArray] = {}
+    first = objectives(np.clip(start, 0.0, 1.0))
+    if first is None:
+        raise NoSolution("design", "the point where the search starts has no solution")
+    scale = VALUE_SCALE * abs(float(first.max())) or 1.0
+    known[_name(start)] = first / scale
+
+    def scaled(place: FloatArray) -> FloatArray:
+        """The objectives at a place, whose last component is the level."""
+        name = _name(place[:-1])
+        if name not in known:
+            if len(known) == evaluations:
+                raise _NoEvaluationLeft
+            found = objectives(np.clip(place[:-1], 0.0, 1.0))
+            worst = max(float(each.max()) for each in known.values())
+            known[name] = np.full(first.size, worst + PENALTY) if found is None else found / scale
+        return known[name]
+
+    def level(place: FloatArray) -> float:
+        scaled(place)
+        return float(place[-1])
+
+    bounds = [*[(0.0, 1.0)] * start.size, (-np.inf, np.inf)]
+    before = np.inf
+    while True:
+        best = min(known, key=lambda place: float(known[place].max()))
+        lowest = float(known[best].max())
+        if before - lowest < LEAST_GAIN / VALUE_SCALE:
+            return
+        before = lowest
+        try:
+            minimize(
+                level,
+                np.append(np.frombuffer(best), lowest),
+                method="COBYQA",
+                bounds=bounds,
+                constraints=[NonlinearConstraint(lambda place: scaled(place) - place[-1], -np.inf, 0.0)],
+                options={
+                    "maxfev": MOST_STEPS * evaluations,
+                    "initial_tr_radius": FIRST_STEP,
+                    "final_tr_radius": LAST_STEP,
+                },
+            )
+        except _NoEvaluationLeft:
+            return
+
+
+def _name(place: FloatArray) -> bytes:
+    """A place in the unit cube, the same for those that only rounding tells apart."""
+    return np.clip(place, 0.0, 1.0).round(12).tobytes()

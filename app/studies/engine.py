@@ -1,27 +1,42 @@
-"""What all studies share: points solved in chunks on a pool of processes and handed on in order, and the first line."""
+"""What all studies share: points solved in chunks on a pool of processes and handed on in order, and lines of them.
+
+A kind of study declares its body, its checks and its lines. Its planner takes the body as JSON's objects, or
+validated, the most points and the deadline of each; it runs in a worker, and raises InvalidBody and Unprocessable with
+locations in the body.
+"""
 
 import asyncio
+import json
 import logging
 import time
 from abc import ABC, abstractmethod
-from collections import deque
-from collections.abc import AsyncGenerator, Callable, Iterable
+from array import array
+from collections import Counter, deque
+from collections.abc import AsyncGenerator, Callable, Iterable, Sequence
 from contextlib import aclosing
 from dataclasses import dataclass
-from typing import Any, Protocol
+from math import nan
+from typing import Any, Protocol, TypeVar
+
+import numpy as np
 
 from app.errors import DeadlineExceeded, Unprocessable, WorkerLost
-from app.evaluate import case_of
+from app.evaluate import calculation_at, case_of
 from app.log import STUDIES_UNFINISHED
 from app.schema.fields import Leaf
 from app.schema.model import MODEL_VERSION
+from app.schema.reading import validated
 from app.sources import SOURCES
-from app.studies.points import CHUNK_SECONDS, Chunk, Point, Question, solve_chunk
+from app.studies.fields import is_number
+from app.studies.points import CHUNK_SECONDS, BaseRequest, Chunk, Point, Question, solve_chunk
 from app.studies.requests import DriveTrainStudy, Overrides, StudyRequest
+from solvers.arrays import FloatArray
 
 CHUNKS_PER_SLOT = 2  # one at work, one that waits, so that no worker is idle
 MOST_POINTS_IN_A_CHUNK = 1000  # however fast a point is: a chunk's answer stays small
+PROGRESS_S = 2.0  # between lines of progress: proxies and users see that it runs
 
+Body = TypeVar("Body", bound=StudyRequest | DriveTrainStudy)
 Line = dict[str, Any]
 Lines = AsyncGenerator[list[Line], None]
 
@@ -87,7 +102,7 @@ async def twice_if_lost(pool: Pool, function: Callable[..., Any], *arguments: An
 
 
 async def in_order(
-    pool: Pool, question: Question, overrides: Callable[[int], Overrides], indices: range
+    pool: Pool, question: Question, overrides: Callable[[int], Overrides], indices: range, clock: Clock
 ) -> AsyncGenerator[tuple[range, list[Point]], None]:
     """Runs of points with their indices, in order; a chunk that loses its process is solved again point by point.
 
@@ -117,6 +132,7 @@ async def in_order(
                 pending.appendleft(begun(rest))
             seconds = max(chunk.seconds / len(done), CHUNK_SECONDS / MOST_POINTS_IN_A_CHUNK)  # of a point
             size = max(1, round(CHUNK_SECONDS / seconds))
+            clock.done += len(done)
             yield done, chunk.points
     finally:
         for _, future in pending:
@@ -140,7 +156,22 @@ async def _solved_singly(pool: Pool, question: Question, overrides: list[Overrid
     return Chunk(points, time.perf_counter() - started)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+def asked(body: type[Body], content: Any) -> tuple[Body, BaseRequest]:
+    """The body of a study, and the request that it varies; raises InvalidBody and Unprocessable."""
+    request = validated(body, content)
+    return request, BaseRequest(calculation_at(request.endpoint), request.request)
+
+
+def case_of_study(path: str, body: StudyRequest | DriveTrainStudy) -> str:
+    """The hash of endpoint, body and sources of a study."""
+    try:
+        return case_of(path, body.model_dump(exclude={"from_index"}), SOURCES)
+    except ValueError:  # in a field that every point replaces
+        message = "holds a number that is not finite, or text that is not Unicode"
+        raise Unprocessable("not_json", message, "request") from None
+
+
+@dataclass(frozen=True, slots=True)
 class Study(ABC):
     """A study that has passed its checks; `outputs` are in the order of the columns of `Point.out`."""
 
@@ -159,23 +190,8 @@ class Study(ABC):
 
     def header(self, kind: str, **content: Any) -> Line:
         """A line that identifies the study."""
-        return {
-            "type": kind,
-            "endpoint": self.question.endpoint,
-            **content,
-            "model_version": MODEL_VERSION,
-            "sources": SOURCES,
-            "case": self.case,
-        }
-
-    async def solve(
-        self, pool: Pool, clock: Clock, overrides: Callable[[int], Overrides], indices: range
-    ) -> AsyncGenerator[tuple[range, list[Point]], None]:
-        """Runs of points with their indices, in order."""
-        async with aclosing(in_order(pool, self.question, overrides, indices)) as runs:
-            async for solved, points in runs:
-                clock.done += len(points)
-                yield solved, points
+        identity = {"model_version": MODEL_VERSION, "sources": SOURCES, "case": self.case}
+        return {"type": kind, "endpoint": self.question.endpoint, **content, **identity}
 
 
 def output_header(leaf: Leaf) -> Line:
@@ -188,10 +204,90 @@ def paths_of(leaves: Iterable[Leaf]) -> list[str]:
     return [leaf.path for leaf in leaves]
 
 
-def case_of_study(path: str, body: StudyRequest | DriveTrainStudy) -> str:
-    """The hash of endpoint, body and sources of a study."""
-    try:
-        return case_of(path, body.model_dump(exclude={"from_index"}), SOURCES)
-    except ValueError:  # in a field that every point replaces
-        message = "holds a number that is not finite, or text that is not Unicode"
-        raise Unprocessable("not_json", message, "request") from None
+def point_line(index: int, at: Any, point: Point) -> Line:
+    """The line of a point."""
+    line = {"type": "point", "index": index, "at": at, "status": point.status, "out": point.out}
+    line |= {"warnings": point.warnings, "ranks": point.ranks}
+    return line if point.error is None else {**line, "error": point.error}
+
+
+class Tally:
+    """Counts of the points by status, of their errors and warnings by code; their assumptions; kept numbers.
+
+    Each assumption is there once, by its field; a value that differs between points is null.
+    """
+
+    def __init__(self, outputs: Sequence[str]) -> None:
+        self.counts: Counter[str] = Counter()
+        self.errors: Counter[str] = Counter()
+        self.warnings: Counter[str] = Counter()
+        self.assumptions: dict[str, Line] = {}
+        self._numbers = array("d")
+        self.outputs = outputs
+
+    def add(self, point: Point) -> None:
+        """Take in the next point."""
+        self.counts[point.status] += 1
+        if point.error is not None:
+            self.errors[point.error["code"]] += 1
+        self.warnings.update(point.warnings)
+        for each in point.assumptions:
+            known = self.assumptions.setdefault(each["field"], each)
+            if known["value"] != each["value"]:
+                self.assumptions[each["field"]] = {**known, "value": None}
+
+    def keep(self, out: Sequence[Any]) -> None:
+        """Keep the numbers of a point."""
+        self._numbers.extend(value if is_number(value) else nan for value in out)
+
+    @property
+    def values(self) -> FloatArray:
+        """The numbers kept, one row per point, NaN where there is none."""
+        return np.array(self._numbers).reshape(-1, len(self.outputs))
+
+
+async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float = PROGRESS_S) -> Lines:
+    """The lines, with progress where none came for so long; a study that fails or takes too long ends with an error."""
+    async with aclosing(lines):
+        upcoming = asyncio.ensure_future(anext(lines, None))
+        try:
+            while True:
+                left = seconds - clock.elapsed_s
+                if left <= 0.0:
+                    yield [clock.error("study_deadline", f"the study took longer than {seconds:g} s; make it smaller")]
+                    return
+                done, _ = await asyncio.wait({upcoming}, timeout=min(progress_s, left))
+                if not done:
+                    if left > progress_s:
+                        yield [clock.line()]
+                    continue
+                try:
+                    group = upcoming.result()
+                except PoolLost as error:
+                    yield [clock.error(error.code, str(error))]
+                    return
+                except Exception:
+                    logger.exception("a study failed")
+                    yield [clock.error("internal_error", "something went wrong in the service; the log has the cause")]
+                    return
+                if group is None:
+                    return
+                if group:
+                    yield group
+                upcoming = asyncio.ensure_future(anext(lines, None))
+        finally:
+            upcoming.cancel()
+            await asyncio.gather(upcoming, return_exceptions=True)
+
+
+async def encoded(lines: Lines, encode: Callable[[Line], bytes]) -> AsyncGenerator[bytes, None]:
+    """The lines as bytes, those that come together in one piece."""
+    async with aclosing(lines):
+        async for group in lines:
+            if piece := b"".join(map(encode, group)):
+                yield piece
+
+
+def json_line(line: Line) -> bytes:
+    """One line of newline-delimited JSON."""
+    return json.dumps(line, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode() + b"\n"

@@ -1,11 +1,9 @@
 """The single values of requests and answers that a study names by their dotted paths."""
 
-import copy
 import operator
 from collections.abc import Iterable
 from dataclasses import replace
 from difflib import get_close_matches
-from functools import lru_cache, reduce
 from typing import Any
 
 from app.errors import Unprocessable
@@ -22,7 +20,10 @@ def scalar_at(model: type[Documented], path: str, place: str, unknown: str) -> L
 
     Raises Unprocessable at `place` of the study: `not_scalar` for sections and lists, `unknown` for what there is not.
     """
-    leaf = leaf_at(model, path) or _item_of_list(model, path)
+    leaf = leaf_at(model, path)
+    whole, _, item = path.rpartition(".")
+    if leaf is None and item.isdecimal() and (listed := leaf_at(model, whole)) and listed.dimensions == 1:
+        leaf = replace(listed, dimensions=0, nullable=False)
     if leaf is None:
         known = [each.path for each in leaves(model)]
         if any(name.startswith(f"{path}.") for name in known):
@@ -35,13 +36,6 @@ def scalar_at(model: type[Documented], path: str, place: str, unknown: str) -> L
     return replace(leaf, path=path)
 
 
-def _item_of_list(model: type[Documented], path: str) -> Leaf | None:
-    """The place of a list that the path's last part counts, as a leaf of its own."""
-    whole, _, place = path.rpartition(".")
-    leaf = leaf_at(model, whole) if place.isdecimal() else None
-    return None if leaf is None or leaf.dimensions != 1 else replace(leaf, dimensions=0, nullable=False)
-
-
 def did_you_mean(path: str, known: Iterable[str]) -> str:
     """The nearest known path as a question, or nothing."""
     near = get_close_matches(path, list(known), n=1)
@@ -50,45 +44,45 @@ def did_you_mean(path: str, known: Iterable[str]) -> str:
 
 def fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:
     """Code and message of why the field's schema does not take a value; None where it does."""
+    code = "out_of_range"
     if value is None:
-        return None if leaf.nullable else ("out_of_range", "null is not accepted here")
-    if leaf.options:
-        allowed = ", ".join(map(str, leaf.options))
-        return None if value in leaf.options else ("out_of_range", f"must be one of {allowed}")
-    if leaf.kind in NUMBERS:
-        return _number_fault(leaf, value)
-    kind, message = (bool, "give true or false") if leaf.kind == "boolean" else (str, "give text")
-    return None if isinstance(value, kind) else ("out_of_range", message)
+        wrong, message = not leaf.nullable, "null is not accepted here"
+    elif leaf.options:
+        wrong, message = value not in leaf.options, f"must be one of {', '.join(map(str, leaf.options))}"
+    elif leaf.kind == "boolean":
+        wrong, message = not isinstance(value, bool), "give true or false"
+    elif leaf.kind not in NUMBERS:
+        wrong, message = not isinstance(value, str), "give text"
+    elif isinstance(value, bool | str):
+        wrong, message = True, "give a number"
+    elif leaf.kind == "integer" and value != int(value):
+        wrong, code, message = True, "not_integer", f"{value:g} is not a whole number"
+    else:
+        wrong = not all(getattr(operator, name)(value, bound) for name, bound in leaf.declared.bounds.items())
+        message = f"{value:.12g} is out of range; permissible {allowed(leaf.declared)}"
+    return (code, message) if wrong else None
 
 
-def _number_fault(leaf: Leaf, value: bool | float | str) -> tuple[str, str] | None:
-    if isinstance(value, bool | str):
-        return "out_of_range", "give a number"
-    if leaf.kind == "integer" and value != int(value):
-        return "not_integer", f"{value:g} is not a whole number"
-    if all(getattr(operator, name)(value, bound) for name, bound in leaf.declared.bounds.items()):
-        return None
-    return "out_of_range", f"{value:.12g} is out of range; permissible {allowed(leaf.declared)}"
+def check_value(leaf: Leaf, value: Scalar, place: str) -> None:
+    """Raise Unprocessable for a value that the field's schema does not take."""
+    if found := fault(leaf, value):
+        code, message = found
+        raise Unprocessable(code, f"{leaf.path}: {message}", place)
 
 
 def value_at(content: Any, path: str) -> Any:
     """The value at a dotted path of a request or answer; None where a section or a place on the way is missing."""
-    return reduce(_step, path.split("."), content)
+    for part in path.split("."):
+        if isinstance(content, list | tuple):
+            content = content[int(part)] if part.isdecimal() and int(part) < len(content) else None
+        else:
+            content = content.get(part) if isinstance(content, dict) else getattr(content, part, None)
+    return content
 
 
-def _step(here: Any, part: str) -> Any:
-    if isinstance(here, list | tuple):
-        return here[int(part)] if part.isdecimal() and int(part) < len(here) else None
-    return here.get(part) if isinstance(here, dict) else getattr(here, part, None)
-
-
-def is_reachable(model: type[Documented], body: dict[str, Any], path: str) -> bool:
-    """Whether a value can be set at this path: the lists on the way, given or by default, are long enough."""
-    try:
-        set_value(model, copy.deepcopy(body), path, None)
-    except IndexError:
-        return False
-    return True
+def is_number(value: Any) -> bool:
+    """Whether a value can be compared; true counts as 1."""
+    return isinstance(value, int | float)
 
 
 def set_value(model: type[Documented], body: dict[str, Any], path: str, value: Scalar) -> None:
@@ -114,19 +108,11 @@ def set_value(model: type[Documented], body: dict[str, Any], path: str, value: S
             here = here[key]
 
 
-def clear(body: dict[str, Any], path: str) -> None:
-    """Take a field out of a request, if it is there."""
-    section, _, name = path.rpartition(".")
-    here = value_at(body, section) if section else body
-    if isinstance(here, dict):
-        here.pop(name, None)
-
-
-@lru_cache(maxsize=1024)
-def excluded_by(model: type[Documented], path: str) -> tuple[str, ...]:
-    """The fields that a given value of this one excludes, with its own list indices."""
+def clear_excluded(model: type[Documented], body: dict[str, Any], path: str) -> None:
+    """Take the fields out of a request that a given value at this path excludes."""
     leaf, own = leaf_at(model, path), path.split(".")
-    return tuple(
-        ".".join(own[place] if part == ITEM else part for place, part in enumerate(each.split(".")))
-        for each in (leaf.exclusive if leaf else ())
-    )
+    for excluded in leaf.exclusive if leaf else ():
+        *section, name = [own[place] if part == ITEM else part for place, part in enumerate(excluded.split("."))]
+        here = value_at(body, ".".join(section)) if section else body
+        if isinstance(here, dict):
+            here.pop(name, None)

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import prod
-from typing import Any
+from math import log, prod
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,10 +12,13 @@ from app.errors import Unprocessable
 from app.schema.fields import Leaf, field_path
 from app.schema.model import Request
 from app.schema.quantities import split_unit
-from app.studies.base_request import BaseRequest, check_count, check_distinct, check_value
-from app.studies.distributions import anchors, drawn, unit_cube
-from app.studies.requests import Axis, Overrides, Range, Sample, Scalar, Scatter, SweepRequest
+from app.studies.fields import check_value
+from app.studies.points import BaseRequest, check_count, check_distinct
+from app.studies.requests import LARGEST, Axis, Lognormal, Method, Normal, Overrides, Range, Scalar, Scatter, Triangular
+from solvers.arrays import FloatArray
 from solvers.drive_train.uncertainty import uncertain_inputs
+
+CUT = 4.0  # deviations
 
 
 def common_unit(leaves: Sequence[Leaf]) -> str | None:
@@ -48,21 +51,17 @@ class PointSet:
     total: int
     varied: tuple[Leaf, ...]
     cases: list[Overrides] | None = None
-    sample: np.ndarray[Any, Any] | None = None
+    sample: FloatArray | None = None
 
     def at(self, index: int) -> list[Scalar | list[Scalar]] | Overrides:
         """Coordinates of a point, or its overrides in a list of cases."""
         if self.cases is not None:
             return self.cases[index]
         if self.sample is not None:
-            values: list[Scalar | list[Scalar]] = self.sample[index].tolist()
-            return values
-        at: list[Scalar | list[Scalar]] = []
-        for axis in reversed(self.axes):
-            assert axis.values is not None
-            index, place = divmod(index, len(axis.values))
-            at.insert(0, axis.values[place])
-        return at
+            return list(self.sample[index].tolist())
+        values = [axis.values or [] for axis in self.axes]
+        places = np.unravel_index(index, [len(each) for each in values])
+        return [each[place] for each, place in zip(values, places, strict=True)]
 
     def overrides(self, index: int) -> Overrides:
         """What a point changes in the base request."""
@@ -81,56 +80,47 @@ def _each(value: Scalar | list[Scalar], leaves: tuple[Leaf, ...]) -> list[Scalar
     return value if isinstance(value, list) else [value] * len(leaves)
 
 
-def points_of(sweep: SweepRequest, base: BaseRequest, most: int) -> PointSet:
-    """The points of a sweep; at most `most`.
+def listed(cases: list[Overrides], base: BaseRequest, most: int, place: str) -> PointSet:
+    """The points of the list of cases at `place` of a study, at most `most`; raises Unprocessable."""
+    check_count(len(cases), most, place)
+    return PointSet([], len(cases), tuple(fields_set(cases, base, place + ".{}").values()), cases=cases)
 
-    Raises Unprocessable with a path into the sweep for what the schema refuses.
+
+def fields_set(cases: Sequence[Overrides], base: BaseRequest, place: str) -> dict[str, Leaf]:
+    """The fields that cases set, by their paths.
+
+    Raises Unprocessable for what there is not, or what its field does not take, at `place` of the study, in which `{}`
+    stands for the number of the case.
     """
-    if sweep.cases is not None:
-        return listed(sweep.cases, base, most, "cases")
-    if sweep.sample is not None:
-        return sampled(sweep.sample, base, most)
-    assert sweep.vary is not None
-    return grid(sweep.vary, base, most, "vary")
+    known: dict[str, Leaf] = {}
+    for number, case in enumerate(cases):
+        for path, value in case.items():
+            if path not in known:
+                known[path] = base.leaf(path, place.format(number))
+            check_value(known[path], value, place.format(number))
+    return known
 
 
 def grid(axes: list[Axis], base: BaseRequest, most: int, place: str) -> PointSet:
-    """The product of the axes at `place` of a study; raises Unprocessable."""
-    check_count(prod(_length(axis, f"{place}.{number}") for number, axis in enumerate(axes)), most, place)
+    """The product of the axes at `place` of a study, at most `most` points; raises Unprocessable."""
+    total = prod(_length(axis, f"{place}.{number}") for number, axis in enumerate(axes))
+    check_count(total, most, place)
     check_distinct([path for axis in axes for path in axis.paths], place)
-    found = [_axis(axis, base, f"{place}.{number}") for number, axis in enumerate(axes)]
-    varied = tuple(leaf for axis in found for leaf in axis.leaves)
-    return PointSet(found, prod(len(axis.values or ()) for axis in found), varied)
-
-
-def listed(cases: list[Overrides], base: BaseRequest, most: int, place: str) -> PointSet:
-    """The points of the list of cases at `place` of a study; raises Unprocessable."""
-    check_count(len(cases), most, place)
-    leaves: dict[str, Leaf] = {}
-    for number, case in enumerate(cases):
-        check_case(case, base, f"{place}.{number}", leaves)
-    return PointSet([], len(cases), tuple(leaves.values()), cases=cases)
-
-
-def check_case(case: Overrides, base: BaseRequest, place: str, known: dict[str, Leaf]) -> None:
-    """Refuse a case that sets what there is not, or what its field does not take; `known` gathers the fields."""
-    for path, value in case.items():
-        if path not in known:
-            known[path] = base.leaf(path, place)
-        check_value(known[path], value, place)
+    found = [_checked(axis, base, f"{place}.{number}") for number, axis in enumerate(axes)]
+    return PointSet(found, total, tuple(leaf for axis in found for leaf in axis.leaves))
 
 
 def _length(axis: Axis, place: str) -> int:
     """How many values an axis has; either they are listed, or they are spread."""
     spread = (axis.start, axis.stop, axis.count)
-    if axis.values is not None and all(part is None for part in spread):
+    if axis.values is not None and spread == (None, None, None):
         return len(axis.values)
-    if axis.values is None and axis.count is not None and all(part is not None for part in spread):
+    if axis.values is None and axis.count is not None and None not in spread:
         return axis.count
     raise Unprocessable("values_or_range", "give either values, or start, stop and count", place)
 
 
-def _axis(axis: Axis, base: BaseRequest, place: str) -> CheckedAxis:
+def _checked(axis: Axis, base: BaseRequest, place: str) -> CheckedAxis:
     leaves = tuple(base.leaf(path, f"{place}.path") for path in axis.paths)
     values = axis.values if axis.values is not None else _spread(axis, leaves, place)
     for number, value in enumerate(values):
@@ -151,27 +141,15 @@ def _spread(axis: Axis, leaves: tuple[Leaf, ...], place: str) -> list[Scalar | l
     assert axis.count is not None
     for name, end in {"start": axis.start, "stop": axis.stop}.items():
         if axis.scale == "log" and end <= 0.0:
-            raise Unprocessable(
-                "log_needs_positive", "a logarithmic axis needs both ends above zero", f"{place}.{name}"
-            )
+            message = "a logarithmic axis needs both ends above zero"
+            raise Unprocessable("log_needs_positive", message, f"{place}.{name}")
         for leaf in leaves:
             check_value(leaf, end, f"{place}.{name}")
-    if axis.scale == "linear":
-        return list(np.linspace(axis.start, axis.stop, axis.count).tolist())
-    return list(np.geomspace(axis.start, axis.stop, axis.count).tolist())
+    spread = np.linspace if axis.scale == "linear" else np.geomspace
+    return list(spread(axis.start, axis.stop, axis.count).tolist())
 
 
-def sampled(sample: Sample, base: BaseRequest, most: int) -> PointSet:
-    """Random points, the same for the same seed; raises Unprocessable."""
-    check_count(sample.count, most, "sample.count")
-    name, scatters = sample.scatters
-    leaves = scattering(scatters, base, f"sample.{name}")
-    cube = unit_cube(sample.method, sample.count, len(leaves), sample.seed, "sample.count")
-    axes = [CheckedAxis(leaf.path, (leaf,), None) for leaf in leaves]
-    return PointSet(axes, sample.count, tuple(leaves), sample=drawn(scatters, leaves, cube))
-
-
-def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: str) -> list[Leaf]:
+def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: str) -> tuple[Leaf, ...]:
     """The fields of the distributions at `place` of a study; raises Unprocessable."""
     check_distinct([each.path for each in scatters], place)
     leaves = []
@@ -186,7 +164,78 @@ def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: st
             if least > greatest:
                 raise Unprocessable("out_of_range", f"{each.path}: {low} is above {high}", here)
         leaves.append(leaf)
-    return leaves
+    return tuple(leaves)
+
+
+def anchors(scatter: Range | Scatter) -> dict[str, float]:
+    """The values of a distribution that its field has to take, in rising order."""
+    return {name: getattr(scatter, name) for name in ("min", "mode", "mean", "median", "max") if hasattr(scatter, name)}
+
+
+class Cut(NamedTuple):
+    """The ends of a distribution, their cumulative probabilities, and its law in scipy; None where it is uniform."""
+
+    low: float
+    high: float
+    shares: tuple[float, float] = (0.0, 1.0)
+    law: Any = None
+
+    def drawn(self, share: FloatArray) -> FloatArray:
+        """Values at shares of the distribution between its ends."""
+        low, high = self.shares
+        values = (
+            self.low + (self.high - self.low) * share if self.law is None else self.law.ppf(low + (high - low) * share)
+        )
+        return np.clip(values, self.low, self.high)
+
+    @property
+    def cut_off(self) -> float:
+        """The share of the distribution beyond its ends."""
+        return self.shares[0] + 1.0 - self.shares[1]
+
+
+def cut(scatter: Range | Scatter, leaf: Leaf) -> Cut:
+    """A distribution between its ends: four deviations, and the range of its field."""
+    from scipy import stats  # noqa: PLC0415  half a second that only random samples need
+
+    law: Any
+    match scatter:
+        case Normal():
+            law = stats.norm(scatter.mean, scatter.deviation)
+            low, high = scatter.mean - CUT * scatter.deviation, scatter.mean + CUT * scatter.deviation
+        case Lognormal():
+            law = stats.lognorm(log(scatter.factor), scale=scatter.median)
+            low, high = scatter.median / scatter.factor**CUT, scatter.median * scatter.factor**CUT
+        case Triangular() if (width := scatter.max - scatter.min) > 0.0:
+            law = stats.triang((scatter.mode - scatter.min) / width, scatter.min, width)
+            return Cut(scatter.min, scatter.max, law=law)
+        case _:
+            return Cut(scatter.min, scatter.max)
+    bounds = leaf.declared.bounds
+    low = max(low, bounds.get("ge", -LARGEST), bounds.get("gt", -LARGEST))
+    high = min(high, bounds.get("le", LARGEST), bounds.get("lt", LARGEST))
+    return Cut(low, high, (float(law.cdf(low)), float(law.cdf(high))), law)
+
+
+def drawn(scatters: Sequence[Range | Scatter], leaves: Sequence[Leaf], cube: FloatArray) -> FloatArray:
+    """Values of the fields, a column each, at points of the unit cube."""
+    columns = zip(scatters, leaves, cube.T, strict=True)
+    return np.column_stack([cut(each, leaf).drawn(share) for each, leaf, share in columns])
+
+
+def unit_cube(method: Method, count: int, dimensions: int, seed: Any, place: str) -> FloatArray:
+    """Points of the unit cube; raises Unprocessable at `place` of the study, where the count is.
+
+    `seed` is a number, or a generator of NumPy.
+    """
+    from scipy.stats import qmc  # noqa: PLC0415  half a second that only random samples need
+
+    if method == "latin_hypercube":
+        return np.asarray(qmc.LatinHypercube(dimensions, rng=seed).random(count))
+    exponent = count.bit_length() - 1
+    if count != 1 << exponent:
+        raise Unprocessable("not_power_of_two", "a Sobol sample needs a power of two of points", place)
+    return np.asarray(qmc.Sobol(dimensions, rng=seed).random_base2(exponent))
 
 
 def usual_corners(request: Request) -> dict[str, Axis]:
@@ -196,8 +245,8 @@ def usual_corners(request: Request) -> dict[str, Axis]:
         paths = [path for name in each.names if (path := field_path(request, name))]
         rows = [[_shown(path, value) for path, value in zip(paths, row, strict=True)] for row in each.values]
         alone = len(paths) == 1
-        axis = Axis(path=paths[0], values=[own for (own,) in rows]) if alone else Axis(path=paths, values=rows)
-        axes[each.quantity] = axis
+        values = [row[0] for row in rows] if alone else rows
+        axes[each.quantity] = Axis(path=paths[0] if alone else paths, values=values)
     return axes
 
 

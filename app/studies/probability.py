@@ -6,16 +6,18 @@ independent: their scatter gives the error of every mean.
 """
 
 from collections.abc import Sequence
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
+from scipy.special import ndtr
+
+from solvers.arrays import FloatArray
 
 CONFIDENCE = 0.9  # of every bound, two-sided
 QUANTILES = (0.05, 0.5, 0.95)  # the median and the usual tails of 5 %
 MODERATE, HIGH = 0.1, 0.3  # AGMA 925-A03, classes of risk
 MOST_BINS = 40  # of a histogram that can be read
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
 Side = Literal["above", "below"]
 Risk = Literal["low", "moderate", "high"]
 
@@ -28,16 +30,14 @@ class Limit(NamedTuple):
     deviation: float
     output: str = ""
 
-    def exceeded(self, output: Array) -> Array:
+    def exceeded(self, output: FloatArray) -> FloatArray:
         """The probability that each value is beyond the limit; NaN where there is no value."""
-        from scipy.special import ndtr  # noqa: PLC0415  a third of a second that only studies need
-
         beyond = output - self.mean if self.side == "above" else self.mean - output
         if self.deviation > 0.0:
             return np.asarray(ndtr(beyond / self.deviation))
         return np.where(np.isnan(beyond), np.nan, beyond > 0.0)
 
-    def worst(self, outputs: Array) -> Array:
+    def worst(self, outputs: FloatArray) -> FloatArray:
         """The worst of the cases (the last axis) that have a solution; NaN where none has."""
         return np.asarray((np.fmax if self.side == "above" else np.fmin).reduce(outputs, axis=-1))
 
@@ -63,7 +63,7 @@ class Estimate(NamedTuple):
     risk: Risk
 
 
-def mean_over_replicates(values: Array) -> Mean:
+def mean_over_replicates(values: FloatArray) -> Mean:
     """The mean of `[replicate, draw]` without NaN."""
     from scipy.stats import t  # noqa: PLC0415  half a second that only studies need
 
@@ -76,7 +76,7 @@ def mean_over_replicates(values: Array) -> Mean:
     return Mean(value, error, (value - reach, value + reach))
 
 
-def of_spectrum(outputs: Array, limit: Limit) -> Estimate:
+def of_spectrum(outputs: FloatArray, limit: Limit) -> Estimate:
     """The probability that the worst case of a machine is beyond the limit."""
     good = np.nan_to_num(limit.exceeded(limit.worst(outputs)), nan=0.0)
     unsolved = np.isnan(outputs).any(axis=-1)
@@ -87,48 +87,39 @@ def of_spectrum(outputs: Array, limit: Limit) -> Estimate:
         bounds=(low.mean, high.mean),
         standard_error=max(errors, default=None),
         interval=None if low.interval is None or high.interval is None else (low.interval[0], high.interval[1]),
-        risk=risk(high.mean),
+        risk="low" if high.mean < MODERATE else "moderate" if high.mean <= HIGH else "high",
     )
 
 
-def of_case(outputs: Array, limit: Limit) -> Estimate:
+def of_case(outputs: FloatArray, limit: Limit) -> Estimate:
     """The probability of one case as if it were alone; `outputs` are `[replicate, draw]`."""
     return of_spectrum(outputs[..., np.newaxis], limit)
 
 
-def _chances(chances: Array, limit: Limit) -> Mean:
+def _chances(chances: FloatArray, limit: Limit) -> Mean:
     """The mean with its interval inside 0 to 1.
 
     Draws beyond a fixed limit are counted. Where fewer of them than replicates are beyond it, or within it, or all
-    replicates count the same, the scatter of the replicates says nothing: the interval is that of the count.
+    replicates count the same, the scatter of the replicates says nothing: the interval is Clopper and Pearson's of the
+    count, one-sided where none or all count, 1 - 0.1^(1/draws).
     """
+    from scipy.stats import binomtest  # noqa: PLC0415  half a second that only studies need
+
     found, draws = mean_over_replicates(chances), chances.size
     if limit.deviation == 0.0 and draws > 1:
         events = round(found.mean * draws)
         if min(events, draws - events) < len(chances) or not found.standard_error:
-            return found._replace(interval=_interval_of_count(events, draws))
+            side: Literal["less", "greater", "two-sided"]
+            side = "less" if events == 0 else "greater" if events == draws else "two-sided"
+            interval = binomtest(events, draws, alternative=side).proportion_ci(CONFIDENCE)
+            return found._replace(interval=(float(interval.low), float(interval.high)))
     if found.interval is None:
         return found
     low, high = found.interval
     return found._replace(interval=(max(low, 0.0), min(high, 1.0)))
 
 
-def _interval_of_count(events: int, draws: int) -> tuple[float, float]:
-    """Clopper and Pearson's 90 % interval of a share; one-sided where none or all count, 1 - 0.1^(1/draws)."""
-    from scipy.stats import binomtest  # noqa: PLC0415  half a second that only studies need
-
-    side: Literal["less", "greater", "two-sided"]
-    side = "less" if events == 0 else "greater" if events == draws else "two-sided"
-    interval = binomtest(events, draws, alternative=side).proportion_ci(CONFIDENCE)
-    return float(interval.low), float(interval.high)
-
-
-def risk(probability: float) -> Risk:
-    """The classes of AGMA 925-A03."""
-    return "low" if probability < MODERATE else "moderate" if probability <= HIGH else "high"
-
-
-def deciding(outputs: Array, limit: Limit) -> list[float] | None:
+def deciding(outputs: FloatArray, limit: Limit) -> list[float] | None:
     """How often each case is the worst, of draws solved in all cases; ties are shared. None without such draws."""
     solved = outputs[~np.isnan(outputs).any(axis=-1)]
     if not solved.size:
@@ -137,13 +128,19 @@ def deciding(outputs: Array, limit: Limit) -> list[float] | None:
     return [float(share) for share in (worst / worst.sum(axis=1, keepdims=True)).mean(axis=0)]
 
 
-def quantiles(values: Array) -> list[float] | None:
+def mean(values: FloatArray) -> float | None:
+    """The mean of all values there are."""
+    known = values[~np.isnan(values)]
+    return float(known.mean()) if known.size else None
+
+
+def quantiles(values: FloatArray) -> list[float] | None:
     """5, 50 and 95 % of all values there are."""
     known = values[~np.isnan(values)]
     return [float(each) for each in np.quantile(known, QUANTILES)] if known.size else None
 
 
-def weighted_mean(outputs: Array, shares: Sequence[float]) -> Mean | None:
+def weighted_mean(outputs: FloatArray, shares: Sequence[float]) -> Mean | None:
     """The mean over the cases by their shares, over the draws that are solved in all; None where a replicate has none.
 
     Replicates that lost draws are means over those that are left.
@@ -155,7 +152,7 @@ def weighted_mean(outputs: Array, shares: Sequence[float]) -> Mean | None:
     return mean_over_replicates(np.array([[each.mean()] for each in kept]))
 
 
-def histogram(values: Array) -> tuple[list[float], list[float]]:
+def histogram(values: FloatArray) -> tuple[list[float], list[float]]:
     """Edges and probability density of all values there are; nothing where they are all the same."""
     known = values[~np.isnan(values)]
     if known.size < 2 or not np.ptp(known) > 0.0:
@@ -168,7 +165,7 @@ def histogram(values: Array) -> tuple[list[float], list[float]]:
     return edges.tolist(), density.tolist()
 
 
-def rank_correlation(x: Array, y: Array) -> float | None:
+def rank_correlation(x: FloatArray, y: FloatArray) -> float | None:
     """Spearman's coefficient; none of fewer than three points, or where either does not vary."""
     from scipy.stats import spearmanr  # noqa: PLC0415  half a second that only studies need
 

@@ -2,7 +2,6 @@
 
 import json
 import re
-from collections.abc import Sequence
 from importlib.resources import files
 from typing import Annotated, Any, ClassVar, Literal, Self
 
@@ -45,25 +44,17 @@ def _scalars(value: Any) -> Any:
 Scalar = bool | int | float | str | None
 _PATH_SCHEMA: dict[str, Any] = {"type": "string", "pattern": f"^{_PATH.pattern}$"}
 _PATHS_SCHEMA = {"type": "array", "items": _PATH_SCHEMA, "minItems": 1, "maxItems": MOST_FIELDS_TOGETHER}
-_SCALAR_SCHEMA = {
-    "anyOf": [
-        {"type": "number", "minimum": -LARGEST, "maximum": LARGEST},
-        {"type": "string"},
-        {"type": "boolean"},
-        {"type": "null"},
-    ]
-}
+_NUMBER_SCHEMA = {"type": "number", "minimum": -LARGEST, "maximum": LARGEST}
+_SCALAR_SCHEMA = {"anyOf": [_NUMBER_SCHEMA, {"type": "string"}, {"type": "boolean"}, {"type": "null"}]}
+_SCALARS_SCHEMA = {"anyOf": [*_SCALAR_SCHEMA["anyOf"], {"type": "array", "items": _SCALAR_SCHEMA}]}
 
 # One validator for each alternative, so that an error points at the value and not at one of its types.
 FieldPath = Annotated[Any, AfterValidator(_field_path), WithJsonSchema(_PATH_SCHEMA)]
 FieldPaths = Annotated[Any, AfterValidator(_field_paths), WithJsonSchema({"anyOf": [_PATH_SCHEMA, _PATHS_SCHEMA]})]
 Value = Annotated[Any, AfterValidator(_scalar), WithJsonSchema(_SCALAR_SCHEMA)]
-Values = Annotated[
-    Any,
-    AfterValidator(_scalars),
-    WithJsonSchema({"anyOf": [*_SCALAR_SCHEMA["anyOf"], {"type": "array", "items": _SCALAR_SCHEMA}]}),
-]
+Values = Annotated[Any, AfterValidator(_scalars), WithJsonSchema(_SCALARS_SCHEMA)]
 Overrides = dict[str, Scalar]
+Cases = Annotated[list[dict[str, Value]] | None, Field(min_length=1)]
 
 
 class Part(BaseModel):
@@ -75,8 +66,8 @@ class Part(BaseModel):
     @model_validator(mode="after")
     def one_is_given(self) -> Self:
         """Refuse none and several of the fields that exclude each other."""
-        *names, last = self.exactly_one or ("",)
-        if names and sum(getattr(self, name) is not None for name in self.exactly_one) != 1:
+        if self.exactly_one and sum(getattr(self, name) is not None for name in self.exactly_one) != 1:
+            *names, last = self.exactly_one
             known = ", ".join(names)
             raise PydanticCustomError(f"{'_'.join(names)}_or_{last}", f"Give exactly one of {known} and {last}")
         return self
@@ -179,11 +170,6 @@ class Sample(Part):
     ] = None
     inputs: Annotated[Inputs | None, Input("distributions", text="the fields and their distributions")] = None
 
-    @property
-    def scatters(self) -> tuple[str, Sequence[Range | Scatter]]:
-        """The name of the list that is given, and the list."""
-        return ("ranges", self.ranges) if self.ranges is not None else ("inputs", self.inputs or ())
-
 
 class Bound(Part):
     """A limit on one output."""
@@ -218,7 +204,6 @@ FromIndex = Annotated[
     ),
 ]
 
-
 Outputs = Annotated[
     list[FieldPath] | None,
     Field(min_length=1, max_length=100),
@@ -241,9 +226,7 @@ class SweepRequest(StudyRequest):
 
     exactly_one = ("vary", "cases", "sample")
     vary: Annotated[list[Axis] | None, Field(min_length=1, max_length=3), Input("axes of a grid")] = None
-    cases: Annotated[
-        list[dict[str, Value]] | None, Field(min_length=1), Input("cases", text="what each case changes")
-    ] = None
+    cases: Annotated[Cases, Input("cases", text="what each case changes")] = None
     sample: Annotated[Sample | None, Input("random sample")] = None
     best: Annotated[Best | None, Input("best point", text="which point to pick at the end")] = None
     from_index: FromIndex = 0
@@ -265,8 +248,7 @@ class Tolerances(Part):
     method: Annotated[Method, METHOD] = "sobol"
     count: Annotated[int, COUNT] = 128
     replicates: Annotated[
-        int,
-        Input("replicates", text="independent samples; the scatter of their means is the error", ge=1, le=1000),
+        int, Input("replicates", text="independent samples; the scatter of their means is the error", ge=1, le=1000)
     ] = 8
     seed: Seed = 1
     inputs: Annotated[Inputs, Input("distributions", text="the fields and their distributions")]
@@ -332,6 +314,7 @@ class SensitivityRequest(StudyRequest):
 
 
 DRIVE_TRAIN = "/v1/drive-train"
+Ranges = Annotated[list[Axis] | None, Field(max_length=20)]
 _RANGES = "what each uncertain field, or several together, may be; every combination is a corner"
 USUAL_RANGES = (
     "wall response, clearances of a shaft's plain bearings against each other, friction, direction of the offset and "
@@ -350,9 +333,7 @@ class DriveTrainStudy(Part):
 class CornersRequest(DriveTrainStudy):
     """A gear unit at every combination of its uncertain inputs."""
 
-    ranges: Annotated[
-        list[Axis] | None, Field(max_length=20), Input("ranges", text=_RANGES, default_text=USUAL_RANGES)
-    ] = None
+    ranges: Annotated[Ranges, Input("ranges", text=_RANGES, default_text=USUAL_RANGES)] = None
     outputs: Outputs = None
     from_index: FromIndex = 0
 
@@ -373,13 +354,9 @@ class DesignRequest(DriveTrainStudy):
     """The flank correction whose worst corner is best."""
 
     variables: Annotated[list[Variable], Field(min_length=1, max_length=10), Input("variables")]
-    corners: Annotated[
-        list[Axis] | None, Field(max_length=20), Input("corners", text=_RANGES, default_text="the request's own")
-    ] = None
+    corners: Annotated[Ranges, Input("corners", text=_RANGES, default_text="the request's own")] = None
     collective: Annotated[
-        list[dict[str, Value]] | None,
-        Field(min_length=1),
-        Input("collective", text="operating points, as what each changes", default_text="the request's own"),
+        Cases, Input("collective", text="operating points, as what each changes", default_text="the request's own")
     ] = None
     objective: Annotated[
         FieldPath, Input("objective", text="dotted path of the output that its worst corner judges")

@@ -11,11 +11,10 @@ from typing import Any
 
 from app.errors import Unprocessable
 from app.schema.fields import ITEM, Leaf, leaves
-from app.schema.reading import validated
-from app.studies.base_request import BaseRequest, check_count, check_distinct
-from app.studies.engine import Clock, Line, Lines, Pool, Study, case_of_study, output_header, paths_of
+from app.studies import engine
+from app.studies.engine import Clock, Line, Lines, Pool, Study, output_header, paths_of
 from app.studies.fields import NUMBERS, fault, scalar_at, value_at
-from app.studies.points import Point
+from app.studies.points import BaseRequest, Point, check_count, check_distinct
 from app.studies.requests import Overrides, SensitivityRequest
 
 PATH = "/v1/sensitivity"
@@ -57,68 +56,52 @@ def perturbation(leaf: Leaf, value: float) -> Perturbation:
     return Perturbation(leaf, value, KELVIN_STEP if leaf.unit == "°C" else RELATIVE_STEP * abs(value))
 
 
-@dataclass(frozen=True, slots=True)
-class Differences:
-    """Values of an output by the value of an input; None where there is no answer."""
+def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line:
+    """What an output does where one input is moved.
 
-    input: Perturbation
-    outputs: dict[float, float | None]
+    Parameters
+    ----------
+    moved
+        The input.
+    outputs
+        The output by the value of the input; None where there is no answer.
 
-    @property
-    def base(self) -> float | None:
-        """The output of the case itself."""
-        return self.outputs[self.input.value]
+    Returns
+    -------
+    The derivative [output per input], central where both sides have answers, else one-sided; `elasticity`, per cent of
+    the output for a per cent of the input, none at zero and for a temperature in degrees; the step; `change` by one
+    step upwards, from the side where it is larger; `kink`: the slopes of both sides differ by more than a tenth, None
+    where one is missing; `curved`: half the step gives a derivative that differs by more than a tenth, None where it is
+    not checked.
 
-    @property
-    def derivative(self) -> float | None:
-        """Central where both sides have answers, else one-sided [output per input]."""
-        return self._slope(-self.input.step, self.input.step)
+    """
+    base, step, half = outputs[moved.value], moved.step, moved.half
 
-    @property
-    def elasticity(self) -> float | None:
-        """Per cent of the output for a per cent of the input; none at zero and for a temperature in degrees."""
-        derivative, moved = self.derivative, self.input
-        if derivative is None or not self.base or not moved.value or moved.leaf.unit == "°C":
-            return None
-        return derivative * moved.value / self.base
-
-    @property
-    def change(self) -> float | None:
-        """Change of the output by one step upwards, from the side where it is larger."""
-        steps = [slope * self.input.step for slope in self._sides() if slope is not None]
-        return max(steps, key=abs, default=None)
-
-    @property
-    def kink(self) -> bool | None:
-        """Whether the slopes of both sides differ by more than a tenth; None where one is missing."""
-        return self._disagree(*self._sides())
-
-    @property
-    def curved(self) -> bool | None:
-        """Whether half the step gives a derivative that differs by more than a tenth; None where it is not checked."""
-        half = self.input.half
-        return None if half is None else self._disagree(self.derivative, self._slope(-half, half))
-
-    def _sides(self) -> tuple[float | None, float | None]:
-        return self._slope(-self.input.step, 0), self._slope(0, self.input.step)
-
-    def _slope(self, below: float, above: float) -> float | None:
+    def slope(below: float, above: float) -> float | None:
         """Difference quotient between two steps; from the base to the other side where one has no answer."""
-        at = self.input.value
-        known = [
-            (place, value) for step in (below, 0, above) if (value := self.outputs.get(place := at + step)) is not None
-        ]
-        if self.base is None or known[0][0] == known[-1][0]:
+        places = [moved.value + each for each in (below, 0, above)]
+        known = [(place, value) for place in places if (value := outputs.get(place)) is not None]
+        if base is None or known[0][0] == known[-1][0]:
             return None
         return (known[-1][1] - known[0][1]) / (known[-1][0] - known[0][0])
 
-    def _disagree(self, one: float | None, other: float | None) -> bool | None:
-        if one is None or other is None or self.base is None:
+    def disagree(one: float | None, other: float | None) -> bool | None:
+        if one is None or other is None or base is None:
             return None
         largest = max(abs(one), abs(other))
-        if largest * self.input.step <= NOISE * abs(self.base):
-            return False
-        return abs(one - other) > DISAGREEMENT * largest
+        return largest * step > NOISE * abs(base) and abs(one - other) > DISAGREEMENT * largest
+
+    derivative, elasticity, sides = slope(-step, step), None, (slope(-step, 0), slope(0, step))
+    if derivative is not None and base and moved.value and moved.leaf.unit != "°C":
+        elasticity = derivative * moved.value / base
+    return {
+        "derivative": derivative,
+        "elasticity": elasticity,
+        "step": step,
+        "change": max((each * step for each in sides if each is not None), key=abs, default=None),
+        "kink": disagree(*sides),
+        "curved": None if half is None else disagree(derivative, slope(-half, half)),
+    }
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -130,49 +113,21 @@ class Sensitivity(Study):
     @property
     def total(self) -> int:
         """How many points it has."""
-        return len(self._points())
+        return 1 + sum(len(each.places) for each in self.perturbations)
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
         """A line for each output and input, the most influential input of an output first; then the end."""
-        overrides, points = self._points(), list[Point]()
-        async for _, found in self.solve(pool, clock, overrides.__getitem__, range(len(overrides))):
+        moved: list[Overrides] = [{each.leaf.path: place} for each in self.perturbations for place in each.places]
+        overrides, points = [{}, *moved], list[Point]()
+        async for _, found in engine.in_order(pool, self.question, overrides.__getitem__, range(self.total), clock):
             points += found
         yield [line for column in range(len(self.outputs)) for line in self._ranked(column, points)]
-        yield [self._end(points, clock)]
-
-    def _points(self) -> list[Overrides]:
-        moved: list[Overrides] = [{each.leaf.path: place} for each in self.perturbations for place in each.places]
-        return [{}, *moved]
-
-    def _ranked(self, column: int, points: list[Point]) -> Iterator[Line]:
-        """The lines of one output."""
-        base, *moved = (_number(point.out[column]) for point in points)
-        rest = iter(moved)
-        found = [
-            Differences(each, {each.value: base, **{place: next(rest) for place in each.places}})
-            for each in self.perturbations
-        ]
-        for each in sorted(found, key=lambda differences: -abs(differences.change or 0.0)):
-            yield {
-                "type": "sensitivity",
-                "output": self.outputs[column].path,
-                "path": each.input.leaf.path,
-                "derivative": each.derivative,
-                "elasticity": each.elasticity,
-                "step": each.input.step,
-                "change": each.change,
-                "kink": each.kink,
-                "curved": each.curved,
-            }
-
-    def _end(self, points: list[Point], clock: Clock) -> Line:
         base = points[0]
-        line = self.header(
+        outputs = zip(self.outputs, base.out, strict=True)
+        end = self.header(
             "end",
             inputs=[{**output_header(each.leaf), "value": each.value} for each in self.perturbations],
-            outputs=[
-                {**output_header(leaf), "value": value} for leaf, value in zip(self.outputs, base.out, strict=True)
-            ],
+            outputs=[{**output_header(leaf), "value": value} for leaf, value in outputs],
             points=len(points),
             counts=dict(sorted(Counter(point.status for point in points).items())),
             status=base.status,
@@ -180,7 +135,18 @@ class Sensitivity(Study):
             error=base.error,
             assumptions=base.assumptions,
         )
-        return {**line, "elapsed_s": clock.elapsed_s}
+        yield [{**end, "elapsed_s": clock.elapsed_s}]
+
+    def _ranked(self, column: int, points: list[Point]) -> Iterator[Line]:
+        """The lines of one output."""
+        base, *moved = (_number(point.out[column]) for point in points)
+        rest = iter(moved)
+        found = []
+        for each in self.perturbations:
+            outputs = {each.value: base, **{place: next(rest) for place in each.places}}
+            found.append({"path": each.leaf.path, **differences(each, outputs)})
+        for line in sorted(found, key=lambda line: -abs(line["change"] or 0.0)):
+            yield {"type": "sensitivity", "output": self.outputs[column].path, **line}
 
 
 def _number(value: Any) -> float | None:
@@ -188,22 +154,14 @@ def _number(value: Any) -> float | None:
 
 
 def sensitivity_study(content: Any, most: int, deadline_s: float) -> Sensitivity:
-    """The sensitivity in a body, of at most `most` points; runs in a worker.
-
-    `content` is the body as JSON's objects, or validated. Raises InvalidBody and Unprocessable, with locations in it.
-    """
-    request = validated(SensitivityRequest, content)
-    base = BaseRequest.of(request)
+    """The sensitivity in a body."""
+    request, base = engine.asked(SensitivityRequest, content)
     outputs = base.outputs(request.outputs)
     case = base.checked({}).model_dump()
     inputs = _every_number(base, case) if request.inputs is None else _named(base, case, request.inputs)
     perturbations = [each for leaf in inputs if (each := perturbation(leaf, value_at(case, leaf.path))).places]
-    study = Sensitivity(
-        question=base.question(paths_of(outputs), deadline_s, reduced=True),
-        outputs=outputs,
-        case=case_of_study(PATH, request),
-        perturbations=perturbations,
-    )
+    question = base.question(paths_of(outputs), deadline_s)
+    study = Sensitivity(question, outputs, engine.case_of_study(PATH, request), perturbations=perturbations)
     check_count(study.total, most, "inputs")
     return study
 
@@ -231,9 +189,8 @@ def places(path: str, case: dict[str, Any]) -> list[str]:
 def _named(base: BaseRequest, case: dict[str, Any], paths: list[str]) -> list[Leaf]:
     """The numbers at these paths; raises Unprocessable."""
     check_distinct(paths, "inputs", numbered=True)
-    named = [
-        scalar_at(base.calculation.request, path, f"inputs.{place}", "unknown_path") for place, path in enumerate(paths)
-    ]
+    model = base.calculation.request
+    named = [scalar_at(model, path, f"inputs.{place}", "unknown_path") for place, path in enumerate(paths)]
     for place, leaf in enumerate(named):
         if leaf.kind not in NUMBERS or value_at(case, leaf.path) is None:
             raise Unprocessable("not_scalar", f"{leaf.path} has no number in this case", f"inputs.{place}")

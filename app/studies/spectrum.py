@@ -9,18 +9,14 @@ import numpy as np
 
 from app.errors import Unprocessable
 from app.schema.fields import Leaf
-from app.schema.reading import validated
-from app.studies import probability
-from app.studies.base_request import BaseRequest
-from app.studies.distributions import anchors, cut, drawn, unit_cube
-from app.studies.engine import Clock, Line, Lines, Pool, Study, case_of_study, output_header, paths_of, twice_if_lost
+from app.studies import engine, probability
+from app.studies.engine import Clock, Line, Lines, Pool, Study, output_header, paths_of
 from app.studies.fields import NUMBERS
-from app.studies.point_sets import check_case, scattering
-from app.studies.points import SOLVED, Point, Question, solve_point
-from app.studies.probability import Array, Limit
+from app.studies.point_sets import anchors, cut, drawn, fields_set, scattering, unit_cube
+from app.studies.points import SOLVED, BaseRequest, Question, solve_point
+from app.studies.probability import Limit
 from app.studies.requests import DRIVE_TRAIN, LoadCase, Overrides, SpectrumLimit, SpectrumRequest, Tolerances
-from app.studies.stream import point_line
-from app.studies.summary import Tally
+from solvers.arrays import FloatArray
 
 PATH = "/v1/spectrum"
 PROGRESS_S = 0.5  # between two lines that say how far a spectrum has come
@@ -37,10 +33,7 @@ RARE_NOTE = (
     "a probability below 0.5 %: the means of the replicates are skewed, and a 90 % interval covers less, about 80 % at "
     "0.1 % with 128 machines in each of 8 replicates; draw more machines"
 )
-
 NOT_USED = "not used"  # how the reason of an assumption begins whose value changes nothing
-
-NO_MEAN = {"mean": None, "standard_error": None, "interval": None}
 
 
 class Scuffing(NamedTuple):
@@ -56,13 +49,12 @@ SCUFFING = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Scattering:
+class Scattering(NamedTuple):
     """The machines of a study: values of the fields that scatter, a row a machine, replicate after replicate."""
 
     asked: Tolerances
-    leaves: list[Leaf]
-    values: Array
+    leaves: tuple[Leaf, ...]
+    values: FloatArray
 
     def header(self) -> Line:
         """How the machines are drawn, and what share of each distribution is cut off."""
@@ -72,14 +64,10 @@ class Scattering:
         ]
         return {**self.asked.model_dump(), "inputs": inputs}
 
-    def machine(self, draw: int) -> Overrides:
-        """What a machine has in place of the nominal values."""
-        return dict(zip(paths_of(self.leaves), self.values[draw].tolist(), strict=True))
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Spectrum(Study):
-    """A machine, drawn `draws` times, over its cases; the points are every case of the first machine, then the next.
+    """The drawn machines over their cases; the points are every case of the first machine, then of the next.
 
     Where no limits are given, the columns behind the outputs hold the scuffing temperature.
     """
@@ -91,25 +79,17 @@ class Spectrum(Study):
     points: bool
 
     @property
-    def replicates(self) -> int:
-        """How many independent samples there are."""
-        return self.scattering.asked.replicates if self.scattering else 1
-
-    @property
-    def draws(self) -> int:
-        """How many machines run the spectrum."""
-        return len(self.scattering.values) if self.scattering else 1
-
-    @property
     def total(self) -> int:
         """How many points it has."""
-        return self.draws * len(self.cases)
+        return (len(self.scattering.values) if self.scattering else 1) * len(self.cases)
 
     def overrides(self, index: int) -> Overrides:
         """What a point changes in the base request: the values of the machine, and those of the case."""
         draw, case = divmod(index, len(self.cases))
-        machine = self.scattering.machine(draw) if self.scattering else {}
-        return {**machine, **self.cases[case].set}
+        machine: Overrides = {}
+        if self.scattering:
+            machine = dict(zip(paths_of(self.scattering.leaves), self.scattering.values[draw].tolist(), strict=True))
+        return machine | self.cases[case].set
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
         """The header, the points if they are asked for, how far it has come, the end."""
@@ -122,28 +102,34 @@ class Spectrum(Study):
                 total=self.total,
             )
         ]
-        tally, due = Tally(len(self.question.outputs)), PROGRESS_S
-        async for indices, points in self.solve(pool, clock, self.overrides, range(self.total)):
-            for point in points:
+        tally, due = engine.Tally(self.question.outputs), PROGRESS_S
+        async for indices, points in engine.in_order(pool, self.question, self.overrides, range(self.total), clock):
+            lines: list[Line] = []
+            for index, point in zip(indices, points, strict=True):
                 tally.add(point)
                 tally.keep(point.out if point.status in SOLVED else [None] * len(point.out))
-            lines = [self._line(*each) for each in zip(indices, points, strict=True)] if self.points else []
+                if self.points:
+                    draw, case = divmod(index, len(self.cases))
+                    shown = point._replace(out=point.out[: len(self.outputs)])
+                    lines.append({**engine.point_line(index, self.overrides(index), shown), "draw": draw, "case": case})
             if clock.elapsed_s >= due:
                 lines.append(clock.line())
                 due = clock.elapsed_s + PROGRESS_S
             yield lines
-        values = tally.values.reshape(self.replicates, -1, len(self.cases), len(self.question.outputs))
-        statistics = await twice_if_lost(pool, evaluated, self, values)
+        replicates = self.scattering.asked.replicates if self.scattering else 1
+        values = tally.values.reshape(replicates, -1, len(self.cases), len(self.question.outputs))
+        statistics = await engine.twice_if_lost(pool, evaluated, self, values)
+        assumptions = list(tally.assumptions.values())
         yield [
             {
                 "type": "end",
                 **statistics,
-                "notes": [*statistics["notes"], *self._ignored(tally.assumptions)],
+                "notes": [*statistics["notes"], *self._ignored(assumptions)],
                 "points": self.total,
                 "counts": dict(sorted(tally.counts.items())),
                 "errors": dict(sorted(tally.errors.items())),
                 "warnings": dict(sorted(tally.warnings.items())),
-                "assumptions": [*statistics["assumptions"], *tally.assumptions],
+                "assumptions": [*statistics["assumptions"], *assumptions],
                 "elapsed_s": clock.elapsed_s,
             }
         ]
@@ -154,13 +140,8 @@ class Spectrum(Study):
         found = {each["field"]: each["reason"] for each in assumptions if each["reason"].startswith(NOT_USED)}
         return [f"{path} scatters without effect; {found[path]}" for path in drawn if path in found]
 
-    def _line(self, index: int, point: Point) -> Line:
-        draw, case = divmod(index, len(self.cases))
-        own = point._replace(out=point.out[: len(self.outputs)])
-        return {**point_line(index, self.overrides(index), own), "draw": draw, "case": case}
 
-
-def evaluated(study: Spectrum, values: Array) -> Line:
+def evaluated(study: Spectrum, values: FloatArray) -> Line:
     """The content of the last line, from the outputs `[replicate, draw, case, output]`; runs in a worker."""
     columns = {path: values[..., place] for place, path in enumerate(study.question.outputs)}
     limits, assumptions, notes = _limits(study, columns)
@@ -174,7 +155,7 @@ def evaluated(study: Spectrum, values: Array) -> Line:
                 "name": case.name,
                 "share": case.share,
                 "unsolved": float(np.isnan(values[:, :, place]).all(axis=-1).mean()),
-                "means": {path: _mean(column[..., place]) for path, column in shown.items()},
+                "means": {path: probability.mean(column[..., place]) for path, column in shown.items()},
                 "quantiles": {path: probability.quantiles(column[..., place]) for path, column in shown.items()},
                 "limits": [probability.of_case(columns[each.output][..., place], each)._asdict() for each in limits],
             }
@@ -187,7 +168,7 @@ def evaluated(study: Spectrum, values: Array) -> Line:
     }
 
 
-def _limits(study: Spectrum, columns: dict[str, Array]) -> tuple[list[Limit], list[Line], list[str]]:
+def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit], list[Line], list[str]]:
     """The limits used, the assumption where the default limit is used, and notes."""
     if study.limits is not None:
         return study.limits, [], []
@@ -207,7 +188,7 @@ def _limits(study: Spectrum, columns: dict[str, Array]) -> tuple[list[Limit], li
     return [limit], [assumption], [note] if varies else []
 
 
-def _of_limit(study: Spectrum, limit: Limit, outputs: Array) -> Line:
+def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
     """The probability over the spectrum, how often each case is the worst, the correlation with each tolerance."""
     worst = limit.worst(outputs)
     edges, density = probability.histogram(worst)
@@ -232,42 +213,28 @@ def _of_limit(study: Spectrum, limit: Limit, outputs: Array) -> Line:
     }
 
 
-def _of_output(study: Spectrum, leaf: Leaf, column: Array) -> Line:
+def _of_output(study: Spectrum, leaf: Leaf, column: FloatArray) -> Line:
     """Mean of an output over the spectrum, the energy per year of a power, and the extremes."""
     mean = probability.weighted_mean(column, [case.share or 0.0 for case in study.cases])
-    content: Line = mean._asdict() if mean else dict(NO_MEAN)
+    content: Line = mean._asdict() if mean else {"mean": None, "standard_error": None, "interval": None}
     scale = KILOWATTS.get(leaf.unit or "")
     if mean is not None and scale is not None and study.hours_per_year is not None:
         content["energy_kwh_per_year"] = mean.mean * scale * study.hours_per_year
-    known = not np.isnan(column).all()
-    for end, place_of in (("min", np.nanargmin), ("max", np.nanargmax)):
-        content[end] = None
-        if known:
-            index = int(place_of(column))
-            draw, case = divmod(index, len(study.cases))
-            value = float(column.flat[index])
-            content[end] = {"value": value, "case": case, "draw": draw, "at": study.overrides(index)}
+    if np.isnan(column).all():
+        return {**content, "min": None, "max": None}
+    for end, index in {"min": int(np.nanargmin(column)), "max": int(np.nanargmax(column))}.items():
+        draw, case = divmod(index, len(study.cases))
+        content[end] = {"value": float(column.flat[index]), "case": case, "draw": draw, "at": study.overrides(index)}
     return content
 
 
-def _mean(values: Array) -> float | None:
-    known = values[~np.isnan(values)]
-    return float(known.mean()) if known.size else None
-
-
 def spectrum_study(content: Any, most: int, deadline_s: float) -> Spectrum:
-    """The spectrum in a body, of at most `most` points; runs in a worker.
-
-    `content` is the body as JSON's objects, or validated. Raises InvalidBody and Unprocessable, with locations in it.
-    """
-    request = validated(SpectrumRequest, content)
-    base = BaseRequest.of(request)
+    """The spectrum in a body."""
+    request, base = engine.asked(SpectrumRequest, content)
     outputs = _outputs(base, request)
-    known: dict[str, Leaf] = {}
-    for place, case in enumerate(request.cases):
-        check_case(case.set, base, f"cases.{place}.set", known)
+    known = fields_set([case.set for case in request.cases], base, "cases.{}.set")
     tolerances = request.tolerances
-    leaves = scattering(tolerances.inputs, base, "tolerances.inputs") if tolerances else []
+    leaves = scattering(tolerances.inputs, base, "tolerances.inputs") if tolerances else ()
     for place, leaf in enumerate(leaves):
         if leaf.path in known:
             message = f"{leaf.path} has a value in a case; a field either scatters or is set"
@@ -275,20 +242,18 @@ def spectrum_study(content: Any, most: int, deadline_s: float) -> Spectrum:
     wanted, assumed = paths_of(outputs), SCUFFING.get(base.calculation.path)
     if request.limits is None and assumed:
         wanted = list(dict.fromkeys([*wanted, *assumed]))
-    question = base.question(wanted, deadline_s, reduced=True)
+    question = base.question(wanted, deadline_s)
     typical = {each.path: next(iter(anchors(each).values())) for each in tolerances.inputs} if tolerances else {}
     for case in request.cases:
         base.checked({**typical, **case.set})
     total = len(request.cases) * (tolerances.count * tolerances.replicates if tolerances else 1)
     if total > most:
-        where = "tolerances.count" if tolerances else "cases"
-        raise Unprocessable(
-            "too_many_points", _too_many(question, {**typical, **request.cases[0].set}, total, most), where
-        )
+        message = _too_many(question, {**typical, **request.cases[0].set}, total, most)
+        raise Unprocessable("too_many_points", message, "tolerances.count" if tolerances else "cases")
     return Spectrum(
-        question=question,
-        outputs=outputs,
-        case=case_of_study(PATH, request),
+        question,
+        outputs,
+        engine.case_of_study(PATH, request),
         cases=_with_shares(request.cases),
         scattering=Scattering(tolerances, leaves, _machines(tolerances, leaves)) if tolerances else None,
         limits=None if request.limits is None and assumed else [_limit(each) for each in request.limits or ()],
@@ -338,7 +303,7 @@ def _with_shares(cases: Sequence[LoadCase]) -> list[LoadCase]:
     ]
 
 
-def _machines(tolerances: Tolerances, leaves: Sequence[Leaf]) -> Array:
+def _machines(tolerances: Tolerances, leaves: Sequence[Leaf]) -> FloatArray:
     """The values that scatter, a row a machine; each replicate is a random sample of its own."""
     seeds = np.random.SeedSequence(tolerances.seed).spawn(tolerances.replicates)
     cubes = [

@@ -32,10 +32,9 @@ from app.pages.study_links import STUDIES, StudyExample
 from app.pages.views import Asked
 from app.schema.fields import leaf_at, leaves
 from app.sources import SHORT_SOURCES
-from app.studies.engine import Line
+from app.studies.engine import Line, point_line
 from app.studies.point_sets import PointSet
 from app.studies.points import Question, solve_point
-from app.studies.stream import point_line
 from app.studies.sweep import Sweep
 from tests.support.pages import asked
 

@@ -13,14 +13,11 @@ from app.calculations import BY_PATH
 from app.errors import InvalidBody, Unprocessable, faults_of
 from app.evaluate import evaluate
 from app.examples import examples
-from app.studies.base_request import reduced_request
-from app.studies.design import design_study
-from app.studies.engine import Clock, Pool
+from app.studies.design import design_study, next_place, search
+from app.studies.engine import Clock, Pool, encoded, guarded, json_line
 from app.studies.fields import value_at
-from app.studies.minimax import next_place, search
-from app.studies.points import with_overrides
+from app.studies.points import reduced_request, with_overrides
 from app.studies.requests import DRIVE_TRAIN
-from app.studies.stream import encoded, guarded, json_line
 from app.studies.sweep import corners_study, sweep_study
 from solvers.arrays import FloatArray
 from solvers.errors import NoSolution

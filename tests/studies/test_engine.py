@@ -6,7 +6,7 @@ from contextlib import aclosing
 import pytest
 
 from app.errors import DeadlineExceeded, WorkerLost
-from app.studies.engine import CHUNKS_PER_SLOT, PoolLost, in_order
+from app.studies.engine import CHUNKS_PER_SLOT, Clock, PoolLost, in_order
 from app.studies.points import CHUNK_SECONDS, Point
 from tests.support.pools import QUESTION, ScriptedPool, at
 
@@ -16,7 +16,7 @@ def solved(pool: ScriptedPool, total: int) -> list[tuple[int, Point]]:
 
     async def run() -> list[tuple[int, Point]]:
         found: list[tuple[int, Point]] = []
-        async for indices, points in in_order(pool, QUESTION, at, range(total)):
+        async for indices, points in in_order(pool, QUESTION, at, range(total), Clock(total)):
             found += zip(indices, points, strict=True)
         return found
 
@@ -61,8 +61,9 @@ def test_no_more_is_begun_than_the_processes_need() -> None:
     pool = ScriptedPool(slots=3, holds=[0])
 
     async def run() -> None:
+        points = in_order(pool, QUESTION, at, range(1000), Clock(1000))
         with pytest.raises(TimeoutError):
-            async with asyncio.timeout(0.05), aclosing(in_order(pool, QUESTION, at, range(1000))) as points:
+            async with asyncio.timeout(0.05), aclosing(points):
                 await anext(points)
 
     asyncio.run(run())
@@ -101,7 +102,7 @@ def test_leaving_takes_back_what_has_not_begun() -> None:
     pool = ScriptedPool(slots=2, holds=range(3, 1000))
 
     async def run() -> None:
-        async with aclosing(in_order(pool, QUESTION, at, range(1000))) as points:
+        async with aclosing(in_order(pool, QUESTION, at, range(1000), Clock(1000))) as points:
             assert (await anext(points))[0] == range(1)
             assert (await anext(points))[0] == range(1, 2)
 
@@ -114,7 +115,7 @@ def test_cancelling_while_waiting_takes_everything_back() -> None:
     pool = ScriptedPool(slots=2, holds=range(1000))
 
     async def run() -> None:
-        points = in_order(pool, QUESTION, at, range(1000))
+        points = in_order(pool, QUESTION, at, range(1000), Clock(1000))
         waiting = asyncio.ensure_future(anext(points, None))
         await asyncio.sleep(0)
         waiting.cancel()

@@ -9,7 +9,7 @@ from scipy.stats import binom, norm
 
 from app.schema.fields import Leaf
 from app.schema.quantities import Input
-from app.studies.distributions import cut, drawn
+from app.studies.point_sets import cut, drawn
 from app.studies.probability import (
     Limit,
     Side,

@@ -10,10 +10,9 @@ import pytest
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.examples import examples
 from app.schema.fields import Leaf, leaf_at, leaves
-from app.studies.engine import Clock
+from app.studies.engine import Clock, encoded, guarded, json_line
 from app.studies.fields import fault
-from app.studies.sensitivity import Differences, perturbation, sensitivity_study
-from app.studies.stream import encoded, guarded, json_line
+from app.studies.sensitivity import Perturbation, differences, perturbation, sensitivity_study
 from app.studies.sweep import sweep_study
 from tests.support.pools import InlinePool
 
@@ -164,11 +163,13 @@ def test_every_number_that_may_be_zero_has_a_tolerance(calculation: Calculation)
             assert each.declared.tolerance, each.path
 
 
-def differences(
-    base: float | None, below: float | None, above: float | None, value: float = 10.0, **changes: Any
-) -> Differences:
-    moved = perturbation(leaf(**{"tolerance": 1.0, **changes}), value)
-    return Differences(moved, {value - moved.step: below, value: base, value + moved.step: above})
+Moved = tuple[Perturbation, dict[float, float | None]]
+
+
+def moved(base: float | None, below: float | None, above: float | None, value: float = 10.0, **changes: Any) -> Moved:
+    """An input, and an output at it, below and above."""
+    found = perturbation(leaf(**{"tolerance": 1.0, **changes}), value)
+    return found, {value - found.step: below, value: base, value + found.step: above}
 
 
 @pytest.mark.parametrize(
@@ -184,10 +185,9 @@ def differences(
 def test_a_derivative_that_half_the_step_does_not_confirm_is_curved(
     half: tuple[float | None, float | None], curved: bool | None
 ) -> None:
-    whole = differences(100.0, 90.0, 110.0)
-    found = replace(whole, outputs=whole.outputs | dict(zip((9.5, 10.5), half, strict=True)))
-    assert found.curved is curved
-    assert differences(100.0, 90.0, 110.0, tolerance=None).curved is None
+    whole, outputs = moved(100.0, 90.0, 110.0)
+    assert differences(whole, outputs | dict(zip((9.5, 10.5), half, strict=True)))["curved"] is curved
+    assert differences(*moved(100.0, 90.0, 110.0, tolerance=None))["curved"] is None
 
 
 @pytest.mark.parametrize(
@@ -213,18 +213,16 @@ def test_differences(
     change: float | None,
     kink: bool | None,
 ) -> None:
-    found = differences(*values)
-    for got, expected in zip(
-        (found.derivative, found.elasticity, found.change), (derivative, elasticity, change), strict=True
-    ):
-        assert got is None if expected is None else got == pytest.approx(expected, rel=1e-6, abs=1e-12)
-    assert found.kink is kink
+    found = differences(*moved(*values))
+    for name, expected in {"derivative": derivative, "elasticity": elasticity, "change": change}.items():
+        assert found[name] is None if expected is None else found[name] == pytest.approx(expected, rel=1e-6, abs=1e-12)
+    assert found["kink"] is kink
 
 
 def test_no_elasticity_at_zero_and_for_degrees() -> None:
-    assert differences(100.0, None, 110.0, value=0.0).elasticity is None
-    assert differences(100.0, 90.0, 110.0, unit="°C").elasticity is None
-    assert differences(0.0, -1.0, 1.0).elasticity is None
+    assert differences(*moved(100.0, None, 110.0, value=0.0))["elasticity"] is None
+    assert differences(*moved(100.0, 90.0, 110.0, unit="°C"))["elasticity"] is None
+    assert differences(*moved(0.0, -1.0, 1.0))["elasticity"] is None
 
 
 @pytest.fixture(scope="module")
@@ -274,9 +272,9 @@ def test_a_step_that_is_too_large_says_so() -> None:
     outputs = {line["at"][0]: line["out"][0] for line in points_of(sweep)}
     leaf = leaf_of(UNIT.endpoint, path)
     known = replace(leaf, path=path, declared=replace(leaf.declared, tolerance=100.0))
-    found = Differences(perturbation(known, 0.0), outputs)
-    assert found.derivative == pytest.approx(-0.000236, rel=0.02)
-    assert found.kink is True
+    found = differences(perturbation(known, 0.0), outputs)
+    assert found["derivative"] == pytest.approx(-0.000236, rel=0.02)
+    assert found["kink"] is True
 
 
 def points_of(sweep: dict[str, Any]) -> list[dict[str, Any]]:

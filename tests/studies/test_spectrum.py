@@ -14,12 +14,11 @@ from app.calculations import BY_PATH
 from app.errors import InvalidBody, Unprocessable, faults_of
 from app.evaluate import evaluate
 from app.examples import examples
-from app.studies.engine import Clock
+from app.studies.engine import Clock, encoded, guarded, json_line
 from app.studies.fields import value_at
 from app.studies.points import Point
 from app.studies.requests import EXAMPLES
 from app.studies.spectrum import Spectrum, spectrum_study
-from app.studies.stream import encoded, guarded, json_line
 from app.studies.sweep import sweep_study
 from tests.support.pools import InlinePool
 

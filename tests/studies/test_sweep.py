@@ -14,13 +14,11 @@ from scipy.stats import spearmanr
 from app.errors import Unprocessable
 from app.examples import examples
 from app.schema.fields import Leaf
-from app.studies.engine import Clock
+from app.studies.engine import Clock, encoded, guarded, json_line
 from app.studies.point_sets import CheckedAxis, PointSet
 from app.studies.points import Point
 from app.studies.requests import Best
-from app.studies.stream import Table, encoded, guarded, json_line
-from app.studies.summary import Summary, statistics
-from app.studies.sweep import sweep_study
+from app.studies.sweep import Summary, statistics, sweep_study, table_row
 from tests.support.pools import InlinePool
 
 COUPLING = examples()["pahl-axial-displacement"]
@@ -189,8 +187,7 @@ def test_statistics_by_hand() -> None:
 
 
 def table_of(lines: list[dict[str, Any]], points: PointSet, outputs: tuple[Leaf, ...]) -> list[list[str]]:
-    table = Table(points, outputs)
-    text = b"".join(map(table.encode, lines)).decode()
+    text = b"".join(table_row(points, outputs, line) for line in lines).decode()
     return list(csv.reader(io.StringIO(text)))
 
 
@@ -223,9 +220,9 @@ def test_table() -> None:
 
 @pytest.mark.parametrize("text", ["=cmd()", "+1", "-1", "@sum", "\tx", "\rx"])
 def test_words_that_a_spreadsheet_would_compute_are_quoted(text: str) -> None:
-    table = Table(PointSet([], 1, (), cases=[{}]), ())
+    points = PointSet([], 1, (), cases=[{}])
     line = {"type": "point", "index": 0, "status": "ok", "out": [text, -1.5, True, None], "warnings": []}
-    (cells,) = csv.reader(io.StringIO(table.encode(line).decode(), newline=""))
+    (cells,) = csv.reader(io.StringIO(table_row(points, (), line).decode(), newline=""))
     assert cells[2:6] == [f"'{text}", "-1.5", "true", ""]
 
 

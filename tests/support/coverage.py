@@ -7,7 +7,7 @@ from scipy.stats import norm
 
 from app.calculations import BY_PATH
 from app.schema.fields import leaves
-from app.studies.distributions import drawn, unit_cube
+from app.studies.point_sets import drawn, unit_cube
 from app.studies.probability import Limit, of_case
 from app.studies.requests import Method, Normal
 

@@ -14,19 +14,8 @@ from starlette.types import Receive, Scope, Send
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
 from app.settings import Settings
-from app.studies import design, sensitivity, spectrum, sweep
-from app.studies.admission import StudyAdmission
-from app.studies.engine import Clock, Line, Lines, Study
-from app.studies.requests import (
-    EXAMPLES,
-    CornersRequest,
-    DesignRequest,
-    SensitivityRequest,
-    SpectrumRequest,
-    SweepRequest,
-)
-from app.studies.stream import PROGRESS_S, encoded, guarded, json_line
-from app.workers.start_up import StartUp
+from app.studies import design, requests, sensitivity, spectrum, sweep
+from app.studies.engine import PROGRESS_S, Clock, Line, Lines, Study, encoded, guarded, json_line
 
 Format = Literal["ndjson", "csv"]
 MEDIA_TYPES: dict[Format, str] = {"ndjson": "application/x-ndjson", "csv": "text/csv"}
@@ -46,9 +35,7 @@ class StudyStream(StreamingResponse):
         headers: dict[str, str] | None = None,
     ) -> None:
         super().__init__(pieces, media_type=media_type, headers={"X-Accel-Buffering": "no"} | (headers or {}))
-        self._pieces = pieces
-        self._seconds = seconds
-        self._stack = stack
+        self._pieces, self._seconds, self._stack = pieces, seconds, stack
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Send everything."""
@@ -65,10 +52,9 @@ async def planned(http: Request, planner: Callable[[int, float], Any], most: int
 
 async def begun(http: Request, study: Study, progress_s: float = PROGRESS_S) -> tuple[Lines, Clock]:
     """The lines of a study that counts among the running ones, and its clock."""
-    admission: StudyAdmission = http.app.state.studies
-    limits: Settings = http.app.state.settings
     clock = Clock(study.total)
-    return guarded(study.lines(await admission.pool(), clock), clock, limits.study_deadline_s, progress_s), clock
+    lines = study.lines(await http.app.state.studies.pool(), clock)
+    return guarded(lines, clock, http.app.state.settings.study_deadline_s, progress_s), clock
 
 
 async def streamed(
@@ -95,17 +81,18 @@ async def started(
     most: int | None = None,
 ) -> Response:
     """The stream of a study of at most `most` points, which is checked in a worker before the first line."""
-    start_up: StartUp = http.app.state.start_up
-    start_up.require_any()
+    http.app.state.start_up.require_any()
     study: Study = await planned(http, partial(planner, body), most)
-    start_up.require(study.question.endpoint)
+    http.app.state.start_up.require(study.question.endpoint)
     encode = encoder(study, written_as)
     return await streamed(http, study, lambda lines, _: encoded(lines, encode), MEDIA_TYPES[written_as])
 
 
 def encoder(study: Study, written_as: str) -> Callable[[Line], bytes]:
     """Writes the lines of a study; those of a sweep also as the rows of a table."""
-    return study.table().encode if isinstance(study, sweep.Sweep) and written_as == "csv" else json_line
+    if isinstance(study, sweep.Sweep) and written_as == "csv":
+        return partial(sweep.table_row, study.points, study.outputs)
+    return json_line
 
 
 def wanted_format(http: Request, named: Format) -> Format:
@@ -117,9 +104,7 @@ def wanted_format(http: Request, named: Format) -> Format:
 
 
 router = APIRouter(
-    tags=["studies"],
-    route_class=JsonRoute,
-    responses=documented(400, 408, 413, 415, 422, 431, 500, 503, 504),
+    tags=["studies"], route_class=JsonRoute, responses=documented(400, 408, 413, 415, 422, 431, 500, 503, 504)
 )
 
 
@@ -139,7 +124,7 @@ def _study(
 
 def _examples(path: str) -> Any:
     """The body parameter of a study, with its examples on the docs page."""
-    return Body(openapi_examples=EXAMPLES[path])
+    return Body(openapi_examples=requests.EXAMPLES[path])
 
 
 @_study(
@@ -151,7 +136,7 @@ def _examples(path: str) -> Any:
 )
 async def run_sweep(
     http: Request,
-    body: Annotated[SweepRequest, _examples(sweep.PATH)],
+    body: Annotated[requests.SweepRequest, _examples(sweep.PATH)],
     written_as: Annotated[
         Format, Query(alias="format", description="JSON a line, or a table; the Accept header can choose it too")
     ] = "ndjson",
@@ -172,7 +157,9 @@ async def run_sweep(
     "What moves each output most",
     "a line for each output and input, the most influential first, and one for the end",
 )
-async def run_sensitivity(http: Request, body: Annotated[SensitivityRequest, _examples(sensitivity.PATH)]) -> Response:
+async def run_sensitivity(
+    http: Request, body: Annotated[requests.SensitivityRequest, _examples(sensitivity.PATH)]
+) -> Response:
     """Derivatives of the outputs by every number of the case, from differences with its tolerance as step.
 
     A field without a tolerance is moved by 1 %, a temperature by 1 K, an integer by 1.
@@ -190,7 +177,7 @@ async def run_sensitivity(http: Request, body: Annotated[SensitivityRequest, _ex
     "A machine with its tolerances over its load spectrum: probabilities, losses, what decides",
     "a line for the spectrum, one for each point if asked for, and one for the end",
 )
-async def run_spectrum(http: Request, body: Annotated[SpectrumRequest, _examples(spectrum.PATH)]) -> Response:
+async def run_spectrum(http: Request, body: Annotated[requests.SpectrumRequest, _examples(spectrum.PATH)]) -> Response:
     """Machines are drawn from the tolerances; each runs every case, and its worst case is compared with the limits.
 
     The last line has the probability of exceeding each limit with its 90 % interval, for the spectrum and for each case
@@ -199,8 +186,7 @@ async def run_spectrum(http: Request, body: Annotated[SpectrumRequest, _examples
     solution are counted: where there are any, the probability is only known between its `bounds`. Where no output needs
     the thermal film, it is not calculated. Lines of `progress` come every half second.
     """
-    settings: Settings = http.app.state.settings
-    return await started(http, spectrum.spectrum_study, body, most=settings.spectrum_solves)
+    return await started(http, spectrum.spectrum_study, body, most=http.app.state.settings.spectrum_solves)
 
 
 @_study(
@@ -209,7 +195,9 @@ async def run_spectrum(http: Request, body: Annotated[SpectrumRequest, _examples
     "A gear unit at every combination of its uncertain inputs",
     "a line for the ranges, each corner, the extremes of each output, and one for the end",
 )
-async def run_corners(http: Request, body: Annotated[CornersRequest, _examples(sweep.CORNERS_PATH)]) -> Response:
+async def run_corners(
+    http: Request, body: Annotated[requests.CornersRequest, _examples(sweep.CORNERS_PATH)]
+) -> Response:
     """Every corner is the endpoint's own answer, up to 256 of them; `extremes` are the least and largest values.
 
     Where no output needs the thermal film, it is not calculated: corners are twenty times as fast and have fewer
@@ -224,7 +212,7 @@ async def run_corners(http: Request, body: Annotated[CornersRequest, _examples(s
     "The correction of a gear unit that is best at its worst corner",
     "a line for the search, one for each correction tried, and one for the end",
 )
-async def run_design(http: Request, body: Annotated[DesignRequest, _examples(design.PATH)]) -> Response:
+async def run_design(http: Request, body: Annotated[requests.DesignRequest, _examples(design.PATH)]) -> Response:
     """A search with COBYQA that starts from the request's own correction.
 
     The objective of a correction is its value at the worst operating point and corner. `safety.minimum` needs the

@@ -29,8 +29,7 @@ from app.pages.studies import page as pages
 from app.pages.studies.declaration import PageStudy, StudyPage, ended
 from app.pages.study_links import study_links
 from app.pages.templating import page_path
-from app.studies.engine import Clock, Line, Lines, twice_if_lost
-from app.studies.stream import encoded
+from app.studies.engine import Clock, Line, Lines, encoded, twice_if_lost
 from app.workers.pool import disconnected
 
 FIRST_FRAME_S = 0.3  # until a page shows its first points

@@ -30,10 +30,10 @@ from app.pages.studies.declaration import (
 from app.pages.typesetting import shown
 from app.pages.views import REFUSED, Asked
 from app.schema.fields import Leaf, headlines
-from app.studies.base_request import COLD, BaseRequest, needs_film
 from app.studies.engine import Line
 from app.studies.fields import value_at
 from app.studies.point_sets import usual_corners
+from app.studies.points import COLD, BaseRequest, needs_film
 from app.studies.requests import DRIVE_TRAIN, USUAL_RANGES, Overrides
 from app.studies.sweep import corners_study
 

@@ -15,10 +15,9 @@ from app.pages.typesetting import symbol
 from app.pages.views import Asked
 from app.schema.fields import Leaf
 from app.sources import SHORT_SOURCES
-from app.studies.base_request import reduced_request
 from app.studies.engine import Line, Study
 from app.studies.fields import scalar_at
-from app.studies.points import with_overrides
+from app.studies.points import reduced_request, with_overrides
 from app.studies.requests import Overrides
 
 
