@@ -1,5 +1,6 @@
 """Creates the FastAPI application."""
 
+import asyncio
 import logging
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -18,7 +19,7 @@ from app.schema.model import MODEL_VERSION
 from app.settings import MEBIBYTE, settings, unknown_variables
 from app.studies.admission import StudyAdmission
 from app.workers.control import Template
-from app.workers.pool import Pool, Runner
+from app.workers.pool import Pool
 from app.workers.start_up import StartUp
 
 DESCRIPTION = """Tribology of high-speed drive trains: gear couplings (Pahl), air-oil pumping between gear teeth
@@ -40,11 +41,10 @@ def create_app() -> FastAPI:
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         served_by_another = not hasattr(app.state, "template")
         template = Template(__name__) if served_by_another else app.state.template
-        app.state.pool = Pool(limits.workers, limits.queue, limits.worker_memory_mb, template)
-        app.state.start_up = StartUp(app.state.pool)
+        app.state.pool = pool = Pool(limits, template)
+        app.state.start_up = StartUp(pool)
         app.state.settings = limits
-        app.state.runner = Runner(limits, app.state.pool)
-        app.state.studies = StudyAdmission(limits, app.state.pool)
+        app.state.studies = StudyAdmission(limits, pool)
         app.state.answers = Answers(limits.answers_mb * MEBIBYTE)
         with log.running(limits.log_level):
             for line in unknown_variables():
@@ -55,8 +55,15 @@ def create_app() -> FastAPI:
                     "its own",
                     limits.workers,
                 )
-            async with app.state.pool.running(), app.state.start_up.running(), app.state.studies.open():
-                yield
+            workers = (pool.keep_worker() for _ in range(limits.workers))
+            async with app.state.studies.open(), asyncio.TaskGroup() as group:
+                tasks = [group.create_task(each) for each in (*workers, pool.supervise(), app.state.start_up.run())]
+                try:
+                    yield
+                finally:
+                    for task in tasks:
+                        task.cancel()
+                    pool.template.close()
 
     app = FastAPI(
         title="tribodrive",

@@ -11,8 +11,6 @@ from app.examples import examples
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
 from app.schema.model import Request as Model
-from app.settings import Settings
-from app.workers.pool import Runner
 from app.workers.start_up import StartUp
 
 
@@ -29,13 +27,12 @@ def body_of(endpoint: str) -> Any:
 
 async def calculated(http: Request, path: str, function: Callable[..., bytes], request: Model) -> bytes:
     """The result of `function(path, request)` in a worker; raises WarmingUp, Unprocessable for endless requests."""
+    calculation = BY_PATH[path]
     start_up: StartUp = http.app.state.start_up
-    if path in start_up.closed:
+    if calculation.stage not in start_up.warm:
         raise start_up.warming_up()
-    limits: Settings = http.app.state.settings
-    refuse_endless(BY_PATH[path], request, limits.deadline_s)
-    runner: Runner = http.app.state.runner
-    made: bytes = await runner.run(http, function, path, request)
+    refuse_endless(calculation, request, http.app.state.settings.deadline_s)
+    made: bytes = await http.app.state.pool.calculate(http, function, path, request)
     return made
 
 

@@ -23,7 +23,6 @@ from app.pages.query import link, normalised, pairs_of_query, split_views
 from app.pages.templating import ASSETS, asset, page_path
 from app.settings import Settings
 from app.sources import SHORT_SOURCES
-from app.workers.pool import Runner
 from app.workers.start_up import StartUp
 
 PAGE_POLICY = "default-src 'self'; img-src 'self' data:; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
@@ -188,9 +187,8 @@ def _kept(http: Request, path: str) -> views.Asked:
 async def _shown(
     http: Request, asked: views.Asked, view: Callable[..., views.Shown], arguments: tuple[Any, ...]
 ) -> views.Shown:
-    runner: Runner = http.app.state.runner
     answers: Answers = http.app.state.answers
-    shown: views.Shown = await runner.run(http, view, asked, *arguments)
+    shown: views.Shown = await http.app.state.pool.calculate(http, view, asked, *arguments)
     for key, content in shown.keep.items():
         answers.keep(key, content)
     return shown

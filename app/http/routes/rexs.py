@@ -11,7 +11,7 @@ from app.http.routes.pages import KNOWN_ERRORS, error_page, html, root_of
 from app.pages.overview import problem_page
 from app.rexs import answer
 from app.settings import MEBIBYTE, Settings
-from app.workers.pool import Runner
+from app.workers.pool import Pool
 
 TYPES = ("application/xml", "text/xml", "application/json", "application/zip", "application/octet-stream")
 FORM = "multipart/form-data"
@@ -51,7 +51,7 @@ pages = APIRouter(include_in_schema=False)
 async def read_unit(http: Request) -> Response:
     """The stages of a gear unit as ready requests, and what is missing, assumed, not used or wrong in the file."""
     content, _ = await _upload(http)
-    found = await _runner(http).run(http, answer.unit_json, content, _most_bytes(http))
+    found = await _pool(http).calculate(http, answer.unit_json, content, _most_bytes(http))
     return Response(found, media_type="application/json")
 
 
@@ -72,7 +72,7 @@ async def write_results(
     content, request = await _upload(http)
     limits: Settings = http.app.state.settings
     arguments = (content, _most_bytes(http), stage, request, limits.deadline_s)
-    file: answer.File = await _runner(http).run(http, answer.with_results, *arguments)
+    file: answer.File = await _pool(http).calculate(http, answer.with_results, *arguments)
     headers = {"Content-Disposition": f'attachment; filename="results{file.suffix}"'}
     return Response(file.content, media_type=file.media_type, headers=headers)
 
@@ -88,7 +88,7 @@ async def show_unit(http: Request) -> Response:
     """The unit as a page: stages, findings, and a link to every calculation."""
     try:
         content, _ = await _upload(http)
-        return html(await _runner(http).run(http, answer.unit_html, root_of(http), content, _most_bytes(http)))
+        return html(await _pool(http).calculate(http, answer.unit_html, root_of(http), content, _most_bytes(http)))
     except Unprocessable as error:
         return html(problem_page(root_of(http), 422, "The file cannot be read", error.message), 422)
     except KNOWN_ERRORS as error:
@@ -109,9 +109,9 @@ async def _upload(http: Request) -> tuple[bytes, bytes | None]:
     return parts["file"], parts.get("request") or None
 
 
-def _runner(http: Request) -> Runner:
-    runner: Runner = http.app.state.runner
-    return runner
+def _pool(http: Request) -> Pool:
+    pool: Pool = http.app.state.pool
+    return pool
 
 
 def _most_bytes(http: Request) -> int:
