@@ -13,7 +13,7 @@ from starlette.staticfiles import StaticFiles
 from app import log
 from app.http import problems
 from app.http.middleware import Protection
-from app.http.routes import calculations, figures, manual, pages, rexs, service, studies, study_pages
+from app.http.routes import calculations, pages, rexs, service, studies, study_pages
 from app.pages.answers import Answers
 from app.schema.model import MODEL_VERSION
 from app.settings import MEBIBYTE, settings, unknown_variables
@@ -75,7 +75,9 @@ def create_app() -> FastAPI:
         redoc_url=None,
         redirect_slashes=False,  # its redirects would name the host that the client claims to ask
     )
-    for routes in (calculations, figures, studies, rexs, pages, study_pages, manual, service):
+    app.include_router(calculations.router)
+    app.include_router(calculations.figures)
+    for routes in (studies, rexs, pages, study_pages, service):
         app.include_router(routes.router)
     app.include_router(rexs.pages)
     app.mount(service.DOCS_ASSETS, StaticFiles(packages=[("fastapi_offline", "static")]))

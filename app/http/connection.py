@@ -9,7 +9,7 @@ import asyncio
 import http
 import time
 from collections import deque
-from typing import Any
+from typing import Any, NoReturn
 
 from uvicorn.protocols.http.httptools_impl import STATUS_LINE, HttpToolsProtocol, RequestResponseCycle
 
@@ -37,9 +37,8 @@ class LimitedProtocol(HttpToolsProtocol):
         self._cycles: deque[RequestResponseCycle] = deque(maxlen=MOST_PIPELINED + 2)  # of these some are not answered
         self._in_headers = False
         self._in_body = False
-        self._header_bytes = 0  # as far as the parser has said
         self._pieces = self._body_bytes = 0
-        self._unparsed = 0  # bytes since the parser last said anything
+        self._unparsed = 0  # bytes since the end of headers, a piece of a body or the end of a request
         self._unsent = 0  # bytes of answers when the client was last seen to read
         self._header_timer: asyncio.TimerHandle | None = None
         self._send_timer: asyncio.TimerHandle | None = None
@@ -69,39 +68,29 @@ class LimitedProtocol(HttpToolsProtocol):
             self._expect_request()
         self._unparsed += len(data)
         super().data_received(data)
-        if self._unparsed and self._header_bytes + self._unparsed > self._limits.max_header_bytes:
+        if self._unparsed > self._limits.max_header_bytes:
             self._answer(http.HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE)
 
     def on_message_begin(self) -> None:
         """The first byte of a request."""
         self._began = time.perf_counter()
         self._in_headers = True
-        self._header_bytes = 0
         super().on_message_begin()
-
-    def on_url(self, url: bytes) -> None:
-        """A piece of the address."""
-        self._count(len(url))
-        super().on_url(url)
-
-    def on_header(self, name: bytes, value: bytes) -> None:
-        """One header, or a trailer, which is ignored."""
-        self._count(len(name) + len(value))
-        if self._in_headers:
-            super().on_header(name, value)
 
     def on_headers_complete(self) -> None:
         """The body follows."""
+        if len(self.url) + sum(len(name) + len(value) for name, value in self.headers) > self._limits.max_header_bytes:
+            self._refuse(http.HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE)
         if sum(name == b"host" for name, _ in self.headers) > 1:
-            raise Refused
+            self._refuse(http.HTTPStatus.BAD_REQUEST)
         if len(self.pipeline) >= MOST_PIPELINED:
-            self._refusal = http.HTTPStatus.SERVICE_UNAVAILABLE
-            raise Refused
+            self._refuse(http.HTTPStatus.SERVICE_UNAVAILABLE)
         self._stop_expecting()
         self._in_headers, self._in_body = False, True
         self._unparsed = self._pieces = self._body_bytes = 0
         super().on_headers_complete()
         self._cycles.append(self.cycle)
+        self.headers = []  # of trailers, which nobody looks at
 
     def on_body(self, body: bytes) -> None:
         """A piece of the body, whose size is limited by the application."""
@@ -109,7 +98,7 @@ class LimitedProtocol(HttpToolsProtocol):
         self._pieces += 1
         self._body_bytes += len(body)
         if self._pieces > MOST_TINY_PIECES and self._body_bytes < TINY_B * self._pieces:
-            raise Refused
+            self._refuse(http.HTTPStatus.BAD_REQUEST)
         super().on_body(body)
 
     def on_message_complete(self) -> None:
@@ -129,6 +118,7 @@ class LimitedProtocol(HttpToolsProtocol):
     def send_400_response(self, msg: str) -> None:
         """Answer what the parser gave up on."""
         del msg
+        self._unparsed = 0
         self._answer(self._refusal)
 
     def pause_writing(self) -> None:
@@ -159,12 +149,10 @@ class LimitedProtocol(HttpToolsProtocol):
         """Whether no answer to what has arrived is outstanding."""
         return self.cycle is None or self.cycle.response_complete
 
-    def _count(self, size: int) -> None:
-        self._header_bytes += size
-        self._unparsed = 0
-        if self._header_bytes > self._limits.max_header_bytes:
-            self._refusal = http.HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE
-            raise Refused
+    def _refuse(self, status: http.HTTPStatus) -> NoReturn:
+        """End parsing, upon which uvicorn calls `send_400_response`."""
+        self._refusal = status
+        raise Refused
 
     def _expect_request(self) -> None:
         self._stop_expecting()
