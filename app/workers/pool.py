@@ -54,9 +54,6 @@ class Job:
     turn: asyncio.Future[Worker] = field(init=False)  # the worker, once it has one
     timeout: asyncio.Timeout = field(init=False)
 
-    def __post_init__(self) -> None:
-        self.timeout = asyncio.timeout(None if self.of_study else self.deadline_s)
-
     def expire_at(self, when: float | None) -> None:
         """Move the deadline."""
         if not self.timeout.expired():
@@ -192,7 +189,7 @@ class Pool:
         """
         self._shares.admit(job)
         try:
-            async with job.timeout:
+            async with asyncio.timeout(None if job.of_study else job.deadline_s) as job.timeout:
                 while True:
                     try:
                         self._shares.add(job, _now())
@@ -276,19 +273,15 @@ class Pool:
                     self.template.close()
                     self.template = Template(self.template.preloaded)
                     self.template_restarted.set()
-                self._interrupt()
+                if (job := self._shares.to_interrupt(_now())) is not None and job.worker is not None:
+                    # For another client that has waited long enough; it is made again, with a new deadline.
+                    INTERRUPTED.inc()
+                    job.interrupted = job.worker
+                    job.expire_at(None if job.of_study else _now() + job.deadline_s)
+                    job.worker.end()
                 self._hand_out()  # a reservation may be over
             except Exception:
                 logger.exception("supervision of the workers failed; it goes on")
-
-    def _interrupt(self) -> None:
-        """End a call for another client that has waited long enough; it is made again, with a new deadline."""
-        job = self._shares.to_interrupt(_now())
-        if job is not None and job.worker is not None:
-            INTERRUPTED.inc()
-            job.interrupted = job.worker
-            job.expire_at(None if job.of_study else _now() + job.deadline_s)
-            job.worker.end()
 
 
 async def _leave_with_client(http: Request, job: Job) -> None:
