@@ -264,9 +264,10 @@ class Pool:
         while True:
             await asyncio.sleep(SUPERVISION_S)
             try:
-                for worker in [worker for worker in self._workers if not is_running(worker.pid)]:
-                    logger.warning("worker %d died or was stopped; it is replaced", worker.pid)
-                    worker.end()
+                for worker in tuple(self._workers):
+                    if not worker.ended.is_set() and not is_running(worker.pid):
+                        logger.warning("worker %d died or was stopped; it is replaced", worker.pid)
+                        worker.end()
                 if self.template.lost:
                     logger.warning("the template process was lost; it is started again")
                     self._forkable.clear()
