@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 Json = dict[str, Any]
 Answer = TypeVar("Answer")
 Stream = TypeVar("Stream")
+Http = TypeVar("Http", bound=httpx.Client | httpx.AsyncClient)
 
 ADDRESS = "http://127.0.0.1:8000"
 OPTIONS: dict[str, Any] = {
@@ -48,12 +49,17 @@ class ProblemError(Exception):
 
     """
 
-    def __init__(self, status: int, document: Json) -> None:
-        self.status = status
+    def __init__(self, response: httpx.Response) -> None:
+        try:
+            content = response.json()
+        except ValueError:  # of a proxy
+            content = None
+        document: Json = content if isinstance(content, dict) else {}
+        self.status = response.status_code
         self.code = str(document.get("type", "")).rpartition(":")[2]
         self.errors: list[Json] = document.get("errors") or []
         faults = "; ".join(f"{each['pointer'] or 'request'}: {each['message']}" for each in self.errors)
-        super().__init__(f"{status} {self.code}: {faults or document.get('detail', '')}")
+        super().__init__(f"{self.status} {self.code}: {faults or document.get('detail', '')}")
 
 
 class StudyError(Exception):
@@ -128,24 +134,27 @@ class _Endpoints(ABC, Generic[Answer, Stream]):
         return self.study("/v1/drive-train/design", request, progress=progress)
 
 
-class _Study:
+class _Study(Generic[Http]):
     """The lines of a study sorted into header, results, progress and end."""
 
-    def __init__(self, endpoint: str, request: Json, patience_s: float, *, progress: bool) -> None:
+    def __init__(self, http: Http, endpoint: str, request: Json, patience_s: float, *, progress: bool) -> None:
         self.header: Json = {}
         self.end: Json = {}
+        self._http = http
         self._endpoint = endpoint
         self._request = request
         self._patience_s = patience_s
         self._progress = progress
         self._bar: Any = None
 
-    def _begin(self) -> None:
+    def _begin(self) -> float:
+        """Begin anew; when to give up if the service is busy."""
         self.header, self.end = {}, {}
         if self._progress:
             from tqdm.auto import tqdm  # noqa: PLC0415  only who asks for a bar needs it
 
             self._bar = tqdm()
+        return time.monotonic() + self._patience_s
 
     def _results(self, text: str) -> Iterator[Json]:
         """The line, if it is a result; raises `StudyError` for one that ends the study early."""
@@ -166,16 +175,16 @@ class _Study:
                     self._show(line["index"] + 1, self.header["total"])
                 yield line
 
+    def _show(self, done: int, total: int) -> None:
+        if self._bar is not None:
+            self._bar.total = total
+            self._bar.update(done - self._bar.n)
+
     def _finish(self) -> None:
         if self._bar is not None:
             self._bar.close()
         if not self.end:
             raise StudyError("the connection was closed before the study's end")
-
-    def _show(self, done: int, total: int) -> None:
-        if self._bar is not None:
-            self._bar.total = total
-            self._bar.update(done - self._bar.n)
 
     def _table(self, results: list[Json]) -> "DataFrame":
         from pandas import DataFrame, json_normalize  # noqa: PLC0415  only tables need it
@@ -190,20 +199,15 @@ class _Study:
         return DataFrame(rows, columns=[*columns, "status"], index=[line["index"] for line in points])
 
 
-class Study(_Study):
+class Study(_Study[httpx.Client]):
     """A study: iterate over its results, or ask for all of them as a table.
 
     `header` and `end` are its first and last line once they have been read; they are empty before.
     """
 
-    def __init__(self, http: httpx.Client, endpoint: str, request: Json, patience_s: float, *, progress: bool) -> None:
-        super().__init__(endpoint, request, patience_s, progress=progress)
-        self._http = http
-
     def __iter__(self) -> Iterator[Json]:
         """Run the study and yield its results as they come; raises `ProblemError` and `StudyError`."""
-        self._begin()
-        give_up = time.monotonic() + self._patience_s
+        give_up = self._begin()
         while True:
             with self._http.stream("POST", self._endpoint, json=self._request) as response:
                 if response.is_success:
@@ -221,19 +225,12 @@ class Study(_Study):
         return self._table(list(self))
 
 
-class AsyncStudy(_Study):
+class AsyncStudy(_Study[httpx.AsyncClient]):
     """A study: iterate over its results with `async for`, or await all of them as a table."""
-
-    def __init__(
-        self, http: httpx.AsyncClient, endpoint: str, request: Json, patience_s: float, *, progress: bool
-    ) -> None:
-        super().__init__(endpoint, request, patience_s, progress=progress)
-        self._http = http
 
     async def __aiter__(self) -> AsyncIterator[Json]:
         """Run the study and yield its results as they come; raises `ProblemError` and `StudyError`."""
-        self._begin()
-        give_up = time.monotonic() + self._patience_s
+        give_up = self._begin()
         while True:
             async with self._http.stream("POST", self._endpoint, json=self._request) as response:
                 if response.is_success:
@@ -246,10 +243,7 @@ class AsyncStudy(_Study):
             await asyncio.sleep(_wait_s(response, give_up))
 
     async def frame(self) -> "DataFrame":
-        """All results as a pandas table, a row each; those of a sweep with a column for each input and output.
-
-        A spectrum has a row for each case, unless its points are asked for.
-        """
+        """All results as a pandas table, a row each, as `Study.frame` gives them."""
         return self._table([line async for line in self])
 
 
@@ -287,7 +281,8 @@ class Tribodrive(_Endpoints[Json, Study]):
         while True:
             response = self._http.post(endpoint, json=request)
             if response.is_success:
-                return _object(response)
+                answer: Json = response.json()
+                return answer
             time.sleep(_wait_s(response, give_up))
 
     def study(self, endpoint: str, request: Json, *, progress: bool = False) -> Study:
@@ -298,7 +293,7 @@ class Tribodrive(_Endpoints[Json, Study]):
         """The request of a ready example."""
         response = self._http.get(f"/v1/examples/{name}")
         if not response.is_success:
-            raise _problem(response)
+            raise ProblemError(response)
         request: Json = response.json()["request"]
         return request
 
@@ -326,7 +321,8 @@ class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
         while True:
             response = await self._http.post(endpoint, json=request)
             if response.is_success:
-                return _object(response)
+                answer: Json = response.json()
+                return answer
             await asyncio.sleep(_wait_s(response, give_up))
 
     def study(self, endpoint: str, request: Json, *, progress: bool = False) -> AsyncStudy:
@@ -334,22 +330,9 @@ class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
         return AsyncStudy(self._http, endpoint, request, self._patience_s, progress=progress)
 
 
-def _object(response: httpx.Response) -> Json:
-    content: Json = response.json()
-    return content
-
-
 def _wait_s(response: httpx.Response, give_up: float) -> float:
     """Seconds to wait before a busy service is asked again; raises `ProblemError` for every other answer."""
     named = response.headers.get("Retry-After", "")
     if not named.isdecimal() or time.monotonic() + int(named) > give_up:
-        raise _problem(response)
+        raise ProblemError(response)
     return float(named)
-
-
-def _problem(response: httpx.Response) -> ProblemError:
-    try:
-        document = response.json()
-    except ValueError:
-        document = {}
-    return ProblemError(response.status_code, document if isinstance(document, dict) else {})

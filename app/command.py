@@ -12,13 +12,11 @@ from typing import Any
 from app.settings import MEBIBYTE, Settings, settings
 from app.workers.control import Template
 
-REFUSED = 1  # exit status; `EXIT_STATUS` has those of answers
-EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 2 is that of wrong arguments
-STANDARD_INPUT = Path("-")
+EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 1: the request is refused, 2: wrong arguments
 
 
 def main() -> None:
-    """Serve until told to stop."""
+    """Serve until told to stop, or print what a command asks for."""
     open_standard_streams()
     parser = argparse.ArgumentParser(
         prog="python -m app",
@@ -33,60 +31,57 @@ def main() -> None:
     solve.add_argument("endpoint", help="address of the calculation, such as /v1/coupling")
     solve.add_argument("file", type=Path, help="the request as JSON; - reads the standard input")
     asked = parser.parse_args()
-    if asked.command == "rexs":
-        sys.exit(print_unit(asked.file))
-    if asked.command == "solve":
-        sys.exit(print_answer(asked.endpoint, asked.file))
-    serve("app.main:app")
+    match asked.command:
+        case "rexs":
+            print_unit(asked.file)
+        case "solve":
+            print_answer(asked.endpoint, asked.file)
+        case _:
+            serve("app.main:app")
 
 
-def print_unit(file: Path) -> int:
-    """Print what /v1/rexs answers to a file; the exit status is 1 where the file cannot be read."""
+def print_unit(file: Path) -> None:
+    """Print what /v1/rexs answers to a file; exits with the reason where the file cannot be read."""
     from app.errors import Unprocessable  # noqa: PLC0415  the service starts without this
     from app.rexs.answer import unit_of  # noqa: PLC0415
 
     try:
         found = unit_of(file.read_bytes(), settings().rexs_mb * MEBIBYTE)
-    except (OSError, Unprocessable) as error:
-        reason = error.message if isinstance(error, Unprocessable) else error.strerror
-        print(f"tribodrive: {file}: {reason}", file=sys.stderr)  # noqa: T201  a command's output
-        return REFUSED
+    except OSError as error:
+        sys.exit(f"tribodrive: {file}: {error.strerror}")
+    except Unprocessable as error:
+        sys.exit(f"tribodrive: {file}: {error.message}")
     _print_json(found)
-    return 0
 
 
-def print_answer(endpoint: str, file: Path) -> int:
-    """Print the answer of an endpoint to the request in a file.
+def print_answer(endpoint: str, file: Path) -> None:
+    """Print the answer of an endpoint to the request in a file, and exit with the status of `EXIT_STATUS`.
 
-    The exit status is 0 with `ok`, 3 with `ok_with_warnings`, 4 with `no_solution`; 1 where the request is refused.
+    Exits with the reason where the request is refused.
     """
     from app.calculations import BY_PATH  # noqa: PLC0415
     from app.errors import InvalidBody, Unprocessable, Unreadable, faults_of  # noqa: PLC0415
     from app.evaluate import answer, content_of  # noqa: PLC0415
 
     if endpoint not in BY_PATH:
-        print(f"tribodrive: there is no {endpoint}; there are {', '.join(BY_PATH)}", file=sys.stderr)  # noqa: T201
-        return REFUSED
+        sys.exit(f"tribodrive: there is no {endpoint}; there are {', '.join(BY_PATH)}")
     try:
-        body = sys.stdin.buffer.read() if file == STANDARD_INPUT else file.read_bytes()
+        body = sys.stdin.buffer.read() if file == Path("-") else file.read_bytes()
         found = answer(endpoint, content_of(body))
     except OSError as error:
-        print(f"tribodrive: {file}: {error.strerror}", file=sys.stderr)  # noqa: T201
-        return REFUSED
+        sys.exit(f"tribodrive: {file}: {error.strerror}")
     except Unreadable as error:
-        print(f"tribodrive: {error.detail}", file=sys.stderr)  # noqa: T201
-        return REFUSED
+        sys.exit(f"tribodrive: {error.detail}")
     except (InvalidBody, Unprocessable) as error:
-        for fault in faults_of(error):
-            print(f"tribodrive: {fault['pointer'] or 'request'}: {fault['message']}", file=sys.stderr)  # noqa: T201
-        return REFUSED
+        faults = (f"{fault['pointer'] or 'request'}: {fault['message']}" for fault in faults_of(error))
+        sys.exit("\n".join(f"tribodrive: {fault}" for fault in faults))
     _print_json(found)
-    return EXIT_STATUS[found["status"]]
+    sys.exit(EXIT_STATUS[found["status"]])
 
 
 def _print_json(content: dict[str, Any]) -> None:
     try:
-        print(json.dumps(content, indent=1, ensure_ascii=False), flush=True)  # noqa: T201
+        print(json.dumps(content, indent=1, ensure_ascii=False), flush=True)  # noqa: T201  a command's output
     except BrokenPipeError:  # whoever reads has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 

@@ -11,7 +11,7 @@ import queue
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from logging.handlers import QueueHandler, QueueListener
 
 from prometheus_client import Counter, Gauge, Histogram
@@ -35,43 +35,34 @@ LINES_DROPPED = Counter("tribodrive_log_lines_dropped", "Log lines dropped becau
 
 
 class _Handler(QueueHandler):
-    """Puts records into the queue while there is room."""
-
-    queue: "queue.SimpleQueue[logging.LogRecord | None]"
-
-    def enqueue(self, record: logging.LogRecord) -> None:
-        """Hand a record over, or count it as lost."""
-        if self.queue.qsize() < LINES_KEPT:
-            self.queue.put(record)
-        else:
-            LINES_DROPPED.inc()
+    """Puts records into the queue; those that find no room or cannot be formatted are counted."""
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  logging's name
-        """Count a record that cannot be formatted as lost."""
+        """Count a record as lost."""
         del record
         LINES_DROPPED.inc()
 
 
-class _Output:
-    """Writes records; not one of logging's handlers, which the end of the process waits for."""
-
-    level = logging.NOTSET
+class _Listener(QueueListener):
+    """The thread that writes; it has no handler of logging's, for which the end of the process would wait."""
 
     def handle(self, record: logging.LogRecord) -> None:
         """Write one record; no failure ends the thread."""
         try:
             stream = sys.stdout if record.name == REQUEST_LOG else sys.stderr
-            _write_all(stream.fileno(), f"{record.getMessage()}\n".encode(errors="replace"))
+            line = f"{record.getMessage()}\n".encode(errors="replace")
+            while line:
+                try:
+                    line = line[os.write(stream.fileno(), line) :]
+                except BlockingIOError:
+                    time.sleep(0.01)
         except Exception:  # noqa: BLE001
             LINES_DROPPED.inc()
 
-
-class _Listener(QueueListener):
-    """The thread that writes; at the end it has a second for what is left."""
-
     def stop(self) -> None:
-        """Let the thread end, if anybody reads what it writes."""
-        self.enqueue_sentinel()
+        """Let the thread end, if anybody reads what it writes; it has a second for what is left."""
+        with suppress(queue.Full):
+            self.enqueue_sentinel()
         if self._thread is not None:
             self._thread.join(LAST_LINES_S)
 
@@ -79,9 +70,8 @@ class _Listener(QueueListener):
 @contextmanager
 def running(level: str) -> Iterator[None]:
     """Send log records through the queue while the context is open, except the root logger's if it has handlers."""
-    lines: queue.SimpleQueue[logging.LogRecord | None] = queue.SimpleQueue()
-    handler = _Handler(lines)
-    listener = _Listener(lines, _Output())  # type: ignore[arg-type]  # anything that handles records
+    lines: queue.Queue[logging.LogRecord] = queue.Queue(LINES_KEPT)
+    handler, listener = _Handler(lines), _Listener(lines)
     logger = logging.getLogger("tribodrive")
     logger.setLevel(level.upper())
     logger.propagate = False
@@ -96,13 +86,3 @@ def running(level: str) -> Iterator[None]:
         for each in loggers:
             each.removeHandler(handler)
         listener.stop()
-
-
-def _write_all(descriptor: int, content: bytes) -> None:
-    while content:
-        try:
-            content = content[os.write(descriptor, content) :]
-        except BlockingIOError:
-            time.sleep(0.01)
-        except OSError:  # nobody reads any more
-            return

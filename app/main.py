@@ -1,5 +1,6 @@
 """Creates the FastAPI application."""
 
+import asyncio
 import logging
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -12,13 +13,13 @@ from starlette.staticfiles import StaticFiles
 from app import log
 from app.http import problems
 from app.http.middleware import Protection
-from app.http.routes import calculations, figures, manual, pages, rexs, service, studies, study_pages
+from app.http.routes import calculations, pages, rexs, service, studies, study_pages
 from app.pages.answers import Answers
 from app.schema.model import MODEL_VERSION
 from app.settings import MEBIBYTE, settings, unknown_variables
 from app.studies.admission import StudyAdmission
 from app.workers.control import Template
-from app.workers.pool import Pool, Runner
+from app.workers.pool import Pool
 from app.workers.start_up import StartUp
 
 DESCRIPTION = """Tribology of high-speed drive trains: gear couplings (Pahl), air-oil pumping between gear teeth
@@ -40,11 +41,10 @@ def create_app() -> FastAPI:
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         served_by_another = not hasattr(app.state, "template")
         template = Template(__name__) if served_by_another else app.state.template
-        app.state.pool = Pool(limits.workers, limits.queue, limits.worker_memory_mb, template)
-        app.state.start_up = StartUp(app.state.pool)
+        app.state.pool = pool = Pool(limits, template)
+        app.state.start_up = StartUp(pool)
         app.state.settings = limits
-        app.state.runner = Runner(limits, app.state.pool)
-        app.state.studies = StudyAdmission(limits, app.state.pool)
+        app.state.studies = StudyAdmission(limits, pool)
         app.state.answers = Answers(limits.answers_mb * MEBIBYTE)
         with log.running(limits.log_level):
             for line in unknown_variables():
@@ -55,8 +55,15 @@ def create_app() -> FastAPI:
                     "its own",
                     limits.workers,
                 )
-            async with app.state.pool.running(), app.state.start_up.running(), app.state.studies.open():
-                yield
+            workers = (pool.keep_worker() for _ in range(limits.workers))
+            async with app.state.studies.open(), asyncio.TaskGroup() as group:
+                tasks = [group.create_task(each) for each in (*workers, pool.supervise(), app.state.start_up.run())]
+                try:
+                    yield
+                finally:
+                    for task in tasks:
+                        task.cancel()
+                    pool.template.close()
 
     app = FastAPI(
         title="tribodrive",
@@ -68,7 +75,9 @@ def create_app() -> FastAPI:
         redoc_url=None,
         redirect_slashes=False,  # its redirects would name the host that the client claims to ask
     )
-    for routes in (calculations, figures, studies, rexs, pages, study_pages, manual, service):
+    app.include_router(calculations.router)
+    app.include_router(calculations.figures)
+    for routes in (studies, rexs, pages, study_pages, service):
         app.include_router(routes.router)
     app.include_router(rexs.pages)
     app.mount(service.DOCS_ASSETS, StaticFiles(packages=[("fastapi_offline", "static")]))

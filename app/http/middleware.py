@@ -13,7 +13,6 @@ from prometheus_client import Counter, Histogram
 from starlette._utils import get_route_path
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
-from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.http.problems import internal_error, problem
@@ -38,6 +37,8 @@ LOG_LINE = (
     '{"time": %.3f, "request_id": "%s", "client": %s, "method": "%s", "endpoint": "%s", "status": %d, '
     '"duration_ms": %.3f}'
 )
+
+CLIENT_GONE = 499  # nginx's status of a client that left; seen in the log only
 
 logger = logging.getLogger(REQUEST_LOG)
 
@@ -71,10 +72,6 @@ def _meters(endpoint: str, status: int) -> tuple[Counter, Histogram]:
     return REQUESTS.labels(endpoint, status), DURATION.labels(endpoint)
 
 
-_BODY_HEADERS = {b"content-length", b"transfer-encoding"}
-CLIENT_GONE = 499  # nginx's status of a client that left; seen in the log only
-
-
 class Protection:
     """Wraps the application; see the module's title for what it does."""
 
@@ -83,41 +80,35 @@ class Protection:
         self._settings = settings
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Serve one request."""
+        """Serve one request, under the prefix of the settings: as ASGI wants it, its path has it, stripped or not."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
-        scope = _below(self._settings.root_path, scope)
+        root, path = self._settings.root_path or scope.get("root_path", ""), scope["path"]
+        if not f"{path}/".startswith(f"{root}/"):
+            path = root + path
+        scope = {**scope, "root_path": root, "path": f"{root}/" if path == root else path}
         await _Request(self._settings, scope, receive, send).serve(self._app)
 
 
-def _below(prefix: str, scope: Scope) -> Scope:
-    """The request under the prefix of the settings, as ASGI wants it: its path has it, even if the proxy strips it."""
-    root, path = prefix or scope.get("root_path", ""), scope["path"]
-    if not f"{path}/".startswith(f"{root}/"):
-        path = root + path
-    return {**scope, "root_path": root, "path": f"{root}/" if path == root else path}
+def _whole(send: Send) -> Send:
+    """Keeps an answer to HTTP/1.0, which knows no chunks, until it is whole, and sends it with its length."""
+    start: Message = {}
+    body = bytearray()
 
-
-class _Whole:
-    """An answer to HTTP/1.0, which knows no chunks: kept until it is whole, and sent with its length."""
-
-    def __init__(self) -> None:
-        self._start: Message = {}
-        self._body = bytearray()
-
-    def ready(self, message: Message) -> list[Message]:
-        """What can be sent once this message of the application is there."""
+    async def send_whole(message: Message) -> None:
         if message["type"] == "http.response.start":
-            self._start = message
-            return []
-        self._body += message.get("body", b"")
+            start.update(message)
+            return
+        body.extend(message.get("body", b""))
         if message.get("more_body", False):
-            return []
-        headers = self._start["headers"]
-        if self._start["status"] not in {204, 304} and all(name.lower() != b"content-length" for name, _ in headers):
-            headers = [*headers, (b"content-length", b"%d" % len(self._body))]
-        return [{**self._start, "headers": headers}, {**message, "body": bytes(self._body)}]
+            return
+        if start["status"] not in {204, 304} and all(name.lower() != b"content-length" for name, _ in start["headers"]):
+            start["headers"] = [*start["headers"], (b"content-length", b"%d" % len(body))]
+        await send(start)
+        await send({"type": "http.response.body", "body": bytes(body)})
+
+    return send_whole
 
 
 class _Request:
@@ -135,21 +126,26 @@ class _Request:
         self._scope = {**scope, "method": "GET"} if scope["method"] == "HEAD" else scope
         self._method = scope["method"]
         self._receive = receive
-        self._send = send
+        self._send = _whole(send) if scope["http_version"] == "1.0" else send
         self._status = CLIENT_GONE
-        self._due = asyncio.get_running_loop().time() + self._limits.body_deadline_s
+        self._due = asyncio.get_running_loop().time() + limits.body_deadline_s
         self._received = 0
-        self._complete = False
-        self._unsent = _Whole() if scope["http_version"] == "1.0" else None
+        self._complete = b"content-length" not in self._headers and b"transfer-encoding" not in self._headers
 
     async def serve(self, application: ASGIApp) -> None:
         """Answer, whatever happens, and log and count it."""
+        announced = self._headers.get(b"content-length", b"")
+        if announced.isdigit() and int(announced) > self._most_bytes:
+            application = problem(self._identifier, 413, "content_too_large", self._too_large())
         try:
-            await (self._refusal() or application)(self._scope, self._receive_within_limits, self._send_decorated)
+            await application(self._scope, self._receive_within_limits, self._send_decorated)
         except ClientDisconnect:
             pass
         except asyncio.CancelledError:  # the server stops and waits no longer; this task ends with its answer
-            await self._answer_shutdown()
+            if self._status == CLIENT_GONE:
+                retry = {"Retry-After": "5"}
+                answer = problem(self._identifier, 503, "shutting_down", "The service stops", headers=retry)
+                await answer(self._scope, self._receive, self._send_decorated)
         except Exception as error:
             answer = internal_error(self._identifier, error)
             if self._status != CLIENT_GONE:
@@ -161,26 +157,19 @@ class _Request:
             client = self._scope.get("client") if self._limits.log_clients else None
             record(self._identifier, client, self._method, endpoint, status, time.perf_counter() - self._started)
 
-    async def _answer_shutdown(self) -> None:
-        if self._status == CLIENT_GONE:
-            answer = problem(self._identifier, 503, "shutting_down", "The service stops", headers={"Retry-After": "5"})
-            await answer(self._scope, self._receive, self._send_decorated)
-
     async def _send_decorated(self, message: Message) -> None:
+        """Add the headers of every answer; end it only when the client has sent all of its body."""
         if message["type"] == "http.response.start":
             self._status = message["status"]
             given = message.get("headers", ())
             said = {name.lower() for name, _ in given}
             own = own_headers(self._identifier, time.perf_counter() - self._started)
             message["headers"] = [*given, *(header for header in own if header[0] not in said)]
-        for each in [message] if self._unsent is None else self._unsent.ready(message):
-            last = each["type"] == "http.response.body" and not each.get("more_body", False)
-            if last and not self._complete and not _BODY_HEADERS.isdisjoint(self._headers):
-                await self._send({**each, "more_body": True})
-                await self._discard_body()
-                await self._send({"type": "http.response.body"})
-            else:
-                await self._send(each)
+        elif not self._complete and not message.get("more_body", False):
+            await self._send({**message, "more_body": True})
+            await self._discard_body()
+            message = {"type": "http.response.body"}
+        await self._send(message)
 
     async def _discard_body(self) -> None:
         """Take what the client still sends: closing the connection meanwhile could cost it the answer."""
@@ -188,13 +177,6 @@ class _Request:
             async with asyncio.timeout_at(self._due):
                 while (await self._receive()).get("more_body", False):
                     pass
-
-    def _refusal(self) -> JSONResponse | None:
-        """The answer to a request that announces too much."""
-        announced = self._headers.get(b"content-length", b"")
-        if announced.isdigit() and int(announced) > self._most_bytes:
-            return problem(self._identifier, 413, "content_too_large", self._too_large())
-        return None
 
     async def _receive_within_limits(self) -> Message:
         """The next message; gives up on a body that takes too long or grows too large."""

@@ -1,7 +1,6 @@
 """Errors as RFC 9457 problem documents. The input is never echoed."""
 
 import logging
-from collections.abc import Callable
 from http import HTTPStatus
 from typing import Annotated, Any
 
@@ -12,7 +11,7 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 from starlette.exceptions import HTTPException
 
-from app.errors import PROBLEMS, InvalidBody, Unprocessable, faults_of, kind_of, pointer
+from app.errors import PROBLEMS, Fault, InvalidBody, Unprocessable, faults_of, kind_of, pointer
 from app.schema.quantities import Output
 from app.schema.reading import MOST_FAULTS
 
@@ -61,28 +60,21 @@ def documented(*statuses: int) -> dict[int | str, dict[str, Any]]:
 
 
 def install(app: FastAPI) -> None:
-    """Answer every exception with a problem document."""
+    """Answer every exception with a problem document, of which the OpenAPI document has the schema."""
     for kind in (RequestValidationError, InvalidBody, Unprocessable, HTTPException, *PROBLEMS):
         app.add_exception_handler(kind, answer)
-    app.openapi = _with_problems(app.openapi)  # type: ignore[method-assign]
+    openapi = app.openapi
 
-
-def _with_problems(openapi: Callable[[], dict[str, Any]]) -> Callable[[], dict[str, Any]]:
-    """The OpenAPI document with the problem document in place of FastAPI's own error schema."""
-
-    def document_with_problems() -> dict[str, Any]:
+    def with_problems() -> dict[str, Any]:
         document = openapi()
         schemas = document["components"]["schemas"]
-        if "Problem" not in schemas:
-            for name in ("HTTPValidationError", "ValidationError"):
-                schemas.pop(name, None)
-            _, definitions = models_json_schema(
-                [(Problem, "serialization")], ref_template="#/components/schemas/{model}"
-            )
-            schemas |= definitions["$defs"]
+        for name in ("HTTPValidationError", "ValidationError"):
+            schemas.pop(name, None)
+        _, definitions = models_json_schema([(Problem, "serialization")], ref_template="#/components/schemas/{model}")
+        schemas |= definitions["$defs"]
         return document
 
-    return document_with_problems
+    app.openapi = with_problems  # type: ignore[method-assign]
 
 
 def problem(
@@ -91,7 +83,7 @@ def problem(
     code: str,
     title: str,
     *,
-    detail: str | None = None,
+    detail: str = "",
     errors: list[dict[str, str]] | None = None,
     headers: dict[str, str] | None = None,
 ) -> JSONResponse:
@@ -118,15 +110,14 @@ def answer(request: Request, error: Exception) -> JSONResponse:
     instance = str(request.state.request_id)
     match error:
         case RequestValidationError():  # of an address: the faults of a body are InvalidBody
-            faults = [
-                {"pointer": pointer(item["loc"][1:]), "code": item["type"], "message": _message(item)}
-                for item in error.errors()[:MOST_FAULTS]
-            ]
-            return _refusal(instance, "invalid_request", faults)
-        case InvalidBody():
-            return _refusal(instance, "invalid_request", faults_of(error))
-        case Unprocessable():
-            return _refusal(instance, error.code, faults_of(error))
+            items = error.errors()[:MOST_FAULTS]
+            faults = [Fault(pointer(item["loc"][1:]), item["type"], _message(item)) for item in items]
+            return answer(request, InvalidBody(faults))
+        case InvalidBody() | Unprocessable():
+            code = error.code if isinstance(error, Unprocessable) else "invalid_request"
+            errors = faults_of(error)
+            detail = f"{errors[0]['pointer'] or 'request'}: {errors[0]['message']}"
+            return problem(instance, 422, code, "The input cannot be computed", detail=detail, errors=errors)
         case HTTPException():
             phrase = HTTPStatus(error.status_code).phrase
             headers = dict(error.headers or {})
@@ -135,7 +126,7 @@ def answer(request: Request, error: Exception) -> JSONResponse:
             )
         case _:
             kind = kind_of(error)
-            detail = getattr(error, "detail", None)
+            detail = getattr(error, "detail", "")
             return problem(instance, kind.status, kind.code, kind.title, detail=detail, headers=kind.headers)
 
 
@@ -143,12 +134,6 @@ def _message(item: dict[str, Any]) -> str:
     if item["type"] == "literal_error":
         return f"{item['loc'][-1]}: must be one of {item['ctx']['expected']}"
     return str(item["msg"])
-
-
-def _refusal(instance: str, code: str, errors: list[dict[str, str]]) -> JSONResponse:
-    first = errors[0]
-    detail = f"{first['pointer'] or 'request'}: {first['message']}"
-    return problem(instance, 422, code, "The input cannot be computed", detail=detail, errors=errors)
 
 
 def internal_error(instance: str, error: Exception) -> JSONResponse:

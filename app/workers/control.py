@@ -8,15 +8,16 @@ import socket
 import struct
 import subprocess
 import sys
-from collections.abc import AsyncIterator, Callable, Sequence
+from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, suppress
+from multiprocessing import Pipe
+from multiprocessing.reduction import send_handle
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from app.calculations import Stage
 
-ANSWER_S = 10.0  # a template that takes longer is replaced; loading a stage may take as long as it takes
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 LENGTH = struct.Struct("!i")  # precedes each message of a multiprocessing.connection
 
@@ -28,27 +29,32 @@ class ProcessDied(Exception):
 class Worker:
     """A copy of the template: makes one call at a time, or compiles stages.
 
-    The event loop reads its connection: a thread for each worker would answer a third fewer calls per second. `busy`
-    says that the outcome of a call is outstanding, `begun` that the process has begun to carry it out, `outdated` that
-    the template has loaded more since.
+    The event loop reads its connection: a thread for each worker would answer a third fewer calls per second. `begun`
+    says that the process has begun to carry out the last call, `outdated` that the template has loaded more since.
     """
 
     def __init__(self, pid: int, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         self.pid = pid
-        self.busy = self.begun = self.outdated = False
+        self.begun = self.outdated = False
         self.ended = asyncio.Event()
         self._reader = reader
         self._writer = writer
 
     async def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
-        """What the function returns or raises in the process; ProcessDied if that ends first."""
-        content = pickle.dumps((function, arguments), pickle.HIGHEST_PROTOCOL)
-        self.busy, self.begun = True, False
-        self._writer.write(LENGTH.pack(len(content)) + content)
-        await self.receive()
-        self.begun = True
-        succeeded, result = await self.receive()
-        self.busy = False
+        """What the function returns or raises in the process; ProcessDied if that ends first.
+
+        Without an outcome the process is ended: its next message would be taken for the answer to the next call.
+        """
+        content = pickle.dumps((function, arguments))
+        self.begun = False
+        try:
+            self._writer.write(LENGTH.pack(len(content)) + content)
+            await self.receive()
+            self.begun = True
+            succeeded, result = await self.receive()
+        except BaseException:
+            self.end()
+            raise
         if succeeded:
             return result
         raise result
@@ -76,10 +82,8 @@ class Template:
     def __init__(self, preloaded: str) -> None:
         self.preloaded = preloaded
         self.loaded: set[Stage] = set()
-        self._ready = False
         self._turn = asyncio.Lock()  # one command at a time
-        self._control, theirs = socket.socketpair()
-        self._control.setblocking(False)
+        self._control, theirs = Pipe()
         with theirs:
             self._process = subprocess.Popen(  # noqa: S603
                 # -P: a folder `app` in the working directory is not ours.
@@ -98,63 +102,48 @@ class Template:
         """Whether it died or was stopped."""
         return self._process.poll() is not None or not is_running(self._process.pid)
 
-    async def fork(self, memory_mb: int) -> Worker:
-        """A new worker, which sends a message when it is ready."""
-        return await self._copy("fork", memory_mb)
-
     @asynccontextmanager
-    async def compiler(self, stages: "Sequence[Stage]") -> AsyncIterator[Worker]:
-        """A process that compiles these stages; it sends None for each kernel and a stage when that is compiled."""
-        process = await self._copy("compile", tuple(stages))
+    async def copy(self, purpose: str, argument: Any) -> AsyncIterator[Worker]:
+        """A copy of the process, which is ended when the context is left; raises ProcessDied.
+
+        To "work" with so many MiB of memory it sends a message when it is ready. To "compile" a sequence of stages it
+        sends None for each kernel, and the stage when that is compiled.
+        """
+        ours, theirs = socket.socketpair()
+        with theirs:
+            pid = await self._ask(purpose, argument, descriptor=theirs.fileno())
+        worker = Worker(pid, *await asyncio.open_unix_connection(sock=ours))
         try:
-            yield process
+            yield worker
         finally:
-            process.end()
-            await self.reap(process)
+            worker.end()
+            with suppress(ProcessDied):
+                await self._ask("reap", pid)
 
     async def warm(self, stage: "Stage") -> int:
-        """Load a stage, unless it is; how many kernels had to be compiled for it."""
-        if stage in self.loaded:
-            return 0
-        compiled = await self._ask("warm", stage, seconds=None)
+        """Load a stage; how many kernels had to be compiled for it. Raises ProcessDied."""
+        compiled = await self._ask("warm", stage)
         self.loaded.add(stage)
         return compiled
 
-    async def reap(self, worker: Worker) -> None:
-        """Free the process id of a worker that was ended."""
-        with suppress(ProcessDied):
-            await self._ask("reap", worker.pid)
-
     def close(self) -> None:
-        """End the process; the connection is closed with this object, for a command may still wait for an answer."""
+        """End the process."""
         self._process.kill()
         self._process.wait()
 
-    async def _copy(self, name: str, argument: Any) -> Worker:
-        ours, theirs = socket.socketpair()
-        with theirs:
-            pid = await self._ask(name, argument, theirs.fileno())
-        return Worker(pid, *await asyncio.open_unix_connection(sock=ours))
-
-    async def _ask(self, name: str, argument: Any, *descriptors: int, seconds: float | None = ANSWER_S) -> int:
-        """The template's answer to a command; raises ProcessDied."""
+    async def _ask(self, *command: Any, descriptor: int | None = None) -> int:
+        """The template's answer to a command, waited for in a thread; raises ProcessDied."""
         async with self._turn:
             try:
-                if not self._ready:  # its imports take seconds
-                    await self._answer()
-                    self._ready = True
-                async with asyncio.timeout(seconds):
-                    socket.send_fds(self._control, [pickle.dumps((name, argument))], descriptors)
-                    return await self._answer()
+                self._control.send(command)
+                if descriptor is not None:
+                    send_handle(self._control, descriptor, self._process.pid)
+                return await asyncio.to_thread(self._control.recv)
             except BaseException as error:
                 self._process.kill()  # the answer to this command must not be taken for that to the next
                 if isinstance(error, (OSError, EOFError)):
                     raise ProcessDied from error
                 raise
-
-    async def _answer(self) -> int:
-        answer: int = pickle.loads(await asyncio.get_running_loop().sock_recv(self._control, 64))  # noqa: S301
-        return answer
 
 
 def is_running(pid: int) -> bool:

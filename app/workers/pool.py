@@ -14,8 +14,7 @@ import asyncio
 import logging
 import statistics
 from collections import Counter, deque
-from collections.abc import AsyncIterator, Callable
-from contextlib import asynccontextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -51,17 +50,9 @@ class Job:
     worker: Worker | None = None
     since: float = 0.0  # when it began to wait, or with a worker to run [s]
     interrupted: Worker | None = None  # the worker it lost to another client
-    left: bool = False  # its client is gone
-    turn: asyncio.Future[None] = field(init=False)  # done when it has a worker
+    left: bool = False  # its client is gone: the call raises ClientGone
+    turn: asyncio.Future[Worker] = field(init=False)  # the worker, once it has one
     timeout: asyncio.Timeout = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.timeout = asyncio.timeout(None if self.of_study else self.deadline_s)
-
-    def leave(self) -> None:
-        """The client is gone: the call raises ClientGone."""
-        self.left = True
-        self.expire_at(asyncio.get_running_loop().time())
 
     def expire_at(self, when: float | None) -> None:
         """Move the deadline."""
@@ -159,34 +150,37 @@ class Shares:
 class Pool:
     """The workers, copies of one template process, and the calls that wait for them."""
 
-    def __init__(self, size: int, queue: int, memory_mb: int, template: Template) -> None:
-        self.size = size
+    def __init__(self, settings: Settings, template: Template) -> None:
+        self.size = settings.workers
         self.template = template
         self.template_restarted = asyncio.Event()
-        self._memory_mb = memory_mb
+        self._settings = settings
         self._forkable = asyncio.Event()  # whether the template has loaded what workers need
         self._workers: set[Worker] = set()
         self._idle: list[Worker] = []
-        self._shares = shares = Shares(size, size + queue)
+        self._shares = shares = Shares(settings.workers, settings.workers + settings.queue)
         WAITING.set_function(lambda: sum(not job.of_study for job in shares.waiting))
         CALCULATIONS.set_function(lambda: sum(not job.of_study for job in (*shares.running, *shares.waiting)))
-
-    @asynccontextmanager
-    async def running(self) -> AsyncIterator[None]:
-        """Workers and template are supervised while the context is open; afterwards no process is left."""
-        async with asyncio.TaskGroup() as group:
-            tasks = [group.create_task(each) for each in (self._supervise(), *(self._slot() for _ in range(self.size)))]
-            try:
-                yield
-            finally:
-                for task in tasks:
-                    task.cancel()
-                self.template.close()
 
     @property
     def workers_alive(self) -> int:
         """How many workers can calculate."""
         return len(self._workers)
+
+    async def calculate(self, http: Request, function: Callable[..., Any], *arguments: Any) -> Any:
+        """The function's result for the client of a request, whose disconnect ends the work.
+
+        The client is what the header of the settings names, else an address. Raises what `run` raises.
+        """
+        header = self._settings.client_header
+        name = http.headers.get(header) if header else None
+        owner = name or (http.client.host if http.client else "")
+        job = Job(owner, http.scope["route"].path, self._settings.deadline_s)
+        watcher = asyncio.create_task(_leave_with_client(http, job))
+        try:
+            return await self.run(job, function, *arguments)
+        finally:
+            watcher.cancel()
 
     async def run(self, job: Job, function: Callable[..., Any], *arguments: Any) -> Any:
         """The function's result; a caller that is cancelled ends its worker.
@@ -195,19 +189,18 @@ class Pool:
         """
         self._shares.admit(job)
         try:
-            async with job.timeout:
+            async with asyncio.timeout(None if job.of_study else job.deadline_s) as job.timeout:
                 while True:
                     try:
                         self._shares.add(job, _now())
                         self._hand_out()
-                        await job.turn
-                        assert job.worker is not None
-                        return await job.worker.call(function, *arguments)
+                        worker = await job.turn
+                        return await worker.call(function, *arguments)
                     except ProcessDied as error:
                         # A call that had not begun, or was interrupted for another client, is made again.
-                        if job.worker is not None and job.worker.begun and job.worker is not job.interrupted:
+                        if worker.begun and worker is not job.interrupted:
                             WORKERS_LOST.inc()
-                            logger.warning("worker %d was lost while it calculated", job.worker.pid)
+                            logger.warning("worker %d was lost while it calculated", worker.pid)
                             raise WorkerLost from error
                     finally:
                         self._release(job)
@@ -226,14 +219,14 @@ class Pool:
             job.worker = self._idle.pop()
             if job.of_study:
                 job.expire_at(_now() + job.deadline_s)
-            job.turn.set_result(None)
+            job.turn.set_result(job.worker)
 
     def _release(self, job: Job) -> None:
-        """Remove a call from the queue, or free its worker; a worker whose call has no outcome is ended."""
+        """Remove a call from the queue, or free its worker."""
         worker, job.worker = job.worker, None
-        self._shares.remove(job, _now(), finished=worker is not None and not worker.busy)
+        self._shares.remove(job, _now(), finished=worker is not None and not worker.ended.is_set())
         if worker is not None:
-            if worker.busy or worker.outdated:
+            if worker.outdated:
                 worker.end()
             self._idle.append(worker)
         self._hand_out()
@@ -246,91 +239,56 @@ class Pool:
         for worker in self._idle:
             worker.end()
 
-    async def _slot(self) -> None:
-        """One worker after the other."""
+    async def keep_worker(self) -> None:
+        """Have a worker, and another one when it has ended."""
         while True:
+            await self._forkable.wait()
             try:
-                await self._worker_life()
-            except (ProcessDied, OSError):
+                async with self.template.copy("work", self._settings.worker_memory_mb) as worker:
+                    self._workers.add(worker)
+                    try:
+                        await worker.receive()
+                        self._idle.append(worker)
+                        self._hand_out()
+                        await worker.ended.wait()
+                    finally:
+                        self._workers.discard(worker)
+            except ProcessDied:
                 await asyncio.sleep(SUPERVISION_S)
             except Exception:
                 logger.exception("the start of a worker failed; it is tried again")
                 await asyncio.sleep(SUPERVISION_S)
 
-    async def _worker_life(self) -> None:
-        """A worker from its start to its end."""
-        await self._forkable.wait()
-        template = self.template
-        worker = await template.fork(self._memory_mb)
-        self._workers.add(worker)
-        try:
-            await worker.receive()
-            self._idle.append(worker)
-            self._hand_out()
-            await worker.ended.wait()
-        finally:
-            worker.end()
-            self._workers.discard(worker)
-            await template.reap(worker)
-
-    async def _supervise(self) -> None:
+    async def supervise(self) -> None:
         """Replace processes that died or were stopped; interrupt a call where another has waited too long."""
         while True:
             await asyncio.sleep(SUPERVISION_S)
             try:
-                for worker in [worker for worker in self._workers if not is_running(worker.pid)]:
-                    logger.warning("worker %d died or was stopped; it is replaced", worker.pid)
-                    worker.end()
+                for worker in tuple(self._workers):
+                    if not worker.ended.is_set() and not is_running(worker.pid):
+                        logger.warning("worker %d died or was stopped; it is replaced", worker.pid)
+                        worker.end()
                 if self.template.lost:
                     logger.warning("the template process was lost; it is started again")
                     self._forkable.clear()
                     self.template.close()
                     self.template = Template(self.template.preloaded)
                     self.template_restarted.set()
-                self._interrupt()
+                if (job := self._shares.to_interrupt(_now())) is not None and job.worker is not None:
+                    # For another client that has waited long enough; it is made again, with a new deadline.
+                    INTERRUPTED.inc()
+                    job.interrupted = job.worker
+                    job.expire_at(None if job.of_study else _now() + job.deadline_s)
+                    job.worker.end()
                 self._hand_out()  # a reservation may be over
             except Exception:
                 logger.exception("supervision of the workers failed; it goes on")
 
-    def _interrupt(self) -> None:
-        """End a call for another client that has waited long enough; it is made again, with a new deadline."""
-        job = self._shares.to_interrupt(_now())
-        if job is not None and job.worker is not None:
-            INTERRUPTED.inc()
-            job.interrupted = job.worker
-            job.expire_at(None if job.of_study else _now() + job.deadline_s)
-            job.worker.end()
 
-
-class Runner:
-    """Single calculations, each for the client of a request."""
-
-    def __init__(self, settings: Settings, pool: Pool) -> None:
-        self._settings = settings
-        self._pool = pool
-
-    async def run(self, http: Request, function: Callable[..., Any], *arguments: Any) -> Any:
-        """The function's result; the client's disconnect ends the work.
-
-        Raises QueueFull, DeadlineExceeded, WorkerLost, ClientGone, and what the function raises.
-        """
-        job = Job(self._client(http), http.scope["route"].path, self._settings.deadline_s)
-        watcher = asyncio.create_task(_watch(http, job))
-        try:
-            return await self._pool.run(job, function, *arguments)
-        finally:
-            watcher.cancel()
-
-    def _client(self, http: Request) -> str:
-        """Whose request it is: the name in the header that the settings say, else the address."""
-        header = self._settings.client_header
-        name = http.headers.get(header) if header else None
-        return name or (http.client.host if http.client else "")
-
-
-async def _watch(http: Request, job: Job) -> None:
+async def _leave_with_client(http: Request, job: Job) -> None:
     await disconnected(http)
-    job.leave()
+    job.left = True
+    job.expire_at(_now())
 
 
 async def disconnected(http: Request) -> None:

@@ -10,20 +10,11 @@ from collections.abc import Callable
 
 from numba.core import event
 
-from app.calculations import (
-    BY_PATH,
-    CALCULATIONS,
-    COUPLING,
-    DRIVE_TRAIN,
-    LINE_CONTACT,
-    LOADS,
-    PUMPING,
-    SLEEVE,
-    Stage,
-)
+from app.calculations import BY_PATH, COUPLING, DRIVE_TRAIN, LINE_CONTACT, LOADS, PUMPING, SLEEVE, Calculation, Stage
 from app.evaluate import drawn, json_answer
 from app.examples import examples
-from solvers.kernel_cache import discard, mark_complete
+from app.schema.model import Request
+from solvers.kernel_cache import mark_complete
 
 FIGURES = Stage("figures and studies", 0, ())  # no kernels, but slow to load
 
@@ -46,9 +37,13 @@ def content() -> str:
 
 def calculate(name: str) -> None:
     """Answer one example."""
+    json_answer(*_case(name))
+
+
+def _case(name: str) -> tuple[Calculation, Request]:
     example = examples()[name]
     calculation = BY_PATH[example.endpoint]
-    json_answer(calculation, calculation.request.model_validate(example.request))
+    return calculation, calculation.request.model_validate(example.request)
 
 
 class _Compilations(event.Listener):
@@ -76,8 +71,11 @@ def warm(stage: Stage, notify: Callable[[], object] = lambda: None) -> int:
     with event.install_listener("numba:compile", compilations):
         for name in stage.examples:
             _calculate_with(compilations, name)
-        if stage == FIGURES:
-            _load_figures()
+    if stage == FIGURES:  # half a second and 70 MB
+        import scipy.stats  # noqa: F401, PLC0415  for random samples
+
+        calculation, request = _case(COUPLING.examples[0])
+        drawn(calculation, calculation.figures[0], request, "svg", "light")
     _warm.add(stage)
     return compilations.count
 
@@ -87,35 +85,17 @@ def _calculate_with(compilations: _Compilations, name: str) -> None:
     while True:
         before = compilations.count
         try:
-            calculate(name)
+            return calculate(name)
         except OSError as error:
             if compilations.count == before:
                 raise
             logger.warning("a compiled kernel could not be kept on disk: %s", error)
-        else:
-            return
-
-
-def _load_figures() -> None:
-    """Load what draws figures, half a second and 70 MB, and what random samples need."""
-    import scipy.stats  # noqa: F401, PLC0415
-
-    example = examples()[COUPLING.examples[0]]
-    calculation = BY_PATH[example.endpoint]
-    drawn(calculation, calculation.figures[0], calculation.request.model_validate(example.request), "svg", "light")
 
 
 def touch_shared_memory() -> None:
     """Make this process's own copy of the memory that calculations write to."""
     for stage in _warm.intersection(TOUCHING):
         calculate(stage.examples[0])
-
-
-def discard_kernels(stage: Stage) -> None:
-    """Remove the kept kernels of the modules that the stage's endpoints call."""
-    for calculation in CALCULATIONS:
-        if calculation.stage == stage:
-            discard(calculation.solve.__module__)
 
 
 def main() -> None:

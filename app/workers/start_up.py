@@ -8,16 +8,16 @@ import logging
 import os
 import sys
 import time
-from collections import Counter
-from collections.abc import AsyncIterator, Sequence
-from contextlib import asynccontextmanager, suppress
+from collections import Counter, deque
+from collections.abc import Sequence
+from contextlib import suppress
 
-from app.calculations import BY_PATH, Stage
+from app.calculations import BY_PATH, CALCULATIONS, Stage
 from app.errors import WarmingUp
 from app.workers.control import ProcessDied
 from app.workers.pool import Pool
-from app.workers.stages import STAGES, TRACKS, content, discard_kernels
-from solvers.kernel_cache import is_complete, mark_complete, writable_root
+from app.workers.stages import STAGES, TRACKS, content
+from solvers.kernel_cache import discard, is_complete, mark_complete, writable_root
 
 MOST_DEATHS = 3  # of the template over one stage
 BAR = 40  # characters
@@ -26,37 +26,20 @@ logger = logging.getLogger("tribodrive")
 
 
 class StartUp:
-    """Which stages are loaded, and the tasks that compile and load them."""
+    """Loads the stages; those in `warm` answer."""
 
     def __init__(self, pool: Pool) -> None:
+        self.warm: list[Stage] = []
         self._pool = pool
-        self._warm: list[Stage] = []
-        self.closed = set(BY_PATH)  # endpoints whose kernels are not there yet
         self._compiled: Counter[Stage] = Counter()  # kernels so far
         self._missing = 0  # kernels that were not found on disk when they were loaded
         self._deaths: Counter[Stage] = Counter()  # of the template while it loaded a stage
         self._loading = asyncio.Lock()
 
-    @asynccontextmanager
-    async def running(self) -> AsyncIterator[None]:
-        """Warm up in the background while the context is open; leaving it ends what still runs."""
-        task = asyncio.create_task(self._run())
-        try:
-            yield
-        finally:
-            task.cancel()
-            with suppress(asyncio.CancelledError):
-                await task
-
-    @property
-    def warm(self) -> list[str]:
-        """Names of the stages that answer."""
-        return [stage.name for stage in self._warm]
-
     @property
     def complete(self) -> bool:
         """Whether every stage answers."""
-        return len(self._warm) == len(STAGES)
+        return len(self.warm) == len(STAGES)
 
     def report(self) -> str:
         """How far everything is, in words."""
@@ -64,12 +47,12 @@ class StartUp:
 
     def require(self, endpoint: str) -> None:
         """Raise WarmingUp if the endpoint's kernels are not there yet."""
-        if endpoint in self.closed:
+        if BY_PATH[endpoint].stage not in self.warm:
             raise self.warming_up()
 
     def require_any(self) -> None:
         """Raise WarmingUp if there is no worker yet that could look at a request."""
-        if not self._warm:
+        if not self.warm:
             raise self.warming_up()
 
     def warming_up(self) -> WarmingUp:
@@ -77,9 +60,10 @@ class StartUp:
         return WarmingUp(f"Kernels are being compiled, once after installation: {self.report()}")
 
     def _share(self, stage: Stage) -> float:
-        return 1.0 if stage in self._warm else min(0.99, self._compiled[stage] / max(1, stage.kernels))
+        return 1.0 if stage in self.warm else min(0.99, self._compiled[stage] / max(1, stage.kernels))
 
-    async def _run(self) -> None:
+    async def run(self) -> None:
+        """Load every stage, and whenever the template is started again all of them again."""
         try:
             began = time.monotonic()
             await self._load_all()
@@ -102,9 +86,8 @@ class StartUp:
             for stage in STAGES:
                 await self._load(stage)
         else:
-            cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
             async with asyncio.TaskGroup() as group:
-                for track in TRACKS if cores > 1 else (STAGES,):
+                for track in TRACKS if (os.cpu_count() or 1) > 1 else (STAGES,):
                     group.create_task(self._compile(track))
         if self._missing:
             logger.warning("%d kernels were not on disk; the next start compiles what is missing", self._missing)
@@ -112,15 +95,15 @@ class StartUp:
 
     async def _compile(self, stages: Sequence[Stage]) -> None:
         """Compile stages and load each when it is done; where the process is lost, loading compiles the rest."""
-        waiting = list(stages)
+        waiting = deque(stages)
         with suppress(ProcessDied):
-            async with self._pool.template.compiler(stages) as process:
+            async with self._pool.template.copy("compile", stages) as process:
                 while waiting:
                     if await process.receive() is None:
                         self._compiled[waiting[0]] += 1
                         self._show()
                     else:
-                        await self._load(waiting.pop(0))
+                        await self._load(waiting.popleft())
         for stage in waiting:
             logger.warning("%s is compiled by the template process: the one beside it was lost", stage.name)
             await self._load(stage)
@@ -128,28 +111,28 @@ class StartUp:
     async def _load(self, stage: Stage) -> None:
         """Have the template load the stage, and what it had loaded before it was restarted; then open the stage."""
         async with self._loading:
-            while True:
-                self._pool.template_restarted.clear()
+            self._pool.template_restarted.clear()
+            while missing := [
+                each
+                for each in (*self.warm, stage)
+                if each not in self._pool.template.loaded and self._deaths[each] < MOST_DEATHS
+            ]:
                 try:
-                    for each in dict.fromkeys((*self._warm, stage)):
-                        loading = each
-                        if self._deaths[each] < MOST_DEATHS:
-                            self._missing += await self._pool.template.warm(each)
-                            del self._deaths[each]
-                    break
+                    self._missing += await self._pool.template.warm(missing[0])
+                    del self._deaths[missing[0]]
                 except ProcessDied:
                     await self._pool.template_restarted.wait()
-                    await self._recompile_after_deaths(loading)
+                    self._pool.template_restarted.clear()
+                    self._count_death(missing[0])
             self._pool.renew()
-            if stage not in self._warm:
-                self._warm.append(stage)
-                self.closed = {path for path in self.closed if BY_PATH[path].stage is not stage}
+            if stage not in self.warm:
+                self.warm.append(stage)
                 if not sys.stderr.isatty():
                     logger.info("tribodrive: %s is warm", stage.name)
             self._show()
 
-    async def _recompile_after_deaths(self, stage: Stage) -> None:
-        """After the second death of the template over a stage: its kernels on disk may be damaged."""
+    def _count_death(self, stage: Stage) -> None:
+        """After the second death over a stage its kernels on disk may be damaged: loading it compiles them again."""
         self._deaths[stage] += 1
         if self._deaths[stage] == MOST_DEATHS:
             logger.error(
@@ -159,16 +142,14 @@ class StartUp:
             )
         elif self._deaths[stage] > 1:
             logger.warning("two processes died while they loaded %s: its kernels are compiled again", stage.name)
-            discard_kernels(stage)
-            with suppress(ProcessDied):
-                async with self._pool.template.compiler([stage]) as process:
-                    while await process.receive() is None:
-                        pass
+            for calculation in CALCULATIONS:
+                if calculation.stage == stage:
+                    discard(calculation.solve.__module__)
 
     def _show(self) -> None:
         """Draw a progress bar over the one before, on a terminal."""
         if sys.stderr.isatty() and self._compiled:
             share = sum(self._share(stage) * stage.kernels for stage in STAGES) / sum(stage.kernels for stage in STAGES)
-            at_work = ", ".join(stage.name for stage in STAGES if self._compiled[stage] and stage not in self._warm)
+            at_work = ", ".join(stage.name for stage in STAGES if self._compiled[stage] and stage not in self.warm)
             above = "\x1b[A\x1b[2K" if self._compiled.total() > 1 else ""
             logger.info("%s%s %3.0f %% %s", above, f"{'█' * round(BAR * share):░<{BAR}}", 100 * share, at_work)

@@ -2,12 +2,12 @@
 
 The template has one thread, so that no copy inherits a lock that is held, and freezes what it has loaded, so that the
 garbage collector of a copy does not touch it and the memory stays shared. It carries out one command after the other,
-each a pickled pair of name and argument, and sends the pickled answer before it reads the next:
+each a name and an argument, and sends an answer to each:
 
-    ("fork", memory_mb), with a descriptor         a new worker that serves the descriptor: its process id
-    ("compile", stages), with a descriptor         a process that compiles these stages: its process id
-    ("reap", process id)                           wait until the process has ended; its id is free from then on
-    ("warm", stage)                                load a stage: how many kernels had to be compiled for it
+    ("work", memory_mb), then a descriptor      a new worker that serves the descriptor: its process id
+    ("compile", stages), then a descriptor      a process that compiles these stages: its process id
+    ("reap", process id)                        wait until the process has ended; its id is free from then on
+    ("warm", stage)                             load a stage: how many kernels had to be compiled for it
 """
 
 import ctypes
@@ -18,7 +18,6 @@ import pickle
 import resource
 import select
 import signal
-import socket
 import sys
 import threading
 import traceback
@@ -26,6 +25,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from importlib import import_module
 from multiprocessing.connection import Connection
+from multiprocessing.reduction import recv_handle
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 
 PR_SET_PDEATHSIG = 1  # linux/prctl.h
 MEBIBYTE = 2**20  # bytes
-LARGEST_COMMAND = 65536  # bytes
 
 logger = logging.getLogger("tribodrive")
 
@@ -46,39 +45,33 @@ def main(parent: int, descriptor: int, preloaded: str) -> None:
         return
     gc.disable()  # imports leave no garbage, and looking for it takes a third of their time
     import_module(preloaded)  # so that no worker has to import what it is asked to call
+    from app.workers import stages  # noqa: PLC0415
+
     gc.freeze()
-    with socket.socket(fileno=descriptor) as control:
-        answer = 0  # ready
-        while True:
-            control.send(pickle.dumps(answer))
-            command, descriptors, _, _ = socket.recv_fds(control, LARGEST_COMMAND, 1)
-            if not command:
-                return
-            match pickle.loads(command):  # noqa: S301  from the service itself
-                case "fork", memory_mb:
-                    answer = _copy(control, descriptors[0], partial(_work, memory_mb=memory_mb))
-                case "compile", stages:
-                    answer = _copy(control, descriptors[0], partial(_compile, stages=stages))
-                case "reap", pid:
-                    answer = os.waitpid(pid, 0)[0]
-                case _, stage:
-                    answer = _warm(stage)
+    control = Connection(descriptor)
+    while True:
+        try:
+            command = control.recv()
+        except EOFError:
+            return
+        match command:
+            case "work", memory_mb:
+                answer = _copy(control, partial(_work, memory_mb=memory_mb))
+            case "compile", some_stages:
+                answer = _copy(control, partial(_compile, some_stages=some_stages))
+            case "reap", pid:
+                answer = os.waitpid(pid, 0)[0]
+            case _, stage:
+                answer = stages.warm(stage)  # where that fails this process ends: what it has loaded may be damaged
+                gc.collect()
+                gc.freeze()
+        control.send(answer)
 
 
-def _warm(stage: "Stage") -> int:
-    """Load a stage. Where that fails this process ends, for what it has loaded may be damaged."""
-    from app.workers import stages  # noqa: PLC0415  after the garbage collector is off
-
-    compiled = stages.warm(stage)
-    gc.collect()
-    gc.freeze()
-    return compiled
-
-
-def _copy(control: socket.socket, descriptor: int, serve: Callable[[Connection], None]) -> int:
-    """The process id of a copy of this process that serves the descriptor."""
-    pid = os.fork()
-    if pid:
+def _copy(control: Connection, serve: Callable[[Connection], None]) -> int:
+    """The process id of a copy of this process that serves the descriptor which follows the command."""
+    descriptor = recv_handle(control)
+    if pid := os.fork():
         os.close(descriptor)
         return pid
     try:
@@ -119,26 +112,26 @@ def _outcome(call: bytes) -> bytes:
     """The pickled pair of whether the call succeeded, and its result or its exception with the traceback as a note."""
     try:
         function, arguments = pickle.loads(call)  # noqa: S301  from the service itself
-        return pickle.dumps((True, function(*arguments)), pickle.HIGHEST_PROTOCOL)
+        return pickle.dumps((True, function(*arguments)))
     except Exception as error:  # noqa: BLE001  handed to the caller
         error.add_note(f"In the worker process:\n{traceback.format_exc()}")
         try:
-            content = pickle.dumps((False, error), pickle.HIGHEST_PROTOCOL)
+            content = pickle.dumps((False, error))
             pickle.loads(content)  # noqa: S301
         except Exception:  # noqa: BLE001  not every exception can be pickled and read again
-            return pickle.dumps((False, RuntimeError(traceback.format_exc())), pickle.HIGHEST_PROTOCOL)
+            return pickle.dumps((False, RuntimeError(traceback.format_exc())))
         return content
 
 
-def _compile(connection: Connection, stages: "Sequence[Stage]") -> None:
+def _compile(connection: Connection, some_stages: "Sequence[Stage]") -> None:
     """Have the kernels of stages on disk: None is sent for every kernel, the stage when all of its kernels are there.
 
     What fails here fails once more, and is logged, when the template loads the stage.
     """
-    from app.workers.stages import warm  # noqa: PLC0415
+    from app.workers import stages  # noqa: PLC0415
 
-    for stage in stages:
-        warm(stage, lambda: connection.send(None))
+    for stage in some_stages:
+        stages.warm(stage, lambda: connection.send(None))
         connection.send(stage)
 
 

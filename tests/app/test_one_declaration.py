@@ -242,16 +242,16 @@ def test_an_input_at_the_root_is_one_declaration_too() -> None:
 class _AtOnce:
     """Runs what a worker would run, and finds every kernel warm."""
 
-    closed: frozenset[str] = frozenset()
+    warm = (COUPLING,)
 
-    async def run(self, _http: object, function: Callable[..., bytes], *arguments: Any) -> bytes:
+    async def calculate(self, _http: object, function: Callable[..., bytes], *arguments: Any) -> bytes:
         return function(*arguments)
 
 
 def test_an_endpoint_is_one_row_and_its_solver(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(calculations.BY_PATH, ROW.path, ROW)
     service = FastAPI()
-    service.state.settings, service.state.runner, service.state.start_up = settings(), _AtOnce(), _AtOnce()
+    service.state.settings, service.state.pool, service.state.start_up = settings(), _AtOnce(), _AtOnce()
     add(service.router, ROW)
 
     async def posted(body: dict[str, float]) -> httpx.Response:

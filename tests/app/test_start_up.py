@@ -21,7 +21,6 @@ class FakePool:
         self.template = self
         self.template_restarted = asyncio.Event()
         self.loaded: list[Stage] = []
-        self.compiled: list[Stage] = []
         self._deaths = deaths or {}
         self._compiled = compiled
 
@@ -37,8 +36,7 @@ class FakePool:
         pass
 
     @asynccontextmanager
-    async def compiler(self, stages: Sequence[Stage]) -> AsyncIterator["Compiler"]:
-        self.compiled += stages
+    async def copy(self, _purpose: str, stages: Sequence[Stage]) -> AsyncIterator["Compiler"]:
         yield Compiler(stages)
 
 
@@ -56,7 +54,7 @@ class Compiler:
 def marks(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """What is done to the cache."""
     done: list[str] = []
-    monkeypatch.setattr(start_up, "discard_kernels", lambda stage: done.append(f"discarded {stage.name}"))
+    monkeypatch.setattr(start_up, "discard", lambda module: done.append(f"discarded {module}"))
     monkeypatch.setattr(start_up, "is_complete", lambda _: False)
     monkeypatch.setattr(
         start_up, "mark_complete", lambda _, *, complete: done.append("complete" if complete else "incomplete")
@@ -73,8 +71,8 @@ def test_a_stage_that_kills_the_template_twice_is_compiled_again(
 ) -> None:
     pool = FakePool(deaths={COUPLING: 2})
     load(pool, COUPLING)
-    assert marks == ["discarded coupling"]
-    assert pool.compiled == pool.loaded == [COUPLING]
+    assert marks == ["discarded solvers.coupling.model"]
+    assert pool.loaded == [COUPLING]
     assert [record.message for record in caplog.records if record.levelno >= logging.WARNING] == [
         "two processes died while they loaded coupling: its kernels are compiled again"
     ]
@@ -84,7 +82,6 @@ def test_one_death_of_the_template_costs_no_kernel(marks: list[str]) -> None:
     pool = FakePool(deaths={COUPLING: 1})
     load(pool, COUPLING)
     assert marks == []
-    assert pool.compiled == []
     assert pool.loaded == [COUPLING]
 
 
@@ -109,8 +106,8 @@ def test_a_stage_over_which_the_template_always_dies_is_left_out(
 
     asyncio.run(load_two())
     assert pool.loaded == [SLEEVE]
-    assert start.warm == ["coupling", "coupling sleeve"]
-    assert marks == ["discarded coupling"]
+    assert start.warm == [COUPLING, SLEEVE]
+    assert marks == ["discarded solvers.coupling.model"]
     assert "coupling is not loaded" in caplog.text
 
 

@@ -74,7 +74,6 @@ def test_a_coupling_request_passes_at_most_20_modules(monkeypatch: pytest.Monkey
             runner.run(post())
         finally:
             runner.run(lifespan.__aexit__(None, None, None))
-            app.state.pool.template._control.close()
     template._outcome(calls[0])  # a warm worker has looked up every name and unit once
     worker = modules_entered(lambda: template._outcome(calls[0]))
     assert {"app/workers/pool.py", "app/http/json_route.py"} <= service

@@ -56,26 +56,26 @@ def create_faulty_app() -> FastAPI:
 
     @app.post("/sleep/{seconds}")
     async def _(http: Request, seconds: float) -> float:
-        result: float = await app.state.runner.run(http, sleep, seconds)
+        result: float = await app.state.pool.calculate(http, sleep, seconds)
         return result
 
     @app.post("/spin/{seconds}")
     async def _(http: Request, seconds: float) -> float:
-        result: float = await app.state.runner.run(http, spin, seconds)
+        result: float = await app.state.pool.calculate(http, spin, seconds)
         return result
 
     @app.post("/allocate/{mebibytes}")
     async def _(http: Request, mebibytes: int) -> int:
-        result: int = await app.state.runner.run(http, allocate, mebibytes)
+        result: int = await app.state.pool.calculate(http, allocate, mebibytes)
         return result
 
     @app.post("/fail")
     async def _(http: Request) -> None:
-        await app.state.runner.run(http, fail_deep_inside)
+        await app.state.pool.calculate(http, fail_deep_inside)
 
     @app.post("/worker")
     async def _(http: Request) -> int:
-        result: int = await app.state.runner.run(http, os.getpid)
+        result: int = await app.state.pool.calculate(http, os.getpid)
         return result
 
     @app.post("/bug")

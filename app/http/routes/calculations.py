@@ -1,47 +1,76 @@
-"""One POST endpoint for every row of the table of calculations."""
+"""One POST endpoint for every row of the table of calculations, and one for its figures, as images or as numbers."""
 
 from collections.abc import Callable
-from typing import Annotated, Any
+from functools import partial
+from typing import Annotated, Any, cast
 
-from fastapi import APIRouter, Body, Request, Response
+from fastapi import APIRouter, Body, Depends, HTTPException, Path, Query, Request, Response
+from pydantic import BaseModel
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
-from app.evaluate import json_answer, refuse_endless
+from app.evaluate import drawn, json_answer, refuse_endless
 from app.examples import examples
+from app.figures.data import ThemeName
+from app.figures.rendering import MEDIA_TYPES, Format
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
 from app.schema.model import Request as Model
-from app.settings import Settings
-from app.workers.pool import Runner
+from app.schema.quantities import Output
 from app.workers.start_up import StartUp
 
+FORMATS: tuple[Format, ...] = tuple(MEDIA_TYPES)
+# A figure needs no script and no other address: styles and images are inside it.
+ALONE = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
+REFUSALS = documented(400, 408, 413, 415, 422, 431, 500, 503, 504)
 
-def body_of(endpoint: str) -> Any:
-    """The body parameter of an endpoint, its examples on the docs page."""
-    return Body(
-        openapi_examples={
-            example.name: {"summary": example.title, "description": example.source, "value": example.request}
-            for example in examples().values()
-            if example.endpoint == endpoint
-        }
-    )
+router = APIRouter(route_class=JsonRoute, responses=REFUSALS)
+figures = APIRouter(tags=["figures"])
 
 
-async def calculated(http: Request, path: str, function: Callable[..., bytes], request: Model) -> bytes:
-    """The result of `function(path, request)` in a worker; raises WarmingUp, Unprocessable for endless requests."""
-    start_up: StartUp = http.app.state.start_up
-    if path in start_up.closed:
-        raise start_up.warming_up()
-    limits: Settings = http.app.state.settings
-    refuse_endless(BY_PATH[path], request, limits.deadline_s)
-    runner: Runner = http.app.state.runner
-    made: bytes = await runner.run(http, function, path, request)
-    return made
+class FigureSummary(BaseModel):
+    """One figure of an endpoint; it is at `{endpoint}/figures/{name}.{format}`."""
+
+    endpoint: Annotated[str, Output("where to post the request")]
+    name: Annotated[str, Output("name in the address")]
+    title: Annotated[str, Output("what it shows")]
+    source: Annotated[str, Output("figures of the paper that it repeats")]
+    formats: Annotated[tuple[Format, ...], Output("formats in which it can be had")] = FORMATS
 
 
 def answer_of(path: str, request: Model) -> bytes:
     """The answer of an endpoint to a request; runs in a worker."""
     return json_answer(BY_PATH[path], request)
+
+
+def figure_of(name: str, image_format: Format, theme: ThemeName, path: str, request: Model) -> bytes:
+    """The figure of a case; runs in a worker."""
+    declaration = next(figure for figure in BY_PATH[path].figures if figure.name == name)
+    return drawn(BY_PATH[path], declaration, request, image_format, theme)
+
+
+async def calculated(http: Request, path: str, function: Callable[..., bytes], request: Model) -> bytes:
+    """The result of `function(path, request)` in a worker; raises WarmingUp, Unprocessable for endless requests."""
+    calculation = BY_PATH[path]
+    start_up: StartUp = http.app.state.start_up
+    if calculation.stage not in start_up.warm:
+        raise start_up.warming_up()
+    refuse_endless(calculation, request, http.app.state.settings.deadline_s)
+    made: bytes = await http.app.state.pool.calculate(http, function, path, request)
+    return made
+
+
+def _body_of(calculation: Calculation) -> Any:
+    """The type of the body of a calculation, with the examples of the docs page."""
+    shown: dict[str, Any] = {
+        example.name: {"summary": example.title, "description": example.source, "value": example.request}
+        for example in examples().values()
+        if example.endpoint == calculation.path
+    }
+    return Annotated[calculation.request, Body(openapi_examples=shown)]
+
+
+def _operation(calculation: Calculation) -> str:
+    return calculation.path.removeprefix("/v1/").replace("/", "_").replace("-", "_")
 
 
 def add(router: APIRouter, calculation: Calculation) -> None:
@@ -51,20 +80,68 @@ def add(router: APIRouter, calculation: Calculation) -> None:
         content = await calculated(http, calculation.path, answer_of, body)
         return Response(content, media_type="application/json")
 
-    _, _, model, *parts = calculation.path.split("/")
-    calculate.__annotations__["body"] = Annotated[calculation.request, body_of(calculation.path)]
+    calculate.__annotations__["body"] = _body_of(calculation)
     router.add_api_route(
         calculation.path,
         calculate,
         methods=["POST"],
-        tags=[model],
-        operation_id="_".join((model, *parts)).replace("-", "_"),
+        tags=[calculation.path.split("/")[2]],
+        operation_id=_operation(calculation),
         summary=calculation.summary,
         description=f"Source: {calculation.source}.",
         response_model=calculation.response,
     )
 
 
-router = APIRouter(route_class=JsonRoute, responses=documented(400, 408, 413, 415, 422, 431, 500, 503, 504))
+def _add_figures(calculation: Calculation) -> None:
+    names = [figure.name for figure in calculation.figures]
+
+    async def known(http: Request) -> None:
+        """404 for an unknown figure or format, before the body is validated."""
+        if http.path_params["name"] not in names or http.path_params["format"] not in FORMATS:
+            raise HTTPException(404, f"There are {', '.join(names)}, each as {', '.join(FORMATS)}")
+
+    async def show(
+        http: Request,
+        name: Annotated[str, Path(description="name of the figure", json_schema_extra={"enum": names})],
+        image_format: Annotated[
+            str, Path(alias="format", description="format of the figure", json_schema_extra={"enum": list(FORMATS)})
+        ],
+        body: Any,
+        theme: Annotated[ThemeName, Query(description="dark lines on white, or light ones on black")] = "light",
+    ) -> Response:
+        image = cast("Format", image_format)
+        content = await calculated(http, calculation.path, partial(figure_of, name, image, theme), body)
+        return Response(content, headers={"Content-Security-Policy": ALONE}, media_type=MEDIA_TYPES[image])
+
+    show.__annotations__["body"] = _body_of(calculation)
+    images = {media: {"schema": {"type": "string", "format": "binary"}} for media in MEDIA_TYPES.values()}
+    shown = {"description": "the figure, or its numbers with their units in the header", "content": images}
+    figures.add_api_route(
+        calculation.path + "/figures/{name}.{format}",
+        show,
+        methods=["POST"],
+        dependencies=[Depends(known)],
+        route_class_override=JsonRoute,
+        operation_id=f"{_operation(calculation)}_figure",
+        summary=f"Figures: {calculation.summary}",
+        description="The body is that of the calculation; its `detail` is ignored. Points without a solution are gaps.",
+        response_class=Response,
+        responses=REFUSALS | documented(404) | {200: shown},
+    )
+
+
+@figures.get("/v1/figures")
+async def list_figures() -> list[FigureSummary]:
+    """Every figure of every endpoint."""
+    return [
+        FigureSummary(endpoint=calculation.path, name=figure.name, title=figure.title, source=figure.source)
+        for calculation in CALCULATIONS
+        for figure in calculation.figures
+    ]
+
+
 for each in CALCULATIONS:
     add(router, each)
+    if each.figures:
+        _add_figures(each)

@@ -1,4 +1,4 @@
-"""Pages, and the views of a case under the same query."""
+"""Start page, manual, and the pages of cases with the other views of a case under the same query."""
 
 from collections.abc import Callable
 from http import HTTPStatus
@@ -15,21 +15,22 @@ from app.errors import PROBLEMS, Unreadable, kind_of
 from app.examples import examples
 from app.figures.rendering import MEDIA_TYPES
 from app.http.problems import answer
+from app.manual.chapters import NAMES
 from app.pages import case_file, views
 from app.pages.answers import Answers, key_of
 from app.pages.links import example_link
+from app.pages.manual import chapter_page, contents_page, functions_page
 from app.pages.overview import problem_page, start_page
 from app.pages.query import link, normalised, pairs_of_query, split_views
 from app.pages.templating import ASSETS, asset, page_path
 from app.settings import Settings
 from app.sources import SHORT_SOURCES
-from app.workers.pool import Runner
-from app.workers.start_up import StartUp
 
 PAGE_POLICY = "default-src 'self'; img-src 'self' data:; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
 DOCUMENT_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'self'; "
 DOCUMENT_POLICY += "frame-ancestors 'none'"
 HTML = "text/html; charset=utf-8"
+JSON = "application/json"
 FORM = "application/x-www-form-urlencoded"
 FOREVER = "public, max-age=31536000, immutable"
 METHODS = ["GET", "POST"]
@@ -66,10 +67,42 @@ async def open_case(http: Request) -> Response:
         if not asked.links.too_long:
             return redirected(asked.path, asked)
         http.app.state.start_up.require(asked.calculation.path)
-        shown = await _shown(http, asked, views.page, ())
+        shown = await _shown(http, asked, views.page)
     except KNOWN_ERRORS as error:
         return error_page(http, error)
     return html(shown.content, shown.status)
+
+
+# Rendering a chapter takes a tenth of a second the first time: these are no coroutines, so that the server answers
+# meanwhile.
+
+
+@router.get("/manual")
+def contents(http: Request) -> Response:
+    """The table of contents of the manual."""
+    return html(contents_page(root_of(http)))
+
+
+@router.get("/manual/functions")
+def functions(http: Request) -> Response:
+    """The functions that implement the equations."""
+    return html(functions_page(root_of(http)))
+
+
+@router.get("/manual/{name}")
+def chapter(http: Request, name: str) -> Response:
+    """One chapter."""
+    if name not in NAMES:
+        raise HTTPException(404, f"There are {', '.join(NAMES)} and functions")
+    return html(chapter_page(root_of(http), name))
+
+
+@router.get("/{model}/about")
+def about(http: Request, model: str) -> Response:
+    """Redirect from the former address of a chapter."""
+    if model not in NAMES:
+        raise HTTPException(404, f"The manual has no chapter on {model}")
+    return RedirectResponse(f"{root_of(http)}/manual/{model}", 308)
 
 
 def _add(calculation: Calculation) -> None:
@@ -77,69 +110,56 @@ def _add(calculation: Calculation) -> None:
     names = [figure.name for figure in calculation.figures]
 
     async def page(http: Request) -> Response:
-        return await _answer(http, calculation, path, PAGE_POLICY, HTML, views.page)
+        return await _answer(http, calculation, HTML, views.page)
 
     async def report(http: Request) -> Response:
-        host = printed_host(http)
-        return await _answer(http, calculation, f"{path}/report", DOCUMENT_POLICY, HTML, views.report, host)
+        return await _answer(http, calculation, HTML, views.report, printed_host(http))
 
     async def result(http: Request, media: str) -> Response:
-        types = {"json": "application/json", "csv": MEDIA_TYPES["csv"]}
+        types = {"json": JSON, "csv": MEDIA_TYPES["csv"]}
         if media not in types:
             raise HTTPException(404, "There are result.json and result.csv")
-        place = f"{path}/result.{media}"
-        return await _answer(http, calculation, place, DOCUMENT_POLICY, types[media], views.result, media)
+        return await _answer(http, calculation, types[media], views.result, media)
 
     async def saved(http: Request) -> Response:
         asked, _ = await asked_of(http, calculation)
         disposition = f"attachment; filename*=UTF-8''{quote(case_file.file_name(asked))}"
         headers = {"Content-Security-Policy": DOCUMENT_POLICY, "Content-Disposition": disposition}
-        return Response(case_file.saved(asked), media_type="application/json", headers=headers)
+        return Response(case_file.saved(asked), media_type=JSON, headers=headers)
 
     async def figure(http: Request, name: str, image_format: str) -> Response:
-        kinds = {str(each): kind for each, kind in MEDIA_TYPES.items()} | {"json": "application/json"}
+        kinds = MEDIA_TYPES | {"json": JSON}
         if name not in names or image_format not in kinds:
             raise HTTPException(404, f"There are {', '.join(names)}, each as {', '.join(MEDIA_TYPES)}")
         media = kinds[image_format]
         if "case" in http.query_params:
-            shown = await _shown(http, _kept(http, path), views.figure, (name, image_format))
+            shown = await _shown(http, _kept(http, path), views.figure, name, image_format)
             return Response(shown.content, media_type=media, headers={"Content-Security-Policy": DOCUMENT_POLICY})
-        place = f"{path}/figures/{name}.{image_format}"
-        return await _answer(http, calculation, place, DOCUMENT_POLICY, media, views.figure, name, image_format)
+        return await _answer(http, calculation, media, views.figure, name, image_format)
 
-    for below, endpoint in (
-        ("", page),
-        ("/report", report),
-        ("/result.{media}", result),
-        ("/case.json", saved),
-        ("/figures/{name}.{image_format}", figure),
-    ):
-        router.add_api_route(path + below, endpoint, methods=METHODS)
+    router.add_api_route(path, page, methods=METHODS)
+    router.add_api_route(f"{path}/report", report, methods=METHODS)
+    router.add_api_route(f"{path}/result.{{media}}", result, methods=METHODS)
+    router.add_api_route(f"{path}/case.json", saved, methods=METHODS)
+    router.add_api_route(f"{path}/figures/{{name}}.{{image_format}}", figure, methods=METHODS)
 
 
 async def _answer(
-    http: Request,
-    calculation: Calculation,
-    place: str,
-    policy: str,
-    media: str,
-    view: Callable[..., views.Shown],
-    *arguments: Any,
+    http: Request, calculation: Calculation, media: str, view: Callable[..., views.Shown], *arguments: Any
 ) -> Response:
     """One view of the case in the query or the form; a query with empty fields is redirected to one without."""
-    is_page = media == HTML
     try:
         asked, clean = await asked_of(http, calculation)
         if not clean and http.scope["method"] == "GET":
-            return redirected(place, asked)
-        start_up: StartUp = http.app.state.start_up
+            return redirected(get_route_path(http.scope), asked)
         if asked.pairs:
-            start_up.require(calculation.path)
-        shown = await _shown(http, asked, view, arguments)
+            http.app.state.start_up.require(calculation.path)
+        shown = await _shown(http, asked, view, *arguments)
     except KNOWN_ERRORS as error:
-        if is_page:
+        if media == HTML:
             return error_page(http, error)
         raise
+    policy = PAGE_POLICY if view is views.page else DOCUMENT_POLICY
     return Response(shown.content, shown.status, media_type=media, headers={"Content-Security-Policy": policy})
 
 
@@ -164,36 +184,37 @@ async def asked_of(http: Request, calculation: Calculation) -> tuple[views.Asked
         sent = pairs_of_query(example_link(calculation, example).partition("?")[2])
         return views.Asked(page_path(calculation), sent, given, root=root_of(http)), False
     pairs = normalised(calculation.request, sent)
-    answers: Answers = http.app.state.answers
     path = page_path(calculation)
     variant = views.ref_pairs(calculation, given) if "ref" in given else []
-    kept = answers.get(key_of(path, pairs))
-    kept_ref = answers.get(key_of(path, variant)) if variant else None
+    kept = _answers(http).get(key_of(path, pairs))
+    kept_ref = _answers(http).get(key_of(path, variant)) if variant else None
     asked = views.Asked(path, pairs, given, kept, kept_ref, root_of(http))
     return asked, pairs == sent and given == looks
 
 
 def _kept(http: Request, path: str) -> views.Asked:
     """The case whose hash is asked for, and its variant; 410 where an answer is not kept any more."""
-    answers: Answers = http.app.state.answers
     query = http.query_params
     kept, kept_ref = (
-        answers.get(views.case_key(path, query[name])) if query.get(name) else None for name in ("case", "ref_case")
+        _answers(http).get(views.case_key(path, query[name])) if query.get(name) else None
+        for name in ("case", "ref_case")
     )
     if kept is None or (query.get("ref_case") and kept_ref is None):
         raise HTTPException(410, "The answer of this case is no longer kept; calculate the case again")
     return views.Asked(path, [], {"theme": query.get("theme", "")}, kept, kept_ref)
 
 
-async def _shown(
-    http: Request, asked: views.Asked, view: Callable[..., views.Shown], arguments: tuple[Any, ...]
-) -> views.Shown:
-    runner: Runner = http.app.state.runner
-    answers: Answers = http.app.state.answers
-    shown: views.Shown = await runner.run(http, view, asked, *arguments)
+async def _shown(http: Request, asked: views.Asked, view: Callable[..., views.Shown], *arguments: Any) -> views.Shown:
+    """A view of a case, made in a worker; the answers that it needed are kept for other views of the case."""
+    shown: views.Shown = await http.app.state.pool.calculate(http, view, asked, *arguments)
     for key, content in shown.keep.items():
-        answers.keep(key, content)
+        _answers(http).keep(key, content)
     return shown
+
+
+def _answers(http: Request) -> Answers:
+    answers: Answers = http.app.state.answers
+    return answers
 
 
 def no_page(http: Request, error: Exception) -> Response:
@@ -236,5 +257,5 @@ def html(content: str | bytes, status: int = 200, headers: dict[str, str] | None
     return Response(content, status, media_type=HTML, headers=policy | (headers or {}))
 
 
-for each_calculation in CALCULATIONS:
-    _add(each_calculation)
+for each in CALCULATIONS:
+    _add(each)

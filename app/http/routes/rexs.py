@@ -12,7 +12,7 @@ from app.pages.overview import problem_page
 from app.rexs import answer
 from app.rexs.document import File
 from app.settings import MEBIBYTE, Settings
-from app.workers.pool import Runner
+from app.workers.pool import Pool
 
 DOCUMENTED_TYPES = ("application/xml", "application/json", "application/zip")
 TYPES = (*DOCUMENTED_TYPES, "text/xml", "application/octet-stream")
@@ -43,7 +43,7 @@ pages = APIRouter(include_in_schema=False)
 async def read_unit(http: Request) -> Response:
     """The stages of a gear unit as ready requests, and what is missing, assumed, not used or wrong in the file."""
     content, _ = await _upload(http)
-    found = await _runner(http).run(http, answer.unit_json, content, _most_bytes(http))
+    found = await _pool(http).calculate(http, answer.unit_json, content, _most_bytes(http))
     return Response(found, media_type="application/json")
 
 
@@ -64,7 +64,7 @@ async def write_results(
     content, request = await _upload(http)
     limits: Settings = http.app.state.settings
     arguments = (content, _most_bytes(http), stage, request, limits.deadline_s)
-    file: File = await _runner(http).run(http, answer.with_results, *arguments)
+    file: File = await _pool(http).calculate(http, answer.with_results, *arguments)
     headers = {"Content-Disposition": f'attachment; filename="results{file.suffix}"'}
     return Response(file.content, media_type=file.media_type, headers=headers)
 
@@ -80,7 +80,7 @@ async def show_unit(http: Request) -> Response:
     """The unit as a page: stages, findings, and a link to every calculation."""
     try:
         content, _ = await _upload(http)
-        return html(await _runner(http).run(http, answer.unit_html, root_of(http), content, _most_bytes(http)))
+        return html(await _pool(http).calculate(http, answer.unit_html, root_of(http), content, _most_bytes(http)))
     except Unprocessable as error:
         return html(problem_page(root_of(http), 422, "The file cannot be read", error.message), 422)
     except KNOWN_ERRORS as error:
@@ -101,9 +101,9 @@ async def _upload(http: Request) -> tuple[bytes, bytes | None]:
     return parts["file"], parts.get("request") or None
 
 
-def _runner(http: Request) -> Runner:
-    runner: Runner = http.app.state.runner
-    return runner
+def _pool(http: Request) -> Pool:
+    pool: Pool = http.app.state.pool
+    return pool
 
 
 def _most_bytes(http: Request) -> int:

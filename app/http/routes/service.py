@@ -67,7 +67,7 @@ async def readyz(http: Request) -> Readiness:
         raise WarmingUp(f"Kernels are being loaded or compiled: {start_up.report()}")
     if pool.workers_alive == 0:
         raise WorkerLost
-    return Readiness(warm=start_up.warm, workers=pool.workers_alive)
+    return Readiness(warm=[stage.name for stage in start_up.warm], workers=pool.workers_alive)
 
 
 @router.get("/openapi.json", include_in_schema=False)

@@ -47,7 +47,7 @@ class StudyStream(StreamingResponse):
 async def planned(http: Request, planner: Callable[[int, float], Any], most: int | None = None) -> Any:
     """The result of `planner` in a worker, for at most `most` points with the service's deadline each."""
     limits: Settings = http.app.state.settings
-    return await http.app.state.runner.run(http, planner, most or limits.most_study_points, limits.deadline_s)
+    return await http.app.state.pool.calculate(http, planner, most or limits.most_study_points, limits.deadline_s)
 
 
 async def begun(http: Request, study: Study, progress_s: float = PROGRESS_S) -> tuple[Lines, Clock]:
