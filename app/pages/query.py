@@ -60,9 +60,9 @@ def split_views(pairs: Pairs) -> tuple[Pairs, dict[str, str]]:
 
 def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
     """Without empty fields and without those that a choice left out: what a link of the case says."""
-    picked = {name.removeprefix(PICK): text for name, text in pairs if name.startswith(PICK)}
+    picked = {text for name, text in pairs if name.startswith(PICK)}
     dropped = {
-        name for name, _ in pairs if (leaf := leaf_at(model, name)) and _left_out(name, leaf.exclusive, picked.values())
+        name for name, _ in pairs if (leaf := leaf_at(model, name)) and not picked.isdisjoint(excluded(name, leaf))
     }
     kept = [
         (name, text.strip())
@@ -104,10 +104,10 @@ def _renamed(name: str, places: dict[str, dict[int, int]]) -> str:
     return ".".join(str(found.get(position, part)) for position, part in enumerate(name.split(".")))
 
 
-def _left_out(name: str, fellows: tuple[str, ...], picked: Iterable[str]) -> bool:
+def excluded(name: str, leaf: Leaf) -> tuple[str, ...]:
+    """The fields and sections that must be empty where a field is given."""
     section = name.rpartition(".")[0]
-    beside = {f"{section}.{fellow.rpartition('.')[2]}".lstrip(".") for fellow in fellows}
-    return any(choice in beside for choice in picked)
+    return tuple(f"{section}.{fellow.rpartition('.')[2]}".lstrip(".") for fellow in leaf.exclusive)
 
 
 def body_of(model: type[Documented], pairs: Pairs) -> dict[str, Any]:
