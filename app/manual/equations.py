@@ -7,7 +7,6 @@ number: `Eq. 25` in a package that implements Xue's paper, `Eq. C4` anywhere.
 
 import ast
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -85,13 +84,9 @@ def _definition(name: str) -> tuple[str, str]:
     package, *rest = module.split(".")
     body: list[ast.stmt] = ast.parse(files(package).joinpath(*rest[:-1], f"{rest[-1]}.py").read_text("utf-8")).body
     for part in name.removeprefix(f"{module}.").split("."):
-        node = next(each for each in _definitions(body) if each.name == part)
+        node = next(each for each in body if isinstance(each, ast.ClassDef | ast.FunctionDef) and each.name == part)
         body = node.body
     if isinstance(node, ast.ClassDef):
         return f"class {node.name}", ast.get_docstring(node) or ""
     returns = f" -> {ast.unparse(node.returns)}" if node.returns else ""
     return f"{node.name}({ast.unparse(node.args)}){returns}", ast.get_docstring(node) or ""
-
-
-def _definitions(body: list[ast.stmt]) -> Iterator[ast.ClassDef | ast.FunctionDef]:
-    return (each for each in body if isinstance(each, ast.ClassDef | ast.FunctionDef))

@@ -5,6 +5,6 @@ form       fields with what was typed, what they mean and what is wrong with the
 results    headline numbers with verdicts, tables of results
 charts     figures as images at addresses of their own, and their values
 manual     chapters of the manual as pages, and what reports say of them
-views      one view of one case, made in a worker
+views      a case as asked for and its addresses; one view of one case, made in a worker
 studies    pages of studies, whose results are drawn while they are calculated
 """

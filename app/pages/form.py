@@ -3,10 +3,8 @@
 from collections.abc import Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
-from itertools import groupby
+from itertools import groupby, product
 from typing import Any, Literal
-
-from markupsafe import Markup
 
 from app.pages.query import MATRIX, PICK, PRESENT, SIDE, excluded, text_of
 from app.pages.typesetting import cited, symbol, words
@@ -35,6 +33,11 @@ class State:
     assumed: AbstractSet[str] = frozenset()
     unused: bool = False
 
+    @property
+    def required(self) -> str:
+        """What stands beside a field that must be given: always, or if its section is."""
+        return "required if used" if self.unused else "required"
+
 
 @dataclass(frozen=True, slots=True)
 class FieldView:
@@ -46,7 +49,7 @@ class FieldView:
 
     name: str
     label: str
-    symbol: Markup = Markup("")
+    symbol: str = ""
     unit: str = ""
     widget: Widget = "number"
     text: str = ""
@@ -127,6 +130,8 @@ class Rows:
     """A list of sections; the last one is empty, to be filled."""
 
     path: str
+    title: str
+    description: str
     fault: str | None
     items: tuple[Section, ...]
     kind: str = "rows"
@@ -142,16 +147,25 @@ def anchor(path: str) -> str:
 
 def form(request: type[Request], state: State) -> tuple[Section, ...]:
     """The sections of the form: those with required fields first, model options last."""
-    root = tree(request)
+    root, loose = tree(request), list[Block]()
     sections = []
-    for group in _grouped(root.branches):
-        block = _inner(group, "", state)
-        sections.append(block if isinstance(block, Section) else _around(block, group, state))
-    if loose := [leaf for leaf in root.leaves if leaf.path != DETAIL]:
-        blocks = [_own(leaf, leaf.path, state) for leaf in loose]
-        needed = any(leaf.required for leaf in loose)
-        names = [leaf.path for leaf in loose]
-        sections.append(_section("general", "general", names, blocks, state, needed=needed))
+    for block in _blocks(root, "", state):
+        if isinstance(block, Section):
+            sections.append(block)
+        elif isinstance(block, Twins):
+            path, *_ = paths = [*block.columns]
+            needed = any(each.required for fields in block.rows for each in fields)
+            title = " and ".join(block.columns.values())
+            sections.append(_section(path, title, paths, [block], state, id=f"{anchor(path)}-", needed=needed))
+        elif isinstance(block, Rows):
+            around = _section(block.path, block.title, [block.path], [block], state, id=f"{anchor(block.path)}-")
+            sections.append(replace(around, description=block.description, given=len(block.items) - 1))
+        else:
+            loose.append(block)
+    if loose:
+        names = [leaf.path for leaf in root.leaves if leaf.path != DETAIL]
+        general = _section("general", "general", names, loose, state)
+        sections.append(replace(general, open=general.open or any(leaf.required for leaf in root.leaves)))
     return tuple(sorted(sections, key=lambda each: (not each.needed, each.advanced)))
 
 
@@ -163,32 +177,6 @@ def _grouped(branches: tuple[Branch, ...]) -> Iterator[tuple[Branch, ...]]:
             yield from ((member,) for member in members)
         else:
             yield members
-
-
-def _inner(group: tuple[Branch, ...], prefix: str, state: State) -> Twins | Section | Rows:
-    first = group[0]
-    path = prefix + _last(first.path)
-    if len(group) > 1:
-        return _twins(group, prefix, state)
-    return _rows(first, path, state) if first.repeated else _branch(first, path, state)
-
-
-def _around(block: Twins | Rows, group: tuple[Branch, ...], state: State) -> Section:
-    """A section of the form's first level around a list of sections or around twins."""
-    first, paths = group[0], [branch.path for branch in group]
-    section = _section(
-        first.path,
-        " and ".join(branch.title for branch in group),
-        paths,
-        [block],
-        state,
-        id=f"{anchor(first.path)}-",
-        needed=any(branch.required for branch in group if not branch.repeated),
-    )
-    if isinstance(block, Twins):
-        return section
-    description = first.description if first.description != first.title else ""
-    return replace(section, description=description, given=len(block.items) - 1)
 
 
 def _section(path: str, title: str, below: list[str], blocks: Iterable[Block], state: State, **known: Any) -> Section:
@@ -215,7 +203,6 @@ def _count(names: Iterable[str], path: str) -> int:
 def _branch(branch: Branch, path: str, state: State, item: int | None = None) -> Section:
     """A section of the request, or the item of a list of sections."""
     given = _count(state.texts, path) > 0
-    optional = branch.optional or branch.repeated
     switch = None
     if branch.optional and not branch.required:  # says that the section is there, where none of its fields would
         switch = FieldView(
@@ -226,13 +213,14 @@ def _branch(branch: Branch, path: str, state: State, item: int | None = None) ->
             options=(("", "no"), (PRESENT, "yes")),
             help=(branch.description,),
         )
+    inside = replace(state, unused=(branch.optional or branch.repeated or state.unused) and not given)
     return _section(
         path,
         branch.title if item is None else f"{branch.title} {item + 1}",
         [path],
-        _blocks(branch, f"{path}.", replace(state, unused=(optional or state.unused) and not given)),
+        _blocks(branch, f"{path}.", inside),
         state,
-        description=branch.description if branch.description != branch.title and item is None else "",
+        description=_description(branch) if item is None else "",
         fault=state.faults.get(path),
         switch=switch,
         needed=branch.required and not branch.optional and item is None,
@@ -240,12 +228,16 @@ def _branch(branch: Branch, path: str, state: State, item: int | None = None) ->
     )
 
 
+def _description(branch: Branch) -> str:
+    return branch.description if branch.description != branch.title else ""
+
+
 def _rows(branch: Branch, path: str, state: State) -> Rows:
     below = (name.removeprefix(f"{path}.") for name in state.texts if name.startswith(f"{path}."))
     indices = (name.partition(".")[0] for name in below)
     count = 1 + max((int(index) for index in indices if index.isdecimal() and index.isascii()), default=-1)
     items = tuple(_branch(branch, f"{path}.{index}", state, item=index) for index in range(count + 1))
-    return Rows(path, state.faults.get(path), items)
+    return Rows(path, branch.title, _description(branch), state.faults.get(path), items)
 
 
 def _twins(group: tuple[Branch, ...], prefix: str, state: State) -> Twins:
@@ -261,21 +253,24 @@ def _twins(group: tuple[Branch, ...], prefix: str, state: State) -> Twins:
 
 
 def _blocks(branch: Branch, prefix: str, state: State) -> Iterator[Block]:
-    """Fields in the order of the schema, then the sections inside."""
+    """Fields and the sections inside, in the order of the schema."""
     choices = _choices(branch)
-    shown: set[str] = set()
+    shown = {DETAIL}
     groups = {group[0].path: group for group in _grouped(branch.branches)}
     for member in branch.members:
+        name = prefix + _last(member.path)
         if isinstance(member, Branch):
-            if member.path in groups:
-                yield _inner(groups[member.path], prefix, state)
-        elif member.path not in choices:
-            yield _own(member, prefix + _last(member.path), state)
-        elif member.path not in shown:
-            group = choices[member.path]
-            shown.update(leaf.path for leaf in group)
+            group = groups.get(member.path, ())
+            if len(group) > 1:
+                yield _twins(group, prefix, state)
+            elif group:
+                yield _rows(member, name, state) if member.repeated else _branch(member, name, state)
+        elif member.path in choices and member.path not in shown:
+            shown.update(leaf.path for leaf in choices[member.path])
             needed = issubclass(branch.model, Fields) and branch.model.choice_missing is not None
-            yield _choice(group, prefix, state, _required(state, needed=needed))
+            yield _choice(choices[member.path], prefix, state, state.required if needed else "")
+        elif member.path not in shown:
+            yield _own(member, name, state)
 
 
 def _choices(branch: Branch) -> dict[str, tuple[Leaf, ...]]:
@@ -291,12 +286,12 @@ def _choices(branch: Branch) -> dict[str, tuple[Leaf, ...]]:
 
 def _choice(group: tuple[Leaf, ...], prefix: str, state: State, required: str) -> Choice:
     fields = {prefix + _last(leaf.path): leaf for leaf in group}
-    given = next((name for name in fields if name in state.texts), None)
-    known = next((name for name in fields if state.resolved.get(name) is not None), None)
-    first = next(iter(fields))
+    given = [name for name in fields if name in state.texts]
+    known = [name for name in fields if state.resolved.get(name) is not None]
+    first, *_ = fields
     legend = " or ".join(leaf.declared.title for leaf in group)
     views = tuple(field_view(leaf, name, state) for name, leaf in fields.items())
-    return Choice(PICK + first, legend, views, given or known or first, required)
+    return Choice(PICK + first, legend, views, [*given, *known, first][0], required)
 
 
 def _own(leaf: Leaf, name: str, state: State) -> FieldView | Matrix:
@@ -304,7 +299,6 @@ def _own(leaf: Leaf, name: str, state: State) -> FieldView | Matrix:
     whole, resolved = field_view(leaf, name, state), state.resolved.get(name)
     if leaf.dimensions < MATRIX:
         return whole
-    places = [(row, column) for row in range(SIDE) for column in range(SIDE)]
     elements = (
         replace(
             whole,
@@ -316,7 +310,7 @@ def _own(leaf: Leaf, name: str, state: State) -> FieldView | Matrix:
             help=(*whole.help, "The first element alone: the same in every direction."),
             fault=state.faults.get(f"{name}.{row}.{column}", whole.fault if row == column == 0 else None),
         )
-        for row, column in places
+        for row, column in product(range(SIDE), repeat=2)
     )
     return Matrix(whole, tuple(elements))
 
@@ -336,18 +330,13 @@ def field_view(leaf: Leaf, name: str, state: State) -> FieldView:
         text=text,
         placeholder=_placeholder(leaf, value),
         options=options,
-        required=_required(state, needed=leaf.required),
+        required=state.required if leaf.required else "",
         assumed=name in state.assumed,
         help=_help(leaf, assumed=name in state.assumed),
         fault=state.faults.get(name),
         excludes=excluded(name, leaf),
         empty=words(cited(rule).replace("`", "")),
     )
-
-
-def _required(state: State, *, needed: bool) -> str:
-    """What stands beside a field that must be given: always, or if its section is."""
-    return "" if not needed else "required if used" if state.unused else "required"
 
 
 def _placeholder(leaf: Leaf, value: Any) -> str:

@@ -1,4 +1,4 @@
-"""The templates, and what all of them know."""
+"""The templates, and what all of them know: the calculations and their examples, with the addresses of their pages."""
 
 from functools import cache, lru_cache
 from hashlib import sha256
@@ -8,7 +8,9 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from app.calculations import CALCULATIONS, Calculation
+from app.examples import Example, examples
 from app.pages.form import anchor
+from app.pages.query import link, pairs_of
 from app.pages.typesetting import shown, symbol, typeset, words
 from app.schema.model import MODEL_VERSION
 
@@ -36,6 +38,16 @@ def page_path(calculation: Calculation) -> str:
 def model_of(calculation: Calculation) -> str:
     """The model it belongs to."""
     return page_path(calculation).split("/")[1]
+
+
+def examples_of(calculation: Calculation) -> list[Example]:
+    """The examples of a calculation, starters first."""
+    return [example for example in examples().values() if example.endpoint == calculation.path]
+
+
+def example_link(calculation: Calculation, example: Example) -> str:
+    """The page of an example."""
+    return link(page_path(calculation), pairs_of(example.request))
 
 
 @cache

@@ -8,7 +8,7 @@ from pydantic import BaseModel
 from app.calculations import BY_PATH
 from app.errors import Unprocessable
 from app.evaluate import content_of, evaluate, refuse_endless
-from app.pages.rexs import unit_page
+from app.pages.overview import unit_page
 from app.rexs import document
 from app.rexs.results import TABLES, write_results
 from app.rexs.unit import gear_unit
