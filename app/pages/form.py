@@ -89,7 +89,6 @@ class Choice:
     """Fields of which one is given; `picked` is the one that counts."""
 
     name: str
-    legend: str
     fields: tuple[FieldView, ...]
     picked: str
     required: str
@@ -169,16 +168,6 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
     return tuple(sorted(sections, key=lambda each: (not each.needed, each.advanced)))
 
 
-def _grouped(branches: tuple[Branch, ...]) -> Iterator[tuple[Branch, ...]]:
-    """Neighbours of one kind together, where they hold fields alone: they stand side by side."""
-    for _, group in groupby(branches, key=lambda branch: (branch.model, branch.repeated or bool(branch.branches))):
-        members = tuple(group)
-        if members[0].repeated or members[0].branches:
-            yield from ((member,) for member in members)
-        else:
-            yield members
-
-
 def _section(path: str, title: str, below: list[str], blocks: Iterable[Block], state: State, **known: Any) -> Section:
     """A section of what lies at or below some paths; open where something in it is needed, given or wrong."""
     given, faulty, assumed = (
@@ -256,7 +245,9 @@ def _blocks(branch: Branch, prefix: str, state: State) -> Iterator[Block]:
     """Fields and the sections inside, in the order of the schema."""
     choices = _choices(branch)
     shown = {DETAIL}
-    groups = {group[0].path: group for group in _grouped(branch.branches)}
+    # Neighbours of one kind that hold fields alone stand side by side.
+    alike = groupby(branch.branches, lambda each: each.path if each.repeated or each.branches else each.model)
+    groups = {group[0].path: group for group in (tuple(members) for _, members in alike)}
     for member in branch.members:
         name = prefix + _last(member.path)
         if isinstance(member, Branch):
@@ -289,9 +280,8 @@ def _choice(group: tuple[Leaf, ...], prefix: str, state: State, required: str) -
     given = [name for name in fields if name in state.texts]
     known = [name for name in fields if state.resolved.get(name) is not None]
     first, *_ = fields
-    legend = " or ".join(leaf.declared.title for leaf in group)
     views = tuple(field_view(leaf, name, state) for name, leaf in fields.items())
-    return Choice(PICK + first, legend, views, [*given, *known, first][0], required)
+    return Choice(PICK + first, views, [*given, *known, first][0], required)
 
 
 def _own(leaf: Leaf, name: str, state: State) -> FieldView | Matrix:

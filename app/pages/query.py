@@ -64,9 +64,11 @@ def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
     picked = {text for name, text in pairs if name.startswith(PICK)}
     kept: Pairs = []
     for name, spaced in pairs:
-        leaf, matrix, text = leaf_at(model, name), leaf_at(model, name.rpartition(".")[0]), spaced.strip()
-        left_out = leaf is not None and not picked.isdisjoint(excluded(name, leaf))
-        if not text or left_out or name.startswith(PICK):
+        text = spaced.strip()
+        if not text or name.startswith(PICK):
+            continue
+        leaf, matrix = leaf_at(model, name), leaf_at(model, name.rpartition(".")[0])
+        if leaf is not None and not picked.isdisjoint(excluded(name, leaf)):
             continue
         if matrix is not None and matrix.dimensions == MATRIX:  # a row of it: each element has a field of the form
             kept += [(f"{name}.{column}", text_of(item)) for column, item in enumerate(_listed(matrix, text))]
@@ -95,10 +97,10 @@ def _indices(model: type[Documented], name: str) -> Iterator[tuple[int, str, int
     """Every list of sections on the way to a field: the place of the index among the parts, the list, the index."""
     parts = name.split(".")
     for place, part in enumerate(parts):
-        path = ".".join(parts[:place])
-        of_numbers = leaf_at(model, path) or leaf_at(model, path.rpartition(".")[0])
-        if path and not of_numbers and part.isdecimal() and part.isascii() and len(part) < LONGEST_INDEX:
-            yield place, path, int(part)
+        if place and part.isdecimal() and part.isascii() and len(part) < LONGEST_INDEX:
+            path = ".".join(parts[:place])
+            if leaf_at(model, path) is None and leaf_at(model, path.rpartition(".")[0]) is None:  # no list of numbers
+                yield place, path, int(part)
 
 
 def excluded(name: str, leaf: Leaf) -> tuple[str, ...]:
