@@ -14,9 +14,7 @@ from importlib.resources import files
 from app.manual.chapters import chapters
 
 _EQUATION = re.compile(r"^\$\$\n(.*?)\n?\\tag\{([^}]+)\}\n\$\$(?=\n\n(.*?)(?:\n\n|\Z))", re.MULTILINE | re.DOTALL)
-_FUNCTION = re.compile(r"\[`(solvers[\w.]+)`\]\(([^)]+)\)")
-IMPLEMENTED = "Implemented in "
-"""How the paragraph below an equation begins that names its functions."""
+_FUNCTION = re.compile(r"\[`(solvers[\w.]+)`\]\(")
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,12 +50,11 @@ def anchor(number: str) -> str:
 @cache
 def equations() -> dict[str, Equation]:
     """Every numbered equation by its number."""
-    found = [
-        Equation(number, chapter.name, text, tuple(name for name, _ in _FUNCTION.findall(below)))
+    return {
+        number: Equation(number, chapter.name, text, tuple(_FUNCTION.findall(below)))
         for chapter in chapters().values()
         for text, number, below in _EQUATION.findall(chapter.text)
-    ]
-    return {equation.number: equation for equation in found}
+    }
 
 
 @cache

@@ -209,7 +209,7 @@ def _branch(branch: Branch, path: str, state: State, item: int | None = None) ->
         [path],
         _blocks(branch, f"{path}.", inside),
         state,
-        description=_description(branch) if item is None else "",
+        description=branch.description if item is None else "",
         fault=state.faults.get(path),
         switch=switch,
         needed=branch.required and not branch.optional and item is None,
@@ -217,16 +217,12 @@ def _branch(branch: Branch, path: str, state: State, item: int | None = None) ->
     )
 
 
-def _description(branch: Branch) -> str:
-    return branch.description if branch.description != branch.title else ""
-
-
 def _rows(branch: Branch, path: str, state: State) -> Rows:
     below = (name.removeprefix(f"{path}.") for name in state.texts if name.startswith(f"{path}."))
     indices = (name.partition(".")[0] for name in below)
     count = 1 + max((int(index) for index in indices if index.isdecimal() and index.isascii()), default=-1)
     items = tuple(_branch(branch, f"{path}.{index}", state, item=index) for index in range(count + 1))
-    return Rows(path, branch.title, _description(branch), state.faults.get(path), items)
+    return Rows(path, branch.title, branch.description, state.faults.get(path), items)
 
 
 def _twins(group: tuple[Branch, ...], prefix: str, state: State) -> Twins:

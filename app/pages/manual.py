@@ -64,29 +64,18 @@ def chapter_of(calculation: Calculation) -> Chapter:
     return chapters()[own if own in chapters() else model_of(calculation)]
 
 
-@dataclass(frozen=True, slots=True)
-class Method:
-    """What a report says of the method: chapter, numbered equations, deviations from print and limits."""
-
-    chapter: Chapter
-    lead: Markup
-    equations: list[tuple[str, Markup]]
-    misprints: Markup
-    limits: Markup
-
-
 @cache
-def method_of(calculation: Calculation) -> Method:
+def method_of(calculation: Calculation) -> dict[str, Any]:
     """The method of a calculation in brief, without links: a report is printed."""
     chapter = chapter_of(calculation)
     numbered = [each for each in equations().values() if each.chapter == chapter.name]
-    return Method(
-        chapter=chapter,
-        lead=_plain(chapter.lead),
-        equations=[(each.number, Markup(_mathml(each.text, "inline"))) for each in numbered],  # noqa: S704  our own
-        misprints=_plain(chapter.section("Misprints and how they were decided")),
-        limits=_plain(chapter.section("Limits of validity").partition("\n\n![")[0]),
-    )
+    return {
+        "title": chapter.title,
+        "lead": _plain(chapter.lead),
+        "equations": {each.number: Markup(_mathml(each.text, "inline")) for each in numbered},  # noqa: S704  our own
+        "misprints": _plain(chapter.section("Misprints and how they were decided")),
+        "limits": _plain(chapter.section("Limits of validity").partition("\n\n![")[0]),
+    }
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from itertools import groupby
 from typing import Any, NamedTuple
 
 from markupsafe import Markup
@@ -113,11 +114,10 @@ def assumptions(request: type[Documented], response: Response) -> list[Row]:
     """The defaults that the answer used and that are ours; the description of each says why."""
     rows = []
     for path, value, reason in ((each.field, each.value, cited(each.reason)) for each in response.assumptions):
-        if leaf := leaf_at(request, path):
-            unit = (leaf.unit or "") if isinstance(value, int | float | list) else ""
-            rows.append(Row(leaf.title, symbol(leaf.declared.symbol), _items(value), unit, path, reason))
-        else:
-            rows.append(Row(path, symbol(None), _items(value), "", path, reason))
+        leaf = leaf_at(request, path)
+        title, sign, unit = (leaf.title, leaf.declared.symbol, leaf.unit or "") if leaf else (path, None, "")
+        known_unit = unit if isinstance(value, int | float | list) else ""
+        rows.append(Row(title, symbol(sign), _items(value), known_unit, path, reason))
     return rows
 
 
@@ -184,14 +184,10 @@ def cards(response: Documented, inputs: dict[str, Any], before: Documented | Non
     A good verdict is good no more where a warning makes it doubtful.
     """
     known, old = values_by_path(response), values_by_path(before)
-    best: dict[int, Leaf] = {}
-    for leaf in headlines(type(response)):
-        rank = leaf.view.headline or 0
-        if rank not in best or _size(known.get(leaf.path)) > _size(known.get(best[rank].path)):
-            best[rank] = leaf
     doubtful = any(warning.rank != "note" for warning in response.warnings)
     found = []
-    for leaf in best.values():
+    for _, alike in groupby(headlines(type(response)), key=lambda leaf: leaf.view.headline):
+        leaf = max(alike, key=lambda leaf: _size(known.get(leaf.path)))
         value, previous = known.get(leaf.path), old.get(leaf.path)
         level, verdict = _verdict(response, leaf, inputs | known)
         if level == "good" and doubtful:

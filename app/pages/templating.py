@@ -65,17 +65,16 @@ def asset(name: str) -> bytes:
     return files("app.pages").joinpath("static", name).read_bytes()
 
 
-def asset_path(name: str) -> str:
-    """The address of a file, which changes with its content."""
-    return f"/static/{name}?{sha256(asset(name)).hexdigest()[:12]}"
-
-
 @lru_cache(maxsize=4)
 def _environment(root: str) -> Environment:
     """Templates, in which the filter `url` makes an address of the service one that a browser can follow."""
 
     def url(address: str) -> str:
         return root + address if address.startswith("/") else address
+
+    def asset_address(name: str) -> str:
+        """The address of a file, which changes with its content."""
+        return url(f"/static/{name}?{sha256(asset(name)).hexdigest()[:12]}")
 
     environment = Environment(
         loader=PackageLoader("app.pages"),
@@ -87,7 +86,7 @@ def _environment(root: str) -> Environment:
     environment.globals |= {
         "menu": [[(page_path(each), each.title) for each in some] for some in by_model().values()],
         "version": MODEL_VERSION,
-        "asset": lambda name: url(asset_path(name)),
+        "asset": asset_address,
         "anchor": anchor,
     }
     environment.filters |= {"shown": shown, "symbol": symbol, "url": url, "typeset": typeset, "words": words}
