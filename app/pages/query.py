@@ -167,7 +167,7 @@ def _value(model: type[Documented], name: str, text: str) -> Any:
         return number_of(text) if leaf_at(model, name.rpartition(".")[0].rpartition(".")[0]) else text
     if leaf.dimensions == 1:
         return _listed(leaf, text)
-    if leaf.dimensions == 2:
+    if leaf.dimensions == MATRIX:
         alone = _number(text.strip().replace(",", ".", 1))
         if not isinstance(alone, str):  # a number may stand for a matrix
             return alone
