@@ -43,7 +43,7 @@ def values(case: Case, title: str) -> bytes:
 
 
 def curve(response: Response, path: str) -> bytes | None:
-    """One curve or map, or all curves of a group, with what they run over; None where there is nothing of this name.
+    """One curve or map, or all curves of a group, with their axes; None where there is nothing of this name.
 
     Curves stand in columns; a map has a line for each of its points.
     """

@@ -97,7 +97,7 @@ class Choice:
 
 @dataclass(frozen=True, slots=True)
 class Twins:
-    """Sections of one kind side by side: one line per field, one column per section, whose path is at its head."""
+    """Sections of one kind side by side, a line for each field; `columns` are the titles of the sections by path."""
 
     columns: dict[str, str]
     rows: tuple[tuple[FieldView, ...], ...]
@@ -169,7 +169,7 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
 
 
 def _section(path: str, title: str, below: list[str], blocks: Iterable[Block], state: State, **known: Any) -> Section:
-    """A section of what lies at or below some paths; open where something in it is needed, given or wrong."""
+    """A section with the fields at or below some paths; open where one of them is required, given or wrong."""
     given, faulty, assumed = (
         sum(_count(names, each) for each in below) for names in (state.texts, state.faults, state.assumed)
     )

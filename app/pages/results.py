@@ -85,7 +85,7 @@ def _entries(member: Leaf | Branch, value: Any, path: str, around: str) -> Itera
 
 
 def values_by_path(response: Documented | None) -> dict[str, Any]:
-    """Every result by its path; of no response none."""
+    """Every result by its path; empty without a response."""
     return {entry.path: entry.value for entry in entries(response)} if response is not None else {}
 
 
@@ -181,7 +181,7 @@ def resolved(response: Response) -> dict[str, Any]:
 def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> tuple[Card, ...]:
     """The headline numbers; of several of one rank the largest stands for all.
 
-    A good verdict is good no more where a warning makes it doubtful.
+    Where a warning makes the answer doubtful, no verdict is good.
     """
     known, old = values_by_path(response), values_by_path(before)
     doubtful = any(warning.rank != "note" for warning in response.warnings)
@@ -212,7 +212,7 @@ def _size(value: Any) -> float:
 
 
 def _verdict(response: Documented, leaf: Leaf, known: dict[str, Any]) -> tuple[str, str]:
-    """Level and words of how the value stands to its limit, the answer's own words where it has some."""
+    """Level and words of the verdict: how the value compares with its limit, as the answer says it where it does."""
     view, value = leaf.view, known.get(leaf.path)
     if value is None:
         reason = leaf.description.partition("null ")[2]  # as the schema says it

@@ -44,8 +44,9 @@ REFUSED = (Unreadable, InvalidBody, Unprocessable)
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """A case to look at, and the addresses of its views; those that are kept name the solvers' sources.
+    """A case to look at, and the addresses of its views.
 
+    Addresses that people keep name the solvers' sources, so that a later reader is told whether numbers may differ.
     `kept` and `kept_ref` are the answers of it and of its variant, if they are still known. `root` is the prefix that
     a proxy puts before the addresses of the service. A case too long for a link has to be posted; its figures are
     addressed by `answered`, the hashes in its answer and in that of the variant, while both answers are kept.
@@ -118,7 +119,7 @@ class Asked:
         return self.beside(self.ref)
 
     def beside(self, ref: str) -> str:
-        """The page of the case compared with that of another query; with none where that is empty."""
+        """The page of the case, compared with the case of another query unless that is empty."""
         theme = self.views.get("theme", "")
         return link(self.path, self.pairs, ref=ref, theme=theme, title=self.title, sources=SHORT_SOURCES)
 
@@ -145,7 +146,7 @@ class Asked:
 
     @property
     def saved(self) -> bytes:
-        """A JSON file of the case as it was typed, complete or not: title, endpoint and request, as of an example."""
+        """The case as it was typed, complete or not, as a JSON file: title, endpoint and request, like an example."""
         content = {"title": self.title, "endpoint": self.calculation.path, "request": self.body}
         return json.dumps(content, indent=1, ensure_ascii=False).encode()
 
