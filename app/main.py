@@ -14,7 +14,7 @@ from app import log
 from app.http import problems
 from app.http.middleware import Protection
 from app.http.routes import calculations, pages, rexs, service, studies, study_pages
-from app.pages.answers import Answers
+from app.pages.cases import Answers
 from app.schema.model import MODEL_VERSION
 from app.settings import MEBIBYTE, settings, unknown_variables
 from app.studies.admission import StudyAdmission

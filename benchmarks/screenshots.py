@@ -13,8 +13,8 @@ from playwright.sync_api import sync_playwright
 
 from app.calculations import BY_PATH
 from app.examples import examples
-from app.pages.links import example_link
 from app.pages.study_links import STUDIES
+from app.pages.templating import example_link
 
 CHROMIUM = "/usr/bin/chromium"
 FOLDER = Path(__file__).parents[1] / "docs"

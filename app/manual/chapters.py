@@ -17,8 +17,6 @@ NAMES = (
     "service",
 )
 
-_FIGURE = re.compile(r"\]\(figures/([\w-]+)\.([\w-]+)\.png\)")
-
 
 @dataclass(frozen=True, slots=True)
 class Chapter:
@@ -45,16 +43,6 @@ class Chapter:
     def section(self, heading: str) -> str:
         """The text below a heading, without it."""
         return self.text.partition(f"\n## {heading}\n")[2].partition("\n## ")[0].strip()
-
-    @property
-    def figures(self) -> list[tuple[str, str]]:
-        """Example and figure of every picture; the file is named after both."""
-        return _FIGURE.findall(self.text)
-
-    @property
-    def studies(self) -> list[str]:
-        """The name of every picture of a study; `studies.json` says of which."""
-        return re.findall(r"\]\(studies/([\w-]+)\.png\)", self.text)
 
 
 @cache

@@ -7,7 +7,6 @@ number: `Eq. 25` in a package that implements Xue's paper, `Eq. C4` anywhere.
 
 import ast
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -15,9 +14,7 @@ from importlib.resources import files
 from app.manual.chapters import chapters
 
 _EQUATION = re.compile(r"^\$\$\n(.*?)\n?\\tag\{([^}]+)\}\n\$\$(?=\n\n(.*?)(?:\n\n|\Z))", re.MULTILINE | re.DOTALL)
-_FUNCTION = re.compile(r"\[`(solvers[\w.]+)`\]\(([^)]+)\)")
-IMPLEMENTED = "Implemented in "
-"""How the paragraph below an equation begins that names its functions."""
+_FUNCTION = re.compile(r"\[`(solvers[\w.]+)`\]\(")
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,12 +50,11 @@ def anchor(number: str) -> str:
 @cache
 def equations() -> dict[str, Equation]:
     """Every numbered equation by its number."""
-    found = [
-        Equation(number, chapter.name, text, tuple(name for name, _ in _FUNCTION.findall(below)))
+    return {
+        number: Equation(number, chapter.name, text, tuple(_FUNCTION.findall(below)))
         for chapter in chapters().values()
         for text, number, below in _EQUATION.findall(chapter.text)
-    ]
-    return {equation.number: equation for equation in found}
+    }
 
 
 @cache
@@ -85,13 +81,9 @@ def _definition(name: str) -> tuple[str, str]:
     package, *rest = module.split(".")
     body: list[ast.stmt] = ast.parse(files(package).joinpath(*rest[:-1], f"{rest[-1]}.py").read_text("utf-8")).body
     for part in name.removeprefix(f"{module}.").split("."):
-        node = next(each for each in _definitions(body) if each.name == part)
+        node = next(each for each in body if isinstance(each, ast.ClassDef | ast.FunctionDef) and each.name == part)
         body = node.body
     if isinstance(node, ast.ClassDef):
         return f"class {node.name}", ast.get_docstring(node) or ""
     returns = f" -> {ast.unparse(node.returns)}" if node.returns else ""
     return f"{node.name}({ast.unparse(node.args)}){returns}", ast.get_docstring(node) or ""
-
-
-def _definitions(body: list[ast.stmt]) -> Iterator[ast.ClassDef | ast.FunctionDef]:
-    return (each for each in body if isinstance(each, ast.ClassDef | ast.FunctionDef))

@@ -2,9 +2,12 @@
 
 query      the query string is the case
 form       fields with what was typed, what they mean and what is wrong with them
+cases      a case from its fields to its answer, which is kept
 results    headline numbers with verdicts, tables of results
 charts     figures as images at addresses of their own, and their values
 manual     chapters of the manual as pages, and what reports say of them
-views      one view of one case, made in a worker
+report     what reports say beside the result, and the case as code
+views      a case as it is asked for with the addresses of its views; one view, made in a worker
+overview   pages that belong to no case
 studies    pages of studies, whose results are drawn while they are calculated
 """

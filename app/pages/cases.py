@@ -1,10 +1,13 @@
-"""A case from its fields to its answer; runs in a worker."""
+"""A case from its fields to its answer, which is kept: figure, report and download of it need no second solve."""
 
 import pickle
 import re
 import zlib
 from dataclasses import dataclass
+from hashlib import sha256
 from typing import Any, NamedTuple
+
+from cachetools import LRUCache
 
 from app.calculations import Calculation
 from app.errors import InvalidBody, Unprocessable
@@ -18,6 +21,23 @@ NAME = r"[a-z]\w*(?:[._]\w+)+"  # of a field: words joined by points and undersc
 COMPRESSION = 1  # the fastest level of zlib
 
 
+class Answers(LRUCache[str, bytes]):
+    """The most recent answers that fit into a number of bytes."""
+
+    def __init__(self, most_bytes: int) -> None:
+        super().__init__(most_bytes, getsizeof=len)
+
+    def keep(self, key: str, answer: bytes) -> None:
+        """Keep an answer in place of the oldest ones, unless it is too large for that."""
+        if len(answer) <= self.maxsize:
+            self[key] = answer
+
+
+def key_of(path: str, pairs: Pairs) -> str:
+    """The key of a case: its endpoint and fields, whatever their order."""
+    return sha256(repr((path, sorted(pairs))).encode()).hexdigest()
+
+
 class Fault(NamedTuple):
     """What is wrong with the field at a dotted path."""
 
@@ -27,17 +47,12 @@ class Fault(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """A request and its answer.
-
-    `kept` are the request and the solver's result as they are kept, and `fresh` says that they were not yet.
-    """
+    """A request and its answer; `kept` are the request and the solver's result as they are kept."""
 
     calculation: Calculation
-    pairs: Pairs
     request: Request
     response: Any
     kept: bytes
-    fresh: bool
 
 
 def solved(calculation: Calculation, pairs: Pairs, kept: bytes | None) -> Case:
@@ -45,21 +60,24 @@ def solved(calculation: Calculation, pairs: Pairs, kept: bytes | None) -> Case:
 
     Raises Unreadable, InvalidBody and Unprocessable.
     """
-    fresh = kept is None
     if kept is None:
-        request = _request(calculation, pairs)
+        body = body_of(calculation.request, pairs)
+        _fill(tree(calculation.request), body)
+        request = validated(calculation.request, body).model_copy(update={"detail": "fields"})
         result = solve(calculation, request)
         kept = zlib.compress(pickle.dumps((request, result)), COMPRESSION)
     else:
         request, result = pickle.loads(zlib.decompress(kept))  # noqa: S301  our own
-    return Case(calculation, pairs, request, response_to(calculation, request, result), kept, fresh)
+    return Case(calculation, request, response_to(calculation, request, result), kept)
 
 
 def faults_of(error: Exception, calculation: Calculation) -> list[Fault]:
     """What a case was refused for; the messages name fields by their titles."""
     match error:
         case InvalidBody():
-            found = [Fault(_dotted(each.pointer), each.message) for each in error.faults]
+            dotted = (each.pointer.removeprefix("/").replace("/", ".") for each in error.faults)
+            paths = (path.replace("~1", "/").replace("~0", "~") for path in dotted)
+            found = [Fault(path, each.message) for path, each in zip(paths, error.faults, strict=True)]
         case Unprocessable():
             found = [Fault(error.path or "", error.message)]
         case _:
@@ -79,18 +97,6 @@ def _titled(message: str, path: str, calculation: Calculation) -> str:
         return found.title if found else name[0]
 
     return re.sub(rf"^{re.escape(own)}(?= )|{NAME}", title, message)
-
-
-def _dotted(pointer: str) -> str:
-    """The path that a JSON Pointer means."""
-    return ".".join(part.replace("~1", "/").replace("~0", "~") for part in pointer.split("/")[1:])
-
-
-def _request(calculation: Calculation, pairs: Pairs) -> Request:
-    body = body_of(calculation.request, pairs)
-    _fill(tree(calculation.request), body)
-    request = validated(calculation.request, body)
-    return request.model_copy(update={"detail": "fields"})
 
 
 def _fill(branch: Branch, body: dict[str, Any]) -> None:

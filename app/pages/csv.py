@@ -3,6 +3,7 @@
 Results have six significant digits; JSON has all of them.
 """
 
+from itertools import product, zip_longest
 from typing import Any
 
 from app.pages.cases import Case
@@ -11,6 +12,7 @@ from app.pages.results import entries, flattened
 from app.schema.fields import Leaf, leaf_at, leaves
 from app.schema.model import Response
 from app.spreadsheet import csv_of
+from app.studies.fields import value_at
 
 DIGITS = 6  # more than any solver's tolerance leaves
 COLUMNS = ("path", "title", "value", "unit", "symbol")
@@ -27,61 +29,41 @@ def values(case: Case, title: str) -> bytes:
         "case": response.case,
     }
     inputs = [
-        _line(leaf, f"inputs.{path}", text_of(value))
+        (leaf, f"inputs.{path}", text_of(value))
         for path, value in flattened(response.inputs).items()
         if (leaf := leaf_at(type(case.request), path)) and value is not None
     ]
-    results = [_line(e.leaf, e.path, e.value) for _, e in entries(response) if e.leaf.is_scalar]
+    results = [(each.leaf, each.path, each.value) for each in entries(response) if each.leaf.is_scalar]
     named = [(name, name.replace("_", " "), text, "", "") for name, text in identity.items()]
-    return csv_of([COLUMNS, *named, *inputs, *results], DIGITS)
-
-
-def _line(leaf: Leaf, path: str, value: Any) -> tuple[Any, ...]:
-    return path, leaf.title, value, leaf.unit or "", leaf.declared.symbol or ""
+    lines = [
+        (path, leaf.title, value, leaf.unit or "", leaf.declared.symbol or "")
+        for leaf, path, value in [*inputs, *results]
+    ]
+    return csv_of([COLUMNS, *named, *lines], DIGITS)
 
 
 def curve(response: Response, path: str) -> bytes | None:
-    """One curve or map, or all curves of a group, with what they run over; None where there is nothing of this name."""
+    """One curve or map, or all curves of a group, with their axes; None where there is nothing of this name.
+
+    Curves stand in columns; a map has a line for each of its points.
+    """
     model = type(response)
-    wanted = [leaf for leaf in leaves(model) if leaf.dimensions and _within(leaf, path) and _at(response, leaf.path)]
-    shape = max((leaf.dimensions for leaf in wanted), default=0)
+    wanted = [leaf for leaf in leaves(model) if leaf.dimensions and f"{leaf.path}.".startswith(f"{path}.")]
+    known = {leaf.path: found for leaf in wanted if (found := value_at(response, leaf.path))}
+    shape = max((leaf.dimensions for leaf in wanted if leaf.path in known), default=0)
     if shape == 0:
         return None
-    chosen = [leaf for leaf in wanted if leaf.dimensions == shape]
-    axes = [
-        axis for name in dict.fromkeys(name for leaf in chosen for name in leaf.axes) if (axis := leaf_at(model, name))
-    ]
-    return (
-        _map(response, chosen, axes)
-        if shape > 1
-        else _columns(response, [*axes, *(leaf for leaf in chosen if leaf not in axes)])
-    )
-
-
-def _within(leaf: Leaf, path: str) -> bool:
-    return leaf.path == path or leaf.path.startswith(f"{path}.")
-
-
-def _columns(response: Response, chosen: list[Leaf]) -> bytes:
-    found = [_at(response, leaf.path) for leaf in chosen]
-    length = max(map(len, found))
-    lines = [[column[line] if line < len(column) else None for column in found] for line in range(length)]
-    return csv_of([[_header(leaf) for leaf in chosen], *lines], DIGITS)
-
-
-def _map(response: Response, chosen: list[Leaf], axes: list[Leaf]) -> bytes:
-    """A line a point of the map."""
-    first, second = (_at(response, axis.path) for axis in axes[:2])
-    maps = [_at(response, leaf.path) for leaf in chosen]
-    lines = [[a, b, *(each[i][j] for each in maps)] for i, a in enumerate(first) for j, b in enumerate(second)]
-    return csv_of([[_header(leaf) for leaf in (*axes[:2], *chosen)], *lines], DIGITS)
-
-
-def _header(leaf: Leaf) -> str:
-    return f"{' '.join(filter(None, (leaf.title, leaf.declared.symbol)))} [{leaf.unit or '-'}]"
-
-
-def _at(response: Any, path: str) -> Any:
-    for name in path.split("."):
-        response = getattr(response, name, None)
-    return response
+    chosen = [leaf for leaf in wanted if leaf.path in known and leaf.dimensions == shape]
+    names = dict.fromkeys(name for leaf in chosen for name in leaf.axes)
+    axes = [axis for name in names if (axis := leaf_at(model, name))]
+    columns: list[Leaf]
+    if shape == 1:
+        columns = [*axes, *(leaf for leaf in chosen if leaf not in axes)]
+        lines: Any = zip_longest(*(value_at(response, leaf.path) for leaf in columns))
+    else:
+        columns = [*axes[:2], *chosen]
+        points = product(*(value_at(response, axis.path) for axis in axes[:2]))
+        maps = ([value for row in known[leaf.path] for value in row] for leaf in chosen)
+        lines = ((*point, *at_point) for point, *at_point in zip(points, *maps, strict=True))
+    header = [f"{' '.join(filter(None, (leaf.title, leaf.declared.symbol)))} [{leaf.unit or '-'}]" for leaf in columns]
+    return csv_of([header, *lines], DIGITS)

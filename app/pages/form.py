@@ -1,14 +1,12 @@
 """The form of a case from the schema: fields with what was typed, what it means and what is wrong with it."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
-from itertools import groupby
+from itertools import groupby, product
 from typing import Any, Literal
 
-from markupsafe import Markup
-
-from app.pages.query import MATRIX, PICK, PRESENT, SIDE, text_of
+from app.pages.query import MATRIX, PICK, PRESENT, SIDE, excluded, text_of
 from app.pages.typesetting import cited, symbol, words
 from app.schema.fields import ITEM, Branch, Leaf, tree
 from app.schema.model import Request
@@ -16,6 +14,8 @@ from app.schema.model import Section as Fields
 from app.schema.quantities import split_unit
 
 BESIDE = 10  # letters of an option that fit beside the label
+DETAIL = "detail"
+"""Not asked for: each view takes the level of detail that it needs."""
 Widget = Literal["number", "text", "list", "select", "table"]
 
 
@@ -23,7 +23,8 @@ Widget = Literal["number", "text", "list", "select", "table"]
 class State:
     """What is known of a case beside the schema, by path: texts typed, faults, and what an answer resolved.
 
-    `unused` is whether the part of the form at hand is an optional section of which nothing is given.
+    `assumed` are the fields whose default is ours. `unused` is whether the part of the form at hand is an optional
+    section of which nothing is given.
     """
 
     texts: Mapping[str, str] = field(default_factory=dict)
@@ -32,35 +33,32 @@ class State:
     assumed: AbstractSet[str] = frozenset()
     unused: bool = False
 
-    def given(self, prefix: str) -> int:
-        """How many fields below a path were typed."""
-        return sum(name == prefix or name.startswith(f"{prefix}.") for name in self.texts)
-
-    def faulty(self, prefix: str) -> bool:
-        """Whether something at or below a path is wrong."""
-        return any(name == prefix or name.startswith(f"{prefix}.") for name in self.faults)
-
-    def assumptions(self, prefix: str) -> int:
-        """How many defaults of ours were used below a path."""
-        return sum(name.startswith(f"{prefix}.") for name in self.assumed)
+    @property
+    def required(self) -> str:
+        """What stands beside a field that must be given: always, or if its section is."""
+        return "required if used" if self.unused else "required"
 
 
 @dataclass(frozen=True, slots=True)
 class FieldView:
-    """What the template shows of a field; `empty` says in a line what a field without a value stands for."""
+    """What the template shows of a field.
+
+    `empty` says in a line what a field without a value stands for; `column` names the field where several stand side
+    by side; `excludes` are the fields and sections that must be empty where this one is given.
+    """
 
     name: str
     label: str
-    symbol: Markup
-    unit: str
-    widget: Widget
-    text: str
-    placeholder: str
-    options: tuple[tuple[str, str], ...]
-    required: str
-    assumed: bool
-    help: tuple[str, ...]
-    fault: str | None
+    symbol: str = ""
+    unit: str = ""
+    widget: Widget = "number"
+    text: str = ""
+    placeholder: str = ""
+    options: tuple[tuple[str, str], ...] = ()
+    required: str = ""
+    assumed: bool = False
+    help: tuple[str, ...] = ()
+    fault: str | None = None
     column: str = ""
     excludes: tuple[str, ...] = ()
     empty: str = ""
@@ -77,121 +75,12 @@ class FieldView:
         return any(len(label) > BESIDE for _, label in self.options)
 
 
-def anchor(path: str) -> str:
-    """The id of a field or section on the page."""
-    return f"f.{path}"
-
-
-def field_view(leaf: Leaf, name: str, state: State, column: str = "") -> FieldView:
-    """A field under its name with indices; `column` names it where several stand side by side."""
-    return FieldView(
-        name=name,
-        label=leaf.declared.title,
-        symbol=symbol(leaf.declared.symbol),
-        unit=leaf.unit or "",
-        widget=_widget(leaf),
-        text=state.texts.get(name, ""),
-        placeholder=_placeholder(leaf, name, state),
-        options=tuple(_options(leaf, state.texts.get(name, ""))),
-        empty=_empty(leaf, name, state),
-        required=_required(state, needed=leaf.required),
-        assumed=name in state.assumed,
-        help=tuple(map(cited, _help(leaf, name, state))),
-        fault=state.faults.get(name),
-        column=column,
-        excludes=_excludes(leaf, name),
-    )
-
-
-def _required(state: State, *, needed: bool) -> str:
-    """What stands beside a field that must be given: always, or if its section is."""
-    return "" if not needed else "required if used" if state.unused else "required"
-
-
-def _widget(leaf: Leaf) -> Widget:
-    if leaf.dimensions:
-        return "list"
-    if leaf.options or leaf.kind == "boolean":
-        return "select"
-    return "text" if leaf.kind in {"text", "other"} else "number"
-
-
-def _excludes(leaf: Leaf, name: str) -> tuple[str, ...]:
-    """The fields and sections that must be empty where this field is given."""
-    section = name.rpartition(".")[0]
-    return tuple(f"{section}.{fellow.rpartition('.')[2]}".lstrip(".") for fellow in leaf.exclusive)
-
-
-def _placeholder(leaf: Leaf, name: str, state: State) -> str:
-    """What an empty field stands for: the value in use after an answer, the default before."""
-    value = state.resolved.get(name, leaf.default)
-    if isinstance(value, list) and value:
-        return " ".join(text_of(item) for item in value[:6]) + (" …" if len(value) > 6 else "")
-    if value is not None and value != []:
-        return f"{value:.6g}" if isinstance(value, float) else text_of(value)
-    return "paste a column" if leaf.dimensions else ""
-
-
-def _empty(leaf: Leaf, name: str, state: State) -> str:
-    """What an empty field stands for, where that is a rule and not a value yet."""
-    known = state.resolved.get(name, leaf.default) not in (None, [])
-    return "" if known or leaf.options else words(cited(leaf.declared.default_text or "").replace("`", ""))
-
-
-def _options(leaf: Leaf, text: str) -> list[tuple[str, str]]:
-    if not leaf.options and leaf.kind != "boolean":
-        return []
-    named = [("true", "yes"), ("false", "no")] if leaf.kind == "boolean" else [(o, words(str(o))) for o in leaf.options]
-    default = text_of(leaf.default) if leaf.default is not None else None
-    shown = [(str(value), label) for value, label in named]
-    known = {value for value, _ in shown}
-    empty = [] if default in known else [("", cited(leaf.declared.default_text or "choose …"))]
-    strange = [(text, text)] if text and text not in known else []
-    return [
-        *empty,
-        *((("" if value == default and text != value else value), label) for value, label in shown),
-        *strange,
-    ]
-
-
-def _help(leaf: Leaf, name: str, state: State) -> list[str]:
-    """Meaning, range, what is assumed and why, source."""
-    lines = [_sentence(leaf.description)]
-    if bounds := _range(leaf):
-        lines.append(bounds)
-    if leaf.declared.assumed:
-        lines.append(f"{'Assumed' if name in state.assumed else 'Our default'}: {leaf.declared.assumed}.")
-    if leaf.exclusive:
-        fellows = ", ".join(_last_words(fellow) for fellow in leaf.exclusive)
-        lines.append(f"Instead of: {fellows}.")
-    if leaf.declared.source:
-        lines.append(f"Source: {leaf.declared.source}.")
-    return lines
-
-
-def _last_words(path: str) -> str:
-    """The name of a field without its unit, as words."""
-    return words(split_unit(path.rpartition(".")[2])[0])
-
-
-def _sentence(text: str) -> str:
-    return f"{text[0].upper()}{text[1:]}." if text else ""
-
-
-def _range(leaf: Leaf) -> str:
-    names = {"ge": "from", "gt": "above", "le": "to", "lt": "below"}
-    parts = [f"{names[key]} {text_of(float(bound))}" for key, bound in leaf.declared.bounds.items()]
-    return f"Permissible: {' '.join(parts)} {leaf.unit or ''}".rstrip() + "." if parts else ""
-
-
 @dataclass(frozen=True, slots=True)
 class Matrix:
-    """A matrix with a field for each of its elements, by rows."""
+    """A matrix with a field for each of its elements, row by row."""
 
-    id: str
-    label: str
-    symbol: Markup
-    rows: tuple[tuple[FieldView, ...], ...]
+    whole: FieldView
+    elements: tuple[FieldView, ...]
     kind: str = "matrix"
 
 
@@ -200,7 +89,6 @@ class Choice:
     """Fields of which one is given; `picked` is the one that counts."""
 
     name: str
-    legend: str
     fields: tuple[FieldView, ...]
     picked: str
     required: str
@@ -209,12 +97,11 @@ class Choice:
 
 @dataclass(frozen=True, slots=True)
 class Twins:
-    """Sections of one kind side by side: one line per field, one column per section."""
+    """Sections of one kind side by side, a line for each field; `columns` are the titles of the sections by path."""
 
-    columns: tuple[str, ...]
+    columns: dict[str, str]
     rows: tuple[tuple[FieldView, ...], ...]
     faults: tuple[str, ...]
-    anchors: tuple[str, ...]
     kind: str = "twins"
 
 
@@ -222,15 +109,15 @@ class Twins:
 class Section:
     """A part of the form; `switch` is the field that says that an optional section is there."""
 
-    id: str
     path: str
     title: str
-    description: str
+    blocks: tuple["Block", ...]
     open: bool
     given: int
     assumed: int
-    fault: str | None
-    blocks: tuple["Block", ...]
+    id: str
+    description: str = ""
+    fault: str | None = None
     switch: FieldView | None = None
     needed: bool = False
     advanced: bool = False
@@ -241,9 +128,9 @@ class Section:
 class Rows:
     """A list of sections; the last one is empty, to be filled."""
 
-    id: str
     path: str
     title: str
+    description: str
     fault: str | None
     items: tuple[Section, ...]
     kind: str = "rows"
@@ -252,171 +139,125 @@ class Rows:
 Block = FieldView | Matrix | Choice | Twins | Section | Rows
 
 
-DETAIL = "detail"
-"""Not asked for: each view takes the level of detail that it needs."""
+def anchor(path: str) -> str:
+    """The id of a field or section on the page."""
+    return f"f.{path}"
 
 
 def form(request: type[Request], state: State) -> tuple[Section, ...]:
     """The sections of the form: those with required fields first, model options last."""
-    root = tree(request)
-    sections = [_section(group, state) for group in _grouped(root.branches)]
-    loose = tuple(field for field in root.leaves if field.path != DETAIL)
+    root, loose = tree(request), list[Block]()
+    sections = []
+    for block in _blocks(root, "", state):
+        if isinstance(block, Section):
+            sections.append(block)
+        elif isinstance(block, Twins):
+            path, *_ = paths = [*block.columns]
+            needed = any(each.required for fields in block.rows for each in fields)
+            title = " and ".join(block.columns.values())
+            sections.append(_section(path, title, paths, [block], state, id=f"{anchor(path)}-", needed=needed))
+        elif isinstance(block, Rows):
+            around = _section(block.path, block.title, [block.path], [block], state, id=f"{anchor(block.path)}-")
+            sections.append(replace(around, description=block.description, given=len(block.items) - 1))
+        else:
+            loose.append(block)
     if loose:
-        sections.append(_loose(loose, state))
+        names = [leaf.path for leaf in root.leaves if leaf.path != DETAIL]
+        general = _section("general", "general", names, loose, state)
+        sections.append(replace(general, open=general.open or any(leaf.required for leaf in root.leaves)))
     return tuple(sorted(sections, key=lambda each: (not each.needed, each.advanced)))
 
 
-def _grouped(branches: tuple[Branch, ...]) -> Iterator[tuple[Branch, ...]]:
-    """Neighbours of one kind together."""
-    for _, group in groupby(branches, key=lambda branch: (branch.model, branch.repeated or bool(branch.branches))):
-        members = tuple(group)
-        if members[0].repeated or members[0].branches:
-            yield from ((member,) for member in members)
-        else:
-            yield members
-
-
-def _loose(fields: tuple[Leaf, ...], state: State) -> Section:
-    blocks = tuple(_own(field, field.path, state) for field in fields)
-    names = [field.path for field in fields]
-    needed = any(field.required for field in fields)
+def _section(path: str, title: str, below: list[str], blocks: Iterable[Block], state: State, **known: Any) -> Section:
+    """A section with the fields at or below some paths; open where one of them is required, given or wrong."""
+    given, faulty, assumed = (
+        sum(_count(names, each) for each in below) for names in (state.texts, state.faults, state.assumed)
+    )
     return Section(
-        anchor("general"),
-        "general",
-        "general",
-        "",
-        needed or any(map(state.given, names)) or any(map(state.faulty, names)),
-        sum(map(state.given, names)),
-        sum(name in state.assumed for name in names),
-        None,
-        blocks,
+        path=path,
+        title=title,
+        blocks=tuple(blocks),
+        open=known.get("needed", False) or given > 0 or faulty > 0,
+        given=given,
+        assumed=assumed,
+        **{"id": anchor(path), **known},
     )
 
 
-def _section(group: tuple[Branch, ...], state: State) -> Section:
-    """A section of the form's first level: one of the request, or twins."""
-    first = group[0]
-    if len(group) == 1:
-        return (_listed if first.repeated else _branch)(first, first.path, state)
-    blocks = (_twins(group, "", state),)
-    return Section(
-        id=anchor(f"{first.path}-"),
-        path=first.path,
-        title=" and ".join(branch.title for branch in group),
-        description="",
-        open=any(branch.required or state.given(branch.path) or state.faulty(branch.path) for branch in group),
-        given=sum(state.given(branch.path) for branch in group),
-        assumed=sum(state.assumptions(branch.path) for branch in group),
-        fault=None,
-        blocks=blocks,
-        needed=any(branch.required for branch in group),
-    )
+def _count(names: Iterable[str], path: str) -> int:
+    """How many of the names are at or below a path."""
+    return sum(name == path or name.startswith(f"{path}.") for name in names)
 
 
 def _branch(branch: Branch, path: str, state: State, item: int | None = None) -> Section:
-    needed = branch.required and not branch.optional and item is None
-    given = state.given(path)
-    optional = branch.optional or branch.repeated
-    inside = replace(state, unused=(optional or state.unused) and not given)
-    return Section(
-        id=anchor(path),
-        path=path,
-        title=branch.title if item is None else f"{branch.title} {item + 1}",
-        description=branch.description if branch.description != branch.title and item is None else "",
-        open=needed or given > 0 or state.faulty(path),
-        given=given,
-        assumed=state.assumptions(path),
+    """A section of the request, or the item of a list of sections."""
+    given = _count(state.texts, path) > 0
+    switch = None
+    if branch.optional and not branch.required:  # says that the section is there, where none of its fields would
+        switch = FieldView(
+            name=path,
+            label=f"use {branch.title}",
+            widget="select",
+            text=state.texts.get(path, PRESENT if given else ""),
+            options=(("", "no"), (PRESENT, "yes")),
+            help=(branch.description,),
+        )
+    inside = replace(state, unused=(branch.optional or branch.repeated or state.unused) and not given)
+    return _section(
+        path,
+        branch.title if item is None else f"{branch.title} {item + 1}",
+        [path],
+        _blocks(branch, f"{path}.", inside),
+        state,
+        description=branch.description if item is None else "",
         fault=state.faults.get(path),
-        blocks=tuple(_blocks(branch, f"{path}.", inside)),
-        switch=_switch(branch, path, state),
-        needed=needed,
+        switch=switch,
+        needed=branch.required and not branch.optional and item is None,
         advanced=branch.advanced,
     )
 
 
-def _listed(branch: Branch, path: str, state: State) -> Section:
-    """A list of sections as a section of its own."""
-    rows = _rows(branch, path, state)
-    return Section(
-        id=f"{anchor(path)}-",
-        path=path,
-        title=branch.title,
-        description=branch.description if branch.description != branch.title else "",
-        open=state.given(path) > 0 or state.faulty(path),
-        given=len(rows.items) - 1,
-        assumed=state.assumptions(path),
-        fault=None,
-        blocks=(rows,),
-    )
+def _rows(branch: Branch, path: str, state: State) -> Rows:
+    below = (name.removeprefix(f"{path}.") for name in state.texts if name.startswith(f"{path}."))
+    indices = (name.partition(".")[0] for name in below)
+    count = 1 + max((int(index) for index in indices if index.isdecimal() and index.isascii()), default=-1)
+    items = tuple(_branch(branch, f"{path}.{index}", state, item=index) for index in range(count + 1))
+    return Rows(path, branch.title, branch.description, state.faults.get(path), items)
 
 
-def _switch(branch: Branch, path: str, state: State) -> FieldView | None:
-    """Says that an optional section is there, where none of its fields would."""
-    if not branch.optional or branch.required:
-        return None
-    return FieldView(
-        name=path,
-        label=f"use {branch.title}",
-        symbol=symbol(None),
-        unit="",
-        widget="select",
-        text=state.texts.get(path, PRESENT if state.given(path) else ""),
-        placeholder="",
-        options=(("", "no"), (PRESENT, "yes")),
-        required="",
-        assumed=False,
-        help=(branch.description,),
-        fault=None,
+def _twins(group: tuple[Branch, ...], prefix: str, state: State) -> Twins:
+    columns = {prefix + _last(branch.path): branch.title for branch in group}
+    rows = tuple(
+        tuple(
+            replace(field_view(leaf, f"{path}.{_last(leaf.path)}", state), column=title)
+            for leaf, (path, title) in zip(line, columns.items(), strict=True)
+        )
+        for line in zip(*(branch.leaves for branch in group), strict=True)
     )
+    return Twins(columns, rows, tuple(state.faults[path] for path in columns if path in state.faults))
 
 
 def _blocks(branch: Branch, prefix: str, state: State) -> Iterator[Block]:
-    """Fields in the order of the schema, then the sections inside."""
+    """Fields and the sections inside, in the order of the schema."""
     choices = _choices(branch)
-    shown: set[str] = set()
-    groups = {group[0].path: group for group in _grouped(branch.branches)}
+    shown = {DETAIL}
+    # Neighbours of one kind that hold fields alone stand side by side.
+    alike = groupby(branch.branches, lambda each: each.path if each.repeated or each.branches else each.model)
+    groups = {group[0].path: group for group in (tuple(members) for _, members in alike)}
     for member in branch.members:
+        name = prefix + _last(member.path)
         if isinstance(member, Branch):
-            if member.path in groups:
-                yield _inner(groups[member.path], prefix, state)
-        elif (group := choices.get(member.path)) is None:
-            yield _own(member, _name(member, prefix), state)
-        elif member.path not in shown:
-            shown.update(field.path for field in group)
+            group = groups.get(member.path, ())
+            if len(group) > 1:
+                yield _twins(group, prefix, state)
+            elif group:
+                yield _rows(member, name, state) if member.repeated else _branch(member, name, state)
+        elif member.path in choices and member.path not in shown:
+            shown.update(leaf.path for leaf in choices[member.path])
             needed = issubclass(branch.model, Fields) and branch.model.choice_missing is not None
-            yield _choice(group, prefix, state, _required(state, needed=needed))
-
-
-def _own(leaf: Leaf, name: str, state: State) -> FieldView | Matrix:
-    """A field that shares its line with no other one."""
-    if leaf.dimensions < MATRIX:
-        return field_view(leaf, name, state)
-    whole, resolved = field_view(leaf, name, state), state.resolved.get(name)
-    rows = tuple(
-        tuple(
-            replace(
-                whole,
-                name=f"{name}.{row}.{column}",
-                label=f"{whole.label}, row {row + 1}, column {column + 1}",
-                widget="number",
-                text=state.texts.get(f"{name}.{row}.{column}", whole.text if row == column == 0 else ""),
-                placeholder=f"{resolved[row][column]:.6g}" if resolved else "",
-                help=(*whole.help, "The first element alone: the same in every direction."),
-                fault=state.faults.get(f"{name}.{row}.{column}", whole.fault if row == column == 0 else None),
-            )
-            for column in range(SIDE)
-        )
-        for row in range(SIDE)
-    )
-    return Matrix(whole.id, whole.label, whole.symbol, rows)
-
-
-def _inner(group: tuple[Branch, ...], prefix: str, state: State) -> Block:
-    first = group[0]
-    if len(group) > 1:
-        return _twins(group, prefix, state)
-    path = prefix + _last(first.path)
-    return _rows(first, path, state) if first.repeated else _branch(first, path, state)
+            yield _choice(choices[member.path], prefix, state, state.required if needed else "")
+        elif member.path not in shown:
+            yield _own(member, name, state)
 
 
 def _choices(branch: Branch) -> dict[str, tuple[Leaf, ...]]:
@@ -431,44 +272,96 @@ def _choices(branch: Branch) -> dict[str, tuple[Leaf, ...]]:
 
 
 def _choice(group: tuple[Leaf, ...], prefix: str, state: State, required: str) -> Choice:
-    names = [_name(field, prefix) for field in group]
-    given = next((name for name in names if name in state.texts), None)
-    known = next((name for name in names if state.resolved.get(name) is not None), None)
-    legend = " or ".join(field.declared.title for field in group)
-    views = tuple(field_view(field, name, state) for field, name in zip(group, names, strict=True))
-    return Choice(PICK + names[0], legend, views, given or known or names[0], required)
+    fields = {prefix + _last(leaf.path): leaf for leaf in group}
+    given = [name for name in fields if name in state.texts]
+    known = [name for name in fields if state.resolved.get(name) is not None]
+    first, *_ = fields
+    views = tuple(field_view(leaf, name, state) for name, leaf in fields.items())
+    return Choice(PICK + first, views, [*given, *known, first][0], required)
 
 
-def _twins(group: tuple[Branch, ...], prefix: str, state: State) -> Twins:
-    paths = [prefix + _last(branch.path) for branch in group]
-    columns = tuple(branch.title for branch in group)
-    rows = tuple(
-        tuple(
-            field_view(field, f"{path}.{_last(field.path)}", state, column)
-            for field, path, column in zip(line, paths, columns, strict=True)
+def _own(leaf: Leaf, name: str, state: State) -> FieldView | Matrix:
+    """A field that shares its line with no other one."""
+    whole, resolved = field_view(leaf, name, state), state.resolved.get(name)
+    if leaf.dimensions < MATRIX:
+        return whole
+    elements = (
+        replace(
+            whole,
+            name=f"{name}.{row}.{column}",
+            label=f"{whole.label}, row {row + 1}, column {column + 1}",
+            widget="number",
+            text=state.texts.get(f"{name}.{row}.{column}", whole.text if row == column == 0 else ""),
+            placeholder=f"{resolved[row][column]:.6g}" if resolved else "",
+            help=(*whole.help, "The first element alone: the same in every direction."),
+            fault=state.faults.get(f"{name}.{row}.{column}", whole.fault if row == column == 0 else None),
         )
-        for line in zip(*(branch.leaves for branch in group), strict=True)
+        for row, column in product(range(SIDE), repeat=2)
     )
-    faults = tuple(state.faults[path] for path in paths if path in state.faults)
-    return Twins(columns, rows, faults, tuple(anchor(path) for path in paths))
+    return Matrix(whole, tuple(elements))
 
 
-def _rows(branch: Branch, path: str, state: State) -> Rows:
-    count = 1 + max((int(index) for name in state.texts if (index := _index(name, path)) is not None), default=-1)
-    items = tuple(_branch(branch, f"{path}.{index}", state, item=index) for index in range(count + 1))
-    return Rows(anchor(path), path, branch.title, state.faults.get(path), items)
+def field_view(leaf: Leaf, name: str, state: State) -> FieldView:
+    """A field under its name with indices."""
+    text, value = state.texts.get(name, ""), state.resolved.get(name, leaf.default)
+    options = _options(leaf, text)
+    widget: Widget = "text" if leaf.kind in {"text", "other"} else "number"
+    rule = "" if value not in (None, []) or leaf.options else leaf.declared.default_text or ""
+    return FieldView(
+        name=name,
+        label=leaf.declared.title,
+        symbol=symbol(leaf.declared.symbol),
+        unit=leaf.unit or "",
+        widget="list" if leaf.dimensions else "select" if options else widget,
+        text=text,
+        placeholder=_placeholder(leaf, value),
+        options=options,
+        required=state.required if leaf.required else "",
+        assumed=name in state.assumed,
+        help=_help(leaf, assumed=name in state.assumed),
+        fault=state.faults.get(name),
+        excludes=excluded(name, leaf),
+        empty=words(cited(rule).replace("`", "")),
+    )
 
 
-def _index(name: str, path: str) -> str | None:
-    """Which item of a list a field belongs to."""
-    if not name.startswith(f"{path}."):
-        return None
-    part = name[len(path) + 1 :].partition(".")[0]
-    return part if part.isdecimal() and part.isascii() else None
+def _placeholder(leaf: Leaf, value: Any) -> str:
+    """What an empty field stands for: the value in use after an answer, the default before."""
+    if isinstance(value, list) and value:
+        return " ".join(text_of(item) for item in value[:6]) + (" …" if len(value) > 6 else "")
+    if value is None or value == []:
+        return "paste a column" if leaf.dimensions else ""
+    return f"{value:.6g}" if isinstance(value, float) else text_of(value)
 
 
-def _name(field: Leaf, prefix: str) -> str:
-    return prefix + _last(field.path)
+def _options(leaf: Leaf, text: str) -> tuple[tuple[str, str], ...]:
+    """Values and labels of a choice; the default is the empty one, and what is typed is offered whatever it is."""
+    named = {str(option): words(str(option)) for option in leaf.options}
+    if leaf.kind == "boolean":
+        named = {"true": "yes", "false": "no"}
+    if not named:
+        return ()
+    default = "" if leaf.default is None else text_of(leaf.default)
+    if default not in named:
+        named = {"": cited(leaf.declared.default_text or "choose …"), **named}
+    if text:
+        named.setdefault(text, text)
+    return tuple(("" if value == default != text else value, label) for value, label in named.items())
+
+
+def _help(leaf: Leaf, *, assumed: bool) -> tuple[str, ...]:
+    """Meaning, range, what is assumed and why, source."""
+    ends = {"ge": "from", "gt": "above", "le": "to", "lt": "below"}
+    bounds = [f"{ends[key]} {text_of(float(bound))}" for key, bound in leaf.declared.bounds.items()]
+    fellows = (words(split_unit(fellow.rpartition(".")[2])[0]) for fellow in leaf.exclusive)
+    lines = [
+        f"{leaf.description[0].upper()}{leaf.description[1:]}.",
+        " ".join(["Permissible:", *bounds, leaf.unit or ""]).rstrip() + "." if bounds else "",
+        f"{'Assumed' if assumed else 'Our default'}: {leaf.declared.assumed}." if leaf.declared.assumed else "",
+        f"Instead of: {', '.join(fellows)}." if leaf.exclusive else "",
+        f"Source: {leaf.declared.source}." if leaf.declared.source else "",
+    ]
+    return tuple(cited(line) for line in lines if line)
 
 
 def _last(path: str) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib.resources import files
+from itertools import pairwise
 from typing import Any
 
 from latex2mathml.converter import convert
@@ -19,23 +20,21 @@ from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from app.calculations import BY_PATH, Calculation
 from app.examples import examples
-from app.manual.chapters import Chapter, chapters
+from app.manual.chapters import NAMES, Chapter, chapters
 from app.manual.equations import anchor, equations, functions
-from app.pages.links import example_link
 from app.pages.query import Pairs, link, pairs_of
-from app.pages.templating import model_of, page_path, rendered
+from app.pages.templating import example_link, model_of, page_path, rendered
 
 _FUNCTION = re.compile(r"\\(?:arc)?(?:sin|cos|tan|ln|exp|sinh|cosh|tanh|operatorname\{\w+\})(?![a-z])(?:\^\{?\w+\}?)?")
 _TAG = re.compile(r"\\tag\{([^}]+)\}")
 _SOURCE = re.compile(r"(?:\.\./)+solvers/.*\.py")
-
-
-@dataclass(frozen=True, slots=True)
-class Heading:
-    """A section of a chapter."""
-
-    anchor: str
-    text: str
+FIXED = {
+    "table_open": '<div class="scroll" tabindex="0"><table class="results">\n',
+    "table_close": "</table></div>\n",
+    "html_block": "",  # comments are for those who renew generated parts
+    "html_inline": "",  # anchors are for readers of the repository
+}
+"""The HTML of parts that are the same everywhere."""
 
 
 @lru_cache(maxsize=4)
@@ -48,9 +47,7 @@ def contents_page(root: str) -> str:
 @lru_cache(maxsize=32)
 def chapter_page(root: str, name: str) -> str:
     """One chapter."""
-    chapter, names = chapters()[name], list(chapters())
-    place = names.index(name)
-    following = chapters()[names[place + 1]] if place + 1 < len(names) else None
+    chapter, following = chapters()[name], chapters().get(dict(pairwise(NAMES)).get(name, ""))
     body = _html(chapter.text, root)
     return rendered("manual.html", root, chapter=chapter, headings=headings(chapter), body=body, following=following)
 
@@ -67,29 +64,18 @@ def chapter_of(calculation: Calculation) -> Chapter:
     return chapters()[own if own in chapters() else model_of(calculation)]
 
 
-@dataclass(frozen=True, slots=True)
-class Method:
-    """What a report says of the method: chapter, numbered equations, deviations from print and limits."""
-
-    chapter: Chapter
-    lead: Markup
-    equations: list[tuple[str, Markup]]
-    misprints: Markup
-    limits: Markup
-
-
 @cache
-def method_of(calculation: Calculation) -> Method:
+def method_of(calculation: Calculation) -> dict[str, Any]:
     """The method of a calculation in brief, without links: a report is printed."""
     chapter = chapter_of(calculation)
     numbered = [each for each in equations().values() if each.chapter == chapter.name]
-    return Method(
-        chapter=chapter,
-        lead=_plain(chapter.lead),
-        equations=[(each.number, Markup(_mathml(each.text, "inline"))) for each in numbered],  # noqa: S704  our own
-        misprints=_plain(chapter.section("Misprints and how they were decided")),
-        limits=_plain(chapter.section("Limits of validity").partition("\n\n![")[0]),
-    )
+    return {
+        "title": chapter.title,
+        "lead": _plain(chapter.lead),
+        "equations": {each.number: Markup(_mathml(each.text, "inline")) for each in numbered},  # noqa: S704  our own
+        "misprints": _plain(chapter.section("Misprints and how they were decided")),
+        "limits": _plain(chapter.section("Limits of validity").partition("\n\n![")[0]),
+    }
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,14 +116,13 @@ def _plain(text: str) -> Markup:
     return Markup(re.sub(r"</?a\b[^>]*>", "", _html(text, "")))  # noqa: S704
 
 
-def headings(chapter: Chapter) -> list[Heading]:
-    """The sections of a chapter."""
-    tokens = _markdown().parse(chapter.text)
-    return [
-        Heading(str(token.attrs["id"]), tokens[place + 1].content)
-        for place, token in enumerate(tokens)
+def headings(chapter: Chapter) -> dict[str, str]:
+    """The titles of a chapter's sections by their anchors."""
+    return {
+        str(token.attrs["id"]): content.content
+        for token, content in pairwise(_markdown().parse(chapter.text))
         if token.type == "heading_open" and token.tag == "h2"
-    ]
+    }
 
 
 @cache
@@ -145,15 +130,13 @@ def _markdown() -> MarkdownIt:
     """CommonMark with tables, equations in dollars and headings that links can name."""
     markdown = MarkdownIt("commonmark", {"html": True}).enable("table")
     markdown.use(anchors_plugin, max_level=3)
-    markdown.use(dollarmath_plugin, allow_labels=False, renderer=_inline_equation)
+    markdown.use(dollarmath_plugin, allow_labels=False, renderer=lambda text, _: _mathml(text, "inline"))
     markdown.core.ruler.push("figures", _figures_stand_alone)
-    for rule in (_math_block, _image, _link_open, _table_open, _table_close, _fence, _html_block, _html_inline):
+    for rule in (_math_block, _image, _link_open, _fence):
         markdown.add_render_rule(rule.__name__.removeprefix("_"), rule)
+    for name, html in FIXED.items():
+        markdown.add_render_rule(name, lambda *_, html=html: html)
     return markdown
-
-
-def _inline_equation(text: str, _: dict[str, Any]) -> str:
-    return _mathml(text, "inline")
 
 
 def _mathml(text: str, display: str) -> str:
@@ -224,23 +207,5 @@ def _link_open(
     return renderer.renderToken(tokens, place, options, environment)
 
 
-def _table_open(*_: Any) -> str:
-    return '<div class="scroll" tabindex="0"><table class="results">\n'
-
-
-def _table_close(*_: Any) -> str:
-    return "</table></div>\n"
-
-
 def _fence(_self: RendererHTML, tokens: Sequence[Token], place: int, *_: Any) -> str:
     return str(Markup('<pre class="scroll" tabindex="0"><code>{}</code></pre>\n').format(tokens[place].content))
-
-
-def _html_block(*_: Any) -> str:
-    """Comments are for those who renew generated parts."""
-    return ""
-
-
-def _html_inline(*_: Any) -> str:
-    """Anchors are for readers of the repository."""
-    return ""

@@ -1,17 +1,21 @@
-"""Pages that belong to no case: the start, the models, and what went wrong."""
+"""Pages that belong to no case: the start, the models, a gear unit that was read from a file, and what went wrong."""
 
 from functools import lru_cache
+from math import pi
 from typing import Any
 
-from app.calculations import Calculation
+from app.calculations import BY_PATH, Calculation
 from app.manual.chapters import chapters
-from app.pages.links import example_link, examples_of
 from app.pages.query import link, pairs_of
+from app.pages.studies.spectrum import address_of
 from app.pages.study_links import studies_of
-from app.pages.templating import by_model, model_of, page_path, rendered
+from app.pages.templating import by_model, example_link, examples_of, model_of, page_path, rendered
 
 ANSWERS = {"drive-train": "face-load", "coupling": "tooth-loads", "pumping": "mach-map", "scuffing": "flank-load"}
 """The figure that answers the question of each model on the start page."""
+SCUFFING = "/v1/scuffing"
+SPECTRA = (SCUFFING, "/v1/drive-train")  # shown of the load spectra of a stage
+CASE_COLUMNS = ("load.pinion_torque_n_m", "load.pinion_speed_rpm", "temperatures.oil_c")
 
 
 @lru_cache(maxsize=4)
@@ -26,15 +30,14 @@ def _entry(calculations: list[Calculation]) -> dict[str, Any]:
     known = examples_of(first)
     example = next((each for each in known if each.title.endswith("?")), known[0])
     shown = next(each for each in first.figures if each.name == ANSWERS[model_of(first)])
-    pairs = pairs_of(example.request)
-    place = f"{page_path(first)}/figures/{shown.name}.svg"
+    image, pairs = f"{page_path(first)}/figures/{shown.name}.svg", pairs_of(example.request)
     return {
         "chapter": chapters()[model_of(first)],
         "question": example.title,
         "address": example_link(first, example),
         "figure": shown.title,
-        "image": link(place, pairs),
-        "dark": link(place, pairs, theme="dark"),
+        "image": link(image, pairs),
+        "dark": link(image, pairs, theme="dark"),
         "calculations": [
             (each, page_path(each), [(one.title, example_link(each, one)) for one in examples_of(each)[:2]])
             for each in calculations
@@ -46,3 +49,39 @@ def _entry(calculations: list[Calculation]) -> dict[str, Any]:
 def problem_page(root: str, status: int, title: str, detail: str) -> str:
     """Something that is no page."""
     return rendered("problem.html", root, status=status, title=title, detail=detail)
+
+
+def unit_page(root: str, unit: dict[str, Any]) -> str:
+    """The page of the answer of /v1/rexs: the stages of a gear unit, and a link to every calculation of each."""
+    return rendered("rexs.html", root, unit=unit, stages=[_stage(stage) for stage in unit["stages"]])
+
+
+def _stage(stage: dict[str, Any]) -> dict[str, Any]:
+    requests, request = stage["requests"], next(iter(stage["requests"].values()))
+    gears, load = request["gears"], request.get("load", {})
+    teeth = gears["pinion"]["teeth"], gears["wheel"]["teeth"]
+    ratio = teeth[1] / teeth[0]
+    torque, speed = load.get("pinion_torque_n_m"), load.get("pinion_speed_rpm")
+    cases = []
+    for case in stage["cases"]:
+        overrides = case["overrides"]
+        pairs = dict(pairs_of(requests[SCUFFING])) | {name: str(value) for name, value in overrides.items()}
+        address = link(page_path(BY_PATH[SCUFFING]), list(pairs.items()))
+        cases.append(case | {"address": address, "row": [overrides.get(name) for name in CASE_COLUMNS]})
+    return stage | {
+        "teeth": f"{teeth[0]}/{teeth[1]}",
+        "ratio": ratio,
+        "power_kw": None if torque is None or speed is None else torque * speed * pi / 30e3,
+        "speeds": "" if speed is None else f"{speed:.5g} / {speed / ratio:.5g}",
+        "module_mm": gears.get("module_mm"),
+        "face_width_mm": gears.get("face_width_mm"),
+        "links": [
+            (BY_PATH[path].title, link(page_path(BY_PATH[path]), pairs_of(body))) for path, body in requests.items()
+        ],
+        "spectra": [
+            (BY_PATH[path].title, address_of(BY_PATH[path], pairs_of(requests[path]), {"cases": lines}))
+            for path, lines in stage["spectra"].items()
+            if path in SPECTRA
+        ],
+        "cases": cases,
+    }

@@ -30,6 +30,7 @@ PICK = "pick:"
 """Before the name of a choice between fields that exclude each other; its value is the field that counts."""
 MOST_FIELDS = 1000  # chosen: far beyond the longest form
 DEEPEST = 12  # parts of a name; no field lies as deep
+LONGEST_QUERY = 6000  # characters: common proxies refuse a request line beyond 8 KiB
 LONGEST_NAME = 100  # characters of a name; no field's has as many
 LONGEST_INDEX = 10  # digits; a list is far shorter
 MATRIX = 2  # dimensions
@@ -60,54 +61,52 @@ def split_views(pairs: Pairs) -> tuple[Pairs, dict[str, str]]:
 
 def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
     """Without empty fields and without those that a choice left out: what a link of the case says."""
-    picked = {name.removeprefix(PICK): text for name, text in pairs if name.startswith(PICK)}
-    dropped = {
-        name for name, _ in pairs if (leaf := leaf_at(model, name)) and _left_out(name, leaf.exclusive, picked.values())
-    }
-    kept = [
-        (name, text.strip())
-        for name, text in pairs
-        if text.strip() and name not in dropped and not name.startswith(PICK)
-    ]
-    return _renumbered(model, [pair for name, text in kept for pair in _elements(model, name, text)])
-
-
-def _elements(model: type[Documented], name: str, text: str) -> Pairs:
-    """The row of a matrix by its elements, each of which has a field of the form; any other field as it is."""
-    matrix = leaf_at(model, name.rpartition(".")[0])
-    if matrix is None or matrix.dimensions != MATRIX:
-        return [(name, text)]
-    return [(f"{name}.{column}", text_of(item)) for column, item in enumerate(_listed(matrix, text))]
+    picked = {text for name, text in pairs if name.startswith(PICK)}
+    kept: Pairs = []
+    for name, spaced in pairs:
+        text = spaced.strip()
+        if not text or name.startswith(PICK):
+            continue
+        leaf, matrix = leaf_at(model, name), leaf_at(model, name.rpartition(".")[0])
+        if leaf is not None and not picked.isdisjoint(excluded(name, leaf)):
+            continue
+        if matrix is not None and matrix.dimensions == MATRIX:  # a row of it: each element has a field of the form
+            kept += [(f"{name}.{column}", text_of(item)) for column, item in enumerate(_listed(matrix, text))]
+        else:
+            kept.append((name, text))
+    return _renumbered(model, kept)
 
 
 def _renumbered(model: type[Documented], pairs: Pairs) -> Pairs:
     """Items of lists of sections counted from 0 without gaps, whichever rows of the form were left empty."""
-    indices: dict[str, set[int]] = defaultdict(set)
+    found: dict[str, set[int]] = defaultdict(set)
     for name, _ in pairs:
-        for prefix, index in _indices(name):
-            if leaf_at(model, prefix) is None and leaf_at(model, prefix.rpartition(".")[0]) is None:
-                indices[prefix].add(index)
-    places = {prefix: {index: place for place, index in enumerate(sorted(found))} for prefix, found in indices.items()}
-    return [(_renamed(name, places), text) for name, text in pairs]
+        for _, path, index in _indices(model, name):
+            found[path].add(index)
+    indices = {path: sorted(each) for path, each in found.items()}
+    renumbered = []
+    for name, text in pairs:
+        parts = name.split(".")
+        for place, path, index in _indices(model, name):
+            parts[place] = str(indices[path].index(index))
+        renumbered.append((".".join(parts), text))
+    return renumbered
 
 
-def _indices(name: str) -> Iterator[tuple[str, int]]:
-    """Every list on the way to a field, with the index that it takes there."""
+def _indices(model: type[Documented], name: str) -> Iterator[tuple[int, str, int]]:
+    """Every list of sections on the way to a field: the place of the index among the parts, the list, the index."""
     parts = name.split(".")
-    for position, part in enumerate(parts):
-        if position and part.isdecimal() and part.isascii() and len(part) < LONGEST_INDEX:
-            yield ".".join(parts[:position]), int(part)
+    for place, part in enumerate(parts):
+        if place and part.isdecimal() and part.isascii() and len(part) < LONGEST_INDEX:
+            path = ".".join(parts[:place])
+            if leaf_at(model, path) is None and leaf_at(model, path.rpartition(".")[0]) is None:  # no list of numbers
+                yield place, path, int(part)
 
 
-def _renamed(name: str, places: dict[str, dict[int, int]]) -> str:
-    found = {prefix.count(".") + 1: places[prefix][index] for prefix, index in _indices(name) if prefix in places}
-    return ".".join(str(found.get(position, part)) for position, part in enumerate(name.split(".")))
-
-
-def _left_out(name: str, fellows: tuple[str, ...], picked: Iterable[str]) -> bool:
+def excluded(name: str, leaf: Leaf) -> tuple[str, ...]:
+    """The fields and sections that must be empty where a field is given."""
     section = name.rpartition(".")[0]
-    beside = {f"{section}.{fellow.rpartition('.')[2]}".lstrip(".") for fellow in fellows}
-    return any(choice in beside for choice in picked)
+    return tuple(f"{section}.{fellow.rpartition('.')[2]}".lstrip(".") for fellow in leaf.exclusive)
 
 
 def body_of(model: type[Documented], pairs: Pairs) -> dict[str, Any]:
@@ -134,9 +133,23 @@ def body_of(model: type[Documented], pairs: Pairs) -> dict[str, Any]:
     return content
 
 
-def pairs_of(content: Any, prefix: str = "") -> Pairs:
+def pairs_of(content: Any, name: str = "") -> Pairs:
     """The fields that make a request body; nulls are left out, as a form leaves its fields empty."""
-    return list(_pairs(content, prefix))
+    inner: Iterable[tuple[Any, Any]]
+    match content:
+        case None | []:
+            return []
+        case dict():
+            if not content and name:
+                return [(name, PRESENT)]
+            inner = content.items()
+        case list() if any(isinstance(item, dict | list) for item in content):  # sections, or the rows of a matrix
+            inner = enumerate(dict(enumerate(item)) if isinstance(item, list) else item for item in content)
+        case list():
+            return [(name, ",".join(text_of(item) for item in content))]
+        case _:
+            return [(name, text_of(content))]
+    return [pair for key, value in inner for pair in pairs_of(value, f"{name}.{key}" if name else str(key))]
 
 
 def link(path: str, pairs: Pairs, **views: str) -> str:
@@ -154,7 +167,7 @@ def _value(model: type[Documented], name: str, text: str) -> Any:
         return number_of(text) if leaf_at(model, name.rpartition(".")[0].rpartition(".")[0]) else text
     if leaf.dimensions == 1:
         return _listed(leaf, text)
-    if leaf.dimensions == 2:
+    if leaf.dimensions == MATRIX:
         alone = _number(text.strip().replace(",", ".", 1))
         if not isinstance(alone, str):  # a number may stand for a matrix
             return alone
@@ -231,26 +244,6 @@ def _matrix(elements: dict[str, Any]) -> Any:
         [row.get(place) for place in places] if isinstance(row, dict) and row.keys() <= set(places) else row
         for row in rows
     ]
-
-
-def _pairs(content: Any, name: str) -> Iterator[tuple[str, str]]:
-    match content:
-        case None:
-            return
-        case dict():
-            if not content and name:
-                yield name, PRESENT
-            for key, value in content.items():
-                yield from _pairs(value, f"{name}.{key}" if name else key)
-        case list() if any(isinstance(item, dict | list) for item in content):
-            for index, item in enumerate(content):  # a section, or the row of a matrix
-                named = dict(enumerate(item)) if isinstance(item, list) else item
-                yield from _pairs(named, f"{name}.{index}")
-        case list():
-            if content:
-                yield name, ",".join(text_of(item) for item in content)
-        case _:
-            yield name, text_of(content)
 
 
 def text_of(value: Any) -> str:

@@ -1,16 +1,20 @@
 """What a report says beside the result: names, date, every input with where it comes from, how to repeat it."""
 
+import json
 import re
-from dataclasses import dataclass
+import shlex
 from datetime import UTC, datetime
-from typing import Any
+from pprint import pformat
+from textwrap import indent
+from typing import Any, NamedTuple
 from unicodedata import category
 
 from markupsafe import Markup
 
+from app.errors import Unprocessable
 from app.pages.cases import Case
-from app.pages.code import for_shell, given
 from app.pages.manual import method_of
+from app.pages.query import Pairs
 from app.pages.results import flattened, resolved
 from app.pages.typesetting import cited, shown, symbol
 from app.schema.fields import leaf_at
@@ -18,53 +22,37 @@ from app.schema.fields import leaf_at
 NAMES = {"title": 200, "project": 200, "part": 200, "author": 200, "checker": 200, "notes": 2000}
 """What a report says of its occasion, and how many characters of it at most."""
 LONGEST_LINK = 240  # as text; what it leads to is the whole
-SIDE_BY_SIDE = 4  # items of a list
 _element = re.compile(r"(\.\d+){1,2}$")  # of a list or a matrix of numbers
 PAPERS = {"a4": "A4", "letter": "letter"}
 
 
-@dataclass(frozen=True, slots=True)
-class Cell:
+class Cell(NamedTuple):
     """The value of an input; `origin` is given, assumed, derived, default or not given."""
 
     value: str
     origin: str
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
+class Row(NamedTuple):
     """An input; of items of a list that stand side by side, the same input of each by its index."""
 
     label: str
     symbol: Markup
-    unit: str
     cells: dict[int, Cell]
 
-    @property
-    def origin(self) -> str:
-        """Where its values come from."""
-        return ", ".join(dict.fromkeys(cell.origin for cell in self.cells.values()))
 
+def context(case: Case, pairs: Pairs, views: dict[str, str], *, address: str, link: str) -> dict[str, Any]:
+    """What the template needs beside the result; `address` is that of the service, `link` that of the case.
 
-@dataclass(frozen=True, slots=True)
-class Table:
-    """The inputs of a section; `items` are the indices of its columns, `listed` where it is one of a list."""
-
-    title: str
-    items: tuple[int, ...]
-    listed: bool
-    rows: tuple[Row, ...]
-
-
-def context(case: Case, views: dict[str, str], address: str, link: str) -> dict[str, Any]:
-    """What the template needs beside the result; raises ValueError for a name or note that is too long."""
+    Raises Unprocessable for a name or note that is too long.
+    """
     return {
         "longest": NAMES,
         "names": {name: _said(name, views.get(name, ""), longest) for name, longest in NAMES.items()},
         "paper": PAPERS.get(views.get("paper", ""), "A4"),
         "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
-        "inputs": _inputs(case),
-        "command": for_shell(address, case.calculation, given(case.request)),
+        "inputs": _inputs(case, pairs),
+        "command": for_shell(address, case),
         "link": link,
         "link_text": link if len(link) <= LONGEST_LINK else f"{link[:LONGEST_LINK]}…",
         "method": method_of(case.calculation),
@@ -74,14 +62,37 @@ def context(case: Case, views: dict[str, str], address: str, link: str) -> dict[
 def _said(name: str, text: str, longest: int) -> str:
     """A name or note without characters that cannot be seen, some of which turn text around."""
     if len(text) > longest:
-        raise ValueError(f"{name}: {len(text)} characters; at most {longest} have room on the report")
+        message = f"{name}: {len(text)} characters; at most {longest} have room on the report"
+        raise Unprocessable("too_long", message, None)
     lines = text.splitlines() if name == "notes" else [" ".join(text.split())]
     return "\n".join("".join(each for each in line if category(each) not in {"Cc", "Cf"}) for line in lines)
 
 
-def _inputs(case: Case) -> list[Table]:
-    """Every input with the value used and where it comes from, by section in the order of the schema."""
-    typed = {_element.sub("", name) for name, _ in case.pairs}
+def for_shell(address: str, case: Case) -> str:
+    """A command for curl that repeats a case; `address` is that of the service."""
+    sent = shlex.quote(json.dumps(_given(case)))
+    return f"curl -s {address}{case.calculation.path} -H 'Content-Type: application/json' -d {sent}"
+
+
+def for_python(address: str, case: Case) -> str:
+    """A program that asks the service at `address` for a case and prints the answer's status."""
+    method = case.calculation.path.rpartition("/")[2].replace("-", "_")
+    return (
+        "from app.client import Tribodrive\n\n"
+        f'service = Tribodrive("{address}")\n'
+        f"result = service.{method}(\n{indent(pformat(_given(case), width=100, sort_dicts=False), '    ')}\n)\n"
+        'print(result["status"])\n'
+    )
+
+
+def _given(case: Case) -> dict[str, Any]:
+    """The body of a request without what was left to its default."""
+    return case.request.model_dump(exclude_unset=True, exclude={"detail"})
+
+
+def _inputs(case: Case, pairs: Pairs) -> list[tuple[str, list[int], list[Row]]]:
+    """Every input with the value used and where it comes from: title, indices of the items and rows of each section."""
+    typed = {_element.sub("", name) for name, _ in pairs}
     assumed = {each.field: each.value for each in case.response.assumptions}
     used = resolved(case.response) | assumed
     sections: dict[str, dict[str, Row]] = {}
@@ -89,15 +100,20 @@ def _inputs(case: Case) -> list[Table]:
         leaf, value = leaf_at(type(case.request), path), used[path]
         if leaf is None or (value is None and (leaf.exclusive or not leaf.declared.default_text)):
             continue
-        section, index, name = _place(path)
-        row = Row(leaf.title.partition(",")[0], symbol(leaf.declared.symbol), leaf.unit or "", {})
-        cells = sections.setdefault(section, {}).setdefault(name, row).cells
+        *section, name = path.split(".")
+        index = int(section.pop()) if section and section[-1].isdecimal() else 0
+        title = " · ".join(part.replace("_", " ") for part in section) or "general"
+        row = Row(leaf.title.partition(",")[0], symbol(leaf.declared.symbol), {})
         if value is None:
-            cells[index] = Cell(cited(leaf.declared.default_text or ""), "not given")
-            continue
-        origin = "assumed" if path in assumed else "derived" if stated is None else "default"
-        cells[index] = Cell(f"{_text(value)} {row.unit}".rstrip(), "given" if path in typed else origin)
-    return [table for title, rows in sections.items() for table in _tables(title, tuple(rows.values()))]
+            cell = Cell(cited(leaf.declared.default_text or ""), "not given")
+        else:
+            origin = "assumed" if path in assumed else "derived" if stated is None else "default"
+            cell = Cell(f"{_text(value)} {leaf.unit or ''}".rstrip(), "given" if path in typed else origin)
+        sections.setdefault(title, {}).setdefault(name, row).cells[index] = cell
+    return [
+        (title, sorted({index for row in rows.values() for index in row.cells}), [*rows.values()])
+        for title, rows in sections.items()
+    ]
 
 
 def _text(value: Any) -> str:
@@ -105,19 +121,3 @@ def _text(value: Any) -> str:
     if not isinstance(value, list):
         return shown(value, 6)
     return ", ".join(f"({_text(item)})" if isinstance(item, list) else _text(item) for item in value)
-
-
-def _place(path: str) -> tuple[str, int, str]:
-    """The section of an input, its index among the items of a list, its name."""
-    *section, name = path.split(".")
-    index = int(section.pop()) if section and section[-1].isdecimal() else 0
-    return " · ".join(part.replace("_", " ") for part in section) or "general", index, name
-
-
-def _tables(title: str, rows: tuple[Row, ...]) -> list[Table]:
-    """A section as a table, or as several where its items are too many to stand side by side."""
-    items = sorted({index for row in rows for index in row.cells})
-    return [
-        Table(title, tuple(some), len(items) > 1, rows)
-        for some in (items[start : start + SIDE_BY_SIDE] for start in range(0, len(items), SIDE_BY_SIDE))
-    ]

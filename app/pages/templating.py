@@ -1,4 +1,4 @@
-"""The templates, and what all of them know."""
+"""The templates, and what all of them know: the calculations and their examples, with the addresses of their pages."""
 
 from functools import cache, lru_cache
 from hashlib import sha256
@@ -8,7 +8,9 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from app.calculations import CALCULATIONS, Calculation
+from app.examples import Example, examples
 from app.pages.form import anchor
+from app.pages.query import link, pairs_of
 from app.pages.typesetting import shown, symbol, typeset, words
 from app.schema.model import MODEL_VERSION
 
@@ -38,6 +40,16 @@ def model_of(calculation: Calculation) -> str:
     return page_path(calculation).split("/")[1]
 
 
+def examples_of(calculation: Calculation) -> list[Example]:
+    """The examples of a calculation, starters first."""
+    return [example for example in examples().values() if example.endpoint == calculation.path]
+
+
+def example_link(calculation: Calculation, example: Example) -> str:
+    """The page of an example."""
+    return link(page_path(calculation), pairs_of(example.request))
+
+
 @cache
 def by_model() -> dict[str, list[Calculation]]:
     """The calculations of each model, the drive train first: it chains the others."""
@@ -53,17 +65,16 @@ def asset(name: str) -> bytes:
     return files("app.pages").joinpath("static", name).read_bytes()
 
 
-def asset_path(name: str) -> str:
-    """The address of a file, which changes with its content."""
-    return f"/static/{name}?{sha256(asset(name)).hexdigest()[:12]}"
-
-
 @lru_cache(maxsize=4)
 def _environment(root: str) -> Environment:
     """Templates, in which the filter `url` makes an address of the service one that a browser can follow."""
 
     def url(address: str) -> str:
         return root + address if address.startswith("/") else address
+
+    def asset_address(name: str) -> str:
+        """The address of a file, which changes with its content."""
+        return url(f"/static/{name}?{sha256(asset(name)).hexdigest()[:12]}")
 
     environment = Environment(
         loader=PackageLoader("app.pages"),
@@ -75,7 +86,7 @@ def _environment(root: str) -> Environment:
     environment.globals |= {
         "menu": [[(page_path(each), each.title) for each in some] for some in by_model().values()],
         "version": MODEL_VERSION,
-        "asset": lambda name: url(asset_path(name)),
+        "asset": asset_address,
         "anchor": anchor,
     }
     environment.filters |= {"shown": shown, "symbol": symbol, "url": url, "typeset": typeset, "words": words}

@@ -69,11 +69,3 @@ def cited(text: str) -> str:
 def words(name: str) -> str:
     """A code or choice as people read it."""
     return _WORDS.get(name, name.replace("_", " "))
-
-
-def percent_change(now: float, before: float) -> str:
-    """By how much a number changed."""
-    if before == 0.0:
-        return "no change" if now == 0.0 else "from zero"
-    change = 100.0 * (now / before - 1.0)
-    return "no change" if abs(change) < 5e-4 else f"{change:+.3g} %".replace("-", "−")

@@ -1,43 +1,55 @@
 """One view of one case, from its fields to bytes; runs in a worker."""
 
+import json
 from dataclasses import dataclass, field, replace
+from pathlib import PurePath
 from typing import Any, Literal, NamedTuple, get_args
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import InvalidBody, Unprocessable, Unreadable
+from app.evaluate import content_of
 from app.evaluate import written as json_written
 from app.figures.data import Figure, ThemeName
 from app.figures.declaration import Declaration
-from app.figures.rendering import Format, written
+from app.figures.rendering import MEDIA_TYPES, Format, written
 from app.pages import csv
 from app.pages import report as reports
-from app.pages.answers import key_of
-from app.pages.cases import Case, Fault, faults_of, solved
+from app.pages.cases import Case, Fault, faults_of, key_of, solved
 from app.pages.charts import Chart, charts, data_address, figure_of, linked, values_of
-from app.pages.code import for_python, for_shell, given
 from app.pages.form import State, anchor, form
-from app.pages.links import IMAGE_FORMATS, Links, example_link, examples_of
 from app.pages.manual import chapter_of
-from app.pages.query import Pairs, ambiguity, body_of, link, normalised, pairs_of_query, split_views
+from app.pages.query import (
+    LONGEST_QUERY,
+    Pairs,
+    ambiguity,
+    body_of,
+    link,
+    normalised,
+    pairs_of,
+    pairs_of_query,
+    split_views,
+)
 from app.pages.results import assumptions, cards, differences, entries, groups, resolved
 from app.pages.study_links import studies_of_case, study_links
-from app.pages.templating import page_path, rendered
+from app.pages.templating import example_link, examples_of, page_path, rendered
 from app.pages.typesetting import NO_VALUE
 from app.schema.fields import branches, headlines, leaf_at
 from app.schema.reading import validated
-from app.sources import changes_since
+from app.sources import SHORT_SOURCES, changes_since
 
 BY_PAGE = {page_path(calculation): calculation for calculation in CALCULATIONS}
 LOCAL = "http://localhost:8000"
-LANGUAGES = (("Python", for_python), ("curl", for_shell))
 REFUSED = (Unreadable, InvalidBody, Unprocessable)
 
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """A case to look at; `kept` and `kept_ref` are the answers of it and of its variant, if they are still known.
+    """A case to look at, and the addresses of its views.
 
-    `root` is the prefix that a proxy puts before the addresses of the service.
+    Addresses that people keep name the solvers' sources, so that a later reader is told whether numbers may differ.
+    `kept` and `kept_ref` are the answers of it and of its variant, if they are still known. `root` is the prefix that
+    a proxy puts before the addresses of the service. A case too long for a link has to be posted; its figures are
+    addressed by `answered`, the hashes in its answer and in that of the variant, while both answers are kept.
     """
 
     path: str
@@ -46,6 +58,7 @@ class Asked:
     kept: bytes | None = None
     kept_ref: bytes | None = None
     root: str = ""
+    answered: tuple[str, str] = ("", "")
 
     @property
     def calculation(self) -> Calculation:
@@ -76,14 +89,85 @@ class Asked:
         return self.views.get("title", "")
 
     @property
+    def ref(self) -> str:
+        """The query of the variant to compare with."""
+        return self.views.get("ref", "")
+
+    @property
     def outdated(self) -> list[str]:
         """What has changed since the link was made, as far as it names the solvers' sources."""
         return changes_since(self.views.get("sources", ""))
 
     @property
-    def links(self) -> Links:
-        """Where the views of the case are."""
-        return Links(self.path, self.pairs, self.views.get("ref", ""), self.views.get("theme", ""), title=self.title)
+    def figures(self) -> list[Declaration]:
+        """The figures that page and report show; those of other pages are a link."""
+        return [each for each in self.calculation.figures if not each.shown_at]
+
+    @property
+    def query(self) -> str:
+        """The case alone."""
+        return link("", self.pairs).removeprefix("?")
+
+    @property
+    def too_long(self) -> bool:
+        """Whether a link cannot hold the case."""
+        return len(self.query) + len(self.ref) > LONGEST_QUERY
+
+    @property
+    def page(self) -> str:
+        """The page of the case, beside the case that it is compared with."""
+        return self.beside(self.ref)
+
+    def beside(self, ref: str) -> str:
+        """The page of the case, compared with the case of another query unless that is empty."""
+        theme = self.views.get("theme", "")
+        return link(self.path, self.pairs, ref=ref, theme=theme, title=self.title, sources=SHORT_SOURCES)
+
+    def view(self, name: str, **views: str) -> str:
+        """One view."""
+        return link(f"{self.path}/{name}", self.pairs, **views)
+
+    @property
+    def report(self) -> str:
+        """The report of the case, beside the case that it is compared with."""
+        return self.view("report", ref=self.ref, title=self.title, sources=SHORT_SOURCES)
+
+    def study(self, name: str) -> str:
+        """A study of the case that has a page of its own."""
+        return self.view(name, theme=self.views.get("theme", ""), title=self.title)
+
+    def image(self, figure: str, image_format: str, theme: str = "") -> str:
+        """One figure as a file."""
+        name, theme = f"figures/{figure}.{image_format}", theme or self.views.get("theme", "")
+        if self.too_long:
+            case, ref_case = self.answered
+            return link(f"{self.path}/{name}", [], case=case, ref_case=ref_case, theme=theme)
+        return self.view(name, ref=self.ref, theme=theme)
+
+    @property
+    def saved(self) -> bytes:
+        """The case as it was typed, complete or not, as a JSON file: title, endpoint and request, like an example."""
+        content = {"title": self.title, "endpoint": self.calculation.path, "request": self.body}
+        return json.dumps(content, indent=1, ensure_ascii=False).encode()
+
+    @property
+    def file_name(self) -> str:
+        """What the file is called: the letters, digits, blanks and hyphens of the title."""
+        kept = "".join(each for each in self.title if each.isalnum() or each in " -").strip()
+        return f"{kept or PurePath(self.path).name}.json"
+
+
+def opened(content: bytes, root: str) -> Asked:
+    """The case that a file holds; raises Unreadable where it holds none."""
+    try:
+        case = content_of(content)
+        endpoint, title = str(case["endpoint"]), str(case.get("title", ""))
+        pairs = pairs_of_query(link("", pairs_of(dict(case["request"]))).removeprefix("?"))  # as the form sends them
+    except (InvalidBody, Unreadable, AttributeError, KeyError, RecursionError, TypeError, ValueError):
+        raise Unreadable("The file holds no case: JSON with an endpoint and a request") from None
+    if endpoint not in BY_PATH:
+        raise Unreadable(f"The endpoint of the case is none of {', '.join(BY_PATH)}")
+    return Asked(page_path(BY_PATH[endpoint]), pairs, {"title": title} if title else {}, root=root)
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,68 +186,45 @@ def ref_pairs(calculation: Calculation, views: dict[str, str]) -> Pairs:
 
 def page(asked: Asked) -> Shown:
     """The page of a case: form and result, or the form and what is wrong with it."""
+    texts = dict(asked.pairs)
     if not asked.pairs:
         return form_page(asked)
     try:
         case = solved(asked.calculation, asked.pairs, asked.kept)
     except REFUSED as error:
-        texts = dict(asked.pairs)
         faults = [
             Fault(path, ambiguity(texts.get(path, "")) or message)
             for path, message in faults_of(error, asked.calculation)
         ]
-        state = State(dict(asked.pairs), _by_field(faults))
-        return _page(asked, state, 400 if isinstance(error, Unreadable) else 422, faults=faults)
+        said: dict[str, str] = {}
+        for path, message in faults:
+            said[path] = f"{said[path]}; {message}" if path in said else message
+        said.pop("", None)
+        return _page(asked, State(texts, said), 400 if isinstance(error, Unreadable) else 422, faults=faults)
     variant, trouble = _variant(asked)
-    links = replace(asked.links, case=case.response.case, ref_case=variant.response.case if variant else "")
+    response = case.response
+    asked = replace(asked, answered=(response.case, variant.response.case if variant else ""))
     figures, missing = charts(
-        _own_figures(asked),
-        case,
-        variant,
-        lambda declaration, data: linked(declaration, data, links.image, asked.theme),
+        asked.figures, case, variant, lambda declaration, data: linked(declaration, data, asked.image, asked.theme)
     )
-    before = variant.response if variant else None
-    used, assumed = resolved(case.response), assumptions(type(case.request), case.response)
-    state = State(dict(asked.pairs), {}, used, {each.path for each in assumed})
     shown = _page(
         asked,
-        state,
-        links=links,
-        response=case.response,
-        cards=cards(case.response, used, before),
-        assumed=assumed,
-        groups=groups(case.response, before),
-        derived=_derived(case),
+        State(texts, {}, resolved(response), {each.field for each in response.assumptions}),
+        **_answered(asked, case, variant),
+        trouble=trouble,
         charts=figures,
         missing=missing,
-        elsewhere=_elsewhere(asked),
-        ready=studies_of_case(asked.calculation, asked.pairs, case.response.inputs),
-        compared=before is not None,
-        differences=differences(type(case.request), case.response, before) if before else None,
-        trouble=trouble,
+        ready=studies_of_case(asked.calculation, asked.pairs, response.inputs),
         curves=_curves(case),
-        code=[(name, write(LOCAL + asked.root, case.calculation, given(case.request))) for name, write in LANGUAGES],
+        code={
+            "Python": reports.for_python(LOCAL + asked.root, case),
+            "curl": reports.for_shell(LOCAL + asked.root, case),
+        },
     )
-    return replace(shown, keep=_keep(asked, case, variant, by_case=links.too_long))
-
-
-def _own_figures(asked: Asked) -> list[Declaration]:
-    """The figures that page and report show; those of other pages are a link."""
-    return [each for each in asked.calculation.figures if not each.shown_at]
-
-
-def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
-    """The calculations whose pages show other figures of the case: title, address of the case there, the figures."""
-    titles = dict[str, list[str]]()
-    for each in asked.calculation.figures:
-        if each.shown_at:
-            titles.setdefault(each.shown_at, []).append(each.title)
-    found = []
-    for path, names in titles.items():
-        other = BY_PATH[path]
-        pairs = [(name, text) for name, text in asked.pairs if leaf_at(other.request, name)]
-        found.append((other.title, link(page_path(other), pairs, theme=asked.views.get("theme", "")), names))
-    return found
+    keep = _keep(asked, case, variant)
+    if asked.too_long:
+        keep |= {case_key(asked.path, each.response.case): each.kept for each in (case, variant) if each}
+    return replace(shown, keep=keep)
 
 
 def form_page(asked: Asked) -> Shown:
@@ -209,7 +270,7 @@ class StudySection(NamedTuple):
     @property
     def charts(self) -> list[Chart]:
         """The figures as they are printed."""
-        return [_chart(name, figure) for name, figure in self.figures.items()]
+        return [_printed(name, figure) for name, figure in self.figures.items()]
 
 
 def report(asked: Asked, host: str, study: StudySection | None = None) -> Shown:
@@ -222,44 +283,34 @@ def report(asked: Asked, host: str, study: StudySection | None = None) -> Shown:
     except REFUSED:
         return page(asked)
     variant, trouble = _variant(asked)
-    before = variant.response if variant else None
-    figures, missing = charts(_own_figures(asked), case, variant, _printed, compute=True)
-    own = "" if asked.links.too_long else host + asked.root + asked.links.page
-    try:
-        context = reports.context(case, asked.views, (host or LOCAL) + asked.root, own)
-    except ValueError as error:
-        raise Unprocessable("too_long", str(error), None) from error
+    figures, missing = charts(
+        asked.figures, case, variant, lambda declaration, data: _printed(declaration.name, data), compute=True
+    )
     content = rendered(
         "report.html",
         asked.root,
         asked=asked,
         calculation=asked.calculation,
-        response=case.response,
-        cards=cards(case.response, resolved(case.response), before),
-        assumed=assumptions(type(case.request), case.response),
-        groups=groups(case.response, before),
-        compared=before is not None,
-        differences=differences(type(case.request), case.response, before) if before else None,
+        **_answered(asked, case, variant),
         trouble=trouble,
-        derived=_derived(case),
         charts=figures,
         missing=missing,
-        elsewhere=_elsewhere(asked),
-        outdated=asked.outdated,
         study=study,
         host=host,
-        **context,
+        **reports.context(
+            case,
+            asked.pairs,
+            asked.views,
+            address=(host or LOCAL) + asked.root,
+            link="" if asked.too_long else host + asked.root + asked.page,
+        ),
     )
     return Shown(content.encode(), keep=_keep(asked, case, variant))
 
 
-def _printed(declaration: Declaration, data: Figure | None) -> Chart:
+def _printed(name: str, figure: Figure | None) -> Chart:
     """A figure as a part of the report."""
-    assert data is not None
-    return _chart(declaration.name, data)
-
-
-def _chart(name: str, figure: Figure) -> Chart:
+    assert figure is not None
     return Chart(name, figure.title, figure.subtitle, data_address(written(figure, "svg", "light")))
 
 
@@ -268,41 +319,28 @@ def case_key(path: str, case: str) -> str:
     return key_of(path, [("case", case)])
 
 
-def _keep(asked: Asked, case: Case, variant: Case | None = None, *, by_case: bool = False) -> dict[str, bytes]:
-    """Answers that were not kept yet, by the keys of their fields; all of them by their hash too if asked for."""
-    keep = {key_of(asked.path, asked.pairs): case.kept} if case.fresh else {}
-    if variant is not None and variant.fresh:
+def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, bytes]:
+    """Answers that were not kept yet, by the keys of their fields."""
+    keep = {key_of(asked.path, asked.pairs): case.kept} if asked.kept is None else {}
+    if variant is not None and asked.kept_ref is None:
         keep[key_of(asked.path, ref_pairs(asked.calculation, asked.views))] = variant.kept
-    if by_case:
-        keep |= {case_key(asked.path, each.response.case): each.kept for each in (case, variant) if each is not None}
     return keep
 
 
 def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
     calculation = asked.calculation
-    context = {
-        "faults": [],
-        "response": None,
-        "compared": False,
-        "cards": (),
-        "trouble": "",
-        "links": asked.links,
-        **found,
-    }
-    sections = form(calculation.request, state)
+    context = {"faults": [], "response": None, "compared": False, "cards": (), "trouble": "", **found}
     content = rendered(
         "calculation.html",
         asked.root,
+        asked=asked,
         calculation=calculation,
-        path=asked.path,
         chapter=chapter_of(calculation).name,
-        sections=sections,
+        sections=form(calculation.request, state),
         outdated=asked.outdated,
         theme=asked.views.get("theme", ""),
-        case_title=asked.title,
-        ref=asked.views.get("ref", ""),
         examples=[(example, example_link(calculation, example)) for example in examples_of(calculation)],
-        formats=IMAGE_FORMATS,
+        formats=MEDIA_TYPES,
         studies=study_links(calculation),
         headlines=headlines(calculation.response),
         field_link=lambda path: _place(calculation, path),
@@ -312,9 +350,36 @@ def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
     return Shown(content.encode(), status)
 
 
+def _answered(asked: Asked, case: Case, variant: Case | None) -> dict[str, Any]:
+    """What page and report show of an answer, beside that of the variant."""
+    request, response, before = type(case.request), case.response, variant.response if variant else None
+    derived = groups(response.derived) if response.derived else {}
+    return {
+        "response": response,
+        "cards": cards(response, resolved(response), before),
+        "assumed": assumptions(request, response),
+        "groups": groups(response, before),
+        "derived": [row for rows in derived.values() for row in rows if row.value != NO_VALUE],
+        "elsewhere": _elsewhere(asked),
+        "compared": variant is not None,
+        "differences": differences(request, response, before) if before else [],
+    }
+
+
+def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
+    """The calculations whose pages show other figures of the case: title, address of the case there, the figures."""
+    found, figures = [], asked.calculation.figures
+    for path in dict.fromkeys(each.shown_at for each in figures if each.shown_at):
+        other = BY_PATH[path]
+        pairs = [(name, text) for name, text in asked.pairs if leaf_at(other.request, name)]
+        address = link(page_path(other), pairs, theme=asked.views.get("theme", ""))
+        found.append((other.title, address, [each.title for each in figures if each.shown_at == path]))
+    return found
+
+
 def _variant(asked: Asked) -> tuple[Case | None, str]:
     """The case to compare with, or why it cannot be computed."""
-    if not asked.views.get("ref") and asked.kept_ref is None:
+    if not asked.ref and asked.kept_ref is None:
         return None, ""
     try:
         return solved(asked.calculation, ref_pairs(asked.calculation, asked.views), asked.kept_ref), ""
@@ -322,31 +387,14 @@ def _variant(asked: Asked) -> tuple[Case | None, str]:
         return None, faults_of(error, asked.calculation)[0].message
 
 
-def _by_field(faults: list[Fault]) -> dict[str, str]:
-    """Messages by the path of their field; several messages of one field are joined."""
-    found: dict[str, str] = {}
-    for fault in faults:
-        if fault.path:
-            found[fault.path] = f"{found[fault.path]}; {fault.message}" if fault.path in found else fault.message
-    return found
-
-
-def _derived(case: Case) -> tuple[Any, ...]:
-    """Title, symbol, value and unit of what was computed before the physics."""
-    if case.response.derived is None:
-        return ()
-    return tuple(row for group in groups(case.response.derived) for row in group.rows if row.value != NO_VALUE)
-
-
 def _curves(case: Case) -> list[str]:
     """What `curve=` can name."""
-    return list(
-        dict.fromkeys(
-            e.path.rpartition(".")[0] if "." in e.path else e.path
-            for _, e in entries(case.response)
-            if e.leaf.dimensions == 1 and e.value is not None and e.leaf.kind in {"number", "integer"}
-        )
+    curves = (
+        each.path
+        for each in entries(case.response)
+        if each.leaf.dimensions == 1 and each.value is not None and each.leaf.kind in {"number", "integer"}
     )
+    return [*dict.fromkeys(path.rpartition(".")[0] or path for path in curves)]
 
 
 def _place(calculation: Calculation, path: str) -> str:

@@ -8,7 +8,7 @@ from pydantic import BaseModel
 from app.calculations import BY_PATH
 from app.errors import Unprocessable
 from app.evaluate import content_of, evaluate, refuse_endless
-from app.pages.rexs import unit_page
+from app.pages.overview import unit_page
 from app.rexs import table
 from app.rexs.document import Document, File, NotRexs, read, with_attributes
 from app.rexs.model import Attribute

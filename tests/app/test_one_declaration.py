@@ -191,7 +191,7 @@ def test_the_form_asks_for_it() -> None:
 
 def test_tables_and_files_hold_it() -> None:
     response = evaluate(LONG, validated(LONG.request, {"spring": {"force_n": 30}}))
-    rows = {entry.path: (entry.leaf.title, entry.value) for _, entry in entries(response)}
+    rows = {entry.path: (entry.leaf.title, entry.value) for entry in entries(response)}
     assert rows["energy_j"] == ("stored energy", pytest.approx(4e-4))
     assert csv.curve(response, "way_mm") == b"load F [N],way s [mm]\r\n0,0\r\n20,0.01\r\n40,0.02\r\n"
 

@@ -11,8 +11,9 @@ import pytest
 from app import client as client_module
 from app.calculations import CALCULATIONS, Calculation
 from app.examples import examples
-from app.pages.code import for_python, for_shell, given
-from app.pages.links import example_link
+from app.pages.cases import Case
+from app.pages.report import for_python, for_shell
+from app.pages.templating import example_link
 from app.schema.reading import validated
 
 FIRST = {each.endpoint: each for each in reversed(examples().values())}
@@ -23,7 +24,7 @@ def test_both_programs_send_the_request_of_the_case(
     calculation: Calculation, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     request = FIRST[calculation.path].request
-    body = given(validated(calculation.request, request))
+    case = Case(calculation, validated(calculation.request, request), None, b"")
     sent: list[tuple[str, str, Any]] = []
 
     def solve(service: client_module.Tribodrive, endpoint: str, given: Any) -> Any:
@@ -31,9 +32,9 @@ def test_both_programs_send_the_request_of_the_case(
         return {"status": "asked"}
 
     monkeypatch.setattr(client_module.Tribodrive, "solve", solve)
-    exec(for_python("http://127.0.0.1:1", calculation, body), {})  # noqa: S102
+    exec(for_python("http://127.0.0.1:1", case), {})  # noqa: S102
     assert capsys.readouterr().out == "asked\n"
-    *_, address, _, header, _, data = shlex.split(for_shell("http://127.0.0.1:1", calculation, body))
+    *_, address, _, header, _, data = shlex.split(for_shell("http://127.0.0.1:1", case))
     sent.append((address.removesuffix(calculation.path), calculation.path, json.loads(data)))
     assert header == "Content-Type: application/json"
     for base, endpoint, posted in sent:
@@ -44,6 +45,6 @@ def test_both_programs_send_the_request_of_the_case(
 def test_the_page_shows_them(client: httpx.Client) -> None:
     example = examples()["pahl-axial-displacement"]
     page = client.get(example_link(CALCULATIONS[0], example), follow_redirects=True).text
-    body = given(validated(CALCULATIONS[0].request, example.request))
-    assert for_shell("http://localhost:8000", CALCULATIONS[0], body) in unescape(page)
-    assert for_python("http://localhost:8000", CALCULATIONS[0], body) in unescape(page)
+    case = Case(CALCULATIONS[0], validated(CALCULATIONS[0].request, example.request), None, b"")
+    assert for_shell("http://localhost:8000", case) in unescape(page)
+    assert for_python("http://localhost:8000", case) in unescape(page)

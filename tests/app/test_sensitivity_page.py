@@ -96,8 +96,7 @@ def test_a_wrong_output_is_refused(said: dict[str, str], message: str) -> None:
 
 
 def test_the_page_by_its_address(client: httpx.Client) -> None:
-    links = asked(COUPLING).links
-    page = client.get(links.study("influence"))
+    page = client.get(asked(COUPLING).study("influence"))
     assert page.status_code == 200
     assert page.text.rstrip().endswith("</html>")
     assert "What moves the thrust to be held most" in page.text

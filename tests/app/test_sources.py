@@ -93,11 +93,11 @@ def asked(**looks: str) -> views.Asked:
 
 
 def test_links_name_the_sources_which_are_no_part_of_the_case() -> None:
-    links = asked().links
-    for address in (links.page, links.alone, links.pinned, links.report):
+    case = asked()
+    for address in (case.page, case.beside(""), case.beside(case.query), case.report):
         pairs, looks = split_views(pairs_of_query(address.partition("?")[2]))
         assert looks["sources"] == SOURCES[:16]
-        assert pairs == asked().pairs
+        assert pairs == case.pairs
 
 
 @pytest.mark.parametrize("view", [views.page, partial(views.report, host="http://host")])

@@ -403,7 +403,7 @@ def test_ready_questions_on_the_page_of_a_case_are_asked_of_this_case() -> None:
 
 def test_the_result_links_the_map_of_safety_over_speed_and_power_of_its_case(client: httpx.Client) -> None:
     own = asked("starter-turbo-gear-drive-train")
-    page = unescape(client.get(own.links.page).text)
+    page = unescape(client.get(own.page).text)
     (link,) = re.findall(r'<a href="([^"]+)">How safe is it, over speed and power', page)
     pairs, said = split_views(pairs_of_query(link.partition("?")[2]))
     assert pairs == own.pairs

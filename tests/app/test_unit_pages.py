@@ -210,14 +210,14 @@ def test_a_study_that_breaks_off_says_why(page: StudyPage) -> None:
 
 
 def test_links_alone_lead_from_a_unit_to_its_worst_corner_and_to_what_to_grind(client: httpx.Client) -> None:
-    page = unescape(client.get(small().links.page).text)
+    page = unescape(client.get(small().page).text)
     for offer in study_links(BY_PATH["/v1/drive-train"]):
-        assert f'href="{small().links.study(offer.name)}"' in page
+        assert f'href="{small().study(offer.name)}"' in page
     start = unescape(client.get("/drive-train/corners").text)
-    assert f'href="{asked(UNIT).links.study("corners")}"' in start
+    assert f'href="{asked(UNIT).study("corners")}"' in start
     coupling = unescape(client.get("/coupling/corners", follow_redirects=False).text)
     assert "not found" in coupling.lower()
-    found = client.get(small().links.study("corners"))
+    found = client.get(small().study("corners"))
     assert found.status_code == 200
     assert found.text.rstrip().endswith("</html>")
     assert "Open the worst corner" in found.text
@@ -225,11 +225,11 @@ def test_links_alone_lead_from_a_unit_to_its_worst_corner_and_to_what_to_grind(c
 
 
 def test_lines_and_figures_by_their_addresses(client: httpx.Client) -> None:
-    links = small().links
-    lines = [json.loads(line) for line in client.get(links.view("corners.ndjson")).text.splitlines()]
+    case = small()
+    lines = [json.loads(line) for line in client.get(case.view("corners.ndjson")).text.splitlines()]
     assert [lines[0]["type"], lines[-1]["type"]] == ["corners", "end"]
-    svg = client.get(links.view("corners/figures/corners.svg"))
+    svg = client.get(case.view("corners/figures/corners.svg"))
     assert (svg.status_code, svg.headers["content-type"]) == (200, "image/svg+xml")
     assert svg.text.rstrip().endswith("</svg>")
-    assert client.get(links.view("corners/figures/other.svg")).status_code == 404
-    assert client.get(links.view("corners/figures/corners.gif")).status_code == 404
+    assert client.get(case.view("corners/figures/other.svg")).status_code == 404
+    assert client.get(case.view("corners/figures/corners.gif")).status_code == 404

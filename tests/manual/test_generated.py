@@ -24,6 +24,7 @@ from app.pages.views import Asked
 from app.settings import Settings
 from app.studies.engine import Clock, Line
 from solvers.published import STATEMENTS, Row
+from tests.manual.pictures import figures_of, studies_of
 from tests.support.pools import InlinePool
 
 FOLDER = Path(__file__).parents[2] / "app" / "manual"
@@ -159,7 +160,7 @@ def study_figure(name: str) -> bytes:
 def renew_studies() -> None:
     folder = emptied("studies")
     for chapter in chapters().values():
-        for name in chapter.studies:
+        for name in studies_of(chapter):
             (folder / f"{name}.png").write_bytes(study_figure(name))
 
 
@@ -173,7 +174,7 @@ def emptied(name: str) -> Path:
 
 def renew_figures() -> None:
     folder = emptied("figures")
-    for name, shown in sorted({each for chapter in chapters().values() for each in chapter.figures}):
+    for name, shown in sorted({each for chapter in chapters().values() for each in figures_of(chapter)}):
         example = examples()[name]
         calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
         declaration = next(each for each in calculation.figures if each.name == shown)

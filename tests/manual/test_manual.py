@@ -15,6 +15,7 @@ from app.manual.chapters import NAMES, chapters
 from app.manual.equations import anchor, equations, functions, module_of
 from app.pages.manual import method_of, shown_studies
 from tests.manual.citations import cited, declared
+from tests.manual.pictures import figures_of, studies_of
 
 FOLDER = Path(__file__).parents[2] / "app" / "manual"
 CITED = cited()
@@ -79,10 +80,10 @@ def test_links_to_code_name_the_file(name: str) -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_figures_are_there(name: str) -> None:
     known = {each.path: {figure.name for figure in each.figures} for each in CALCULATIONS}
-    for example, figure in chapters()[name].figures:
+    for example, figure in figures_of(chapters()[name]):
         assert figure in known[examples()[example].endpoint]
         assert (FOLDER / "figures" / f"{example}.{figure}.png").read_bytes().startswith(b"\x89PNG")
-    shown = {f"{example}.{figure}.png" for each in chapters().values() for example, figure in each.figures}
+    shown = {f"{example}.{figure}.png" for each in chapters().values() for example, figure in figures_of(each)}
     assert shown == {path.name for path in (FOLDER / "figures").iterdir()}
 
 
@@ -90,7 +91,7 @@ def test_every_model_shows_where_it_fails() -> None:
     """In its limits of validity, by a study of the running service that can be opened."""
     for name in set(NAMES) - {"spectrum", "service"}:
         assert f"](studies/{name}.png)" in chapters()[name].section("Limits of validity")
-    names = sorted(name for each in chapters().values() for name in each.studies)
+    names = sorted(name for each in chapters().values() for name in studies_of(each))
     assert names == sorted(shown_studies()) == sorted(path.stem for path in (FOLDER / "studies").iterdir())
     for name in names:
         assert (FOLDER / "studies" / f"{name}.png").read_bytes().startswith(b"\x89PNG")
@@ -148,7 +149,7 @@ def test_pages_hold_the_equations_as_mathml_without_scripts(pages: dict[str, str
 
 def test_figures_are_drawn_by_the_service(client: httpx.Client, pages: dict[str, str]) -> None:
     addresses = re.findall(r'<img src="([^"]+)"', pages["/manual/coupling"])
-    assert len(addresses) == len(chapters()["coupling"].figures + chapters()["coupling"].studies)
+    assert len(addresses) == len(figures_of(chapters()["coupling"])) + len(studies_of(chapters()["coupling"]))
     drawn = client.get(addresses[0].replace("&amp;", "&"), follow_redirects=True)
     assert drawn.headers["content-type"].startswith("image/svg+xml")
 
@@ -176,7 +177,7 @@ def test_pages_about_a_model_have_become_chapters(client: httpx.Client) -> None:
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
 def test_every_calculation_has_its_chapter_and_method(calculation: Calculation) -> None:
     method = method_of(calculation)
-    assert len(method.equations) > 5
-    assert method.misprints.startswith("<div")
-    assert method.limits.startswith("<ul>")
-    assert "<a " not in method.misprints + method.limits + method.lead
+    assert len(method["equations"]) > 5
+    assert method["misprints"].startswith("<div")
+    assert method["limits"].startswith("<ul>")
+    assert "<a " not in method["misprints"] + method["limits"] + method["lead"]

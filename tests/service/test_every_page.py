@@ -8,9 +8,8 @@ from playwright.sync_api import Page
 from app.calculations import CALCULATIONS, Calculation
 from app.examples import examples
 from app.manual.chapters import NAMES
-from app.pages.links import example_link, examples_of
 from app.pages.study_links import DESIGN, studies_of, study_links
-from app.pages.templating import page_path
+from app.pages.templating import example_link, examples_of, page_path
 from tests.rexs.units import three_stages, turbo_unit
 from tests.support.browsing import DESK, PHONE, address_of, overflow, violations
 

@@ -14,9 +14,8 @@ import pytest
 from playwright.sync_api import Browser, expect
 
 from app.calculations import CALCULATIONS
-from app.pages.links import example_link, examples_of
 from app.pages.study_links import study_links
-from app.pages.templating import page_path
+from app.pages.templating import example_link, examples_of, page_path
 from tests.rexs.units import turbo_unit
 from tests.support.proxy import running_proxy
 from tests.support.server import ROOT, running_server

@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from app.calculations import CALCULATIONS
-from app.pages.links import examples_of
+from app.pages.templating import examples_of
 from tests.service.test_new_user import User
 from tests.support.browsing import address_of
 

@@ -5,7 +5,7 @@ from playwright.sync_api import Page
 
 from app.calculations import BY_PATH
 from app.examples import examples
-from app.pages.links import example_link
+from app.pages.templating import example_link
 
 PHONE = {"width": 360, "height": 740}
 DESK = {"width": 1400, "height": 900}

@@ -16,13 +16,12 @@ from app.examples import examples
 from app.figures.rendering import MEDIA_TYPES
 from app.http.problems import answer
 from app.manual.chapters import NAMES
-from app.pages import case_file, views
-from app.pages.answers import Answers, key_of
-from app.pages.links import example_link
+from app.pages import views
+from app.pages.cases import Answers, key_of
 from app.pages.manual import chapter_page, contents_page, functions_page
 from app.pages.overview import problem_page, start_page
 from app.pages.query import link, normalised, pairs_of_query, split_views
-from app.pages.templating import ASSETS, asset, page_path
+from app.pages.templating import ASSETS, asset, example_link, page_path
 from app.settings import Settings
 from app.sources import SHORT_SOURCES
 
@@ -63,8 +62,8 @@ async def open_case(http: Request) -> Response:
             sent = form.get("file")
             if sent is None or isinstance(sent, str):
                 raise Unreadable("The form needs a part named file")
-            asked = case_file.opened(await sent.read(), root_of(http))
-        if not asked.links.too_long:
+            asked = views.opened(await sent.read(), root_of(http))
+        if not asked.too_long:
             return redirected(asked.path, asked)
         http.app.state.start_up.require(asked.calculation.path)
         shown = await _shown(http, asked, views.page)
@@ -123,9 +122,9 @@ def _add(calculation: Calculation) -> None:
 
     async def saved(http: Request) -> Response:
         asked, _ = await asked_of(http, calculation)
-        disposition = f"attachment; filename*=UTF-8''{quote(case_file.file_name(asked))}"
+        disposition = f"attachment; filename*=UTF-8''{quote(asked.file_name)}"
         headers = {"Content-Security-Policy": DOCUMENT_POLICY, "Content-Disposition": disposition}
-        return Response(case_file.saved(asked), media_type=JSON, headers=headers)
+        return Response(asked.saved, media_type=JSON, headers=headers)
 
     async def figure(http: Request, name: str, image_format: str) -> Response:
         kinds = MEDIA_TYPES | {"json": JSON}

@@ -125,7 +125,7 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
         (
             Lead("Open the worst corner", address_at(study.asked, worst)),
             Lead("Its report", address_at(study.asked, worst, "/report")),
-            Lead("What to grind", study.asked.links.study(study_links.DESIGN.name)),
+            Lead("What to grind", study.asked.study(study_links.DESIGN.name)),
         ),
     )
 

@@ -8,9 +8,9 @@ from typing import Any, NamedTuple
 from app.figures.data import Figure
 from app.pages.cases import Case, solved
 from app.pages.form import FieldView
-from app.pages.links import LONGEST_QUERY, examples_of
-from app.pages.query import STUDY_NAMES, Pairs, body_of, link, pairs_of, text_of
+from app.pages.query import LONGEST_QUERY, STUDY_NAMES, Pairs, body_of, link, pairs_of, text_of
 from app.pages.study_links import Starter, StudyLink
+from app.pages.templating import examples_of
 from app.pages.typesetting import symbol
 from app.pages.views import Asked
 from app.schema.fields import Leaf

@@ -5,11 +5,10 @@ from dataclasses import dataclass, replace
 
 from app.calculations import Calculation
 from app.errors import Unprocessable, Unreadable
-from app.figures.rendering import Format, written
+from app.figures.rendering import MEDIA_TYPES, Format, written
 from app.figures.tables import table
 from app.pages.cases import Fault, faults_of
 from app.pages.charts import embedded
-from app.pages.links import IMAGE_FORMATS
 from app.pages.query import LOWER, TRIALS, UPPER
 from app.pages.results import NOT_RESULTS
 from app.pages.studies.corners import CORNERS
@@ -144,7 +143,7 @@ def _page(page: StudyPage, asked: Asked, study: PageStudy | None, faults: list[F
         calculation=calculation,
         page=page,
         path=asked.path,
-        case_links=asked.links,
+        case_links=asked,
         field_title=lambda path: title_of(calculation, path),
         outdated=asked.outdated,
         links=StudyAddresses(page.link.name, asked),
@@ -186,7 +185,7 @@ def _result(study: PageStudy, found: Result, *, problem: str = "", done: int | N
         done=done,
         charts=charts,
         links=study.links,
-        formats=IMAGE_FORMATS,
+        formats=MEDIA_TYPES,
     ).encode()
 
 
