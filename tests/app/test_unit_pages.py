@@ -88,7 +88,7 @@ def test_the_worst_corner_is_that_of_least_safety_and_its_load_is_drawn() -> Non
     for line, changes in zip(curves, (changed, {}), strict=True):
         force = case_at(study.asked, changes, [SAFETY]).response.misalignment.curves.line_force_n_per_mm
         assert line.y.tolist() == force
-    assert [lead.label for lead in result.leads] == ["Open the worst corner", "Its report", "What to grind"]
+    assert [lead.text for lead in result.leads] == ["Open the worst corner", "Its report", "What to grind"]
     assert value_of(result.leads[0].address, SAFETY) == worst["out"][0]
     assert result.leads[1].address.startswith("/drive-train/report?")
 

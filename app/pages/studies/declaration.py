@@ -1,6 +1,6 @@
 """What is declared of a study's page, what it shows, and the addresses of its views and points."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
 from typing import Any, NamedTuple
@@ -9,7 +9,7 @@ from app.figures.data import Figure
 from app.pages.cases import Case, solved
 from app.pages.form import FieldView
 from app.pages.links import LONGEST_QUERY, examples_of
-from app.pages.query import STUDY_NAMES, Pairs, body_of, link, pairs_of, text_of
+from app.pages.query import STUDY_NAMES, link, pairs_of, text_of
 from app.pages.study_links import Starter, StudyLink
 from app.pages.typesetting import symbol
 from app.pages.views import Asked
@@ -44,21 +44,16 @@ class StudyAddresses:
         return self.view(f"/figures/{figure}.{image_format}")
 
 
-def pairs_at(asked: Asked, overrides: Overrides) -> Pairs:
-    """The fields of the case with a point's values."""
-    body = with_overrides(asked.calculation, asked.body, overrides)
-    del body["detail"]
-    return pairs_of(body)
-
-
 def address_at(asked: Asked, overrides: Overrides, below: str = "") -> str:
     """Where the page of a point is, or a view of it."""
-    return link(f"{asked.path}{below}", pairs_at(asked, overrides), theme=asked.views.get("theme", ""))
+    body = with_overrides(asked.calculation, asked.body, overrides)
+    del body["detail"]
+    return link(f"{asked.path}{below}", pairs_of(body), theme=asked.views.get("theme", ""))
 
 
 def case_at(asked: Asked, overrides: Overrides, outputs: list[str]) -> Case:
     """The case at a point with its answer, no more of it calculated than these outputs need."""
-    body = body_of(asked.calculation.request, pairs_at(asked, overrides))
+    body = with_overrides(asked.calculation, asked.body, overrides)
     return solved(asked.calculation, pairs_of(reduced_request(asked.calculation.path, body, outputs)), None)
 
 
@@ -150,10 +145,7 @@ class Number(str):
 
 
 class Link(NamedTuple):
-    """A cell of a table that leads somewhere.
-
-    `label` is what a screen reader says of it where its text alone says too little.
-    """
+    """A link in a table or above the result; `label` is what a screen reader says where its text says too little."""
 
     text: str
     address: str
@@ -175,25 +167,19 @@ class Table(NamedTuple):
         return [isinstance(heading, Number) for heading in self.head]
 
 
-class Lead(NamedTuple):
-    """A link to go on from the result."""
-
-    label: str
-    address: str
-
-
 @dataclass(frozen=True, slots=True)
 class Result:
     """What a page shows of the lines of a study: the `first` tables, figures by their names, more tables.
 
-    `script` is JSON for the script of the page, with which a click into the first figure opens the case of a point.
+    `leads` are links to go on from the result. `script` is JSON for the script of the page, with which a click into
+    the first figure opens the case of a point.
     """
 
     progress: str
     figures: dict[str, Figure] = field(default_factory=dict)
     tables: tuple[Table, ...] = ()
     remarks: tuple[str, ...] = ()
-    leads: tuple[Lead, ...] = ()
+    leads: tuple[Link, ...] = ()
     script: str = ""
     first: tuple[Table, ...] = ()
 
@@ -224,24 +210,16 @@ class PageStudy:
         return StudyAddresses(self.page.link.name, self.asked)
 
 
-# Named functions, because a page is pickled to the workers.
-def _no_controls(_: Form) -> tuple[Any, ...]:
+# Functions with names, because a page is pickled to the workers.
+def nothing(_: Any) -> tuple[Any, ...]:
+    """What a page has that needs no more controls."""
     return ()
 
 
-def _no_ranges(_: Asked) -> dict[str, Any]:
-    return {}
-
-
-def _complete(_: Asked) -> bool:
-    return True
-
-
-def starting_from_examples(page: "StudyPage", asked: Asked) -> list[Starter]:
+def starting_from_examples(name: str, asked: Asked) -> Sequence[Starter]:
     """The study of every example; a case of one's own needs none."""
-    below = f"{asked.path}/{page.link.name}"
     examples = () if asked.pairs else examples_of(asked.calculation)
-    return [Starter(each.title, each.source, link(below, pairs_of(each.request))) for each in examples]
+    return [Starter(each.title, each.source, link(f"{asked.path}/{name}", pairs_of(each.request))) for each in examples]
 
 
 @dataclass(frozen=True, slots=True)
@@ -250,11 +228,11 @@ class StudyPage:
 
     The output shown when none is chosen is the first of `outputs` that the answer has, else the first headline. `body`
     makes what the study's endpoint is asked, `plan` checks it; `most` is the setting that bounds its points.
-    `controls` are what the form has beside the output, and `shows` beside the menu of outputs; `ranges` are the values
-    of the uncertain inputs, by the names of their controls. `result` is what the page shows of the lines of a study;
-    with `grows` also of those that have come while it runs, else only how far it is. `complete` says whether all is
-    chosen that the study needs, else `choose` asks for it. `figures` names all that there may be, `files` the forms in
-    which the lines are offered.
+    `controls` are what the form has beside the output, and `shows` beside the menu of outputs; `ranges` are the names
+    of the controls of the uncertain inputs, in the order of the body. `result` is what the page shows of the lines of a
+    study; with `grows` also of those that have come while it runs, else only how far it is. Without one of the controls
+    in `needs` there is no study, and `choose` asks for it; `starters` are studies that are ready, by the name of the
+    page. `figures` names all that there may be, `files` the forms in which the lines are offered.
     """
 
     link: StudyLink
@@ -265,14 +243,14 @@ class StudyPage:
     plan: Callable[[dict[str, Any], int, float], Study]
     result: Callable[[PageStudy, list[Line]], Result]
     outputs: tuple[str, ...] = ()
-    controls: Callable[[Form], tuple[Controls, ...]] = _no_controls
-    shows: Callable[[Form], tuple[FieldView, ...]] = _no_controls
+    controls: Callable[[Form], tuple[Controls, ...]] = nothing
+    shows: Callable[[Form], tuple[FieldView, ...]] = nothing
     grows: bool = False
-    ranges: Callable[[Asked], dict[str, Any]] = _no_ranges
+    ranges: Callable[[Asked], Iterable[str]] = nothing
     most: str = "most_study_points"
-    complete: Callable[[Asked], bool] = _complete
+    needs: tuple[str, ...] = ()
     choose: str = ""
-    starters: Callable[["StudyPage", Asked], list[Starter]] = starting_from_examples
+    starters: Callable[[str, Asked], Sequence[Starter]] = starting_from_examples
     files: tuple[str, ...] = ("ndjson",)
 
 
