@@ -26,7 +26,7 @@ from app.http.routes.pages import (
 )
 from app.http.routes.studies import MEDIA_TYPES, begun, encoder, planned, streamed
 from app.pages.studies import page as pages
-from app.pages.studies.declaration import PageStudy, StudyPage, ended
+from app.pages.studies.declaration import PageStudy, StudyPage
 from app.pages.study_links import study_links
 from app.pages.templating import page_path
 from app.pages.views import Asked
@@ -127,7 +127,8 @@ async def _pieces(http: Request, opened: pages.Opened, lines: Lines, clock: Cloc
     async with aclosing(lines):
         async for group in lines:
             received += [line for line in group if line["type"] != "progress"]
-            if clock.done and clock.elapsed_s >= due and not ended(received):
+            has_ended = bool(received) and received[-1]["type"] in {"end", "error"}
+            if clock.done and clock.elapsed_s >= due and not has_ended:
                 yield await _part(http, pages.partial, study, received if study.page.grows else [], clock.done)
                 due = clock.elapsed_s + min(max(FRAME_SHARE * clock.elapsed_s, FIRST_FRAME_S), LONGEST_PAUSE_S)
     yield await _part(http, pages.whole, study, received)

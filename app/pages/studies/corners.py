@@ -12,26 +12,14 @@ from app.figures.wording import listed, number
 from app.pages import study_links
 from app.pages.cases import Case
 from app.pages.query import CORNER, UNCERTAIN, number_of, text_of
-from app.pages.studies.declaration import (
-    Controls,
-    Form,
-    Link,
-    Number,
-    PageStudy,
-    Result,
-    StudyPage,
-    Table,
-    address_at,
-    case_at,
-    input_at,
-    numbered,
-)
+from app.pages.studies.declaration import Controls, Form, Link, Number, PageStudy, Result, StudyPage, Table
+from app.pages.studies.sweep import numbered
 from app.pages.typesetting import shown
 from app.pages.views import REFUSED, Asked
 from app.schema.fields import Leaf, headlines
 from app.studies.base_request import COLD, BaseRequest, needs_film
 from app.studies.engine import Line
-from app.studies.fields import value_at
+from app.studies.fields import scalar_at, value_at
 from app.studies.point_sets import usual_corners
 from app.studies.requests import DRIVE_TRAIN, USUAL_RANGES, Overrides
 from app.studies.sweep import corners_study
@@ -73,7 +61,7 @@ def range_controls(form: Form, left_alone: tuple[str, ...] = ()) -> Controls:
         if axis := usual.get(name):
             rows = [row if isinstance(row, list) else [row] for row in axis["values"]]
             text = "; ".join(" ".join(map(text_of, row)) for row in rows)
-            unit = input_at(form.asked, _paths(axis)[0]).unit
+            unit = scalar_at(form.asked.calculation.request, _paths(axis)[0], "", "").unit
             label = f"{quantity}, {unit}" if unit else quantity
             fields.append(form.field(name, label, "as in the case" if quantity in left_alone else text))
     about = "Values with semicolons between; blanks between inputs that move together."
@@ -106,24 +94,24 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     extremes = {line["output"]: line for line in lines if line["type"] == "extremes"}
     progress = f"{end['points']} corners in {shown(end['elapsed_s'], 2)} s"
     remarks = [warning["message"] for warning in end["warnings"]]
-    output, asked = study.output, study.asked
+    output = study.output
     if output.path not in extremes:
         remarks.append(f"No corner has a {output.title}; choose another output.")
         return Result(progress, remarks=tuple(remarks))
     worst = extremes[output.path]["min" if output.view.greatest_is_best else "max"]["at"]
     outputs = [each["path"] for each in header["outputs"]]
-    case, other = case_at(asked, {}, outputs), case_at(asked, worst, outputs)
+    case, other = study.case({}, outputs), study.case(worst, outputs)
     found = {"corners": corners(axis_of(output), _uncertain(study, lines, worst), value_at(case.response, output.path))}
     found |= load_figure(other, case, "worst corner", "worst corner and, dashed, as described: ")
     return Result(
         progress,
         found,
-        (_extremes(study, header, extremes, case), corner_table("The worst corner", asked, case, worst)),
+        (_extremes(study, header, extremes, case), corner_table("The worst corner", study, case, worst)),
         tuple(remarks),
         (
-            Link("Open the worst corner", address_at(asked, worst)),
-            Link("Its report", address_at(asked, worst, "/report")),
-            Link("What to grind", asked.links.study(study_links.DESIGN.name)),
+            Link("Open the worst corner", study.address(worst)),
+            Link("Its report", study.address(worst, "/report")),
+            Link("What to grind", study.asked.links.study(study_links.DESIGN.name)),
         ),
     )
 
@@ -140,11 +128,11 @@ def load_figure(case: Case, reference: Case, name: str, finding: str) -> dict[st
     return {LOAD_ALONE.name: replace(own, finding=f"{finding}{own.finding}, dashed {given.finding}", panels=(panel,))}
 
 
-def corner_table(title: str, asked: Asked, case: Case, corner: Overrides) -> Table:
+def corner_table(title: str, study: PageStudy, case: Case, corner: Overrides) -> Table:
     """What a corner changes in the case."""
     rows = []
     for path, value in corner.items():
-        leaf = input_at(asked, path)
+        leaf = study.input(path)
         described = shown(value_at(case.response.inputs, path))
         rows.append((numbered(leaf.title, path), described, shown(value), leaf.unit or ""))
     return Table(title, ("input", Number("as described"), Number("there"), "unit"), tuple(rows))
@@ -167,7 +155,7 @@ def _uncertain(study: PageStudy, lines: list[Line], worst: Overrides) -> list[Un
                 reached[text] = pick(known)
             if [worst[path] for path in paths] == each:
                 decides = text
-        titles = dict.fromkeys(input_at(study.asked, path).title for path in paths)
+        titles = dict.fromkeys(study.input(path).title for path in paths)
         found.append(Uncertain(listed(list(titles)), reached, decides))
     return found
 
@@ -178,7 +166,7 @@ def _extremes(study: PageStudy, header: Line, extremes: dict[str, Line], case: C
     for each in header["outputs"]:
         if each["path"] in extremes:
             ends = [extremes[each["path"]][end] for end in ("min", "max")]
-            least, largest = (Link(shown(end["value"]), address_at(study.asked, end["at"])) for end in ends)
+            least, largest = (Link(shown(end["value"]), study.address(end["at"])) for end in ends)
             described = shown(value_at(case.response, each["path"]))
             rows.append((each["title"], described, least, largest, each["unit"] or ""))
     head = ("output", Number("as described"), Number("least"), Number("largest"), "unit")

@@ -10,7 +10,7 @@ from app.pages.cases import Case, solved
 from app.pages.form import FieldView
 from app.pages.links import LONGEST_QUERY, examples_of
 from app.pages.query import STUDY_NAMES, link, pairs_of, text_of
-from app.pages.study_links import Starter, StudyLink
+from app.pages.study_links import Starter, StudyExample, StudyLink
 from app.pages.typesetting import symbol
 from app.pages.views import Asked
 from app.schema.fields import Leaf
@@ -44,19 +44,6 @@ class StudyAddresses:
         return self.view(f"/figures/{figure}.{image_format}")
 
 
-def address_at(asked: Asked, overrides: Overrides, below: str = "") -> str:
-    """Where the page of a point is, or a view of it."""
-    body = with_overrides(asked.calculation, asked.body, overrides)
-    del body["detail"]
-    return link(f"{asked.path}{below}", pairs_of(body), theme=asked.views.get("theme", ""))
-
-
-def case_at(asked: Asked, overrides: Overrides, outputs: list[str]) -> Case:
-    """The case at a point with its answer, no more of it calculated than these outputs need."""
-    body = with_overrides(asked.calculation, asked.body, overrides)
-    return solved(asked.calculation, pairs_of(reduced_request(asked.calculation.path, body, outputs)), None)
-
-
 class Choice(NamedTuple):
     """An entry of a menu, in a group."""
 
@@ -65,27 +52,16 @@ class Choice(NamedTuple):
     group: str
 
 
-@dataclass(frozen=True, slots=True)
-class Menu:
-    """A choice in groups; `empty` is the label of no choice."""
+class Menu(NamedTuple):
+    """A choice in groups; `empty` is the label of no choice, `shown` that of `chosen`, which a narrow menu may cut."""
 
     name: str
     label: str
     empty: str
     chosen: str
-    groups: tuple[tuple[str, tuple[Choice, ...]], ...]
+    shown: str
+    groups: list[tuple[str, list[Choice]]]
     fault: str | None
-
-    @property
-    def id(self) -> str:
-        """Anchor on the page."""
-        return f"f.{self.name}"
-
-    @property
-    def shown(self) -> str:
-        """The label of the choice, which a narrow menu may cut."""
-        labels = (choice.label for _, choices in self.groups for choice in choices if choice.path == self.chosen)
-        return next(labels, self.empty)
 
 
 class Controls(NamedTuple):
@@ -107,11 +83,13 @@ class Form:
 
     def menu(self, name: str, label: str, empty: str, choices: list[Choice]) -> Menu:
         """A menu, whose choice may be one that it does not offer."""
-        groups = tuple((group, tuple(items)) for group, items in groupby(choices, key=lambda choice: choice.group))
         chosen = self.asked.views.get(name, "")
-        if chosen and all(choice.path != chosen for choice in choices):
-            groups = (*groups, ("asked for", (Choice(chosen, chosen, ""),)))
-        return Menu(name, label, empty, chosen, groups, self.faults.get(name))
+        labels = {choice.path: choice.label for choice in choices}
+        groups = [(group, list(items)) for group, items in groupby(choices, key=lambda choice: choice.group)]
+        if chosen and chosen not in labels:
+            groups.append(("asked for", [Choice(chosen, chosen, "")]))
+        shown = labels.get(chosen, chosen) or empty
+        return Menu(name, label, empty, chosen, shown, groups, self.faults.get(name))
 
     def field(
         self,
@@ -184,17 +162,6 @@ class Result:
     first: tuple[Table, ...] = ()
 
 
-def input_at(asked: Asked, path: str) -> Leaf:
-    """The single value at a path of the request."""
-    return scalar_at(asked.calculation.request, path, "", "unknown_path")
-
-
-def numbered(title: str, path: str) -> str:
-    """Title of an input; which one it is where there are several."""
-    places = [str(int(part) + 1) for part in path.split(".") if part.isdecimal()]
-    return f"{title} {'.'.join(places)}" if places else title
-
-
 @dataclass(frozen=True, slots=True)
 class PageStudy:
     """A study asked for on a page, of one output."""
@@ -209,10 +176,26 @@ class PageStudy:
         """Where the views of the study are."""
         return StudyAddresses(self.page.link.name, self.asked)
 
+    def input(self, path: str) -> Leaf:
+        """The single value at a path of the request."""
+        return scalar_at(self.asked.calculation.request, path, "", "unknown_path")
+
+    def address(self, overrides: Overrides, below: str = "") -> str:
+        """Where the page of a point is, or a view of it."""
+        body = with_overrides(self.asked.calculation, self.asked.body, overrides)
+        del body["detail"]
+        return link(f"{self.asked.path}{below}", pairs_of(body), theme=self.asked.views.get("theme", ""))
+
+    def case(self, overrides: Overrides, outputs: list[str]) -> Case:
+        """The case at a point with its answer, no more of it calculated than these outputs need."""
+        body = with_overrides(self.asked.calculation, self.asked.body, overrides)
+        reduced = reduced_request(self.asked.calculation.path, body, outputs)
+        return solved(self.asked.calculation, pairs_of(reduced), None)
+
 
 # Functions with names, because a page is pickled to the workers.
 def nothing(_: Any) -> tuple[Any, ...]:
-    """What a page has that needs no more controls."""
+    """The controls that a page does without."""
     return ()
 
 
@@ -231,8 +214,8 @@ class StudyPage:
     `controls` are what the form has beside the output, and `shows` beside the menu of outputs; `ranges` are the names
     of the controls of the uncertain inputs, in the order of the body. `result` is what the page shows of the lines of a
     study; with `grows` also of those that have come while it runs, else only how far it is. Without one of the controls
-    in `needs` there is no study, and `choose` asks for it; `starters` are studies that are ready, by the name of the
-    page. `figures` names all that there may be, `files` the forms in which the lines are offered.
+    in `needs` there is no study, and `choose` asks for it; `starters` are links to ready studies, made from the name of
+    the page and the case. `figures` names all that there may be, `files` the forms in which the lines are offered.
     """
 
     link: StudyLink
@@ -250,10 +233,5 @@ class StudyPage:
     most: str = "most_study_points"
     needs: tuple[str, ...] = ()
     choose: str = ""
-    starters: Callable[[str, Asked], Sequence[Starter]] = starting_from_examples
+    starters: Callable[[str, Asked], Sequence[Starter | StudyExample]] = starting_from_examples
     files: tuple[str, ...] = ("ndjson",)
-
-
-def ended(lines: list[Line]) -> bool:
-    """Whether the last line has come."""
-    return bool(lines) and lines[-1]["type"] in {"end", "error"}

@@ -1,5 +1,6 @@
 """Design: the flank correction whose worst corner is best, as a sheet for the grinder, and how it was found."""
 
+from functools import partial
 from math import inf
 from typing import Any, NamedTuple
 
@@ -12,19 +13,7 @@ from app.pages import study_links
 from app.pages.cases import Case
 from app.pages.query import LOWER, TRIALS, UPPER, number_of, text_of
 from app.pages.studies.corners import OUTPUT, corner_table, load_figure, range_controls, ranges_of
-from app.pages.studies.declaration import (
-    Controls,
-    Form,
-    Link,
-    Number,
-    PageStudy,
-    Result,
-    StudyPage,
-    Table,
-    address_at,
-    case_at,
-    input_at,
-)
+from app.pages.studies.declaration import Controls, Form, Link, Number, PageStudy, Result, StudyPage, Table
 from app.pages.typesetting import shown
 from app.pages.views import Asked
 from app.schema.fields import Leaf
@@ -57,10 +46,6 @@ GROUND = (
 )
 
 
-def _ranges(asked: Asked) -> dict[str, dict[str, Any]]:
-    return ranges_of(asked, LEFT_ALONE)
-
-
 def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
     """The ranges as typed or usual, at the corners as typed or the usual ones of heat and couplings."""
     views = asked.views
@@ -75,7 +60,7 @@ def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
             }
             for place, each in enumerate(GROUND)
         ],
-        "corners": list(_ranges(asked).values()) or None,
+        "corners": list(ranges_of(asked, LEFT_ALONE).values()) or None,
         "objective": output.path,
         "direction": "maximise" if output.view.greatest_is_best else "minimise",
         "evaluations": number_of(views.get(TRIALS, str(EVALUATIONS))),
@@ -97,25 +82,25 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     solved = [line for line in trials if line["objective"] is not None]
     if not solved:
         return Result("")
-    end, output, asked = lines[-1], study.output, study.asked
+    end, output = lines[-1], study.output
     greatest = output.view.greatest_is_best
     reached = [line["objective"] for line in trials]
     tried = [Tried(inf if each is None else each, each is not None) for each in reached]
     figure = {"search": search(axis_of(output), tried, greatest=greatest)}
     if end["type"] != "end":
         best = (max if greatest else min)(solved, key=lambda line: line["objective"])
-        lead = Link("Open the unit ground so", address_at(asked, best["at"]))
+        lead = Link("Open the unit ground so", study.address(best["at"]))
         return Result("", figure, first=(_so_far(study, solved[0], best),), leads=(lead,))
     wanted = end["rounded"]
     if wanted["objective"] is None:
         wanted = {"at": end["best"], "objective": end["objective_best"], "worst_corner": end["worst_corner"]}
     at, corner, outputs = wanted["at"], wanted["worst_corner"], [output.path]
-    case, ground = case_at(asked, {}, outputs), case_at(asked, at, outputs)
+    case, ground = study.case({}, outputs), study.case(at, outputs)
     figures = {
         "lead": _lead_chart(case, at),
         **load_figure(
-            case_at(asked, {**at, **corner}, outputs),
-            case_at(asked, trials[0]["worst_corner"], outputs),
+            study.case({**at, **corner}, outputs),
+            study.case(trials[0]["worst_corner"], outputs),
             "ground so",
             "each at its worst corner, dashed as described: ",
         ),
@@ -126,12 +111,12 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     return Result(
         f"{end['evaluations']} corrections at {lines[0]['corners']} corners in {shown(end['elapsed_s'], 2)} s",
         figures,
-        (_numbers(case, end, at), corner_table("The worst corner with this correction", asked, ground, corner)),
+        (_numbers(case, end, at), corner_table("The worst corner with this correction", study, ground, corner)),
         (f"{unsolved} of the corrections had a corner without solution.",) if unsolved else (),
         (
-            Link("Open the unit ground so", address_at(asked, at)),
-            Link("Its report", address_at(asked, at, "/report")),
-            Link("Its worst corners", address_at(asked, at, f"/{study_links.CORNERS.name}")),
+            Link("Open the unit ground so", study.address(at)),
+            Link("Its report", study.address(at, "/report")),
+            Link("Its worst corners", study.address(at, f"/{study_links.CORNERS.name}")),
         ),
         first=(_sheet(study, case, at), _before_and_after(study, end, wanted, case, ground)),
     )
@@ -142,7 +127,7 @@ def _so_far(study: PageStudy, start: Line, best: Line) -> Table:
     output = study.output
     rows = []
     for path, value in best["at"].items():
-        leaf = input_at(study.asked, path)
+        leaf = study.input(path)
         rows.append((leaf.title, shown(start["at"][path], 4), shown(value, 4), leaf.unit or ""))
     judged = f"{output.title}, at the worst corner"
     rows.append((judged, shown(start["objective"]), shown(best["objective"]), output.unit or ""))
@@ -176,7 +161,7 @@ def _sheet(study: PageStudy, case: Case, at: Overrides) -> Table:
     )
     rows = []
     for path, gear, feature, place in entries:
-        leaf, described, amount = input_at(study.asked, path), float(value_at(inputs, path) or 0.0), at[path]
+        leaf, described, amount = study.input(path), float(value_at(inputs, path) or 0.0), at[path]
         if path == SLOPE:  # `where` says the sign
             described, amount = -described if slope < 0.0 else described, abs(slope)
         numbers = (shown(described), shown(amount, 4), f"± {shown(leaf.declared.tolerance)}")
@@ -260,6 +245,6 @@ DESIGN = StudyPage(
     result=_result,
     outputs=(OUTPUT,),
     controls=_controls,
-    ranges=_ranges,
+    ranges=partial(ranges_of, left_alone=LEFT_ALONE),
     grows=True,
 )

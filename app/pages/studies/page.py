@@ -149,8 +149,8 @@ def _page(page: StudyPage, asked: Asked, study: PageStudy | None, faults: list[F
 
 
 def partial(study: PageStudy, lines: list[Line], done: int) -> bytes:
-    """How far the study is, and what the lines so far show."""
-    return _result(study, study.page.result(study, lines) if study.page.grows and lines else Result(""), done=done)
+    """How far the study is, and what the lines so far show; none are given of a study that does not grow."""
+    return _result(study, study.page.result(study, lines) if lines else Result(""), done=done)
 
 
 def whole(study: PageStudy, lines: list[Line]) -> bytes:

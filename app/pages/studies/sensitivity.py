@@ -6,7 +6,8 @@ from app.figures.studies import Influence, influence
 from app.figures.units import axis_of
 from app.pages import study_links
 from app.pages.query import link
-from app.pages.studies.declaration import Link, Number, PageStudy, Result, StudyPage, Table, numbered
+from app.pages.studies.declaration import Link, Number, PageStudy, Result, StudyPage, Table
+from app.pages.studies.sweep import numbered
 from app.pages.typesetting import shown
 from app.pages.views import Asked
 from app.schema.fields import Leaf

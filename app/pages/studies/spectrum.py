@@ -13,17 +13,7 @@ from app.figures.units import axis_of
 from app.figures.wording import percent
 from app.pages.form import FieldView
 from app.pages.query import SCATTERING, Pairs, link, number_of, pairs_of, text_of
-from app.pages.studies.declaration import (
-    Controls,
-    Form,
-    Link,
-    Number,
-    PageStudy,
-    Result,
-    StudyPage,
-    Table,
-    address_at,
-)
+from app.pages.studies.declaration import Controls, Form, Link, Number, PageStudy, Result, StudyPage, Table
 from app.pages.studies.sweep import field_choices
 from app.pages.study_links import SPECTRUM as LINK
 from app.pages.study_links import Starter
@@ -135,24 +125,22 @@ def _scatter(asked: Asked, place: int) -> dict[str, Any]:
     where = f"tolerances.inputs.{place}"
     leaf = scalar_at(calculation.request, views[name], f"{where}.path", "unknown_path")
     own = value_at(asked.case, leaf.path)
-    about = _number_of(views.get(f"{name}.about"), own, f"{leaf.title}: say around which value", where)
-    usual = None if leaf.declared.tolerance is None else float(leaf.declared.tolerance)
-    by = _number_of(views.get(f"{name}.by"), usual, f"{leaf.title}: say by how much", where)
+    numbers = []
+    for part, usual, lacks in (("about", own, "around which value"), ("by", leaf.declared.tolerance, "by how much")):
+        text = views.get(f"{name}.{part}")
+        number = number_of(text) if text else usual
+        if not isinstance(number, int | float) or isinstance(number, bool):
+            raise Unprocessable("missing", f"{leaf.title}: say {lacks}", where)
+        numbers.append(float(number))
+    about, by = numbers
     law = views.get(f"{name}.law") or "normal"
-    known: dict[str, dict[str, float]] = {
+    known = {
         "normal": {"mean": about, "deviation": by},
         "lognormal": {"median": about, "factor": by},
         "uniform": {"min": about - by, "max": about + by},
         "triangular": {"min": about - by, "mode": about, "max": about + by},
     }
     return {"path": leaf.path, "distribution": law, **known.get(law, {})}
-
-
-def _number_of(text: str | None, usual: Any, lacks: str, where: str) -> float:
-    value = number_of(text) if text else usual
-    if not isinstance(value, int | float) or isinstance(value, bool):
-        raise Unprocessable("missing", lacks, where)
-    return float(value)
 
 
 def _limits(calculation: Calculation, output: Leaf, views: dict[str, str]) -> list[dict[str, Any]] | None:
@@ -180,11 +168,8 @@ def _controls(form: Form) -> tuple[Controls, ...]:
         "An empty cell changes nothing.",
     )
     text = views.get("cases") or _suggested(case)
-    groups = [
-        Controls(
-            "Load spectrum", fields=(replace(form.field("cases", "cases"), widget="table", text=text, help=help_),)
-        )
-    ]
+    table = replace(form.field("cases", "cases"), widget="table", text=text, help=help_)
+    groups = [Controls("Load spectrum", fields=(table,))]
     last = max((place for place in range(SCATTERING) if views.get(f"t{place}")), default=-1)
     choices = field_choices(asked.calculation, case, texts=False) if asked.pairs else []
     for place in range(min(SCATTERING, last + 3)):
@@ -323,7 +308,7 @@ def _cases_table(study: PageStudy, end: Line, found: Line | None) -> Table:
     assert isinstance(spectrum, Spectrum)
     rows: list[tuple[str | Link, ...]] = []
     for index, each in enumerate(end["cases"]):
-        name = Link(each["name"], address_at(study.asked, spectrum.cases[index].set))
+        name = Link(each["name"], study.address(spectrum.cases[index].set))
         row: list[str | Link] = [name, percent(each["share"])]
         if found is not None:
             row.append(_chance(each["limits"][end["limits"].index(found)]).text)
@@ -342,7 +327,7 @@ def _outputs_table(study: PageStudy, header: Line, end: Line) -> Table:
     for each in header["outputs"]:
         found = end["outputs"][each["path"]]
         ends = (
-            Link(shown(extreme["value"], 4), address_at(study.asked, extreme["at"])) if extreme else "–"
+            Link(shown(extreme["value"], 4), study.address(extreme["at"])) if extreme else "–"
             for extreme in (found["min"], found["max"])
         )
         mean, error = shown(found["mean"], 4), shown(found["standard_error"], 2)
@@ -374,13 +359,11 @@ def views_of(body: dict[str, Any]) -> dict[str, str]:
     views = {"cases": table_of(body["cases"])}
     for place, each in enumerate((body.get("tolerances") or {"inputs": []})["inputs"]):
         law, name = each["distribution"], f"t{place}"
-        match law:
-            case "normal":
-                about, by = each["mean"], each["deviation"]
-            case "lognormal":
-                about, by = each["median"], each["factor"]
-            case _:
-                about, by = (each["min"] + each["max"]) / 2, (each["max"] - each["min"]) / 2
+        match each:
+            case {"mean": about, "deviation": by} | {"median": about, "factor": by}:
+                pass
+            case {"min": low, "max": high}:
+                about, by = (low + high) / 2, (high - low) / 2
         views |= {name: each["path"], f"{name}.about": text_of(about), f"{name}.by": text_of(by)}
         views |= {} if law == "normal" else {f"{name}.law": law}
     for each in (body.get("limits") or ())[:1]:
@@ -400,13 +383,13 @@ def address_of(endpoint: Calculation, request: Pairs, body: dict[str, Any]) -> s
 
 def _starters(_: str, asked: Asked) -> Sequence[Starter]:
     """The ready studies of the interface; a case of one's own needs none."""
-    path = asked.calculation.path
-    ready = [each for each in EXAMPLES["/v1/spectrum"].values() if each["value"]["endpoint"] == path]
-    found = []
-    for each in ready if not asked.pairs else ():
-        address = address_of(asked.calculation, pairs_of(each["value"]["request"]), each["value"])
-        found.append(Starter(each["summary"], "example", address))
-    return found
+    starters = []
+    for each in EXAMPLES["/v1/spectrum"].values():
+        body = each["value"]
+        if body["endpoint"] == asked.calculation.path and not asked.pairs:
+            address = address_of(asked.calculation, pairs_of(body["request"]), body)
+            starters.append(Starter(each["summary"], "example", address))
+    return starters
 
 
 SPECTRUM = StudyPage(

@@ -16,21 +16,8 @@ from app.figures.studies import Coordinate, Grid, figures_of
 from app.figures.units import axis_of
 from app.pages.form import FieldView
 from app.pages.query import number_of
-from app.pages.studies.declaration import (
-    Choice,
-    Controls,
-    Form,
-    Link,
-    Number,
-    PageStudy,
-    Result,
-    StudyPage,
-    Table,
-    address_at,
-    ended,
-    numbered,
-)
-from app.pages.study_links import VARY, Starter, studies_of, studies_of_case
+from app.pages.studies.declaration import Choice, Controls, Form, Link, Number, PageStudy, Result, StudyPage, Table
+from app.pages.study_links import VARY, Starter, StudyExample, studies_of, studies_of_case
 from app.pages.typesetting import shown, words
 from app.pages.views import Asked
 from app.schema.fields import Leaf, leaf_at, leaves, tree
@@ -38,7 +25,6 @@ from app.studies.engine import Line
 from app.studies.fields import NUMBERS, scalar_at, value_at
 from app.studies.point_sets import PointSet
 from app.studies.points import SOLVED
-from app.studies.requests import Scalar
 from app.studies.sensitivity import places
 from app.studies.sweep import Sweep, sweep_study
 
@@ -67,7 +53,7 @@ def field_choices(calculation: Calculation, case: dict[str, Any], *, texts: bool
     titles = {branch.path: branch.title for branch in tree(calculation.request).branches}
     found = []
     for leaf in leaves(calculation.request):
-        if leaf.is_scalar and leaf.path != "detail" and (_has_numbers(leaf) or (texts and _texts_of(leaf))):
+        if leaf.is_scalar and leaf.path != "detail" and (_has_numbers(leaf) or (texts and _choices_of(leaf))):
             group = titles.get(leaf.path.partition(".")[0], "general")
             unit = f" {leaf.unit}" if leaf.unit else ""
             for path in places(leaf.path, case):
@@ -76,14 +62,15 @@ def field_choices(calculation: Calculation, case: dict[str, Any], *, texts: bool
     return found
 
 
-def _texts_of(leaf: Leaf) -> list[Scalar]:
-    """What a field can be if it is no number."""
-    return [True, False] if leaf.kind == "boolean" else [option for option in leaf.options if isinstance(option, str)]
+def numbered(title: str, path: str) -> str:
+    """Title of an input; which one it is where there are several."""
+    places = [str(int(part) + 1) for part in path.split(".") if part.isdecimal()]
+    return f"{title} {'.'.join(places)}" if places else title
 
 
-def _grades_of(leaf: Leaf) -> list[float]:
-    """The numbers of a field that takes only some."""
-    return [option for option in leaf.options if _is_number(option)]
+def _choices_of(leaf: Leaf) -> list[Any]:
+    """All values of a field that takes only some, either texts or numbers."""
+    return [True, False] if leaf.kind == "boolean" else list(leaf.options)
 
 
 def _is_number(value: Any) -> bool:
@@ -92,7 +79,7 @@ def _is_number(value: Any) -> bool:
 
 def _has_numbers(leaf: Leaf) -> bool:
     """Whether an axis can run along it."""
-    return leaf.kind in NUMBERS or bool(_grades_of(leaf))
+    return leaf.kind in NUMBERS or any(map(_is_number, leaf.options))
 
 
 def _usual_ends(leaf: Leaf, value: float | None) -> tuple[float, float] | None:
@@ -129,15 +116,15 @@ def varied_fields(asked: Asked) -> list[VariedField]:
 
 def _varied(asked: Asked, case: dict[str, Any], name: str, where: str) -> VariedField:
     leaf = scalar_at(asked.calculation.request, asked.views[name], f"{where}.path", "unknown_path")
-    value, texts, grades = value_at(case, leaf.path), _texts_of(leaf), _grades_of(leaf)
+    value, choices = value_at(case, leaf.path), _choices_of(leaf)
     own = float(value) if _is_number(value) else None
     if not _has_numbers(leaf):
-        if name == "x" or not texts:
+        if name == "x" or not choices:
             message = f"{leaf.title} has no numbers; vary another field along it"
             raise Unprocessable("not_scalar", message, f"{where}.path")
-        return VariedField(leaf, {"path": leaf.path, "values": texts}, None, None)
-    usual = (min(grades), max(grades)) if grades else _usual_ends(leaf, own)
-    axis = _taken(leaf, grades, _spread(asked.views, name, usual, where))
+        return VariedField(leaf, {"path": leaf.path, "values": choices}, None, None)
+    usual = (min(choices), max(choices)) if choices else _usual_ends(leaf, own)
+    axis = _taken(leaf, choices, _spread(asked.views, name, usual, where))
     return VariedField(leaf, {"path": leaf.path, **axis}, usual, own)
 
 
@@ -153,14 +140,14 @@ def _spread(views: dict[str, str], name: str, usual: tuple[float, float] | None,
     return {"start": start, "stop": stop, "count": count, "scale": views.get(f"{name}.scale", "linear")}
 
 
-def _taken(leaf: Leaf, grades: list[float], spread: dict[str, Any]) -> dict[str, Any]:
+def _taken(leaf: Leaf, choices: list[float], spread: dict[str, Any]) -> dict[str, Any]:
     """The spread of a field that takes every number; of others the numbers between its ends that the field takes.
 
     Whole numbers are as evenly spread as they can be, each once. What is no spread is left to the validator.
     """
     start, stop, count = (spread[part] for part in ("start", "stop", "count"))
-    if grades and _is_number(start) and _is_number(stop):
-        return {"values": [grade for grade in grades if min(start, stop) <= grade <= max(start, stop)]}
+    if choices and _is_number(start) and _is_number(stop):
+        return {"values": [each for each in choices if min(start, stop) <= each <= max(start, stop)]}
     whole = leaf.kind == "integer" and all(isinstance(each, int) for each in (start, stop, count))
     if not whole or not 2 <= count <= MOST_WHOLE:
         return spread
@@ -220,7 +207,7 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     grid = _grid(study, fields, received)
     figures = figures_of(grid)
     first = next(iter(figures))
-    if not ended(lines):
+    if lines[-1]["type"] in {"sweep", "point"}:
         return Result("", {first: figures[first]})
     progress = f"{len(received)} points in {shown(lines[-1].get('elapsed_s'), 2)} s"
     reasons = Counter(text for line in received for text in _remarks(line)).most_common(MOST_REASONS)
@@ -254,13 +241,16 @@ def _grid(study: PageStudy, fields: list[VariedField], received: list[Line]) -> 
     sorted_points = [received[place] for place in orders[0]] if is_whole_curve else []
     invalid = tuple(_invalid(line) for line in sorted_points)
     doubtful = tuple("doubtful" in line["ranks"] for line in sorted_points)
+    limit = study.output.view.limit if study.output.view.bound else None
+    if isinstance(limit, str):  # a field of the case
+        limit = value_at(study.asked.case, limit)
     return Grid(
         x=coordinates[0],
         y=coordinates[1] if len(axes) > 1 else None,
         output=axis_of(study.output),
         values=values(found.reshape([len(each) for each in axes])[np.ix_(*orders)]),
         greatest=_is_greatest_best(study.asked, study.output),
-        limit=_limit(study),
+        limit=float(limit) if isinstance(limit, int | float) else None,
         invalid=invalid if len(set(invalid)) > 1 else (),
         doubtful=doubtful if len(set(doubtful)) > 1 else (),
         unsolved=sum(line["status"] not in SOLVED for line in received),
@@ -289,14 +279,6 @@ def _coordinate(field: VariedField, listed: list[Any]) -> tuple[Coordinate, list
     return Coordinate(axis, rising, own=field.own, scatters=leaf.declared.tolerance is not None), order
 
 
-def _limit(study: PageStudy) -> float | None:
-    """What bounds the output, where that is a number of its own or of the case."""
-    limit = study.output.view.limit if study.output.view.bound else None
-    if isinstance(limit, str):
-        limit = value_at(study.asked.case, limit)
-    return float(limit) if isinstance(limit, int | float) else None
-
-
 def _table(study: PageStudy, fields: list[VariedField], received: list[Line]) -> Table:
     rows = []
     for line in received[:MOST_ROWS]:
@@ -313,7 +295,7 @@ def _table(study: PageStudy, fields: list[VariedField], received: list[Line]) ->
 
 def point_address(study: PageStudy, index: int) -> str:
     """The page of the case at a point."""
-    return address_at(study.asked, _points(study).overrides(index))
+    return study.address(_points(study).overrides(index))
 
 
 def _script(study: PageStudy, fields: list[VariedField], received: list[Line], figure: Figure) -> str:
@@ -340,10 +322,10 @@ def _script(study: PageStudy, fields: list[VariedField], received: list[Line], f
     return json.dumps(content)
 
 
-def _starters(_: str, asked: Asked) -> Sequence[Starter]:
+def _starters(_: str, asked: Asked) -> Sequence[Starter | StudyExample]:
     """The ready studies of examples; with a case of one's own they are asked of it, around its own values."""
     if not asked.pairs:
-        return [Starter(each.title, each.source, each.address) for each in studies_of(asked.calculation)]
+        return studies_of(asked.calculation)
     return studies_of_case(asked.calculation, asked.pairs, asked.case)
 
 
