@@ -12,20 +12,9 @@ from fastapi import APIRouter, Depends, HTTPException, Request, Response
 from app.calculations import CALCULATIONS, Calculation
 from app.errors import ClientGone, DeadlineExceeded, StudyEnded, WorkerLost
 from app.figures import rendering
-from app.http.routes.pages import (
-    DOCUMENT_POLICY,
-    HTML,
-    KNOWN_ERRORS,
-    METHODS,
-    PAGE_POLICY,
-    asked_of,
-    error_page,
-    html,
-    printed_host,
-    redirected,
-)
+from app.http.routes import pages
 from app.http.routes.studies import MEDIA_TYPES, begun, encoder, planned, streamed
-from app.pages.studies import page as pages
+from app.pages.studies import page as study_page
 from app.pages.studies.declaration import PageStudy, StudyPage
 from app.pages.study_links import study_links
 from app.pages.templating import page_path
@@ -61,13 +50,13 @@ router = APIRouter(include_in_schema=False, dependencies=[Depends(not_from_anoth
 def _add(calculation: Calculation, own: StudyPage) -> None:
     """The page of a study of a calculation's cases, its lines and its figures."""
     path = f"{page_path(calculation)}/{own.link.name}"
-    policy = {"Content-Security-Policy": DOCUMENT_POLICY}
+    policy = {"Content-Security-Policy": pages.DOCUMENT_POLICY}
 
     async def page(http: Request) -> Response:
         try:
             return await _page(http, calculation, own, path)
-        except KNOWN_ERRORS as error:
-            return error_page(http, error)
+        except pages.KNOWN_ERRORS as error:
+            return pages.error_page(http, error)
 
     async def lines(http: Request, media: str) -> Response:
         if media not in own.files:
@@ -79,37 +68,37 @@ def _add(calculation: Calculation, own: StudyPage) -> None:
     async def figure(http: Request, name: str, image_format: str) -> Response:
         if name not in own.figures or image_format not in IMAGE_TYPES:
             raise HTTPException(404, f"There are {', '.join(own.figures)}, each as {', '.join(IMAGE_TYPES)}")
-        drawn = await _made(http, await checked(http), pages.file, name, image_format)
+        drawn = await _made(http, await checked(http), study_page.file, name, image_format)
         return Response(drawn, media_type=IMAGE_TYPES[image_format], headers=policy)
 
     async def report(http: Request) -> Response:
         try:
-            content = await _made(http, await checked(http), pages.report, printed_host(http))
-        except KNOWN_ERRORS as error:
-            return error_page(http, error)
-        return Response(content, media_type=HTML, headers=policy)
+            content = await _made(http, await checked(http), study_page.report, pages.printed_host(http))
+        except pages.KNOWN_ERRORS as error:
+            return pages.error_page(http, error)
+        return Response(content, media_type=pages.HTML, headers=policy)
 
     async def checked(http: Request) -> PageStudy:
-        asked, _ = await asked_of(http, calculation)
-        found: PageStudy = await _planned(http, own, asked, pages.checked)
+        asked, _ = await pages.asked_of(http, calculation)
+        found: PageStudy = await _planned(http, own, asked, study_page.checked)
         return found
 
-    router.add_api_route(path, page, methods=METHODS)
-    router.add_api_route(f"{path}.{{media}}", lines, methods=METHODS)
-    router.add_api_route(f"{path}/report", report, methods=METHODS)
-    router.add_api_route(f"{path}/figures/{{name}}.{{image_format}}", figure, methods=METHODS)
+    router.add_api_route(path, page, methods=pages.METHODS)
+    router.add_api_route(f"{path}.{{media}}", lines, methods=pages.METHODS)
+    router.add_api_route(f"{path}/report", report, methods=pages.METHODS)
+    router.add_api_route(f"{path}/figures/{{name}}.{{image_format}}", figure, methods=pages.METHODS)
 
 
 async def _page(http: Request, calculation: Calculation, own: StudyPage, path: str) -> Response:
     """A study's page; whole where there is nothing to calculate."""
-    asked, clean = await asked_of(http, calculation)
+    asked, clean = await pages.asked_of(http, calculation)
     if not clean and http.scope["method"] == "GET":
-        return redirected(path, asked)
-    opened: pages.Opened = await _planned(http, own, asked, pages.opened)
+        return pages.redirected(path, asked)
+    opened: study_page.Opened = await _planned(http, own, asked, study_page.opened)
     if opened.study is None:
-        return html(opened.head + opened.tail, opened.status)
-    headers = {"Content-Security-Policy": PAGE_POLICY}
-    return await streamed(http, opened.study.study, partial(_pieces, http, opened), HTML, headers, PROGRESS_S)
+        return pages.html(opened.head + opened.tail, opened.status)
+    headers = {"Content-Security-Policy": pages.PAGE_POLICY}
+    return await streamed(http, opened.study.study, partial(_pieces, http, opened), pages.HTML, headers, PROGRESS_S)
 
 
 async def _planned(http: Request, own: StudyPage, asked: Asked, view: Callable[..., Any]) -> Any:
@@ -119,7 +108,7 @@ async def _planned(http: Request, own: StudyPage, asked: Asked, view: Callable[.
     return await planned(http, partial(view, own, asked), getattr(http.app.state.settings, own.most))
 
 
-async def _pieces(http: Request, opened: pages.Opened, lines: Lines, clock: Clock) -> AsyncGenerator[bytes, None]:
+async def _pieces(http: Request, opened: study_page.Opened, lines: Lines, clock: Clock) -> AsyncGenerator[bytes, None]:
     """The page of a study: head, results so far that replace each other, tail."""
     yield opened.head
     study, received, due = opened.study, list[Line](), FIRST_FRAME_S
@@ -129,9 +118,9 @@ async def _pieces(http: Request, opened: pages.Opened, lines: Lines, clock: Cloc
             received += [line for line in group if line["type"] != "progress"]
             has_ended = bool(received) and received[-1]["type"] in {"end", "error"}
             if clock.done and clock.elapsed_s >= due and not has_ended:
-                yield await _part(http, pages.partial, study, received if study.page.grows else [], clock.done)
+                yield await _part(http, study_page.partial, study, received if study.page.grows else [], clock.done)
                 due = clock.elapsed_s + min(max(FRAME_SHARE * clock.elapsed_s, FIRST_FRAME_S), LONGEST_PAUSE_S)
-    yield await _part(http, pages.whole, study, received)
+    yield await _part(http, study_page.whole, study, received)
     yield opened.tail
 
 
@@ -180,4 +169,4 @@ async def _made(http: Request, study: PageStudy, view: Callable[..., bytes | str
 
 for each in CALCULATIONS:
     for study_link in study_links(each):
-        _add(each, pages.PAGES[study_link])
+        _add(each, study_page.PAGES[study_link])

@@ -25,6 +25,8 @@ from app.studies.requests import DRIVE_TRAIN, USUAL_RANGES, Overrides
 from app.studies.sweep import corners_study
 
 OUTPUT = "safety.blok_flank"
+CONTROL = {quantity: f"{CORNER}{quantity.replace(' ', '_')}" for quantity in UNCERTAIN}
+"""The control of the form for each uncertain input."""
 
 
 def ranges_of(asked: Asked, left_alone: tuple[str, ...] = ()) -> dict[str, dict[str, Any]]:
@@ -38,7 +40,7 @@ def ranges_of(asked: Asked, left_alone: tuple[str, ...] = ()) -> dict[str, dict[
         return {}
     found = {}
     for quantity, axis in usual.items():
-        name = control_of(quantity)
+        name = CONTROL[quantity]
         if text := asked.views.get(name):
             rows = [[number_of(each) for each in row.split()] for row in text.split(";")]
             found[name] = {"path": axis.path, "values": [row[0] if len(row) == 1 else row for row in rows]}
@@ -47,17 +49,11 @@ def ranges_of(asked: Asked, left_alone: tuple[str, ...] = ()) -> dict[str, dict[
     return found
 
 
-def control_of(quantity: str) -> str:
-    """The name of the control of an uncertain input."""
-    return f"{CORNER}{quantity.replace(' ', '_')}"
-
-
-def range_controls(form: Form, left_alone: tuple[str, ...] = ()) -> Controls:
+def range_controls(form: Form, left_alone: tuple[str, ...] = ()) -> tuple[Controls, ...]:
     """A field for the values of each uncertain input: semicolons between, blanks between inputs that move together."""
     usual = ranges_of(replace(form.asked, views={}))
     fields = []
-    for quantity in UNCERTAIN:
-        name = control_of(quantity)
+    for quantity, name in CONTROL.items():
         if axis := usual.get(name):
             rows = [row if isinstance(row, list) else [row] for row in axis["values"]]
             text = "; ".join(" ".join(map(text_of, row)) for row in rows)
@@ -65,11 +61,7 @@ def range_controls(form: Form, left_alone: tuple[str, ...] = ()) -> Controls:
             label = f"{quantity}, {unit}" if unit else quantity
             fields.append(form.field(name, label, "as in the case" if quantity in left_alone else text))
     about = "Values with semicolons between; blanks between inputs that move together."
-    return Controls("Uncertain inputs", fields=tuple(fields), about=about)
-
-
-def _controls(form: Form) -> tuple[Controls, ...]:
-    return (range_controls(form),)
+    return (Controls("Uncertain inputs", fields=tuple(fields), about=about),)
 
 
 def _paths(axis: dict[str, Any]) -> list[str]:
@@ -182,6 +174,6 @@ CORNERS = StudyPage(
     plan=corners_study,
     result=_result,
     outputs=(OUTPUT,),
-    controls=_controls,
+    controls=range_controls,
     ranges=ranges_of,
 )

@@ -2,7 +2,7 @@
 
 from functools import partial
 from math import inf
-from typing import Any, NamedTuple
+from typing import Any
 
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, values
@@ -29,20 +29,12 @@ SLOPE, CROWNING = "modifications.helix_slope_um", "modifications.lead_crowning_u
 TIP, ROOT = "modifications.tip_relief_um", "modifications.root_relief_um"
 
 
-class Ground(NamedTuple):
-    """What may be ground: fields of one value, and the range searched when none is given [um]."""
-
-    label: str
-    paths: tuple[str, ...]
-    low: float
-    high: float
-
-
-# Chosen: wider than what is ground of teeth of a few millimetres of module, and the user may change them.
+# What may be ground: label, fields of one value, and the range searched when none is given [um]. The ranges are chosen:
+# wider than what is ground of teeth of a few millimetres of module, and the user may change them.
 GROUND = (
-    Ground("helix slope", (SLOPE,), -100.0, 100.0),
-    Ground("crowning", (CROWNING,), 0.0, 20.0),
-    Ground("relief at tip and root", (TIP, ROOT), 0.0, 30.0),
+    ("helix slope", (SLOPE,), -100.0, 100.0),
+    ("crowning", (CROWNING,), 0.0, 20.0),
+    ("relief at tip and root", (TIP, ROOT), 0.0, 30.0),
 )
 
 
@@ -53,12 +45,12 @@ def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
         "request": asked.body,
         "variables": [
             {
-                "path": list(each.paths),
-                "min": number_of(views.get(f"{LOWER}{place}", text_of(each.low))),
-                "max": number_of(views.get(f"{UPPER}{place}", text_of(each.high))),
+                "path": list(paths),
+                "min": number_of(views.get(f"{LOWER}{place}", text_of(low))),
+                "max": number_of(views.get(f"{UPPER}{place}", text_of(high))),
                 "step": STEP_UM,
             }
-            for place, each in enumerate(GROUND)
+            for place, (_, paths, low, high) in enumerate(GROUND)
         ],
         "corners": list(ranges_of(asked, LEFT_ALONE).values()) or None,
         "objective": output.path,
@@ -70,10 +62,10 @@ def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
 def _controls(form: Form) -> tuple[Controls, ...]:
     """Ranges of what may be ground, how many corrections are tried, and the uncertain inputs."""
     fields = [form.field(TRIALS, "corrections tried", EVALUATIONS)]
-    for place, each in enumerate(GROUND):
-        fields.append(form.field(f"{LOWER}{place}", f"{each.label}, from", each.low, "µm"))
-        fields.append(form.field(f"{UPPER}{place}", f"{each.label}, to", each.high, "µm"))
-    return Controls("Search", fields=tuple(fields)), range_controls(form, LEFT_ALONE)
+    for place, (label, _, low, high) in enumerate(GROUND):
+        fields.append(form.field(f"{LOWER}{place}", f"{label}, from", low, "µm"))
+        fields.append(form.field(f"{UPPER}{place}", f"{label}, to", high, "µm"))
+    return Controls("Search", fields=tuple(fields)), *range_controls(form, LEFT_ALONE)
 
 
 def _result(study: PageStudy, lines: list[Line]) -> Result:

@@ -11,12 +11,11 @@ from app.figures.data import Figure, NoFigure
 from app.figures.spectrum import Band, Chance, Limited, SpectrumCase, chances, deciding, losses, overlap
 from app.figures.units import axis_of
 from app.figures.wording import percent
+from app.pages import study_links
 from app.pages.form import FieldView
 from app.pages.query import SCATTERING, Pairs, link, number_of, pairs_of, text_of
 from app.pages.studies.declaration import Controls, Form, Link, Number, PageStudy, Result, StudyPage, Table
 from app.pages.studies.sweep import field_choices
-from app.pages.study_links import SPECTRUM as LINK
-from app.pages.study_links import Starter
 from app.pages.templating import page_path
 from app.pages.typesetting import cited, shown
 from app.pages.views import Asked
@@ -354,8 +353,8 @@ def _tolerances_table(header: Line, found: Line | None) -> Table:
     return Table("Tolerances", head, tuple(rows), note)
 
 
-def views_of(body: dict[str, Any]) -> dict[str, str]:
-    """The query of this page for a study of the interface, with the first of its limits."""
+def address_of(endpoint: Calculation, request: Pairs, body: dict[str, Any]) -> str:
+    """The page of a study of the interface, with the first of its limits."""
     views = {"cases": table_of(body["cases"])}
     for place, each in enumerate((body.get("tolerances") or {"inputs": []})["inputs"]):
         law, name = each["distribution"], f"t{place}"
@@ -373,27 +372,22 @@ def views_of(body: dict[str, Any]) -> dict[str, str]:
         views |= {"limit.by": text_of(known["deviation"])} if "deviation" in known else {}
     if "hours_per_year" in body:
         views["hours"] = text_of(body["hours_per_year"])
-    return views
+    return link(f"{page_path(endpoint)}/{study_links.SPECTRUM.name}", request, **views)
 
 
-def address_of(endpoint: Calculation, request: Pairs, body: dict[str, Any]) -> str:
-    """The page of a study of the interface."""
-    return link(f"{page_path(endpoint)}/{LINK.name}", request, **views_of(body))
-
-
-def _starters(_: str, asked: Asked) -> Sequence[Starter]:
+def _starters(_: str, asked: Asked) -> Sequence[study_links.Starter]:
     """The ready studies of the interface; a case of one's own needs none."""
     starters = []
     for each in EXAMPLES["/v1/spectrum"].values():
         body = each["value"]
         if body["endpoint"] == asked.calculation.path and not asked.pairs:
             address = address_of(asked.calculation, pairs_of(body["request"]), body)
-            starters.append(Starter(each["summary"], "example", address))
+            starters.append(study_links.Starter(each["summary"], "example", address))
     return starters
 
 
 SPECTRUM = StudyPage(
-    link=LINK,
+    link=study_links.SPECTRUM,
     question="its load spectrum",
     about="Machines are drawn from the tolerances; each runs every case, and its worst case meets the limit.",
     figures=("limit", "probability", "decides", "losses"),
