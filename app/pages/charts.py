@@ -4,6 +4,7 @@ import base64
 import json
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from itertools import zip_longest
 from typing import Any
 
 import numpy as np
@@ -92,9 +93,7 @@ def linked(
     declaration: Declaration, figure: Figure | None, address: Callable[..., str], theme: ThemeName | None
 ) -> Chart:
     """A figure whose image and values are at addresses of their own, dark on dark pages unless the page has a theme."""
-    from app.figures.drawing.image import size  # noqa: PLC0415  only workers draw
-
-    width, height = (round(PIXELS * length) for length in size(figure)) if figure else (None, None)
+    width, height = _pixels(figure) if figure else (None, None)
     return Chart(
         name=declaration.name,
         title=figure.title if figure else declaration.title,
@@ -109,10 +108,7 @@ def linked(
 
 def embedded(name: str, figure: Figure, theme: ThemeName | None) -> Chart:
     """A figure that is a part of the page with its values; dark on dark pages unless the page has a theme."""
-    from app.figures.drawing.image import size  # noqa: PLC0415  only workers draw
-
-    width, height = (round(PIXELS * length) for length in size(figure))
-    header, lines, more = _table(figure)
+    width, height = _pixels(figure)
     return Chart(
         name=name,
         title=figure.title,
@@ -122,10 +118,15 @@ def embedded(name: str, figure: Figure, theme: ThemeName | None) -> Chart:
         width=width,
         height=height,
         content=json.dumps({"panels": _panels(figure)}),
-        header=header,
-        lines=lines,
-        more=more,
+        **_table(figure),
     )
+
+
+def _pixels(figure: Figure) -> tuple[int, int]:
+    from app.figures.drawing.image import size  # noqa: PLC0415  only workers draw
+
+    width, height = size(figure)
+    return round(PIXELS * width), round(PIXELS * height)
 
 
 def data_address(image: bytes) -> str:
@@ -135,51 +136,43 @@ def data_address(image: bytes) -> str:
 
 def values_of(figure: Figure) -> bytes:
     """JSON of where the panels lie in the image, their curves, and the table of values."""
-    header, lines, more = _table(figure)
-    return json.dumps({"panels": _panels(figure), "header": header, "lines": lines, "more": more}).encode()
+    return json.dumps({"panels": _panels(figure), **_table(figure)}).encode()
 
 
-def _table(figure: Figure) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...], int]:
+def _table(figure: Figure) -> dict[str, Any]:
     """The header of a table of the figure's numbers, its first lines, and how many more there are."""
     columns = columns_of(figure)
-    cells = [column.cells(MOST_LINES) for column in columns]
+    cells = [map(_cell, column.cells(MOST_LINES)) for column in columns]
     count = max((len(column.content) for column in columns), default=0)
-    lines = (tuple(_cell(each, index) for each in cells) for index in range(min(count, MOST_LINES)))
-    return tuple(column.header for column in columns), tuple(lines), max(count - MOST_LINES, 0)
+    return {
+        "header": tuple(column.header for column in columns),
+        "lines": tuple(zip_longest(*cells, fillvalue="")),
+        "more": max(count - MOST_LINES, 0),
+    }
 
 
-def _cell(cells: list[str], index: int) -> str:
-    if index >= len(cells):
-        return ""
+def _cell(text: str) -> str:
     try:
-        return f"{float(cells[index]):.{DIGITS}g}".replace("-", "−")
+        return f"{float(text):.{DIGITS}g}".replace("-", "−")
     except ValueError:
-        return cells[index]
+        return text
 
 
 def _panels(figure: Figure) -> list[dict[str, Any]]:
     """Where each panel with curves lies, as fractions of the image, and its curves."""
     from app.figures.drawing.image import places  # noqa: PLC0415  only workers draw
 
-    return [
-        {
-            "box": place.box,
-            "range": place.x,
-            "name": place.panel.x.title,
-            "unit": place.panel.x.unit or "",
-            "curves": [
-                *(_curve(place.panel.y.unit or "", line) for line in place.panel.lines),
-                *(_curve(place.panel.y.unit or "", bars) for bars in place.panel.bars),
-            ],
-        }
-        for place in places(figure)
-        if place.panel.lines or place.panel.bars
-    ]
-
-
-def _curve(unit: str, series: Line) -> dict[str, Any]:
-    name = f"{series.title} ({VARIANT})" if series.role is Role.VARIANT else series.title
-    return {"name": name, "unit": unit, "x": _numbers(series.x), "y": _numbers(series.y)}
+    found = []
+    for place in places(figure):
+        panel, curves = place.panel, []
+        for series in (*panel.lines, *panel.bars):
+            name = f"{series.title} ({VARIANT})" if series.role is Role.VARIANT else series.title
+            curve = {"name": name, "unit": panel.y.unit or "", "x": _numbers(series.x), "y": _numbers(series.y)}
+            curves.append(curve)
+        if curves:
+            x = {"range": place.x, "name": panel.x.title, "unit": panel.x.unit or ""}
+            found.append({"box": place.box, **x, "curves": curves})
+    return found
 
 
 def _numbers(values: Values) -> list[float | None]:

@@ -10,10 +10,11 @@ import httpx
 import pytest
 
 from app.calculations import BY_PATH
+from app.pages.cases import solved
 from app.pages.query import pairs_of_query, split_views
 from app.pages.studies import page as pages
 from app.pages.studies.corners import CORNERS
-from app.pages.studies.declaration import PageStudy, StudyPage, case_at
+from app.pages.studies.declaration import PageStudy, StudyPage
 from app.pages.studies.design import DESIGN
 from app.pages.studies.sensitivity import SENSITIVITY
 from app.pages.study_links import study_links
@@ -49,7 +50,7 @@ def value_of(address: str, output: str) -> float:
     path, _, query = address.partition("?")
     pairs, _ = split_views(pairs_of_query(query))
     group, name = output.split(".")
-    value: float = getattr(getattr(case_at(Asked(path, pairs), {}, [output]).response, group), name)
+    value: float = getattr(getattr(solved(BY_PATH[f"/v1{path}"], pairs, None).response, group), name)
     return value
 
 
@@ -81,14 +82,14 @@ def test_the_worst_corner_is_that_of_least_safety_and_its_load_is_drawn() -> Non
     for row in panel.rows:
         assert min(dot.value for dot in row.dots) == worst["out"][0] == row.value
         assert [dot.value for dot in row.dots if dot.hue == "vermillion"] == [row.value]
-    nominal = case_at(study.asked, {}, [SAFETY]).response.safety.blok_flank
+    nominal = study.case({}, [SAFETY]).response.safety.blok_flank
     assert [(level.value, level.vertical) for level in panel.levels] == [(nominal, True)]
     curves = result.figures["face-load"].panels[0].lines
     assert [(line.title, line.role) for line in curves] == [("worst corner", "result"), ("as described", "variant")]
     for line, changes in zip(curves, (changed, {}), strict=True):
-        force = case_at(study.asked, changes, [SAFETY]).response.misalignment.curves.line_force_n_per_mm
+        force = study.case(changes, [SAFETY]).response.misalignment.curves.line_force_n_per_mm
         assert line.y.tolist() == force
-    assert [lead.label for lead in result.leads] == ["Open the worst corner", "Its report", "What to grind"]
+    assert [lead.text for lead in result.leads] == ["Open the worst corner", "Its report", "What to grind"]
     assert value_of(result.leads[0].address, SAFETY) == worst["out"][0]
     assert result.leads[1].address.startswith("/drive-train/report?")
 
@@ -106,11 +107,11 @@ def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> 
     worst, nominal = rows_of(page, "What it brings")
     assert worst[1:3] == [shown(end["objective_start"]), shown(wanted["objective"])]
     before, after = dict[str, Any](), wanted["at"]
-    cases = [case_at(study.asked, at, [SAFETY]).response.safety.blok_flank for at in (before, after)]
+    cases = [study.case(at, [SAFETY]).response.safety.blok_flank for at in (before, after)]
     assert nominal[1:3] == [shown(each) for each in cases]
     assert ("With the inputs as described it is worse" in page) == (cases[1] < cases[0])
     numbers = {row[0].partition(":")[0].partition(",")[0]: row[1] for row in rows_of(page, "Which number is which")}
-    estimate = case_at(study.asked, {}, [SAFETY]).response.misalignment.recommended_helix_slope_um
+    estimate = study.case({}, [SAFETY]).response.misalignment.recommended_helix_slope_um
     assert numbers["first estimate"] == shown(estimate, 4)
     assert numbers["best at the worst corner"] == shown(end["best"][SLOPE], 4)
     assert numbers["to grind"] == shown(wanted["at"][SLOPE], 4)
@@ -122,7 +123,7 @@ def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> 
     pairs = dict(pairs_of_query(result.leads[0].address.partition("?")[2]))
     assert {path: float(pairs[path]) for path in wanted["at"]} == wanted["at"]
     assert result.leads[2].address.startswith("/drive-train/corners?")
-    at_worst = case_at(study.asked, {**wanted["at"], **wanted["worst_corner"]}, [SAFETY]).response
+    at_worst = study.case({**wanted["at"], **wanted["worst_corner"]}, [SAFETY]).response
     assert at_worst.safety.blok_flank == wanted["objective"]
 
 

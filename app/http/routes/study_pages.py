@@ -2,7 +2,7 @@
 
 import asyncio
 import logging
-from collections.abc import AsyncGenerator, Callable, Coroutine
+from collections.abc import AsyncGenerator, Callable
 from contextlib import aclosing
 from functools import partial
 from typing import Any
@@ -11,27 +11,19 @@ from fastapi import APIRouter, Depends, HTTPException, Request, Response
 
 from app.calculations import CALCULATIONS, Calculation
 from app.errors import ClientGone, DeadlineExceeded, StudyEnded, WorkerLost
-from app.figures.rendering import MEDIA_TYPES as IMAGE_TYPES
-from app.http.routes.pages import (
-    DOCUMENT_POLICY,
-    HTML,
-    KNOWN_ERRORS,
-    METHODS,
-    PAGE_POLICY,
-    asked_of,
-    error_page,
-    html,
-    printed_host,
-    redirected,
-)
+from app.figures import rendering
+from app.http.routes import pages
 from app.http.routes.studies import MEDIA_TYPES, begun, encoder, planned, streamed
-from app.pages.studies import page as pages
-from app.pages.studies.declaration import PageStudy, StudyPage, ended
+from app.pages.studies import page as study_page
+from app.pages.studies.declaration import PageStudy, StudyPage
 from app.pages.study_links import study_links
 from app.pages.templating import page_path
+from app.pages.views import Asked
 from app.studies.engine import Clock, Line, Lines, encoded, twice_if_lost
 from app.workers.pool import disconnected
 
+LINE_TYPES = {str(name): media for name, media in MEDIA_TYPES.items()}
+IMAGE_TYPES = {str(name): media for name, media in rendering.MEDIA_TYPES.items()}
 FIRST_FRAME_S = 0.3  # until a page shows its first points
 FRAME_SHARE = 0.3  # of the time a study has run passes until its page is drawn again
 LONGEST_PAUSE_S = 4.0  # between two drawings of a page, however long the study runs
@@ -57,71 +49,65 @@ router = APIRouter(include_in_schema=False, dependencies=[Depends(not_from_anoth
 def _add(calculation: Calculation, own: StudyPage) -> None:
     """The page of a study of a calculation's cases, its lines and its figures."""
     path = f"{page_path(calculation)}/{own.link.name}"
-    policy = {"Content-Security-Policy": DOCUMENT_POLICY}
+    policy = {"Content-Security-Policy": pages.DOCUMENT_POLICY}
 
     async def page(http: Request) -> Response:
         try:
             return await _page(http, calculation, own, path)
-        except KNOWN_ERRORS as error:
-            return error_page(http, error)
+        except pages.KNOWN_ERRORS as error:
+            return pages.error_page(http, error)
 
     async def lines(http: Request, media: str) -> Response:
-        kind = {str(name): kind for name, kind in MEDIA_TYPES.items() if name in own.files}.get(media)
-        if kind is None:
+        if media not in own.files:
             raise HTTPException(404, f"There are {', '.join(f'{own.link.name}.{each}' for each in own.files)}")
-        study = (await _checked(http, calculation, own)).study
+        study = (await checked(http)).study
         encode = encoder(study, media)
-        return await streamed(http, study, lambda found, _: encoded(found, encode), kind, policy)
+        return await streamed(http, study, lambda found, _: encoded(found, encode), LINE_TYPES[media], policy)
 
     async def figure(http: Request, name: str, image_format: str) -> Response:
-        kinds = {str(each): kind for each, kind in IMAGE_TYPES.items()}
-        if name not in own.figures or image_format not in kinds:
-            raise HTTPException(404, f"There are {', '.join(own.figures)}, each as {', '.join(kinds)}")
-        study = await _checked(http, calculation, own)
-        drawn = await _made(http, study, pages.file, name, image_format)
-        return Response(drawn, media_type=kinds[image_format], headers=policy)
+        if name not in own.figures or image_format not in IMAGE_TYPES:
+            raise HTTPException(404, f"There are {', '.join(own.figures)}, each as {', '.join(IMAGE_TYPES)}")
+        drawn = await _made(http, await checked(http), study_page.file, name, image_format)
+        return Response(drawn, media_type=IMAGE_TYPES[image_format], headers=policy)
 
     async def report(http: Request) -> Response:
         try:
-            study = await _checked(http, calculation, own)
-            return Response(await _made(http, study, pages.report, printed_host(http)), media_type=HTML, headers=policy)
-        except KNOWN_ERRORS as error:
-            return error_page(http, error)
+            content = await _made(http, await checked(http), study_page.report, pages.printed_host(http))
+        except pages.KNOWN_ERRORS as error:
+            return pages.error_page(http, error)
+        return Response(content, media_type=pages.HTML, headers=policy)
 
-    router.add_api_route(path, page, methods=METHODS)
-    router.add_api_route(f"{path}.{{media}}", lines, methods=METHODS)
-    router.add_api_route(f"{path}/report", report, methods=METHODS)
-    router.add_api_route(f"{path}/figures/{{name}}.{{image_format}}", figure, methods=METHODS)
+    async def checked(http: Request) -> PageStudy:
+        asked, _ = await pages.asked_of(http, calculation)
+        found: PageStudy = await _planned(http, own, asked, study_page.checked)
+        return found
+
+    router.add_api_route(path, page, methods=pages.METHODS)
+    router.add_api_route(f"{path}.{{media}}", lines, methods=pages.METHODS)
+    router.add_api_route(f"{path}/report", report, methods=pages.METHODS)
+    router.add_api_route(f"{path}/figures/{{name}}.{{image_format}}", figure, methods=pages.METHODS)
 
 
 async def _page(http: Request, calculation: Calculation, own: StudyPage, path: str) -> Response:
     """A study's page; whole where there is nothing to calculate."""
-    asked, clean = await asked_of(http, calculation)
+    asked, clean = await pages.asked_of(http, calculation)
     if not clean and http.scope["method"] == "GET":
-        return redirected(path, asked)
-    if asked.pairs:
-        http.app.state.start_up.require(calculation.path)
-    opened: pages.Opened = await planned(http, partial(pages.opened, own, asked), _most(http, own))
+        return pages.redirected(path, asked)
+    opened: study_page.Opened = await _planned(http, own, asked, study_page.opened)
     if opened.study is None:
-        return html(opened.head + opened.tail, opened.status)
-    headers = {"Content-Security-Policy": PAGE_POLICY}
-    return await streamed(http, opened.study.study, partial(_pieces, http, opened), HTML, headers, PROGRESS_S)
+        return pages.html(opened.head + opened.tail, opened.status)
+    headers = {"Content-Security-Policy": pages.PAGE_POLICY}
+    return await streamed(http, opened.study.study, partial(_pieces, http, opened), pages.HTML, headers, PROGRESS_S)
 
 
-async def _checked(http: Request, calculation: Calculation, own: StudyPage) -> Any:
-    """The study of a query, for a file; checked in a worker."""
-    asked, _ = await asked_of(http, calculation)
-    http.app.state.start_up.require(calculation.path)
-    return await planned(http, partial(pages.checked, own, asked), _most(http, own))
+async def _planned(http: Request, own: StudyPage, asked: Asked, view: Callable[..., Any]) -> Any:
+    """The study of a case, or its page, from a worker."""
+    if asked.pairs:
+        http.app.state.start_up.require(asked.calculation.path)
+    return await planned(http, partial(view, own, asked), getattr(http.app.state.settings, own.most))
 
 
-def _most(http: Request, own: StudyPage) -> int:
-    """The most points of the study."""
-    found: int = getattr(http.app.state.settings, own.most)
-    return found
-
-
-async def _pieces(http: Request, opened: pages.Opened, lines: Lines, clock: Clock) -> AsyncGenerator[bytes, None]:
+async def _pieces(http: Request, opened: study_page.Opened, lines: Lines, clock: Clock) -> AsyncGenerator[bytes, None]:
     """The page of a study: head, results so far that replace each other, tail."""
     yield opened.head
     study, received, due = opened.study, list[Line](), FIRST_FRAME_S
@@ -129,10 +115,11 @@ async def _pieces(http: Request, opened: pages.Opened, lines: Lines, clock: Cloc
     async with aclosing(lines):
         async for group in lines:
             received += [line for line in group if line["type"] != "progress"]
-            if clock.done and clock.elapsed_s >= due and not ended(received):
-                yield await _part(http, pages.partial, study, received if study.page.grows else [], clock.done)
+            has_ended = bool(received) and received[-1]["type"] in {"end", "error"}
+            if clock.done and clock.elapsed_s >= due and not has_ended:
+                yield await _part(http, study_page.partial, study, received if study.page.grows else [], clock.done)
                 due = clock.elapsed_s + min(max(FRAME_SHARE * clock.elapsed_s, FIRST_FRAME_S), LONGEST_PAUSE_S)
-    yield await _part(http, pages.whole, study, received)
+    yield await _part(http, study_page.whole, study, received)
     yield opened.tail
 
 
@@ -149,38 +136,36 @@ async def _part(http: Request, view: Callable[..., bytes], *arguments: Any) -> b
 
 
 async def _made(http: Request, study: PageStudy, view: Callable[..., bytes | str], *arguments: Any) -> bytes:
-    """The result of a view of a finished study in a worker; the study ends when the client leaves."""
-    with http.app.state.studies.place():
+    """The result of a view of all lines of a study in a worker; the study ends when the client leaves.
+
+    Raises StudyEnded at an error, HTTPException where the view answers why there is nothing, and ClientGone.
+    """
+
+    async def work() -> bytes | str:
         lines, _ = await begun(http, study.study)
-        return await _unless_gone(http, _whole(http, lines, partial(view, study), *arguments))
+        async with aclosing(lines):
+            received = [line async for group in lines for line in group if line["type"] != "progress"]
+        if received[-1]["type"] == "error":
+            raise StudyEnded(received[-1]["message"])
+        found: bytes | str = await twice_if_lost(http.app.state.studies.own(), view, study, received, *arguments)
+        return found
 
-
-async def _whole(http: Request, lines: Lines, view: Callable[..., bytes | str], *arguments: Any) -> bytes:
-    """The result of a view of all lines in a worker; 404 where it is a reason instead, StudyEnded at an error."""
-    async with aclosing(lines):
-        received = [line async for group in lines for line in group if line["type"] != "progress"]
-    if received[-1]["type"] == "error":
-        raise StudyEnded(received[-1]["message"])
-    found: bytes | str = await twice_if_lost(http.app.state.studies.own(), view, received, *arguments)
-    if isinstance(found, str):
-        raise HTTPException(404, found)
-    return found
-
-
-async def _unless_gone(http: Request, work: Coroutine[Any, Any, bytes]) -> bytes:
-    """The result of the work, which ends when the client leaves; raises ClientGone."""
-    working, gone = asyncio.create_task(work), asyncio.create_task(disconnected(http))
-    try:
-        await asyncio.wait({working, gone}, return_when=asyncio.FIRST_COMPLETED)
-        if not working.done():
-            raise ClientGone
-        return working.result()
-    finally:
-        working.cancel()
-        gone.cancel()
-        await asyncio.gather(working, gone, return_exceptions=True)
+    with http.app.state.studies.place():
+        working, gone = asyncio.create_task(work()), asyncio.create_task(disconnected(http))
+        try:
+            await asyncio.wait({working, gone}, return_when=asyncio.FIRST_COMPLETED)
+            if not working.done():
+                raise ClientGone
+            made = working.result()
+        finally:
+            working.cancel()
+            gone.cancel()
+            await asyncio.gather(working, gone, return_exceptions=True)
+    if isinstance(made, str):
+        raise HTTPException(404, made)
+    return made
 
 
 for each in CALCULATIONS:
     for study_link in study_links(each):
-        _add(each, pages.PAGES[study_link])
+        _add(each, study_page.PAGES[study_link])

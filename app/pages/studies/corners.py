@@ -12,32 +12,21 @@ from app.figures.wording import listed, number
 from app.pages import study_links
 from app.pages.cases import Case
 from app.pages.query import CORNER, UNCERTAIN, number_of, text_of
-from app.pages.studies.declaration import (
-    Controls,
-    Form,
-    Lead,
-    Link,
-    Number,
-    PageStudy,
-    Result,
-    StudyPage,
-    Table,
-    address_at,
-    case_at,
-    input_at,
-    numbered,
-)
+from app.pages.studies.declaration import Controls, Form, Link, Number, PageStudy, Result, StudyPage, Table
+from app.pages.studies.sweep import numbered
 from app.pages.typesetting import shown
 from app.pages.views import REFUSED, Asked
 from app.schema.fields import Leaf, headlines
 from app.studies.engine import Line
-from app.studies.fields import value_at
+from app.studies.fields import scalar_at, value_at
 from app.studies.point_sets import usual_corners
 from app.studies.points import COLD, BaseRequest, needs_film
 from app.studies.requests import DRIVE_TRAIN, USUAL_RANGES, Overrides
 from app.studies.sweep import corners_study
 
 OUTPUT = "safety.blok_flank"
+CONTROL = {quantity: f"{CORNER}{quantity.replace(' ', '_')}" for quantity in UNCERTAIN}
+"""The control of the form for each uncertain input."""
 
 
 def ranges_of(asked: Asked, left_alone: tuple[str, ...] = ()) -> dict[str, dict[str, Any]]:
@@ -45,14 +34,13 @@ def ranges_of(asked: Asked, left_alone: tuple[str, ...] = ()) -> dict[str, dict[
 
     Those of `left_alone` are as in the case where nothing is typed. A case that is refused has none.
     """
-    calculation = asked.calculation
     try:
-        usual = usual_corners(BaseRequest(calculation, asked.body).checked({}))
+        usual = usual_corners(BaseRequest(asked.calculation, asked.body).checked({}))
     except REFUSED:
         return {}
     found = {}
     for quantity, axis in usual.items():
-        name = control_of(quantity)
+        name = CONTROL[quantity]
         if text := asked.views.get(name):
             rows = [[number_of(each) for each in row.split()] for row in text.split(";")]
             found[name] = {"path": axis.path, "values": [row[0] if len(row) == 1 else row for row in rows]}
@@ -61,34 +49,24 @@ def ranges_of(asked: Asked, left_alone: tuple[str, ...] = ()) -> dict[str, dict[
     return found
 
 
-def control_of(quantity: str) -> str:
-    """The name of the control of an uncertain input."""
-    return f"{CORNER}{quantity.replace(' ', '_')}"
-
-
-def range_controls(form: Form, left_alone: tuple[str, ...] = ()) -> Controls:
-    """A field for the values of each uncertain input."""
-    bare = replace(form.asked, views={})
-    usual, ranges = ranges_of(bare), ranges_of(bare, left_alone)
+def range_controls(form: Form, left_alone: tuple[str, ...] = ()) -> tuple[Controls, ...]:
+    """A field for the values of each uncertain input: semicolons between, blanks between inputs that move together."""
+    usual = ranges_of(replace(form.asked, views={}))
     fields = []
-    for quantity in UNCERTAIN:
-        name = control_of(quantity)
+    for quantity, name in CONTROL.items():
         if axis := usual.get(name):
-            path = axis["path"] if isinstance(axis["path"], str) else axis["path"][0]
-            unit = input_at(form.asked, path).unit or ""
-            text = _text(axis["values"]) if name in ranges else "as in the case"
-            fields.append(form.field(name, f"{quantity}, {unit}" if unit else quantity, text))
+            rows = [row if isinstance(row, list) else [row] for row in axis["values"]]
+            text = "; ".join(" ".join(map(text_of, row)) for row in rows)
+            unit = scalar_at(form.asked.calculation.request, _paths(axis)[0], "", "").unit
+            label = f"{quantity}, {unit}" if unit else quantity
+            fields.append(form.field(name, label, "as in the case" if quantity in left_alone else text))
     about = "Values with semicolons between; blanks between inputs that move together."
-    return Controls("Uncertain inputs", fields=tuple(fields), about=about)
+    return (Controls("Uncertain inputs", fields=tuple(fields), about=about),)
 
 
-def _controls(form: Form) -> tuple[Controls, ...]:
-    return (range_controls(form),)
-
-
-def _text(rows: list[Any]) -> str:
-    """Values as they are typed: choices with semicolons between, blanks between inputs that move together."""
-    return "; ".join(" ".join(map(text_of, row)) if isinstance(row, list) else text_of(row) for row in rows)
+def _paths(axis: dict[str, Any]) -> list[str]:
+    """The inputs of a range, which move together."""
+    return [axis["path"]] if isinstance(axis["path"], str) else axis["path"]
 
 
 def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
@@ -114,18 +92,18 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
         return Result(progress, remarks=tuple(remarks))
     worst = extremes[output.path]["min" if output.view.greatest_is_best else "max"]["at"]
     outputs = [each["path"] for each in header["outputs"]]
-    case, other = case_at(study.asked, {}, outputs), case_at(study.asked, worst, outputs)
+    case, other = study.case({}, outputs), study.case(worst, outputs)
     found = {"corners": corners(axis_of(output), _uncertain(study, lines, worst), value_at(case.response, output.path))}
     found |= load_figure(other, case, "worst corner", "worst corner and, dashed, as described: ")
     return Result(
         progress,
         found,
-        (_extremes(study, header, extremes, case), corner_table("The worst corner", study.asked, case, worst)),
+        (_extremes(study, header, extremes, case), corner_table("The worst corner", study, case, worst)),
         tuple(remarks),
         (
-            Lead("Open the worst corner", address_at(study.asked, worst)),
-            Lead("Its report", address_at(study.asked, worst, "/report")),
-            Lead("What to grind", study.asked.study(study_links.DESIGN.name)),
+            Link("Open the worst corner", study.address(worst)),
+            Link("Its report", study.address(worst, "/report")),
+            Link("What to grind", study.asked.study(study_links.DESIGN.name)),
         ),
     )
 
@@ -142,48 +120,36 @@ def load_figure(case: Case, reference: Case, name: str, finding: str) -> dict[st
     return {LOAD_ALONE.name: replace(own, finding=f"{finding}{own.finding}, dashed {given.finding}", panels=(panel,))}
 
 
-def corner_table(title: str, asked: Asked, case: Case, corner: Overrides) -> Table:
+def corner_table(title: str, study: PageStudy, case: Case, corner: Overrides) -> Table:
     """What a corner changes in the case."""
-    leaves = [input_at(asked, path) for path in corner]
-    inputs = case.response.inputs
-    rows = tuple(
-        (
-            numbered(leaf.title, leaf.path),
-            shown(value_at(inputs, leaf.path)),
-            shown(corner[leaf.path]),
-            leaf.unit or "",
-        )
-        for leaf in leaves
-    )
-    return Table(title, ("input", Number("as described"), Number("there"), "unit"), rows)
+    rows = []
+    for path, value in corner.items():
+        leaf = study.input(path)
+        described = shown(value_at(case.response.inputs, path))
+        rows.append((numbered(leaf.title, path), described, shown(value), leaf.unit or ""))
+    return Table(title, ("input", Number("as described"), Number("there"), "unit"), tuple(rows))
 
 
 def _uncertain(study: PageStudy, lines: list[Line], worst: Overrides) -> list[Uncertain]:
     """Of each choice of each axis the worst that the output is with it."""
-    axes, points = lines[0]["axes"], [line for line in lines if line["type"] == "point"]
+    points = [line for line in lines if line["type"] == "point"]
     pick = min if study.output.view.greatest_is_best else max
     found = []
-    for place, axis in enumerate(axes):
-        paths = axis["path"] if isinstance(axis["path"], list) else [axis["path"]]
-        titles = dict.fromkeys(input_at(study.asked, path).title for path in paths)
+    for place, axis in enumerate(lines[0]["axes"]):
+        paths = _paths(axis)
         reached, decides = dict[str, float](), ""
         for value in axis["values"]:
             known = [line["out"][0] for line in points if line["at"][place] == value and line["out"][0] is not None]
             each = value if isinstance(value, list) else [value] * len(paths)
-            text = _choice(each, axis["unit"])
+            texts = [number(own) if isinstance(own, int | float) else str(own) for own in each]
+            text = ", ".join(texts[:1] if len(set(each)) == 1 else texts) + (f" {axis['unit']}" if axis["unit"] else "")
             if known:
                 reached[text] = pick(known)
-            if all(worst[path] == own for path, own in zip(paths, each, strict=True)):
+            if [worst[path] for path in paths] == each:
                 decides = text
+        titles = dict.fromkeys(study.input(path).title for path in paths)
         found.append(Uncertain(listed(list(titles)), reached, decides))
     return found
-
-
-def _choice(values: list[Any], unit: str | None) -> str:
-    texts = dict.fromkeys(values) if len(set(values)) == 1 else values
-    return ", ".join(number(each) if isinstance(each, int | float) else str(each) for each in texts) + (
-        f" {unit}" if unit else ""
-    )
 
 
 def _extremes(study: PageStudy, header: Line, extremes: dict[str, Line], case: Case) -> Table:
@@ -192,7 +158,7 @@ def _extremes(study: PageStudy, header: Line, extremes: dict[str, Line], case: C
     for each in header["outputs"]:
         if each["path"] in extremes:
             ends = [extremes[each["path"]][end] for end in ("min", "max")]
-            least, largest = (Link(shown(end["value"]), address_at(study.asked, end["at"])) for end in ends)
+            least, largest = (Link(shown(end["value"]), study.address(end["at"])) for end in ends)
             described = shown(value_at(case.response, each["path"]))
             rows.append((each["title"], described, least, largest, each["unit"] or ""))
     head = ("output", Number("as described"), Number("least"), Number("largest"), "unit")
@@ -208,6 +174,6 @@ CORNERS = StudyPage(
     plan=corners_study,
     result=_result,
     outputs=(OUTPUT,),
-    controls=_controls,
+    controls=range_controls,
     ranges=ranges_of,
 )

@@ -1,6 +1,6 @@
 """What is declared of a study's page, what it shows, and the addresses of its views and points."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
 from typing import Any, NamedTuple
@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 from app.figures.data import Figure
 from app.pages.cases import Case, solved
 from app.pages.form import FieldView
-from app.pages.query import LONGEST_QUERY, STUDY_NAMES, Pairs, body_of, link, pairs_of, text_of
-from app.pages.study_links import Starter, StudyLink
+from app.pages.query import LONGEST_QUERY, STUDY_NAMES, link, pairs_of, text_of
+from app.pages.study_links import Starter, StudyExample, StudyLink
 from app.pages.templating import examples_of
 from app.pages.typesetting import symbol
 from app.pages.views import Asked
@@ -43,24 +43,6 @@ class StudyAddresses:
         return self.view(f"/figures/{figure}.{image_format}")
 
 
-def pairs_at(asked: Asked, overrides: Overrides) -> Pairs:
-    """The fields of the case with a point's values."""
-    body = with_overrides(asked.calculation, asked.body, overrides)
-    del body["detail"]
-    return pairs_of(body)
-
-
-def address_at(asked: Asked, overrides: Overrides, below: str = "") -> str:
-    """Where the page of a point is, or a view of it."""
-    return link(f"{asked.path}{below}", pairs_at(asked, overrides), theme=asked.views.get("theme", ""))
-
-
-def case_at(asked: Asked, overrides: Overrides, outputs: list[str]) -> Case:
-    """The case at a point with its answer, no more of it calculated than these outputs need."""
-    body = body_of(asked.calculation.request, pairs_at(asked, overrides))
-    return solved(asked.calculation, pairs_of(reduced_request(asked.calculation.path, body, outputs)), None)
-
-
 class Choice(NamedTuple):
     """An entry of a menu, in a group."""
 
@@ -69,27 +51,16 @@ class Choice(NamedTuple):
     group: str
 
 
-@dataclass(frozen=True, slots=True)
-class Menu:
-    """A choice in groups; `empty` is the label of no choice."""
+class Menu(NamedTuple):
+    """A choice in groups; `empty` is the label of no choice, `shown` that of `chosen`, which a narrow menu may cut."""
 
     name: str
     label: str
     empty: str
     chosen: str
-    groups: tuple[tuple[str, tuple[Choice, ...]], ...]
+    shown: str
+    groups: list[tuple[str, list[Choice]]]
     fault: str | None
-
-    @property
-    def id(self) -> str:
-        """Anchor on the page."""
-        return f"f.{self.name}"
-
-    @property
-    def shown(self) -> str:
-        """The label of the choice, which a narrow menu may cut."""
-        labels = (choice.label for _, choices in self.groups for choice in choices if choice.path == self.chosen)
-        return next(labels, self.empty)
 
 
 class Controls(NamedTuple):
@@ -111,11 +82,13 @@ class Form:
 
     def menu(self, name: str, label: str, empty: str, choices: list[Choice]) -> Menu:
         """A menu, whose choice may be one that it does not offer."""
-        groups = tuple((group, tuple(items)) for group, items in groupby(choices, key=lambda choice: choice.group))
         chosen = self.asked.views.get(name, "")
-        if chosen and all(choice.path != chosen for choice in choices):
-            groups = (*groups, ("asked for", (Choice(chosen, chosen, ""),)))
-        return Menu(name, label, empty, chosen, groups, self.faults.get(name))
+        labels = {choice.path: choice.label for choice in choices}
+        groups = [(group, list(items)) for group, items in groupby(choices, key=lambda choice: choice.group)]
+        if chosen and chosen not in labels:
+            groups.append(("asked for", [Choice(chosen, chosen, "")]))
+        shown = labels.get(chosen, chosen) or empty
+        return Menu(name, label, empty, chosen, shown, groups, self.faults.get(name))
 
     def field(
         self,
@@ -149,10 +122,7 @@ class Number(str):
 
 
 class Link(NamedTuple):
-    """A cell of a table that leads somewhere.
-
-    `label` is what a screen reader says of it where its text alone says too little.
-    """
+    """A link in a table or above the result; `label` is what a screen reader says where its text says too little."""
 
     text: str
     address: str
@@ -174,38 +144,21 @@ class Table(NamedTuple):
         return [isinstance(heading, Number) for heading in self.head]
 
 
-class Lead(NamedTuple):
-    """A link to go on from the result."""
-
-    label: str
-    address: str
-
-
 @dataclass(frozen=True, slots=True)
 class Result:
     """What a page shows of the lines of a study: the `first` tables, figures by their names, more tables.
 
-    `script` is JSON for the script of the page, with which a click into the first figure opens the case of a point.
+    `leads` are links to go on from the result. `script` is JSON for the script of the page, with which a click into
+    the first figure opens the case of a point.
     """
 
     progress: str
     figures: dict[str, Figure] = field(default_factory=dict)
     tables: tuple[Table, ...] = ()
     remarks: tuple[str, ...] = ()
-    leads: tuple[Lead, ...] = ()
+    leads: tuple[Link, ...] = ()
     script: str = ""
     first: tuple[Table, ...] = ()
-
-
-def input_at(asked: Asked, path: str) -> Leaf:
-    """The single value at a path of the request."""
-    return scalar_at(asked.calculation.request, path, "", "unknown_path")
-
-
-def numbered(title: str, path: str) -> str:
-    """Title of an input; which one it is where there are several."""
-    places = [str(int(part) + 1) for part in path.split(".") if part.isdecimal()]
-    return f"{title} {'.'.join(places)}" if places else title
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,25 +175,33 @@ class PageStudy:
         """Where the views of the study are."""
         return StudyAddresses(self.page.link.name, self.asked)
 
+    def input(self, path: str) -> Leaf:
+        """The single value at a path of the request."""
+        return scalar_at(self.asked.calculation.request, path, "", "unknown_path")
 
-# Named functions, because a page is pickled to the workers.
-def _no_controls(_: Form) -> tuple[Any, ...]:
+    def address(self, overrides: Overrides, below: str = "") -> str:
+        """Where the page of a point is, or a view of it."""
+        body = with_overrides(self.asked.calculation, self.asked.body, overrides)
+        del body["detail"]
+        return link(f"{self.asked.path}{below}", pairs_of(body), theme=self.asked.views.get("theme", ""))
+
+    def case(self, overrides: Overrides, outputs: list[str]) -> Case:
+        """The case at a point with its answer, no more of it calculated than these outputs need."""
+        body = with_overrides(self.asked.calculation, self.asked.body, overrides)
+        reduced = reduced_request(self.asked.calculation.path, body, outputs)
+        return solved(self.asked.calculation, pairs_of(reduced), None)
+
+
+# Functions with names, because a page is pickled to the workers.
+def nothing(_: Any) -> tuple[Any, ...]:
+    """The controls that a page does without."""
     return ()
 
 
-def _no_ranges(_: Asked) -> dict[str, Any]:
-    return {}
-
-
-def _complete(_: Asked) -> bool:
-    return True
-
-
-def starting_from_examples(page: "StudyPage", asked: Asked) -> list[Starter]:
+def starting_from_examples(name: str, asked: Asked) -> Sequence[Starter]:
     """The study of every example; a case of one's own needs none."""
-    below = f"{asked.path}/{page.link.name}"
     examples = () if asked.pairs else examples_of(asked.calculation)
-    return [Starter(each.title, each.source, link(below, pairs_of(each.request))) for each in examples]
+    return [Starter(each.title, each.source, link(f"{asked.path}/{name}", pairs_of(each.request))) for each in examples]
 
 
 @dataclass(frozen=True, slots=True)
@@ -249,11 +210,11 @@ class StudyPage:
 
     The output shown when none is chosen is the first of `outputs` that the answer has, else the first headline. `body`
     makes what the study's endpoint is asked, `plan` checks it; `most` is the setting that bounds its points.
-    `controls` are what the form has beside the output, and `shows` beside the menu of outputs; `ranges` are the values
-    of the uncertain inputs, by the names of their controls. `result` is what the page shows of the lines of a study;
-    with `grows` also of those that have come while it runs, else only how far it is. `complete` says whether all is
-    chosen that the study needs, else `choose` asks for it. `figures` names all that there may be, `files` the forms in
-    which the lines are offered.
+    `controls` are what the form has beside the output, and `shows` beside the menu of outputs; `ranges` are the names
+    of the controls of the uncertain inputs, in the order of the body. `result` is what the page shows of the lines of a
+    study; with `grows` also of those that have come while it runs, else only how far it is. Without one of the controls
+    in `needs` there is no study, and `choose` asks for it; `starters` are links to ready studies, made from the name of
+    the page and the case. `figures` names all that there may be, `files` the forms in which the lines are offered.
     """
 
     link: StudyLink
@@ -264,17 +225,12 @@ class StudyPage:
     plan: Callable[[dict[str, Any], int, float], Study]
     result: Callable[[PageStudy, list[Line]], Result]
     outputs: tuple[str, ...] = ()
-    controls: Callable[[Form], tuple[Controls, ...]] = _no_controls
-    shows: Callable[[Form], tuple[FieldView, ...]] = _no_controls
+    controls: Callable[[Form], tuple[Controls, ...]] = nothing
+    shows: Callable[[Form], tuple[FieldView, ...]] = nothing
     grows: bool = False
-    ranges: Callable[[Asked], dict[str, Any]] = _no_ranges
+    ranges: Callable[[Asked], Iterable[str]] = nothing
     most: str = "most_study_points"
-    complete: Callable[[Asked], bool] = _complete
+    needs: tuple[str, ...] = ()
     choose: str = ""
-    starters: Callable[["StudyPage", Asked], list[Starter]] = starting_from_examples
+    starters: Callable[[str, Asked], Sequence[Starter | StudyExample]] = starting_from_examples
     files: tuple[str, ...] = ("ndjson",)
-
-
-def ended(lines: list[Line]) -> bool:
-    """Whether the last line has come."""
-    return bool(lines) and lines[-1]["type"] in {"end", "error"}

@@ -1,7 +1,8 @@
 """Design: the flank correction whose worst corner is best, as a sheet for the grinder, and how it was found."""
 
+from functools import partial
 from math import inf
-from typing import Any, NamedTuple
+from typing import Any
 
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, values
@@ -12,19 +13,7 @@ from app.pages import study_links
 from app.pages.cases import Case
 from app.pages.query import LOWER, TRIALS, UPPER, number_of, text_of
 from app.pages.studies.corners import OUTPUT, corner_table, load_figure, range_controls, ranges_of
-from app.pages.studies.declaration import (
-    Controls,
-    Form,
-    Lead,
-    Number,
-    PageStudy,
-    Result,
-    StudyPage,
-    Table,
-    address_at,
-    case_at,
-    input_at,
-)
+from app.pages.studies.declaration import Controls, Form, Link, Number, PageStudy, Result, StudyPage, Table
 from app.pages.typesetting import shown
 from app.pages.views import Asked
 from app.schema.fields import Leaf
@@ -40,26 +29,13 @@ SLOPE, CROWNING = "modifications.helix_slope_um", "modifications.lead_crowning_u
 TIP, ROOT = "modifications.tip_relief_um", "modifications.root_relief_um"
 
 
-class Ground(NamedTuple):
-    """What may be ground: fields of one value, and the range searched when none is given."""
-
-    label: str
-    paths: tuple[str, ...]
-    low: float
-    high: float
-    unit: str = "µm"
-
-
-# Chosen: wider than what is ground of teeth of a few millimetres of module, and the user may change them.
+# What may be ground: label, fields of one value, and the range searched when none is given [um]. The ranges are chosen:
+# wider than what is ground of teeth of a few millimetres of module, and the user may change them.
 GROUND = (
-    Ground("helix slope", (SLOPE,), -100.0, 100.0),
-    Ground("crowning", (CROWNING,), 0.0, 20.0),
-    Ground("relief at tip and root", (TIP, ROOT), 0.0, 30.0),
+    ("helix slope", (SLOPE,), -100.0, 100.0),
+    ("crowning", (CROWNING,), 0.0, 20.0),
+    ("relief at tip and root", (TIP, ROOT), 0.0, 30.0),
 )
-
-
-def _ranges(asked: Asked) -> dict[str, dict[str, Any]]:
-    return ranges_of(asked, LEFT_ALONE)
 
 
 def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
@@ -69,14 +45,14 @@ def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
         "request": asked.body,
         "variables": [
             {
-                "path": list(each.paths),
-                "min": number_of(views.get(f"{LOWER}{place}", text_of(each.low))),
-                "max": number_of(views.get(f"{UPPER}{place}", text_of(each.high))),
+                "path": list(paths),
+                "min": number_of(views.get(f"{LOWER}{place}", text_of(low))),
+                "max": number_of(views.get(f"{UPPER}{place}", text_of(high))),
                 "step": STEP_UM,
             }
-            for place, each in enumerate(GROUND)
+            for place, (_, paths, low, high) in enumerate(GROUND)
         ],
-        "corners": list(_ranges(asked).values()) or None,
+        "corners": list(ranges_of(asked, LEFT_ALONE).values()) or None,
         "objective": output.path,
         "direction": "maximise" if output.view.greatest_is_best else "minimise",
         "evaluations": number_of(views.get(TRIALS, str(EVALUATIONS))),
@@ -86,10 +62,10 @@ def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
 def _controls(form: Form) -> tuple[Controls, ...]:
     """Ranges of what may be ground, how many corrections are tried, and the uncertain inputs."""
     fields = [form.field(TRIALS, "corrections tried", EVALUATIONS)]
-    for place, each in enumerate(GROUND):
-        fields.append(form.field(f"{LOWER}{place}", f"{each.label}, from", each.low, each.unit))
-        fields.append(form.field(f"{UPPER}{place}", f"{each.label}, to", each.high, each.unit))
-    return Controls("Search", fields=tuple(fields)), range_controls(form, LEFT_ALONE)
+    for place, (label, _, low, high) in enumerate(GROUND):
+        fields.append(form.field(f"{LOWER}{place}", f"{label}, from", low, "µm"))
+        fields.append(form.field(f"{UPPER}{place}", f"{label}, to", high, "µm"))
+    return Controls("Search", fields=tuple(fields)), *range_controls(form, LEFT_ALONE)
 
 
 def _result(study: PageStudy, lines: list[Line]) -> Result:
@@ -98,28 +74,25 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     solved = [line for line in trials if line["objective"] is not None]
     if not solved:
         return Result("")
-    end, output, asked = lines[-1], study.output, study.asked
+    end, output = lines[-1], study.output
     greatest = output.view.greatest_is_best
-    tried = [
-        Tried(inf if line["objective"] is None else line["objective"], line["objective"] is not None) for line in trials
-    ]
+    reached = [line["objective"] for line in trials]
+    tried = [Tried(inf if each is None else each, each is not None) for each in reached]
     figure = {"search": search(axis_of(output), tried, greatest=greatest)}
     if end["type"] != "end":
         best = (max if greatest else min)(solved, key=lambda line: line["objective"])
-        lead = Lead("Open the unit ground so", address_at(asked, best["at"]))
+        lead = Link("Open the unit ground so", study.address(best["at"]))
         return Result("", figure, first=(_so_far(study, solved[0], best),), leads=(lead,))
-    wanted = (
-        end["rounded"]
-        if end["rounded"]["objective"] is not None
-        else {"at": end["best"], "objective": end["objective_best"], "worst_corner": end["worst_corner"]}
-    )
+    wanted = end["rounded"]
+    if wanted["objective"] is None:
+        wanted = {"at": end["best"], "objective": end["objective_best"], "worst_corner": end["worst_corner"]}
     at, corner, outputs = wanted["at"], wanted["worst_corner"], [output.path]
-    case, ground = case_at(asked, {}, outputs), case_at(asked, at, outputs)
+    case, ground = study.case({}, outputs), study.case(at, outputs)
     figures = {
         "lead": _lead_chart(case, at),
         **load_figure(
-            case_at(asked, {**at, **corner}, outputs),
-            case_at(asked, trials[0]["worst_corner"], outputs),
+            study.case({**at, **corner}, outputs),
+            study.case(trials[0]["worst_corner"], outputs),
             "ground so",
             "each at its worst corner, dashed as described: ",
         ),
@@ -130,12 +103,12 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     return Result(
         f"{end['evaluations']} corrections at {lines[0]['corners']} corners in {shown(end['elapsed_s'], 2)} s",
         figures,
-        (_numbers(case, end, at), corner_table("The worst corner with this correction", asked, ground, corner)),
+        (_numbers(case, end, at), corner_table("The worst corner with this correction", study, ground, corner)),
         (f"{unsolved} of the corrections had a corner without solution.",) if unsolved else (),
         (
-            Lead("Open the unit ground so", address_at(asked, at)),
-            Lead("Its report", address_at(asked, at, "/report")),
-            Lead("Its worst corners", address_at(asked, at, f"/{study_links.CORNERS.name}")),
+            Link("Open the unit ground so", study.address(at)),
+            Link("Its report", study.address(at, "/report")),
+            Link("Its worst corners", study.address(at, f"/{study_links.CORNERS.name}")),
         ),
         first=(_sheet(study, case, at), _before_and_after(study, end, wanted, case, ground)),
     )
@@ -143,19 +116,19 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
 
 def _so_far(study: PageStudy, start: Line, best: Line) -> Table:
     """The best correction found, before the search has ended."""
+    output = study.output
     rows = []
     for path, value in best["at"].items():
-        leaf = input_at(study.asked, path)
+        leaf = study.input(path)
         rows.append((leaf.title, shown(start["at"][path], 4), shown(value, 4), leaf.unit or ""))
-    output, judged = study.output, (shown(start["objective"]), shown(best["objective"]))
-    rows.append((f"{output.title}, at the worst corner", *judged, output.unit or ""))
-    head = ("correction", Number("as described"), Number("best so far"), "unit")
-    return Table("Best so far", head, tuple(rows))
+    judged = f"{output.title}, at the worst corner"
+    rows.append((judged, shown(start["objective"]), shown(best["objective"]), output.unit or ""))
+    return Table("Best so far", ("correction", Number("as described"), Number("best so far"), "unit"), tuple(rows))
 
 
 def _ends(case: Case) -> tuple[str, str]:
     """What the end of the face that meshes first and the one that leaves the mesh last are called."""
-    first, last = (case.response.misalignment.curves.z_mm[end] for end in (0, -1))
+    first, *_, last = case.response.misalignment.curves.z_mm
     drive = case.request.pinion_shaft.torque_position_mm
     if drive is None:
         return f"end at Z = {shown(first)} mm", f"end at Z = {shown(last)} mm"
@@ -165,95 +138,83 @@ def _ends(case: Case) -> tuple[str, str]:
 
 def _sheet(study: PageStudy, case: Case, at: Overrides) -> Table:
     """What to grind: gear, place, amount and tolerance."""
-    first, last = _ends(case)
+    inputs = case.response.inputs
     slope = float(at[SLOPE] or 0.0)
-    deep, high = (last, first) if slope >= 0.0 else (first, last)
+    deep, high = _ends(case) if slope < 0.0 else reversed(_ends(case))
+    tip, wheel_tip = (
+        f"tip relief, {shown(length)} mm along the line of action" if length is not None else "tip relief"
+        for length in (value_at(inputs, path.replace("_um", "_length_mm")) for path in (TIP, ROOT))
+    )
     entries = (
         (SLOPE, "pinion", "helix slope, over the face width", f"{deep} deeper than the {high}, straight between"),
         (CROWNING, "pinion", "helix crowning", "both ends deeper than the middle of the face"),
-        (TIP, "pinion", f"tip relief{_length(case, TIP)}", "tip deeper than the involute"),
-        (ROOT, "wheel", f"tip relief{_length(case, ROOT)}", "tip deeper than the involute"),
+        (TIP, "pinion", tip, "tip deeper than the involute"),
+        (ROOT, "wheel", wheel_tip, "tip deeper than the involute"),
     )
     rows = []
     for path, gear, feature, place in entries:
-        leaf, described = input_at(study.asked, path), float(value_at(case.response.inputs, path) or 0.0)
-        amount = abs(slope) if path == SLOPE else at[path]
-        if path == SLOPE and slope < 0.0:
-            described = -described
+        leaf, described, amount = study.input(path), float(value_at(inputs, path) or 0.0), at[path]
+        if path == SLOPE:  # `where` says the sign
+            described, amount = -described if slope < 0.0 else described, abs(slope)
         numbers = (shown(described), shown(amount, 4), f"± {shown(leaf.declared.tolerance)}")
         rows.append((gear, feature, place, *numbers, leaf.unit or ""))
     numbered = map(Number, ("as described", "grind", "tolerance"))
-    head = ("gear", "correction", "where", *numbered, "unit")
     note = (
         f"Working flanks only; deeper: more material removed. Multiples of {STEP_UM:g} µm; tolerances are those usual "
         "for these corrections. Helix slope and crowning are the sum of both gears, here all on the pinion; tip relief "
         "of the wheel stands for root relief of the pinion."
     )
-    return Table("What to grind", head, tuple(rows), note)
-
-
-def _length(case: Case, path: str) -> str:
-    """The length of a relief, where the case gives it."""
-    length = value_at(case.response.inputs, path.replace("_um", "_length_mm"))
-    return "" if length is None else f", {shown(length)} mm along the line of action"
+    return Table("What to grind", ("gear", "correction", "where", *numbered, "unit"), tuple(rows), note)
 
 
 def _before_and_after(study: PageStudy, end: Line, wanted: Line, case: Case, ground: Case) -> Table:
     """The output at the worst corner and at the values as described, before and after, and why the latter may fall."""
     output = study.output
-    nominal = [value_at(each.response, output.path) for each in (case, ground)]
-    rows = tuple(
-        (name, *map(shown, numbers), output.unit or "")
-        for name, numbers in (
-            ("at the worst corner of each", (end["objective_start"], wanted["objective"])),
-            ("with the inputs as described", nominal),
-        )
+    before, after = (value_at(each.response, output.path) for each in (case, ground))
+    unit, note = output.unit or "", ""
+    rows = (
+        ("at the worst corner of each", shown(end["objective_start"]), shown(wanted["objective"]), unit),
+        ("with the inputs as described", shown(before), shown(after), unit),
     )
-    head = (output.title, Number("as described"), Number("ground so"), "unit")
-    note = ""
-    if None not in nominal and (nominal[1] < nominal[0]) == (output.view.greatest_is_best) and nominal[1] != nominal[0]:
+    if None not in {before, after} and (after < before if output.view.greatest_is_best else after > before):
         note = (
             "With the inputs as described it is worse than before: the correction is sized for the corner that is "
             "worst for it, and a flank that is right there is not quite right elsewhere."
         )
-    return Table("What it brings", head, rows, note)
+    return Table("What it brings", (output.title, Number("as described"), Number("ground so"), "unit"), rows, note)
 
 
 def _numbers(case: Case, end: Line, at: Overrides) -> Table:
     """Which helix slope and crowning stand on the pages of this unit, and what each is."""
-    found = case.response.misalignment
-    inputs = case.response.inputs
-    rows = (
-        ("as described", (value_at(inputs, SLOPE), value_at(inputs, CROWNING))),
-        (
-            "first estimate: inputs as described, load spread evenly over the face",
-            (found.recommended_helix_slope_um, found.recommended_lead_crowning_um),
-        ),
-        ("best at the worst corner, as the search found it", (end["best"][SLOPE], end["best"][CROWNING])),
-        (f"to grind: the best in multiples of {STEP_UM:g} µm", (at[SLOPE], at[CROWNING])),
+    found, inputs = case.response.misalignment, case.response.inputs
+    estimate = "first estimate: inputs as described, load spread evenly over the face"
+    entries = (
+        ("as described", value_at(inputs, SLOPE), value_at(inputs, CROWNING)),
+        (estimate, found.recommended_helix_slope_um, found.recommended_lead_crowning_um),
+        ("best at the worst corner, as the search found it", end["best"][SLOPE], end["best"][CROWNING]),
+        (f"to grind: the best in multiples of {STEP_UM:g} µm", at[SLOPE], at[CROWNING]),
     )
-    head = ("number", Number("helix slope, µm"), Number("helix crowning, µm"))
     return Table(
         "Which number is which",
-        head,
-        tuple((name, *(shown(each, 4) for each in numbers)) for name, numbers in rows),
+        ("number", Number("helix slope, µm"), Number("helix crowning, µm")),
+        tuple((name, shown(slope, 4), shown(crowning, 4)) for name, slope, crowning in entries),
         "A positive helix slope removes material at the end of the face that leaves the mesh last.",
     )
 
 
 def _lead_chart(case: Case, at: Overrides) -> Figure:
     """The trace of helix slope and crowning with its tolerances, dashed as described."""
-    curves, request = case.response.misalignment.curves, case.calculation.request
-    tolerances = [scalar_at(request, path, "", "unknown_path").declared.tolerance for path in (SLOPE, CROWNING)]
+    curves, inputs = case.response.misalignment.curves, case.response.inputs
+    leaves = [scalar_at(case.calculation.request, path, "", "unknown_path") for path in (SLOPE, CROWNING)]
     position = values(curves.position_mm)
     trace = LeadTrace(
         values(curves.z_mm),
         values(position / position[-1]),
-        *(float(at[path] or 0.0) for path in (SLOPE, CROWNING)),
-        *(each or 0.0 for each in tolerances),
+        *(float(at[leaf.path] or 0.0) for leaf in leaves),
+        *(leaf.declared.tolerance or 0.0 for leaf in leaves),
     )
-    before = [float(value_at(case.response.inputs, path) or 0.0) for path in (SLOPE, CROWNING)]
-    return lead_chart(trace, (before[0], before[1]), _ends(case))
+    slope, crowning = (float(value_at(inputs, leaf.path) or 0.0) for leaf in leaves)
+    return lead_chart(trace, (slope, crowning), _ends(case))
 
 
 def _gap(ground: Case, case: Case) -> dict[str, Figure]:
@@ -276,6 +237,6 @@ DESIGN = StudyPage(
     result=_result,
     outputs=(OUTPUT,),
     controls=_controls,
-    ranges=_ranges,
+    ranges=partial(ranges_of, left_alone=LEFT_ALONE),
     grows=True,
 )

@@ -6,7 +6,8 @@ from app.figures.studies import Influence, influence
 from app.figures.units import axis_of
 from app.pages import study_links
 from app.pages.query import link
-from app.pages.studies.declaration import Link, Number, PageStudy, Result, StudyPage, Table, numbered
+from app.pages.studies.declaration import Link, Number, PageStudy, Result, StudyPage, Table
+from app.pages.studies.sweep import numbered
 from app.pages.typesetting import shown
 from app.pages.views import Asked
 from app.schema.fields import Leaf
@@ -18,12 +19,7 @@ MOST_ROWS = 40  # of a table that can be read; the file has all
 
 
 def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
-    calculation = asked.calculation
-    return {
-        "endpoint": calculation.path,
-        "request": asked.body,
-        "outputs": [output.path],
-    }
+    return {"endpoint": asked.calculation.path, "request": asked.body, "outputs": [output.path]}
 
 
 def _result(study: PageStudy, lines: list[Line]) -> Result:
@@ -31,15 +27,10 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     *found, end = (line for line in lines if line["type"] in {"sensitivity", "end"})
     value, output = end["outputs"][0]["value"], study.output
     inputs = {each["path"]: each for each in end["inputs"]}
-    moved = [line for line in found if line["change"] is not None]
-    progress = f"{end['points']} cases in {shown(end['elapsed_s'], 2)} s"
+    moved = [inputs[line["path"]] | line for line in found if line["change"] is not None]
     figures, remarks = {}, []
     if isinstance(value, int | float):
-        names = [numbered(inputs[line["path"]]["title"], line["path"]) for line in moved]
-        steps = [
-            Influence(name, _step(line, inputs), line["change"], bool(line["kink"]))
-            for name, line in zip(names, moved, strict=True)
-        ]
+        steps = [Influence(_name(line), _step(line), line["change"], bool(line["kink"])) for line in moved]
         figure = influence(axis_of(output), float(value), steps)
         if figure.panels:
             figures["influence"] = figure
@@ -49,37 +40,39 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
         remarks.append(f"The case has no {output.title}, so nothing moves it.")
     if GIVEN_BULK in {each["reason"] for each in end["assumptions"]}:
         remarks.append(f"Oil temperature: {GIVEN_BULK}.")
-    tables = (_table(study, moved, inputs),) if moved else ()
-    return Result(progress, figures, tables, tuple(remarks))
+    progress = f"{end['points']} cases in {shown(end['elapsed_s'], 2)} s"
+    return Result(progress, figures, (_table(study, moved),) if moved else (), tuple(remarks))
 
 
-def _table(study: PageStudy, moved: list[Line], inputs: dict[str, dict[str, Any]]) -> Table:
-    output, more = study.output, max(len(moved) - MOST_ROWS, 0)
+def _name(line: Line) -> str:
+    return numbered(line["title"], line["path"])
+
+
+def _step(line: Line) -> str:
+    return f"+{shown(line['step'], 3)}" + (f" {line['unit']}" if line["unit"] else "")
+
+
+def _table(study: PageStudy, moved: list[Line]) -> Table:
+    output, asked, more = study.output, study.asked, len(moved) - MOST_ROWS
+    rows = []
+    for line in moved[:MOST_ROWS]:
+        varied = {"x": line["path"], "show": output.path, "theme": asked.views.get("theme", "")}
+        row = (
+            Link(_name(line), link(f"{asked.path}/vary", asked.pairs, **varied)),
+            shown(float(line["value"])),
+            line["unit"] or "",
+            _step(line),
+            shown(line["change"], 4),
+            shown(line["elasticity"], 3),
+            "up and down differ" if line["kink"] else "half a step differs" if line["curved"] else "",
+        )
+        rows.append(row)
     changes = f"changes the {output.title} by{f', {output.unit}' if output.unit else ''}"
     return Table(
-        title="Inputs, the most influential first",
-        head=("input", Number("value"), "unit", Number("one step"), Number(changes), Number("% for 1 %"), "remark"),
-        rows=tuple(_row(study, line, inputs) for line in moved[:MOST_ROWS]),
-        note="A name leads to the curve over that input." + (f" {more} inputs more change it less." if more else ""),
-    )
-
-
-def _step(line: Line, inputs: dict[str, dict[str, Any]]) -> str:
-    unit = inputs[line["path"]]["unit"]
-    return f"+{shown(line['step'], 3)}{f' {unit}' if unit else ''}"
-
-
-def _row(study: PageStudy, line: Line, inputs: dict[str, dict[str, Any]]) -> tuple[str | Link, ...]:
-    entry, asked = inputs[line["path"]], study.asked
-    sweep = {"x": line["path"], "show": study.output.path, "theme": asked.views.get("theme", "")}
-    return (
-        Link(numbered(entry["title"], entry["path"]), link(f"{asked.path}/vary", asked.pairs, **sweep)),
-        shown(float(entry["value"])),
-        entry["unit"] or "",
-        _step(line, inputs),
-        shown(line["change"], 4),
-        shown(line["elasticity"], 3),
-        "up and down differ" if line["kink"] else "half a step differs" if line["curved"] else "",
+        "Inputs, the most influential first",
+        ("input", Number("value"), "unit", Number("one step"), Number(changes), Number("% for 1 %"), "remark"),
+        tuple(rows),
+        "A name leads to the curve over that input." + (f" {more} inputs more change it less." if more > 0 else ""),
     )
 
 

@@ -1,6 +1,7 @@
 """A load spectrum: cases as a table to paste, tolerances beside the fields that scatter, probabilities and losses."""
 
 import csv
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -10,23 +11,11 @@ from app.figures.data import Figure, NoFigure
 from app.figures.spectrum import Band, Chance, Limited, SpectrumCase, chances, deciding, losses, overlap
 from app.figures.units import axis_of
 from app.figures.wording import percent
+from app.pages import study_links
 from app.pages.form import FieldView
 from app.pages.query import SCATTERING, Pairs, link, number_of, pairs_of, text_of
-from app.pages.studies.declaration import (
-    Controls,
-    Form,
-    Lead,
-    Link,
-    Number,
-    PageStudy,
-    Result,
-    StudyPage,
-    Table,
-    address_at,
-)
+from app.pages.studies.declaration import Controls, Form, Link, Number, PageStudy, Result, StudyPage, Table
 from app.pages.studies.sweep import field_choices
-from app.pages.study_links import SPECTRUM as LINK
-from app.pages.study_links import Starter
 from app.pages.templating import page_path
 from app.pages.typesetting import cited, shown
 from app.pages.views import Asked
@@ -65,9 +54,7 @@ def cases_of(calculation: Calculation, text: str) -> list[dict[str, Any]]:
     Columns are parted by tabs, as a spreadsheet copies them, or by semicolons; an empty cell changes nothing. Raises
     Unprocessable.
     """
-    lines = [line for line in text.splitlines() if line.strip()]
-    if not lines:
-        return [{}]
+    lines = [line for line in text.splitlines() if line.strip()] or [""]
     separator = next((each for each in SEPARATORS if each in lines[0]), "\t")
     try:
         heading, *rows = csv.reader(lines, delimiter=separator)
@@ -78,34 +65,26 @@ def cases_of(calculation: Calculation, text: str) -> list[dict[str, Any]]:
 
 
 def _case(calculation: Calculation, columns: list[str], row: list[str], line: int) -> dict[str, Any]:
+    """A line of the table; a cell that its field does not take stays text, for the study to refuse."""
     if any(cell.strip() for cell in row[len(columns) :]):
         raise Unprocessable("table", f"line {line} has more columns than the first line names", "cases")
-    cells = {column: cell.strip() for column, cell in zip(columns, row, strict=False) if cell.strip()}
     case: dict[str, Any] = {"set": {}}
-    for column, cell in cells.items():
+    for column, cell in zip(columns, map(str.strip, row), strict=False):
+        leaf = leaf_at(calculation.request, column)
+        if not cell:
+            continue
         if column == NAME:
             case[NAME] = cell
         elif column == SHARE:
-            case[SHARE] = _share(cell, line)
+            share = number_of(cell.removesuffix("%").strip())
+            if isinstance(share, str):
+                raise Unprocessable("table", f"line {line}: the share is no number", "cases")
+            case[SHARE] = float(share) / (100.0 if cell.endswith("%") else 1.0)
+        elif leaf is not None and leaf.kind == "boolean":
+            case["set"][column] = {"true": True, "false": False}.get(cell, cell)
         else:
-            case["set"][column] = _typed(calculation, column, cell)
+            case["set"][column] = number_of(cell) if leaf is None or leaf.kind in NUMBERS else cell
     return case
-
-
-def _share(cell: str, line: int) -> float:
-    """A fraction, or a percentage with its sign."""
-    number = number_of(cell.removesuffix("%").strip())
-    if isinstance(number, str):
-        raise Unprocessable("table", f"line {line}: the share is no number", "cases")
-    return float(number) / (100.0 if cell.endswith("%") else 1.0)
-
-
-def _typed(calculation: Calculation, path: str, cell: str) -> Any:
-    """A cell as its field takes it; what does not fit stays text, for the study to refuse."""
-    leaf = leaf_at(calculation.request, path)
-    if leaf is not None and leaf.kind == "boolean":
-        return {"true": True, "false": False}.get(cell, cell)
-    return number_of(cell) if leaf is None or leaf.kind in NUMBERS else cell
 
 
 def table_of(cases: list[dict[str, Any]]) -> str:
@@ -145,11 +124,16 @@ def _scatter(asked: Asked, place: int) -> dict[str, Any]:
     where = f"tolerances.inputs.{place}"
     leaf = scalar_at(calculation.request, views[name], f"{where}.path", "unknown_path")
     own = value_at(asked.case, leaf.path)
-    about = _number_of(views.get(f"{name}.about"), own, f"{leaf.title}: say around which value", where)
-    usual = None if leaf.declared.tolerance is None else float(leaf.declared.tolerance)
-    by = _number_of(views.get(f"{name}.by"), usual, f"{leaf.title}: say by how much", where)
+    numbers = []
+    for part, usual, lacks in (("about", own, "around which value"), ("by", leaf.declared.tolerance, "by how much")):
+        text = views.get(f"{name}.{part}")
+        number = number_of(text) if text else usual
+        if not isinstance(number, int | float) or isinstance(number, bool):
+            raise Unprocessable("missing", f"{leaf.title}: say {lacks}", where)
+        numbers.append(float(number))
+    about, by = numbers
     law = views.get(f"{name}.law") or "normal"
-    known: dict[str, dict[str, float]] = {
+    known = {
         "normal": {"mean": about, "deviation": by},
         "lognormal": {"median": about, "factor": by},
         "uniform": {"min": about - by, "max": about + by},
@@ -158,65 +142,48 @@ def _scatter(asked: Asked, place: int) -> dict[str, Any]:
     return {"path": leaf.path, "distribution": law, **known.get(law, {})}
 
 
-def _number_of(text: str | None, usual: Any, lacks: str, where: str) -> float:
-    value = number_of(text) if text else usual
-    if not isinstance(value, int | float) or isinstance(value, bool):
-        raise Unprocessable("missing", lacks, where)
-    return float(value)
-
-
 def _limits(calculation: Calculation, output: Leaf, views: dict[str, str]) -> list[dict[str, Any]] | None:
     """The limit as typed, else that of the output; None where it is the scuffing temperature."""
-    usual = output.view.limit
-    text, scatter = views.get("limit"), views.get("limit.by")
-    if not text:
-        assumed = _is_default_limited(calculation, output.path)
-        if assumed or not output.view.bound or not isinstance(usual, int | float):
-            if scatter:
-                raise Unprocessable("missing", "give the limit whose deviation this is", "limits.0.above")
-            return None if assumed else []
-    value = number_of(text) if text else usual
+    text, scatter, value = views.get("limit"), views.get("limit.by"), output.view.limit
+    assumed = calculation.path in SCUFFING and output.path == SCUFFING[calculation.path].contact
+    if text:
+        value = number_of(text)
+    elif assumed or not output.view.bound or not isinstance(value, int | float):
+        if scatter:
+            raise Unprocessable("missing", "give the limit whose deviation this is", "limits.0.above")
+        return None if assumed else []
     side = views.get("limit.side") or ("below" if output.view.greatest_is_best else "above")
     threshold = {"mean": value, "deviation": number_of(scatter)} if scatter else {"value": value}
     return [{"output": output.path, side: threshold}]
 
 
-def _is_default_limited(calculation: Calculation, path: str) -> bool:
-    """Whether the scuffing temperature is the limit of an output where none is given."""
-    return calculation.path in SCUFFING and path == SCUFFING[calculation.path].contact
-
-
 def _controls(form: Form) -> tuple[Controls, ...]:
-    """The table of cases, the tolerances, the limit."""
-    asked = form.asked
+    """The table of cases, and the tolerances."""
+    asked, views = form.asked, form.asked.views
     case = asked.case
-    groups = [Controls("Load spectrum", fields=(_table_field(form, case),))]
-    used = [place for place in range(SCATTERING) if asked.views.get(f"t{place}")]
-    choices = field_choices(asked.calculation, case, texts=False) if asked.pairs else []
-    for place in range(min(SCATTERING, max(used, default=-1) + 3)):
-        name = f"t{place}"
-        leaf = leaf_at(asked.calculation.request, asked.views.get(name, ""))
-        own = value_at(case, asked.views[name]) if leaf is not None else None
-        fields = (
-            form.field(f"{name}.law", "distribution", options=LAWS),
-            form.field(
-                f"{name}.by", "by", leaf.declared.tolerance if leaf else None, (leaf.unit or "") if leaf else ""
-            ),
-            form.field(f"{name}.about", "around", own, (leaf.unit or "") if leaf else ""),
-        )
-        groups.append(Controls(f"Tolerance {place + 1}", form.menu(name, "field", "none", choices), fields))
-    return tuple(groups)
-
-
-def _table_field(form: Form, case: dict[str, Any]) -> FieldView:
-    text = form.asked.views.get("cases", "")
-    view = form.field("cases", "cases")
     help_ = (
         "The first line names the columns: name, share (of the time) and fields of the request.",
         "One line a case, columns parted by tabs or semicolons, as pasted from a spreadsheet.",
         "An empty cell changes nothing.",
     )
-    return replace(view, widget="table", text=text or _suggested(case), help=help_)
+    text = views.get("cases") or _suggested(case)
+    table = replace(form.field("cases", "cases"), widget="table", text=text, help=help_)
+    groups = [Controls("Load spectrum", fields=(table,))]
+    last = max((place for place in range(SCATTERING) if views.get(f"t{place}")), default=-1)
+    choices = field_choices(asked.calculation, case, texts=False) if asked.pairs else []
+    for place in range(min(SCATTERING, last + 3)):
+        name = f"t{place}"
+        leaf = leaf_at(asked.calculation.request, views.get(name, ""))
+        unit, usual, own = "", None, None
+        if leaf is not None:
+            unit, usual, own = leaf.unit or "", leaf.declared.tolerance, value_at(case, views[name])
+        fields = (
+            form.field(f"{name}.law", "distribution", options=LAWS),
+            form.field(f"{name}.by", "by", usual, unit),
+            form.field(f"{name}.about", "around", own, unit),
+        )
+        groups.append(Controls(f"Tolerance {place + 1}", form.menu(name, "field", "none", choices), fields))
+    return tuple(groups)
 
 
 def _suggested(case: dict[str, Any]) -> str:
@@ -227,9 +194,8 @@ def _suggested(case: dict[str, Any]) -> str:
 
 
 def _shows(form: Form) -> tuple[FieldView, ...]:
-    calculation, views = form.asked.calculation, form.asked.views
-    chosen = views.get("show") or next(iter(SCUFFING.get(calculation.path, ())), "")
-    assumed = not views.get("limit") and _is_default_limited(calculation, chosen)
+    views, paths = form.asked.views, SCUFFING.get(form.asked.calculation.path)
+    assumed = paths and not views.get("limit") and (views.get("show") or paths.contact) == paths.contact
     return (
         form.field("limit", "limit", "its own"),
         form.field("limit.by", "deviation of the limit", f"{percent(RELATIVE_DEVIATION)} of it" if assumed else "none"),
@@ -242,11 +208,15 @@ def _shows(form: Form) -> tuple[FieldView, ...]:
 def _result(study: PageStudy, lines: list[Line]) -> Result:
     """The probability, what it is made of, what decides, the losses; each case leads to its page."""
     header, end, output = lines[0], lines[-1], study.output
-    figures: dict[str, Figure] = {}
+    cases = len(header["cases"])
+    machines = end["points"] // cases
+    counted = [f"{count} {noun}{'s' * (count > 1)}" for count, noun in ((machines, "machine"), (cases, "case"))]
+    progress = f"{' in '.join(counted)}, {shown(end['elapsed_s'], 2)} s"
+    figures, notes = dict[str, Figure](), [*end["notes"]]
     found = next((each for each in end["limits"] if each["output"] == output.path), None)
-    limited = None if found is None else _limited(study, header, end, found)
-    notes = [*end["notes"]]
-    if limited is not None:
+    if found is not None:
+        limited = _limited(study, header, end, found)
+        progress = f"{limited.sentence[0].upper()}{limited.sentence[1:]}; {progress}"
         for name, draw in (("limit", overlap), ("probability", chances), ("decides", deciding)):
             try:
                 figures[name] = draw(limited)
@@ -260,26 +230,20 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
             f"{unsolved} of {end['points']} points have no solution; each probability lies between taking them as good "
             f"and as bad"
         )
-    figures |= _losses(study, header, end)
-    tables = [_cases_table(study, end, found), _outputs_table(study, header, end)]
-    if found is not None:
-        tables.insert(0, _limit_table(study, end, found))
-    if header["tolerances"]:
-        tables.append(_tolerances_table(header, found))
-    cases = len(header["cases"])
-    machines = end["points"] // cases
-    counted = [f"{count} {noun}{'s' * (count > 1)}" for count, noun in ((machines, "machine"), (cases, "case"))]
-    progress = f"{' in '.join(counted)}, {shown(end['elapsed_s'], 2)} s"
-    if limited is not None:
-        progress = f"{limited.sentence[0].upper()}{limited.sentence[1:]}; {progress}"
-    leads = (Lead("Report with this spectrum", study.links.view("/report")),)
+    tables = (
+        *((_limit_table(study, end, found),) if found is not None else ()),
+        _cases_table(study, end, found),
+        _outputs_table(study, header, end),
+        *((_tolerances_table(header, found),) if header["tolerances"] else ()),
+    )
     remarks = tuple(f"{note[0].upper()}{note[1:]}." for note in notes)
-    return Result(progress, figures, tuple(tables), remarks, leads)
+    leads = (Link("Report with this spectrum", study.links.view("/report")),)
+    return Result(progress, figures | _losses(study, header, end), tables, remarks, leads)
 
 
 def _chance(found: Line) -> Chance:
     low, high = found["bounds"]
-    return Chance(low, high, None if found["interval"] is None else (found["interval"][0], found["interval"][1]))
+    return Chance(low, high, found["interval"] and tuple(found["interval"]))
 
 
 def _limited(study: PageStudy, header: Line, end: Line, found: Line) -> Limited:
@@ -291,8 +255,8 @@ def _limited(study: PageStudy, header: Line, end: Line, found: Line) -> Limited:
         decides = None if found["decides"] is None else found["decides"][index]
         cases.append(SpectrumCase(each["name"], Band(*band) if band else None, _chance(each["limits"][place]), decides))
     worst = sorted(cases, key=lambda case: -case.chance.high)[:MOST_BARS]
-    titles = {each["path"]: each["title"] for each in (header["tolerances"] or {"inputs": []})["inputs"]}
-    known = {titles[path]: value for path, value in (found["rank_correlation"] or {}).items() if value is not None}
+    titles = {each["path"]: each["title"] for each in header["tolerances"]["inputs"]} if header["tolerances"] else {}
+    ranks = found["rank_correlation"] or {}
     return Limited(
         output=axis_of(output),
         above=found["side"] == "above",
@@ -303,24 +267,23 @@ def _limited(study: PageStudy, header: Line, end: Line, found: Line) -> Limited:
         cases=tuple(case for case in cases if case in worst),
         edges=tuple(found["histogram"]["edges"]),
         density=tuple(found["histogram"]["density"]),
-        influences=known,
+        influences={titles[path]: value for path, value in ranks.items() if value is not None},
     )
 
 
 def _losses(study: PageStudy, header: Line, end: Line) -> dict[str, Figure]:
-    """Mean losses of the cases; nothing where one of them is not known."""
-    units = {each["path"]: each for each in header["outputs"]}
-    paths = [path for path in LOSSES.get(study.asked.calculation.path, ()) if end["outputs"][path]["mean"] is not None]
+    """Mean losses of the cases; nothing where none of them is known."""
+    titles, outputs = {each["path"]: each["title"] for each in header["outputs"]}, end["outputs"]
+    paths = [path for path in LOSSES.get(study.asked.calculation.path, ()) if outputs[path]["mean"] is not None]
     if not paths:
         return {}
     cases = {
-        each["name"]: {units[path]["title"]: (each["means"][path] or 0.0) / 1e3 for path in paths}
+        each["name"]: {titles[path]: (each["means"][path] or 0.0) / 1e3 for path in paths}
         for each in end["cases"][:MOST_BARS]
     }
-    mean = {units[path]["title"]: end["outputs"][path]["mean"] / 1e3 for path in paths}
-    years = [end["outputs"][path].get("energy_kwh_per_year") for path in paths]
-    energy = None if None in years else sum(years) / 1e3
-    return {"losses": losses(cases, mean, energy)}
+    mean = {titles[path]: outputs[path]["mean"] / 1e3 for path in paths}
+    years = [outputs[path].get("energy_kwh_per_year") for path in paths]
+    return {"losses": losses(cases, mean, None if None in years else sum(years) / 1e3)}
 
 
 def _limit_table(study: PageStudy, end: Line, found: Line) -> Table:
@@ -342,15 +305,15 @@ def _cases_table(study: PageStudy, end: Line, found: Line | None) -> Table:
     """Every case with its share, its probability, how often it decides, and its output."""
     output, spectrum = study.output, study.study
     assert isinstance(spectrum, Spectrum)
-    place = None if found is None else end["limits"].index(found)
     rows: list[tuple[str | Link, ...]] = []
     for index, each in enumerate(end["cases"]):
-        known = each["quantiles"][output.path] or [None] * 3
-        chance = [] if place is None else [_chance(each["limits"][place]).text]
-        decides = [] if found is None else ["–" if found["decides"] is None else percent(found["decides"][index])]
-        name = Link(each["name"], address_at(study.asked, spectrum.cases[index].set))
-        quantiles = [shown(value, 4) for value in known]
-        rows.append((name, percent(each["share"]), *chance, *decides, *quantiles, percent(each["unsolved"])))
+        name = Link(each["name"], study.address(spectrum.cases[index].set))
+        row: list[str | Link] = [name, percent(each["share"])]
+        if found is not None:
+            row.append(_chance(each["limits"][end["limits"].index(found)]).text)
+            row.append("–" if found["decides"] is None else percent(found["decides"][index]))
+        row += [shown(value, 4) for value in each["quantiles"][output.path] or [None] * 3]
+        rows.append((*row, percent(each["unsolved"])))
     unit = f", {output.unit}" if output.unit else ""
     heads = ["share", *(["probability alone", "decides"] if found else []), f"5 %{unit}", "50 %", "95 %", "unsolved"]
     note = f"Of each case 5, 50 and 95 % of the machines have a lower {output.title}. A name leads to the nominal case."
@@ -362,10 +325,10 @@ def _outputs_table(study: PageStudy, header: Line, end: Line) -> Table:
     rows = []
     for each in header["outputs"]:
         found = end["outputs"][each["path"]]
-        ends: list[str | Link] = [
-            "–" if extreme is None else Link(shown(extreme["value"], 4), address_at(study.asked, extreme["at"]))
+        ends = (
+            Link(shown(extreme["value"], 4), study.address(extreme["at"])) if extreme else "–"
             for extreme in (found["min"], found["max"])
-        ]
+        )
         mean, error = shown(found["mean"], 4), shown(found["standard_error"], 2)
         energy = shown(found.get("energy_kwh_per_year"), 4)
         rows.append((each["title"], mean, error, *ends, each["unit"] or "", energy))
@@ -390,48 +353,41 @@ def _tolerances_table(header: Line, found: Line | None) -> Table:
     return Table("Tolerances", head, tuple(rows), note)
 
 
-def views_of(body: dict[str, Any]) -> dict[str, str]:
-    """The query of this page for a study of the interface, with the first of its limits."""
+def address_of(endpoint: Calculation, request: Pairs, body: dict[str, Any]) -> str:
+    """The page of a study of the interface, with the first of its limits."""
     views = {"cases": table_of(body["cases"])}
     for place, each in enumerate((body.get("tolerances") or {"inputs": []})["inputs"]):
-        law = each["distribution"]
-        low, high = each.get("min"), each.get("max")
-        about, by = {
-            "normal": (each.get("mean"), each.get("deviation")),
-            "lognormal": (each.get("median"), each.get("factor")),
-        }.get(law, (None, None) if low is None or high is None else ((low + high) / 2, (high - low) / 2))
-        views |= {f"t{place}": each["path"], f"t{place}.about": text_of(about), f"t{place}.by": text_of(by)}
-        views |= {} if law == "normal" else {f"t{place}.law": law}
+        law, name = each["distribution"], f"t{place}"
+        match each:
+            case {"mean": about, "deviation": by} | {"median": about, "factor": by}:
+                pass
+            case {"min": low, "max": high}:
+                about, by = (low + high) / 2, (high - low) / 2
+        views |= {name: each["path"], f"{name}.about": text_of(about), f"{name}.by": text_of(by)}
+        views |= {} if law == "normal" else {f"{name}.law": law}
     for each in (body.get("limits") or ())[:1]:
         (side,) = {"above", "below"} & set(each)
         known = each[side]
         views |= {"show": each["output"], "limit": text_of(known.get("value", known.get("mean"))), "limit.side": side}
         views |= {"limit.by": text_of(known["deviation"])} if "deviation" in known else {}
-    hours = body.get("hours_per_year")
-    return views if hours is None else {**views, "hours": text_of(hours)}
+    if "hours_per_year" in body:
+        views["hours"] = text_of(body["hours_per_year"])
+    return link(f"{page_path(endpoint)}/{study_links.SPECTRUM.name}", request, **views)
 
 
-def address_of(endpoint: Calculation, request: Pairs, body: dict[str, Any]) -> str:
-    """The page of a study of the interface."""
-    return link(f"{page_path(endpoint)}/{LINK.name}", request, **views_of(body))
-
-
-def _complete(asked: Asked) -> bool:
-    return bool(asked.views.get("cases") or asked.views.get("t0"))
-
-
-def _starters(_: StudyPage, asked: Asked) -> list[Starter]:
+def _starters(_: str, asked: Asked) -> Sequence[study_links.Starter]:
     """The ready studies of the interface; a case of one's own needs none."""
-    calculation = asked.calculation
-    return [
-        Starter(each["summary"], "example", address_of(calculation, pairs_of(each["value"]["request"]), each["value"]))
-        for each in EXAMPLES["/v1/spectrum"].values()
-        if each["value"]["endpoint"] == calculation.path and not asked.pairs
-    ]
+    starters = []
+    for each in EXAMPLES["/v1/spectrum"].values():
+        body = each["value"]
+        if body["endpoint"] == asked.calculation.path and not asked.pairs:
+            address = address_of(asked.calculation, pairs_of(body["request"]), body)
+            starters.append(study_links.Starter(each["summary"], "example", address))
+    return starters
 
 
 SPECTRUM = StudyPage(
-    link=LINK,
+    link=study_links.SPECTRUM,
     question="its load spectrum",
     about="Machines are drawn from the tolerances; each runs every case, and its worst case meets the limit.",
     figures=("limit", "probability", "decides", "losses"),
@@ -442,7 +398,7 @@ SPECTRUM = StudyPage(
     controls=_controls,
     shows=_shows,
     most="spectrum_solves",
-    complete=_complete,
+    needs=("cases", "t0"),
     choose="Cases are a table of what each part of the operating time changes; tolerances say how the fields scatter.",
     starters=_starters,
 )
