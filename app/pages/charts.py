@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from app.figures.comparison import compared
-from app.figures.data import Figure, Line, NoFigure, Role, ThemeName, Values
+from app.figures.data import Figure, NoFigure, Role, ThemeName, Values
 from app.figures.declaration import Declaration
 from app.figures.rendering import written
 from app.figures.tables import columns_of
