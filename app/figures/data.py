@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.errors import Unprocessable
+from app.figures.wording import NO_BREAK
 
 Values = NDArray[np.float64]
-NO_BREAK = "\u00a0"
 ThemeName = Literal["light", "dark"]
 
 
@@ -110,20 +110,11 @@ class Ribbon:
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
-    """A part of a row's value, or one of its values."""
-
-    title: str
-    value: float
-    hue: Hue
-
-
-@dataclass(frozen=True, slots=True)
 class Row:
-    """A named value drawn as a horizontal bar, with its bounds where it is indeterminate; or the sum of its parts.
+    """A named value drawn as a horizontal bar, with its bounds where it is indeterminate; or the sum of its `parts`.
 
     NaN is a value that was not calculated, and is said to be that. Instead of the bar `dots` are points on a line, each
-    with its title.
+    with its name.
     """
 
     name: str
@@ -131,8 +122,8 @@ class Row:
     hue: Hue = Hue.BLUE
     bounds: tuple[float, float] | None = None
     role: Role = Role.RESULT
-    parts: Sequence[Part] = ()
-    dots: Sequence[Part] = ()
+    parts: Sequence["Row"] = ()
+    dots: Sequence["Row"] = ()
 
 
 class Scale(StrEnum):

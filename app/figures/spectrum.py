@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.figures.data import ORDER, Axis, Figure, Hue, Level, Line, NoFigure, Panel, Part, Ribbon, Row, Span, Values
+from app.figures.data import ORDER, Axis, Figure, Hue, Level, Line, NoFigure, Panel, Ribbon, Row, Span, Values
 from app.figures.wording import number, percent
 
 BAND = 1.6448536  # deviations from 5 to 50 %
@@ -166,7 +166,7 @@ def losses(cases: dict[str, dict[str, float]], mean: dict[str, float], energy: f
     hues = {kind: ORDER[place % len(ORDER)] for place, kind in enumerate(mean)}
     rows = []
     for name, own in (*cases.items(), (SPECTRUM, mean)):
-        shares = [Part(kind, own[kind], hue) for kind, hue in hues.items() if kind in own]
+        shares = [Row(kind, own[kind], hue) for kind, hue in hues.items() if kind in own]
         rows.append(Row(name, sum(own.values()), parts=shares))
     year = "" if energy is None else f", {number(energy, 'MWh')} a year"
     finding = f"{number(sum(mean.values()), 'kW')} over the operating time{year}"

@@ -7,25 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from app.figures import parts
-from app.figures.data import (
-    NO_BREAK,
-    ORDER,
-    Axis,
-    Figure,
-    Hue,
-    Level,
-    Line,
-    Map,
-    Mark,
-    Panel,
-    Part,
-    Ribbon,
-    Role,
-    Row,
-    Span,
-    Values,
-)
-from app.figures.wording import listed, number
+from app.figures.data import ORDER, Axis, Figure, Hue, Level, Line, Map, Mark, Panel, Ribbon, Role, Row, Span, Values
+from app.figures.wording import NO_BREAK, listed, number
 
 MOST_CURVES = 6  # beyond it two fields make a map
 FLAT = 0.5  # of the largest value: an output that stays above it is not drawn from zero
@@ -241,7 +224,7 @@ def corners(output: Axis, found: list[Uncertain], nominal: float | None) -> Figu
     rows = []
     for each in found:
         dots = [
-            Part(text, reached, Hue.VERMILLION if text == each.decides else Hue.BLUE)
+            Row(text, reached, Hue.VERMILLION if text == each.decides else Hue.BLUE)
             for text, reached in each.worst.items()
         ]
         rows.append(Row(each.name, each.worst[each.decides], dots=dots))

@@ -66,13 +66,13 @@ def _columns(panel: Panel) -> Iterator[tuple[str, Iterable[Item]]]:
 def _row_columns(panel: Panel) -> Iterator[tuple[str, Iterable[Item]]]:
     own = [row for row in panel.rows if row.role is not Role.VARIANT]
     if any(row.dots for row in own):
-        own = [Row(f"{row.name} {dot.title}", dot.value) for row in own for dot in row.dots]
+        own = [Row(f"{row.name} {dot.name}", dot.value) for row in own for dot in row.dots]
     abscissa = _header(panel.x.title, panel.x)
     yield "name", [row.name for row in own]
     yield abscissa, [row.value for row in own]
-    for title in dict.fromkeys(part.title for row in own for part in row.parts):
-        shares = [sum((part.value for part in row.parts if part.title == title), 0.0) for row in own]
-        yield _header(title, panel.x), shares
+    for name in dict.fromkeys(part.name for row in own for part in row.parts):
+        shares = [sum((part.value for part in row.parts if part.name == name), 0.0) for row in own]
+        yield _header(name, panel.x), shares
     variant = {row.name: row.value for row in panel.rows if row.role is Role.VARIANT}
     if variant:
         yield f"{abscissa} (variant)", [variant.get(row.name) for row in own]

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable
 
+NO_BREAK = "\u00a0"  # a space
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 PLAIN = (1e-3, 1e6)  # magnitudes written without a power of ten
 # A letter or two, an underscore, letters and digits with commas between them.

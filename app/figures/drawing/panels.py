@@ -14,7 +14,7 @@ from matplotlib.text import Text
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.transforms import Bbox, BboxBase
 
-from app.figures.data import Line, Map, Panel, Part, Role, Row, Scale
+from app.figures.data import Line, Map, Panel, Role, Row, Scale
 from app.figures.drawing.style import DASHES, LETTER, LIMIT_DASHES, LINE_HEIGHT, REFERENCE_DASHES, TEXT, Theme
 from app.figures.wording import number
 
@@ -150,9 +150,9 @@ def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
         axes.axvline(0.0, color=theme.frame, linewidth=0.9)
     for row in panel.rows:
         left, place = 0.0, places[row.name]
-        whole = [] if row.dots else [Part("", float(np.nan_to_num(row.value)), row.hue)]
+        whole = [] if row.dots else [Row("", float(np.nan_to_num(row.value)), row.hue)]
         for part in row.parts or whole:
-            label = fill(part.title, NAME_LENGTH)
+            label = fill(part.name, NAME_LENGTH)
             axes.barh(place, part.value, ROW, left=left, label=label, **_bar_style(row.role, theme.drawing[part.hue]))
             left += part.value
         if row.bounds is not None and row.bounds[0] < row.bounds[1]:
@@ -171,13 +171,13 @@ def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
 
 
 def _draw_dots(axes: Axes, place: int, row: Row, theme: Theme) -> None:
-    """The values of a row on a line with titles at its ends."""
+    """The values of a row on a line with names at its ends."""
     dots = sorted(row.dots, key=lambda dot: dot.value)
     axes.plot([dot.value for dot in dots], [place] * len(dots), color=theme.frame, linewidth=3.0, zorder=1)
     for dot in dots:
         axes.plot(dot.value, place, "o", color=theme.drawing[dot.hue], markersize=7)
     for dot, offset in ((dots[0], -7), (dots[-1], 7)):
-        _write(axes, dot.title, (dot.value, place), offset, color=theme.writing[dot.hue])
+        _write(axes, dot.name, (dot.value, place), offset, color=theme.writing[dot.hue])
 
 
 def _write_value(axes: Axes, place: int, row: Row, panel: Panel, theme: Theme) -> None:
