@@ -159,6 +159,7 @@ def test_the_nominal_machine_alone() -> None:
         ({"t0": "friction.coefficient", "t0.by": "-1"}, "t0.by"),
         ({"t0": "friction.coefficient", "t0.by": "x"}, "t0.by"),
         ({"t0": "friction.coeficient", "t0.by": "0.1"}, "t0"),
+        ({"t0": "friction.coefficient", "t0.by": "0.1", "t1": "friction.coefficient", "t1.by": "0.1"}, "t0"),
         ({"t0": "friction.coefficient", "t0.by": "0.02", "machines": "1000000"}, "machines"),
         ({"cases": "name\na", "limit": "x"}, "limit"),
         ({"cases": "name\na", "limit.by": "5", "show": "axial_thrust.force_n"}, "limit"),

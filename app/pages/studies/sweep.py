@@ -124,7 +124,7 @@ def _varied(asked: Asked, case: dict[str, Any], name: str, where: str) -> Varied
             raise Unprocessable("not_scalar", message, f"{where}.path")
         return VariedField(leaf, {"path": leaf.path, "values": choices}, None, None)
     usual = (min(choices), max(choices)) if choices else _usual_ends(leaf, own)
-    axis = _taken(leaf, choices, _spread(asked.views, name, usual, where))
+    axis = _axis(leaf, choices, _spread(asked.views, name, usual, where))
     return VariedField(leaf, {"path": leaf.path, **axis}, usual, own)
 
 
@@ -133,15 +133,16 @@ def _spread(views: dict[str, str], name: str, usual: tuple[float, float] | None,
     typed = [views.get(f"{name}.{end}") for end in ("from", "to")]
     if usual is None and None in typed:
         raise Unprocessable("values_or_range", "the case has no value here to go from: give from and to", where)
-    start, stop = (own if text is None else number_of(text) for text, own in zip(typed, usual or typed, strict=True))
+    ends = zip(typed, usual or typed, strict=True)
+    start, stop = (own if text is None else number_of(text) for text, own in ends)
     if start == stop:
         raise Unprocessable("values_or_range", "from and to are the same", where)
     count = number_of(views.get(f"{name}.count", str(COUNTS[name])))
     return {"start": start, "stop": stop, "count": count, "scale": views.get(f"{name}.scale", "linear")}
 
 
-def _taken(leaf: Leaf, choices: list[float], spread: dict[str, Any]) -> dict[str, Any]:
-    """The spread of a field that takes every number; of others the numbers between its ends that the field takes.
+def _axis(leaf: Leaf, choices: list[float], spread: dict[str, Any]) -> dict[str, Any]:
+    """The axis of a field: its spread, or where the field takes only some numbers, those between the ends.
 
     Whole numbers are as evenly spread as they can be, each once. What is no spread is left to the validator.
     """
@@ -207,7 +208,7 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
     grid = _grid(study, fields, received)
     figures = figures_of(grid)
     first = next(iter(figures))
-    if lines[-1]["type"] in {"sweep", "point"}:
+    if lines[-1]["type"] in {"sweep", "point"}:  # there are points to come
         return Result("", {first: figures[first]})
     progress = f"{len(received)} points in {shown(lines[-1].get('elapsed_s'), 2)} s"
     reasons = Counter(text for line in received for text in _remarks(line)).most_common(MOST_REASONS)
