@@ -49,31 +49,19 @@ SCUFFING = {
 }
 
 
-class Scattering(NamedTuple):
-    """The machines of a study: values of the fields that scatter, a row a machine, replicate after replicate."""
-
-    asked: Tolerances
-    leaves: tuple[Leaf, ...]
-    values: FloatArray
-
-    def header(self) -> Line:
-        """How the machines are drawn, and what share of each distribution is cut off."""
-        inputs = [
-            {**each.model_dump(), "unit": leaf.unit, "title": leaf.title, "cut_off": cut(each, leaf).cut_off}
-            for each, leaf in zip(self.asked.inputs, self.leaves, strict=True)
-        ]
-        return {**self.asked.model_dump(), "inputs": inputs}
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Spectrum(Study):
     """The drawn machines over their cases; the points are every case of the first machine, then of the next.
 
+    `machines` are the values of the fields that scatter, a row a machine, replicate after replicate; the nominal
+    machine alone is a row without values.
     Where no limits are given, the columns behind the outputs hold the scuffing temperature.
     """
 
     cases: list[LoadCase]
-    scattering: Scattering | None
+    tolerances: Tolerances | None
+    scattering: tuple[Leaf, ...]
+    machines: FloatArray
     limits: list[Limit] | None
     hours_per_year: float | None
     points: bool
@@ -81,14 +69,12 @@ class Spectrum(Study):
     @property
     def total(self) -> int:
         """How many points it has."""
-        return (len(self.scattering.values) if self.scattering else 1) * len(self.cases)
+        return len(self.machines) * len(self.cases)
 
     def overrides(self, index: int) -> Overrides:
         """What a point changes in the base request: the values of the machine, and those of the case."""
         draw, case = divmod(index, len(self.cases))
-        machine: Overrides = {}
-        if self.scattering:
-            machine = dict(zip(paths_of(self.scattering.leaves), self.scattering.values[draw].tolist(), strict=True))
+        machine = dict(zip(paths_of(self.scattering), self.machines[draw].tolist(), strict=True))
         return machine | self.cases[case].set
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
@@ -97,7 +83,7 @@ class Spectrum(Study):
             self.header(
                 "spectrum",
                 cases=[case.model_dump() for case in self.cases],
-                tolerances=self.scattering.header() if self.scattering else None,
+                tolerances=self._tolerances_header(),
                 outputs=[output_header(leaf) for leaf in self.outputs],
                 total=self.total,
             )
@@ -116,7 +102,7 @@ class Spectrum(Study):
                 lines.append(clock.line())
                 due = clock.elapsed_s + PROGRESS_S
             yield lines
-        replicates = self.scattering.asked.replicates if self.scattering else 1
+        replicates = self.tolerances.replicates if self.tolerances else 1
         values = tally.values.reshape(replicates, -1, len(self.cases), len(self.question.outputs))
         statistics = await engine.twice_if_lost(pool, evaluated, self, values)
         assumptions = list(tally.assumptions.values())
@@ -134,11 +120,20 @@ class Spectrum(Study):
             }
         ]
 
+    def _tolerances_header(self) -> Line | None:
+        """How the machines are drawn, and what share of each distribution is cut off."""
+        if self.tolerances is None:
+            return None
+        inputs = [
+            {**each.model_dump(), "unit": leaf.unit, "title": leaf.title, "cut_off": cut(each, leaf).cut_off}
+            for each, leaf in zip(self.tolerances.inputs, self.scattering, strict=True)
+        ]
+        return {**self.tolerances.model_dump(), "inputs": inputs}
+
     def _ignored(self, assumptions: Sequence[Line]) -> list[str]:
         """What is to be said of tolerances that the model does not use as the request stands."""
-        drawn = paths_of(self.scattering.leaves) if self.scattering else []
         found = {each["field"]: each["reason"] for each in assumptions if each["reason"].startswith(NOT_USED)}
-        return [f"{path} scatters without effect; {found[path]}" for path in drawn if path in found]
+        return [f"{path} scatters without effect; {found[path]}" for path in paths_of(self.scattering) if path in found]
 
 
 def evaluated(study: Spectrum, values: FloatArray) -> Line:
@@ -193,12 +188,10 @@ def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
     worst = limit.worst(outputs)
     edges, density = probability.histogram(worst)
     solved = ~np.isnan(outputs).any(axis=-1).ravel()
-    correlation = None
-    if study.scattering:
-        correlation = {
-            leaf.path: probability.rank_correlation(column[solved], worst.ravel()[solved])
-            for leaf, column in zip(study.scattering.leaves, study.scattering.values.T, strict=True)
-        }
+    correlation = {
+        leaf.path: probability.rank_correlation(column[solved], worst.ravel()[solved])
+        for leaf, column in zip(study.scattering, study.machines.T, strict=True)
+    }
     return {
         "output": limit.output,
         "side": limit.side,
@@ -207,7 +200,7 @@ def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
         **probability.of_spectrum(outputs, limit)._asdict(),
         "unsolved": 1.0 - float(solved.mean()),
         "decides": probability.deciding(outputs.reshape(-1, outputs.shape[-1]), limit),
-        "rank_correlation": correlation,
+        "rank_correlation": correlation or None,
         "quantiles": probability.quantiles(worst),
         "histogram": {"edges": edges, "density": density},
     }
@@ -255,7 +248,9 @@ def spectrum_study(content: Any, most: int, deadline_s: float) -> Spectrum:
         outputs,
         engine.case_of_study(PATH, request),
         cases=_with_shares(request.cases),
-        scattering=Scattering(tolerances, leaves, _machines(tolerances, leaves)) if tolerances else None,
+        tolerances=tolerances,
+        scattering=leaves,
+        machines=_machines(tolerances, leaves) if tolerances else np.empty((1, 0)),
         limits=None if request.limits is None and assumed else [_limit(each) for each in request.limits or ()],
         hours_per_year=request.hours_per_year,
         points=request.points,

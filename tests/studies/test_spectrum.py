@@ -373,8 +373,8 @@ def test_equal_seeds_give_equal_bytes() -> None:
 
 def test_replicates_are_independent_samples() -> None:
     study = study_of(coupling(tolerances=friction(count=8, replicates=3)))
-    assert study.scattering is not None
-    samples = study.scattering.values.reshape(3, 8)
+    assert study.tolerances is not None
+    samples = study.machines.reshape(3, 8)
     assert len({tuple(sorted(sample)) for sample in samples}) == 3
     for sample in samples:  # one point in each eighth of the distribution
         assert sorted(np.floor(8 * norm.cdf((sample - 0.2) / 0.02)).astype(int)) == list(range(8))
