@@ -22,7 +22,7 @@ from app.figures.data import Figure, NoFigure, Role
 from app.figures.drawing.image import draw
 from app.figures.models import drive_train
 from app.figures.tables import table
-from app.schema.model import Documented
+from app.schema.model import Documented, members
 from solvers.gears.pair import gear_pair
 from solvers.pumping.spaces import flow_at, prepare
 from solvers.scuffing.safety_results import ThermalPath
@@ -137,9 +137,9 @@ def groups(value: Any) -> list[Documented]:
 
 def arrays(model: Documented, unit: str | None = None) -> Iterator[tuple[str | None, np.ndarray[Any, Any]]]:
     """Every array of an answer with the symbol of its unit; a group hands its unit down."""
-    for name in type(model).model_fields:
-        value, symbol = getattr(model, name), type(model).unit_of(name)
-        own = symbol.symbol if symbol else unit
+    for member in members(type(model)):
+        value = getattr(model, member.name)
+        own = member.unit.symbol if member.unit else unit
         for group in groups(value):
             yield from arrays(group, own)
         if isinstance(value, list) and value and isinstance(value[0], int | float | list | type(None)):
@@ -147,9 +147,9 @@ def arrays(model: Documented, unit: str | None = None) -> Iterator[tuple[str | N
 
 
 def scalars(model: Documented, unit: str | None = None) -> Iterator[tuple[str | None, float]]:
-    for name in type(model).model_fields:
-        value, symbol = getattr(model, name), type(model).unit_of(name)
-        own = symbol.symbol if symbol else unit
+    for member in members(type(model)):
+        value = getattr(model, member.name)
+        own = member.unit.symbol if member.unit else unit
         for group in groups(value):
             yield from scalars(group, own)
         if isinstance(value, float):
