@@ -279,21 +279,19 @@ def _named(model: type[Documented], theirs: _Names = (), ours: _Names = ()) -> I
 
 
 def _sent(request: Documented, path: _Names, indices: Iterator[str]) -> str | None:
-    """The path in this request, the field sent of those that exclude each other; None where an item lacks."""
+    """The path in this request, the field sent of those that exclude each other; None where a section or item lacks."""
     here: Any = request
     taken: list[str] = []
     for part in path:
-        name = next(indices, "") if part == ITEM else part
-        if part == ITEM:
-            if not isinstance(here, list | tuple) or not name or int(name) >= len(here):
-                return None
-            here = here[int(name)]
-        elif isinstance(here, Documented):
-            name = _given(here, name)
+        if part == ITEM and isinstance(here, list) and int(index := next(indices)) < len(here):
+            here = here[int(index)]
+            taken.append(index)
+        elif part != ITEM and isinstance(here, Documented):
+            name = _given(here, part)
             here = getattr(here, name)
+            taken.append(name)
         else:
             return None
-        taken.append(name)
     return ".".join(taken)
 
 

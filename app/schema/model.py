@@ -5,8 +5,9 @@
 
 has a field for each declaration on `si.ModelOptions`, named with the suffix of its unit. What stands in the class
 itself is an ordinary field of pydantic: under the name of a filled field it changes the type or the default, and with
-`Input` or `Output` beside the type it replaces the declaration. Requests give the solver's dataclasses in SI
-(`Section.si`), responses are read from them (`from_si`), by names and units that are looked up once a model.
+`Input` or `Output` beside the type it replaces the declaration; `Input.of(Record, "field", text=...)` changes part of
+one. Requests give the solver's dataclasses in SI (`Section.si`), responses are read from them (`from_si`), by names and
+units that are looked up once a model (`members`).
 """
 
 from abc import abstractmethod
@@ -277,15 +278,13 @@ def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, A
 
 @cache
 def _sources(group: type[Documented], record: Any) -> tuple[tuple[Member, str | None], ...]:
-    """The fields of a group that a result has, and the member that holds each; None of the result's own."""
-    hints = get_type_hints(record)
-    inner = {name: held for name, hint in hints.items() if (held := _record_in(hint))}
-    found: list[tuple[Member, str | None]] = []
+    """The filled fields of a group, and the member of the result that holds each; None for the result's own."""
+    held = {name: inner for name, hint in get_type_hints(record).items() if (inner := _record_in(hint))}
+    found = []
     for each in members(group):
-        if each.record and issubclass(record, each.record):
-            found.append((each, None))
-        elif each.record:
-            found.append((each, next(name for name, held in inner.items() if issubclass(held, each.record))))
+        if each.record:
+            holders = (name for name, inner in held.items() if issubclass(inner, each.record))
+            found.append((each, None if issubclass(record, each.record) else next(holders, None)))
     return tuple(found)
 
 
