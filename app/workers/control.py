@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from app.calculations import Stage
 
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+ANSWER_S = 30.0  # a template that takes longer hangs; its imports take a few seconds, loading a stage as long as it takes
 LENGTH = struct.Struct("!i")  # precedes each message of a multiprocessing.connection
 
 
@@ -132,13 +133,14 @@ class Template:
         self._process.wait()
 
     async def _ask(self, *command: Any, descriptor: int | None = None) -> int:
-        """The template's answer to a command, waited for in a thread; raises ProcessDied."""
+        """The template's answer to a command, waited for in a thread; raises ProcessDied where it dies or hangs."""
         async with self._turn:
             try:
                 self._control.send(command)
                 if descriptor is not None:
                     send_handle(self._control, descriptor, self._process.pid)
-                return await asyncio.to_thread(self._control.recv)
+                async with asyncio.timeout(None if command[0] == "warm" else ANSWER_S):
+                    return await asyncio.to_thread(self._control.recv)
             except BaseException as error:
                 self._process.kill()  # the answer to this command must not be taken for that to the next
                 if isinstance(error, (OSError, EOFError)):

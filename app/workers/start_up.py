@@ -87,7 +87,7 @@ class StartUp:
                 await self._load(stage)
         else:
             async with asyncio.TaskGroup() as group:
-                for track in TRACKS if (os.cpu_count() or 1) > 1 else (STAGES,):
+                for track in TRACKS if len(os.sched_getaffinity(0)) > 1 else (STAGES,):
                     group.create_task(self._compile(track))
         if self._missing:
             logger.warning("%d kernels were not on disk; the next start compiles what is missing", self._missing)
