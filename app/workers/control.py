@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from app.calculations import Stage
 
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS", "MKL_NUM_THREADS"), "1")
-ANSWER_S = 30.0  # a template that takes longer hangs; its imports take a few seconds, loading a stage as long as it takes
+ANSWER_S = 30.0  # a template that takes longer hangs: imports take seconds; only for loading a stage there is no limit
 LENGTH = struct.Struct("!i")  # precedes each message of a multiprocessing.connection
 
 
