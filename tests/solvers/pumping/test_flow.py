@@ -35,7 +35,7 @@ from tests.support.properties import examples
 from tests.support.pumping_cases import spaces_of
 
 AIR = gas(Ambient())
-RANDOM = settings(max_examples=100, suppress_health_check=[HealthCheck.filter_too_much])
+RANDOM = settings(max_examples=100, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
 COARSE = PumpingModel(slices=12)
 MODELS = [
     COARSE,
