@@ -35,7 +35,7 @@ from tests.support.properties import examples
 from tests.support.pumping_cases import spaces_of
 
 AIR = gas(Ambient())
-RANDOM = settings(max_examples=100, suppress_health_check=[HealthCheck.filter_too_much])
+RANDOM = settings(max_examples=100, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
 COARSE = PumpingModel(slices=12)
 MODELS = [
     COARSE,
@@ -51,7 +51,7 @@ def test_any_pair_at_any_speed(setup: PumpingSetup, speed: float, model: Pumping
     try:
         result = solve(PumpingInputs(replace(setup, model=replace(model, gap=gap)), speed * pi / 30))
     except InvalidInput as error:
-        assert error.code in {"too_many_steps", "tooth_space_minima", "pointed_tooth"}  # noqa: PT017
+        assert error.code in {"too_many_steps", "tooth_space_minima", "tooth_space_closed", "pointed_tooth"}  # noqa: PT017
         assume(False)
     for spaces in spaces_of(result):
         assert spaces.balance.mass_error < 1e-9

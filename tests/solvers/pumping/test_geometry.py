@@ -22,7 +22,7 @@ from solvers.pumping.space.tooth_space import ToothSpace, stroke_limits, tooth_s
 from tests.support.meshing_pairs import setups
 from tests.support.pumping_cases import rough_gears
 
-RANDOM = settings(max_examples=120, suppress_health_check=[HealthCheck.filter_too_much])
+RANDOM = settings(max_examples=120, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
 
 
 def polar(radius: FloatArray, angle: FloatArray) -> FloatArray:
