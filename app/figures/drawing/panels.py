@@ -256,7 +256,7 @@ def _draw_levels(axes: Axes, panel: Panel, theme: Theme) -> None:
             line = Line2D([level.value] * 2, [0.0, 1.0], transform=axes.get_xaxis_transform(), **style)
             _name_on_top(axes, panel, level.name, level.value, color, theme)
         else:
-            style["label"] = fill(level.name + ("" if near else " ↑" if level.value > high else " ↓"), NAME_LENGTH)
+            style["label"] = fill(level.name, NAME_LENGTH) + ("" if near else " ↑" if level.value > high else " ↓")
             line = Line2D([0.0, 1.0], [level.value] * 2, transform=axes.get_yaxis_transform(), **style)
         (axes.add_line if near else axes.add_artist)(line)  # the second leaves the ends of the axes where they are
 
