@@ -45,7 +45,7 @@ class ProblemError(Exception):
     code
         Stable name of the problem, the last part of its type.
     errors
-        For each field at fault `pointer` (JSON Pointer into the request), `code` and `message`.
+        A dictionary per field at fault with `pointer` (JSON Pointer into the request), `code` and `message`.
 
     """
 

@@ -17,7 +17,7 @@ LEAST = 1e-5  # a probability below it says nothing more: the tails that make it
 
 
 class Band(NamedTuple):
-    """5, 50 and 95 %."""
+    """The 5, 50 and 95 % quantiles of an output."""
 
     low: float
     middle: float
@@ -34,7 +34,7 @@ class Chance:
 
     @property
     def is_tiny(self) -> bool:
-        """Whether it is not to be told from none, but is no count of none."""
+        """Whether it is too small to be distinguished from zero, but not exactly zero."""
         most: float = max((self.high, *(self.interval or ())))
         return 0.0 < most < LEAST
 
@@ -146,7 +146,7 @@ def chances(found: Limited) -> Figure:
 
 
 def deciding(found: Limited) -> Figure:
-    """How often each case is the worst one, and which tolerance goes with it."""
+    """Share of machines for which each case is the worst, and how strongly each tolerance correlates with it."""
     rows = [Row(each.name, 100.0 * each.decides) for each in found.cases if each.decides is not None]
     if not rows:
         raise NoFigure("no_solution", "no machine is solved in every case")

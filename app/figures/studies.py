@@ -55,7 +55,7 @@ class Grid:
 
     @property
     def best(self) -> tuple[int, ...] | None:
-        """Where the best value is; of equals the first. None while there is none."""
+        """Index of the best value, of the first one if several are equal; None if no value is finite."""
         if not np.isfinite(self.values).any():
             return None
         flat = np.nanargmax(self.values) if self.greatest else np.nanargmin(self.values)

@@ -7,7 +7,7 @@ results    headline numbers with verdicts, tables of results
 charts     figures as images at addresses of their own, and their values
 manual     chapters of the manual as pages, and what reports say of them
 report     what reports say beside the result, and the case as code
-views      a case as it is asked for with the addresses of its views; one view, made in a worker
+views      a requested case with the addresses of its views, and one view of it, made in a worker
 overview   pages that belong to no case
 studies    pages of studies, whose results are drawn while they are calculated
 """

@@ -242,7 +242,7 @@ def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
     else:
         found = csv.curve(case.response, path)
         if found is None:
-            raise Unprocessable("unknown_curve", f"There are {', '.join(_curves(case))}", "curve")
+            raise Unprocessable("unknown_curve", f"Available curves: {', '.join(_curves(case))}", "curve")
         content = found
     return Shown(content, keep=_keep(asked, case))
 

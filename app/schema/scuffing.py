@@ -245,7 +245,9 @@ class MeshInOil(Request):
     def known_friction(self) -> Self:
         """A coefficient of friction that is given is a number."""
         if self.model.friction == "given" and self.friction_coefficient is None:
-            raise PydanticCustomError("missing_friction", "give friction_coefficient, or friction iso_tr_13989")
+            raise PydanticCustomError(
+                "missing_friction", "give friction_coefficient, or set model.friction to iso_tr_13989"
+            )
         return self
 
     def scuffing_inputs(self, gears: GearPairInputs, load: si.Load) -> si.ScuffingInputs:

@@ -126,7 +126,7 @@ def needs_film(endpoint: str, output: str) -> bool:
 
 
 def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[str]) -> dict[str, Any]:
-    """The request without thermal film and other states where no output needs them; the outputs are the same."""
+    """The request without the thermal film and without other states if no output needs them; outputs are unchanged."""
     if endpoint not in BY_FILM:
         return request
     reduced = copy.deepcopy(request)

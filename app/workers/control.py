@@ -28,10 +28,11 @@ class ProcessDied(Exception):
 
 
 class Worker:
-    """A copy of the template: makes one call at a time, or compiles stages.
+    """A process forked from the template: carries out one call at a time, or compiles stages.
 
-    The event loop reads its connection: a thread for each worker would answer a third fewer calls per second. `begun`
-    says that the process has begun to carry out the last call, `outdated` that the template has loaded more since.
+    Its messages are read in the event loop, because a thread per worker answers a third fewer calls per second. `begun`
+    is True once the process carries out the last call; `outdated` is True if the template has loaded more stages since
+    this process was forked.
     """
 
     def __init__(self, pid: int, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:

@@ -212,7 +212,11 @@ def _capacity_ratio(capacity: float, force: float) -> float:
 
 
 def friction_regime(overlap: float, load_capacity_coefficient: float) -> Regime:
-    """The area of Fig. 9. A load capacity on a boundary belongs to the higher row, an overlap to the middle column."""
+    """The area of Fig. 9.
+
+    A load capacity on a boundary belongs to the row with the higher number, an overlap on a boundary to the middle
+    column.
+    """
     row = 1 + sum(load_capacity_coefficient >= boundary for boundary in CAPACITY_BOUNDARIES)
     column = 1 + (overlap >= OVERLAP_BOUNDARIES[0]) + (overlap > OVERLAP_BOUNDARIES[1])
     area = f"{row}.{column}"

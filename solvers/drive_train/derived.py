@@ -53,7 +53,7 @@ class DerivedTemperatures:
 
 @record
 class Derived:
-    """Torque [N m], power [W], lengths [m], product of the load factors, and what each part fills in."""
+    """Torque [N m], power [W], lengths [m], product of the load factors, and values that the parts derived."""
 
     pinion_torque: float = quantity("pinion torque used", "T_1", unit="n_m")
     power: float = quantity("power used", "P", unit="kw")

@@ -293,11 +293,12 @@ def line_load(
 def line_load_near(
     approach: float, constant: float, logarithmic: float, limit: float, log_load: float
 ) -> tuple[float, float, float, float]:
-    """The same after one step of omega from the guess, and that step, relative; it leaves its fourth power.
+    """What `line_load` returns, after one step of omega from the guess `log_load`, and the relative size of that step.
 
-    omega - ln omega = A/a + ln(a / delta) by the iteration of Fritsch, Shafer and Crowley (1973) for Lambert's
-    function, which takes one logarithm a step and settles from any guess; dw/d(delta) = 1 / (a (omega - 1)). The guess
-    is carried as ln w, at most that of the limit, which changes less from place to place than omega does.
+    The remaining error of omega is of the order of the fourth power of the step. omega - ln omega = A/a + ln(a / delta)
+    is solved by the iteration of Fritsch, Shafer and Crowley (1973) for Lambert's function, which takes one logarithm
+    per step and converges from any guess; dw/d(delta) = 1 / (a (omega - 1)). The guess is passed as ln w, because ln w
+    changes less than omega from one position to the next; it is at most the ln w of the limit.
     """
     if approach <= 0.0:
         return 0.0, 0.0, log_load, 0.0

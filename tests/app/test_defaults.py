@@ -95,7 +95,7 @@ def test_a_coefficient_of_friction_says_by_itself_that_it_is_given() -> None:
     given = solved(SCUFFING, STAGE, {"friction_coefficient": 0.06})
     assert given["inputs"]["model"]["friction"] == "given"
     assert given["friction_loss"]["coefficient"] == 0.06
-    message = "give friction_coefficient, or friction iso_tr_13989"
+    message = "give friction_coefficient, or set model.friction to iso_tr_13989"
     assert refused(SCUFFING, STAGE, {"model.friction": "given"}) == message
 
 

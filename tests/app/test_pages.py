@@ -543,8 +543,8 @@ def test_unknown_views_are_problems(client: httpx.Client) -> None:
     [
         ("/nothing", 404, "There is nothing at this address"),
         ("/scuffing/nothing", 404, "There is nothing at this address"),
-        ("/manual/nothing", 404, "There are "),
-        ("/coupling/figures/none.svg", 404, "There are "),
+        ("/manual/nothing", 404, "Available chapters: "),
+        ("/coupling/figures/none.svg", 404, "Available figures: "),
         ("/coupling/figures/losses.svg?case=0", 410, "calculate the case again"),
     ],
 )

@@ -48,7 +48,11 @@ def draw(figure: Figure, image_format: str, theme_name: ThemeName = "light") -> 
 
 
 class Place(NamedTuple):
-    """Where the axes of a panel lie: left, top, width and height as fractions of the image; their ends, and if log."""
+    """Where the axes of a panel lie in the image.
+
+    `box` is left, top, width and height as fractions of the image; `x` and `y` are the two ends of an axis and whether
+    it is logarithmic.
+    """
 
     panel: Panel
     box: tuple[float, float, float, float]
@@ -57,7 +61,7 @@ class Place(NamedTuple):
 
 
 def places(figure: Figure) -> list[Place]:
-    """The places of the panels."""
+    """Where the axes of each panel lie in the image."""
     with rc_context(settings("light")):
         _, axes = laid_out(figure, THEMES["light"])
     found = []

@@ -99,7 +99,7 @@ def _add_figures(calculation: Calculation) -> None:
     async def known(http: Request) -> None:
         """404 for an unknown figure or format, before the body is validated."""
         if http.path_params["name"] not in names or http.path_params["format"] not in FORMATS:
-            raise HTTPException(404, f"There are {', '.join(names)}, each as {', '.join(FORMATS)}")
+            raise HTTPException(404, f"Available figures: {', '.join(names)}; formats: {', '.join(FORMATS)}")
 
     async def show(
         http: Request,

@@ -48,7 +48,7 @@ async def start(http: Request) -> Response:
 async def static(name: str) -> Response:
     """Style, script and icon of the pages."""
     if name not in ASSETS:
-        raise HTTPException(404, f"There are {', '.join(ASSETS)}")
+        raise HTTPException(404, f"Available: {', '.join(ASSETS)}")
     return Response(asset(name), media_type=ASSETS[name], headers={"Cache-Control": FOREVER})
 
 
@@ -92,7 +92,7 @@ def functions(http: Request) -> Response:
 def chapter(http: Request, name: str) -> Response:
     """One chapter."""
     if name not in NAMES:
-        raise HTTPException(404, f"There are {', '.join(NAMES)} and functions")
+        raise HTTPException(404, f"Available chapters: {', '.join(NAMES)}, functions")
     return html(chapter_page(root_of(http), name))
 
 
@@ -117,7 +117,7 @@ def _add(calculation: Calculation) -> None:
     async def result(http: Request, media: str) -> Response:
         types = {"json": JSON, "csv": MEDIA_TYPES["csv"]}
         if media not in types:
-            raise HTTPException(404, "There are result.json and result.csv")
+            raise HTTPException(404, "Available: result.json, result.csv")
         return await _answer(http, calculation, types[media], views.result, media)
 
     async def saved(http: Request) -> Response:
@@ -129,7 +129,7 @@ def _add(calculation: Calculation) -> None:
     async def figure(http: Request, name: str, image_format: str) -> Response:
         kinds = MEDIA_TYPES | {"json": JSON}
         if name not in names or image_format not in kinds:
-            raise HTTPException(404, f"There are {', '.join(names)}, each as {', '.join(MEDIA_TYPES)}")
+            raise HTTPException(404, f"Available figures: {', '.join(names)}; formats: {', '.join(MEDIA_TYPES)}")
         media = kinds[image_format]
         if "case" in http.query_params:
             shown = await _shown(http, _kept(http, path), views.figure, name, image_format)

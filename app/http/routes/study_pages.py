@@ -40,7 +40,7 @@ def not_from_another_site(http: Request) -> None:
     """403 where a page of another site asks for a study, which would occupy every core for minutes."""
     asks = http.url.query or http.method == "POST"
     if asks and http.headers.get("sec-fetch-site") == "cross-site":
-        raise HTTPException(403, "Studies are not started from the pages of other sites; open the address by itself")
+        raise HTTPException(403, "A page of another site cannot start a study; open the address directly")
 
 
 router = APIRouter(include_in_schema=False, dependencies=[Depends(not_from_another_site)])
@@ -59,14 +59,14 @@ def _add(calculation: Calculation, own: StudyPage) -> None:
 
     async def lines(http: Request, media: str) -> Response:
         if media not in own.files:
-            raise HTTPException(404, f"There are {', '.join(f'{own.link.name}.{each}' for each in own.files)}")
+            raise HTTPException(404, f"Available: {', '.join(f'{own.link.name}.{each}' for each in own.files)}")
         study = (await checked(http)).study
         encode = encoder(study, media)
         return await streamed(http, study, lambda found, _: encoded(found, encode), LINE_TYPES[media], policy)
 
     async def figure(http: Request, name: str, image_format: str) -> Response:
         if name not in own.figures or image_format not in IMAGE_TYPES:
-            raise HTTPException(404, f"There are {', '.join(own.figures)}, each as {', '.join(IMAGE_TYPES)}")
+            raise HTTPException(404, f"Available figures: {', '.join(own.figures)}; formats: {', '.join(IMAGE_TYPES)}")
         drawn = await _made(http, await checked(http), study_page.file, name, image_format)
         return Response(drawn, media_type=IMAGE_TYPES[image_format], headers=policy)
 

@@ -6,5 +6,5 @@ spectrum        a load spectrum with tolerances: probabilities and losses
 sensitivity     which input moves an output most
 corners         the worst combination of uncertain inputs
 design          the flank correction whose worst corner is best
-page            the page of any of these, before, while and after its lines come; made in workers
+page            the page of each of these before, during and after the calculation; made in workers
 """
