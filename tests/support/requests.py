@@ -55,6 +55,14 @@ def changed(body: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
     return result
 
 
+def value_at(answer: dict[str, Any], path: str) -> Any:
+    """The value of an answer at a dotted path; a number in a path is the place in a list."""
+    place: Any = answer
+    for part in path.split("."):
+        place = place[int(part)] if part.isdecimal() else place[part]
+    return place
+
+
 def refused(endpoint: str, body: dict[str, Any], changes: dict[str, Any]) -> str:
     """What a changed request is told is wrong with it."""
     model = BY_PATH[endpoint].request
