@@ -13,6 +13,14 @@ from solvers.errors import NoSolution
 from tests.support.gear_pairs import FZG_TORQUES
 from tests.support.requests import CONTACT, COUPLING, MIST, PAIR, refused, solved
 
+LOADS = PAIR | {"model": {}}
+BODIES = {
+    "/v1/coupling": COUPLING,
+    "/v1/pumping": MIST,
+    "/v1/scuffing": PAIR,
+    "/v1/scuffing/load-distribution": LOADS,
+}
+
 
 def fzg(stage: int) -> dict[str, Any]:
     """FZG type A at its own failing stage, as a lab sheet has it."""
@@ -85,9 +93,8 @@ def test_oil_of_the_same_pair_by_grade_has_half_the_paper_s_film() -> None:
 
 
 def test_line_contact_takes_the_oil_at_its_inlet() -> None:
-    derived = solved("/v1/scuffing/line-contact", CONTACT, {"lubricant.iso_vg": 150, "temperatures.inlet_c": 70})[
-        "derived"
-    ]
+    oil = {"lubricant.iso_vg": 150, "temperatures.inlet_c": 70}
+    derived = solved("/v1/scuffing/line-contact", CONTACT, oil)["derived"]
     assert derived["reference_temperature_c"] == pytest.approx(70.0)
     assert derived["pressure_viscosity_per_gpa"] == pytest.approx(16.4, abs=0.05)
 
@@ -98,9 +105,8 @@ def test_coupling_takes_the_oil_at_the_teeth_and_the_shafts_offset() -> None:
     capacities = [result["lubrication"]["hydrodynamic_capacity_n"] for result in (by_sheet, by_viscosity)]
     assert capacities[0] == pytest.approx(capacities[1], rel=1e-12)
     tilted = solved("/v1/coupling", COUPLING, {"operation.misalignment_deg": None, "operation.parallel_offset_mm": 0.2})
-    assert tilted["kinematics"]["max_sliding_velocity_m_per_s"] == pytest.approx(
-        1910 * pi / 30 * 0.078 * 1e-3, rel=1e-6
-    )
+    sliding = 1910 * pi / 30 * 0.078 * 1e-3
+    assert tilted["kinematics"]["max_sliding_velocity_m_per_s"] == pytest.approx(sliding, rel=1e-6)
 
 
 def test_thrust_that_a_bearing_must_hold() -> None:
@@ -110,12 +116,8 @@ def test_thrust_that_a_bearing_must_hold() -> None:
 
 
 def test_load_factors_raise_the_contacts_not_the_power() -> None:
-    plain = solved("/v1/scuffing/load-distribution", PAIR | {"model": {}}, {})
-    raised = solved(
-        "/v1/scuffing/load-distribution",
-        PAIR | {"model": {}},
-        {"load.application_factor": 1.25, "load.dynamic_factor": 1.1, "load.mesh_load_factor": 1.05},
-    )
+    factors = {"load.application_factor": 1.25, "load.dynamic_factor": 1.1, "load.mesh_load_factor": 1.05}
+    plain, raised = (solved("/v1/scuffing/load-distribution", LOADS, changes) for changes in ({}, factors))
     assert raised["load"]["contact_factor"] == pytest.approx(1.44375)
     assert raised["load"]["normal_force_n"] == pytest.approx(1.44375 * plain["load"]["normal_force_n"], rel=1e-12)
     assert raised["load"]["pinion_torque_n_m"] == plain["load"]["pinion_torque_n_m"]
@@ -128,176 +130,124 @@ def test_efficiency_is_what_friction_leaves() -> None:
 
 
 def test_defaults_of_oil_temperature_and_friction_are_assumptions() -> None:
-    by_grade = solved("/v1/scuffing", PAIR, {"lubricant": {"iso_vg": 220}})["assumptions"]
-    assert {
-        "lubricant.density_15_kg_per_m3",
-        "temperatures.bulk_method",
-        "temperatures.oil_supply",
-        "temperatures.oil_c",
-        "model.friction",
-    } <= {item["field"] for item in by_grade}
-    by_viscosity = solved("/v1/scuffing", PAIR, {"lubricant": {"viscosity_pa_s": 0.02}})["assumptions"]
-    assert {"lubricant.reference_temperature_c", "lubricant.pressure_viscosity_per_gpa", "lubricant.kind"} <= {
-        item["field"] for item in by_viscosity
-    }
-    loads = solved("/v1/scuffing/load-distribution", PAIR | {"model": {}}, {})["assumptions"]
+    def assumed(oil: dict[str, float]) -> set[str]:
+        return {item["field"] for item in solved("/v1/scuffing", PAIR, {"lubricant": oil})["assumptions"]}
+
+    temperatures = {f"temperatures.{name}" for name in ("bulk_method", "oil_supply", "oil_c")}
+    assert temperatures | {"lubricant.density_15_kg_per_m3", "model.friction"} <= assumed({"iso_vg": 220})
+    names = ("reference_temperature_c", "pressure_viscosity_per_gpa", "kind")
+    assert {f"lubricant.{name}" for name in names} <= assumed({"viscosity_pa_s": 0.02})
+    loads = solved("/v1/scuffing/load-distribution", LOADS, {})["assumptions"]
     assert {item["field"]: item["value"] for item in loads}["friction_coefficient"] == 0.06
 
 
 def test_from_a_data_sheet_to_a_safety_factor_in_one_request() -> None:
-    result = solved(
-        "/v1/scuffing",
-        PAIR,
-        {
-            "lubricant": {"iso_vg": 150, "kind": "pao"},
-            "temperatures": {"oil_c": 70, "bulk_method": "estimated", "scuffing_test": {"fzg_stage": 10}},
-            "model.friction": "iso_tr_13989",
-        },
-    )
+    temperatures = {"oil_c": 70, "bulk_method": "estimated", "scuffing_test": {"fzg_stage": 10}}
+    oil = {"iso_vg": 150, "kind": "pao"}
+    changes = {"lubricant": oil, "temperatures": temperatures, "model.friction": "iso_tr_13989"}
+    result = solved("/v1/scuffing", PAIR, changes)
     assert result["safety"]["blok_factor"] > 1.0
     assert all(item["value"] is not None for item in result["assumptions"])
 
 
 @pytest.mark.parametrize(
-    ("endpoint", "body", "changes", "message"),
+    ("endpoint", "changes", "message"),
     [
         (
             "/v1/scuffing",
-            PAIR,
             {"lubricant": {"iso_vg": 220, "reference_temperature_c": 60}},
             "reference_temperature_c and iso_vg are both given; keep one",
         ),
         (
             "/v1/scuffing",
-            PAIR,
             {"lubricant": {"iso_vg": 220, "viscosity_pa_s": 0.1}},
             "iso_vg and viscosity_pa_s are both given; keep one",
         ),
         (
             "/v1/scuffing",
-            PAIR,
             {"temperatures": {"bulk_method": "estimated", "bulk_c": 90}},
             "bulk_c and an estimated bulk are both given; keep one",
         ),
         (
             "/v1/scuffing",
-            PAIR,
             {"temperatures": {"scuffing_c": 200, "scuffing_test": {"fzg_stage": 12}}},
             "scuffing_c and scuffing_test are both given; keep one",
         ),
+        ("/v1/coupling", {"lubricant.iso_vg": 47}, "iso_vg: must be one of 32, 46, 68, 100, 150, 220, 320, 460, 680"),
         (
             "/v1/coupling",
-            COUPLING,
-            {"lubricant.iso_vg": 47},
-            "iso_vg: must be one of 32, 46, 68, 100, 150, 220, 320, 460, 680",
-        ),
-        (
-            "/v1/coupling",
-            COUPLING,
             {"operation.parallel_offset_mm": 0.2},
             "misalignment_deg and parallel_offset_mm are both given; keep one",
         ),
         (
             "/v1/scuffing",
-            PAIR,
             {"temperatures.scuffing_test": {"fzg_stage": 12, "test": "A10/16.6R/90"}},
             "test: must be one of A/8.3/90",
         ),
     ],
 )
-def test_what_excludes_what(endpoint: str, body: dict[str, Any], changes: dict[str, Any], message: str) -> None:
-    assert refused(endpoint, body, changes) == message
+def test_what_excludes_what(endpoint: str, changes: dict[str, Any], message: str) -> None:
+    assert refused(endpoint, BODIES[endpoint], changes) == message
 
 
 @pytest.mark.parametrize(
-    ("endpoint", "body", "changes", "field", "message"),
+    ("endpoint", "changes", "message"),
     [
         (
             "/v1/scuffing",
-            PAIR,
             {"lubricant.viscosity_pa_s": 25},
-            "lubricant.viscosity_pa_s",
             "25 Pa s at operating temperature is very thick; was mPa s meant?",
         ),
-        (
-            "/v1/pumping",
-            MIST,
-            {"ambient.pressure_kpa": 1.01},
-            "ambient.pressure_kpa",
-            "1.01 kPa is nearly a vacuum; was bar meant?",
-        ),
+        ("/v1/pumping", {"ambient.pressure_kpa": 1.01}, "1.01 kPa is nearly a vacuum; was bar meant?"),
         (
             "/v1/scuffing/load-distribution",
-            PAIR | {"model": {}},
             {"modifications.tip_relief_um": 0.03},
-            "modifications.tip_relief_um",
             "0.03 µm is less than can be ground; was mm meant?",
         ),
         (
             "/v1/scuffing/load-distribution",
-            PAIR | {"model": {}},
             {"gears.face_width_mm": 1.2},
-            "gears.face_width_mm",
             "1.2 mm is below half a module; were cm or inches meant?",
         ),
         (
             "/v1/scuffing/load-distribution",
-            PAIR | {"model": {}},
             {"gears.face_width_mm": 250},
-            "gears.face_width_mm",
             "250 mm is beyond 3 pitch diameters of the pinion; was cm meant?",
         ),
         (
             "/v1/scuffing/load-distribution",
-            PAIR | {"model": {}},
             {"load.power_kw": 900},
-            "load.power_kw",
             "the Hertzian pressure of 5917 MPa is beyond what steel carries; is the load too high?",
         ),
-        (
-            "/v1/coupling",
-            COUPLING,
-            {"coupling.tooth_height_mm": 13},
-            "coupling.tooth_height_mm",
-            "13 mm is beyond 4 modules; is it a diameter?",
-        ),
+        ("/v1/coupling", {"coupling.tooth_height_mm": 13}, "13 mm is beyond 4 modules; is it a diameter?"),
         (
             "/v1/scuffing",
-            PAIR,
-            {"lubricant": {"iso_vg": 220}, "temperatures": {"oil_c": 95, "bulk_c": 86.85}},
-            "temperatures.oil_c",
+            {"lubricant": {"iso_vg": 220}, "temperatures.bulk_c": 86.85, "temperatures.oil_c": 95},
             "the oil at 95 °C is hotter than the teeth at 86.85 °C; are they exchanged?",
         ),
         (
             "/v1/scuffing/load-distribution",
-            PAIR | {"model": {}},
             {"load.pinion_speed_rpm": 100000},
-            "load.pinion_speed_rpm",
             "the pitch-line velocity is 366.6 m/s, beyond 250; is it the speed of another shaft?",
         ),
         (
             "/v1/scuffing/load-distribution",
-            PAIR | {"model": {}},
             {"modifications.tip_relief_um": 20, "modifications.tip_relief_length_mm": 30},
-            "modifications.tip_relief_length_mm",
             "the relief is 30 mm long, the path of contact 14.28 mm; is that a radius?",
         ),
         (
             "/v1/scuffing/load-distribution",
-            PAIR | {"model": {}},
             {"load.power_kw": 0.05},
-            "load.power_kw",
             "the line load is 0.367 N/mm at most; were kW or kN m meant?",
         ),
     ],
 )
-def test_unusual_values_are_named(
-    endpoint: str, body: dict[str, Any], changes: dict[str, Any], field: str, message: str
-) -> None:
-    result = solved(endpoint, body, changes)
+def test_unusual_values_are_named(endpoint: str, changes: dict[str, Any], message: str) -> None:
+    """At the field that is changed last."""
+    result = solved(endpoint, BODIES[endpoint], changes)
     assert result["status"] == "ok_with_warnings"
-    said = [warning for warning in result["warnings"] if warning["code"] == "unusual_value"]
-    assert {"rank": "doubtful", "code": "unusual_value", "message": message, "field": field} in said
+    field = list(changes)[-1]
+    assert {"rank": "doubtful", "code": "unusual_value", "message": message, "field": field} in result["warnings"]
 
 
 @pytest.mark.parametrize("endpoint", sorted(BY_PATH))
@@ -336,7 +286,7 @@ def test_warnings_stand_in_the_order_of_their_rank(example: str, ranked: list[tu
 
 def test_what_has_no_solution_is_invalid() -> None:
     calculation = BY_PATH["/v1/scuffing/load-distribution"]
-    request = calculation.request.model_validate(PAIR | {"model": {}})
+    request = calculation.request.model_validate(LOADS)
 
     def unsolved(_: object) -> NoReturn:
         raise NoSolution("load_balance", "the load balance does not converge", {"force": 0.1})
