@@ -8,77 +8,41 @@ import httpx
 import pytest
 
 from app.examples import examples
+from tests.support.requests import changed
 
 Post = Callable[[str, object], httpx.Response]
 DISTRIBUTION, SCUFFING = "/v1/scuffing/load-distribution", "/v1/scuffing"
 
 SECTIONS = {
-    "geometry": {
-        "centre_distance_mm",
-        "working_pressure_angle_deg",
-        "base_helix_angle_deg",
-        "transverse_base_pitch_mm",
-        "path_of_contact_mm",
-        "transverse_contact_ratio",
-        "overlap_ratio",
-        "total_contact_ratio",
-        "undercut",
-    },
-    "contact_lines": {"min_length_mm", "max_length_mm", "mean_length_mm", "length_ratio", "curves"},
-    "stiffness": {
-        "max_n_per_mm_um",
-        "approach_n_per_mm_um",
-        "pitch_n_per_mm_um",
-        "recess_n_per_mm_um",
-        "mean_mesh_n_per_mm_um",
-        "curves",
-    },
-    "transmission_error": {"peak_to_peak_um", "mean_um", "min_um", "max_um", "harmonics_um", "curves"},
-    "load": {
-        "pinion_torque_n_m",
-        "normal_force_n",
-        "max_line_load_n_per_mm",
-        "max_at",
-        "contact_fraction",
-        "face_load_factor",
-        "balance_error",
-    },
-    "pressure": {"max_mpa", "max_at"},
-    "friction_loss": {"loss_factor", "power_w"},
-    "feature_line": {
-        "psi",
-        "gamma",
-        "line_load_n_per_mm",
-        "pressure_mpa",
-        "half_width_mm",
-        "radius_mm",
-        "pinion_speed_m_per_s",
-        "wheel_speed_m_per_s",
-        "sliding_m_per_s",
-        "iso_load_sharing",
-        "load_sharing",
-    },
-    "flank": {"profile_fraction", "face_fraction", "modification_um", "line_load_n_per_mm", "pressure_mpa"},
+    "geometry": (
+        "centre_distance_mm working_pressure_angle_deg base_helix_angle_deg transverse_base_pitch_mm "
+        "path_of_contact_mm transverse_contact_ratio overlap_ratio total_contact_ratio undercut"
+    ),
+    "contact_lines": "min_length_mm max_length_mm mean_length_mm length_ratio curves",
+    "stiffness": (
+        "max_n_per_mm_um approach_n_per_mm_um pitch_n_per_mm_um recess_n_per_mm_um mean_mesh_n_per_mm_um curves"
+    ),
+    "transmission_error": "peak_to_peak_um mean_um min_um max_um harmonics_um curves",
+    "load": (
+        "pinion_torque_n_m normal_force_n max_line_load_n_per_mm max_at contact_fraction face_load_factor balance_error"
+    ),
+    "pressure": "max_mpa max_at",
+    "friction_loss": "loss_factor power_w",
+    "feature_line": (
+        "psi gamma line_load_n_per_mm pressure_mpa half_width_mm radius_mm pinion_speed_m_per_s wheel_speed_m_per_s "
+        "sliding_m_per_s iso_load_sharing load_sharing"
+    ),
+    "flank": "profile_fraction face_fraction modification_um line_load_n_per_mm pressure_mpa",
 }
 SCUFFING_SECTIONS = {
-    "flash": {"blok_max_k", "blok_at_psi", "thermal_ehl_max_k", "thermal_ehl_at_psi"},
-    "contact_temperature": {"blok_max_c", "thermal_ehl_max_c"},
-    "film": {"dowson_higginson_min_um", "thermal_ehl_min_um", "min_at_psi", "thickness_ratio", "thickness_regime"},
-    "safety": {"blok_factor", "thermal_ehl_factor"},
-    "path": {
-        "psi",
-        "status",
-        "blok_flash_k",
-        "pinion_flash_k",
-        "wheel_flash_k",
-        "dowson_higginson_um",
-        "minimum_film_um",
-        "central_film_um",
-        "max_pressure_mpa",
-        "friction_coefficient",
-        "film_max_temperature_c",
-        "thickness_ratio",
-    },
+    "flash": "blok_max_k blok_at_psi thermal_ehl_max_k thermal_ehl_at_psi",
+    "contact_temperature": "blok_max_c thermal_ehl_max_c",
+    "film": "dowson_higginson_min_um thermal_ehl_min_um min_at_psi thickness_ratio thickness_regime",
+    "safety": "blok_factor thermal_ehl_factor",
+    "path": (
+        "psi status blok_flash_k pinion_flash_k wheel_flash_k dowson_higginson_um minimum_film_um central_film_um "
+        "max_pressure_mpa friction_coefficient film_max_temperature_c thickness_ratio"
+    ),
 }
 
 
@@ -90,12 +54,6 @@ def request(name: str = "xue-pair-1", **changes: dict[str, Any]) -> dict[str, An
     return body
 
 
-def error(response: httpx.Response) -> tuple[str, str]:
-    assert response.status_code == 422, response.text
-    (only,) = response.json()["errors"]
-    return only["code"], only["pointer"]
-
-
 def test_every_field_of_the_contract_is_there(post: Post) -> None:
     for path, name, sections in (
         (DISTRIBUTION, "xue-pair-1", SECTIONS),
@@ -103,7 +61,7 @@ def test_every_field_of_the_contract_is_there(post: Post) -> None:
     ):
         result = post(path, {**request(name), "detail": "fields"}).json()
         for section, fields in sections.items():
-            assert fields <= set(result[section]), section
+            assert set(fields.split()) <= set(result[section]), section
     assert result["unsolved_points"] == 0
 
 
@@ -160,38 +118,53 @@ def test_power_and_torque_are_two_ways_to_say_one_thing(post: Post) -> None:
     assert by_torque["pressure"]["max_mpa"] == pytest.approx(by_power["pressure"]["max_mpa"], rel=1e-12)
 
 
-@pytest.mark.parametrize("load", [{}, {"power_kw": 50, "pinion_torque_n_m": 200}])
-def test_exactly_one_of_torque_and_power_is_given(post: Post, load: dict[str, float]) -> None:
-    body = request()
-    body["load"] = {"pinion_speed_rpm": 2000, **load}
-    assert error(post(DISTRIBUTION, body)) == ("torque_or_power", "/load")
+REFUSED: list[tuple[str, dict[str, Any], tuple[str, str]]] = [
+    (DISTRIBUTION, {"load": {"pinion_speed_rpm": 2000}}, ("torque_or_power", "/load")),
+    (DISTRIBUTION, {"load.pinion_torque_n_m": 200}, ("torque_or_power", "/load")),
+    (DISTRIBUTION, {"gears.centre_distance_mm": 80}, ("flank_interference", "/gears/centre_distance_mm")),
+    (DISTRIBUTION, {"gears.centre_distance_mm": 95}, ("no_mesh", "/gears/centre_distance_mm")),
+    (
+        DISTRIBUTION,
+        {"gears.pinion": {"teeth": 12, "profile_shift": 0.9}},
+        ("pointed_tooth", "/gears/pinion/addendum"),
+    ),
+    (
+        DISTRIBUTION,
+        {"gears.pinion": {"teeth": 23, "dedendum": 0.95}},
+        ("no_tip_clearance", "/gears/pinion/dedendum"),
+    ),
+    (
+        DISTRIBUTION,
+        {
+            "gears.helix_angle_deg": 0,
+            "gears.pinion": {"teeth": 23, "addendum": 0.5},
+            "gears.wheel": {"teeth": 30, "addendum": 0.5},
+        },
+        ("no_contact", "/gears/pinion/addendum"),
+    ),
+    (
+        DISTRIBUTION,
+        {"gears.module_mm": 0.03, "gears.helix_angle_deg": 30},
+        ("overlap_range", "/gears/face_width_mm"),
+    ),
+    (
+        DISTRIBUTION,
+        {"model.tooth_stiffness": "parabola", "model.contact": "hertzian"},
+        ("contact_law", "/model/contact"),
+    ),
+    (SCUFFING, {"temperatures.scuffing_c": 50}, ("scuffing_temperature", "/temperatures/scuffing_c")),
+]
 
 
-@pytest.mark.parametrize(
-    ("gears", "expected"),
-    [
-        ({"centre_distance_mm": 80}, ("flank_interference", "/gears/centre_distance_mm")),
-        ({"centre_distance_mm": 95}, ("no_mesh", "/gears/centre_distance_mm")),
-        ({"pinion": {"teeth": 12, "profile_shift": 0.9}}, ("pointed_tooth", "/gears/pinion/addendum")),
-        ({"pinion": {"teeth": 23, "dedendum": 0.95}}, ("no_tip_clearance", "/gears/pinion/dedendum")),
-        (
-            {
-                "helix_angle_deg": 0,
-                "pinion": {"teeth": 23, "addendum": 0.5},
-                "wheel": {"teeth": 30, "addendum": 0.5},
-            },
-            ("no_contact", "/gears/pinion/addendum"),
-        ),
-        ({"module_mm": 0.03, "helix_angle_deg": 30}, ("overlap_range", "/gears/face_width_mm")),
-    ],
-)
-def test_impossible_gears_are_named(post: Post, gears: dict[str, Any], expected: tuple[str, str]) -> None:
-    assert error(post(DISTRIBUTION, request(gears=gears))) == expected
-
-
-def test_the_parabola_refuses_half_space_contact(post: Post) -> None:
-    body = request(model={"tooth_stiffness": "parabola", "contact": "hertzian"})
-    assert error(post(DISTRIBUTION, body)) == ("contact_law", "/model/contact")
+@pytest.mark.parametrize(("path", "changes", "expected"), REFUSED)
+def test_impossible_gears_and_contradictions_are_named(
+    post: Post, path: str, changes: dict[str, Any], expected: tuple[str, str]
+) -> None:
+    body = request("xue-pair-1" if path == DISTRIBUTION else "xue-pair-1-scuffing")
+    response = post(path, changed(body, changes))
+    assert response.status_code == 422, response.text
+    (only,) = response.json()["errors"]
+    assert (only["code"], only["pointer"]) == expected
 
 
 @pytest.mark.parametrize(
@@ -200,14 +173,9 @@ def test_the_parabola_refuses_half_space_contact(post: Post) -> None:
 )
 def test_a_path_that_reaches_a_base_circle_has_no_verdict(post: Post, lubrication: str, points: int) -> None:
     """12/60 teeth: once 154,550 MPa and Blok safeties of 3.8, 2.4, 2.1, 1.4 with 10, 50, 100, 500 points."""
+    rack = {"module_mm": 2, "helix_angle_deg": 15, "face_width_mm": 20}
     body = {
-        "gears": {
-            "pinion": {"teeth": 12},
-            "wheel": {"teeth": 60},
-            "module_mm": 2,
-            "helix_angle_deg": 15,
-            "face_width_mm": 20,
-        },
+        "gears": {"pinion": {"teeth": 12}, "wheel": {"teeth": 60}, **rack},
         "load": {"pinion_torque_n_m": 50, "pinion_speed_rpm": 1000},
         "lubricant": {"viscosity_pa_s": 0.08},
         "temperatures": {"scuffing_c": 300, "bulk_c": 86.85},
@@ -221,11 +189,6 @@ def test_a_path_that_reaches_a_base_circle_has_no_verdict(post: Post, lubricatio
     assert result["contact_temperature"]["blok_max_c"] is None
     assert (result["safety"]["blok_factor"], result["safety"]["thermal_ehl_factor"]) == (None, None)
     assert [warning["code"] for warning in result["warnings"]].count("path_reaches_base_circle") == 1
-
-
-def test_a_scuffing_temperature_below_the_oils_is_refused(post: Post) -> None:
-    body = request("xue-pair-1-scuffing", temperatures={"scuffing_c": 50})
-    assert error(post(SCUFFING, body)) == ("scuffing_temperature", "/temperatures/scuffing_c")
 
 
 def test_pressure_is_null_where_the_path_reaches_a_base_circle(post: Post) -> None:
