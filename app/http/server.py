@@ -35,7 +35,7 @@ log = logging.getLogger(REQUEST_LOG)  # which goes to the standard output
 
 
 class Refused(Exception):
-    """Ends the parsing of a request that goes beyond a limit."""
+    """Raised to stop the parser at a request that exceeds a limit."""
 
 
 class LimitedProtocol(HttpToolsProtocol):
@@ -129,7 +129,7 @@ class LimitedProtocol(HttpToolsProtocol):
             self._expect_request()
 
     def send_400_response(self, msg: str) -> None:
-        """Answer what the parser gave up on."""
+        """Answer a request that could not be parsed or was refused while it was parsed."""
         del msg
         self._unparsed = 0
         self._answer(self._refusal)
@@ -163,7 +163,7 @@ class LimitedProtocol(HttpToolsProtocol):
         return self.cycle is None or self.cycle.response_complete
 
     def _refuse(self, status: HTTPStatus) -> NoReturn:
-        """End parsing, upon which uvicorn calls `send_400_response`."""
+        """Stop the parser; uvicorn then calls `send_400_response`."""
         self._refusal = status
         raise Refused
 
@@ -183,7 +183,7 @@ class LimitedProtocol(HttpToolsProtocol):
             self.transport.close()  # it never sent a byte, or has its answer and still sends a body
 
     def _answer(self, status: HTTPStatus) -> None:
-        """A problem document, after the answers to the requests before it, and the end of the connection."""
+        """Send a problem document once all earlier requests are answered, and close the connection."""
         if self.transport.is_closing():
             return
         if not (self._answered or self._in_body):

@@ -281,7 +281,7 @@ def _choice(group: tuple[Leaf, ...], prefix: str, state: State, required: str) -
 
 
 def _own(leaf: Leaf, name: str, state: State) -> FieldView | Matrix:
-    """A field that shares its line with no other one."""
+    """A field on a line of its own, or a matrix with a field for each element."""
     whole, resolved = field_view(leaf, name, state), state.resolved.get(name)
     if leaf.dimensions < MATRIX:
         return whole

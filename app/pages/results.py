@@ -179,7 +179,7 @@ def resolved(response: Response) -> dict[str, Any]:
 
 
 def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> tuple[Card, ...]:
-    """The headline numbers; of several of one rank the largest stands for all.
+    """The headline numbers; of several numbers of the same rank only the largest is shown.
 
     Where a warning makes the answer doubtful, no verdict is good.
     """

@@ -317,7 +317,7 @@ def place_texts(axes: Axes, panel: Panel, theme: Theme, renderer: RendererBase) 
             continue
         text.set(ha="center", va="center")
         size, side = text.get_window_extent(renderer), SIDES[str(text.get_gid())]
-        # Of the places around the point the first that covers least.
+        # The first of the places around the point where the text covers least of the curves.
         costs = {}
         for reach in (7, 12, 20, 32, 48, 64):
             for across, up in ((0, side), (0, -side), (1, 0), (-1, 0), (1, 0.7), (-1, 0.7), (1, -0.7), (-1, -0.7)):

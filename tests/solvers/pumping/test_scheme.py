@@ -158,7 +158,7 @@ class Cell(NamedTuple):
 
 
 def cells(gap: st.SearchStrategy[float], transport: st.SearchStrategy[float]) -> st.SearchStrategy[Cell]:
-    """Cells of 1 cm2 whose walls move by up to 80 % of it within a stage."""
+    """Cells with an area of 1 cm2, which changes by up to 80 % within a stage."""
 
     def cell(pressure: float, velocity: float, gap: float, transport: float, log_time: float, growth: float) -> Cell:
         area, h = 1e-4, 10.0**log_time
