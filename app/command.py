@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from app.settings import MEBIBYTE, Settings, settings
-from app.workers.control import Template
+from app.workers.processes import Template
 
 EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 1: the request is refused, 2: wrong arguments
 

@@ -47,10 +47,11 @@ class _Handler(QueueHandler):
 class _Listener(QueueListener):
     """The thread that writes; it has no handler of logging's, for which the end of the process would wait."""
 
-    def dequeue(self, block: bool) -> logging.LogRecord:  # noqa: FBT001  logging's signature
+    def dequeue(self, block: bool) -> logging.LogRecord:
         """The next record, after a pause if there is none: to wake the thread for each costs a tenth of a request."""
-        if self.queue.empty():
-            time.sleep(PAUSE_S)
+        with suppress(queue.Empty):
+            return super().dequeue(block=False)
+        time.sleep(PAUSE_S)
         return super().dequeue(block)
 
     def handle(self, record: logging.LogRecord) -> None:

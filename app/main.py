@@ -18,8 +18,8 @@ from app.pages.cases import Answers
 from app.schema.model import MODEL_VERSION
 from app.settings import MEBIBYTE, settings, unknown_variables
 from app.studies.admission import StudyAdmission
-from app.workers.control import Template
 from app.workers.pool import Pool
+from app.workers.processes import Template
 from app.workers.start_up import StartUp
 
 DESCRIPTION = """Tribology of high-speed drive trains: gear couplings (Pahl), air-oil pumping between gear teeth

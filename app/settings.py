@@ -14,7 +14,6 @@ from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 MEBIBYTE = 2**20  # bytes
 CLUSTER_POINTS = 100_000  # of a study that other machines solve, chosen
-REXS_PATHS = frozenset({"/v1/rexs", "/v1/rexs/results", "/rexs"})
 RESERVED_DESCRIPTORS = 96  # for workers, files and sockets of the service itself
 
 
@@ -81,10 +80,6 @@ class Settings(BaseSettings):
     @classmethod
     def _split(cls, names: object) -> object:
         return [name.strip() for name in names.split(",") if name.strip()] if isinstance(names, str) else names
-
-    def most_body_bytes(self, path: str) -> int:
-        """The largest request body at an address; files of gear units are larger than requests."""
-        return (self.rexs_mb + 1) * MEBIBYTE if path in REXS_PATHS else self.max_body_bytes
 
     @property
     def most_study_points(self) -> int:

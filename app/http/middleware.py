@@ -17,7 +17,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.http.problems import internal_error, problem
 from app.log import DURATION, REQUEST_LOG, REQUESTS
-from app.settings import Settings
+from app.settings import MEBIBYTE, Settings
 
 ACCEPTABLE_ID = re.compile(rb"[A-Za-z0-9._-]{1,128}")
 CONTENT_POLICY = (
@@ -78,6 +78,8 @@ class Protection:
     def __init__(self, app: ASGIApp, settings: Settings) -> None:
         self._app = app
         self._settings = settings
+        # Files of gear units are larger than requests; they stand in forms and in JSON.
+        self._most_bytes = dict.fromkeys(("/v1/rexs", "/v1/rexs/results", "/rexs"), (settings.rexs_mb + 1) * MEBIBYTE)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one request, under the prefix of the settings: as ASGI wants it, its path has it, stripped or not."""
@@ -88,7 +90,8 @@ class Protection:
         if not f"{path}/".startswith(f"{root}/"):
             path = root + path
         scope = {**scope, "root_path": root, "path": f"{root}/" if path == root else path}
-        await _Request(self._settings, scope, receive, send).serve(self._app)
+        most_bytes = self._most_bytes.get(get_route_path(scope), self._settings.max_body_bytes)
+        await _Request(self._settings, most_bytes, scope, receive, send).serve(self._app)
 
 
 def _whole(send: Send) -> Send:
@@ -114,9 +117,9 @@ def _whole(send: Send) -> Send:
 class _Request:
     """One request on its way through the layer."""
 
-    def __init__(self, limits: Settings, scope: Scope, receive: Receive, send: Send) -> None:
+    def __init__(self, limits: Settings, most_bytes: int, scope: Scope, receive: Receive, send: Send) -> None:
         self._limits = limits
-        self._most_bytes = limits.most_body_bytes(get_route_path(scope))
+        self._most_bytes = most_bytes
         self._started = time.perf_counter()
         self._headers: dict[bytes, bytes] = dict(scope["headers"])
         self._identifier = request_id(self._headers.get(b"x-request-id", b""))

@@ -25,7 +25,7 @@ from app.http.middleware import own_headers, record, request_id
 from app.http.problems import code_of, problem
 from app.log import REQUEST_LOG
 from app.settings import settings
-from app.workers.control import Template
+from app.workers.processes import Template
 
 INTERRUPT_S = 0.5  # for requests in flight after Ctrl-C
 MOST_PIPELINED = 16  # thousands arrive at once, and each that waits takes 4 kB

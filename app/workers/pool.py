@@ -24,7 +24,7 @@ from fastapi import Request
 from app.errors import ClientGone, DeadlineExceeded, QueueFull, WorkerLost
 from app.log import CALCULATIONS, DEADLINES_MISSED, INTERRUPTED, REFUSED, WAITING, WORKERS_LOST
 from app.settings import Settings
-from app.workers.control import ProcessDied, Template, Worker, is_running
+from app.workers.processes import ProcessDied, Template, Worker, is_running
 
 SUPERVISION_S = 0.1  # between two looks at the processes: a lost worker is replaced within 0.3 s
 INTERRUPT_AFTER_S = 1.0  # how long a call waits before another one is interrupted for it

@@ -14,8 +14,8 @@ from contextlib import suppress
 
 from app.calculations import BY_PATH, CALCULATIONS, Stage
 from app.errors import WarmingUp
-from app.workers.control import ProcessDied
 from app.workers.pool import Pool
+from app.workers.processes import ProcessDied
 from app.workers.stages import STAGES, TRACKS, content
 from solvers.kernel_cache import discard, is_complete, mark_complete, writable_root
 

@@ -9,7 +9,7 @@ import pytest
 
 from app.calculations import COUPLING, SLEEVE, Stage
 from app.workers import start_up
-from app.workers.control import ProcessDied
+from app.workers.processes import ProcessDied
 from app.workers.stages import STAGES
 from app.workers.start_up import StartUp
 

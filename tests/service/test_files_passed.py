@@ -14,8 +14,8 @@ import pytest
 from app import calculations, main
 from app.examples import examples
 from app.settings import Settings
-from app.workers import start_up, template
-from app.workers.control import Worker
+from app.workers import processes, start_up
+from app.workers.processes import Worker
 
 ROOT = Path(__file__).parents[2]
 AROUND_EVERY_REQUEST = {"app/http/middleware.py", "app/log.py", "app/settings.py"}
@@ -74,9 +74,9 @@ def test_a_coupling_request_passes_at_most_20_modules(monkeypatch: pytest.Monkey
             runner.run(post())
         finally:
             runner.run(lifespan.__aexit__(None, None, None))
-    template._outcome(calls[0])  # a warm worker has looked up every name and unit once
-    worker = modules_entered(lambda: template._outcome(calls[0]))
+    processes._outcome(calls[0])  # a warm worker has looked up every name and unit once
+    worker = modules_entered(lambda: processes._outcome(calls[0]))
     assert {"app/workers/pool.py", "app/http/json_route.py"} <= service
-    assert {"app/workers/template.py", "solvers/coupling/model.py"} <= worker
+    assert {"app/workers/processes.py", "solvers/coupling/model.py"} <= worker
     passed = (service | worker) - AROUND_EVERY_REQUEST
     assert len(passed) <= 20, sorted(passed)

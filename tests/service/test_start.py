@@ -313,7 +313,7 @@ def test_other_servers_serve_the_application(server: str, tmp_path: Path) -> Non
         prefix = "/below" if "prefix" in server else ""
         assert f'href="{prefix}/docs"' in ask("GET", "/").text  # a proxy strips the prefix
         family = descendants(process.pid)
-        templates = [pid for pid in family if len(children(pid)) and "app.workers.template" in command_line(pid)]
+        templates = [pid for pid in family if len(children(pid)) and "app.workers.processes" in command_line(pid)]
         assert len(templates) == processes
         assert sum(len(children(pid)) for pid in templates) <= max(processes, os.cpu_count() or 2)
         process.terminate()

@@ -112,7 +112,7 @@ def children(pid: int) -> list[int]:
 
 def template(process: subprocess.Popen[Any]) -> int:
     """Process id of the fork server: the child that has been told so."""
-    return next(child for child in children(process.pid) if "app.workers.template" in command_line(child))
+    return next(child for child in children(process.pid) if "app.workers.processes" in command_line(child))
 
 
 def workers(process: subprocess.Popen[Any]) -> list[int]:
