@@ -45,14 +45,9 @@ class StartUp:
         """How far everything is, in words."""
         return ", ".join(f"{stage.name} {100 * self._share(stage):.0f} %" for stage in STAGES)
 
-    def require(self, endpoint: str) -> None:
-        """Raise WarmingUp if the endpoint's kernels are not there yet."""
-        if BY_PATH[endpoint].stage not in self.warm:
-            raise self.warming_up()
-
-    def require_any(self) -> None:
-        """Raise WarmingUp if there is no worker yet that could look at a request."""
-        if not self.warm:
+    def require(self, endpoint: str | None = None) -> None:
+        """Raise WarmingUp if the endpoint's kernels are not there yet; without one, if no worker is there yet."""
+        if not self.warm or (endpoint is not None and BY_PATH[endpoint].stage not in self.warm):
             raise self.warming_up()
 
     def warming_up(self) -> WarmingUp:

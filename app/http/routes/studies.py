@@ -81,7 +81,7 @@ async def started(
     most: int | None = None,
 ) -> Response:
     """The stream of a study of at most `most` points, which is checked in a worker before the first line."""
-    http.app.state.start_up.require_any()
+    http.app.state.start_up.require()
     study: Study = await planned(http, partial(planner, body), most)
     http.app.state.start_up.require(study.question.endpoint)
     encode = encoder(study, written_as)
