@@ -1,6 +1,6 @@
 """How many modules one request passes: what somebody reads who follows it from the application to the answer's bytes.
 
-Not counted are app/http/server.py, which takes the bytes from the connection, and app/log.py, whose thread writes a line.
+Not counted: app/http/server.py, which takes bytes from the connection, and app/log.py, whose thread writes the log.
 """
 
 import asyncio
