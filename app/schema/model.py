@@ -33,10 +33,9 @@ from typing import (
 )
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, PrivateAttr, model_validator
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, model_validator
 from pydantic.fields import FieldInfo
-from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema, PydanticCustomError
+from pydantic_core import PydanticCustomError
 
 from app.schema.quantities import Input, Output, View, meaning_of, split_unit
 from solvers.notices import Rank
@@ -81,69 +80,34 @@ class Documented(BaseModel):
         """
         super().__init_subclass__(**config)
         records: tuple[Any, ...] = of if isinstance(of, tuple) else (of,)
-        chosen = [
-            (record, name, quantities(record)[name])
-            for record in records
-            for name in only or quantities(record)
-            if name in quantities(record) and name not in without
-        ]
-        inherited = {each.solver_name: each.name for base in cls.__bases__ for each in members(base) if each.record}
-        names = dict(inherited)  # in the interface, by the solver's
-        for _, name, declared in chosen:
-            names[name] = name if declared.unit in {None, cls.member_unit} else f"{name}_{declared.unit}"
-        unknown = {*only, *vars(cls).get("views", {})} - {*names}
-        if unknown:
+        declared = {name: (record, each) for record in records for name, each in quantities(record).items()}
+        if unknown := {*only, *vars(cls).get("views", {})} - {*declared}:
             raise TypeError(f"{cls.__name__} names fields that are not declared: {', '.join(sorted(unknown))}")
+        names = {  # in the interface
+            name: name if each.unit in {None, cls.member_unit} else f"{name}_{each.unit}"
+            for name, (_, each) in declared.items()
+        }
+        inherited = {each.name for base in cls.__bases__ for each in members(base) if each.record}
         own = get_annotations(cls)  # change the type of a filled field, or stand beside it
         filled: dict[str, Any] = {}
-        for record, name, declared in chosen:
-            field = names[name]
-            if field in inherited.values() and field not in own:
+        for name in only or declared:
+            (record, each), field = declared[name], names[name]
+            if name in without or (field in inherited and field not in own):
                 continue
-            kind = own.get(field) or _published(type_of(record, name), declared, cls._declares)
+            kind = own.get(field) or _published(type_of(record, name), each, cls._declares)
             if meaning_of(getattr(kind, "__metadata__", ())):  # brings its own declaration
                 continue
-            optional = cls._optional or declared.detail != "summary"
-            nullable = optional or (cls._declares is Output and record is not records[0])
-            filled[field] = cls._annotated(kind | None if nullable else kind, record, name, names)
+            filled[field], default = cls._filled(kind, record, name, names, nullable=record is not records[0])
             if field not in vars(cls):
-                setattr(cls, field, None if optional else cls._default(kind, record, name))
+                setattr(cls, field, default)
         cls.__annotations__ = filled | {name: kind for name, kind in own.items() if name not in filled}
         if records and not only and not without:
             _MODELS.setdefault((cls._declares, records[0]), cls)
 
     @classmethod
-    def _annotated(cls, kind: Any, record: type, name: str, names: dict[Any, Any]) -> Any:
-        """A type with its declaration, which knows other fields by their names in the interface."""
-        declared = quantities(record)[name]
-        unit = declared.unit or getattr(kind, "member_unit", None)
-        axis = declared.axis
-        axis = tuple(names.get(each, each) for each in axis) if isinstance(axis, tuple) else names.get(axis, axis)
-        if cls._declares is Output:
-            return Annotated[kind, Output.of(record, name, unit=unit, axis=axis, **vars(cls.views.get(name, View())))]
-        if declared.length:
-            least, most = declared.length
-            kind = Annotated[kind, Field(min_length=least or None, max_length=most)]
-        return Annotated[kind, Input.of(record, name)]
-
-    @classmethod
-    def _default(cls, kind: Any, record: Any, name: str) -> Any:
-        """The default of a filled field, `...` without one; results have none."""
-        default = quantities(record)[name].default
-        if cls._declares is Output:
-            return ...
-        if isinstance(default, tuple):
-            return Field(default_factory=partial(list, default))
-        made = default is ... and record.__dataclass_fields__[name].default_factory is not MISSING
-        return kind() if made else default
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        """The schema with `x-exclusive`."""
-        document = handler(schema)
-        if cls.exclusive:
-            handler.resolve_ref_schema(document)["x-exclusive"] = [list(group) for group in cls.exclusive]
-        return document
+    @abstractmethod
+    def _filled(cls, kind: Any, record: Any, name: str, names: dict[str, str], *, nullable: bool) -> tuple[Any, Any]:
+        """Type and default of a field; `names` are those of the interface by the solver's."""
 
 
 _MODELS: dict[tuple[type, type], type[Documented]] = {}
@@ -317,6 +281,12 @@ def above(group: type[Documented], detail: Detail) -> dict[str, Any]:
     return found
 
 
+def _with_choices(document: dict[str, Any], section: type[Any]) -> None:
+    """The schema with `x-exclusive`."""
+    if section.exclusive:
+        document["x-exclusive"] = [list(group) for group in section.exclusive]
+
+
 class Section(Documented):
     """A part of a request: unknown fields are refused, numbers are numbers, finite and in range.
 
@@ -324,9 +294,22 @@ class Section(Documented):
     where none is, if one is required.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, json_schema_extra=_with_choices)
     choice_code: ClassVar[LiteralString] = "exclusive"
     choice_missing: ClassVar[LiteralString | None] = None
+
+    @classmethod
+    def _filled(cls, kind: Any, record: Any, name: str, names: dict[str, str], *, nullable: bool) -> tuple[Any, Any]:  # noqa: ARG003
+        declared = quantities(record)[name]
+        default = declared.default
+        if isinstance(default, tuple):
+            default = Field(default_factory=partial(list, default))
+        elif default is ... and record.__dataclass_fields__[name].default_factory is not MISSING:
+            default = kind()
+        if declared.length:
+            least, most = declared.length
+            kind = Annotated[kind, Field(min_length=least or None, max_length=most)]
+        return Annotated[kind, Input.of(record, name)], default
 
     @model_validator(mode="after")
     def one_of_each_choice(self) -> Self:
@@ -363,6 +346,13 @@ class Section(Documented):
         return None
 
 
+def _in_reading_order(document: dict[str, Any]) -> None:
+    """The schema as the docs page shows it best: what is required first, the level of detail last."""
+    required, properties = document.get("required", ()), document["properties"]
+    names = sorted(properties, key=lambda name: (name not in required, name == "detail"))
+    document["properties"] = {name: properties[name] for name in names}
+
+
 class Request(Section):
     """The body of a calculation."""
 
@@ -371,15 +361,7 @@ class Request(Section):
         Input("level of detail", text="what to return: scalars, scalars and curves, or also two-dimensional fields"),
     ] = "curves"
 
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        """The schema as the docs page shows it best: what is required first, the level of detail last."""
-        document = super().__get_pydantic_json_schema__(schema, handler)
-        definition = handler.resolve_ref_schema(document)
-        required = definition.get("required", ())
-        rank = {name: (name not in required, name == "detail") for name in definition["properties"]}
-        definition["properties"] = {name: definition["properties"][name] for name in sorted(rank, key=rank.__getitem__)}
-        return document
+    model_config = ConfigDict(json_schema_extra=_in_reading_order)
 
     @abstractmethod
     def inputs(self) -> Any:
@@ -399,6 +381,15 @@ class Group(Documented):
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
     _declares: ClassVar = Output
+
+    @classmethod
+    def _filled(cls, kind: Any, record: Any, name: str, names: dict[Any, Any], *, nullable: bool) -> tuple[Any, Any]:
+        declared = quantities(record)[name]
+        unit, axis = declared.unit or getattr(kind, "member_unit", None), declared.axis
+        axis = tuple(names.get(each, each) for each in axis) if isinstance(axis, tuple) else names.get(axis, axis)
+        meaning = Output.of(record, name, unit=unit, axis=axis, **vars(cls.views.get(name, View())))
+        optional = cls._optional or declared.detail != "summary"
+        return Annotated[kind | None if optional or nullable else kind, meaning], None if optional else ...
 
 
 class Notice(Group):
