@@ -8,7 +8,7 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from app.schema.coupling import CouplingFriction, CrownedCoupling
 from app.schema.gears import BacklashGears, GearMaterials
-from app.schema.model import Group, Response, Section
+from app.schema.model import Group, Response, Section, groups
 from app.schema.oil import CouplingLubricant, Oil
 from app.schema.pumping import GearGroove, Mist, PumpingOptions
 from app.schema.quantities import Input, View
@@ -247,18 +247,31 @@ class DriveTrainRequest(MeshInOil):
         return unused
 
 
-class BearingLoad(Group, of=results.BearingResult):
-    """A bearing; what only a plain one has is null of others."""
-
-
-class ShaftThrust(Group, of=thrust_budget.Thrust):
-    """Axial load, positive towards +Z; of a coupling's friction only the limit is known."""
-
-    views: ClassVar = {"use": View(limit=1.0)}
-
-
-class ShaftLine(Group, of=results.ShaftCurves):
-    """Displaced axis of a shaft."""
+groups(
+    BearingLoad=(results.BearingResult, "A bearing; what only a plain one has is null of others."),
+    ShaftThrust=(
+        thrust_budget.Thrust,
+        "Axial load, positive towards +Z; of a coupling's friction only the limit is known.",
+        {"use": View(limit=1.0)},
+    ),
+    ShaftLine=(results.ShaftCurves, "Displaced axis of a shaft."),
+    UnitCouplingState=(results.CouplingResult, "A coupling as its shaft meets it."),
+    BearingInForce=(derived.DerivedBearing, "A plain bearing's defaults; null of others."),
+    ShaftInForce=(derived.DerivedShaft, "A shaft's defaults."),
+    HeatInForce=(derived.DerivedHeat, "Wall responses."),
+    TemperaturesInForce=(derived.DerivedTemperatures, "Bulk and scuffing temperature."),
+    GapCurves=(results.GapCurves, "Over the face, positive where the flanks part."),
+    TrainLoad=(
+        results.FaceLoad,
+        "How the face carries.",
+        {"face_load_factor": View(headline=2), "contact_fraction": View(percent=True)},
+    ),
+    TrainFlash=(results.FlashPlaces, "Largest flash temperature by Blok."),
+    TrainLosses=(results.TrainLosses, "What the unit loses."),
+    TrainBalance=(results.ForceBalance, "How well forces and moments on the shafts balance; null without load."),
+    TrainConvergence=(results.Convergence, "How shafts and mesh came to one gap."),
+    TrainMaps=(results.FlankMaps, "Over the flank, `[profile][face]`."),
+)
 
 
 class ShaftSummary(Group, of=results.ShaftResult, without=("curves",)):
@@ -269,18 +282,6 @@ class ShaftState(ShaftSummary, of=results.ShaftResult):
     """A shaft with its displaced axis."""
 
 
-class UnitCouplingState(Group, of=results.CouplingResult):
-    """A coupling as its shaft meets it."""
-
-
-class BearingInForce(Group, of=derived.DerivedBearing):
-    """A plain bearing's defaults; null of others."""
-
-
-class ShaftInForce(Group, of=derived.DerivedShaft):
-    """A shaft's defaults."""
-
-
 class ProportionsInForce(Group, of=Coupling, only=("face_width", "tooth_height")):
     """A coupling's proportions."""
 
@@ -289,14 +290,6 @@ class CouplingInForce(Group, of=derived.DerivedCoupling):
     """A coupling's defaults."""
 
     coupling: ProportionsInForce
-
-
-class HeatInForce(Group, of=derived.DerivedHeat):
-    """Wall responses."""
-
-
-class TemperaturesInForce(Group, of=derived.DerivedTemperatures):
-    """Bulk and scuffing temperature."""
 
 
 class OilInForce(Group, of=OilInUse):
@@ -319,10 +312,6 @@ class MisalignmentParts(Group, of=results.Parts):
     member_unit: ClassVar = "um"
 
 
-class GapCurves(Group, of=results.GapCurves):
-    """Over the face, positive where the flanks part."""
-
-
 class MisalignmentSummary(Group, of=results.Misalignment, without=("curves",)):
     """Gap over the face by shafts and heat; minus: it opens towards the end that meshes first, which carries less."""
 
@@ -331,16 +320,6 @@ class MisalignmentSummary(Group, of=results.Misalignment, without=("curves",)):
 
 class MisalignmentState(MisalignmentSummary, of=results.Misalignment):
     """Gap over the face with its curves."""
-
-
-class TrainLoad(Group, of=results.FaceLoad):
-    """How the face carries."""
-
-    views: ClassVar = {"face_load_factor": View(headline=2), "contact_fraction": View(percent=True)}
-
-
-class TrainFlash(Group, of=results.FlashPlaces):
-    """Largest flash temperature by Blok."""
 
 
 class TrainSafety(Group, of=results.TrainSafety):
@@ -353,22 +332,6 @@ class TrainSafety(Group, of=results.TrainSafety):
         "thermal_ehl_profile": View(limit=1.0, bound="lower"),
         "minimum": View(headline=1, limit=1.0, bound="lower"),
     }
-
-
-class TrainLosses(Group, of=results.TrainLosses):
-    """What the unit loses."""
-
-
-class TrainBalance(Group, of=results.ForceBalance):
-    """How well forces and moments on the shafts balance; null without load."""
-
-
-class TrainConvergence(Group, of=results.Convergence):
-    """How shafts and mesh came to one gap."""
-
-
-class TrainMaps(Group, of=results.FlankMaps):
-    """Over the flank, `[profile][face]`."""
 
 
 class TrainSummary(Group, of=results.DriveTrainResult, without=("flank", "states")):

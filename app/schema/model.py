@@ -33,7 +33,7 @@ from typing import (
 )
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, model_validator
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, create_model, model_validator
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
@@ -390,6 +390,13 @@ class Group(Documented):
         meaning = Output.of(record, name, unit=unit, axis=axis, **vars(cls.views.get(name, View())))
         optional = cls._optional or declared.detail != "summary"
         return Annotated[kind | None if optional or nullable else kind, meaning], None if optional else ...
+
+
+def groups(**rows: tuple[Any, ...]) -> None:
+    """Make groups that add nothing to declarations, by name: the dataclass, what the group is, views of its outputs."""
+    for name, (record, text, *judged) in rows.items():
+        views = (ClassVar[Any], judged[0] if judged else {})
+        create_model(name, __base__=Group, __doc__=text, __cls_kwargs__={"of": record}, views=views)  # type: ignore[call-overload]
 
 
 class Notice(Group):

@@ -7,7 +7,7 @@ from pydantic_core import PydanticCustomError
 
 from app.schema.gears import GearMaterials, ScuffingGears
 from app.schema.line_contact import FilmModel
-from app.schema.model import Derived, Group, Request, Response, Section
+from app.schema.model import Derived, Group, Request, Response, Section, groups
 from app.schema.oil import Oil
 from app.schema.quantities import Input, View
 from solvers.contact import ehl
@@ -83,38 +83,65 @@ class LoadDistributionRequest(GearPairRequest):
         return {"materials.pinion.roughness_um", "materials.wheel.roughness_um"}
 
 
-class ScuffingGeometry(Group, of=results.Geometry):
-    """The mesh."""
-
-
-class ContactLengthCurves(Group, of=results.LengthCurves):
-    """Total contact length over one base pitch; a spur gear's jumps stand twice."""
-
-
-class ContactLineLengths(Group, of=results.ContactLines):
-    """Total length of the contact lines."""
-
-
-class ToothStiffnessCurves(Group, of=results.StiffnessCurves):
-    """Stiffness of one pair of teeth along the path."""
-
-
-class ToothStiffness(Group, of=results.Stiffness):
-    """Stiffness per face width."""
-
-
-class TransmissionErrorCurves(Group, of=results.ErrorCurves):
-    """Transmission error over one base pitch; a spur gear's jumps stand twice."""
-
-
-class TransmissionErrorResult(Group, of=results.TransmissionError):
-    """Transmission error along the transverse line of action."""
-
-    views: ClassVar = {"peak_to_peak": View(headline=3)}
-
-
-class MeshLoss(Group, of=results.FrictionLoss):
-    """Friction loss at the mean coefficient; power and efficiency are those of the transmitted power."""
+groups(
+    ScuffingGeometry=(results.Geometry, "The mesh."),
+    ContactLengthCurves=(
+        results.LengthCurves,
+        "Total contact length over one base pitch; a spur gear's jumps stand twice.",
+    ),
+    ContactLineLengths=(results.ContactLines, "Total length of the contact lines."),
+    ToothStiffnessCurves=(results.StiffnessCurves, "Stiffness of one pair of teeth along the path."),
+    ToothStiffness=(results.Stiffness, "Stiffness per face width."),
+    TransmissionErrorCurves=(
+        results.ErrorCurves,
+        "Transmission error over one base pitch; a spur gear's jumps stand twice.",
+    ),
+    TransmissionErrorResult=(
+        results.TransmissionError,
+        "Transmission error along the transverse line of action.",
+        {"peak_to_peak": View(headline=3)},
+    ),
+    MeshLoss=(
+        results.FrictionLoss,
+        "Friction loss at the mean coefficient; power and efficiency are those of the transmitted power.",
+    ),
+    FlankPlace=(results.Place, "A point of the flank."),
+    FlankPressure=(results.Pressure, "Dry Hertzian pressure.", {"max": View(headline=1)}),
+    FeatureLineCurves=(
+        results.FeatureLine,
+        "Along the feature line from A1 to E2; the points A, C and E of the path lie on it.",
+    ),
+    FlankFields=(results.Flank, "Over the flank, `[profile][face]`."),
+    FlashTemperature=(safety_results.Flash, "Largest flash temperature; thermal EHL values are null in closed form."),
+    ContactTemperatureResult=(
+        safety_results.ContactTemperature,
+        "Bulk temperature, and the largest contact temperature: bulk plus flash.",
+        {
+            "blok_max": View(headline=2, limit="safety.scuffing_c", bound="upper"),
+            "thermal_ehl_max": View(limit="safety.scuffing_c", bound="upper"),
+        },
+    ),
+    ThinnestFilm=(
+        safety_results.Film,
+        "Thinnest film; null where nothing is loaded.",
+        {"thickness_ratio": View(headline=3, limit=1.0, bound="lower", verdict=".thickness_regime")},
+    ),
+    ScuffingSafety=(
+        safety_results.Safety,
+        "Safety factor against scuffing.",
+        {
+            "blok_factor": View(
+                headline=1, limit=1.0, bound="lower", needs="temperatures.scuffing_c", verdict=".verdict"
+            ),
+            "thermal_ehl_factor": View(limit=1.0, bound="lower"),
+        },
+    ),
+    ScuffingPathCurves=(
+        (safety_results.ScuffingPath, safety_results.ThermalPath),
+        "Along the feature line; what only the thermal EHL solution knows is null in closed form.",
+        {"thickness_ratio": View(limit=1.0, bound="lower")},
+    ),
+)
 
 
 class MeshDerived(Derived, of=results.Derived, without=("rack_tip_radius",)):
@@ -125,30 +152,12 @@ class ScuffingDerived(MeshDerived, of=results.Derived):
     """Load and lengths where the request left them open, and what is used of the rack."""
 
 
-class FlankPlace(Group, of=results.Place):
-    """A point of the flank."""
-
-
 class FlankLoad(Group, of=results.LoadOnFlank):
     """Load on the flank."""
 
     views: ClassVar = {"face_load_factor": View(headline=2), "contact_fraction": View(percent=True)}
 
     pair_share: list[list[float]] | None
-
-
-class FlankPressure(Group, of=results.Pressure):
-    """Dry Hertzian pressure."""
-
-    views: ClassVar = {"max": View(headline=1)}
-
-
-class FeatureLineCurves(Group, of=results.FeatureLine):
-    """Along the feature line from A1 to E2; the points A, C and E of the path lie on it."""
-
-
-class FlankFields(Group, of=results.Flank):
-    """Over the flank, `[profile][face]`."""
 
 
 class LoadDistributionResponse(Response, of=results.LoadDistribution):
@@ -314,40 +323,6 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
 
 class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, OilInUse)):
     """Load and lengths, and the oil as it enters the contact."""
-
-
-class FlashTemperature(Group, of=safety_results.Flash):
-    """Largest flash temperature; thermal EHL values are null in closed form."""
-
-
-class ContactTemperatureResult(Group, of=safety_results.ContactTemperature):
-    """Bulk temperature, and the largest contact temperature: bulk plus flash."""
-
-    views: ClassVar = {
-        "blok_max": View(headline=2, limit="safety.scuffing_c", bound="upper"),
-        "thermal_ehl_max": View(limit="safety.scuffing_c", bound="upper"),
-    }
-
-
-class ThinnestFilm(Group, of=safety_results.Film):
-    """Thinnest film; null where nothing is loaded."""
-
-    views: ClassVar = {"thickness_ratio": View(headline=3, limit=1.0, bound="lower", verdict=".thickness_regime")}
-
-
-class ScuffingSafety(Group, of=safety_results.Safety):
-    """Safety factor against scuffing."""
-
-    views: ClassVar = {
-        "blok_factor": View(headline=1, limit=1.0, bound="lower", needs="temperatures.scuffing_c", verdict=".verdict"),
-        "thermal_ehl_factor": View(limit=1.0, bound="lower"),
-    }
-
-
-class ScuffingPathCurves(Group, of=(safety_results.ScuffingPath, safety_results.ThermalPath)):
-    """Along the feature line; what only the thermal EHL solution knows is null in closed form."""
-
-    views: ClassVar = {"thickness_ratio": View(limit=1.0, bound="lower")}
 
 
 class ScuffingResponse(LoadDistributionResponse, of=safety_results.Scuffing):
