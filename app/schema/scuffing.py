@@ -279,7 +279,7 @@ class MeshInOil(Request):
 
     def unused(self) -> set[str]:
         """Without an oil its temperatures; in closed form the film's model; the oil's kind where no factor asks it."""
-        unused = set() if self.lubricant.known else {"temperatures"}
+        unused = set() if self.lubricant.known else {"lubricant", "temperatures"}
         if self.model.lubrication == "closed_form" or not self.lubricant.known:
             unused |= {"model.rheology", "model.eyring_stress_mpa"}
         if not self.lubricant.by_sheet and not self._lubricant_factor_asked:
