@@ -37,7 +37,7 @@ from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, create_model, mo
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
-from app.schema.quantities import Input, Output, View, meaning_of, split_unit
+from app.schema.quantities import Input, Output, View, meaning_of
 from solvers.notices import Rank
 from solvers.quantity import UNITS, Detail, Quantity, Unit, quantities, type_of
 
@@ -155,7 +155,7 @@ class Member:
 
     `record` is that dataclass, None where it may be any. `kinds` are the types of single values, `group` the section or
     group among them, alone, optional or as the items of a list. `dimensions` is 0 for a scalar, 1 for a list, 2 for a
-    matrix. `level` is that of the least detail at which an answer has the field.
+    matrix.
     """
 
     name: str
@@ -167,7 +167,10 @@ class Member:
     kinds: tuple[Any, ...]
     group: type[Documented] | None
     dimensions: int
-    level: int
+
+    def is_above(self, detail: Detail) -> bool:
+        """Whether only answers of a higher level of detail have the field."""
+        return LEVELS.index(self.meaning.detail) > LEVELS.index(detail)
 
 
 @cache
@@ -176,24 +179,12 @@ def members(model: type[BaseModel]) -> tuple[Member, ...]:
     found = []
     for name, info in model.model_fields.items():
         if meaning := meaning_of(info.metadata):
-            bare_name, unit = split_unit(name)
-            record, solver_name = meaning.origin or (None, bare_name)
+            record, solver_name = meaning.origin or (None, name)
+            unit = UNITS[meaning.unit] if meaning.unit else None
             allowed, lists = zip(*kinds(info.annotation), strict=True)
             groups = (kind for kind in allowed if isinstance(kind, type) and issubclass(kind, Documented))
-            found.append(
-                Member(
-                    name=name,
-                    info=info,
-                    meaning=meaning,
-                    record=record,
-                    solver_name=solver_name,
-                    unit=UNITS[meaning.unit] if meaning.unit else unit,
-                    kinds=allowed,
-                    group=next(groups, None),
-                    dimensions=max(lists),
-                    level=LEVELS.index(meaning.detail),
-                )
-            )
+            group, dimensions = next(groups, None), max(lists)
+            found.append(Member(name, info, meaning, record, solver_name, unit, allowed, group, dimensions))
     return tuple(found)
 
 
@@ -231,22 +222,20 @@ def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, A
     """
     content: dict[str, Any] = {}
     kind: Any = type(result)
-    level = LEVELS.index(detail)
-    for member, holder in _sources(group, kind):
-        if member.level <= level:
-            part = getattr(result, holder) if holder else result
-            value = None if part is None else getattr(part, member.solver_name)
-            content[member.name] = _displayed(value, member, detail)
+    for member, holder in _sources(group, kind, detail):
+        part = getattr(result, holder) if holder else result
+        value = None if part is None else getattr(part, member.solver_name)
+        content[member.name] = _displayed(value, member, detail)
     return content
 
 
 @cache
-def _sources(group: type[Documented], record: Any) -> tuple[tuple[Member, str | None], ...]:
+def _sources(group: type[Documented], record: Any, detail: Detail) -> tuple[tuple[Member, str | None], ...]:
     """The filled fields of a group, and the member of the result that holds each; None for the result's own."""
     held = {name: inner for name, hint in get_type_hints(record).items() if (inner := _record_in(hint))}
     found = []
     for each in members(group):
-        if each.record:
+        if each.record and not each.is_above(detail):
             holders = (name for name, inner in held.items() if issubclass(inner, each.record))
             found.append((each, None if issubclass(record, each.record) else next(holders, None)))
     return tuple(found)
@@ -254,13 +243,14 @@ def _sources(group: type[Documented], record: Any) -> tuple[tuple[Member, str | 
 
 def _displayed(value: Any, member: Member, detail: Detail) -> Any:
     """A value in the unit of its field; NaN inside an array marks a point without a value and becomes None."""
-    unit = member.unit
+    if value is None:
+        return None
     if isinstance(value, tuple | list):
         return [_displayed(item, member, detail) for item in value]
-    if member.group is not None and value is not None:
+    if member.group is not None:
         return from_si(member.group, value, detail)
-    if unit is not None and value is not None:
-        value = (value - unit.offset) / unit.scale
+    if member.unit is not None:
+        value = (value - member.unit.offset) / member.unit.scale
     if not isinstance(value, np.ndarray):
         return value
     if value.dtype.kind == "f" and np.isnan(value).any():
@@ -274,7 +264,7 @@ def above(group: type[Documented], detail: Detail) -> dict[str, Any]:
     """The fields of a group above a level of detail, as pydantic's `exclude` names them."""
     found: dict[str, Any] = {}
     for member in members(group):
-        if member.level > LEVELS.index(detail):
+        if member.is_above(detail):
             found[member.name] = True
         elif member.group is not None and (inner := above(member.group, detail)):
             found[member.name] = {"__all__": inner} if member.dimensions else inner
