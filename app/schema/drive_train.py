@@ -33,10 +33,6 @@ from solvers.pumping import inputs as pumping
 from solvers.scuffing import inputs as mesh
 
 
-def _only_hot() -> list[si.State]:
-    return ["hot"]
-
-
 class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
     """The gear pair."""
 
@@ -164,16 +160,14 @@ class DriveTrainRequest(MeshInOil):
 
     gears: Annotated[TrainGears, Input("gear pair")]
     grooves: Annotated[
-        list[GearGroove], Field(max_length=50), Input("grooves", text="circumferential grooves; they do not carry less")
+        list[GearGroove], Input("grooves", text="circumferential grooves; they do not carry less", length=(0, 50))
     ] = Field(default_factory=list)
     operation: Annotated[TrainOperation, Input("operating point")]
     face_start_mm: Annotated[float, Input.of(si.DriveTrainInputs, "face_start")]
     pinion_shaft: Annotated[UnitShaft, Input.of(si.DriveTrainInputs, "pinion_shaft")]
     wheel_shaft: Annotated[UnitShaft, Input.of(si.DriveTrainInputs, "wheel_shaft")]
     thrust_collar: Annotated[ThrustCollar, Input("thrust collar")] = ThrustCollar()
-    couplings: Annotated[list[UnitCoupling], Field(max_length=10), Input.of(si.DriveTrainInputs, "couplings")] = Field(
-        default_factory=list
-    )
+    couplings: Annotated[list[UnitCoupling], Input.of(si.DriveTrainInputs, "couplings")] = Field(default_factory=list)
     modifications: Annotated[
         TrainModifications, Input("modifications", text="what is ground, and misalignment from elsewhere")
     ] = TrainModifications()
@@ -184,9 +178,7 @@ class DriveTrainRequest(MeshInOil):
     lubricant: Annotated[Oil, Input("oil")] = Oil()
     temperatures: Annotated[TrainTemperatures, Input("temperatures", text="of contact and oil")] = TrainTemperatures()
     friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
-    states: Annotated[list[si.State], Field(min_length=1, max_length=2), Input.of(si.DriveTrainInputs, "states")] = (
-        Field(default_factory=_only_hot)
-    )
+    states: Annotated[list[si.State], Input.of(si.DriveTrainInputs, "states")] = Field(default_factory=lambda: ["hot"])
     model: Annotated[TrainModel, Input("model", text="choices where the papers leave room", advanced=True)] = (
         TrainModel()
     )

@@ -296,9 +296,6 @@ class Section(Documented):
             default = Field(default_factory=partial(list, default))
         elif default is ... and record.__dataclass_fields__[name].default_factory is not MISSING:
             default = kind()
-        if declared.length:
-            least, most = declared.length
-            kind = Annotated[kind, Field(min_length=least or None, max_length=most)]
         return Annotated[kind, Input.of(record, name)], default
 
     @model_validator(mode="after")
