@@ -184,7 +184,7 @@ def _assumptions(
     `derived` holds such values under their names, or in groups and lists of the sections' own names. `unused` are
     dotted names that the sections around leave out.
     """
-    unused |= {prefix + name for name in section.unused()}
+    unused |= {prefix + name for name, left_out in section.unused().items() if left_out}
     for member in members(type(section)):
         name, reason = member.name, member.meaning.assumed
         if not (reason or member.group) or (path := prefix + name) in unused:

@@ -43,11 +43,10 @@ class MixedFrictionCurve(Section, of=si.MixedFrictionCurve):
 class CouplingFriction(Section, of=si.Friction):
     """Friction between the teeth."""
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """A coefficient or a table leaves the curve out, a coefficient also what holds at rest."""
-        if self.coefficient is not None:
-            return {"mixed_curve", "static_coefficient"}
-        return set() if self.mixed_law is None else {"mixed_curve"}
+        given = self.coefficient is not None
+        return {"static_coefficient": given, "mixed_curve": given or self.mixed_law is not None}
 
 
 class CouplingModel(Section, of=si.ModelOptions):
@@ -65,17 +64,14 @@ class _CouplingRequest(Request):
         CouplingModel()
     )
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """What given values replace, and what the arrangement does without."""
-        unused = set()
-        if self.model.inlet_length_mm is not None:
-            unused.add("model.inlet")
-        offset = getattr(self.operation, "parallel_offset_mm", None)
-        if self.operation.arrangement == "single" and offset is None:
-            unused.add("coupling.hub_distance_mm")
-        if self.operation.arrangement != "parallel_offset":
-            unused.add("model.simple_thrust_factor")
-        return unused
+        arrangement, offset = self.operation.arrangement, getattr(self.operation, "parallel_offset_mm", None)
+        return {
+            "model.inlet": self.model.inlet_length_mm is not None,
+            "coupling.hub_distance_mm": arrangement == "single" and offset is None,
+            "model.simple_thrust_factor": arrangement != "parallel_offset",
+        }
 
     def _design(self, operation: si.Operation) -> si.CouplingInputs:
         coupling = self.coupling.si(si.CouplingDesign).coupling()
@@ -105,10 +101,10 @@ class SleeveOrbitRequest(CouplingRequest):
         """The kinematics; the sleeve always floats."""
         return {"kinematics": self.model.kinematics, "sleeve": "floating"}
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """All that belongs to contact, film, friction and a second mesh."""
-        contact = {"face_width_mm", "tooth_height_mm", "youngs_modulus_gpa", "poisson_ratio", "hub_distance_mm"}
-        return {"lubricant", "friction", "model", *(f"coupling.{name}" for name in contact)}
+        contact = ("face_width_mm", "tooth_height_mm", "youngs_modulus_gpa", "poisson_ratio", "hub_distance_mm")
+        return dict.fromkeys(("lubricant", "friction", "model", *(f"coupling.{name}" for name in contact)), True)
 
 
 class RecommendationRequest(_CouplingRequest):
@@ -117,9 +113,9 @@ class RecommendationRequest(_CouplingRequest):
     coupling: Annotated[CouplingDesign, Input("coupling", text="the coupling without its crowning")]
     operation: Annotated[CouplingOperationRange, Input("operating point", text="with a range of misalignment")]
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """Also the inputs of what is calculated at a single operating point only: one-pair thrust, friction at rest."""
-        return super().unused() | {"model.simple_thrust_factor", "friction.static_coefficient"}
+        return super().unused() | {"model.simple_thrust_factor": True, "friction.static_coefficient": True}
 
     def inputs(self) -> si.RecommendationInputs:
         """The solver's inputs."""

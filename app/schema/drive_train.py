@@ -92,9 +92,9 @@ class ShaftBearing(Section, of=si.ShaftBearing):
 
     stiffness_n_per_um: Stiffness | None
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """Clearance and oil belong to plain bearings."""
-        return set() if self.type == "journal" else {"radial_clearance_um", "viscosity_pa_s"}
+        return dict.fromkeys(("radial_clearance_um", "viscosity_pa_s"), self.type != "journal")
 
 
 class ThrustBearing(Section):
@@ -121,9 +121,9 @@ class UnitCoupling(Section, of=si.UnitCoupling):
     lubricant: CouplingLubricant
     friction: CouplingFriction
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """Friction at rest, for the shaft rotates; with a coefficient of friction the oil."""
-        return {"friction.static_coefficient"} | (set() if self.friction.coefficient is None else {"lubricant"})
+        return {"friction.static_coefficient": True, "lubricant": self.friction.coefficient is not None}
 
 
 class ToothHeat(Section, of=si.Heat):
@@ -229,14 +229,14 @@ class DriveTrainRequest(MeshInOil):
         """The model section, the number of slices filled in."""
         return super().options() | {"slices": self.model.si(pumping.PumpingModel).slice_count}
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """Also what belongs to effects that are left out."""
-        unused = super().unused()
-        if not (self.couplings and self.effects.shafts and self.effects.coupling):
-            unused |= {"couplings", "model.coupling_friction"}
-        if not self.effects.thermal:
-            unused |= {"thermal.wall_response", "thermal.wall_response_wheel"}
-        return unused
+        coupled = self.couplings and self.effects.shafts and self.effects.coupling
+        return (
+            super().unused()
+            | dict.fromkeys(("couplings", "model.coupling_friction"), not coupled)
+            | dict.fromkeys(("thermal.wall_response", "thermal.wall_response_wheel"), not self.effects.thermal)
+        )
 
 
 groups(

@@ -250,7 +250,7 @@ def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
     The solver may leave out sections, but not lists; before a name at the root it may name parts of its inputs that
     the request does not have.
     """
-    known = {}
+    known: dict[_Names, _Names] = {}
     for way in _ways(model):
         theirs, ours = _names(way, solvers=True), _names(way)
         known |= {theirs: ours} | ({theirs[:-1]: ours[:-1]} if way[-1].dimensions else {})

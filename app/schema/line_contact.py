@@ -23,9 +23,9 @@ class LineContactTemperatures(Section, of=ehl.Temperatures):
 class FilmModel(Section, of=ehl.Model, without=("thermal",)):
     """Physics and resolution of the film."""
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """A Newtonian film has no Eyring stress."""
-        return super().unused() | ({"eyring_stress_mpa"} if self.rheology == "newtonian" else set())
+        return super().unused() | {"eyring_stress_mpa": self.rheology == "newtonian"}
 
 
 class LineContactModel(FilmModel, of=ehl.Model):
@@ -51,10 +51,10 @@ class LineContactRequest(Request):
         laws = self.lubricant.model_dump(include={"pressure_viscosity_law", "compressible"})
         return super().options() | laws
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """An isothermal film does not know the temperatures of the surfaces, one by its viscosity no kind of oil."""
-        unused = set() if self.model.thermal else {"temperatures.surface_1_c", "temperatures.surface_2_c"}
-        return unused if self.lubricant.by_sheet else unused | {"lubricant.kind"}
+        isothermal = dict.fromkeys(("temperatures.surface_1_c", "temperatures.surface_2_c"), not self.model.thermal)
+        return isothermal | {"lubricant.kind": not self.lubricant.by_sheet}
 
     def inputs(self) -> ehl.LineContactInputs:
         """The solver's inputs; an oil by its data sheet is what it is at the inlet.

@@ -324,9 +324,9 @@ class Section(Documented):
                     given[name] = _in_si(getattr(section, member.name), member.unit, inner)
         return kind(**given | known)
 
-    def unused(self) -> set[str]:
-        """Names, dotted below this section, of fields and sections that the values given leave out of a result."""
-        return set()
+    def unused(self) -> dict[str, bool]:
+        """Whether the values given leave a field or section out of a result, by names dotted below this section."""
+        return {}
 
     def stands_for_null(self, _name: str) -> Any:
         """What a field that was left null stands for, where the section itself knows it."""
@@ -383,7 +383,7 @@ def groups(**rows: tuple[Any, ...]) -> None:
     """Make groups that add nothing to declarations, by name: the dataclass, what the group is, views of its outputs."""
     for name, (record, text, *judged) in rows.items():
         views = (ClassVar[Any], judged[0] if judged else {})
-        create_model(name, __base__=Group, __doc__=text, __cls_kwargs__={"of": record}, views=views)  # type: ignore[call-overload]
+        create_model(name, __base__=Group, __doc__=text, __cls_kwargs__={"of": record}, views=views)  # type: ignore[arg-type]
 
 
 class Notice(Group):

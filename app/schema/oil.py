@@ -88,11 +88,11 @@ class Oil(SheetOil, of=OilChoice):
         """Whether an oil is given."""
         return self.by_sheet or self.viscosity_pa_s is not None
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """What this way of giving the oil leaves out of a result; whether its kind counts is the request's to say."""
-        return (
-            {"reference_temperature_c", "density_kg_per_m3"} if self.by_sheet else {*SheetOil.model_fields} - {"kind"}
-        )
+        of_a_sheet = ("kinematic_viscosity_100_mm2_per_s", "density_15_kg_per_m3")
+        of_a_viscosity = ("reference_temperature_c", "density_kg_per_m3")
+        return dict.fromkeys(of_a_sheet, not self.by_sheet) | dict.fromkeys(of_a_viscosity, self.by_sheet)
 
 
 _WITH_VISCOSITY = [name for name, field in Oil.model_fields.items() if isinstance(field.default, float)]
@@ -116,9 +116,10 @@ class CouplingLubricant(SheetOil, of=CouplingOil):
             raise PydanticCustomError("missing_property", "give viscosity_pa_s, or the oil by its grade or data sheet")
         return self
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """What this way of giving the oil leaves out of a result."""
-        return {"viscosity_pa_s"} if self.by_sheet else {*SheetOil.model_fields, "temperature_c"}
+        of_a_sheet = dict.fromkeys((*SheetOil.model_fields, "temperature_c"), not self.by_sheet)
+        return of_a_sheet | {"viscosity_pa_s": self.by_sheet}
 
 
 class OilDerived(Derived, of=OilInUse):

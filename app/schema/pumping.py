@@ -30,16 +30,13 @@ class Mist(Section, of=si.Ambient):
 class PumpingOptions(Section, of=si.PumpingModel):
     """Choices where the paper leaves room."""
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """Closure belongs to the pocket chain, wall transport to gas dynamics with contact gaps, slices to both."""
-        unused = super().unused()
-        if self.flow != "pocket_chain":
-            unused.add("closure")
-        if self.flow != "gas_dynamics" or self.gap != "contact":
-            unused.add("wall_transport")
-        if self.flow == "incompressible":
-            unused.add("slices")
-        return unused
+        return super().unused() | {
+            "closure": self.flow != "pocket_chain",
+            "wall_transport": self.flow != "gas_dynamics" or self.gap != "contact",
+            "slices": self.flow == "incompressible",
+        }
 
 
 class _PumpingSetup(Request, of=si.PumpingSetup, without=("normal_backlash",)):

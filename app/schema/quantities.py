@@ -56,7 +56,7 @@ class Input(_Declaration):
     in_schema = ("symbol", "source", "assumed", "default_text", "advanced", "tolerance", "relative_tolerance")
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        """The type's own schema; numbers are finite, in range, and neither text nor booleans; lists have their length."""
+        """The type's own schema; numbers are finite, in range, no text or booleans; lists have their length."""
         return self._strict(handler(source))
 
     def _strict(self, schema: CoreSchema) -> CoreSchema:

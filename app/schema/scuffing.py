@@ -22,11 +22,11 @@ from solvers.scuffing import results, safety_results
 class FlankModifications(Section, of=si.Modifications, without=("lead_curve",)):
     """Gaps along the transverse line of action, positive where material is missing."""
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """Lengths and exponent of reliefs that are zero."""
         amplitudes = {relief: getattr(self, f"{relief}_um") for relief in ("tip_relief", "root_relief", "end_relief")}
-        unused = {f"{relief}_length_mm" for relief, value in amplitudes.items() if value == 0.0}
-        return unused if any(amplitudes.values()) else {*unused, "relief_exponent"}
+        lengths = {f"{relief}_length_mm": value == 0.0 for relief, value in amplitudes.items()}
+        return lengths | {"relief_exponent": all(lengths.values())}
 
 
 class ScuffingLoad(Section, of=si.Load):
@@ -78,9 +78,9 @@ class LoadDistributionRequest(GearPairRequest):
         """The solver's inputs."""
         return distribution_inputs(self, self.gears.si(GearPairInputs), self.load.si(si.Load))
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """Roughness, which loads do not depend on."""
-        return {"materials.pinion.roughness_um", "materials.wheel.roughness_um"}
+        return {"materials.pinion.roughness_um": True, "materials.wheel.roughness_um": True}
 
 
 groups(
@@ -192,9 +192,10 @@ class ContactTemperatures(Section, of=si.Temperatures):
             return {"bulk_method": "given"} | given
         return given
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """A bulk temperature that is estimated is not given; one that is given does not ask how the oil comes."""
-        return {"bulk_c"} if self.bulk_method == "estimated" else {"oil_supply"}
+        estimated = self.bulk_method == "estimated"
+        return {"bulk_c": estimated, "oil_supply": not estimated}
 
 
 class ScuffingTemperatures(ContactTemperatures):
@@ -277,14 +278,17 @@ class MeshInOil(Request):
         by_test = test is not None and test.lubricant_factor is None
         return self.lubricant.known and (self.model.friction == "iso_tr_13989" or by_test)
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """Without an oil its temperatures; in closed form the film's model; the oil's kind where no factor asks it."""
-        unused = set() if self.lubricant.known else {"lubricant", "temperatures"}
-        if self.model.lubrication == "closed_form" or not self.lubricant.known:
-            unused |= {"model.rheology", "model.eyring_stress_mpa"}
-        if not self.lubricant.by_sheet and not self._lubricant_factor_asked:
-            unused.add("lubricant.kind")
-        return unused
+        dry = not self.lubricant.known
+        no_film = dry or self.model.lubrication == "closed_form"
+        return {
+            "lubricant": dry,
+            "temperatures": dry,
+            "model.rheology": no_film,
+            "model.eyring_stress_mpa": no_film,
+            "lubricant.kind": not (self.lubricant.by_sheet or self._lubricant_factor_asked),
+        }
 
     def assumed_by_the_model(self) -> dict[str, str]:
         """What friction, oil and bulk temperature take for granted."""
