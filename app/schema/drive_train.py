@@ -2,11 +2,12 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from app.schema.coupling import CouplingFriction, CrownedCoupling
+from app.schema.coupling import CrownedCoupling
 from app.schema.gears import BacklashGears, GearMaterials
 from app.schema.model import Group, Response, Section, groups
 from app.schema.oil import CouplingLubricant, Oil
@@ -119,7 +120,6 @@ class UnitCoupling(Section, of=si.UnitCoupling):
 
     coupling: CrownedCoupling
     lubricant: CouplingLubricant
-    friction: CouplingFriction
 
     def unused(self) -> dict[str, bool]:
         """Friction at rest, for the shaft rotates; with a coefficient of friction the oil."""
@@ -178,7 +178,9 @@ class DriveTrainRequest(MeshInOil):
     lubricant: Annotated[Oil, Input("oil")] = Oil()
     temperatures: Annotated[TrainTemperatures, Input("temperatures", text="of contact and oil")] = TrainTemperatures()
     friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
-    states: Annotated[list[si.State], Input.of(si.DriveTrainInputs, "states")] = Field(default_factory=lambda: ["hot"])
+    states: Annotated[list[si.State], Input.of(si.DriveTrainInputs, "states")] = Field(
+        default_factory=partial(list[si.State], ("hot",))
+    )
     model: Annotated[TrainModel, Input("model", text="choices where the papers leave room", advanced=True)] = (
         TrainModel()
     )
@@ -258,6 +260,17 @@ groups(
         "How the face carries.",
         {"face_load_factor": View(headline=2), "contact_fraction": View(percent=True)},
     ),
+    TrainSafety=(
+        results.TrainSafety,
+        "Safety factor against scuffing; thermal EHL values are null in closed form, or where a point is not known.",
+        {
+            "blok_feature": View(limit=1.0, bound="lower"),
+            "blok_flank": View(limit=1.0, bound="lower"),
+            "thermal_ehl_feature": View(limit=1.0, bound="lower"),
+            "thermal_ehl_profile": View(limit=1.0, bound="lower"),
+            "minimum": View(headline=1, limit=1.0, bound="lower"),
+        },
+    ),
     TrainFlash=(results.FlashPlaces, "Largest flash temperature by Blok."),
     TrainLosses=(results.TrainLosses, "What the unit loses."),
     TrainBalance=(results.ForceBalance, "How well forces and moments on the shafts balance; null without load."),
@@ -314,24 +327,11 @@ class MisalignmentState(MisalignmentSummary, of=results.Misalignment):
     """Gap over the face with its curves."""
 
 
-class TrainSafety(Group, of=results.TrainSafety):
-    """Safety factor against scuffing; thermal EHL values are null in closed form, or where a point is not known."""
-
-    views: ClassVar = {
-        "blok_feature": View(limit=1.0, bound="lower"),
-        "blok_flank": View(limit=1.0, bound="lower"),
-        "thermal_ehl_feature": View(limit=1.0, bound="lower"),
-        "thermal_ehl_profile": View(limit=1.0, bound="lower"),
-        "minimum": View(headline=1, limit=1.0, bound="lower"),
-    }
-
-
 class TrainSummary(Group, of=results.DriveTrainResult, without=("flank", "states")):
     """The unit in another state, in short."""
 
     misalignment: MisalignmentSummary
     shafts: list[ShaftSummary]
-    safety: TrainSafety | None
     derived: StateDerived
 
 

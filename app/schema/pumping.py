@@ -43,7 +43,6 @@ class _PumpingSetup(Request, of=si.PumpingSetup, without=("normal_backlash",)):
     """What both calculations have in common."""
 
     gears: PumpingGears
-    model: PumpingOptions
 
     def options(self) -> dict[str, Any]:
         """The model section, the number of slices filled in."""

@@ -175,7 +175,6 @@ class ContactTemperatures(Section, of=si.Temperatures):
 
     bulk_c: float | None = None
     bulk_method: si.BulkMethod = "estimated"
-    scuffing_test: ScuffingTest | None = None
 
     @model_validator(mode="after")
     def one_bulk(self) -> Self:
