@@ -90,17 +90,17 @@ def tree(model: type[Documented]) -> Branch:
 
     Titles tell its leaves apart: each names the nearest section that its namesakes lack.
     """
-    namesakes = defaultdict(list)
+    namesakes: dict[str, dict[str, list[str]]] = defaultdict(dict)
     for way in _ways(model):
-        if way[-1].group is None:
-            namesakes[way[-1].meaning.title].append(way)
+        *around, leaf = way
+        if leaf.group is None:
+            namesakes[leaf.meaning.title][_path(way)] = [each.meaning.title for each in reversed(around)]
     titles = {}
-    for title, ways in namesakes.items():
-        around = [[each.meaning.title for each in reversed(way[:-1])] for way in ways]
-        for way, sections in zip(ways, around, strict=True):
-            telling = (name for name in sections if sum(name in others for others in around) == 1)
-            section = next(telling, None)
-            titles[_path(way)] = f"{title}, {section}" if section and len(ways) > 1 else title
+    for title, places in namesakes.items():
+        for path, sections in places.items():
+            telling = (name for name in sections if sum(name in others for others in places.values()) == 1)
+            section = next(telling, None) if len(places) > 1 else None
+            titles[path] = f"{title}, {section}" if section else title
     return Branch("", "", "", model, _below(model, (), titles))
 
 

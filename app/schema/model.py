@@ -16,7 +16,7 @@ from dataclasses import MISSING, dataclass, fields, is_dataclass
 from functools import cache, partial
 from importlib.metadata import version
 from inspect import get_annotations
-from types import NoneType, UnionType
+from types import GenericAlias, NoneType, UnionType
 from typing import (
     TYPE_CHECKING,
     Annotated,
@@ -123,18 +123,14 @@ def _published(hint: Any, declared: Quantity, declares: type) -> Any:
         return Union[tuple(_published(each, declared, declares) for each in arguments)]  # noqa: UP007
     if origin is np.ndarray:
         number: Any = bool if "bool" in str(arguments[1]) else float
-        row = _list_of(number | None if declared.gaps else number)
-        return _list_of(row) if isinstance(declared.axis, tuple) else row
+        row = GenericAlias(list, number | None if declared.gaps else number)
+        return GenericAlias(list, row) if isinstance(declared.axis, tuple) else row
     if origin is tuple:
-        listed = _list_of(_published(arguments[0], declared, declares))
+        listed = GenericAlias(list, _published(arguments[0], declared, declares))
         if declares is Input and arguments[-1] is not Ellipsis:
             return Annotated[listed, Field(min_length=len(arguments), max_length=len(arguments))]
         return listed
     return hint
-
-
-def _list_of(kind: Any) -> Any:
-    return list[kind]
 
 
 def kinds(annotation: Any, lists: int = 0) -> Iterator[tuple[Any, int]]:
