@@ -241,7 +241,7 @@ def _displayed(value: Any, member: Member, detail: Detail) -> Any:
     """A value in the unit of its field; NaN inside an array marks a point without a value and becomes None."""
     if value is None:
         return None
-    if isinstance(value, tuple | list):
+    if isinstance(value, tuple):
         return [_displayed(item, member, detail) for item in value]
     if member.group is not None:
         return from_si(member.group, value, detail)
