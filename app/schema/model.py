@@ -6,8 +6,8 @@
 has a field for each declaration on `si.ModelOptions`, named with the suffix of its unit. What stands in the class
 itself is an ordinary field of pydantic: under the name of a filled field it changes the type or the default, and with
 `Input` or `Output` beside the type it replaces the declaration; `Input.of(Record, "field", text=...)` changes part of
-one. Requests give the solver's dataclasses in SI (`Section.si`), responses are read from them (`from_si`), by names and
-units that are looked up once a model (`members`).
+one. Sections of answers that add nothing are rows of `groups`. Requests give the solver's dataclasses in SI
+(`Section.si`), responses are read from them (`from_si`), by names and units looked up once a model (`members`).
 """
 
 from abc import abstractmethod
