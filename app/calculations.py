@@ -11,24 +11,12 @@ from app.figures.models import line_contact as line_contact_figures
 from app.figures.models import load_distribution as load_figures
 from app.figures.models import pumping as pumping_figures
 from app.figures.models import scuffing as scuffing_figures
-from app.schema.coupling import (
-    CouplingRequest,
-    CouplingResponse,
-    RecommendationRequest,
-    RecommendationResponse,
-    SleeveOrbitRequest,
-    SleeveOrbitResponse,
-)
-from app.schema.drive_train import DriveTrainRequest, DriveTrainResponse
-from app.schema.line_contact import LineContactRequest, LineContactResponse
+from app.schema import coupling as coupling_schema
+from app.schema import drive_train as drive_train_schema
+from app.schema import line_contact as line_contact_schema
+from app.schema import pumping as pumping_schema
+from app.schema import scuffing as scuffing_schema
 from app.schema.model import Request, Response
-from app.schema.pumping import ChokingSpeedRequest, ChokingSpeedResponse, PumpingRequest, PumpingResponse
-from app.schema.scuffing import (
-    LoadDistributionRequest,
-    LoadDistributionResponse,
-    ScuffingRequest,
-    ScuffingResponse,
-)
 from solvers import coupling, drive_train, pumping, scuffing
 from solvers.contact import ehl
 from solvers.contact.ehl.continuation import Resolution, price
@@ -114,9 +102,9 @@ CALCULATIONS = (
         title="Gear coupling",
         summary="Load, lubrication, friction, axial thrust and losses of a gear coupling",
         source="Pahl 1978",
-        request=CouplingRequest,
+        request=coupling_schema.CouplingRequest,
         solve=coupling.solve,
-        response=CouplingResponse,
+        response=coupling_schema.CouplingResponse,
         stage=COUPLING,
         figures=coupling_figures.FIGURES,
     ),
@@ -125,9 +113,9 @@ CALCULATIONS = (
         title="Sleeve orbit",
         summary="Path and inertia force of a floating sleeve over one revolution",
         source="Pahl 1978, Fig. 5",
-        request=SleeveOrbitRequest,
+        request=coupling_schema.SleeveOrbitRequest,
         solve=coupling.solve_orbit,
-        response=SleeveOrbitResponse,
+        response=coupling_schema.SleeveOrbitResponse,
         stage=SLEEVE,
         figures=coupling_figures.ORBIT_FIGURES,
     ),
@@ -136,9 +124,9 @@ CALCULATIONS = (
         title="Crowning recommendation",
         summary="The crowning with the best film over a range of misalignment",
         source="Pahl 1978, conclusion",
-        request=RecommendationRequest,
+        request=coupling_schema.RecommendationRequest,
         solve=coupling.recommend,
-        response=RecommendationResponse,
+        response=coupling_schema.RecommendationResponse,
         stage=SLEEVE,
         figures=coupling_figures.RECOMMENDATION_FIGURES,
     ),
@@ -147,9 +135,9 @@ CALCULATIONS = (
         title="Pumping between gear teeth",
         summary="Air and mist pumped between the teeth: pressure, heating, power, mass flow, lead correction",
         source="Milian, Distretti, Leoni, Velex 2004",
-        request=PumpingRequest,
+        request=pumping_schema.PumpingRequest,
         solve=pumping.solve,
-        response=PumpingResponse,
+        response=pumping_schema.PumpingResponse,
         stage=PUMPING,
         figures=pumping_figures.FIGURES,
     ),
@@ -158,9 +146,9 @@ CALCULATIONS = (
         title="Choking speed",
         summary="Speeds at which the flow out of the tooth spaces becomes sonic",
         source="Milian, Distretti, Leoni, Velex 2004, Eq. 7",
-        request=ChokingSpeedRequest,
+        request=pumping_schema.ChokingSpeedRequest,
         solve=pumping.choking_speeds,
-        response=ChokingSpeedResponse,
+        response=pumping_schema.ChokingSpeedResponse,
         stage=PUMPING,
         figures=pumping_figures.CHOKING_FIGURES,
         cost=_choking_search,
@@ -170,9 +158,9 @@ CALCULATIONS = (
         title="Load distribution",
         summary="Load, pressure, transmission error and loss of a modified gear pair",
         source="Xue, Zhang, Wang 2020, section II",
-        request=LoadDistributionRequest,
+        request=scuffing_schema.LoadDistributionRequest,
         solve=scuffing.solve_load_distribution,
-        response=LoadDistributionResponse,
+        response=scuffing_schema.LoadDistributionResponse,
         stage=LOADS,
         figures=load_figures.FIGURES,
     ),
@@ -181,9 +169,9 @@ CALCULATIONS = (
         title="Scuffing of gears",
         summary="Load distribution, flash temperature, film thickness and scuffing safety factor of a gear pair",
         source="Xue, Zhang, Wang 2020",
-        request=ScuffingRequest,
+        request=scuffing_schema.ScuffingRequest,
         solve=scuffing.solve_scuffing,
-        response=ScuffingResponse,
+        response=scuffing_schema.ScuffingResponse,
         stage=LINE_CONTACT,
         figures=scuffing_figures.FIGURES,
         cost=_thermal_path,
@@ -193,9 +181,9 @@ CALCULATIONS = (
         title="Line contact",
         summary="Film, pressure, temperature and friction of one thermal elastohydrodynamic line contact",
         source="Xue, Zhang, Wang 2020, sections III and IV",
-        request=LineContactRequest,
+        request=line_contact_schema.LineContactRequest,
         solve=ehl.solve,
-        response=LineContactResponse,
+        response=line_contact_schema.LineContactResponse,
         stage=LINE_CONTACT,
         figures=line_contact_figures.FIGURES,
     ),
@@ -204,9 +192,9 @@ CALCULATIONS = (
         title="Drive train",
         summary="A complete gear unit: couplings, shafts in bearings, pumped heat, load along the face and scuffing",
         source="own derivation on Pahl 1978, Milian 2004 and Xue 2020",
-        request=DriveTrainRequest,
+        request=drive_train_schema.DriveTrainRequest,
         solve=drive_train.solve,
-        response=DriveTrainResponse,
+        response=drive_train_schema.DriveTrainResponse,
         stage=DRIVE_TRAIN,
         figures=drive_train_figures.FIGURES,
         cost=_two_thermal_paths,

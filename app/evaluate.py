@@ -2,8 +2,9 @@
 
 import json
 from collections.abc import Iterator
-from functools import reduce
+from dataclasses import asdict
 from hashlib import sha256
+from operator import attrgetter
 from typing import Any
 
 from app.calculations import BY_PATH, Calculation
@@ -12,7 +13,7 @@ from app.figures import rendering
 from app.figures.data import ThemeName
 from app.figures.declaration import Declaration
 from app.schema.fields import field_path
-from app.schema.model import MODEL_VERSION, Notice, Request, Response, Section, above, from_si, members
+from app.schema.model import MODEL_VERSION, Request, Response, Section, above, from_si, members
 from app.schema.reading import validated
 from app.sources import SOURCES
 from solvers import notices
@@ -141,28 +142,22 @@ def response_to(calculation: Calculation, request: Request, result: Any) -> Resp
     """The answer made of a result or of a NoSolution; raises a validation error if a number is not finite."""
     content: dict[str, Any]
     if isinstance(result, NoSolution):
-        warning = Notice(rank="invalid", code=result.code, message=result.message)
+        warning = {"rank": "invalid", "code": result.code, "message": result.message}
         content = {"status": "no_solution", "warnings": [warning], "residuals": result.residuals}
         result = None
     else:
-        ranked = sorted(result.warnings, key=lambda each: notices.RANKS.index(each.rank))
         warnings = [
-            Notice(
-                rank=each.rank,
-                code=each.code,
-                message=each.message,
-                field=field_path(request, each.field) if each.field else None,
-            )
-            for each in ranked
+            asdict(each) | {"field": field_path(request, each.field) if each.field else None}
+            for each in sorted(result.warnings, key=lambda each: notices.RANKS.index(each.rank))
         ]
         content = from_si(calculation.response, result, request.detail)
         content |= {"status": "ok_with_warnings" if warnings else "ok", "warnings": warnings}
         if getattr(result, "status", None) == "no_solution":
             content |= {"status": "no_solution", "residuals": result.residuals}
-    taken_for_granted = [
-        {"field": path, "value": reduce(getattr, path.split("."), request), "reason": reason}
+    taken_for_granted = (
+        {"field": path, "value": attrgetter(path)(request), "reason": reason}
         for path, reason in request.assumed_by_the_model().items()
-    ]
+    )
     inputs = request.model_dump(exclude={"detail"})
     content |= {
         "assumptions": [*_assumptions(request, content.get("derived", {})), *taken_for_granted],
@@ -189,11 +184,10 @@ def _assumptions(
     `derived` holds such values under their names, or in groups and lists of the sections' own names. `unused` are
     dotted names that the sections around leave out.
     """
-    unused |= {prefix + name for name in section.unused()}
+    unused |= {prefix + name for name, left_out in section.unused().items() if left_out}
     for member in members(type(section)):
         name, reason = member.name, member.meaning.assumed
-        path = prefix + name
-        if path in unused or not (reason or member.group):
+        if not (reason or member.group) or (path := prefix + name) in unused:
             continue
         value = getattr(section, name)
         if isinstance(value, Section):

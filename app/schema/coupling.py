@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any, ClassVar
 
-from app.schema.model import Derived, Group, Request, Response, Section
+from app.schema.model import Derived, Request, Response, Section, groups
 from app.schema.oil import CouplingLubricant
 from app.schema.quantities import Input, View
 from solvers.coupling import crowning, results
@@ -43,11 +43,10 @@ class MixedFrictionCurve(Section, of=si.MixedFrictionCurve):
 class CouplingFriction(Section, of=si.Friction):
     """Friction between the teeth."""
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """A coefficient or a table leaves the curve out, a coefficient also what holds at rest."""
-        if self.coefficient is not None:
-            return {"mixed_curve", "static_coefficient"}
-        return set() if self.mixed_law is None else {"mixed_curve"}
+        given = self.coefficient is not None
+        return {"static_coefficient": given, "mixed_curve": given or self.mixed_law is not None}
 
 
 class CouplingModel(Section, of=si.ModelOptions):
@@ -65,17 +64,14 @@ class _CouplingRequest(Request):
         CouplingModel()
     )
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """What given values replace, and what the arrangement does without."""
-        unused = set()
-        if self.model.inlet_length_mm is not None:
-            unused.add("model.inlet")
-        offset = getattr(self.operation, "parallel_offset_mm", None)
-        if self.operation.arrangement == "single" and offset is None:
-            unused.add("coupling.hub_distance_mm")
-        if self.operation.arrangement != "parallel_offset":
-            unused.add("model.simple_thrust_factor")
-        return unused
+        arrangement, offset = self.operation.arrangement, getattr(self.operation, "parallel_offset_mm", None)
+        return {
+            "model.inlet": self.model.inlet_length_mm is not None,
+            "coupling.hub_distance_mm": arrangement == "single" and offset is None,
+            "model.simple_thrust_factor": arrangement != "parallel_offset",
+        }
 
     def _design(self, operation: si.Operation) -> si.CouplingInputs:
         coupling = self.coupling.si(si.CouplingDesign).coupling()
@@ -105,10 +101,10 @@ class SleeveOrbitRequest(CouplingRequest):
         """The kinematics; the sleeve always floats."""
         return {"kinematics": self.model.kinematics, "sleeve": "floating"}
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """All that belongs to contact, film, friction and a second mesh."""
-        contact = {"face_width_mm", "tooth_height_mm", "youngs_modulus_gpa", "poisson_ratio", "hub_distance_mm"}
-        return {"lubricant", "friction", "model", *(f"coupling.{name}" for name in contact)}
+        contact = ("face_width_mm", "tooth_height_mm", "youngs_modulus_gpa", "poisson_ratio", "hub_distance_mm")
+        return dict.fromkeys(("lubricant", "friction", "model", *(f"coupling.{name}" for name in contact)), True)
 
 
 class RecommendationRequest(_CouplingRequest):
@@ -117,9 +113,9 @@ class RecommendationRequest(_CouplingRequest):
     coupling: Annotated[CouplingDesign, Input("coupling", text="the coupling without its crowning")]
     operation: Annotated[CouplingOperationRange, Input("operating point", text="with a range of misalignment")]
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """Also the inputs of what is calculated at a single operating point only: one-pair thrust, friction at rest."""
-        return super().unused() | {"model.simple_thrust_factor", "friction.static_coefficient"}
+        return super().unused() | {"model.simple_thrust_factor": True, "friction.static_coefficient": True}
 
     def inputs(self) -> si.RecommendationInputs:
         """The solver's inputs."""
@@ -129,64 +125,62 @@ class RecommendationRequest(_CouplingRequest):
         return si.RecommendationInputs(design, min_misalignment=smallest, max_misalignment=largest)
 
 
-class CouplingGeometry(Group, of=results.Geometry):
-    """Radii of the crowned tooth."""
-
-
-class CouplingKinematicCurves(Group, of=results.KinematicCurves):
-    """Motion over one revolution of a tooth; 90° and 270° are the tilt positions."""
-
-
-class CouplingKinematics(Group, of=results.Kinematics):
-    """Largest values of the tooth's motion over a revolution."""
-
-    views: ClassVar = {
-        "max_sliding_velocity": View(headline=3, limit="limits.sliding_velocity_limit_m_per_s", bound="upper")
-    }
-
-
-class CouplingLoadCurves(Group, of=results.LoadCurves):
-    """Tooth forces."""
-
-
-class CouplingLoadDistribution(Group, of=results.LoadDistribution):
-    """Load over the teeth of one mesh, the one where the hub drives the sleeve, at the rotor angle asked for."""
-
-
-class FrictionRegime(Group, of=results.Regime):
-    """Area of the map of friction conditions; an open end of its friction band is null."""
-
-
-class CouplingLubrication(Group, of=results.Lubrication):
-    """Contact and film of the highest loaded tooth of a revolution."""
-
-    views: ClassVar = {
-        "hertz_pressure": View(limit=2000.0, bound="upper"),
-        "contact_overlap": View(limit=1.0, bound="upper"),
-        "load_capacity_coefficient": View(headline=2, limit=0.8, bound="lower", verdict=".regime.name"),
-    }
-
-
-class SelfInducedThrust(Group, of=results.SelfInducedThrust):
-    """Thrust without axial motion."""
-
-
-class CouplingThrust(Group, of=results.AxialThrust):
-    """Axial thrust, mean over one tooth pitch (one revolution with pitch deviations)."""
-
-    views: ClassVar = {
-        "design_force": View(headline=1),
-        "force": View(limit="axial_thrust.coaxial_limit_n", bound="upper"),
-        "fraction_of_limit": View(limit=1.0),
-    }
-
-
-class CouplingLosses(Group, of=results.Losses):
-    """Friction losses and moments of one mesh, the one where the hub drives the sleeve."""
-
-
-class CouplingLimits(Group, of=results.Limits):
-    """Limits and stiffnesses."""
+groups(
+    CouplingGeometry=(results.Geometry, "Radii of the crowned tooth."),
+    CouplingKinematicCurves=(
+        results.KinematicCurves,
+        "Motion over one revolution of a tooth; 90° and 270° are the tilt positions.",
+    ),
+    CouplingKinematics=(
+        results.Kinematics,
+        "Largest values of the tooth's motion over a revolution.",
+        {"max_sliding_velocity": View(headline=3, limit="limits.sliding_velocity_limit_m_per_s", bound="upper")},
+    ),
+    CouplingLoadCurves=(results.LoadCurves, "Tooth forces."),
+    CouplingLoadDistribution=(
+        results.LoadDistribution,
+        "Load over the teeth of one mesh, the one where the hub drives the sleeve, at the rotor angle asked for.",
+    ),
+    FrictionRegime=(
+        results.Regime,
+        "Area of the map of friction conditions; an open end of its friction band is null.",
+    ),
+    CouplingLubrication=(
+        results.Lubrication,
+        "Contact and film of the highest loaded tooth of a revolution.",
+        {
+            "hertz_pressure": View(limit=2000.0, bound="upper"),
+            "contact_overlap": View(limit=1.0, bound="upper"),
+            "load_capacity_coefficient": View(headline=2, limit=0.8, bound="lower", verdict=".regime.name"),
+        },
+    ),
+    SelfInducedThrust=(results.SelfInducedThrust, "Thrust without axial motion."),
+    CouplingThrust=(
+        results.AxialThrust,
+        "Axial thrust, mean over one tooth pitch (one revolution with pitch deviations).",
+        {
+            "design_force": View(headline=1),
+            "force": View(limit="axial_thrust.coaxial_limit_n", bound="upper"),
+            "fraction_of_limit": View(limit=1.0),
+        },
+    ),
+    CouplingLosses=(
+        results.Losses,
+        "Friction losses and moments of one mesh, the one where the hub drives the sleeve.",
+    ),
+    CouplingLimits=(results.Limits, "Limits and stiffnesses."),
+    SleeveOrbit=(results.Orbit, "Path of the sleeve centre."),
+    SleeveInertia=(results.InertiaForce, "Inertia force of the sleeve mass of one mesh."),
+    RecommendedPoint=(
+        crowning.RecommendedPoint,
+        "The recommended coupling at one end of the range.",
+        {
+            "contact_overlap": View(limit=1.0, bound="upper"),
+            "load_capacity_coefficient": View(limit=0.8, bound="lower"),
+        },
+    ),
+    CrowningScan=(crowning.CrowningScan, "How crowning trades off.", {"max_contact_overlap": View(limit=1.0)}),
+)
 
 
 class CouplingDerived(Derived, of=si.Coupling, only=("face_width", "tooth_height")):
@@ -203,35 +197,12 @@ class SleeveOrbitDerived(Derived, of=results.Geometry, only=("pitch_radius",)):
     """The circle on which the teeth stand."""
 
 
-class SleeveOrbit(Group, of=results.Orbit):
-    """Path of the sleeve centre."""
-
-
-class SleeveInertia(Group, of=results.InertiaForce):
-    """Inertia force of the sleeve mass of one mesh."""
-
-
 class SleeveOrbitResponse(Response, of=results.OrbitResult):
     """One revolution of a floating sleeve under its own inertia."""
 
     derived: SleeveOrbitDerived
 
     views: ClassVar = {"max_displacement": View(headline=1)}
-
-
-class RecommendedPoint(Group, of=crowning.RecommendedPoint):
-    """The recommended coupling at one end of the range."""
-
-    views: ClassVar = {
-        "contact_overlap": View(limit=1.0, bound="upper"),
-        "load_capacity_coefficient": View(limit=0.8, bound="lower"),
-    }
-
-
-class CrowningScan(Group, of=crowning.CrowningScan):
-    """How crowning trades off."""
-
-    views: ClassVar = {"max_contact_overlap": View(limit=1.0)}
 
 
 class RecommendationResponse(Response, of=crowning.Recommendation):

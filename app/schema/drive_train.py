@@ -2,13 +2,14 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from app.schema.coupling import CouplingFriction, CrownedCoupling
+from app.schema.coupling import CrownedCoupling
 from app.schema.gears import BacklashGears, GearMaterials
-from app.schema.model import Group, Response, Section
+from app.schema.model import Group, Response, Section, groups
 from app.schema.oil import CouplingLubricant, Oil
 from app.schema.pumping import GearGroove, Mist, PumpingOptions
 from app.schema.quantities import Input, View
@@ -31,10 +32,6 @@ from solvers.gears.inputs import GROUND_FILLET, RACK_A, GearPairInputs
 from solvers.lubricants import OilInUse
 from solvers.pumping import inputs as pumping
 from solvers.scuffing import inputs as mesh
-
-
-def _only_hot() -> list[si.State]:
-    return ["hot"]
 
 
 class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
@@ -96,9 +93,9 @@ class ShaftBearing(Section, of=si.ShaftBearing):
 
     stiffness_n_per_um: Stiffness | None
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """Clearance and oil belong to plain bearings."""
-        return set() if self.type == "journal" else {"radial_clearance_um", "viscosity_pa_s"}
+        return dict.fromkeys(("radial_clearance_um", "viscosity_pa_s"), self.type != "journal")
 
 
 class ThrustBearing(Section):
@@ -123,11 +120,10 @@ class UnitCoupling(Section, of=si.UnitCoupling):
 
     coupling: CrownedCoupling
     lubricant: CouplingLubricant
-    friction: CouplingFriction
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """Friction at rest, for the shaft rotates; with a coefficient of friction the oil."""
-        return {"friction.static_coefficient"} | (set() if self.friction.coefficient is None else {"lubricant"})
+        return {"friction.static_coefficient": True, "lubricant": self.friction.coefficient is not None}
 
 
 class ToothHeat(Section, of=si.Heat):
@@ -164,16 +160,14 @@ class DriveTrainRequest(MeshInOil):
 
     gears: Annotated[TrainGears, Input("gear pair")]
     grooves: Annotated[
-        list[GearGroove], Field(max_length=50), Input("grooves", text="circumferential grooves; they do not carry less")
+        list[GearGroove], Input("grooves", text="circumferential grooves; they do not carry less", length=(0, 50))
     ] = Field(default_factory=list)
     operation: Annotated[TrainOperation, Input("operating point")]
     face_start_mm: Annotated[float, Input.of(si.DriveTrainInputs, "face_start")]
     pinion_shaft: Annotated[UnitShaft, Input.of(si.DriveTrainInputs, "pinion_shaft")]
     wheel_shaft: Annotated[UnitShaft, Input.of(si.DriveTrainInputs, "wheel_shaft")]
     thrust_collar: Annotated[ThrustCollar, Input("thrust collar")] = ThrustCollar()
-    couplings: Annotated[list[UnitCoupling], Field(max_length=10), Input.of(si.DriveTrainInputs, "couplings")] = Field(
-        default_factory=list
-    )
+    couplings: Annotated[list[UnitCoupling], Input.of(si.DriveTrainInputs, "couplings")] = Field(default_factory=list)
     modifications: Annotated[
         TrainModifications, Input("modifications", text="what is ground, and misalignment from elsewhere")
     ] = TrainModifications()
@@ -184,8 +178,8 @@ class DriveTrainRequest(MeshInOil):
     lubricant: Annotated[Oil, Input("oil")] = Oil()
     temperatures: Annotated[TrainTemperatures, Input("temperatures", text="of contact and oil")] = TrainTemperatures()
     friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
-    states: Annotated[list[si.State], Field(min_length=1, max_length=2), Input.of(si.DriveTrainInputs, "states")] = (
-        Field(default_factory=_only_hot)
+    states: Annotated[list[si.State], Input.of(si.DriveTrainInputs, "states")] = Field(
+        default_factory=partial(list[si.State], ("hot",))
     )
     model: Annotated[TrainModel, Input("model", text="choices where the papers leave room", advanced=True)] = (
         TrainModel()
@@ -237,28 +231,52 @@ class DriveTrainRequest(MeshInOil):
         """The model section, the number of slices filled in."""
         return super().options() | {"slices": self.model.si(pumping.PumpingModel).slice_count}
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """Also what belongs to effects that are left out."""
-        unused = super().unused()
-        if not (self.couplings and self.effects.shafts and self.effects.coupling):
-            unused |= {"couplings", "model.coupling_friction"}
-        if not self.effects.thermal:
-            unused |= {"thermal.wall_response", "thermal.wall_response_wheel"}
-        return unused
+        coupled = self.couplings and self.effects.shafts and self.effects.coupling
+        return (
+            super().unused()
+            | dict.fromkeys(("couplings", "model.coupling_friction"), not coupled)
+            | dict.fromkeys(("thermal.wall_response", "thermal.wall_response_wheel"), not self.effects.thermal)
+        )
 
 
-class BearingLoad(Group, of=results.BearingResult):
-    """A bearing; what only a plain one has is null of others."""
-
-
-class ShaftThrust(Group, of=thrust_budget.Thrust):
-    """Axial load, positive towards +Z; of a coupling's friction only the limit is known."""
-
-    views: ClassVar = {"use": View(limit=1.0)}
-
-
-class ShaftLine(Group, of=results.ShaftCurves):
-    """Displaced axis of a shaft."""
+groups(
+    BearingLoad=(results.BearingResult, "A bearing; what only a plain one has is null of others."),
+    ShaftThrust=(
+        thrust_budget.Thrust,
+        "Axial load, positive towards +Z; of a coupling's friction only the limit is known.",
+        {"use": View(limit=1.0)},
+    ),
+    ShaftLine=(results.ShaftCurves, "Displaced axis of a shaft."),
+    UnitCouplingState=(results.CouplingResult, "A coupling as its shaft meets it."),
+    BearingInForce=(derived.DerivedBearing, "A plain bearing's defaults; null of others."),
+    ShaftInForce=(derived.DerivedShaft, "A shaft's defaults."),
+    HeatInForce=(derived.DerivedHeat, "Wall responses."),
+    TemperaturesInForce=(derived.DerivedTemperatures, "Bulk and scuffing temperature."),
+    GapCurves=(results.GapCurves, "Over the face, positive where the flanks part."),
+    TrainLoad=(
+        results.FaceLoad,
+        "How the face carries.",
+        {"face_load_factor": View(headline=2), "contact_fraction": View(percent=True)},
+    ),
+    TrainSafety=(
+        results.TrainSafety,
+        "Safety factor against scuffing; thermal EHL values are null in closed form, or where a point is not known.",
+        {
+            "blok_feature": View(limit=1.0, bound="lower"),
+            "blok_flank": View(limit=1.0, bound="lower"),
+            "thermal_ehl_feature": View(limit=1.0, bound="lower"),
+            "thermal_ehl_profile": View(limit=1.0, bound="lower"),
+            "minimum": View(headline=1, limit=1.0, bound="lower"),
+        },
+    ),
+    TrainFlash=(results.FlashPlaces, "Largest flash temperature by Blok."),
+    TrainLosses=(results.TrainLosses, "What the unit loses."),
+    TrainBalance=(results.ForceBalance, "How well forces and moments on the shafts balance; null without load."),
+    TrainConvergence=(results.Convergence, "How shafts and mesh came to one gap."),
+    TrainMaps=(results.FlankMaps, "Over the flank, `[profile][face]`."),
+)
 
 
 class ShaftSummary(Group, of=results.ShaftResult, without=("curves",)):
@@ -269,18 +287,6 @@ class ShaftState(ShaftSummary, of=results.ShaftResult):
     """A shaft with its displaced axis."""
 
 
-class UnitCouplingState(Group, of=results.CouplingResult):
-    """A coupling as its shaft meets it."""
-
-
-class BearingInForce(Group, of=derived.DerivedBearing):
-    """A plain bearing's defaults; null of others."""
-
-
-class ShaftInForce(Group, of=derived.DerivedShaft):
-    """A shaft's defaults."""
-
-
 class ProportionsInForce(Group, of=Coupling, only=("face_width", "tooth_height")):
     """A coupling's proportions."""
 
@@ -289,14 +295,6 @@ class CouplingInForce(Group, of=derived.DerivedCoupling):
     """A coupling's defaults."""
 
     coupling: ProportionsInForce
-
-
-class HeatInForce(Group, of=derived.DerivedHeat):
-    """Wall responses."""
-
-
-class TemperaturesInForce(Group, of=derived.DerivedTemperatures):
-    """Bulk and scuffing temperature."""
 
 
 class OilInForce(Group, of=OilInUse):
@@ -319,10 +317,6 @@ class MisalignmentParts(Group, of=results.Parts):
     member_unit: ClassVar = "um"
 
 
-class GapCurves(Group, of=results.GapCurves):
-    """Over the face, positive where the flanks part."""
-
-
 class MisalignmentSummary(Group, of=results.Misalignment, without=("curves",)):
     """Gap over the face by shafts and heat; minus: it opens towards the end that meshes first, which carries less."""
 
@@ -333,50 +327,11 @@ class MisalignmentState(MisalignmentSummary, of=results.Misalignment):
     """Gap over the face with its curves."""
 
 
-class TrainLoad(Group, of=results.FaceLoad):
-    """How the face carries."""
-
-    views: ClassVar = {"face_load_factor": View(headline=2), "contact_fraction": View(percent=True)}
-
-
-class TrainFlash(Group, of=results.FlashPlaces):
-    """Largest flash temperature by Blok."""
-
-
-class TrainSafety(Group, of=results.TrainSafety):
-    """Safety factor against scuffing; thermal EHL values are null in closed form, or where a point is not known."""
-
-    views: ClassVar = {
-        "blok_feature": View(limit=1.0, bound="lower"),
-        "blok_flank": View(limit=1.0, bound="lower"),
-        "thermal_ehl_feature": View(limit=1.0, bound="lower"),
-        "thermal_ehl_profile": View(limit=1.0, bound="lower"),
-        "minimum": View(headline=1, limit=1.0, bound="lower"),
-    }
-
-
-class TrainLosses(Group, of=results.TrainLosses):
-    """What the unit loses."""
-
-
-class TrainBalance(Group, of=results.ForceBalance):
-    """How well forces and moments on the shafts balance; null without load."""
-
-
-class TrainConvergence(Group, of=results.Convergence):
-    """How shafts and mesh came to one gap."""
-
-
-class TrainMaps(Group, of=results.FlankMaps):
-    """Over the flank, `[profile][face]`."""
-
-
 class TrainSummary(Group, of=results.DriveTrainResult, without=("flank", "states")):
     """The unit in another state, in short."""
 
     misalignment: MisalignmentSummary
     shafts: list[ShaftSummary]
-    safety: TrainSafety | None
     derived: StateDerived
 
 

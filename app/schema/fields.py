@@ -5,7 +5,7 @@
 
 from collections import defaultdict
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import Enum
 from functools import cache
 from types import NoneType
@@ -90,29 +90,30 @@ def tree(model: type[Documented]) -> Branch:
 
     Titles tell its leaves apart: each names the nearest section that its namesakes lack.
     """
-    root = Branch("", "", "", model, tuple(_members(model)))
-    namesakes = defaultdict(list)
-    for leaf, sections in _placed(root):
-        namesakes[leaf.title].append((leaf.path, sections))
+    namesakes: dict[str, dict[str, list[str]]] = defaultdict(dict)
+    for way in _ways(model):
+        *around, leaf = way
+        if leaf.group is None:
+            namesakes[leaf.meaning.title][_path(way)] = [each.meaning.title for each in reversed(around)]
     titles = {}
     for title, places in namesakes.items():
-        for path, sections in places:
-            telling = (name for name in reversed(sections) if sum(name in others for _, others in places) == 1)
-            section = next(telling, None)
-            titles[path] = f"{title}, {section}" if section and len(places) > 1 else title
-    return _retitled(root, titles)
+        for path, sections in places.items():
+            telling = (name for name in sections if sum(name in others for others in places.values()) == 1)
+            section = next(telling, None) if len(places) > 1 else None
+            titles[path] = f"{title}, {section}" if section else title
+    return Branch("", "", "", model, _below(model, (), titles))
 
 
 @cache
 def branches(model: type[Documented]) -> dict[str, Branch]:
     """Every section by its path."""
-    return {branch.path: branch for branch in _sections(tree(model))}
+    return {each.path: each for each in _all(tree(model)) if isinstance(each, Branch)}
 
 
 @cache
 def leaves(model: type[Documented]) -> tuple[Leaf, ...]:
     """Every leaf in the order of the schema."""
-    return tuple(leaf for leaf, _ in _placed(tree(model)))
+    return tuple(each for each in _all(tree(model)) if isinstance(each, Leaf))
 
 
 def leaf_at(model: type[Documented], path: str) -> Leaf | None:
@@ -132,62 +133,68 @@ def headlines(response: type[Documented]) -> tuple[Leaf, ...]:
     return tuple(sorted(own, key=lambda leaf: leaf.view.headline or 0))
 
 
-def _sections(branch: Branch) -> Iterator[Branch]:
-    yield branch
-    for inner in branch.branches:
-        yield from _sections(inner)
+def _all(member: Leaf | Branch) -> Iterator[Leaf | Branch]:
+    """A section and everything below it."""
+    yield member
+    if isinstance(member, Branch):
+        for inner in member.members:
+            yield from _all(inner)
 
 
-def _placed(branch: Branch, titles: tuple[str, ...] = ()) -> Iterator[tuple[Leaf, tuple[str, ...]]]:
-    """Every leaf below a section with the titles of the sections around it."""
-    for member in branch.members:
-        if isinstance(member, Leaf):
-            yield member, titles
-        else:
-            yield from _placed(member, (*titles, member.title))
+_Way = tuple[Member, ...]
+_Names = tuple[str, ...]
 
 
-def _retitled(branch: Branch, titles: dict[str, str]) -> Branch:
-    members = (
-        replace(member, title=titles[member.path]) if isinstance(member, Leaf) else _retitled(member, titles)
-        for member in branch.members
-    )
-    return replace(branch, members=tuple(members))
-
-
-def _members(
-    model: type[Documented], place: tuple[str, ...] = (), *, advanced: bool = False, detail: Detail = "summary"
-) -> Iterator[Leaf | Branch]:
-    """The fields and sections of a model; it hands down where it is and what the sections around say."""
+def _ways(model: type[Documented], above: _Way = ()) -> Iterator[_Way]:
+    """The way to every field of a model and of its sections: the fields that it goes through, and itself."""
     for each in members(model):
-        meaning, path = each.meaning, (*place, each.name)
-        said: Any = {
-            "advanced": advanced or meaning.advanced,
-            "detail": detail if meaning.detail == "summary" else meaning.detail,
-        }
+        yield (*above, each)
+        if each.group:
+            yield from _ways(each.group, (*above, each))
+
+
+def _names(way: _Way, *, solvers: bool = False) -> _Names:
+    """The names on a way, in the interface or the solver's, each list with `*` behind it."""
+    names = ((each.solver_name if solvers else each.name, each.dimensions) for each in way)
+    return tuple(part for name, listed in names for part in ((name, ITEM) if listed else (name,)))
+
+
+def _path(way: _Way) -> str:
+    return ".".join(_names(way)).removesuffix(f".{ITEM}")
+
+
+def _below(model: type[Documented], above: _Way, titles: dict[str, str]) -> tuple[Leaf | Branch, ...]:
+    """The fields and sections of a model; what the sections around them say of level and detail holds for them."""
+    found: list[Leaf | Branch] = []
+    for each in members(model):
+        way = (*above, each)
         if each.group is None:
-            yield _leaf(model, each, path, **said)
+            found.append(_leaf(model, way, titles))
             continue
-        repeated = each.dimensions > 0
-        yield Branch(
-            ".".join(path),
-            meaning.title,
-            meaning.description,
-            each.group,
-            tuple(_members(each.group, (*path, ITEM) if repeated else path, **said)),
-            repeated,
-            NoneType in get_args(each.info.annotation),
-            meaning.advanced,
+        found.append(
+            Branch(
+                _path(way),
+                each.meaning.title,
+                each.meaning.description,
+                each.group,
+                _below(each.group, way, titles),
+                repeated=each.dimensions > 0,
+                optional=NoneType in get_args(each.info.annotation),
+                advanced=each.meaning.advanced,
+            )
         )
+    return tuple(found)
 
 
-def _leaf(model: type[Documented], member: Member, place: tuple[str, ...], *, advanced: bool, detail: Detail) -> Leaf:
-    info, meaning, prefix = member.info, member.meaning, ".".join(place[:-1])
+def _leaf(model: type[Documented], way: _Way, titles: dict[str, str]) -> Leaf:
+    member, path = way[-1], _path(way)
+    info, meaning, prefix = member.info, member.meaning, path.rpartition(".")[0]
     options = _options(member.kinds)
     fellows = (each for group in model.exclusive if member.name in group for each in group if each != member.name)
+    details = (each.meaning.detail for each in reversed(way) if each.meaning.detail != "summary")
     return Leaf(
-        path=".".join(place),
-        title=meaning.title,
+        path=path,
+        title=titles[path],
         declared=meaning,
         view=meaning if isinstance(meaning, Output) else View(),
         description=meaning.description,
@@ -198,9 +205,9 @@ def _leaf(model: type[Documented], member: Member, place: tuple[str, ...], *, ad
         required=info.is_required(),
         default=None if info.is_required() else info.get_default(call_default_factory=True),
         options=options,
-        advanced=advanced,
+        advanced=any(each.meaning.advanced for each in way),
         exclusive=tuple(_absolute(each, prefix) for each in fellows),
-        detail=detail,
+        detail=next(details, "summary"),
         axes=tuple(_absolute(axis, prefix) for axis in meaning.axes) if isinstance(meaning, Output) else (),
     )
 
@@ -218,9 +225,6 @@ def _options(allowed: tuple[Any, ...]) -> tuple[Any, ...]:
         if isinstance(kind, type) and issubclass(kind, Enum):
             return tuple(member.value for member in kind)
     return ()
-
-
-_Names = tuple[str, ...]
 
 
 def field_path(request: Documented, name: str) -> str | None:
@@ -241,41 +245,26 @@ def field_path(request: Documented, name: str) -> str | None:
 
 @cache
 def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
-    """The path of the outermost field that a solver means by these names.
+    """The names on the way to the outermost field or list item that a solver means by these names.
 
     The solver may leave out sections, but not lists; before a name at the root it may name parts of its inputs that
     the request does not have.
     """
+    known: dict[_Names, _Names] = {}
+    for way in _ways(model):
+        theirs, ours = _names(way, solvers=True), _names(way)
+        known |= {theirs: ours} | ({theirs[:-1]: ours[:-1]} if way[-1].dimensions else {})
     for start in range(len(wanted)):
-        found = [
-            (theirs, ours)
-            for theirs, ours in _named(model)
-            if theirs[-1] == wanted[-1]
-            and theirs.count(ITEM) == wanted.count(ITEM)
-            and _in_order(wanted[start:], theirs)
-            and (start == 0 or theirs[0] == wanted[start])
-        ]
-        if found:
-            return min(found, key=lambda each: len(each[0]))[1]
+        for theirs in sorted(known, key=len):
+            rest = iter(theirs)
+            if (
+                theirs[-1] == wanted[-1]
+                and theirs.count(ITEM) == wanted.count(ITEM)
+                and all(name in rest for name in wanted[start:])  # in their order
+                and (start == 0 or theirs[0] == wanted[start])
+            ):
+                return known[theirs]
     return None
-
-
-def _in_order(names: _Names, path: _Names) -> bool:
-    """Whether a path has all these names, in their order."""
-    rest = iter(path)
-    return all(name in rest for name in names)
-
-
-def _named(model: type[Documented], theirs: _Names = (), ours: _Names = ()) -> Iterator[tuple[_Names, _Names]]:
-    """Every field and list item of a model: the solver's names on its path, and its own."""
-    for each in members(model):
-        si_path, path = (*theirs, each.solver_name), (*ours, each.name)
-        yield si_path, path
-        if each.dimensions:
-            si_path, path = (*si_path, ITEM), (*path, ITEM)
-            yield si_path, path
-        if each.group:
-            yield from _named(each.group, si_path, path)
 
 
 def _sent(request: Documented, path: _Names, indices: Iterator[str]) -> str | None:
@@ -287,17 +276,10 @@ def _sent(request: Documented, path: _Names, indices: Iterator[str]) -> str | No
             here = here[int(index)]
             taken.append(index)
         elif part != ITEM and isinstance(here, Documented):
-            name = _given(here, part)
-            here = getattr(here, name)
-            taken.append(name)
+            fellows = [fellow for group in here.exclusive if part in group for fellow in group]
+            sent = (name for name in (part, *fellows) if getattr(here, name) is not None)
+            taken.append(next(sent, part))
+            here = getattr(here, taken[-1])
         else:
             return None
     return ".".join(taken)
-
-
-def _given(section: Documented, name: str) -> str:
-    """The field itself, or the one given instead of it."""
-    if getattr(section, name) is None:
-        fellows = (fellow for group in section.exclusive if name in group for fellow in group)
-        return next((fellow for fellow in fellows if getattr(section, fellow) is not None), name)
-    return name

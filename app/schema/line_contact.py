@@ -1,9 +1,9 @@
 """One lubricated line contact: request and answer of /v1/scuffing/line-contact."""
 
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any
 
 from app.schema.gears import Surface
-from app.schema.model import Group, Request, Response, Section
+from app.schema.model import Request, Response, Section, groups
 from app.schema.oil import Oil, OilDerived
 from app.schema.quantities import Input, View
 from solvers.contact import ehl
@@ -23,9 +23,9 @@ class LineContactTemperatures(Section, of=ehl.Temperatures):
 class FilmModel(Section, of=ehl.Model, without=("thermal",)):
     """Physics and resolution of the film."""
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """A Newtonian film has no Eyring stress."""
-        return super().unused() | ({"eyring_stress_mpa"} if self.rheology == "newtonian" else set())
+        return super().unused() | {"eyring_stress_mpa": self.rheology == "newtonian"}
 
 
 class LineContactModel(FilmModel, of=ehl.Model):
@@ -51,10 +51,10 @@ class LineContactRequest(Request):
         laws = self.lubricant.model_dump(include={"pressure_viscosity_law", "compressible"})
         return super().options() | laws
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """An isothermal film does not know the temperatures of the surfaces, one by its viscosity no kind of oil."""
-        unused = set() if self.model.thermal else {"temperatures.surface_1_c", "temperatures.surface_2_c"}
-        return unused if self.lubricant.by_sheet else unused | {"lubricant.kind"}
+        isothermal = dict.fromkeys(("temperatures.surface_1_c", "temperatures.surface_2_c"), not self.model.thermal)
+        return isothermal | {"lubricant.kind": not self.lubricant.by_sheet}
 
     def inputs(self) -> ehl.LineContactInputs:
         """The solver's inputs; an oil by its data sheet is what it is at the inlet.
@@ -73,56 +73,26 @@ class LineContactDerived(OilDerived, of=results.Derived):
     """What load, curvature and speeds make of the two surfaces, and the oil at the inlet."""
 
 
-class HertzContact(Group, of=results.HertzContact):
-    """The dry contact."""
-
-    views: ClassVar = {"max_pressure": View(limit=4000.0, bound="upper")}
-
-
-class ContactNumbers(Group, of=results.Dimensionless):
-    """Dimensionless numbers."""
-
-
-class FilmThickness(Group, of=results.FilmThickness):
-    """Film thickness; null without a solution, but for the formula."""
-
-    views: ClassVar = {"minimum": View(headline=1)}
-
-
-class FilmPressure(Group, of=results.ContactPressure):
-    """Pressure in the film."""
-
-
-class FilmTemperature(Group, of=results.ContactTemperature):
-    """Temperatures."""
-
-    views: ClassVar = {"film_max": View(headline=2)}
-
-
-class FilmFriction(Group, of=results.ContactFriction):
-    """Friction."""
-
-    views: ClassVar = {"coefficient": View(headline=3)}
-
-
-class FilmHeat(Group, of=results.ContactHeat):
-    """Heat per length of contact; into the surfaces and convected out positive."""
-
-
-class ContactConvergence(Group, of=results.Convergence):
-    """How the iteration ended."""
-
-
-class MeshErrors(Group, of=results.MeshError):
-    """Estimated error that the mesh leaves, relative; small friction and flash temperatures over 0.001 and 25 K."""
-
-
-class ContactCurves(Group, of=results.ContactCurves):
-    """Along the contact; temperatures are null if isothermal."""
-
-
-class ContactField(Group, of=results.ContactField):
-    """Temperature in the film, indexed [x][film fraction]."""
+groups(
+    HertzContact=(results.HertzContact, "The dry contact.", {"max_pressure": View(limit=4000.0, bound="upper")}),
+    ContactNumbers=(results.Dimensionless, "Dimensionless numbers."),
+    FilmThickness=(
+        results.FilmThickness,
+        "Film thickness; null without a solution, but for the formula.",
+        {"minimum": View(headline=1)},
+    ),
+    FilmPressure=(results.ContactPressure, "Pressure in the film."),
+    FilmTemperature=(results.ContactTemperature, "Temperatures.", {"film_max": View(headline=2)}),
+    FilmFriction=(results.ContactFriction, "Friction.", {"coefficient": View(headline=3)}),
+    FilmHeat=(results.ContactHeat, "Heat per length of contact; into the surfaces and convected out positive."),
+    ContactConvergence=(results.Convergence, "How the iteration ended."),
+    MeshErrors=(
+        results.MeshError,
+        "Estimated error that the mesh leaves, relative; small friction and flash temperatures over 0.001 and 25 K.",
+    ),
+    ContactCurves=(results.ContactCurves, "Along the contact; temperatures are null if isothermal."),
+    ContactField=(results.ContactField, "Temperature in the film, indexed [x][film fraction]."),
+)
 
 
 class LineContactResponse(Response, of=results.LineContactResult):

@@ -6,8 +6,8 @@
 has a field for each declaration on `si.ModelOptions`, named with the suffix of its unit. What stands in the class
 itself is an ordinary field of pydantic: under the name of a filled field it changes the type or the default, and with
 `Input` or `Output` beside the type it replaces the declaration; `Input.of(Record, "field", text=...)` changes part of
-one. Requests give the solver's dataclasses in SI (`Section.si`), responses are read from them (`from_si`), by names and
-units that are looked up once a model (`members`).
+one. Sections of answers that add nothing are rows of `groups`. Requests give the solver's dataclasses in SI
+(`Section.si`), responses are read from them (`from_si`), by names and units looked up once a model (`members`).
 """
 
 from abc import abstractmethod
@@ -16,7 +16,7 @@ from dataclasses import MISSING, dataclass, fields, is_dataclass
 from functools import cache, partial
 from importlib.metadata import version
 from inspect import get_annotations
-from types import NoneType, UnionType
+from types import GenericAlias, NoneType, UnionType
 from typing import (
     TYPE_CHECKING,
     Annotated,
@@ -33,12 +33,11 @@ from typing import (
 )
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, PrivateAttr, model_validator
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, create_model, model_validator
 from pydantic.fields import FieldInfo
-from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema, PydanticCustomError
+from pydantic_core import PydanticCustomError
 
-from app.schema.quantities import Input, Output, View, meaning_of, split_unit
+from app.schema.quantities import Input, Output, View, meaning_of
 from solvers.notices import Rank
 from solvers.quantity import UNITS, Detail, Quantity, Unit, quantities, type_of
 
@@ -81,69 +80,34 @@ class Documented(BaseModel):
         """
         super().__init_subclass__(**config)
         records: tuple[Any, ...] = of if isinstance(of, tuple) else (of,)
-        chosen = [
-            (record, name, quantities(record)[name])
-            for record in records
-            for name in only or quantities(record)
-            if name in quantities(record) and name not in without
-        ]
-        inherited = {each.solver_name: each.name for base in cls.__bases__ for each in members(base) if each.record}
-        names = dict(inherited)  # in the interface, by the solver's
-        for _, name, declared in chosen:
-            names[name] = name if declared.unit in {None, cls.member_unit} else f"{name}_{declared.unit}"
-        unknown = {*only, *vars(cls).get("views", {})} - {*names}
-        if unknown:
+        declared = {name: (record, each) for record in records for name, each in quantities(record).items()}
+        if unknown := {*only, *vars(cls).get("views", {})} - {*declared}:
             raise TypeError(f"{cls.__name__} names fields that are not declared: {', '.join(sorted(unknown))}")
+        names = {  # in the interface
+            name: name if each.unit in {None, cls.member_unit} else f"{name}_{each.unit}"
+            for name, (_, each) in declared.items()
+        }
+        inherited = {each.name for base in cls.__bases__ for each in members(base) if each.record}
         own = get_annotations(cls)  # change the type of a filled field, or stand beside it
         filled: dict[str, Any] = {}
-        for record, name, declared in chosen:
-            field = names[name]
-            if field in inherited.values() and field not in own:
+        for name in only or declared:
+            (record, each), field = declared[name], names[name]
+            if name in without or (field in inherited and field not in own):
                 continue
-            kind = own.get(field) or _published(type_of(record, name), declared, cls._declares)
+            kind = own.get(field) or _published(type_of(record, name), each, cls._declares)
             if meaning_of(getattr(kind, "__metadata__", ())):  # brings its own declaration
                 continue
-            optional = cls._optional or declared.detail != "summary"
-            nullable = optional or (cls._declares is Output and record is not records[0])
-            filled[field] = cls._annotated(kind | None if nullable else kind, record, name, names)
+            filled[field], default = cls._filled(kind, record, name, names, nullable=record is not records[0])
             if field not in vars(cls):
-                setattr(cls, field, None if optional else cls._default(kind, record, name))
+                setattr(cls, field, default)
         cls.__annotations__ = filled | {name: kind for name, kind in own.items() if name not in filled}
         if records and not only and not without:
             _MODELS.setdefault((cls._declares, records[0]), cls)
 
     @classmethod
-    def _annotated(cls, kind: Any, record: type, name: str, names: dict[Any, Any]) -> Any:
-        """A type with its declaration, which knows other fields by their names in the interface."""
-        declared = quantities(record)[name]
-        unit = declared.unit or getattr(kind, "member_unit", None)
-        axis = declared.axis
-        axis = tuple(names.get(each, each) for each in axis) if isinstance(axis, tuple) else names.get(axis, axis)
-        if cls._declares is Output:
-            return Annotated[kind, Output.of(record, name, unit=unit, axis=axis, **vars(cls.views.get(name, View())))]
-        if declared.length:
-            least, most = declared.length
-            kind = Annotated[kind, Field(min_length=least or None, max_length=most)]
-        return Annotated[kind, Input.of(record, name)]
-
-    @classmethod
-    def _default(cls, kind: Any, record: Any, name: str) -> Any:
-        """The default of a filled field, `...` without one; results have none."""
-        default = quantities(record)[name].default
-        if cls._declares is Output:
-            return ...
-        if isinstance(default, tuple):
-            return Field(default_factory=partial(list, default))
-        made = default is ... and record.__dataclass_fields__[name].default_factory is not MISSING
-        return kind() if made else default
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        """The schema with `x-exclusive`."""
-        document = handler(schema)
-        if cls.exclusive:
-            handler.resolve_ref_schema(document)["x-exclusive"] = [list(group) for group in cls.exclusive]
-        return document
+    @abstractmethod
+    def _filled(cls, kind: Any, record: Any, name: str, names: dict[str, str], *, nullable: bool) -> tuple[Any, Any]:
+        """Type and default of a field; `names` are those of the interface by the solver's."""
 
 
 _MODELS: dict[tuple[type, type], type[Documented]] = {}
@@ -159,18 +123,14 @@ def _published(hint: Any, declared: Quantity, declares: type) -> Any:
         return Union[tuple(_published(each, declared, declares) for each in arguments)]  # noqa: UP007
     if origin is np.ndarray:
         number: Any = bool if "bool" in str(arguments[1]) else float
-        row = _list_of(number | None if declared.gaps else number)
-        return _list_of(row) if isinstance(declared.axis, tuple) else row
+        row = GenericAlias(list, number | None if declared.gaps else number)
+        return GenericAlias(list, row) if isinstance(declared.axis, tuple) else row
     if origin is tuple:
-        listed = _list_of(_published(arguments[0], declared, declares))
+        listed = GenericAlias(list, _published(arguments[0], declared, declares))
         if declares is Input and arguments[-1] is not Ellipsis:
             return Annotated[listed, Field(min_length=len(arguments), max_length=len(arguments))]
         return listed
     return hint
-
-
-def _list_of(kind: Any) -> Any:
-    return list[kind]
 
 
 def kinds(annotation: Any, lists: int = 0) -> Iterator[tuple[Any, int]]:
@@ -191,7 +151,7 @@ class Member:
 
     `record` is that dataclass, None where it may be any. `kinds` are the types of single values, `group` the section or
     group among them, alone, optional or as the items of a list. `dimensions` is 0 for a scalar, 1 for a list, 2 for a
-    matrix. `level` is that of the least detail at which an answer has the field.
+    matrix.
     """
 
     name: str
@@ -203,7 +163,10 @@ class Member:
     kinds: tuple[Any, ...]
     group: type[Documented] | None
     dimensions: int
-    level: int
+
+    def is_above(self, detail: Detail) -> bool:
+        """Whether only answers of a higher level of detail have the field."""
+        return LEVELS.index(self.meaning.detail) > LEVELS.index(detail)
 
 
 @cache
@@ -212,24 +175,12 @@ def members(model: type[BaseModel]) -> tuple[Member, ...]:
     found = []
     for name, info in model.model_fields.items():
         if meaning := meaning_of(info.metadata):
-            bare_name, unit = split_unit(name)
-            record, solver_name = meaning.origin or (None, bare_name)
+            record, solver_name = meaning.origin or (None, name)
+            unit = UNITS[meaning.unit] if meaning.unit else None
             allowed, lists = zip(*kinds(info.annotation), strict=True)
             groups = (kind for kind in allowed if isinstance(kind, type) and issubclass(kind, Documented))
-            found.append(
-                Member(
-                    name=name,
-                    info=info,
-                    meaning=meaning,
-                    record=record,
-                    solver_name=solver_name,
-                    unit=UNITS[meaning.unit] if meaning.unit else unit,
-                    kinds=allowed,
-                    group=next(groups, None),
-                    dimensions=max(lists),
-                    level=LEVELS.index(meaning.detail),
-                )
-            )
+            group, dimensions = next(groups, None), max(lists)
+            found.append(Member(name, info, meaning, record, solver_name, unit, allowed, group, dimensions))
     return tuple(found)
 
 
@@ -267,22 +218,20 @@ def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, A
     """
     content: dict[str, Any] = {}
     kind: Any = type(result)
-    level = LEVELS.index(detail)
-    for member, holder in _sources(group, kind):
-        if member.level <= level:
-            part = getattr(result, holder) if holder else result
-            value = None if part is None else getattr(part, member.solver_name)
-            content[member.name] = _displayed(value, member, detail)
+    for member, holder in _sources(group, kind, detail):
+        part = getattr(result, holder) if holder else result
+        value = None if part is None else getattr(part, member.solver_name)
+        content[member.name] = _displayed(value, member, detail)
     return content
 
 
 @cache
-def _sources(group: type[Documented], record: Any) -> tuple[tuple[Member, str | None], ...]:
+def _sources(group: type[Documented], record: Any, detail: Detail) -> tuple[tuple[Member, str | None], ...]:
     """The filled fields of a group, and the member of the result that holds each; None for the result's own."""
     held = {name: inner for name, hint in get_type_hints(record).items() if (inner := _record_in(hint))}
     found = []
     for each in members(group):
-        if each.record:
+        if each.record and not each.is_above(detail):
             holders = (name for name, inner in held.items() if issubclass(inner, each.record))
             found.append((each, None if issubclass(record, each.record) else next(holders, None)))
     return tuple(found)
@@ -290,13 +239,14 @@ def _sources(group: type[Documented], record: Any) -> tuple[tuple[Member, str | 
 
 def _displayed(value: Any, member: Member, detail: Detail) -> Any:
     """A value in the unit of its field; NaN inside an array marks a point without a value and becomes None."""
-    unit = member.unit
-    if isinstance(value, tuple | list):
+    if value is None:
+        return None
+    if isinstance(value, tuple):
         return [_displayed(item, member, detail) for item in value]
-    if member.group is not None and value is not None:
+    if member.group is not None:
         return from_si(member.group, value, detail)
-    if unit is not None and value is not None:
-        value = (value - unit.offset) / unit.scale
+    if member.unit is not None:
+        value = (value - member.unit.offset) / member.unit.scale
     if not isinstance(value, np.ndarray):
         return value
     if value.dtype.kind == "f" and np.isnan(value).any():
@@ -310,11 +260,17 @@ def above(group: type[Documented], detail: Detail) -> dict[str, Any]:
     """The fields of a group above a level of detail, as pydantic's `exclude` names them."""
     found: dict[str, Any] = {}
     for member in members(group):
-        if member.level > LEVELS.index(detail):
+        if member.is_above(detail):
             found[member.name] = True
         elif member.group is not None and (inner := above(member.group, detail)):
             found[member.name] = {"__all__": inner} if member.dimensions else inner
     return found
+
+
+def _with_choices(document: dict[str, Any], section: type[Any]) -> None:
+    """The schema with `x-exclusive`."""
+    if section.exclusive:
+        document["x-exclusive"] = [list(group) for group in section.exclusive]
 
 
 class Section(Documented):
@@ -324,9 +280,19 @@ class Section(Documented):
     where none is, if one is required.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, json_schema_extra=_with_choices)
     choice_code: ClassVar[LiteralString] = "exclusive"
     choice_missing: ClassVar[LiteralString | None] = None
+
+    @classmethod
+    def _filled(cls, kind: Any, record: Any, name: str, names: dict[str, str], *, nullable: bool) -> tuple[Any, Any]:  # noqa: ARG003
+        declared = quantities(record)[name]
+        default = declared.default
+        if isinstance(default, tuple):
+            default = Field(default_factory=partial(list, default))
+        elif default is ... and record.__dataclass_fields__[name].default_factory is not MISSING:
+            default = kind()
+        return Annotated[kind, Input.of(record, name)], default
 
     @model_validator(mode="after")
     def one_of_each_choice(self) -> Self:
@@ -354,13 +320,20 @@ class Section(Documented):
                     given[name] = _in_si(getattr(section, member.name), member.unit, inner)
         return kind(**given | known)
 
-    def unused(self) -> set[str]:
-        """Names, dotted below this section, of fields and sections that the values given leave out of a result."""
-        return set()
+    def unused(self) -> dict[str, bool]:
+        """Whether the values given leave a field or section out of a result, by names dotted below this section."""
+        return {}
 
     def stands_for_null(self, _name: str) -> Any:
         """What a field that was left null stands for, where the section itself knows it."""
         return None
+
+
+def _in_reading_order(document: dict[str, Any]) -> None:
+    """The schema as the docs page shows it best: what is required first, the level of detail last."""
+    required, properties = document.get("required", ()), document["properties"]
+    names = sorted(properties, key=lambda name: (name not in required, name == "detail"))
+    document["properties"] = {name: properties[name] for name in names}
 
 
 class Request(Section):
@@ -371,15 +344,7 @@ class Request(Section):
         Input("level of detail", text="what to return: scalars, scalars and curves, or also two-dimensional fields"),
     ] = "curves"
 
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        """The schema as the docs page shows it best: what is required first, the level of detail last."""
-        document = super().__get_pydantic_json_schema__(schema, handler)
-        definition = handler.resolve_ref_schema(document)
-        required = definition.get("required", ())
-        rank = {name: (name not in required, name == "detail") for name in definition["properties"]}
-        definition["properties"] = {name: definition["properties"][name] for name in sorted(rank, key=rank.__getitem__)}
-        return document
+    model_config = ConfigDict(json_schema_extra=_in_reading_order)
 
     @abstractmethod
     def inputs(self) -> Any:
@@ -399,6 +364,22 @@ class Group(Documented):
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
     _declares: ClassVar = Output
+
+    @classmethod
+    def _filled(cls, kind: Any, record: Any, name: str, names: dict[Any, Any], *, nullable: bool) -> tuple[Any, Any]:
+        declared = quantities(record)[name]
+        unit, axis = declared.unit or getattr(kind, "member_unit", None), declared.axis
+        axis = tuple(names.get(each, each) for each in axis) if isinstance(axis, tuple) else names.get(axis, axis)
+        meaning = Output.of(record, name, unit=unit, axis=axis, **vars(cls.views.get(name, View())))
+        optional = cls._optional or declared.detail != "summary"
+        return Annotated[kind | None if optional or nullable else kind, meaning], None if optional else ...
+
+
+def groups(**rows: tuple[Any, ...]) -> None:
+    """Make groups that add nothing to declarations, by name: the dataclass, what the group is, views of its outputs."""
+    for name, (record, text, *judged) in rows.items():
+        views = (ClassVar[Any], judged[0] if judged else {})
+        create_model(name, __base__=Group, __doc__=text, __cls_kwargs__={"of": record}, views=views)  # type: ignore[arg-type]
 
 
 class Notice(Group):

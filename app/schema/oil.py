@@ -8,14 +8,14 @@ from pydantic_core import PydanticCustomError
 from app.schema.model import Derived, Section
 from solvers.coupling.inputs import CouplingOil
 from solvers.lubricants import Lubricant, OilInUse
-from solvers.oils import SQUARE_MILLIMETRE, OilBySheet, OilChoice, iso_vg
+from solvers.oils import SQUARE_MILLIMETRE, OilBySheet, OilChoice
 
-_BY_SHEET = ("iso_vg", "kinematic_viscosity_40_mm2_per_s", "kinematic_viscosity_100_mm2_per_s")
+_PAPERS = Lubricant()
 
 
-def names_a_sheet(given: Any) -> bool:
-    """Whether what was sent for an oil names a grade or a kinematic viscosity."""
-    return isinstance(given, dict) and any(given.get(name) is not None for name in _BY_SHEET)
+def _names_a_sheet(given: dict[str, Any]) -> bool:
+    """Whether what was sent for an oil names a grade or a data sheet."""
+    return given.get("iso_vg") is not None or given.get("kinematic_viscosity_40_mm2_per_s") is not None
 
 
 class SheetOil(Section, of=OilBySheet):
@@ -24,15 +24,15 @@ class SheetOil(Section, of=OilBySheet):
     @property
     def by_sheet(self) -> bool:
         """Whether the oil is given by grade or data sheet."""
-        return any(getattr(self, name) is not None for name in _BY_SHEET)
+        return _names_a_sheet(vars(self))
 
     @model_validator(mode="after")
     def one_way(self) -> Self:
         """A grade, or both viscosities."""
-        given = [getattr(self, name) is not None for name in _BY_SHEET[1:]]
-        if self.iso_vg is not None and any(given):
+        thick, thin = self.kinematic_viscosity_40_mm2_per_s, self.kinematic_viscosity_100_mm2_per_s
+        if self.iso_vg is not None and (thick, thin) != (None, None):
             raise PydanticCustomError("exclusive", "iso_vg and kinematic viscosities are both given; keep one")
-        if any(given) and not all(given):
+        if (thick is None) != (thin is None):
             raise PydanticCustomError(
                 "two_viscosities", "give both kinematic_viscosity_40_mm2_per_s and kinematic_viscosity_100_mm2_per_s"
             )
@@ -40,19 +40,10 @@ class SheetOil(Section, of=OilBySheet):
 
     def stands_for_null(self, name: str) -> Any:
         """The typical viscosity of a grade, the density of a kind of oil."""
-        if name == "kinematic_viscosity_100_mm2_per_s" and self.iso_vg is not None:
-            return iso_vg(self.iso_vg).kinematic_viscosity_100 / SQUARE_MILLIMETRE
         sheet = self.si(OilBySheet).sheet()
+        if sheet and name == "kinematic_viscosity_100_mm2_per_s":
+            return sheet.kinematic_viscosity_100 / SQUARE_MILLIMETRE
         return sheet.reference_density if sheet and name == "density_15_kg_per_m3" else None
-
-    def unused(self) -> set[str]:
-        """All of the sheet where the oil is given otherwise; the default that belongs to a grade."""
-        if not self.by_sheet:
-            return set(SheetOil.model_fields)
-        return {"kinematic_viscosity_100_mm2_per_s"} if self.iso_vg is None else set()
-
-
-_PAPERS = Lubricant()
 
 
 class Oil(SheetOil, of=OilChoice):
@@ -74,24 +65,22 @@ class Oil(SheetOil, of=OilChoice):
     @classmethod
     def properties_follow_the_sheet(cls, given: Any) -> Any:
         """Properties have defaults of their own only with a viscosity; otherwise they follow from the sheet, if any."""
-        if not isinstance(given, dict) or (given.get("viscosity_pa_s") is not None and not names_a_sheet(given)):
+        if not isinstance(given, dict) or (given.get("viscosity_pa_s") is not None and not _names_a_sheet(given)):
             return given
         return dict.fromkeys(_WITH_VISCOSITY) | given
 
     @model_validator(mode="after")
     def one_reference(self) -> Self:
         """The density belongs to a viscosity, with which no property may be null."""
-        if self.by_sheet:
-            if self.density_kg_per_m3 is not None:
-                raise PydanticCustomError(
-                    "exclusive", "density_kg_per_m3 and a grade or data sheet are both given; keep one"
-                )
-        elif self.viscosity_pa_s is not None:
-            missing = [name for name in _WITH_VISCOSITY if getattr(self, name) is None]
-            if missing:
-                raise PydanticCustomError(
-                    "missing_property", "give {name}, or the oil by its grade or data sheet", {"name": missing[0]}
-                )
+        if self.by_sheet and self.density_kg_per_m3 is not None:
+            raise PydanticCustomError(
+                "exclusive", "density_kg_per_m3 and a grade or data sheet are both given; keep one"
+            )
+        missing = [name for name in _WITH_VISCOSITY if getattr(self, name) is None]
+        if self.viscosity_pa_s is not None and missing:
+            raise PydanticCustomError(
+                "missing_property", "give {name}, or the oil by its grade or data sheet", {"name": missing[0]}
+            )
         return self
 
     @property
@@ -99,20 +88,14 @@ class Oil(SheetOil, of=OilChoice):
         """Whether an oil is given."""
         return self.by_sheet or self.viscosity_pa_s is not None
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """What this way of giving the oil leaves out of a result; whether its kind counts is the request's to say."""
-        if not self.known:
-            return set(type(self).model_fields)
-        if self.by_sheet:
-            return super().unused() | {"reference_temperature_c", "density_kg_per_m3"}
-        return super().unused() - {"kind"}
+        of_a_sheet = ("kinematic_viscosity_100_mm2_per_s", "density_15_kg_per_m3")
+        of_a_viscosity = ("reference_temperature_c", "density_kg_per_m3")
+        return dict.fromkeys(of_a_sheet, not self.by_sheet) | dict.fromkeys(of_a_viscosity, self.by_sheet)
 
 
-_WITH_VISCOSITY = tuple(
-    name
-    for name, field in Oil.model_fields.items()
-    if name not in SheetOil.model_fields and field.default is not None and not isinstance(field.default, bool | str)
-)
+_WITH_VISCOSITY = [name for name, field in Oil.model_fields.items() if isinstance(field.default, float)]
 
 
 class CouplingLubricant(SheetOil, of=CouplingOil):
@@ -124,7 +107,7 @@ class CouplingLubricant(SheetOil, of=CouplingOil):
     @classmethod
     def viscosity_follows_the_sheet(cls, given: Any) -> Any:
         """With grade or data sheet the default viscosity is left out."""
-        return {"viscosity_pa_s": None} | given if names_a_sheet(given) else given
+        return {"viscosity_pa_s": None} | given if isinstance(given, dict) and _names_a_sheet(given) else given
 
     @model_validator(mode="after")
     def some_viscosity(self) -> Self:
@@ -133,9 +116,10 @@ class CouplingLubricant(SheetOil, of=CouplingOil):
             raise PydanticCustomError("missing_property", "give viscosity_pa_s, or the oil by its grade or data sheet")
         return self
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """What this way of giving the oil leaves out of a result."""
-        return super().unused() | {"viscosity_pa_s" if self.by_sheet else "temperature_c"}
+        of_a_sheet = dict.fromkeys((*SheetOil.model_fields, "temperature_c"), not self.by_sheet)
+        return of_a_sheet | {"viscosity_pa_s": self.by_sheet}
 
 
 class OilDerived(Derived, of=OilInUse):

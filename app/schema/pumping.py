@@ -3,7 +3,7 @@
 from typing import Annotated, Any, ClassVar
 
 from app.schema.gears import PumpingGears
-from app.schema.model import Derived, Group, Request, Response, Section
+from app.schema.model import Derived, Group, Request, Response, Section, groups
 from app.schema.quantities import Input, View
 from solvers.pumping import inputs as si
 from solvers.pumping import lead_correction, pulsation, results
@@ -30,23 +30,19 @@ class Mist(Section, of=si.Ambient):
 class PumpingOptions(Section, of=si.PumpingModel):
     """Choices where the paper leaves room."""
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """Closure belongs to the pocket chain, wall transport to gas dynamics with contact gaps, slices to both."""
-        unused = super().unused()
-        if self.flow != "pocket_chain":
-            unused.add("closure")
-        if self.flow != "gas_dynamics" or self.gap != "contact":
-            unused.add("wall_transport")
-        if self.flow == "incompressible":
-            unused.add("slices")
-        return unused
+        return super().unused() | {
+            "closure": self.flow != "pocket_chain",
+            "wall_transport": self.flow != "gas_dynamics" or self.gap != "contact",
+            "slices": self.flow == "incompressible",
+        }
 
 
 class _PumpingSetup(Request, of=si.PumpingSetup, without=("normal_backlash",)):
     """What both calculations have in common."""
 
     gears: PumpingGears
-    model: PumpingOptions
 
     def options(self) -> dict[str, Any]:
         """The model section, the number of slices filled in."""
@@ -75,82 +71,60 @@ class ChokingSpeedRequest(_PumpingSetup, of=si.ChokingInputs):
         return self.si(si.ChokingInputs, setup=self.si(si.PumpingSetup, self.gears))
 
 
-class StrokeCurves(Group, of=stroke.StrokeTable):
-    """Section of the tooth space over one stroke."""
-
-
-class PumpingStroke(Group, of=results.Stroke):
-    """One stroke of a tooth space; angles of its gear from the line of centres."""
-
-
 class PumpingMassFlow(Group, of=results.MassFlow):
     """Mass flow out of the tooth spaces: net by exit, the first five sum to zero; gross at the ends."""
 
     member_unit: ClassVar = "g_per_s"
 
 
-class PumpingBalance(Group, of=results.Balance):
-    """Relative errors of the balances of mass and energy."""
-
-
-class PumpingProfile(Group, of=results.FaceProfile):
-    """Along the face, outside the grooves."""
-
-
-class PumpingField(Group, of=results.GasField):
-    """Over angle and position, indexed [angle][position]."""
-
-    views: ClassVar = {"axial_mach": View(limit=1.0)}
-
-
-class PumpingSpaces(Group, of=results.SpacesResult):
-    """The tooth spaces of one gear."""
-
-    views: ClassVar = {
-        "peak_pressure_ratio": View(headline=3, verdict=".radial_choked"),
-        "peak_axial_mach": View(limit=1.0),
-        "max_temperature_rise": View(headline=2, verdict=".axial_choked"),
-    }
+groups(
+    StrokeCurves=(stroke.StrokeTable, "Section of the tooth space over one stroke."),
+    PumpingStroke=(results.Stroke, "One stroke of a tooth space; angles of its gear from the line of centres."),
+    PumpingBalance=(results.Balance, "Relative errors of the balances of mass and energy."),
+    PumpingProfile=(results.FaceProfile, "Along the face, outside the grooves."),
+    PumpingField=(
+        results.GasField,
+        "Over angle and position, indexed [angle][position].",
+        {"axial_mach": View(limit=1.0)},
+    ),
+    PumpingSpaces=(
+        results.SpacesResult,
+        "The tooth spaces of one gear.",
+        {
+            "peak_pressure_ratio": View(headline=3, verdict=".radial_choked"),
+            "peak_axial_mach": View(limit=1.0),
+            "max_temperature_rise": View(headline=2, verdict=".axial_choked"),
+        },
+    ),
+    PumpingGeometry=(results.MeshGeometry, "The mesh."),
+    PumpingTotal=(results.Totals, "Of all spaces asked for.", {"pumping_power": View(headline=1)}),
+    LeadCurves=(lead_correction.LeadCurves, "Along the pinion's face."),
+    PumpingLeadCorrection=(
+        lead_correction.LeadCorrection,
+        "Thermal lead correction of the pinion where the metal warms as much as the gas.",
+    ),
+    PumpingPulsation=(
+        pulsation.Pulsation,
+        "Amplitudes of the mass flow at the ends, at multiples of the meshing frequency.",
+    ),
+    PumpingResolution=(
+        results.Resolution,
+        "Relative uncertainties by what half and a quarter of the slices, steps or positions change.",
+    ),
+    ChokingCurves=(
+        results.ChokingCurves,
+        "What a coarse scan saw, the largest over the spaces asked for.",
+        {"exit_mach": View(limit=1.0)},
+    ),
+)
 
 
 class PumpingDerived(Derived, of=results.Derived):
     """Centre distance and resolution, where the request left them open."""
 
 
-class PumpingGeometry(Group, of=results.MeshGeometry):
-    """The mesh."""
-
-
-class PumpingTotal(Group, of=results.Totals):
-    """Of all spaces asked for."""
-
-    views: ClassVar = {"pumping_power": View(headline=1)}
-
-
-class LeadCurves(Group, of=lead_correction.LeadCurves):
-    """Along the pinion's face."""
-
-
-class PumpingLeadCorrection(Group, of=lead_correction.LeadCorrection):
-    """Thermal lead correction of the pinion where the metal warms as much as the gas."""
-
-
-class PumpingPulsation(Group, of=pulsation.Pulsation):
-    """Amplitudes of the mass flow at the ends, at multiples of the meshing frequency."""
-
-
-class PumpingResolution(Group, of=results.Resolution):
-    """Relative uncertainties by what half and a quarter of the slices, steps or positions change."""
-
-
 class PumpingResponse(Response, of=results.PumpingResult):
     """Pumping at one operating point; sections are missing where there is no solution."""
-
-
-class ChokingCurves(Group, of=results.ChokingCurves):
-    """What a coarse scan saw, the largest over the spaces asked for."""
-
-    views: ClassVar = {"exit_mach": View(limit=1.0)}
 
 
 class ChokingSpeedResponse(Response, of=results.ChokingSpeeds):

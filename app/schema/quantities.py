@@ -35,8 +35,9 @@ class _Declaration(Quantity):
 
     @property
     def description(self) -> str:
-        """The text, else the title."""
-        return self.text or self.title
+        """The text, else the title, and what a null means."""
+        text = self.text or self.title
+        return f"{text}; null: {self.default_text}" if self.default_text else text
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         """The type's own JSON schema and what the field means."""
@@ -54,14 +55,8 @@ class Input(_Declaration):
 
     in_schema = ("symbol", "source", "assumed", "default_text", "advanced", "tolerance", "relative_tolerance")
 
-    @property
-    def description(self) -> str:
-        """The text, and what a null means."""
-        text = super().description
-        return f"{text}; null: {self.default_text}" if self.default_text else text
-
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        """The type's own schema; its numbers are finite and in range, and neither text nor booleans."""
+        """The type's own schema; numbers are finite, in range, no text or booleans; lists have their length."""
         return self._strict(handler(source))
 
     def _strict(self, schema: CoreSchema) -> CoreSchema:
@@ -81,6 +76,11 @@ class Input(_Declaration):
             case "union":  # of schemas, each alone or before its name
                 kinds = (choice[0] if isinstance(choice, tuple) else choice for choice in schema["choices"])
                 return core_schema.union_schema([self._strict(kind) for kind in kinds])
+            case "list" if self.length:
+                least, most = self.length
+                return core_schema.list_schema(
+                    self._strict(schema["items_schema"]), min_length=least or None, max_length=most
+                )
             case _:
                 within = ("items_schema", "schema", "json_schema_input_schema")
                 return {**schema, **{name: self._strict(part) for name in within if (part := schema.get(name))}}

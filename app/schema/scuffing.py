@@ -7,7 +7,7 @@ from pydantic_core import PydanticCustomError
 
 from app.schema.gears import GearMaterials, ScuffingGears
 from app.schema.line_contact import FilmModel
-from app.schema.model import Derived, Group, Request, Response, Section
+from app.schema.model import Derived, Group, Request, Response, Section, groups
 from app.schema.oil import Oil
 from app.schema.quantities import Input, View
 from solvers.contact import ehl
@@ -22,11 +22,11 @@ from solvers.scuffing import results, safety_results
 class FlankModifications(Section, of=si.Modifications, without=("lead_curve",)):
     """Gaps along the transverse line of action, positive where material is missing."""
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """Lengths and exponent of reliefs that are zero."""
         amplitudes = {relief: getattr(self, f"{relief}_um") for relief in ("tip_relief", "root_relief", "end_relief")}
-        unused = {f"{relief}_length_mm" for relief, value in amplitudes.items() if value == 0.0}
-        return unused if any(amplitudes.values()) else {*unused, "relief_exponent"}
+        lengths = {f"{relief}_length_mm": value == 0.0 for relief, value in amplitudes.items()}
+        return lengths | {"relief_exponent": all(lengths.values())}
 
 
 class ScuffingLoad(Section, of=si.Load):
@@ -78,43 +78,70 @@ class LoadDistributionRequest(GearPairRequest):
         """The solver's inputs."""
         return distribution_inputs(self, self.gears.si(GearPairInputs), self.load.si(si.Load))
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """Roughness, which loads do not depend on."""
-        return {"materials.pinion.roughness_um", "materials.wheel.roughness_um"}
+        return {"materials.pinion.roughness_um": True, "materials.wheel.roughness_um": True}
 
 
-class ScuffingGeometry(Group, of=results.Geometry):
-    """The mesh."""
-
-
-class ContactLengthCurves(Group, of=results.LengthCurves):
-    """Total contact length over one base pitch; a spur gear's jumps stand twice."""
-
-
-class ContactLineLengths(Group, of=results.ContactLines):
-    """Total length of the contact lines."""
-
-
-class ToothStiffnessCurves(Group, of=results.StiffnessCurves):
-    """Stiffness of one pair of teeth along the path."""
-
-
-class ToothStiffness(Group, of=results.Stiffness):
-    """Stiffness per face width."""
-
-
-class TransmissionErrorCurves(Group, of=results.ErrorCurves):
-    """Transmission error over one base pitch; a spur gear's jumps stand twice."""
-
-
-class TransmissionErrorResult(Group, of=results.TransmissionError):
-    """Transmission error along the transverse line of action."""
-
-    views: ClassVar = {"peak_to_peak": View(headline=3)}
-
-
-class MeshLoss(Group, of=results.FrictionLoss):
-    """Friction loss at the mean coefficient; power and efficiency are those of the transmitted power."""
+groups(
+    ScuffingGeometry=(results.Geometry, "The mesh."),
+    ContactLengthCurves=(
+        results.LengthCurves,
+        "Total contact length over one base pitch; a spur gear's jumps stand twice.",
+    ),
+    ContactLineLengths=(results.ContactLines, "Total length of the contact lines."),
+    ToothStiffnessCurves=(results.StiffnessCurves, "Stiffness of one pair of teeth along the path."),
+    ToothStiffness=(results.Stiffness, "Stiffness per face width."),
+    TransmissionErrorCurves=(
+        results.ErrorCurves,
+        "Transmission error over one base pitch; a spur gear's jumps stand twice.",
+    ),
+    TransmissionErrorResult=(
+        results.TransmissionError,
+        "Transmission error along the transverse line of action.",
+        {"peak_to_peak": View(headline=3)},
+    ),
+    MeshLoss=(
+        results.FrictionLoss,
+        "Friction loss at the mean coefficient; power and efficiency are those of the transmitted power.",
+    ),
+    FlankPlace=(results.Place, "A point of the flank."),
+    FlankPressure=(results.Pressure, "Dry Hertzian pressure.", {"max": View(headline=1)}),
+    FeatureLineCurves=(
+        results.FeatureLine,
+        "Along the feature line from A1 to E2; the points A, C and E of the path lie on it.",
+    ),
+    FlankFields=(results.Flank, "Over the flank, `[profile][face]`."),
+    FlashTemperature=(safety_results.Flash, "Largest flash temperature; thermal EHL values are null in closed form."),
+    ContactTemperatureResult=(
+        safety_results.ContactTemperature,
+        "Bulk temperature, and the largest contact temperature: bulk plus flash.",
+        {
+            "blok_max": View(headline=2, limit="safety.scuffing_c", bound="upper"),
+            "thermal_ehl_max": View(limit="safety.scuffing_c", bound="upper"),
+        },
+    ),
+    ThinnestFilm=(
+        safety_results.Film,
+        "Thinnest film; null where nothing is loaded.",
+        {"thickness_ratio": View(headline=3, limit=1.0, bound="lower", verdict=".thickness_regime")},
+    ),
+    ScuffingSafety=(
+        safety_results.Safety,
+        "Safety factor against scuffing.",
+        {
+            "blok_factor": View(
+                headline=1, limit=1.0, bound="lower", needs="temperatures.scuffing_c", verdict=".verdict"
+            ),
+            "thermal_ehl_factor": View(limit=1.0, bound="lower"),
+        },
+    ),
+    ScuffingPathCurves=(
+        (safety_results.ScuffingPath, safety_results.ThermalPath),
+        "Along the feature line; what only the thermal EHL solution knows is null in closed form.",
+        {"thickness_ratio": View(limit=1.0, bound="lower")},
+    ),
+)
 
 
 class MeshDerived(Derived, of=results.Derived, without=("rack_tip_radius",)):
@@ -125,30 +152,12 @@ class ScuffingDerived(MeshDerived, of=results.Derived):
     """Load and lengths where the request left them open, and what is used of the rack."""
 
 
-class FlankPlace(Group, of=results.Place):
-    """A point of the flank."""
-
-
 class FlankLoad(Group, of=results.LoadOnFlank):
     """Load on the flank."""
 
     views: ClassVar = {"face_load_factor": View(headline=2), "contact_fraction": View(percent=True)}
 
     pair_share: list[list[float]] | None
-
-
-class FlankPressure(Group, of=results.Pressure):
-    """Dry Hertzian pressure."""
-
-    views: ClassVar = {"max": View(headline=1)}
-
-
-class FeatureLineCurves(Group, of=results.FeatureLine):
-    """Along the feature line from A1 to E2; the points A, C and E of the path lie on it."""
-
-
-class FlankFields(Group, of=results.Flank):
-    """Over the flank, `[profile][face]`."""
 
 
 class LoadDistributionResponse(Response, of=results.LoadDistribution):
@@ -166,7 +175,6 @@ class ContactTemperatures(Section, of=si.Temperatures):
 
     bulk_c: float | None = None
     bulk_method: si.BulkMethod = "estimated"
-    scuffing_test: ScuffingTest | None = None
 
     @model_validator(mode="after")
     def one_bulk(self) -> Self:
@@ -183,9 +191,10 @@ class ContactTemperatures(Section, of=si.Temperatures):
             return {"bulk_method": "given"} | given
         return given
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """A bulk temperature that is estimated is not given; one that is given does not ask how the oil comes."""
-        return {"bulk_c"} if self.bulk_method == "estimated" else {"oil_supply"}
+        estimated = self.bulk_method == "estimated"
+        return {"bulk_c": estimated, "oil_supply": not estimated}
 
 
 class ScuffingTemperatures(ContactTemperatures):
@@ -268,14 +277,17 @@ class MeshInOil(Request):
         by_test = test is not None and test.lubricant_factor is None
         return self.lubricant.known and (self.model.friction == "iso_tr_13989" or by_test)
 
-    def unused(self) -> set[str]:
+    def unused(self) -> dict[str, bool]:
         """Without an oil its temperatures; in closed form the film's model; the oil's kind where no factor asks it."""
-        unused = set() if self.lubricant.known else {"temperatures"}
-        if self.model.lubrication == "closed_form" or not self.lubricant.known:
-            unused |= {"model.rheology", "model.eyring_stress_mpa"}
-        if not self.lubricant.by_sheet and not self._lubricant_factor_asked:
-            unused.add("lubricant.kind")
-        return unused
+        dry = not self.lubricant.known
+        no_film = dry or self.model.lubrication == "closed_form"
+        return {
+            "lubricant": dry,
+            "temperatures": dry,
+            "model.rheology": no_film,
+            "model.eyring_stress_mpa": no_film,
+            "lubricant.kind": not (self.lubricant.by_sheet or self._lubricant_factor_asked),
+        }
 
     def assumed_by_the_model(self) -> dict[str, str]:
         """What friction, oil and bulk temperature take for granted."""
@@ -314,40 +326,6 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
 
 class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, OilInUse)):
     """Load and lengths, and the oil as it enters the contact."""
-
-
-class FlashTemperature(Group, of=safety_results.Flash):
-    """Largest flash temperature; thermal EHL values are null in closed form."""
-
-
-class ContactTemperatureResult(Group, of=safety_results.ContactTemperature):
-    """Bulk temperature, and the largest contact temperature: bulk plus flash."""
-
-    views: ClassVar = {
-        "blok_max": View(headline=2, limit="safety.scuffing_c", bound="upper"),
-        "thermal_ehl_max": View(limit="safety.scuffing_c", bound="upper"),
-    }
-
-
-class ThinnestFilm(Group, of=safety_results.Film):
-    """Thinnest film; null where nothing is loaded."""
-
-    views: ClassVar = {"thickness_ratio": View(headline=3, limit=1.0, bound="lower", verdict=".thickness_regime")}
-
-
-class ScuffingSafety(Group, of=safety_results.Safety):
-    """Safety factor against scuffing."""
-
-    views: ClassVar = {
-        "blok_factor": View(headline=1, limit=1.0, bound="lower", needs="temperatures.scuffing_c", verdict=".verdict"),
-        "thermal_ehl_factor": View(limit=1.0, bound="lower"),
-    }
-
-
-class ScuffingPathCurves(Group, of=(safety_results.ScuffingPath, safety_results.ThermalPath)):
-    """Along the feature line; what only the thermal EHL solution knows is null in closed form."""
-
-    views: ClassVar = {"thickness_ratio": View(limit=1.0, bound="lower")}
 
 
 class ScuffingResponse(LoadDistributionResponse, of=safety_results.Scuffing):
