@@ -1,6 +1,6 @@
 """Design: values of some inputs whose worst case is best, searched trial by trial."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import aclosing
 from math import ceil, floor, inf
 from typing import Any
@@ -41,6 +41,7 @@ class Design(Study):
     summary = "The correction of a gear unit that is best at its worst corner"
     answer = "a line for the search, one for each correction tried, and one for the end"
     model = DesignRequest
+    body: DesignRequest
 
     def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:
         """The objective."""
@@ -51,24 +52,22 @@ class Design(Study):
 
     def _planned(self, base: BaseRequest, most: int) -> int:
         body, (objective,) = self.body, self.outputs
-        self.variables: list[Variable] = body.variables
         self.units = [_unit(each, base, f"variables.{place}") for place, each in enumerate(body.variables)]
         self.cases = _cases(body, base)
         case = base.checked(self.cases[0]).model_dump()
         if body.direction is None and objective.view.bound is None:
             message = f"{objective.path} has no safe side of its own; say maximise or minimise"
             raise Unprocessable("direction_missing", message, "direction")
-        own = "maximise" if objective.view.greatest_is_best else "minimise"
-        self.direction = body.direction or own
+        self.direction = body.direction or ("maximise" if objective.view.greatest_is_best else "minimise")
         self.start = [_share(variable, case) for variable in body.variables]  # of the ranges
         self.is_rounded = any(variable.step is not None for variable in body.variables)
-        total: int = (body.evaluations + self.is_rounded) * len(self.cases)
+        total = (body.evaluations + self.is_rounded) * len(self.cases)
         check_count(total, most, "evaluations")
         return total
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
         """The header, a line for each trial, the end."""
-        variables = zip(self.variables, self.units, strict=True)
+        variables = zip(self.body.variables, self.units, strict=True)
         yield [
             self.header(
                 variables=[{"path": of.paths, "unit": unit, "min": of.min, "max": of.max} for of, unit in variables],
@@ -80,8 +79,9 @@ class Design(Study):
         ]
         trials: list[Line] = []
         figures: list[list[float] | None] = []
-        while place := await engine.twice_if_lost(pool, next_place, self.start, figures, self.body.evaluations):
-            shares = zip(self.variables, place, strict=True)
+        place: list[float] | None = self.start
+        while place is not None:
+            shares = zip(self.body.variables, place, strict=True)
             values = [each.min + share * (each.max - each.min) for each, share in shares]
             trial, found = await self._trial(pool, clock, values)
             yield [{"type": "trial", "index": len(trials), **trial}]
@@ -91,18 +91,18 @@ class Design(Study):
                 message = "the unit that the search starts from has no answer at its worst corner"
                 yield [clock.error("no_start", message)]
                 return
-        start = trials[0]
+            place = await engine.twice_if_lost(pool, next_place, self.start, figures, self.body.evaluations)
         best, _ = min(zip(trials, figures, strict=True), key=lambda each: max(each[1] or [inf]))
         rounded: Line = {}
         if self.is_rounded:
-            values = [_rounded(each, best["at"][each.paths[0]]) for each in self.variables]
+            values = [_rounded(each, best["at"][each.paths[0]]) for each in self.body.variables]
             rounded["rounded"], _ = await self._trial(pool, clock, values)
         yield [
             {
                 "type": "end",
-                "start": start["at"],
+                "start": trials[0]["at"],
                 "best": best["at"],
-                "objective_start": start["objective"],
+                "objective_start": trials[0]["objective"],
                 "objective_best": best["objective"],
                 "worst_corner": best["worst_corner"],
                 "evaluations": len(trials),
@@ -119,7 +119,7 @@ class Design(Study):
         Behind them the objectives of all cases with the sign that the search minimises; None where the first case
         without solution ended the trial.
         """
-        pairs = zip(self.variables, values, strict=True)
+        pairs = zip(self.body.variables, values, strict=True)
         at: Overrides = {path: value for variable, value in pairs for path in variable.paths}
         objectives: list[float] = []
         indices = range(len(self.cases))
@@ -187,82 +187,53 @@ class _Unknown(Exception):
     """The search needs the objectives at a point, the argument."""
 
 
-class _NoEvaluationLeft(Exception):
-    """All evaluations are used."""
+def next_place(start: Sequence[float], told: Sequence[list[float] | None], most: int) -> list[float] | None:
+    """The point of the unit cube that the search evaluates next, or None at its end; runs in a worker.
 
-
-def next_place(start: Sequence[float], known_objectives: Sequence[list[float] | None], most: int) -> list[float] | None:
-    """The next point that the search evaluates after those known, or None at its end; runs in a worker.
-
-    The search is repeated up to there, which takes some milliseconds a point and needs no thread that waits.
-    """
-    known = iter(known_objectives)
-
-    def objectives(place: FloatArray) -> FloatArray | None:
-        for found in known:
-            return None if found is None else np.array(found)
-        raise _Unknown(place.tolist())
-
-    try:
-        search(objectives, np.array(start), most)
-    except _Unknown as unknown:
-        return list(unknown.args[0])
-    return None
-
-
-def search(objectives: Callable[[FloatArray], FloatArray | None], start: FloatArray, evaluations: int) -> None:
-    """Minimise the largest objective over the unit cube with at most so many evaluations.
-
-    `objectives` are those at a point; None where there is no solution.
+    The search minimises the largest objective with at most so many evaluations. `told` are the objectives at the points
+    before, from the start on, None where there is no solution: the search is repeated up to there, which takes some
+    milliseconds a point and needs no thread that waits.
     COBYQA, which needs no derivatives, minimises a level under the constraints that no objective exceeds it: each
     objective has a smooth model of its own, also along a ridge where two are equally large. It is restarted at the best
     point as long as that gains anything. Raises NoSolution design where the start has no solution.
     """
-    known: dict[bytes, FloatArray] = {}
-    first = objectives(np.clip(start, 0.0, 1.0))
-    if first is None:
+    if len(told) == most:
+        return None
+    if (first := told[0]) is None:
         raise NoSolution("design", "the point where the search starts has no solution")
-    scale = VALUE_SCALE * abs(float(first.max())) or 1.0
-    known[_name(start)] = first / scale
+    scale = VALUE_SCALE * abs(max(first)) or 1.0
+    known = {_name(np.array(start)): np.array(first) / scale}
 
     def scaled(place: FloatArray) -> FloatArray:
         """The objectives at a place, whose last component is the level."""
         name = _name(place[:-1])
         if name not in known:
-            if len(known) == evaluations:
-                raise _NoEvaluationLeft
-            found = objectives(np.clip(place[:-1], 0.0, 1.0))
+            if len(known) == len(told):
+                raise _Unknown(np.clip(place[:-1], 0.0, 1.0).tolist())
+            found = told[len(known)]
             worst = max(float(each.max()) for each in known.values())
-            known[name] = np.full(first.size, worst + PENALTY) if found is None else found / scale
+            known[name] = np.full(len(first), worst + PENALTY) if found is None else np.array(found) / scale
         return known[name]
 
     def level(place: FloatArray) -> float:
         scaled(place)
         return float(place[-1])
 
-    bounds = [*[(0.0, 1.0)] * start.size, (-np.inf, np.inf)]
+    bounds = [*[(0.0, 1.0)] * len(start), (-np.inf, np.inf)]
+    below = NonlinearConstraint(lambda place: scaled(place) - place[-1], -np.inf, 0.0)
+    options: Any = {"maxfev": MOST_STEPS * most, "initial_tr_radius": FIRST_STEP, "final_tr_radius": LAST_STEP}
     before = np.inf
     while True:
         best = min(known, key=lambda place: float(known[place].max()))
         lowest = float(known[best].max())
         if before - lowest < LEAST_GAIN / VALUE_SCALE:
-            return
+            return None
         before = lowest
+        x0 = np.append(np.frombuffer(best), lowest)
         try:
-            minimize(
-                level,
-                np.append(np.frombuffer(best), lowest),
-                method="COBYQA",
-                bounds=bounds,
-                constraints=[NonlinearConstraint(lambda place: scaled(place) - place[-1], -np.inf, 0.0)],
-                options={
-                    "maxfev": MOST_STEPS * evaluations,
-                    "initial_tr_radius": FIRST_STEP,
-                    "final_tr_radius": LAST_STEP,
-                },
-            )
-        except _NoEvaluationLeft:
-            return
+            minimize(level, x0, method="COBYQA", bounds=bounds, constraints=[below], options=options)
+        except _Unknown as unknown:
+            return list(unknown.args[0])
 
 
 def _name(place: FloatArray) -> bytes:

@@ -55,23 +55,13 @@ def perturbation(leaf: Leaf, value: float) -> Perturbation:
 
 
 def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line:
-    """What an output does where one input is moved.
+    """What an output does where one input is moved, from the output by the value of the input; None: no answer.
 
-    Parameters
-    ----------
-    moved
-        The input.
-    outputs
-        The output by the value of the input; None where there is no answer.
-
-    Returns
-    -------
-    The derivative [output per input], central where both sides have answers, else one-sided; `elasticity`, per cent of
-    the output for a per cent of the input, none at zero and for a temperature in degrees; the step; `change` by one
-    step upwards, from the side where it is larger; `kink`: the slopes of both sides differ by more than a tenth, None
-    where one is missing; `curved`: half the step gives a derivative that differs by more than a tenth, None where it is
-    not checked.
-
+    The derivative [output per input] is central where both sides have answers, else one-sided; `elasticity` is per cent
+    of the output for a per cent of the input, none at zero and for a temperature in degrees; `change` is by one step
+    upwards, from the side where it is larger; `kink`: the slopes of both sides differ by more than a tenth, None where
+    one is missing; `curved`: half the step gives a derivative that differs by more than a tenth, None where it is not
+    checked.
     """
     base, step, half = outputs[moved.value], moved.step, moved.half
 
@@ -116,6 +106,7 @@ class Sensitivity(Study):
     summary = "What moves each output most"
     answer = "a line for each output and input, the most influential first, and one for the end"
     model = SensitivityRequest
+    body: SensitivityRequest
 
     def _planned(self, base: BaseRequest, most: int) -> int:
         paths, case = self.body.inputs, base.checked({}).model_dump()
@@ -127,8 +118,10 @@ class Sensitivity(Study):
         return total
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """A line for each output and input, the most influential input of an output first; then the end."""
-        # The first point is the case itself.
+        """A line for each output and input, the most influential input of an output first; then the end.
+
+        The first point is the case itself.
+        """
         moved: list[Overrides] = [{each.leaf.path: place} for each in self.perturbations for place in each.places]
         overrides, points = [{}, *moved], list[Point]()
         async for _, found in engine.in_order(pool, self.question, overrides.__getitem__, range(self.total), clock):

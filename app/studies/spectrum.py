@@ -267,9 +267,9 @@ def _with_shares(cases: Sequence[LoadCase]) -> list[LoadCase]:
     given = [each.share for each in cases if each.share is not None]
     if given and len(given) < len(cases):
         raise Unprocessable("shares", "give every case its share, or none", "cases")
-    shares = given or [1.0 / len(cases)] * len(cases)
-    whole = sum(given) if given else 1.0
-    if abs(whole - 1.0) > SHARES_OFF + 1e-12:
+    shares = given or [1.0] * len(cases)
+    whole = sum(shares)
+    if given and abs(whole - 1.0) > SHARES_OFF + 1e-12:
         message = f"the shares add up to {whole:.6g}; give fractions of the time that add up to 1"
         raise Unprocessable("shares", message, "cases")
     return [

@@ -29,15 +29,8 @@ READING_S = 10.0  # beyond the study's deadline, for a client that reads slowly
 class StudyStream(StreamingResponse):
     """Lines as they come; when the client leaves, or has not read all after so many seconds, the study ends."""
 
-    def __init__(
-        self,
-        pieces: AsyncGenerator[bytes, None],
-        media_type: str,
-        seconds: float,
-        stack: ExitStack,
-        headers: dict[str, str] | None = None,
-    ) -> None:
-        super().__init__(pieces, media_type=media_type, headers={"X-Accel-Buffering": "no"} | (headers or {}))
+    def __init__(self, pieces: AsyncGenerator[bytes, None], seconds: float, stack: ExitStack, **options: Any) -> None:
+        super().__init__(pieces, **options)
         self._pieces, self._seconds, self._stack = pieces, seconds, stack
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -72,7 +65,8 @@ async def streamed(
         stack.enter_context(http.app.state.studies.place())
         content = pieces(*await begun(http, study, progress_s))
         seconds = http.app.state.settings.study_deadline_s + READING_S
-        return StudyStream(content, media_type, seconds, stack.pop_all(), headers)
+        headers = {"X-Accel-Buffering": "no"} | (headers or {})
+        return StudyStream(content, seconds, stack.pop_all(), media_type=media_type, headers=headers)
 
 
 async def started(http: Request, kind: type[Study], body: BaseModel, written_as: Format = "ndjson") -> Response:
