@@ -25,7 +25,7 @@ from app.schema.model import MODEL_VERSION
 from app.schema.reading import validated
 from app.sources import SOURCES
 from app.studies.fields import is_number
-from app.studies.points import CHUNK_SECONDS, BaseRequest, Chunk, Point, Question, solve_chunk
+from app.studies.points import CHUNK_SECONDS, BaseRequest, Chunk, Point, Question, reduced_request, solve_chunk
 from app.studies.requests import Overrides
 from solvers.arrays import FloatArray
 
@@ -156,7 +156,7 @@ class Study(ABC):
     """A study that has passed its checks; the docstring of each kind describes its endpoint.
 
     It is made in a worker, from the body as JSON's objects or validated, the most points and the deadline of each;
-    raises InvalidBody and Unprocessable with locations in the body.
+    raises InvalidBody and Unprocessable with locations in the body. `outputs` are the first columns of `Point.out`.
     """
 
     path: ClassVar[str]  # of the endpoint; its last part is the type of the first line
@@ -168,9 +168,12 @@ class Study(ABC):
 
     def __init__(self, content: Any, most: int, deadline_s: float) -> None:
         self.body = validated(self.model, content)
-        base = BaseRequest(calculation_at(self.body.endpoint), self.body.request)
+        endpoint, request = self.body.endpoint, self.body.request
+        base = BaseRequest(calculation_at(endpoint), request)
         self.outputs = self._outputs(base)
-        self.question = base.question(paths_of(self.outputs), deadline_s, reduced=self.is_reduced)
+        paths = paths_of(self.outputs)
+        asked = reduced_request(endpoint, request, paths) if self.is_reduced else request
+        self.question = Question(endpoint, asked, paths, deadline_s)
         self.total = self._planned(base, most)
         try:
             self.case = case_of(self.path, self.body.model_dump(exclude={"from_index"}), SOURCES)

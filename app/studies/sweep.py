@@ -135,11 +135,13 @@ class Sweep(Study):
         ]
         summary, indices = Summary(outputs, self.body.best, first), range(first, points.total)
         async for solved, found in engine.in_order(pool, self.question, points.overrides, indices, clock):
-            for point in found:
+            lines = []
+            for index, point in zip(solved, found, strict=True):
                 summary.add(point)
                 if self.body.sample:
                     summary.keep(point.out)
-            yield list(map(engine.point_line, solved, points.rows[solved.start : solved.stop], found))
+                lines.append(engine.point_line(index, points.rows[index], point))
+            yield lines
         of_sample: Line = {"quantiles": None, "quantile_bounds": None, "rank_correlation": None}
         if self.body.sample:
             inputs, varied = np.array(points.rows[first:]), paths_of(points.varied)
