@@ -12,11 +12,11 @@ from typing import Any
 
 from app.calculations import BY_PATH
 from app.examples import examples
-from app.studies.design import design_study
+from app.studies.design import Design
 from app.studies.engine import Clock, Study
 from app.studies.point_sets import usual_corners
 from app.studies.requests import EXAMPLES
-from app.studies.sweep import corners_study
+from app.studies.sweep import Corners
 from solvers.drive_train.gap.thermal_lead import gas_heat
 from solvers.drive_train.outcome import outcome
 from solvers.drive_train.states import solve
@@ -52,12 +52,12 @@ def corners() -> None:
         *(axis.model_dump(exclude_none=True) for axis in USUAL),
         {"path": "modifications.tip_relief_um", "values": [12, 18]},
     ]
-    run(corners_study, {"request": REQUEST, "ranges": ranges, "outputs": ["safety.blok_flank"]})
+    run(Corners, {"request": REQUEST, "ranges": ranges, "outputs": ["safety.blok_flank"]})
 
 
 def search() -> None:
     """The example's design search: 12 corners, 3 variables."""
-    run(design_study, {**EXAMPLES["/v1/drive-train/design"]["robust"]["value"], "request": REQUEST})
+    run(Design, {**EXAMPLES["/v1/drive-train/design"]["robust"]["value"], "request": REQUEST})
 
 
 def run(study_of: Callable[[bytes, int, float], Study], body: dict[str, Any]) -> None:

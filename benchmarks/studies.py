@@ -21,7 +21,7 @@ from app.examples import examples
 from app.studies.engine import paths_of
 from app.studies.fields import set_value
 from app.studies.points import Question, solve_point
-from app.studies.sweep import sweep_study
+from app.studies.sweep import Sweep
 from tests.support.dask_cluster import running_cluster
 from tests.support.server import running_server
 
@@ -65,7 +65,7 @@ MAP = {
 
 def in_process(body: dict[str, Any]) -> float:
     """Seconds of all points one after another in this process."""
-    study = sweep_study(body, 10**6, 30.0)
+    study = Sweep(body, 10**6, 30.0)
     question = Question(body["endpoint"], body["request"], paths_of(study.outputs), 30.0)
     solve_point(question, study.points.overrides(0))
     started = time.perf_counter()
@@ -82,7 +82,7 @@ def in_two_processes(body: dict[str, Any]) -> float:
 
 def single_requests(client: httpx.Client, body: dict[str, Any]) -> float:
     """Seconds of all points as requests of their own, two at a time."""
-    points = sweep_study(body, 10**6, 30.0).points
+    points = Sweep(body, 10**6, 30.0).points
     overrides = [points.overrides(index) for index in range(points.total)]
     return asyncio.run(_single_requests(str(client.base_url), body, overrides))
 

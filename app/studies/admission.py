@@ -38,12 +38,11 @@ class StudyAdmission:
         if self._running >= self._settings.studies:
             raise StudiesFull
         self._running += 1
-        STUDIES.set(self._running)
         try:
-            yield
+            with STUDIES.track_inprogress():
+                yield
         finally:
             self._running -= 1
-            STUDIES.set(self._running)
 
     def own(self) -> Pool:
         """The service's own workers for one study; its figures are drawn there, even if a cluster solves its points."""

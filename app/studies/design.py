@@ -1,10 +1,9 @@
 """Design: values of some inputs whose worst case is best, searched trial by trial."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import aclosing
-from dataclasses import dataclass
 from math import ceil, floor, inf
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from scipy.optimize import NonlinearConstraint, minimize
@@ -21,7 +20,6 @@ from solvers.arrays import FloatArray
 from solvers.drive_train.uncertainty import MOST_CORNERS
 from solvers.errors import NoSolution
 
-PATH = "/v1/drive-train/design"
 FIRST_STEP = 0.15  # of a variable's range
 LAST_STEP = 2e-3  # of a variable's range, chosen
 LEAST_GAIN = 1e-3  # of the objective at the start; a restart that gained less is the last
@@ -30,65 +28,61 @@ PENALTY = 5.0  # scaled, above the worst known objective: that of a point withou
 MOST_STEPS = 100  # of COBYQA for each evaluation; steps that change the level alone need no evaluation
 
 
-class DesignVariable(NamedTuple):
-    """Fields that take one value, and the range of the search."""
-
-    leaves: tuple[Leaf, ...]
-    low: float
-    high: float
-    step: float | None
-
-    def rounded(self, value: float) -> float:
-        """The nearest multiple of the step inside the range, or the value itself where there is none."""
-        if self.step is None:
-            return value
-        steps = min(max(round(value / self.step), ceil(self.low / self.step)), floor(self.high / self.step))
-        return min(max(float(f"{steps * self.step:.12g}"), self.low), self.high)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Design(Study):
-    """A search over `variables`, each trial solved at all `cases`; its output is the objective.
+    """A search with COBYQA that starts from the request's own correction.
 
-    `sign` is -1 where the objective is maximised; `start` holds shares of the ranges of the variables.
+    The objective of a correction is its value at the worst operating point and corner. `safety.minimum` needs the
+    thermal film, a second a corner; with `safety.blok_flank`, or `model.lubrication` in closed form, the search is
+    twenty times as fast. Where variables have a `step`, `rounded` in the last line is the best correction in whole
+    steps, calculated like the others.
     """
 
-    variables: tuple[DesignVariable, ...]
-    cases: list[Overrides]
-    sign: float
-    start: tuple[float, ...]
-    evaluations: int
+    path = "/v1/drive-train/design"
+    summary = "The correction of a gear unit that is best at its worst corner"
+    answer = "a line for the search, one for each correction tried, and one for the end"
+    model = DesignRequest
+    body: DesignRequest
 
-    @property
-    def total(self) -> int:
-        """How many points it may have."""
-        return (self.evaluations + self.is_rounded) * len(self.cases)
+    def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:
+        """The objective."""
+        objective = base.output(self.body.objective, "objective")
+        if objective.kind not in NUMBERS:
+            raise Unprocessable("unknown_output", f"{objective.path} is no number", "objective")
+        return (objective,)
 
-    @property
-    def is_rounded(self) -> bool:
-        """Whether the best values are rounded in the end."""
-        return any(variable.step is not None for variable in self.variables)
+    def _planned(self, base: BaseRequest, most: int) -> int:
+        body, (objective,) = self.body, self.outputs
+        self.units = [_unit(each, base, f"variables.{place}") for place, each in enumerate(body.variables)]
+        self.cases = _cases(body, base)
+        case = base.checked(self.cases[0]).model_dump()
+        if body.direction is None and objective.view.bound is None:
+            message = f"{objective.path} has no safe side of its own; say maximise or minimise"
+            raise Unprocessable("direction_missing", message, "direction")
+        self.direction = body.direction or ("maximise" if objective.view.greatest_is_best else "minimise")
+        self.start = [_share(variable, case) for variable in body.variables]  # of the ranges
+        self.is_rounded = any(variable.step is not None for variable in body.variables)
+        total = (body.evaluations + self.is_rounded) * len(self.cases)
+        check_count(total, most, "evaluations")
+        return total
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
         """The header, a line for each trial, the end."""
+        variables = zip(self.body.variables, self.units, strict=True)
         yield [
             self.header(
-                "design",
-                variables=[
-                    {"path": paths_of(each.leaves), "unit": common_unit(each.leaves), "min": each.low, "max": each.high}
-                    for each in self.variables
-                ],
+                variables=[{"path": of.paths, "unit": unit, "min": of.min, "max": of.max} for of, unit in variables],
                 objective=output_header(self.outputs[0]),
-                direction="minimise" if self.sign > 0.0 else "maximise",
+                direction=self.direction,
                 corners=len(self.cases),
-                evaluations=self.evaluations,
+                evaluations=self.body.evaluations,
             )
         ]
         trials: list[Line] = []
         figures: list[list[float] | None] = []
-        while place := await engine.twice_if_lost(pool, next_place, self.start, figures, self.evaluations):
-            shares = zip(self.variables, place, strict=True)
-            values = [each.low + share * (each.high - each.low) for each, share in shares]
+        place: list[float] | None = self.start
+        while place is not None:
+            shares = zip(self.body.variables, place, strict=True)
+            values = [each.min + share * (each.max - each.min) for each, share in shares]
             trial, found = await self._trial(pool, clock, values)
             yield [{"type": "trial", "index": len(trials), **trial}]
             trials.append(trial)
@@ -97,18 +91,18 @@ class Design(Study):
                 message = "the unit that the search starts from has no answer at its worst corner"
                 yield [clock.error("no_start", message)]
                 return
-        start = trials[0]
+            place = await engine.twice_if_lost(pool, next_place, self.start, figures, self.body.evaluations)
         best, _ = min(zip(trials, figures, strict=True), key=lambda each: max(each[1] or [inf]))
         rounded: Line = {}
         if self.is_rounded:
-            values = [each.rounded(best["at"][each.leaves[0].path]) for each in self.variables]
+            values = [_rounded(each, best["at"][each.paths[0]]) for each in self.body.variables]
             rounded["rounded"], _ = await self._trial(pool, clock, values)
         yield [
             {
                 "type": "end",
-                "start": start["at"],
+                "start": trials[0]["at"],
                 "best": best["at"],
-                "objective_start": start["objective"],
+                "objective_start": trials[0]["objective"],
                 "objective_best": best["objective"],
                 "worst_corner": best["worst_corner"],
                 "evaluations": len(trials),
@@ -125,8 +119,8 @@ class Design(Study):
         Behind them the objectives of all cases with the sign that the search minimises; None where the first case
         without solution ended the trial.
         """
-        pairs = zip(self.variables, values, strict=True)
-        at: Overrides = {leaf.path: value for variable, value in pairs for leaf in variable.leaves}
+        pairs = zip(self.body.variables, values, strict=True)
+        at: Overrides = {path: value for variable, value in pairs for path in variable.paths}
         objectives: list[float] = []
         indices = range(len(self.cases))
         runs = engine.in_order(pool, self.question, lambda index: {**at, **self.cases[index]}, indices, clock)
@@ -137,40 +131,15 @@ class Design(Study):
                     if objective is None:
                         return {"at": at, "objective": None, "worst_corner": self.cases[index]}, None
                     objectives.append(objective)
-        figures = [self.sign * objective for objective in objectives]
+        sign = 1.0 if self.direction == "minimise" else -1.0
+        figures = [sign * objective for objective in objectives]
         worst = figures.index(max(figures))
         return {"at": at, "objective": objectives[worst], "worst_corner": self.cases[worst]}, figures
 
 
-def design_study(content: Any, most: int, deadline_s: float) -> Design:
-    """The search in a body."""
-    request, base = engine.asked(DesignRequest, content)
-    objective = base.output(request.objective, "objective")
-    if objective.kind not in NUMBERS:
-        raise Unprocessable("unknown_output", f"{request.objective} is no number", "objective")
-    variables = tuple(_variable(each, base, f"variables.{place}") for place, each in enumerate(request.variables))
-    cases = _cases(request, base)
-    case = base.checked(cases[0]).model_dump()
-    if request.direction is None and objective.view.bound is None:
-        message = f"{objective.path} has no safe side of its own; say maximise or minimise"
-        raise Unprocessable("direction_missing", message, "direction")
-    maximised = objective.view.greatest_is_best if request.direction is None else request.direction == "maximise"
-    study = Design(
-        base.question([objective.path], deadline_s),
-        (objective,),
-        engine.case_of_study(PATH, request),
-        variables=variables,
-        cases=cases,
-        sign=-1.0 if maximised else 1.0,
-        start=tuple(_share(variable, case) for variable in variables),
-        evaluations=request.evaluations,
-    )
-    check_count(study.total, most, "evaluations")
-    return study
-
-
-def _variable(variable: Variable, base: BaseRequest, place: str) -> DesignVariable:
-    leaves = tuple(base.leaf(path, f"{place}.path") for path in variable.paths)
+def _unit(variable: Variable, base: BaseRequest, place: str) -> str | None:
+    """The common unit of the fields of a variable, whose range they take."""
+    leaves = [base.leaf(path, f"{place}.path") for path in variable.paths]
     for leaf in leaves:
         if leaf.kind != "number":
             raise Unprocessable("not_continuous", f"{leaf.path} is not a continuous number", f"{place}.path")
@@ -180,7 +149,7 @@ def _variable(variable: Variable, base: BaseRequest, place: str) -> DesignVariab
         raise Unprocessable("variable_range", "a variable needs a range from min to max", place)
     if variable.step is not None and floor(variable.max / variable.step) < ceil(variable.min / variable.step):
         raise Unprocessable("variable_step", "no multiple of the step lies between min and max", f"{place}.step")
-    return DesignVariable(leaves, variable.min, variable.max, variable.step)
+    return common_unit(leaves)
 
 
 def _cases(request: DesignRequest, base: BaseRequest) -> list[Overrides]:
@@ -199,92 +168,72 @@ def _cases(request: DesignRequest, base: BaseRequest) -> list[Overrides]:
     return [{**point, **corner} for point in points for corner in corners]
 
 
-def _share(variable: DesignVariable, case: dict[str, Any]) -> float:
+def _share(variable: Variable, case: dict[str, Any]) -> float:
     """The case's own value as a share of the range; 0 where it has none."""
-    own = value_at(case, variable.leaves[0].path)
-    return 0.0 if own is None else min(max((own - variable.low) / (variable.high - variable.low), 0.0), 1.0)
+    own = value_at(case, variable.paths[0])
+    return 0.0 if own is None else min(max((own - variable.min) / (variable.max - variable.min), 0.0), 1.0)
+
+
+def _rounded(variable: Variable, value: float) -> float:
+    """The nearest multiple of the variable's step inside its range, or the value itself where there is no step."""
+    step, low, high = variable.step, variable.min, variable.max
+    if step is None:
+        return value
+    steps = min(max(round(value / step), ceil(low / step)), floor(high / step))
+    return min(max(float(f"{steps * step:.12g}"), low), high)
 
 
 class _Unknown(Exception):
     """The search needs the objectives at a point, the argument."""
 
 
-class _NoEvaluationLeft(Exception):
-    """All evaluations are used."""
+def next_place(start: Sequence[float], told: Sequence[list[float] | None], most: int) -> list[float] | None:
+    """The point of the unit cube that the search evaluates next, or None at its end; runs in a worker.
 
-
-def next_place(start: Sequence[float], known_objectives: Sequence[list[float] | None], most: int) -> list[float] | None:
-    """The next point that the search evaluates after those known, or None at its end; runs in a worker.
-
-    The search is repeated up to there, which takes some milliseconds a point and needs no thread that waits.
-    """
-    known = iter(known_objectives)
-
-    def objectives(place: FloatArray) -> FloatArray | None:
-        for found in known:
-            return None if found is None else np.array(found)
-        raise _Unknown(place.tolist())
-
-    try:
-        search(objectives, np.array(start), most)
-    except _Unknown as unknown:
-        return list(unknown.args[0])
-    return None
-
-
-def search(objectives: Callable[[FloatArray], FloatArray | None], start: FloatArray, evaluations: int) -> None:
-    """Minimise the largest objective over the unit cube with at most so many evaluations.
-
-    `objectives` are those at a point; None where there is no solution.
+    The search minimises the largest objective with at most so many evaluations. `told` are the objectives at the points
+    before, from the start on, None where there is no solution: the search is repeated up to there, which takes some
+    milliseconds a point and needs no thread that waits.
     COBYQA, which needs no derivatives, minimises a level under the constraints that no objective exceeds it: each
     objective has a smooth model of its own, also along a ridge where two are equally large. It is restarted at the best
     point as long as that gains anything. Raises NoSolution design where the start has no solution.
     """
-    known: dict[bytes, FloatArray] = {}
-    first = objectives(np.clip(start, 0.0, 1.0))
-    if first is None:
+    if len(told) == most:
+        return None
+    if (first := told[0]) is None:
         raise NoSolution("design", "the point where the search starts has no solution")
-    scale = VALUE_SCALE * abs(float(first.max())) or 1.0
-    known[_name(start)] = first / scale
+    scale = VALUE_SCALE * abs(max(first)) or 1.0
+    known = {_name(np.array(start)): np.array(first) / scale}
 
     def scaled(place: FloatArray) -> FloatArray:
         """The objectives at a place, whose last component is the level."""
         name = _name(place[:-1])
         if name not in known:
-            if len(known) == evaluations:
-                raise _NoEvaluationLeft
-            found = objectives(np.clip(place[:-1], 0.0, 1.0))
+            if len(known) == len(told):
+                raise _Unknown(np.clip(place[:-1], 0.0, 1.0).tolist())
+            found = told[len(known)]
             worst = max(float(each.max()) for each in known.values())
-            known[name] = np.full(first.size, worst + PENALTY) if found is None else found / scale
+            known[name] = np.full(len(first), worst + PENALTY) if found is None else np.array(found) / scale
         return known[name]
 
     def level(place: FloatArray) -> float:
         scaled(place)
         return float(place[-1])
 
-    bounds = [*[(0.0, 1.0)] * start.size, (-np.inf, np.inf)]
+    bounds = [*[(0.0, 1.0)] * len(start), (-np.inf, np.inf)]
+    below = NonlinearConstraint(lambda place: scaled(place) - place[-1], -np.inf, 0.0)
+    options: Any = {"maxfev": MOST_STEPS * most, "initial_tr_radius": FIRST_STEP, "final_tr_radius": LAST_STEP}
     before = np.inf
     while True:
         best = min(known, key=lambda place: float(known[place].max()))
         lowest = float(known[best].max())
         if before - lowest < LEAST_GAIN / VALUE_SCALE:
-            return
+            return None
         before = lowest
+        x0 = np.append(np.frombuffer(best), lowest)
         try:
-            minimize(
-                level,
-                np.append(np.frombuffer(best), lowest),
-                method="COBYQA",
-                bounds=bounds,
-                constraints=[NonlinearConstraint(lambda place: scaled(place) - place[-1], -np.inf, 0.0)],
-                options={
-                    "maxfev": MOST_STEPS * evaluations,
-                    "initial_tr_radius": FIRST_STEP,
-                    "final_tr_radius": LAST_STEP,
-                },
-            )
-        except _NoEvaluationLeft:
-            return
+            minimize(level, x0, method="COBYQA", bounds=bounds, constraints=[below], options=options)
+        except _Unknown as unknown:
+            return list(unknown.args[0])
 
 
 def _name(place: FloatArray) -> bytes:

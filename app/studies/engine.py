@@ -1,8 +1,6 @@
 """What all studies share: points solved in chunks on a pool of processes and handed on in order, and lines of them.
 
-A kind of study declares its body, its checks and its lines. Its planner takes the body as JSON's objects, or
-validated, the most points and the deadline of each; it runs in a worker, and raises InvalidBody and Unprocessable with
-locations in the body.
+A kind of study declares its endpoint and its body, and has its checks and its lines.
 """
 
 import asyncio
@@ -14,9 +12,8 @@ from array import array
 from collections import Counter, deque
 from collections.abc import AsyncGenerator, Callable, Iterable, Sequence
 from contextlib import aclosing
-from dataclasses import dataclass
 from math import nan
-from typing import Any, Protocol, TypeVar
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
@@ -28,15 +25,14 @@ from app.schema.model import MODEL_VERSION
 from app.schema.reading import validated
 from app.sources import SOURCES
 from app.studies.fields import is_number
-from app.studies.points import CHUNK_SECONDS, BaseRequest, Chunk, Point, Question, solve_chunk
-from app.studies.requests import DriveTrainStudy, Overrides, StudyRequest
+from app.studies.points import CHUNK_SECONDS, BaseRequest, Chunk, Point, Question, reduced_request, solve_chunk
+from app.studies.requests import Overrides
 from solvers.arrays import FloatArray
 
 CHUNKS_PER_SLOT = 2  # one at work, one that waits, so that no worker is idle
 MOST_POINTS_IN_A_CHUNK = 1000  # however fast a point is: a chunk's answer stays small
 PROGRESS_S = 2.0  # between lines of progress: proxies and users see that it runs
 
-Body = TypeVar("Body", bound=StudyRequest | DriveTrainStudy)
 Line = dict[str, Any]
 Lines = AsyncGenerator[list[Line], None]
 
@@ -156,42 +152,51 @@ async def _solved_singly(pool: Pool, question: Question, overrides: list[Overrid
     return Chunk(points, time.perf_counter() - started)
 
 
-def asked(body: type[Body], content: Any) -> tuple[Body, BaseRequest]:
-    """The body of a study, and the request that it varies; raises InvalidBody and Unprocessable."""
-    request = validated(body, content)
-    return request, BaseRequest(calculation_at(request.endpoint), request.request)
-
-
-def case_of_study(path: str, body: StudyRequest | DriveTrainStudy) -> str:
-    """The hash of endpoint, body and sources of a study."""
-    try:
-        return case_of(path, body.model_dump(exclude={"from_index"}), SOURCES)
-    except ValueError:  # in a field that every point replaces
-        message = "holds a number that is not finite, or text that is not Unicode"
-        raise Unprocessable("not_json", message, "request") from None
-
-
-@dataclass(frozen=True, slots=True)
 class Study(ABC):
-    """A study that has passed its checks; `outputs` are in the order of the columns of `Point.out`."""
+    """A study that has passed its checks; the docstring of each kind describes its endpoint.
 
-    question: Question
-    outputs: tuple[Leaf, ...]
-    case: str
+    It is made in a worker, from the body as JSON's objects or validated, the most points and the deadline of each;
+    raises InvalidBody and Unprocessable with locations in the body. `outputs` are the first columns of `Point.out`.
+    """
 
-    @property
+    path: ClassVar[str]  # of the endpoint; its last part is the type of the first line
+    summary: ClassVar[str]
+    answer: ClassVar[str]  # which lines there are
+    model: ClassVar[type[Any]]  # of the body
+    most: ClassVar[str] = "most_study_points"  # the setting that bounds the points
+    is_reduced: ClassVar[bool] = True  # whether the film is left out where no output needs it
+
+    def __init__(self, content: Any, most: int, deadline_s: float) -> None:
+        self.body = validated(self.model, content)
+        endpoint, request = self.body.endpoint, self.body.request
+        base = BaseRequest(calculation_at(endpoint), request)
+        self.outputs = self._outputs(base)
+        paths = paths_of(self.outputs)
+        asked = reduced_request(endpoint, request, paths) if self.is_reduced else request
+        self.question = Question(endpoint, asked, paths, deadline_s)
+        self.total = self._planned(base, most)
+        try:
+            self.case = case_of(self.path, self.body.model_dump(exclude={"from_index"}), SOURCES)
+        except ValueError:  # in a field that every point replaces
+            message = "holds a number that is not finite, or text that is not Unicode"
+            raise Unprocessable("not_json", message, "request") from None
+
+    def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:
+        """The outputs asked for, by default the headline numbers."""
+        return base.outputs(self.body.outputs)
+
     @abstractmethod
-    def total(self) -> int:
-        """How many points it has at most."""
+    def _planned(self, base: BaseRequest, most: int) -> int:
+        """How many points there are at most, once everything else of the body has been checked."""
 
     @abstractmethod
     def lines(self, pool: Pool, clock: Clock) -> Lines:
         """All lines but those of progress."""
 
-    def header(self, kind: str, **content: Any) -> Line:
+    def header(self, **content: Any) -> Line:
         """A line that identifies the study."""
         identity = {"model_version": MODEL_VERSION, "sources": SOURCES, "case": self.case}
-        return {"type": kind, "endpoint": self.question.endpoint, **content, **identity}
+        return {"type": self.path.rpartition("/")[2], "endpoint": self.question.endpoint, **content, **identity}
 
 
 def output_header(leaf: Leaf) -> Line:
@@ -251,30 +256,23 @@ async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float 
     async with aclosing(lines):
         upcoming = asyncio.ensure_future(anext(lines, None))
         try:
-            while True:
-                left = seconds - clock.elapsed_s
-                if left <= 0.0:
-                    yield [clock.error("study_deadline", f"the study took longer than {seconds:g} s; make it smaller")]
-                    return
+            while (left := seconds - clock.elapsed_s) > 0.0:
                 done, _ = await asyncio.wait({upcoming}, timeout=min(progress_s, left))
-                if not done:
-                    if left > progress_s:
-                        yield [clock.line()]
-                    continue
-                try:
+                if done:
                     group = upcoming.result()
-                except PoolLost as error:
-                    yield [clock.error(error.code, str(error))]
-                    return
-                except Exception:
-                    logger.exception("a study failed")
-                    yield [clock.error("internal_error", "something went wrong in the service; the log has the cause")]
-                    return
-                if group is None:
-                    return
-                if group:
-                    yield group
-                upcoming = asyncio.ensure_future(anext(lines, None))
+                    if group is None:
+                        return
+                    if group:
+                        yield group
+                    upcoming = asyncio.ensure_future(anext(lines, None))
+                elif left > progress_s:
+                    yield [clock.line()]
+            yield [clock.error("study_deadline", f"the study took longer than {seconds:g} s; make it smaller")]
+        except PoolLost as error:
+            yield [clock.error(error.code, str(error))]
+        except Exception:
+            logger.exception("a study failed")
+            yield [clock.error("internal_error", "something went wrong in the service; the log has the cause")]
         finally:
             upcoming.cancel()
             await asyncio.gather(upcoming, return_exceptions=True)

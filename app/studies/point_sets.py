@@ -1,8 +1,7 @@
 """Which points a study has: a grid, a list of cases or a random sample, checked against the schema."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, product
 from math import log, prod
 from typing import Any, NamedTuple
 
@@ -27,8 +26,7 @@ def common_unit(leaves: Sequence[Leaf]) -> str | None:
     return units.pop() if len(units) == 1 else None
 
 
-@dataclass(frozen=True, slots=True)
-class CheckedAxis:
+class CheckedAxis(NamedTuple):
     """One axis: its fields, and its values unless they are random."""
 
     path: str | list[str]
@@ -40,37 +38,29 @@ class CheckedAxis:
         return {"path": self.path, "unit": common_unit(self.leaves), "values": self.values}
 
 
-@dataclass(frozen=True, slots=True)
-class PointSet:
-    """Points in order: the product of `axes`, first axis slowest, or the rows of `cases` or `sample`.
+class PointSet(NamedTuple):
+    """Points in order, a row each: its coordinates along `axes`, or without axes what it changes.
 
     `varied` are the fields that differ between points.
     """
 
     axes: list[CheckedAxis]
-    total: int
     varied: tuple[Leaf, ...]
-    cases: list[Overrides] | None = None
-    sample: FloatArray | None = None
+    rows: Sequence[list[Any] | Overrides]
 
-    def at(self, index: int) -> list[Scalar | list[Scalar]] | Overrides:
-        """Coordinates of a point, or its overrides in a list of cases."""
-        if self.cases is not None:
-            return self.cases[index]
-        if self.sample is not None:
-            return list(self.sample[index].tolist())
-        values = [axis.values or [] for axis in self.axes]
-        places = np.unravel_index(index, [len(each) for each in values])
-        return [each[place] for each, place in zip(values, places, strict=True)]
+    @property
+    def total(self) -> int:
+        """How many points there are."""
+        return len(self.rows)
 
     def overrides(self, index: int) -> Overrides:
         """What a point changes in the base request."""
-        at = self.at(index)
-        if isinstance(at, dict):
-            return at
+        row = self.rows[index]
+        if isinstance(row, dict):
+            return row
         return {
             leaf.path: own
-            for axis, value in zip(self.axes, at, strict=True)
+            for axis, value in zip(self.axes, row, strict=True)
             for leaf, own in zip(axis.leaves, _each(value, axis.leaves), strict=True)
         }
 
@@ -83,7 +73,7 @@ def _each(value: Scalar | list[Scalar], leaves: tuple[Leaf, ...]) -> list[Scalar
 def listed(cases: list[Overrides], base: BaseRequest, most: int, place: str) -> PointSet:
     """The points of the list of cases at `place` of a study, at most `most`; raises Unprocessable."""
     check_count(len(cases), most, place)
-    return PointSet([], len(cases), tuple(fields_set(cases, base, place + ".{}").values()), cases=cases)
+    return PointSet([], tuple(fields_set(cases, base, place + ".{}").values()), cases)
 
 
 def fields_set(cases: Sequence[Overrides], base: BaseRequest, place: str) -> dict[str, Leaf]:
@@ -102,12 +92,16 @@ def fields_set(cases: Sequence[Overrides], base: BaseRequest, place: str) -> dic
 
 
 def grid(axes: list[Axis], base: BaseRequest, most: int, place: str) -> PointSet:
-    """The product of the axes at `place` of a study, at most `most` points; raises Unprocessable."""
+    """The product of the axes at `place` of a study, the first one slowest, at most `most` points.
+
+    Raises Unprocessable.
+    """
     total = prod(_length(axis, f"{place}.{number}") for number, axis in enumerate(axes))
     check_count(total, most, place)
     check_distinct([path for axis in axes for path in axis.paths], place)
     found = [_checked(axis, base, f"{place}.{number}") for number, axis in enumerate(axes)]
-    return PointSet(found, total, tuple(leaf for axis in found for leaf in axis.leaves))
+    rows = [list(row) for row in product(*(axis.values or () for axis in found))]
+    return PointSet(found, tuple(leaf for axis in found for leaf in axis.leaves), rows)
 
 
 def _length(axis: Axis, place: str) -> int:
@@ -122,7 +116,7 @@ def _length(axis: Axis, place: str) -> int:
 
 def _checked(axis: Axis, base: BaseRequest, place: str) -> CheckedAxis:
     leaves = tuple(base.leaf(path, f"{place}.path") for path in axis.paths)
-    values = axis.values if axis.values is not None else _spread(axis, leaves, place)
+    values = _spread(axis, leaves, place) if axis.values is None else axis.values
     for number, value in enumerate(values):
         if isinstance(value, list) and (isinstance(axis.path, str) or len(value) != len(leaves)):
             message = "give one value for all fields of the axis, or of a list of fields each its own"
@@ -134,19 +128,17 @@ def _checked(axis: Axis, base: BaseRequest, place: str) -> CheckedAxis:
     return CheckedAxis(axis.path, leaves, values)
 
 
-def _spread(axis: Axis, leaves: tuple[Leaf, ...], place: str) -> list[Scalar | list[Scalar]]:
+def _spread(axis: Axis, leaves: tuple[Leaf, ...], place: str) -> list[Any]:
     """Even steps, or even ratios, from start to stop; an end that is refused is named."""
-    assert axis.start is not None
-    assert axis.stop is not None
-    assert axis.count is not None
-    for name, end in {"start": axis.start, "stop": axis.stop}.items():
+    ends: dict[str, Any] = {"start": axis.start, "stop": axis.stop}
+    for name, end in ends.items():
         if axis.scale == "log" and end <= 0.0:
             message = "a logarithmic axis needs both ends above zero"
             raise Unprocessable("log_needs_positive", message, f"{place}.{name}")
         for leaf in leaves:
             check_value(leaf, end, f"{place}.{name}")
-    spread = np.linspace if axis.scale == "linear" else np.geomspace
-    return list(spread(axis.start, axis.stop, axis.count).tolist())
+    spread: Any = np.linspace if axis.scale == "linear" else np.geomspace
+    return list(spread(*ends.values(), axis.count).tolist())
 
 
 def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: str) -> tuple[Leaf, ...]:
@@ -173,25 +165,27 @@ def anchors(scatter: Range | Scatter) -> dict[str, float]:
 
 
 class Cut(NamedTuple):
-    """The ends of a distribution, their cumulative probabilities, and its law in scipy; None where it is uniform."""
+    """A law of scipy between two ends."""
 
+    law: Any
     low: float
     high: float
-    shares: tuple[float, float] = (0.0, 1.0)
-    law: Any = None
+
+    @property
+    def shares(self) -> tuple[float, float]:
+        """The cumulative probabilities of the ends."""
+        return float(self.law.cdf(self.low)), float(self.law.cdf(self.high))
 
     def drawn(self, share: FloatArray) -> FloatArray:
         """Values at shares of the distribution between its ends."""
         low, high = self.shares
-        values = (
-            self.low + (self.high - self.low) * share if self.law is None else self.law.ppf(low + (high - low) * share)
-        )
-        return np.clip(values, self.low, self.high)
+        return np.asarray(np.clip(self.law.ppf(low + (high - low) * share), self.low, self.high))
 
     @property
     def cut_off(self) -> float:
-        """The share of the distribution beyond its ends."""
-        return self.shares[0] + 1.0 - self.shares[1]
+        """The share of the distribution beyond its ends; none of a single value."""
+        low, high = self.shares
+        return low + 1.0 - high if self.low < self.high else 0.0
 
 
 def cut(scatter: Range | Scatter, leaf: Leaf) -> Cut:
@@ -206,15 +200,16 @@ def cut(scatter: Range | Scatter, leaf: Leaf) -> Cut:
         case Lognormal():
             law = stats.lognorm(log(scatter.factor), scale=scatter.median)
             low, high = scatter.median / scatter.factor**CUT, scatter.median * scatter.factor**CUT
-        case Triangular() if (width := scatter.max - scatter.min) > 0.0:
-            law = stats.triang((scatter.mode - scatter.min) / width, scatter.min, width)
-            return Cut(scatter.min, scatter.max, law=law)
         case _:
-            return Cut(scatter.min, scatter.max)
+            low, high = scatter.min, scatter.max
+            width = high - low or 1.0  # of one value the ends leave that alone
+            law = stats.uniform(low, width)
+            if isinstance(scatter, Triangular) and high > low:
+                law = stats.triang((scatter.mode - low) / width, low, width)
     bounds = leaf.declared.bounds
     low = max(low, bounds.get("ge", -LARGEST), bounds.get("gt", -LARGEST))
     high = min(high, bounds.get("le", LARGEST), bounds.get("lt", LARGEST))
-    return Cut(low, high, (float(law.cdf(low)), float(law.cdf(high))), law)
+    return Cut(law, low, high)
 
 
 def drawn(scatters: Sequence[Range | Scatter], leaves: Sequence[Leaf], cube: FloatArray) -> FloatArray:

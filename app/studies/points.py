@@ -101,11 +101,6 @@ class BaseRequest(NamedTuple):
             found = [each._replace(pointer=f"/request{each.pointer}") for each in error.faults]
             raise InvalidBody(found) from None
 
-    def question(self, outputs: Sequence[str], deadline_s: float, *, reduced: bool = True) -> Question:
-        """What is the same at every point; `reduced` leaves out what the outputs do not need."""
-        path = self.calculation.path
-        return Question(path, reduced_request(path, self.body, outputs) if reduced else self.body, outputs, deadline_s)
-
 
 def check_count(count: int, most: int, place: str) -> None:
     """Refuse a study of too many points."""

@@ -333,6 +333,9 @@ class DriveTrainStudy(Part):
 class CornersRequest(DriveTrainStudy):
     """A gear unit at every combination of its uncertain inputs."""
 
+    sample: ClassVar[None] = None
+    best: ClassVar[None] = None
+
     ranges: Annotated[Ranges, Input("ranges", text=_RANGES, default_text=USUAL_RANGES)] = None
     outputs: Outputs = None
     from_index: FromIndex = 0

@@ -5,19 +5,17 @@ at half of it.
 """
 
 from collections import Counter
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
 from app.errors import Unprocessable
 from app.schema.fields import ITEM, Leaf, leaves
 from app.studies import engine
-from app.studies.engine import Clock, Line, Lines, Pool, Study, output_header, paths_of
+from app.studies.engine import Clock, Line, Lines, Pool, Study, output_header
 from app.studies.fields import NUMBERS, fault, scalar_at, value_at
 from app.studies.points import BaseRequest, Point, check_count, check_distinct
 from app.studies.requests import Overrides, SensitivityRequest
 
-PATH = "/v1/sensitivity"
 RELATIVE_STEP = 0.01  # of a value: small against its range, large against the solver's tolerance
 KELVIN_STEP = 1.0  # of a temperature, whose zero means nothing
 DISAGREEMENT = 0.1  # relative difference of two slopes
@@ -57,23 +55,13 @@ def perturbation(leaf: Leaf, value: float) -> Perturbation:
 
 
 def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line:
-    """What an output does where one input is moved.
+    """What an output does where one input is moved, from the output by the value of the input; None: no answer.
 
-    Parameters
-    ----------
-    moved
-        The input.
-    outputs
-        The output by the value of the input; None where there is no answer.
-
-    Returns
-    -------
-    The derivative [output per input], central where both sides have answers, else one-sided; `elasticity`, per cent of
-    the output for a per cent of the input, none at zero and for a temperature in degrees; the step; `change` by one
-    step upwards, from the side where it is larger; `kink`: the slopes of both sides differ by more than a tenth, None
-    where one is missing; `curved`: half the step gives a derivative that differs by more than a tenth, None where it is
-    not checked.
-
+    The derivative [output per input] is central where both sides have answers, else one-sided; `elasticity` is per cent
+    of the output for a per cent of the input, none at zero and for a temperature in degrees; `change` is by one step
+    upwards, from the side where it is larger; `kink`: the slopes of both sides differ by more than a tenth, None where
+    one is missing; `curved`: half the step gives a derivative that differs by more than a tenth, None where it is not
+    checked.
     """
     base, step, half = outputs[moved.value], moved.step, moved.half
 
@@ -104,30 +92,47 @@ def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line
     }
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Sensitivity(Study):
-    """A case and its moved inputs; the first point is the case itself."""
+    """Derivatives of the outputs by every number of the case, from differences with its tolerance as step.
 
-    perturbations: list[Perturbation]
+    A field without a tolerance is moved by 1 %, a temperature by 1 K, an integer by 1.
 
-    @property
-    def total(self) -> int:
-        """How many points it has."""
-        return 1 + sum(len(each.places) for each in self.perturbations)
+    `change` is what one step does to the output, `elasticity` per cent of the output for a per cent of the input;
+    `kink` says that the two sides differ by more than 10 %, `curved` that half the step gives another derivative by
+    more than 10 %; it is null for fields without a tolerance.
+    """
+
+    path = "/v1/sensitivity"
+    summary = "What moves each output most"
+    answer = "a line for each output and input, the most influential first, and one for the end"
+    model = SensitivityRequest
+    body: SensitivityRequest
+
+    def _planned(self, base: BaseRequest, most: int) -> int:
+        paths, case = self.body.inputs, base.checked({}).model_dump()
+        inputs = _every_number(base, case) if paths is None else _named(base, case, paths)
+        moved = [perturbation(leaf, value_at(case, leaf.path)) for leaf in inputs]
+        self.perturbations = [each for each in moved if each.places]
+        total = 1 + sum(len(each.places) for each in self.perturbations)
+        check_count(total, most, "inputs")
+        return total
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """A line for each output and input, the most influential input of an output first; then the end."""
+        """A line for each output and input, the most influential input of an output first; then the end.
+
+        The first point is the case itself.
+        """
         moved: list[Overrides] = [{each.leaf.path: place} for each in self.perturbations for place in each.places]
         overrides, points = [{}, *moved], list[Point]()
         async for _, found in engine.in_order(pool, self.question, overrides.__getitem__, range(self.total), clock):
             points += found
         yield [line for column in range(len(self.outputs)) for line in self._ranked(column, points)]
         base = points[0]
-        outputs = zip(self.outputs, base.out, strict=True)
         end = self.header(
-            "end",
             inputs=[{**output_header(each.leaf), "value": each.value} for each in self.perturbations],
-            outputs=[{**output_header(leaf), "value": value} for leaf, value in outputs],
+            outputs=[
+                {**output_header(leaf), "value": value} for leaf, value in zip(self.outputs, base.out, strict=True)
+            ],
             points=len(points),
             counts=dict(sorted(Counter(point.status for point in points).items())),
             status=base.status,
@@ -135,35 +140,22 @@ class Sensitivity(Study):
             error=base.error,
             assumptions=base.assumptions,
         )
-        yield [{**end, "elapsed_s": clock.elapsed_s}]
+        yield [{**end, "type": "end", "elapsed_s": clock.elapsed_s}]
 
-    def _ranked(self, column: int, points: list[Point]) -> Iterator[Line]:
+    def _ranked(self, column: int, points: list[Point]) -> list[Line]:
         """The lines of one output."""
         base, *moved = (_number(point.out[column]) for point in points)
         rest = iter(moved)
-        found = []
+        found: list[Line] = []
         for each in self.perturbations:
             outputs = {each.value: base, **{place: next(rest) for place in each.places}}
-            found.append({"path": each.leaf.path, **differences(each, outputs)})
-        for line in sorted(found, key=lambda line: -abs(line["change"] or 0.0)):
-            yield {"type": "sensitivity", "output": self.outputs[column].path, **line}
+            known = differences(each, outputs)
+            found.append({"type": "sensitivity", "output": self.outputs[column].path, "path": each.leaf.path, **known})
+        return sorted(found, key=lambda line: -abs(line["change"] or 0.0))
 
 
 def _number(value: Any) -> float | None:
     return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
-
-
-def sensitivity_study(content: Any, most: int, deadline_s: float) -> Sensitivity:
-    """The sensitivity in a body."""
-    request, base = engine.asked(SensitivityRequest, content)
-    outputs = base.outputs(request.outputs)
-    case = base.checked({}).model_dump()
-    inputs = _every_number(base, case) if request.inputs is None else _named(base, case, request.inputs)
-    perturbations = [each for leaf in inputs if (each := perturbation(leaf, value_at(case, leaf.path))).places]
-    question = base.question(paths_of(outputs), deadline_s)
-    study = Sensitivity(question, outputs, engine.case_of_study(PATH, request), perturbations=perturbations)
-    check_count(study.total, most, "inputs")
-    return study
 
 
 def _every_number(base: BaseRequest, case: dict[str, Any]) -> list[Leaf]:

@@ -1,9 +1,8 @@
 """Load spectra: a machine with its tolerances over its cases, and the probability that it exceeds its limits."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,7 +17,6 @@ from app.studies.probability import Limit
 from app.studies.requests import DRIVE_TRAIN, LoadCase, Overrides, SpectrumLimit, SpectrumRequest, Tolerances
 from solvers.arrays import FloatArray
 
-PATH = "/v1/spectrum"
 PROGRESS_S = 0.5  # between two lines that say how far a spectrum has come
 KILOWATTS = {"W": 1e-3, "kW": 1.0}  # per unit
 RELATIVE_DEVIATION = 0.15  # AGMA 925-A03, from memory
@@ -49,30 +47,65 @@ SCUFFING = {
 }
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Spectrum(Study):
-    """The drawn machines over their cases; the points are every case of the first machine, then of the next.
+    """Machines are drawn from the tolerances; each runs every case, and its worst case is compared with the limits.
 
-    `machines` are the values of the fields that scatter, a row a machine, replicate after replicate; the nominal
-    machine alone is a row without values.
-    Where no limits are given, the columns behind the outputs hold the scuffing temperature.
+    The last line has the probability of exceeding each limit with its 90 % interval, for the spectrum and for each case
+    alone; how often each case is the worst (`decides`); the rank correlation with each tolerance; and of every output
+    the mean over the operating time, the extremes, and the 5, 50 and 95 % quantiles in each case. Draws without
+    solution are counted: where there are any, the probability is only known between its `bounds`. Where no output needs
+    the thermal film, it is not calculated. Lines of `progress` come every half second.
     """
 
-    cases: list[LoadCase]
-    tolerances: Tolerances | None
-    scattering: tuple[Leaf, ...]
-    machines: FloatArray
-    limits: list[Limit] | None
-    hours_per_year: float | None
-    points: bool
+    path = "/v1/spectrum"
+    summary = "A machine with its tolerances over its load spectrum: probabilities, losses, what decides"
+    answer = "a line for the spectrum, one for each point if asked for, and one for the end"
+    model = SpectrumRequest
+    most = "spectrum_solves"
+    body: SpectrumRequest
 
-    @property
-    def total(self) -> int:
-        """How many points it has."""
-        return len(self.machines) * len(self.cases)
+    def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:
+        """The outputs asked for, by default the headline numbers, and those that are limited."""
+        body = self.body
+        found = {f"outputs.{place}": leaf for place, leaf in enumerate(base.outputs(body.outputs))}
+        if body.outputs is None:
+            found = {place: leaf for place, leaf in found.items() if leaf.kind in NUMBERS}
+        for number, each in enumerate(body.limits or ()):
+            place = f"limits.{number}.output"
+            found[place] = base.output(each.output, place)
+        for place, leaf in found.items():
+            if leaf.kind not in NUMBERS:
+                raise Unprocessable("unknown_output", f"{leaf.path} is no number", place)
+        if body.limits is None and body.endpoint in SCUFFING:
+            found["limits"] = base.output(SCUFFING[body.endpoint].contact, "limits")
+        return tuple({leaf.path: leaf for leaf in found.values()}.values())
+
+    def _planned(self, base: BaseRequest, most: int) -> int:
+        body, tolerances = self.body, self.body.tolerances
+        known = fields_set([case.set for case in body.cases], base, "cases.{}.set")
+        inputs = tolerances.inputs if tolerances else []
+        self.scattering = scattering(inputs, base, "tolerances.inputs")
+        for place, leaf in enumerate(self.scattering):
+            if leaf.path in known:
+                message = f"{leaf.path} has a value in a case; a field either scatters or is set"
+                raise Unprocessable("duplicate_path", message, f"tolerances.inputs.{place}.path")
+        if body.limits is None and body.endpoint in SCUFFING:  # columns behind those of the outputs
+            columns = dict.fromkeys([*self.question.outputs, *SCUFFING[body.endpoint]])
+            self.question = self.question._replace(outputs=list(columns))
+        typical = {each.path: next(iter(anchors(each).values())) for each in inputs}
+        for case in body.cases:
+            base.checked({**typical, **case.set})
+        total = len(body.cases) * (tolerances.count * tolerances.replicates if tolerances else 1)
+        if total > most:
+            message = _too_many(self.question, {**typical, **body.cases[0].set}, total, most)
+            raise Unprocessable("too_many_points", message, "tolerances.count" if tolerances else "cases")
+        self.cases = _with_shares(body.cases)
+        # The values that scatter, a row a machine, replicate after replicate; the nominal machine alone has none.
+        self.machines = _machines(tolerances, self.scattering) if tolerances else np.empty((1, 0))
+        return total
 
     def overrides(self, index: int) -> Overrides:
-        """What a point changes in the base request: the values of the machine, and those of the case."""
+        """What a point changes in the base request; points are the cases of the first machine, then of the next."""
         draw, case = divmod(index, len(self.cases))
         machine = dict(zip(paths_of(self.scattering), self.machines[draw].tolist(), strict=True))
         return machine | self.cases[case].set
@@ -81,7 +114,6 @@ class Spectrum(Study):
         """The header, the points if they are asked for, how far it has come, the end."""
         yield [
             self.header(
-                "spectrum",
                 cases=[case.model_dump() for case in self.cases],
                 tolerances=self._tolerances_header(),
                 outputs=[output_header(leaf) for leaf in self.outputs],
@@ -94,7 +126,7 @@ class Spectrum(Study):
             for index, point in zip(indices, points, strict=True):
                 tally.add(point)
                 tally.keep(point.out if point.status in SOLVED else [None] * len(point.out))
-                if self.points:
+                if self.body.points:
                     draw, case = divmod(index, len(self.cases))
                     shown = point._replace(out=point.out[: len(self.outputs)])
                     lines.append({**engine.point_line(index, self.overrides(index), shown), "draw": draw, "case": case})
@@ -102,7 +134,7 @@ class Spectrum(Study):
                 lines.append(clock.line())
                 due = clock.elapsed_s + PROGRESS_S
             yield lines
-        replicates = self.tolerances.replicates if self.tolerances else 1
+        replicates = self.body.tolerances.replicates if self.body.tolerances else 1
         values = tally.values.reshape(replicates, -1, len(self.cases), len(self.question.outputs))
         statistics = await engine.twice_if_lost(pool, evaluated, self, values)
         assumptions = list(tally.assumptions.values())
@@ -122,13 +154,13 @@ class Spectrum(Study):
 
     def _tolerances_header(self) -> Line | None:
         """How the machines are drawn, and what share of each distribution is cut off."""
-        if self.tolerances is None:
+        if self.body.tolerances is None:
             return None
         inputs = [
             {**each.model_dump(), "unit": leaf.unit, "title": leaf.title, "cut_off": cut(each, leaf).cut_off}
-            for each, leaf in zip(self.tolerances.inputs, self.scattering, strict=True)
+            for each, leaf in zip(self.body.tolerances.inputs, self.scattering, strict=True)
         ]
-        return {**self.tolerances.model_dump(), "inputs": inputs}
+        return {**self.body.tolerances.model_dump(), "inputs": inputs}
 
     def _ignored(self, assumptions: Sequence[Line]) -> list[str]:
         """What is to be said of tolerances that the model does not use as the request stands."""
@@ -165,9 +197,9 @@ def evaluated(study: Spectrum, values: FloatArray) -> Line:
 
 def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit], list[Line], list[str]]:
     """The limits used, the assumption where the default limit is used, and notes."""
-    if study.limits is not None:
-        return study.limits, [], []
-    paths = SCUFFING[study.question.endpoint]
+    paths = SCUFFING.get(study.question.endpoint)
+    if study.body.limits is not None or paths is None:
+        return [_limit(each) for each in study.body.limits or ()], [], []
     known = columns[paths.limit][~np.isnan(columns[paths.limit])]
     if not known.size:
         return [], [], ["no limit is given, and the request has no scuffing temperature: give one of them"]
@@ -211,66 +243,14 @@ def _of_output(study: Spectrum, leaf: Leaf, column: FloatArray) -> Line:
     mean = probability.weighted_mean(column, [case.share or 0.0 for case in study.cases])
     content: Line = mean._asdict() if mean else {"mean": None, "standard_error": None, "interval": None}
     scale = KILOWATTS.get(leaf.unit or "")
-    if mean is not None and scale is not None and study.hours_per_year is not None:
-        content["energy_kwh_per_year"] = mean.mean * scale * study.hours_per_year
+    if mean is not None and scale is not None and study.body.hours_per_year is not None:
+        content["energy_kwh_per_year"] = mean.mean * scale * study.body.hours_per_year
     if np.isnan(column).all():
         return {**content, "min": None, "max": None}
     for end, index in {"min": int(np.nanargmin(column)), "max": int(np.nanargmax(column))}.items():
         draw, case = divmod(index, len(study.cases))
         content[end] = {"value": float(column.flat[index]), "case": case, "draw": draw, "at": study.overrides(index)}
     return content
-
-
-def spectrum_study(content: Any, most: int, deadline_s: float) -> Spectrum:
-    """The spectrum in a body."""
-    request, base = engine.asked(SpectrumRequest, content)
-    outputs = _outputs(base, request)
-    known = fields_set([case.set for case in request.cases], base, "cases.{}.set")
-    tolerances = request.tolerances
-    leaves = scattering(tolerances.inputs, base, "tolerances.inputs") if tolerances else ()
-    for place, leaf in enumerate(leaves):
-        if leaf.path in known:
-            message = f"{leaf.path} has a value in a case; a field either scatters or is set"
-            raise Unprocessable("duplicate_path", message, f"tolerances.inputs.{place}.path")
-    wanted, assumed = paths_of(outputs), SCUFFING.get(base.calculation.path)
-    if request.limits is None and assumed:
-        wanted = list(dict.fromkeys([*wanted, *assumed]))
-    question = base.question(wanted, deadline_s)
-    typical = {each.path: next(iter(anchors(each).values())) for each in tolerances.inputs} if tolerances else {}
-    for case in request.cases:
-        base.checked({**typical, **case.set})
-    total = len(request.cases) * (tolerances.count * tolerances.replicates if tolerances else 1)
-    if total > most:
-        message = _too_many(question, {**typical, **request.cases[0].set}, total, most)
-        raise Unprocessable("too_many_points", message, "tolerances.count" if tolerances else "cases")
-    return Spectrum(
-        question,
-        outputs,
-        engine.case_of_study(PATH, request),
-        cases=_with_shares(request.cases),
-        tolerances=tolerances,
-        scattering=leaves,
-        machines=_machines(tolerances, leaves) if tolerances else np.empty((1, 0)),
-        limits=None if request.limits is None and assumed else [_limit(each) for each in request.limits or ()],
-        hours_per_year=request.hours_per_year,
-        points=request.points,
-    )
-
-
-def _outputs(base: BaseRequest, request: SpectrumRequest) -> tuple[Leaf, ...]:
-    """The outputs asked for, by default the headline numbers, and those that are limited; raises Unprocessable."""
-    found = {f"outputs.{place}": leaf for place, leaf in enumerate(base.outputs(request.outputs))}
-    if request.outputs is None:
-        found = {place: leaf for place, leaf in found.items() if leaf.kind in NUMBERS}
-    for number, each in enumerate(request.limits or ()):
-        place = f"limits.{number}.output"
-        found[place] = base.output(each.output, place)
-    for place, leaf in found.items():
-        if leaf.kind not in NUMBERS:
-            raise Unprocessable("unknown_output", f"{leaf.path} is no number", place)
-    if request.limits is None and base.calculation.path in SCUFFING:
-        found["limits"] = base.output(SCUFFING[base.calculation.path].contact, "limits")
-    return tuple({leaf.path: leaf for leaf in found.values()}.values())
 
 
 def _limit(given: SpectrumLimit) -> Limit:
@@ -287,9 +267,9 @@ def _with_shares(cases: Sequence[LoadCase]) -> list[LoadCase]:
     given = [each.share for each in cases if each.share is not None]
     if given and len(given) < len(cases):
         raise Unprocessable("shares", "give every case its share, or none", "cases")
-    shares = given or [1.0 / len(cases)] * len(cases)
-    whole = sum(given) if given else 1.0
-    if abs(whole - 1.0) > SHARES_OFF + 1e-12:
+    shares = given or [1.0] * len(cases)
+    whole = sum(shares)
+    if given and abs(whole - 1.0) > SHARES_OFF + 1e-12:
         message = f"the shares add up to {whole:.6g}; give fractions of the time that add up to 1"
         raise Unprocessable("shares", message, "cases")
     return [

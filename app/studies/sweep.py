@@ -1,10 +1,8 @@
 """Sweeps: a line a point, then extremes and statistics. Corners are a sweep over uncertain inputs."""
 
-import operator
 from collections.abc import Sequence
-from dataclasses import dataclass
-from math import isnan, nan
-from typing import Any, Literal
+from math import inf, isnan
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -17,75 +15,55 @@ from app.studies.fields import did_you_mean, is_number
 from app.studies.point_sets import CheckedAxis, PointSet, drawn, grid, listed, scattering, unit_cube, usual_corners
 from app.studies.points import SOLVED, BaseRequest, Point, check_count
 from app.studies.probability import CONFIDENCE, QUANTILES, rank_correlation
-from app.studies.requests import Best, CornersRequest, Range, Sample, Scatter, SweepRequest
+from app.studies.requests import Axis, Best, CornersRequest, Range, Sample, Scatter, SweepRequest
 from solvers.arrays import FloatArray
 from solvers.drive_train.uncertainty import MOST_CORNERS, no_convergence
 
-PATH = "/v1/sweep"
-CORNERS_PATH = "/v1/drive-train/corners"
-
 
 class Summary(engine.Tally):
-    """The end of a sweep; of a grid it keeps the extremes only, of a sample every number.
+    """What the end of a sweep says of its points.
 
     `extremes` are the least and the largest value of every output that has any, as `min` and `max`, each with the
-    index of its point.
+    index of its point; `best_point` is the index of the best one, with its outputs.
     """
 
-    def __init__(self, points: PointSet, outputs: list[str], best: Best | None, first: int = 0) -> None:
+    def __init__(self, outputs: Sequence[str], best: Best | None = None, first: int = 0) -> None:
         super().__init__(outputs)
         self.extremes: dict[str, dict[str, tuple[float, int]]] = {}
-        self._points = points
+        self.best_point: tuple[int, list[Any]] | None = None
         self._best = best
-        self._next = first
-        self._best_so_far: Line | None = None
-        self._best_value = nan
+        self._first = first
+        self._least = inf
 
     def add(self, point: Point) -> None:
-        """Take in the next point, in order."""
+        """Take in the next point, in order; of equal values the first counts."""
+        index = self._first + self.counts.total()
         super().add(point)
-        index, self._next = self._next, self._next + 1
         for path, value in zip(self.outputs, point.out, strict=True):
             if is_number(value):
-                found = (value, index)
-                known = self.extremes.setdefault(path, {"min": found, "max": found})
-                for end, choose in (("min", min), ("max", max)):  # of equals the first
-                    known[end] = choose(known[end], found, key=operator.itemgetter(0))
+                known = self.extremes.setdefault(path, {"min": (value, index), "max": (value, index)})
+                if value < known["min"][0]:
+                    known["min"] = (value, index)
+                if value > known["max"][0]:
+                    known["max"] = (value, index)
         if self._best is not None:
             self._compare(self._best, index, point.out)
-        if self._points.sample is not None:
-            self.keep(point.out)
-
-    def line(self, statistics: Line, elapsed_s: float) -> Line:
-        """The last line of the answer."""
-        return {
-            "type": "end",
-            "points": self.counts.total(),
-            "counts": dict(sorted(self.counts.items())),
-            "ranges": self.extremes,
-            **statistics,
-            "best": self._best_so_far,
-            "assumptions": list(self.assumptions.values()),
-            "elapsed_s": elapsed_s,
-        }
 
     def _compare(self, best: Best, index: int, out: list[Any]) -> None:
-        """Keep the point if it is the best so far inside all limits; of equals the first."""
+        """Keep the point if it is the best so far inside all limits."""
         values = dict(zip(self.outputs, out, strict=True))
-        value = values[best.output]
-        limited = all(
+        inside = all(
             is_number(values[bound.output])
             and (bound.min is None or values[bound.output] >= bound.min)
             and (bound.max is None or values[bound.output] <= bound.max)
             for bound in best.where
         )
-        better = operator.lt if best.minimise else operator.gt
-        if limited and is_number(value) and (self._best_so_far is None or better(value, self._best_value)):
-            self._best_so_far = {"index": index, "at": self._points.at(index), "out": out}
-            self._best_value = value
+        value = values[best.output]
+        if inside and is_number(value) and (least := value if best.minimise else -value) < self._least:
+            self.best_point, self._least = (index, out), least
 
 
-def statistics(inputs: FloatArray, outputs: FloatArray, input_paths: list[str], output_paths: list[str]) -> Line:
+def statistics(inputs: FloatArray, outputs: FloatArray, input_paths: list[str], output_paths: Sequence[str]) -> Line:
     """Quantiles with their bounds and rank correlation of a random sample, a row a point; runs in a worker.
 
     Bounds are the order statistics that hold a quantile with 90 % confidence, whatever the distribution; null where the
@@ -108,52 +86,110 @@ def statistics(inputs: FloatArray, outputs: FloatArray, input_paths: list[str], 
     return found
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Sweep(Study):
-    """A request solved at the points of a set from `first` on; corners name the points of the extremes."""
+    """Every point is the endpoint's own answer.
 
+    Lines are `sweep`, then `point` in order with the first axis slowest, `progress` when nothing else was sent for two
+    seconds, and `end`; or `error`, which ends a study early and is the last row of a table. A stream without either was
+    cut off: with `from_index` the study goes on, with the same points and lines from there.
+    The end of a sample has the 5, 50 and 95 % quantiles, and in `quantile_bounds` their 90 % confidence intervals.
+    """
+
+    path = "/v1/sweep"
+    summary = "One request at many points: a grid, a list of cases, a random sample"
+    answer = "a line for the sweep, one for each point in order, one for the end"
+    model: ClassVar[type[Any]] = SweepRequest
+    is_reduced = False
     points: PointSet
-    kind: Literal["sweep", "corners"] = "sweep"
-    best: Best | None = None
-    first: int = 0
 
-    @property
-    def total(self) -> int:
-        """How many points it has from the first on."""
-        return self.points.total - self.first
+    def _planned(self, base: BaseRequest, most: int) -> int:
+        self.points = self._points(base, most)
+        first: int = self.body.from_index
+        if first >= self.points.total:
+            message = f"the study has {self.points.total} points, counted from 0"
+            raise Unprocessable("out_of_range", message, "from_index")
+        base.checked(self.points.overrides(0))
+        return self.points.total - first
+
+    def _points(self, base: BaseRequest, most: int) -> PointSet:
+        """The points that the body asks for."""
+        body: SweepRequest = self.body
+        if body.best is not None:
+            _check_best(body.best, self.outputs)
+        if body.cases is not None:
+            return listed(body.cases, base, most, "cases")
+        if body.sample is not None:
+            return _sampled(body.sample, base, most)
+        return grid(body.vary or [], base, most, "vary")
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
         """The header, each point, the closing lines."""
+        points, first, outputs = self.points, self.body.from_index, self.question.outputs
         yield [
             self.header(
-                self.kind,
-                axes=[axis.header() for axis in self.points.axes],
+                axes=[axis.header() for axis in points.axes],
                 outputs=[output_header(leaf) for leaf in self.outputs],
-                total=self.points.total,
-                **({"from_index": self.first} if self.first else {}),
+                total=points.total,
+                **({"from_index": first} if first else {}),
             )
         ]
-        outputs = paths_of(self.outputs)
-        summary = Summary(self.points, outputs, self.best, self.first)
-        indices = range(self.first, self.points.total)
-        async for solved, points in engine.in_order(pool, self.question, self.points.overrides, indices, clock):
-            for point in points:
+        summary, indices = Summary(outputs, self.body.best, first), range(first, points.total)
+        async for solved, found in engine.in_order(pool, self.question, points.overrides, indices, clock):
+            lines = []
+            for index, point in zip(solved, found, strict=True):
                 summary.add(point)
-            at = (self.points.at(index) for index in solved)
-            yield list(map(engine.point_line, solved, at, points))
-        found: Line = {"quantiles": None, "quantile_bounds": None, "rank_correlation": None}
-        if self.points.sample is not None:
-            sample, inputs = self.points.sample[self.first :], paths_of(self.points.varied)
-            found = await engine.twice_if_lost(pool, statistics, sample, summary.values, inputs, outputs)
-        end = summary.line(found, clock.elapsed_s)
-        yield [end] if self.kind == "sweep" else self._of_corners(summary, end)
+                if self.body.sample:
+                    summary.keep(point.out)
+                lines.append(engine.point_line(index, points.rows[index], point))
+            yield lines
+        of_sample: Line = {"quantiles": None, "quantile_bounds": None, "rank_correlation": None}
+        if self.body.sample:
+            inputs, varied = np.array(points.rows[first:]), paths_of(points.varied)
+            of_sample = await engine.twice_if_lost(pool, statistics, inputs, summary.values, varied, outputs)
+        best = summary.best_point
+        end = {
+            "type": "end",
+            "points": self.total,
+            "counts": dict(sorted(summary.counts.items())),
+            "ranges": summary.extremes,
+            **of_sample,
+            "best": best and {"index": best[0], "at": points.rows[best[0]], "out": best[1]},
+            "assumptions": list(summary.assumptions.values()),
+            "elapsed_s": clock.elapsed_s,
+        }
+        yield self._closing(summary, end)
 
-    def _of_corners(self, summary: Summary, end: Line) -> list[Line]:
+    def _closing(self, _: Summary, end: Line) -> list[Line]:
+        """The lines behind those of the points, of which `end` is the last."""
+        return [end]
+
+
+class Corners(Sweep):
+    """Every corner is the endpoint's own answer, up to 256 of them; `extremes` are the least and largest values.
+
+    Where no output needs the thermal film, it is not calculated: corners are twenty times as fast and have fewer
+    warnings. The last line warns `no_convergence_of_corner` where corners have no solution; their own lines say why.
+    """
+
+    path = "/v1/drive-train/corners"
+    summary = "A gear unit at every combination of its uncertain inputs"
+    answer = "a line for the ranges, each corner, the extremes of each output, and one for the end"
+    model = CornersRequest
+    is_reduced = True
+
+    def _points(self, base: BaseRequest, most: int) -> PointSet:
+        ranges: list[Axis] | None = self.body.ranges
+        if ranges is None:
+            ranges = list(usual_corners(base.checked({})).values())
+        if not ranges:
+            raise Unprocessable("no_corners", "nothing is uncertain here; name what is", "ranges")
+        return grid(ranges, base, min(most, MOST_CORNERS), "ranges")
+
+    def _closing(self, summary: Summary, end: Line) -> list[Line]:
         """The extremes of every output, and the end with a warning where corners have no solution."""
         extremes: list[Line] = []
-        at = self.points.overrides
         for path, found in summary.extremes.items():
-            ends = {name: {"value": value, "at": at(point)} for name, (value, point) in found.items()}
+            ends = {name: {"value": value, "at": self.points.overrides(at)} for name, (value, at) in found.items()}
             extremes.append({"type": "extremes", "output": path, **ends})
         unsolved = self.total - sum(summary.counts[status] for status in SOLVED)
         notice = no_convergence(unsolved)
@@ -187,38 +223,6 @@ def table_row(points: PointSet, outputs: tuple[Leaf, ...], line: Line) -> bytes:
     return csv_of([row])
 
 
-def sweep_study(content: Any, most: int, deadline_s: float) -> Sweep:
-    """The sweep in a body."""
-    request, base = engine.asked(SweepRequest, content)
-    outputs = base.outputs(request.outputs)
-    if request.best is not None:
-        _check_best(request.best, outputs)
-    if request.cases is not None:
-        points = listed(request.cases, base, most, "cases")
-    elif request.sample is not None:
-        points = _sampled(request.sample, base, most)
-    else:
-        points = grid(request.vary or [], base, most, "vary")
-    _check_first(request.from_index, points, base)
-    question = base.question(paths_of(outputs), deadline_s, reduced=False)
-    case = engine.case_of_study(PATH, request)
-    return Sweep(question, outputs, case, points=points, best=request.best, first=request.from_index)
-
-
-def corners_study(content: Any, most: int, deadline_s: float) -> Sweep:
-    """The corners of a gear unit in a body."""
-    request, base = engine.asked(CornersRequest, content)
-    outputs = base.outputs(request.outputs)
-    ranges = list(usual_corners(base.checked({})).values()) if request.ranges is None else request.ranges
-    if not ranges:
-        raise Unprocessable("no_corners", "nothing is uncertain here; name what is", "ranges")
-    points = grid(ranges, base, min(most, MOST_CORNERS), "ranges")
-    _check_first(request.from_index, points, base)
-    question = base.question(paths_of(outputs), deadline_s)
-    case = engine.case_of_study(CORNERS_PATH, request)
-    return Sweep(question, outputs, case, kind="corners", points=points, first=request.from_index)
-
-
 def _sampled(sample: Sample, base: BaseRequest, most: int) -> PointSet:
     """Random points, the same for the same seed."""
     check_count(sample.count, most, "sample.count")
@@ -226,15 +230,7 @@ def _sampled(sample: Sample, base: BaseRequest, most: int) -> PointSet:
     leaves = scattering(scatters, base, "sample.ranges" if sample.ranges else "sample.inputs")
     cube = unit_cube(sample.method, sample.count, len(leaves), sample.seed, "sample.count")
     axes = [CheckedAxis(leaf.path, (leaf,), None) for leaf in leaves]
-    return PointSet(axes, sample.count, leaves, sample=drawn(scatters, leaves, cube))
-
-
-def _check_first(index: int, points: PointSet, base: BaseRequest) -> None:
-    """Refuse an index behind the last point, and a base request that is invalid with the first one."""
-    if index >= points.total:
-        message = f"the study has {points.total} points, counted from 0"
-        raise Unprocessable("out_of_range", message, "from_index")
-    base.checked(points.overrides(0))
+    return PointSet(axes, leaves, drawn(scatters, leaves, cube).tolist())
 
 
 def _check_best(best: Best, outputs: tuple[Leaf, ...]) -> None:

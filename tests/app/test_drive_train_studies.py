@@ -10,10 +10,10 @@ import pytest
 
 from app.calculations import BY_PATH
 from app.examples import examples
-from app.studies.design import design_study
+from app.studies.design import Design
 from app.studies.fields import set_value, value_at
 from app.studies.requests import EXAMPLES
-from app.studies.sweep import corners_study
+from app.studies.sweep import Corners
 
 Post = Callable[[str, object], httpx.Response]
 
@@ -54,12 +54,12 @@ def test_a_design_on_the_workers(post: Post) -> None:
 
 @pytest.mark.parametrize("example", EXAMPLES[CORNERS].values(), ids=list(EXAMPLES[CORNERS]))
 def test_examples_of_corners_are_accepted(example: dict[str, Any]) -> None:
-    assert corners_study(example["value"], 2500, 30.0).total in {12, 128}
+    assert Corners(example["value"], 2500, 30.0).total in {12, 128}
 
 
 @pytest.mark.parametrize("example", EXAMPLES[DESIGN].values(), ids=list(EXAMPLES[DESIGN]))
 def test_examples_of_designs_are_accepted(example: dict[str, Any]) -> None:
-    assert design_study(example["value"], 2500, 30.0).total == 720
+    assert Design(example["value"], 2500, 30.0).total == 720
 
 
 @pytest.mark.parametrize(

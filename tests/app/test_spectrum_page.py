@@ -18,7 +18,7 @@ from app.pages.studies.spectrum import SPECTRUM, address_of, cases_of, table_of
 from app.pages.templating import page_path
 from app.pages.views import Asked
 from app.studies.requests import EXAMPLES
-from app.studies.spectrum import Spectrum, spectrum_study
+from app.studies.spectrum import Spectrum
 from tests.support.pages import lines_of
 
 SCUFFING = BY_PATH["/v1/scuffing"]
@@ -72,13 +72,13 @@ def test_ready_studies_are_those_of_the_interface(name: str) -> None:
     path, _, query = address_of(calculation, pairs_of(body["request"]), body).partition("?")
     study = checked(Asked(path.removesuffix("/spectrum"), *split_views(pairs_of_query(query)))).study
     tolerances = {**body["tolerances"], "count": 32, "replicates": 8}
-    own = spectrum_study({**body, "tolerances": tolerances}, MOST, DEADLINE_S)
+    own = Spectrum({**body, "tolerances": tolerances}, MOST, DEADLINE_S)
     assert isinstance(study, Spectrum)
     assert [(each.set, each.share) for each in study.cases] == [(each.set, each.share) for each in own.cases]
-    assert study.tolerances is not None
-    assert own.tolerances is not None
+    assert study.body.tolerances is not None
+    assert own.body.tolerances is not None
     assert study.machines == pytest.approx(own.machines)
-    assert study.limits == own.limits
+    assert study.body.limits == own.body.limits
 
 
 @pytest.mark.slow

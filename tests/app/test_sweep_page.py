@@ -61,7 +61,7 @@ def total(found: Asked) -> int:
 def solved(found: Asked) -> tuple[PageStudy, list[Line]]:
     study, points = checked(found)
     lines = [
-        point_line(index, points.at(index), solve_point(study.study.question, points.overrides(index)))
+        point_line(index, points.rows[index], solve_point(study.study.question, points.overrides(index)))
         for index in range(points.total)
     ]
     return study, [*json.loads(json.dumps(lines)), {"type": "end", "elapsed_s": 1.0}]

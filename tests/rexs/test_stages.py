@@ -13,7 +13,7 @@ from app.calculations import BY_PATH
 from app.evaluate import evaluate
 from app.rexs.document import read
 from app.rexs.unit import gear_unit
-from app.studies.spectrum import spectrum_study
+from app.studies.spectrum import Spectrum
 from tests.rexs.units import Unit, Value, three_stages, turbo_unit
 
 MOST_BYTES = 20_000_000
@@ -151,7 +151,7 @@ def test_a_load_spectrum_is_ready_to_be_asked() -> None:
     (stage,) = answer(unit)["stages"]
     for endpoint in ("/v1/scuffing", "/v1/drive-train", LOAD):
         body = {"endpoint": endpoint, "request": stage["requests"][endpoint], "cases": stage["spectra"][endpoint]}
-        study = spectrum_study(body, 20_000, 30.0)
+        study = Spectrum(body, 20_000, 30.0)
         assert [case.share for case in study.cases] == pytest.approx([0.3, 0.7])
         low, high = ([value for path, value in case.set.items() if "torque" in path] for case in study.cases)
         assert high == pytest.approx([1.8 * torque for torque in low])

@@ -18,8 +18,8 @@ from app.examples import examples
 from app.sources import sources_of
 from app.studies.engine import Clock, Study
 from app.studies.requests import EXAMPLES
-from app.studies.spectrum import spectrum_study
-from app.studies.sweep import sweep_study
+from app.studies.spectrum import Spectrum
+from app.studies.sweep import Sweep
 from tests.support.dask_cluster import DaskProcesses, running_cluster
 from tests.support.pools import InlinePool
 from tests.support.server import ROOT, free_port, running_server
@@ -70,7 +70,7 @@ def lines(text: str) -> list[dict[str, Any]]:
     return [{key: each[key] for key in each if key != "elapsed_s"} for each in found if each["type"] != "progress"]
 
 
-def local(body: dict[str, Any], plan: Callable[..., Study] = sweep_study) -> list[dict[str, Any]]:
+def local(body: dict[str, Any], plan: Callable[..., Study] = Sweep) -> list[dict[str, Any]]:
     """The lines of a study calculated in this process."""
 
     async def run() -> list[Any]:
@@ -95,7 +95,7 @@ def test_same_lines_in_the_same_order(service: Service, kind: str) -> None:
 def test_a_spectrum_has_the_same_numbers(service: Service) -> None:
     found = sweep(service[1], SPECTRUM, "/v1/spectrum")
     assert len(found) == 2 + 2048
-    assert found == local(SPECTRUM, spectrum_study)
+    assert found == local(SPECTRUM, Spectrum)
 
 
 def test_a_killed_worker_costs_nothing_but_time(service: Service) -> None:

@@ -13,12 +13,12 @@ from app.calculations import BY_PATH
 from app.errors import InvalidBody, Unprocessable, faults_of
 from app.evaluate import evaluate
 from app.examples import examples
-from app.studies.design import design_study, next_place, search
+from app.studies.design import Design, next_place
 from app.studies.engine import Clock, Pool, encoded, guarded, json_line
 from app.studies.fields import value_at
 from app.studies.points import reduced_request, with_overrides
 from app.studies.requests import DRIVE_TRAIN
-from app.studies.sweep import corners_study, sweep_study
+from app.studies.sweep import Corners, Sweep
 from solvers.arrays import FloatArray
 from solvers.errors import NoSolution
 from tests.support.pools import InlinePool
@@ -59,7 +59,7 @@ def answered(overrides: dict[str, Any], outputs: list[str], base: dict[str, Any]
 
 def test_corners_are_the_units_own_answers() -> None:
     ranges = [{"path": OFFSETS, "values": [[0, 400], [0, -400]]}, RESPONSE]
-    header, *points, of_factor, of_safety, end = lines_of(corners_study, ranges=ranges, outputs=[K, SAFETY])
+    header, *points, of_factor, of_safety, end = lines_of(Corners, ranges=ranges, outputs=[K, SAFETY])
     assert header["type"] == "corners"
     assert header["total"] == len(points) == end["points"] == 4
     assert [axis["path"] for axis in header["axes"]] == [OFFSETS, RESPONSE["path"]]
@@ -79,7 +79,7 @@ def test_corners_are_the_units_own_answers() -> None:
 
 def test_corners_go_on_with_the_same_lines() -> None:
     body = {"ranges": [FRICTION, RESPONSE], "outputs": [K]}
-    whole, rest = (lines_of(corners_study, **body, **more) for more in ({}, {"from_index": 2}))
+    whole, rest = (lines_of(Corners, **body, **more) for more in ({}, {"from_index": 2}))
     assert rest[0] == {**whole[0], "from_index": 2}
     assert rest[1:3] == whole[3:5]
     assert rest[-1]["points"] == 2
@@ -87,15 +87,15 @@ def test_corners_go_on_with_the_same_lines() -> None:
 
 def test_studies_say_the_same_on_any_number_of_processes() -> None:
     for planner, body in (
-        (corners_study, {"ranges": [FRICTION, RESPONSE], "outputs": [K]}),
-        (design_study, {"variables": [HELIX], "corners": [FRICTION], "objective": SAFETY, "evaluations": 3}),
+        (Corners, {"ranges": [FRICTION, RESPONSE], "outputs": [K]}),
+        (Design, {"variables": [HELIX], "corners": [FRICTION], "objective": SAFETY, "evaluations": 3}),
     ):
         first, *others = (timeless(lines_of(planner, InlinePool(slots), **body)) for slots in (1, 3))
         assert all(other == first for other in others)
 
 
 def test_the_usual_corners() -> None:
-    points = corners_study({"request": TURBO}, 2500, 30.0).points
+    points = Corners({"request": TURBO}, 2500, 30.0).points
     assert points.total == 128
     assert [(axis.path, axis.values) for axis in points.axes] == [
         ("thermal.wall_response", [0.3, 1.0]),
@@ -106,7 +106,7 @@ def test_the_usual_corners() -> None:
         ("couplings.0.thrust_fraction", [0.0, 1.0]),
     ]
     generator = examples()["starter-generator-gear-drive-train"].request
-    named = [axis.path for axis in corners_study({"request": generator}, 2500, 30.0).points.axes]
+    named = [axis.path for axis in Corners({"request": generator}, 2500, 30.0).points.axes]
     assert not [path for path in named if "clearance" in str(path)], "springs have no clearance"
 
 
@@ -114,7 +114,7 @@ def test_corners_without_answer_are_told_and_left_out() -> None:
     """A film too thin for its load, and two bearings at one place."""
     far = {"path": "pinion_shaft.bearings.1.position_mm", "values": [620, 220]}
     thin = {"path": FILM, "values": [CARRIES, TOO_THIN]}
-    header, *points, extremes, end = lines_of(corners_study, ranges=[far, thin], outputs=[K])
+    header, *points, extremes, end = lines_of(Corners, ranges=[far, thin], outputs=[K])
     assert [point["status"] for point in points] == ["ok_with_warnings", "no_solution", "refused", "refused"]
     assert points[1]["warnings"] == ["journal"]
     assert points[2]["error"]["code"] == "bearing_order"
@@ -145,7 +145,7 @@ def test_only_what_is_asked_is_calculated() -> None:
 def test_a_design_is_judged_at_its_worst_corner() -> None:
     powers: list[dict[str, Any]] = [{"operation.power_kw": 12000}, {"operation.power_kw": 6000}]
     header, *trials, end = lines_of(
-        design_study, variables=[HELIX], corners=[FRICTION], collective=powers, objective=SAFETY, evaluations=3
+        Design, variables=[HELIX], corners=[FRICTION], collective=powers, objective=SAFETY, evaluations=3
     )
     assert (header["type"], header["direction"], header["corners"]) == ("design", "maximise", 4)
     assert header["objective"] == {
@@ -171,8 +171,8 @@ def test_a_design_is_judged_at_its_worst_corner() -> None:
 def test_the_best_correction_in_whole_steps_is_judged_at_its_own_worst_corner() -> None:
     """0.7 um is no step that a grinder uses, but tells rounding from chance."""
     body = {"corners": [FRICTION], "objective": SAFETY, "evaluations": 3}
-    plain = lines_of(design_study, variables=[HELIX], **body)
-    stepped = lines_of(design_study, variables=[{**HELIX, "step": 0.7}], **body)
+    plain = lines_of(Design, variables=[HELIX], **body)
+    stepped = lines_of(Design, variables=[{**HELIX, "step": 0.7}], **body)
     rounded = stepped[-1].pop("rounded")
     assert timeless(stepped[1:]) == timeless(plain[1:])
     best, slope = plain[-1]["best"][HELIX["path"]], rounded["at"][HELIX["path"]]
@@ -183,34 +183,35 @@ def test_the_best_correction_in_whole_steps_is_judged_at_its_own_worst_corner() 
     assert rounded["worst_corner"] == cases[int(np.argmin(values))]
 
 
-def test_trials_told_one_by_one_are_those_of_one_search() -> None:
+def search(judge: Callable[[FloatArray], FloatArray | None], start: list[float], most: int) -> list[list[float]]:
+    """The places of a whole search, in order."""
+    places: list[list[float]] = []
+    told: list[list[float] | None] = []
+    place: list[float] | None = start
+    while place is not None:
+        found = judge(np.array(place))
+        places.append(place)
+        told.append(None if found is None else found.tolist())
+        place = next_place(start, told, most)
+    return places
+
+
+def test_a_search_asks_for_each_place_once() -> None:
     """A ridge, and a corner of the square without solution."""
 
     def figures(shares: FloatArray) -> FloatArray | None:
         x, y = shares
         return None if x + y > 1.5 else 2.0 + np.array([abs(x - 0.7), 2 * (y - x / 2), x - 2 * y]) + 0.1 * x * y
 
-    whole: list[list[float]] = []
-
-    def judge(shares: FloatArray) -> FloatArray | None:
-        whole.append(shares.tolist())
-        return figures(shares)
-
-    search(judge, np.array([0.2, 0.9]), 30)
-    told: list[list[float] | None] = []
-    for expected in whole:
-        shares = next_place([0.2, 0.9], told, 30)
-        assert shares == expected
-        found = figures(np.array(shares))
-        told.append(None if found is None else found.tolist())
-    assert next_place([0.2, 0.9], told, 30) is None
-    assert len(whole) <= 30
+    whole = search(figures, [0.2, 0.9], 30)
+    assert len({tuple(place) for place in whole}) == len(whole) <= 30
+    assert search(figures, [0.2, 0.9], 10) == whole[:10]
 
 
 def test_a_design_without_start_ends_with_an_error() -> None:
     body = copy.deepcopy(CLOSED)
     body["pinion_shaft"]["bearings"][0] |= {"viscosity_pa_s": 1e-5, "radial_clearance_um": 1000, "width_mm": 20}
-    _, trial, error = lines_of(design_study, request=body, variables=[HELIX], objective=SAFETY)
+    _, trial, error = lines_of(Design, request=body, variables=[HELIX], objective=SAFETY)
     assert (trial["objective"], trial["worst_corner"]) == (None, {})
     assert (error["type"], error["code"]) == ("error", "no_start")
 
@@ -221,7 +222,7 @@ def test_a_trial_without_answer_is_worse_than_all() -> None:
     body["pinion_shaft"]["bearings"][0] |= {"width_mm": 20, "radial_clearance_um": 1000}
     viscosity = {"path": FILM[0], "min": 1e-5, "max": 0.02}
     _, *trials, end = lines_of(
-        design_study,
+        Design,
         request=body,
         variables=[viscosity],
         objective="shafts.0.bearings.0.eccentricity_ratio",
@@ -244,14 +245,14 @@ def test_a_search_keeps_away_from_where_there_is_no_solution(scale: float) -> No
         tried.append((x, None if figures is None else float(figures.max())))
         return figures
 
-    search(judge, np.array([0.2]), 40)
+    search(judge, [0.2], 40)
     assert any(figure is None for _, figure in tried)
     assert min((figure, place) for place, figure in tried if figure is not None)[1] == pytest.approx(0.6, abs=0.01)
 
 
 def test_a_search_needs_a_start() -> None:
     with pytest.raises(NoSolution) as failure:
-        search(lambda _: None, np.array([0.5]), 10)
+        search(lambda _: None, [0.5], 10)
     assert failure.value.code == "design"
 
 
@@ -261,7 +262,7 @@ def test_a_map_over_speed_and_load_is_a_sweep() -> None:
         {"path": "operation.power_kw", "values": [6000, 12000]},
     ]
     outputs = [K, SAFETY, "shafts.0.thrust.upper_n", "losses.total_w"]
-    header, *points, end = lines_of(sweep_study, endpoint="/v1/drive-train", vary=axes, outputs=outputs)
+    header, *points, end = lines_of(Sweep, endpoint="/v1/drive-train", vary=axes, outputs=outputs)
     assert [each["unit"] for each in header["outputs"]] == [None, None, "N", "W"]
     assert len(points) == 4
     assert not [point for point in points if None in point["out"]]
@@ -272,11 +273,11 @@ def test_a_map_over_speed_and_load_is_a_sweep() -> None:
 
 
 def corners(**parts: Any) -> tuple[Planner, dict[str, Any]]:
-    return corners_study, parts
+    return Corners, parts
 
 
 def search_of(**parts: Any) -> tuple[Planner, dict[str, Any]]:
-    return design_study, {"variables": [HELIX], "objective": SAFETY, **parts}
+    return Design, {"variables": [HELIX], "objective": SAFETY, **parts}
 
 
 def axis(path: Any, *values: Any) -> dict[str, Any]:
@@ -398,7 +399,7 @@ def test_tolerances_of_the_example() -> None:
         "misalignment.total_slope_um": (-54, -43, -30),
     }
     *_, end = lines_of(
-        sweep_study,
+        Sweep,
         endpoint="/v1/drive-train",
         request=EXAMPLE,
         sample={"count": 128, "seed": 0, "ranges": ranges},
@@ -427,7 +428,7 @@ def test_the_robust_design() -> None:
     ]
     powers = [{"operation.power_kw": power} for power in (12000, 6000)]
     *_, end = lines_of(
-        design_study, request=EXAMPLE, variables=variables, corners=corners, collective=powers, objective=SAFETY
+        Design, request=EXAMPLE, variables=variables, corners=corners, collective=powers, objective=SAFETY
     )
     assert end["objective_start"] == pytest.approx(1.609, abs=0.0015)
     assert end["objective_best"] == pytest.approx(1.741, abs=0.004)

@@ -8,8 +8,8 @@ import pytest
 
 from app.errors import InvalidBody, Unprocessable, faults_of
 from app.examples import examples
-from app.studies.sensitivity import sensitivity_study
-from app.studies.sweep import Sweep, sweep_study
+from app.studies.sensitivity import Sensitivity
+from app.studies.sweep import Sweep
 
 COUPLING = examples()["pahl-axial-displacement"]
 LOADS = examples()["xue-pair-1-modified"]
@@ -27,7 +27,7 @@ def loads(**parts: Any) -> dict[str, Any]:
 
 
 def study_of(body: object, most: int = 2500) -> Sweep:
-    return sweep_study(body, most, 30.0)
+    return Sweep(body, most, 30.0)
 
 
 def fault_of(body: object, most: int = 2500) -> tuple[str, str, str]:
@@ -221,7 +221,7 @@ def test_nonsense_behind_a_varied_field_is_refused(endless: object) -> None:
 
 def test_first_axis_is_slowest() -> None:
     points = study_of(vary(axis("operation.speed_rpm", 1, 2), axis("coupling.teeth", 40, 50, 60))).points
-    assert [points.at(index) for index in range(points.total)] == [[s, z] for s in (1, 2) for z in (40, 50, 60)]
+    assert points.rows == [[s, z] for s in (1, 2) for z in (40, 50, 60)]
     assert points.overrides(4) == {"operation.speed_rpm": 2, "coupling.teeth": 50}
 
 
@@ -245,14 +245,14 @@ def test_fields_that_move_together_each_to_its_own() -> None:
     together = axis("", [5, 1], [6, 2], 3) | {"path": ["materials.pinion.roughness_um", "materials.wheel.roughness_um"]}
     points = study_of(loads(vary=[together])).points
     assert [list(points.overrides(k).values()) for k in range(3)] == [[5, 1], [6, 2], [3, 3]]
-    assert points.at(1) == [[6, 2]]
+    assert points.rows[1] == [[6, 2]]
 
 
 def test_place_of_a_list_and_words_and_null() -> None:
     grooves = {"endpoint": GROOVE.endpoint, "request": GROOVE.request}
     found = study_of({**grooves, "vary": [axis("grooves.0.width_mm", 4, 8), axis("model.slices", None, 50)]})
     assert found.points.axes[0].header()["unit"] == "mm"
-    assert found.points.at(0) == [4, None]
+    assert found.points.rows[0] == [4, None]
     assert fault_of({**grooves, "vary": [axis("grooves.7.width_mm", 4)]})[:2] == ("/vary/0/path", "unknown_path")
 
 
@@ -268,9 +268,8 @@ def test_required_field_may_be_left_to_the_sweep() -> None:
 def test_samples_fill_their_ranges_and_repeat_with_their_seed(method: str) -> None:
     ranges = (("operation.speed_rpm", 1000.0, 2000.0), ("operation.misalignment_deg", 0.01, 0.05))
     body = sample(64, method, *ranges)
-    first, second = (study_of(sweep(sample=body)).points.sample for _ in range(2))
-    other = study_of(sweep(sample={**body, "seed": 2})).points.sample
-    assert first is not None
+    first, second = (np.array(study_of(sweep(sample=body)).points.rows) for _ in range(2))
+    other = np.array(study_of(sweep(sample={**body, "seed": 2})).points.rows)
     assert np.array_equal(first, second)
     assert not np.array_equal(first, other)
     for column, (_, low, high) in enumerate(ranges):
@@ -297,10 +296,10 @@ def test_equal_sweeps_are_one_case_and_others_are_not() -> None:
 )
 def test_inputs_of_a_sensitivity(inputs: list[str], pointer: str, code: str) -> None:
     with pytest.raises((Unprocessable, InvalidBody)) as caught:
-        sensitivity_study(sweep(inputs=inputs), 2500, 30.0)
+        Sensitivity(sweep(inputs=inputs), 2500, 30.0)
     assert tuple(faults_of(caught.value)[0].values())[:2] == (pointer, code)
 
 
 def test_a_sensitivity_counts_its_points_too() -> None:
     with pytest.raises(Unprocessable, match="too_many_points"):
-        sensitivity_study(sweep(), 10, 30.0)
+        Sensitivity(sweep(), 10, 30.0)

@@ -12,8 +12,8 @@ from app.examples import examples
 from app.schema.fields import Leaf, leaf_at, leaves
 from app.studies.engine import Clock, encoded, guarded, json_line
 from app.studies.fields import fault
-from app.studies.sensitivity import Perturbation, differences, perturbation, sensitivity_study
-from app.studies.sweep import sweep_study
+from app.studies.sensitivity import Perturbation, Sensitivity, differences, perturbation
+from app.studies.sweep import Sweep
 from tests.support.pools import InlinePool
 
 COUPLING = examples()["pahl-axial-displacement"]
@@ -22,7 +22,7 @@ UNIT = examples()["starter-turbo-gear-drive-train"]
 
 def sensitivities(endpoint: str, request: dict[str, Any], **parts: Any) -> list[dict[str, Any]]:
     body = {"endpoint": endpoint, "request": request, **parts}
-    study = sensitivity_study(body, 2500, 30.0)
+    study = Sensitivity(body, 2500, 30.0)
 
     async def run() -> bytes:
         clock = Clock(study.total)
@@ -105,7 +105,7 @@ def test_every_number_is_moved_sorted_by_influence() -> None:
 def test_places_of_lists_are_moved() -> None:
     example = examples()["milian-case-1-groove"]
     body = {"endpoint": example.endpoint, "request": example.request}
-    study = sensitivity_study(body, 2500, 30.0)
+    study = Sensitivity(body, 2500, 30.0)
     paths = [each.leaf.path for each in study.perturbations]
     count = len(example.request["grooves"])
     assert [path for path in paths if path.startswith("grooves")] == [
@@ -279,7 +279,7 @@ def test_a_step_that_is_too_large_says_so() -> None:
 
 def points_of(sweep: dict[str, Any]) -> list[dict[str, Any]]:
     """The points of a sweep: a list that the request leaves to its default is reachable here too."""
-    study = sweep_study(sweep, 2500, 30.0)
+    study = Sweep(sweep, 2500, 30.0)
 
     async def run() -> list[dict[str, Any]]:
         found = study.lines(InlinePool(), Clock(study.total))
@@ -313,5 +313,5 @@ def test_no_thermal_film_is_computed_for_outputs_that_need_none() -> None:
     example = examples()["starter-high-speed-scuffing"]
     for output, lubrication in (("safety.blok_factor", "closed_form"), ("safety.thermal_ehl_factor", None)):
         body = {"endpoint": example.endpoint, "request": example.request, "outputs": [output]}
-        study = sensitivity_study(body, 2500, 30.0)
+        study = Sensitivity(body, 2500, 30.0)
         assert study.question.base["model"].get("lubrication") == lubrication

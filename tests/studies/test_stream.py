@@ -115,7 +115,7 @@ def test_a_client_who_leaves_or_never_reads_loses_his_place(leaves: bool) -> Non
 
     stack = ExitStack()
     stack.callback(freed.append, "place")
-    answer = StudyStream(pieces(), "text/csv", 0.3, stack)
+    answer = StudyStream(pieces(), 0.3, stack)
     with nullcontext() if leaves else pytest.raises(TimeoutError):
         asyncio.run(answer({"type": "http"}, receive, send))
     assert freed == ["study", "place"]

@@ -15,10 +15,10 @@ from app.errors import Unprocessable
 from app.examples import examples
 from app.schema.fields import Leaf
 from app.studies.engine import Clock, encoded, guarded, json_line
-from app.studies.point_sets import CheckedAxis, PointSet
+from app.studies.point_sets import PointSet
 from app.studies.points import Point
 from app.studies.requests import Best
-from app.studies.sweep import Summary, statistics, sweep_study, table_row
+from app.studies.sweep import Summary, Sweep, statistics, table_row
 from tests.support.pools import InlinePool
 
 COUPLING = examples()["pahl-axial-displacement"]
@@ -28,7 +28,7 @@ FILM = "lubrication.load_capacity_coefficient"
 
 def swept(slots: int = 1, **parts: Any) -> list[dict[str, Any]]:
     """The lines of a sweep over a coupling."""
-    study = sweep_study({"endpoint": COUPLING.endpoint, "request": COUPLING.request, **parts}, 2500, 30.0)
+    study = Sweep({"endpoint": COUPLING.endpoint, "request": COUPLING.request, **parts}, 2500, 30.0)
 
     async def run() -> bytes:
         clock = Clock(study.total)
@@ -107,14 +107,12 @@ def test_an_assumed_value_that_differs_between_points_is_null() -> None:
     assert values["model.simple_thrust_factor" if "model.simple_thrust_factor" in values else "model.inlet"] is not None
 
 
-def summary(rows: list[list[Any]], **best: Any) -> dict[str, Any]:
-    """The end of a sweep along one axis with these outputs x, y, z."""
-    points = PointSet([CheckedAxis("a", (), [10 * index for index in range(len(rows))])], len(rows), ())
-    received = Summary(points, ["x", "y", "z"], Best.model_validate(best) if best else None)
+def summary(rows: list[list[Any]], **best: Any) -> Summary:
+    """What the end of a sweep says of points with these outputs x, y, z."""
+    received = Summary(["x", "y", "z"], Best.model_validate(best) if best else None)
     for row in rows:
         received.add(Point("ok", row, []))
-    line: dict[str, Any] = json.loads(json_line(received.line({}, 0.0)))
-    return line
+    return received
 
 
 ROWS = [[3.0, 1, None], [1.0, 5, "word"], [2.0, 2, True], [None, 0, False], [1.0, 3, None]]
@@ -134,17 +132,17 @@ ROWS = [[3.0, 1, None], [1.0, 5, "word"], [2.0, 2, True], [None, 0, False], [1.0
     ],
 )
 def test_best_point(best: dict[str, Any], index: int | None) -> None:
-    found = summary(ROWS, **best)["best"]
-    assert found == (None if index is None else {"index": index, "at": [10 * index], "out": ROWS[index]})
+    found = summary(ROWS, **best).best_point
+    assert found == (None if index is None else (index, ROWS[index]))
 
 
 def test_ranges_leave_null_and_words_out() -> None:
-    assert summary(ROWS)["ranges"] == {
-        "x": {"min": [1.0, 1], "max": [3.0, 0]},
-        "y": {"min": [0, 3], "max": [5, 1]},
-        "z": {"min": [False, 3], "max": [True, 2]},
+    assert summary(ROWS).extremes == {
+        "x": {"min": (1.0, 1), "max": (3.0, 0)},
+        "y": {"min": (0, 3), "max": (5, 1)},
+        "z": {"min": (False, 3), "max": (True, 2)},
     }
-    assert summary([[1.0, None, "word"]])["ranges"] == {"x": {"min": [1.0, 0], "max": [1.0, 0]}}
+    assert summary([[1.0, None, "word"]]).extremes == {"x": {"min": (1.0, 0), "max": (1.0, 0)}}
 
 
 def test_statistics_of_a_sample() -> None:
@@ -197,8 +195,8 @@ def test_table() -> None:
         {"operation.torque_n_m": 4500},
         {"model.sleeve": "floating", "operation.torque_n_m": None},
     ]
-    study = sweep_study({**body, "cases": cases[:1]}, 10, 30.0)
-    points = PointSet([], 2, study.points.varied, cases=cases)
+    study = Sweep({**body, "cases": cases[:1]}, 10, 30.0)
+    points = PointSet([], study.points.varied, cases)
     _, point, end = swept(cases=cases[:1], outputs=body["outputs"])
     refused = {**point, "index": 1, "status": "refused", "out": [None, "=1+1"], "warnings": ["a", "b"]}
     refused["error"] = {"pointer": "/x", "code": "some_code", "message": 'says "no", twice'}
@@ -220,7 +218,7 @@ def test_table() -> None:
 
 @pytest.mark.parametrize("text", ["=cmd()", "+1", "-1", "@sum", "\tx", "\rx"])
 def test_words_that_a_spreadsheet_would_compute_are_quoted(text: str) -> None:
-    points = PointSet([], 1, (), cases=[{}])
+    points = PointSet([], (), [{}])
     line = {"type": "point", "index": 0, "status": "ok", "out": [text, -1.5, True, None], "warnings": []}
     (cells,) = csv.reader(io.StringIO(table_row(points, (), line).decode(), newline=""))
     assert cells[2:6] == [f"'{text}", "-1.5", "true", ""]
@@ -228,7 +226,7 @@ def test_words_that_a_spreadsheet_would_compute_are_quoted(text: str) -> None:
 
 def test_a_table_of_a_study_that_ended_early_ends_with_a_row_that_says_so() -> None:
     body = {"endpoint": COUPLING.endpoint, "request": COUPLING.request, "outputs": [THRUST]}
-    study = sweep_study({**body, "cases": [{"operation.torque_n_m": 4500}]}, 10, 30.0)
+    study = Sweep({**body, "cases": [{"operation.torque_n_m": 4500}]}, 10, 30.0)
     error = {"type": "error", "code": "study_deadline", "message": "the study took longer than 1 s", "done": 0}
     heading, row = table_of([{"type": "sweep"}, error], study.points, study.outputs)
     assert dict(zip(heading, row, strict=True)) == {
@@ -270,5 +268,5 @@ def test_a_study_whose_connection_was_lost_goes_on_with_the_same_lines(points: d
 def test_a_study_does_not_go_on_behind_its_last_point() -> None:
     body = {"endpoint": COUPLING.endpoint, "request": COUPLING.request, "cases": [{}, {}], "from_index": 2}
     with pytest.raises(Unprocessable) as caught:
-        sweep_study(body, 10, 30.0)
+        Sweep(body, 10, 30.0)
     assert (caught.value.code, caught.value.path) == ("out_of_range", "from_index")

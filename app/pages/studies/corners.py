@@ -22,7 +22,7 @@ from app.studies.fields import scalar_at, value_at
 from app.studies.point_sets import usual_corners
 from app.studies.points import COLD, BaseRequest, needs_film
 from app.studies.requests import DRIVE_TRAIN, USUAL_RANGES, Overrides
-from app.studies.sweep import corners_study
+from app.studies.sweep import Corners
 
 OUTPUT = "safety.blok_flank"
 CONTROL = {quantity: f"{CORNER}{quantity.replace(' ', '_')}" for quantity in UNCERTAIN}
@@ -171,7 +171,7 @@ CORNERS = StudyPage(
     about=f"Every combination of the uncertain inputs: {USUAL_RANGES}.",
     figures=("corners", LOAD_ALONE.name),
     body=_body,
-    plan=corners_study,
+    plan=Corners,
     result=_result,
     outputs=(OUTPUT,),
     controls=range_controls,

@@ -17,7 +17,7 @@ from app.pages.studies.declaration import Controls, Form, Link, Number, PageStud
 from app.pages.typesetting import shown
 from app.pages.views import Asked
 from app.schema.fields import Leaf
-from app.studies.design import design_study
+from app.studies.design import Design
 from app.studies.engine import Line
 from app.studies.fields import scalar_at, value_at
 from app.studies.requests import Overrides
@@ -233,7 +233,7 @@ DESIGN = StudyPage(
     "starts from the correction of the case.",
     figures=("lead", "face-load", GAP.name, "search"),
     body=_body,
-    plan=design_study,
+    plan=Design,
     result=_result,
     outputs=(OUTPUT,),
     controls=_controls,

@@ -13,7 +13,7 @@ from app.pages.views import Asked
 from app.schema.fields import Leaf
 from app.schema.scuffing import GIVEN_BULK
 from app.studies.engine import Line
-from app.studies.sensitivity import sensitivity_study
+from app.studies.sensitivity import Sensitivity
 
 MOST_ROWS = 40  # of a table that can be read; the file has all
 
@@ -82,6 +82,6 @@ SENSITIVITY = StudyPage(
     about="Every number of the case is moved by its usual tolerance, else by 1 % (1 K, 1).",
     figures=("influence",),
     body=_body,
-    plan=sensitivity_study,
+    plan=Sensitivity,
     result=_result,
 )

@@ -24,7 +24,7 @@ from app.studies.engine import Line
 from app.studies.fields import NUMBERS, scalar_at, value_at
 from app.studies.points import SOLVED
 from app.studies.requests import DRIVE_TRAIN, EXAMPLES
-from app.studies.spectrum import RELATIVE_DEVIATION, SCUFFING, Spectrum, spectrum_study
+from app.studies.spectrum import RELATIVE_DEVIATION, SCUFFING, Spectrum
 
 NAME, SHARE = "name", "share"
 REPLICATES = 8  # samples from which the page tells how certain a mean is
@@ -392,7 +392,7 @@ SPECTRUM = StudyPage(
     about="Machines are drawn from the tolerances; each runs every case, and its worst case meets the limit.",
     figures=("limit", "probability", "decides", "losses"),
     body=_body,
-    plan=spectrum_study,
+    plan=Spectrum,
     result=_result,
     outputs=tuple(paths.contact for paths in SCUFFING.values()),
     controls=_controls,

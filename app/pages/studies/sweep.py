@@ -26,7 +26,7 @@ from app.studies.fields import NUMBERS, scalar_at, value_at
 from app.studies.point_sets import PointSet
 from app.studies.points import SOLVED
 from app.studies.sensitivity import places
-from app.studies.sweep import Sweep, sweep_study
+from app.studies.sweep import Sweep
 
 AROUND = 0.5  # of a value, to both sides
 TOLERANCES = 4.0  # to both sides of zero
@@ -336,7 +336,7 @@ SWEEP = StudyPage(
     about="One question asked many times; every point is a case of its own.",
     figures=("curve", "family", "map", "worst"),
     body=_body,
-    plan=sweep_study,
+    plan=Sweep,
     result=_result,
     controls=_controls,
     shows=_shows,
