@@ -175,6 +175,13 @@ def test_what_is_wrong_stands_at_its_control(client: httpx.Client, said: dict[st
     assert f'href="#f.{control}"' in page.text
 
 
+def test_names_that_contradict_each_other_are_a_fault_on_the_page(client: httpx.Client) -> None:
+    page = client.get("/coupling/spectrum?a.b=3&a=x&cases=name")
+    assert page.status_code == 400
+    assert "<li>A field stands twice</li>" in page.text
+    assert '<form id="study"' in page.text
+
+
 @pytest.mark.slow
 def test_hostile_queries_are_no_errors_of_the_service(client: httpx.Client) -> None:
     """Whatever stands in the table, the answer is a page or a refusal."""

@@ -49,7 +49,7 @@ class UnitPage(StudyPage):
         found = {}
         for quantity, axis in self.uncertain.items():
             values, name = axis.values, _control(quantity)
-            if text := self.asked.views.get(name):
+            if text := self.views.get(name):
                 rows = [[number_of(each) for each in row.split()] for row in text.split(";")]
                 values = [row[0] if len(row) == 1 else row for row in rows]
             elif quantity in self.left_alone:
@@ -134,17 +134,15 @@ class CornersPage(UnitPage):
             return Result(progress, remarks=tuple(remarks))
         worst = extremes[output.path]["min" if output.view.greatest_is_best else "max"]["at"]
         case, other = self.solved({}), self.solved(worst)
-        found = {
-            "corners": corners(axis_of(output), self._uncertain(lines, worst), value_at(case.response, output.path))
-        }
-        found |= load_figure(other, case, "worst corner", "worst corner and, dashed, as described: ")
+        found = corners(axis_of(output), self._uncertain(lines, worst), value_at(case.response, output.path))
+        load = load_figure(other, case, "worst corner", "worst corner and, dashed, as described: ")
         leads = (
             Link("Open the worst corner", self.address(worst)),
             Link("Its report", self.address(worst, "/report")),
             Link("What to grind", self.asked.study(study_links.DESIGN.name)),
         )
         tables = (self._extremes(extremes, case), self.corner_table("The worst corner", case, worst))
-        return Result(progress, found, tables, tuple(remarks), leads)
+        return Result(progress, {"corners": found, **load}, tables, tuple(remarks), leads)
 
     def _uncertain(self, lines: list[Line], worst: Overrides) -> list[Uncertain]:
         """Of each choice of each axis the worst that the output is with it."""

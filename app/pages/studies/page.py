@@ -1,7 +1,7 @@
 """The page of a study before, while and after its lines come, and its figures as files; runs in workers."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import groupby
@@ -25,9 +25,10 @@ from app.sources import SHORT_SOURCES
 from app.studies.engine import Line, Study
 from app.studies.fields import NUMBERS, scalar_at
 from app.studies.points import reduced_request, with_overrides
-from app.studies.requests import Overrides
+from app.studies.requests import Overrides, Scalar
 
 FRAMES = "<!-- the figures -->"
+Options = tuple[tuple[str, str], ...]
 
 
 class Choice(NamedTuple):
@@ -111,7 +112,8 @@ class StudyPage(ABC):
     The output shown when none is chosen is the first of `outputs` that the answer has, else the first headline. `most`
     is the setting that bounds the points of the study. A page that `grows` shows its result while the lines come, the
     others only how far they are. Without one of the controls in `needs` there is no study, and `choose` asks for it.
-    `figures` names all that there may be, `files` the forms in which the lines are offered.
+    `figures` names all that there may be, `files` the forms in which the lines are offered. `plan` makes the study of
+    a body, of at most so many points.
 
     `study` is None until the query is found to ask for one, `faults` are what it is refused for, by control.
     """
@@ -126,16 +128,13 @@ class StudyPage(ABC):
     needs: tuple[str, ...] = ()
     choose = ""
     files: tuple[str, ...] = ("ndjson",)
+    plan: Callable[[dict[str, Any], int, float], Study]
 
     def __init__(self, asked: Asked) -> None:
         self.asked = asked
+        self.views = asked.views
         self.study: Any = None
         self.faults: list[Fault] = []
-
-    @staticmethod
-    @abstractmethod
-    def plan(content: Any, most: int, deadline_s: float) -> Study:
-        """The study in a body, of at most so many points; raises what refuses it, with paths into the body."""
 
     @abstractmethod
     def body(self) -> dict[str, Any]:
@@ -186,7 +185,7 @@ class StudyPage(ABC):
     @cached_property
     def output(self) -> Leaf:
         """The output that is shown; raises Unprocessable."""
-        path = self.asked.views.get("show") or self.usual_output.path
+        path = self.views.get("show") or self.usual_output.path
         output = scalar_at(self.calculation.response, path, "outputs.0", "unknown_output")
         if output.kind not in NUMBERS:
             raise Unprocessable("unknown_output", f"{output.path} is no number", "outputs.0")
@@ -194,12 +193,12 @@ class StudyPage(ABC):
 
     def number(self, control: str, usual: float | None = None) -> Any:
         """The number typed at a control, the usual one where it is empty; what is no number stays text."""
-        text = self.asked.views.get(control)
+        text = self.views.get(control)
         return number_of(text) if text else usual
 
     def menu(self, name: str, label: str, empty: str, choices: list[Choice]) -> Menu:
         """A menu, whose choice may be one that it does not offer."""
-        chosen = self.asked.views.get(name, "")
+        chosen = self.views.get(name, "")
         labels = {choice.path: choice.label for choice in choices}
         groups = [(group, list(items)) for group, items in groupby(choices, key=lambda choice: choice.group)]
         if chosen and chosen not in labels:
@@ -207,21 +206,14 @@ class StudyPage(ABC):
         shown = labels.get(chosen, chosen) or empty
         return Menu(name, label, empty, chosen, shown, groups, dict(self.faults).get(name))
 
-    def field(
-        self,
-        name: str,
-        label: str,
-        usual: float | str | None = None,
-        unit: str = "",
-        options: tuple[tuple[str, str], ...] = (),
-    ) -> FieldView:
+    def field(self, name: str, label: str, usual: Scalar = None, unit: str = "", options: Options = ()) -> FieldView:
         """What is typed, with what stands for it where it is left empty; or a choice of a few options."""
         return FieldView(
             name=name,
             label=label,
             unit=unit,
             widget="select" if options else "text" if isinstance(usual, str) else "number",
-            text=self.asked.views.get(name, ""),
+            text=self.views.get(name, ""),
             placeholder="" if usual is None else text_of(usual),
             options=options,
             fault=dict(self.faults).get(name),
@@ -238,7 +230,7 @@ class StudyPage(ABC):
 
     def view(self, below: str) -> str:
         """The address of the page or of a view of the study."""
-        views = {name: text for name, text in self.asked.views.items() if name in STUDY_NAMES or name == "theme"}
+        views = {name: text for name, text in self.views.items() if name in STUDY_NAMES or name == "theme"}
         return link(f"{self.asked.path}/{self.link.name}{below}", self.asked.pairs, **views, sources=SHORT_SOURCES)
 
     @property
@@ -258,7 +250,7 @@ class StudyPage(ABC):
         """Where the page of a point is, or a view of it."""
         body = with_overrides(self.calculation, self.asked.body, overrides)
         del body["detail"]
-        return link(f"{self.asked.path}{below}", pairs_of(body), theme=self.asked.views.get("theme", ""))
+        return link(f"{self.asked.path}{below}", pairs_of(body), theme=self.views.get("theme", ""))
 
     def solved(self, overrides: Overrides) -> Case:
         """The case at a point with its answer, no more of it calculated than the outputs of the study need."""

@@ -32,52 +32,40 @@ class SensitivityPage(StudyPage):
 
     def result(self, lines: list[Line]) -> Result:
         """Bars and a table, the most influential input first."""
-        end, title = lines[-1], self.output.title
+        end, output = lines[-1], self.output
         inputs = {each["path"]: each for each in end["inputs"]}
-        found = (line for line in lines if line["type"] == "sensitivity" and line["change"] is not None)
-        moved = [inputs[line["path"]] | line for line in found]
+        steps, rows = list[Influence](), []
+        for line in lines:
+            if line["type"] == "sensitivity" and line["change"] is not None:
+                path, known = line["path"], inputs[line["path"]]
+                name, unit = numbered(known["title"], path), known["unit"] or ""
+                step = f"+{shown(line['step'], 3)} {unit}".rstrip()
+                varied = {"x": path, "show": output.path, "theme": self.views.get("theme", "")}
+                row = (
+                    Link(name, link(f"{self.asked.path}/vary", self.asked.pairs, **varied)),
+                    shown(float(known["value"])),
+                    unit,
+                    step,
+                    shown(line["change"], 4),
+                    shown(line["elasticity"], 3),
+                    "up and down differ" if line["kink"] else "half a step differs" if line["curved"] else "",
+                )
+                steps.append(Influence(name, step, line["change"], bool(line["kink"])))
+                rows.append(row)
         value, figures, remarks = end["outputs"][0]["value"], dict[str, Figure](), []
-        if isinstance(value, int | float):
-            steps = [Influence(_name(line), _step(line), line["change"], bool(line["kink"])) for line in moved]
-            figure = influence(axis_of(self.output), float(value), steps)
-            if figure.panels:
-                figures["influence"] = figure
-            else:
-                remarks.append(f"No input moves the {title} of this case.")
+        if not isinstance(value, int | float):
+            remarks.append(f"The case has no {output.title}, so nothing moves it.")
+        elif (figure := influence(axis_of(output), float(value), steps)).panels:
+            figures["influence"] = figure
         else:
-            remarks.append(f"The case has no {title}, so nothing moves it.")
+            remarks.append(f"No input moves the {output.title} of this case.")
         if GIVEN_BULK in {each["reason"] for each in end["assumptions"]}:
             remarks.append(f"Oil temperature: {GIVEN_BULK}.")
-        progress = f"{end['points']} cases in {shown(end['elapsed_s'], 2)} s"
-        return Result(progress, figures, (self._table(moved),) if moved else (), tuple(remarks))
-
-    def _table(self, moved: list[Line]) -> Table:
-        output, more = self.output, len(moved) - MOST_ROWS
-        rows = []
-        for line in moved[:MOST_ROWS]:
-            varied = {"x": line["path"], "show": output.path, "theme": self.asked.views.get("theme", "")}
-            row = (
-                Link(_name(line), link(f"{self.asked.path}/vary", self.asked.pairs, **varied)),
-                shown(float(line["value"])),
-                line["unit"] or "",
-                _step(line),
-                shown(line["change"], 4),
-                shown(line["elasticity"], 3),
-                "up and down differ" if line["kink"] else "half a step differs" if line["curved"] else "",
-            )
-            rows.append(row)
         changes = f"changes the {output.title} by{f', {output.unit}' if output.unit else ''}"
-        return Table(
-            "Inputs, the most influential first",
-            ("input", Number("value"), "unit", Number("one step"), Number(changes), Number("% for 1 %"), "remark"),
-            rows,
-            "A name leads to the curve over that input." + (f" {more} inputs more change it less." if more > 0 else ""),
-        )
-
-
-def _name(line: Line) -> str:
-    return numbered(line["title"], line["path"])
-
-
-def _step(line: Line) -> str:
-    return f"+{shown(line['step'], 3)}" + (f" {line['unit']}" if line["unit"] else "")
+        head = ("input", Number("value"), "unit", Number("one step"), Number(changes), Number("% for 1 %"), "remark")
+        more = len(rows) - MOST_ROWS
+        note = "A name leads to the curve over that input."
+        note += f" {more} inputs more change it less." if more > 0 else ""
+        table = Table("Inputs, the most influential first", head, rows[:MOST_ROWS], note)
+        progress = f"{end['points']} cases in {shown(end['elapsed_s'], 2)} s"
+        return Result(progress, figures, (table,) if rows else (), tuple(remarks))

@@ -135,7 +135,7 @@ class SpectrumPage(StudyPage):
 
     def body(self) -> dict[str, Any]:
         """The cases and tolerances as typed, the output shown with its limit, and the losses."""
-        calculation, views = self.calculation, self.asked.views
+        calculation, views = self.calculation, self.views
         inputs = [self._scatter(f"t{place}", place) for place in range(SCATTERING) if views.get(f"t{place}")]
         machines = self.number("machines", int(MACHINES[0][1]))
         if not isinstance(machines, int):
@@ -154,13 +154,13 @@ class SpectrumPage(StudyPage):
     def _scatter(self, name: str, place: int) -> dict[str, Any]:
         """The distribution of one field: around the value of the case, by its usual tolerance."""
         where = f"tolerances.inputs.{place}"
-        leaf = scalar_at(self.calculation.request, self.asked.views[name], f"{where}.path", "unknown_path")
+        leaf = scalar_at(self.calculation.request, self.views[name], f"{where}.path", "unknown_path")
         about = self.number(f"{name}.about", value_at(self.case, leaf.path))
         by = self.number(f"{name}.by", leaf.declared.tolerance)
         for value, lacks in ((about, "around which value"), (by, "by how much")):
             if not is_number(value):
                 raise Unprocessable("missing", f"{leaf.title}: say {lacks}", where)
-        law = self.asked.views.get(f"{name}.law") or "normal"
+        law = self.views.get(f"{name}.law") or "normal"
         known = {
             "normal": {"mean": about, "deviation": by},
             "lognormal": {"median": about, "factor": by},
@@ -173,20 +173,18 @@ class SpectrumPage(StudyPage):
     def _assumes_limit(self) -> bool:
         """Whether the output is compared with the scuffing temperature where no limit is given."""
         scuffing = SCUFFING.get(self.calculation.path)
-        return scuffing is not None and (self.asked.views.get("show") or self.usual_output.path) == scuffing.contact
+        return scuffing is not None and (self.views.get("show") or self.usual_output.path) == scuffing.contact
 
     def _limits(self) -> list[dict[str, Any]] | None:
         """The limit as typed, else that of the output; None where it is the scuffing temperature."""
-        view, scatter = self.output.view, self.number("limit.by")
-        value = self.number("limit")
-        if value is None:
-            known = not self._assumes_limit and view.bound and isinstance(view.limit, int | float)
-            if not known:
-                if scatter is not None:
-                    raise Unprocessable("missing", "give the limit whose deviation this is", "limits.0.above")
-                return None if self._assumes_limit else []
+        view, scatter, value = self.output.view, self.number("limit.by"), self.number("limit")
+        if value is None and view.bound and isinstance(view.limit, int | float) and not self._assumes_limit:
             value = view.limit
-        side = self.asked.views.get("limit.side") or ("below" if view.greatest_is_best else "above")
+        if value is None and scatter is not None:
+            raise Unprocessable("missing", "give the limit whose deviation this is", "limits.0.above")
+        if value is None:
+            return None if self._assumes_limit else []
+        side = self.views.get("limit.side") or ("below" if view.greatest_is_best else "above")
         threshold = {"value": value} if scatter is None else {"mean": value, "deviation": scatter}
         return [{"output": self.output.path, side: threshold}]
 
@@ -201,23 +199,22 @@ class SpectrumPage(StudyPage):
 
     def controls(self) -> tuple[Controls, ...]:
         """The table of cases, and the tolerances: those given and two more."""
-        views, case = self.asked.views, self.case
-        help_ = (
+        case = self.case
+        text = self.views.get("cases") or _suggested(case)
+        about = (
             "The first line names the columns: name, share (of the time) and fields of the request.",
             "One line a case, columns parted by tabs or semicolons, as pasted from a spreadsheet.",
             "An empty cell changes nothing.",
         )
-        text = views.get("cases") or _suggested(case)
-        table = replace(self.field("cases", "cases"), widget="table", text=text, help=help_)
+        table = replace(self.field("cases", "cases"), widget="table", text=text, help=about)
         groups = [Controls("Load spectrum", fields=(table,))]
-        last = max((place for place in range(SCATTERING) if views.get(f"t{place}")), default=-1)
+        last = max((place for place in range(SCATTERING) if self.views.get(f"t{place}")), default=-1)
         choices = field_choices(self.calculation, case, texts=False) if self.asked.pairs else []
         for place in range(min(SCATTERING, last + 3)):
             name = f"t{place}"
-            leaf = leaf_at(self.calculation.request, views.get(name, ""))
-            unit, usual, own = "", None, None
-            if leaf is not None:
-                unit, usual, own = leaf.unit or "", leaf.declared.tolerance, value_at(case, views[name])
+            path = self.views.get(name, "")
+            leaf, own = leaf_at(self.calculation.request, path), value_at(case, path)
+            unit, usual = (leaf.unit or "", leaf.declared.tolerance) if leaf else ("", None)
             fields = (
                 self.field(f"{name}.law", "distribution", options=LAWS),
                 self.field(f"{name}.by", "by", usual, unit),
@@ -228,12 +225,11 @@ class SpectrumPage(StudyPage):
 
     def shows(self) -> tuple[FieldView, ...]:
         """The limit of the output, how many machines are drawn, and the hours of operation."""
-        assumed = self._assumes_limit and not self.asked.views.get("limit")
+        assumed = self._assumes_limit and not self.views.get("limit")
+        deviation = f"{percent(RELATIVE_DEVIATION)} of it" if assumed else "none"
         return (
             self.field("limit", "limit", "its own"),
-            self.field(
-                "limit.by", "deviation of the limit", f"{percent(RELATIVE_DEVIATION)} of it" if assumed else "none"
-            ),
+            self.field("limit.by", "deviation of the limit", deviation),
             self.field("limit.side", "side", options=SIDES),
             self.field("machines", "machines drawn", options=MACHINES),
             self.field("hours", "hours a year"),
@@ -241,19 +237,13 @@ class SpectrumPage(StudyPage):
 
     def starters(self) -> Sequence[study_links.Starter]:
         """The ready studies of the interface; a case of one's own needs none."""
-        if self.asked.pairs:
-            return []
-        bodies = [
-            each for each in EXAMPLES["/v1/spectrum"].values() if each["value"]["endpoint"] == self.calculation.path
-        ]
-        return [
-            study_links.Starter(
-                each["summary"],
-                "example",
-                address_of(self.calculation, pairs_of(each["value"]["request"]), each["value"]),
-            )
-            for each in bodies
-        ]
+        starters = []
+        for each in EXAMPLES["/v1/spectrum"].values():
+            body = each["value"]
+            if body["endpoint"] == self.calculation.path and not self.asked.pairs:
+                address = address_of(self.calculation, pairs_of(body["request"]), body)
+                starters.append(study_links.Starter(each["summary"], "example", address))
+        return starters
 
     def result(self, lines: list[Line]) -> Result:
         """The probability, what it is made of, what decides, the losses; each case leads to its page."""
@@ -353,14 +343,8 @@ class SpectrumPage(StudyPage):
             row += [shown(value, 4) for value in each["quantiles"][output.path] or [None] * 3]
             rows.append((*row, percent(each["unsolved"])))
         unit = f", {output.unit}" if output.unit else ""
-        heads = [
-            "share",
-            *(["probability alone", "decides"] if found else []),
-            f"5 %{unit}",
-            "50 %",
-            "95 %",
-            "unsolved",
-        ]
+        judged = ("probability alone", "decides") if found else ()
+        heads = ("share", *judged, f"5 %{unit}", "50 %", "95 %", "unsolved")
         note = f"Of each case 5, 50 and 95 % of the machines have a lower {output.title}."
         return Table("Cases", ("case", *map(Number, heads)), rows, f"{note} A name leads to the nominal case.")
 
@@ -403,7 +387,5 @@ def _tolerances_table(header: Line, found: Line | None) -> Table:
         drawn = (each["title"], f"{each['distribution']}: {law}", each["unit"] or "")
         rows.append((*drawn, percent(each["cut_off"]), shown(known, 3)))
     head = ("field", "distribution", "unit", Number("cut off"), Number("rank"))
-    note = (
-        "Cut off is the share beyond four deviations or the field's range; rank is the correlation with the worst case."
-    )
-    return Table("Tolerances", head, rows, note)
+    note = "Cut off is the share beyond four deviations or the field's range"
+    return Table("Tolerances", head, rows, f"{note}; rank is the correlation with the worst case.")

@@ -120,15 +120,15 @@ class SweepPage(StudyPage):
     @cached_property
     def varied(self) -> list[VariedField]:
         """The fields that the query varies; raises Unprocessable with a path into the sweep."""
-        x, y = map(self.asked.views.get, AXES)
+        x, y = map(self.views.get, AXES)
         if y and not x:
             raise Unprocessable("missing", "choose a field to vary before a second one", "vary.0.path")
         if y and y == x:
             raise Unprocessable("duplicate_path", "this field is varied already; choose another", "vary.1.path")
-        return [self._varied(name, f"vary.{place}") for place, name in enumerate(AXES) if self.asked.views.get(name)]
+        return [self._varied(name, f"vary.{place}") for place, name in enumerate(AXES) if self.views.get(name)]
 
     def _varied(self, name: str, where: str) -> VariedField:
-        leaf = scalar_at(self.calculation.request, self.asked.views[name], f"{where}.path", "unknown_path")
+        leaf = scalar_at(self.calculation.request, self.views[name], f"{where}.path", "unknown_path")
         value, choices = value_at(self.case, leaf.path), _choices_of(leaf)
         if not _has_numbers(leaf):
             if name == "x" or not choices:
@@ -150,7 +150,7 @@ class SweepPage(StudyPage):
             raise Unprocessable("values_or_range", "the case has no value here to go from: give from and to", where)
         if start == stop:
             raise Unprocessable("values_or_range", "from and to are the same", where)
-        count, scale = self.number(f"{name}.count", COUNTS[name]), self.asked.views.get(f"{name}.scale", "linear")
+        count, scale = self.number(f"{name}.count", COUNTS[name]), self.views.get(f"{name}.scale", "linear")
         choices = _choices_of(leaf)
         if choices and is_number(start) and is_number(stop):
             return {"values": [each for each in choices if min(start, stop) <= each <= max(start, stop)]}
@@ -163,7 +163,7 @@ class SweepPage(StudyPage):
     @property
     def is_greatest_best(self) -> bool:
         """Whether the best value is the greatest; raises Unprocessable."""
-        best = self.asked.views.get("best", "greatest" if self.output.view.greatest_is_best else "least")
+        best = self.views.get("best", "greatest" if self.output.view.greatest_is_best else "least")
         if best not in {"least", "greatest"}:
             raise Unprocessable("literal_error", "best: must be one of least, greatest", "best")
         return best == "greatest"
@@ -279,7 +279,7 @@ class SweepPage(StudyPage):
     def _script(self, received: list[Line], figure: Figure) -> str:
         """What the script of the page needs to find the point under the pointer and to open its case."""
         known = [leaf_at(self.calculation.request, field.leaf.path) for field in self.varied]
-        if not all(leaf is not None and leaf.is_scalar for leaf in known):  # an item of a list is no field of the form
+        if None in known:  # an item of a list is no field of the form
             return ""
         from app.figures.drawing.image import places as places_of  # noqa: PLC0415  only workers draw
 
