@@ -3,7 +3,7 @@
 import asyncio
 import logging
 from collections.abc import AsyncGenerator, Callable
-from contextlib import aclosing
+from contextlib import aclosing, suppress
 from functools import partial
 from typing import Any
 
@@ -125,13 +125,12 @@ async def _pieces(http: Request, opened: study_page.Opened, lines: Lines, clock:
 
 async def _part(http: Request, view: Callable[..., bytes], *arguments: Any) -> bytes:
     """The result of a view in a worker, or a note that it failed: the page has begun, its status is sent."""
+    made: bytes = NOT_DRAWN
     try:
-        made: bytes = await twice_if_lost(http.app.state.studies.own(), view, *arguments)
-    except (WorkerLost, DeadlineExceeded):
-        return NOT_DRAWN
+        with suppress(WorkerLost, DeadlineExceeded):
+            made = await twice_if_lost(http.app.state.studies.own(), view, *arguments)
     except Exception:
         logger.exception("a part of a study's page failed")
-        return NOT_DRAWN
     return made
 
 
@@ -141,14 +140,16 @@ async def _made(http: Request, study: StudyPage, view: Callable[..., bytes | str
     Raises StudyEnded at an error, HTTPException where the view answers why there is nothing, and ClientGone.
     """
 
-    async def work() -> bytes | str:
+    async def work() -> bytes:
         lines, _ = await begun(http, study.study)
         async with aclosing(lines):
             received = [line async for group in lines for line in group if line["type"] != "progress"]
         if received[-1]["type"] == "error":
             raise StudyEnded(received[-1]["message"])
-        found: bytes | str = await twice_if_lost(http.app.state.studies.own(), view, study, received, *arguments)
-        return found
+        made: bytes | str = await twice_if_lost(http.app.state.studies.own(), view, study, received, *arguments)
+        if isinstance(made, str):
+            raise HTTPException(404, made)
+        return made
 
     with http.app.state.studies.place():
         working, gone = asyncio.create_task(work()), asyncio.create_task(disconnected(http))
@@ -156,14 +157,11 @@ async def _made(http: Request, study: StudyPage, view: Callable[..., bytes | str
             await asyncio.wait({working, gone}, return_when=asyncio.FIRST_COMPLETED)
             if not working.done():
                 raise ClientGone
-            made = working.result()
+            return working.result()
         finally:
             working.cancel()
             gone.cancel()
             await asyncio.gather(working, gone, return_exceptions=True)
-    if isinstance(made, str):
-        raise HTTPException(404, made)
-    return made
 
 
 for each in CALCULATIONS:
