@@ -115,12 +115,12 @@ class CornersPage(UnitPage):
 
     def body(self) -> dict[str, Any]:
         """The corners as typed or usual, and beside the output what decides and costs no film."""
-        paths = [leaf.path for leaf in headlines(self.calculation.response)]
+        output, paths = self.output.path, [leaf.path for leaf in headlines(self.calculation.response)]
         deciding = [path for path in paths if not (needs_film(DRIVE_TRAIN, path) or path.startswith(COLD))]
         return {
             "request": self.asked.body,
             "ranges": list(self.ranges().values()) or None,
-            "outputs": list(dict.fromkeys([self.output.path, *deciding])),
+            "outputs": list(dict.fromkeys([output, *deciding])),
         }
 
     def result(self, lines: list[Line]) -> Result:

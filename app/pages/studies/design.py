@@ -50,6 +50,7 @@ class DesignPage(UnitPage):
 
     def body(self) -> dict[str, Any]:
         """The ranges as typed or usual, at the corners as typed or the usual ones of heat and couplings."""
+        output = self.output
         variables = [
             {
                 "path": list(paths),
@@ -63,8 +64,8 @@ class DesignPage(UnitPage):
             "request": self.asked.body,
             "variables": variables,
             "corners": list(self.ranges().values()) or None,
-            "objective": self.output.path,
-            "direction": "maximise" if self.output.view.greatest_is_best else "minimise",
+            "objective": output.path,
+            "direction": "maximise" if output.view.greatest_is_best else "minimise",
             "evaluations": self.number(TRIALS, EVALUATIONS),
         }
 

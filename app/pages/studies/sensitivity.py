@@ -28,7 +28,8 @@ class SensitivityPage(StudyPage):
 
     def body(self) -> dict[str, Any]:
         """The case and the output shown."""
-        return {"endpoint": self.calculation.path, "request": self.asked.body, "outputs": [self.output.path]}
+        outputs = [self.output.path]
+        return {"endpoint": self.calculation.path, "request": self.asked.body, "outputs": outputs}
 
     def result(self, lines: list[Line]) -> Result:
         """Bars and a table, the most influential input first."""

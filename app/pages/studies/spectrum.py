@@ -135,7 +135,7 @@ class SpectrumPage(StudyPage):
 
     def body(self) -> dict[str, Any]:
         """The cases and tolerances as typed, the output shown with its limit, and the losses."""
-        calculation, views = self.calculation, self.views
+        calculation, views, output = self.calculation, self.views, self.output.path
         inputs = [self._scatter(f"t{place}", place) for place in range(SCATTERING) if views.get(f"t{place}")]
         machines = self.number("machines", int(MACHINES[0][1]))
         if not isinstance(machines, int):
@@ -146,7 +146,7 @@ class SpectrumPage(StudyPage):
             "request": self.asked.body,
             "cases": cases_of(calculation, views.get("cases", "")),
             "tolerances": tolerances if inputs else None,
-            "outputs": list(dict.fromkeys([self.output.path, *LOSSES.get(calculation.path, ())])),
+            "outputs": list(dict.fromkeys([output, *LOSSES.get(calculation.path, ())])),
             "limits": self._limits(),
             "hours_per_year": self.number("hours"),
         }

@@ -3,9 +3,8 @@
 import json
 from collections import Counter
 from collections.abc import Sequence
-from functools import cached_property
 from math import ceil, floor, inf, isfinite, nan
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -22,6 +21,7 @@ from app.pages.typesetting import shown, words
 from app.schema.fields import Leaf, leaf_at, leaves, tree
 from app.studies.engine import Line
 from app.studies.fields import NUMBERS, scalar_at, value_at
+from app.studies.point_sets import CheckedAxis
 from app.studies.points import SOLVED
 from app.studies.sensitivity import places
 from app.studies.sweep import Sweep, sweep_study
@@ -34,15 +34,6 @@ AXES = ("x", "y")
 MOST_WHOLE = 10_000  # whole numbers that an axis is spread over
 MOST_ROWS = 200  # of a table on a page; the file has all
 MOST_REASONS = 6  # why points are missing, the most frequent
-
-
-class VariedField(NamedTuple):
-    """A field that is varied: its axis in the study, the ends where none are typed, the value of the case itself."""
-
-    leaf: Leaf
-    axis: dict[str, Any]
-    usual: tuple[float, float] | None
-    own: float | None
 
 
 def field_choices(calculation: Calculation, case: dict[str, Any], *, texts: bool) -> list[Choice]:
@@ -80,26 +71,6 @@ def _has_numbers(leaf: Leaf) -> bool:
     return leaf.kind in NUMBERS or any(map(is_number, leaf.options))
 
 
-def _usual_ends(leaf: Leaf, value: float | None) -> tuple[float, float] | None:
-    """Around the value of the case, inside what is allowed; None where the case has none and the range no two ends.
-
-    Whole numbers where the field takes no others, else four digits.
-    """
-    bounds, tolerance = leaf.declared.bounds, leaf.declared.tolerance
-    low, high = bounds.get("ge", bounds.get("gt", -inf)), bounds.get("le", bounds.get("lt", inf))
-    margin = INSIDE * (high - low) if isfinite(high - low) else INSIDE
-    if "gt" in bounds:
-        low += margin
-    if "lt" in bounds:
-        high -= margin
-    reach = AROUND * abs(value) if value else None if tolerance is None else TOLERANCES * tolerance
-    if value is not None and reach is not None:
-        low, high = max(low, value - reach), min(high, value + reach)
-    if not isfinite(high - low):
-        return None
-    return (ceil(low), floor(high)) if leaf.kind == "integer" else (float(f"{low:.4g}"), float(f"{high:.4g}"))
-
-
 class SweepPage(StudyPage):
     """One field of a case varied, or two."""
 
@@ -117,48 +88,60 @@ class SweepPage(StudyPage):
     plan = staticmethod(sweep_study)
     study: Sweep
 
-    @cached_property
-    def varied(self) -> list[VariedField]:
-        """The fields that the query varies; raises Unprocessable with a path into the sweep."""
-        x, y = map(self.views.get, AXES)
-        if y and not x:
-            raise Unprocessable("missing", "choose a field to vary before a second one", "vary.0.path")
-        if y and y == x:
-            raise Unprocessable("duplicate_path", "this field is varied already; choose another", "vary.1.path")
-        return [self._varied(name, f"vary.{place}") for place, name in enumerate(AXES) if self.views.get(name)]
+    def _own(self, leaf: Leaf) -> float | None:
+        """The number that the case itself has at a field."""
+        value = value_at(self.case, leaf.path)
+        return float(value) if is_number(value) else None
 
-    def _varied(self, name: str, where: str) -> VariedField:
+    def _usual_ends(self, leaf: Leaf) -> tuple[float, float] | tuple[None, None]:
+        """Around the value of the case, inside what is allowed; None where the case has none and the range no two ends.
+
+        Whole numbers where the field takes no others, else four digits; none where it takes no numbers.
+        """
+        value, tolerance, numbers = self._own(leaf), leaf.declared.tolerance, list(filter(is_number, leaf.options))
+        if numbers:
+            return min(numbers), max(numbers)
+        bounds = leaf.declared.bounds
+        low, high = bounds.get("ge", bounds.get("gt", -inf)), bounds.get("le", bounds.get("lt", inf))
+        margin = INSIDE * (high - low) if isfinite(high - low) else INSIDE
+        if "gt" in bounds:
+            low += margin
+        if "lt" in bounds:
+            high -= margin
+        reach = AROUND * abs(value) if value else None if tolerance is None else TOLERANCES * tolerance
+        if value is not None and reach is not None:
+            low, high = max(low, value - reach), min(high, value + reach)
+        if not isfinite(high - low):
+            return None, None
+        return (ceil(low), floor(high)) if leaf.kind == "integer" else (float(f"{low:.4g}"), float(f"{high:.4g}"))
+
+    def _axis(self, name: str, where: str) -> dict[str, Any]:
+        """The axis of a field as typed or usual; where it takes only some values, those, of numbers between the ends.
+
+        Whole numbers are as evenly spread as they can be, each once. What is no spread is left to the validator.
+        Raises Unprocessable at `where`.
+        """
         leaf = scalar_at(self.calculation.request, self.views[name], f"{where}.path", "unknown_path")
-        value, choices = value_at(self.case, leaf.path), _choices_of(leaf)
+        axis, choices = {"path": leaf.path}, _choices_of(leaf)
         if not _has_numbers(leaf):
             if name == "x" or not choices:
                 message = f"{leaf.title} has no numbers; vary another field along it"
                 raise Unprocessable("not_scalar", message, f"{where}.path")
-            return VariedField(leaf, {"path": leaf.path, "values": choices}, None, None)
-        own = float(value) if is_number(value) else None
-        usual = (min(choices), max(choices)) if choices else _usual_ends(leaf, own)
-        return VariedField(leaf, {"path": leaf.path, **self._spread(leaf, name, usual, where)}, usual, own)
-
-    def _spread(self, leaf: Leaf, name: str, usual: tuple[float, float] | None, where: str) -> dict[str, Any]:
-        """The spread typed or usual; where the field takes only some numbers, those between the ends.
-
-        Whole numbers are as evenly spread as they can be, each once. What is no spread is left to the validator.
-        """
-        low, high = usual or (None, None)
+            return {**axis, "values": choices}
+        low, high = self._usual_ends(leaf)
         start, stop = self.number(f"{name}.from", low), self.number(f"{name}.to", high)
         if start is None or stop is None:
             raise Unprocessable("values_or_range", "the case has no value here to go from: give from and to", where)
         if start == stop:
             raise Unprocessable("values_or_range", "from and to are the same", where)
-        count, scale = self.number(f"{name}.count", COUNTS[name]), self.views.get(f"{name}.scale", "linear")
-        choices = _choices_of(leaf)
         if choices and is_number(start) and is_number(stop):
-            return {"values": [each for each in choices if min(start, stop) <= each <= max(start, stop)]}
+            return {**axis, "values": [each for each in choices if min(start, stop) <= each <= max(start, stop)]}
+        count, scale = self.number(f"{name}.count", COUNTS[name]), self.views.get(f"{name}.scale", "linear")
         whole = leaf.kind == "integer" and all(isinstance(each, int) for each in (start, stop, count))
         if not whole or not 2 <= count <= MOST_WHOLE:
-            return {"start": start, "stop": stop, "count": count, "scale": scale}
+            return {**axis, "start": start, "stop": stop, "count": count, "scale": scale}
         spread = np.geomspace if scale == "log" and min(start, stop) > 0 else np.linspace
-        return {"values": np.unique(spread(start, stop, count).round()).astype(int).tolist(), "scale": scale}
+        return {**axis, "values": np.unique(spread(start, stop, count).round()).astype(int).tolist(), "scale": scale}
 
     @property
     def is_greatest_best(self) -> bool:
@@ -170,12 +153,18 @@ class SweepPage(StudyPage):
 
     def body(self) -> dict[str, Any]:
         """The axes, and the output with the better one of its ends."""
+        goal = "maximise" if self.is_greatest_best else "minimise"
+        x, y = map(self.views.get, AXES)
+        if y and not x:
+            raise Unprocessable("missing", "choose a field to vary before a second one", "vary.0.path")
+        if y and y == x:
+            raise Unprocessable("duplicate_path", "this field is varied already; choose another", "vary.1.path")
         return {
             "endpoint": self.calculation.path,
             "request": self.asked.body,
-            "vary": [each.axis for each in self.varied],
+            "vary": [self._axis(name, f"vary.{place}") for place, name in enumerate(AXES) if self.views.get(name)],
             "outputs": [self.output.path],
-            "best": {"maximise" if self.is_greatest_best else "minimise": self.output.path},
+            "best": {goal: self.output.path},
         }
 
     def places(self) -> dict[str, str]:
@@ -188,12 +177,11 @@ class SweepPage(StudyPage):
 
     def controls(self) -> tuple[Controls, ...]:
         """The axes: menus of fields, ranges with what stands for them when empty."""
-        fields = dict(zip(AXES, self.varied, strict=False)) if self.study else {}
+        fields = dict(zip(AXES, self.study.points.varied, strict=False)) if self.study else {}
         groups = []
         for name, title, empty in (("x", "Vary", "choose …"), ("y", "and, as curves or a map", "nothing else")):
-            field = fields.get(name)
-            unit = (field.leaf.unit or "") if field else ""
-            start, stop = field.usual if field and field.usual else (None, None)
+            leaf = fields.get(name)
+            unit, (start, stop) = (leaf.unit or "", self._usual_ends(leaf)) if leaf else ("", (None, None))
             ends = (
                 self.field(f"{name}.from", "from", start, unit),
                 self.field(f"{name}.to", "to", stop, unit),
@@ -236,12 +224,10 @@ class SweepPage(StudyPage):
     def _grid(self, received: list[Line]) -> Grid:
         """The data of the figures; a point that has not come yet is a gap."""
         points = self.study.points
-        axes = [axis.values or [] for axis in points.axes]
         found = np.full(points.total, nan)
         found[: len(received)] = [nan if line["out"][0] is None else float(line["out"][0]) for line in received]
-        along = [_coordinate(field, listed) for field, listed in zip(self.varied, axes, strict=True)]
-        coordinates, orders = zip(*along, strict=True)
-        is_whole_curve = len(axes) == 1 and len(received) == points.total
+        coordinates, orders = zip(*map(self._coordinate, AXES, points.varied, points.axes), strict=True)
+        is_whole_curve = len(coordinates) == 1 and len(received) == points.total
         sorted_points = [received[place] for place in orders[0]] if is_whole_curve else []
         invalid = tuple(_invalid(line) for line in sorted_points)
         doubtful = tuple("doubtful" in line["ranks"] for line in sorted_points)
@@ -250,15 +236,30 @@ class SweepPage(StudyPage):
             limit = value_at(self.case, limit)
         return Grid(
             x=coordinates[0],
-            y=coordinates[1] if len(axes) > 1 else None,
+            y=coordinates[1] if len(coordinates) > 1 else None,
             output=axis_of(self.output),
-            values=values(found.reshape([len(each) for each in axes])[np.ix_(*orders)]),
+            values=values(found.reshape([len(each) for each in orders])[np.ix_(*orders)]),
             greatest=self.is_greatest_best,
             limit=float(limit) if isinstance(limit, int | float) else None,
             invalid=invalid if len(set(invalid)) > 1 else (),
             doubtful=doubtful if len(set(doubtful)) > 1 else (),
             unsolved=sum(line["status"] not in SOLVED for line in received),
         )
+
+    def _coordinate(self, name: str, leaf: Leaf, checked: CheckedAxis) -> tuple[Coordinate, list[int]]:
+        """The values of a field in rising order, and the places where they stand in the sweep."""
+        listed = checked.values or []
+        if not all(map(is_number, listed)):
+            order = list(range(len(listed)))
+            texts = tuple(("yes" if each else "no") if isinstance(each, bool) else words(str(each)) for each in listed)
+            return Coordinate(axis_of(leaf), values(order), texts), order
+        numbers = np.array(listed, dtype=np.float64)
+        order = np.argsort(numbers, kind="stable").tolist()
+        rising = values(numbers[order])
+        log = self.views.get(f"{name}.scale") == "log" and not leaf.options
+        limits = (float(rising[0]), float(rising[-1])) if log else None
+        axis = axis_of(leaf, log=log, magnitude=False, limits=limits)
+        return Coordinate(axis, rising, own=self._own(leaf), scatters=leaf.declared.tolerance is not None), order
 
     def _table(self, received: list[Line]) -> Table:
         rows = []
@@ -267,7 +268,7 @@ class SweepPage(StudyPage):
             status, remarks = line["status"].replace("_", " "), ", ".join(_remarks(line))
             opened = Link("open", self.point_address(line["index"]), f"open the case at {', '.join(at)}")
             rows.append((*at, shown(line["out"][0]), f"{status}: {remarks}" if remarks else status, opened))
-        titles = [Number(titled(leaf)) for leaf in (*(field.leaf for field in self.varied), self.output)]
+        titles = [Number(titled(leaf)) for leaf in (*self.study.points.varied, self.output)]
         more = len(received) - MOST_ROWS
         note = f"and {more} points more in the CSV file" if more > 0 else ""
         return Table("Points", (*titles, "status", "case"), rows, note, folded=True)
@@ -278,8 +279,8 @@ class SweepPage(StudyPage):
 
     def _script(self, received: list[Line], figure: Figure) -> str:
         """What the script of the page needs to find the point under the pointer and to open its case."""
-        known = [leaf_at(self.calculation.request, field.leaf.path) for field in self.varied]
-        if None in known:  # an item of a list is no field of the form
+        points = self.study.points
+        if None in [leaf_at(self.calculation.request, leaf.path) for leaf in points.varied]:  # no field of the form
             return ""
         from app.figures.drawing.image import places as places_of  # noqa: PLC0415  only workers draw
 
@@ -287,8 +288,8 @@ class SweepPage(StudyPage):
         content = {
             "address": self.asked.root + self.point_address(0),
             "axes": [
-                {"path": each.leaf.path, "name": each.leaf.title, "unit": each.leaf.unit or "", "at": axis.values}
-                for each, axis in zip(self.varied, self.study.points.axes, strict=True)
+                {"path": leaf.path, "name": leaf.title, "unit": leaf.unit or "", "at": axis.values}
+                for leaf, axis in zip(points.varied, points.axes, strict=True)
             ],
             "out": [line["out"][0] for line in received],
             "title": self.output.title,
@@ -309,19 +310,3 @@ def _invalid(point: Line) -> str | None:
     """The warnings that leave a value without meaning."""
     found = [words(code) for code, rank in zip(point["warnings"], point["ranks"], strict=True) if rank == "invalid"]
     return ", ".join(found) or None
-
-
-def _coordinate(field: VariedField, listed: list[Any]) -> tuple[Coordinate, list[int]]:
-    """The values of a field in rising order, and the places where they stand in the sweep."""
-    leaf = field.leaf
-    if not all(map(is_number, listed)):
-        order = list(range(len(listed)))
-        texts = tuple(("yes" if each else "no") if isinstance(each, bool) else words(str(each)) for each in listed)
-        return Coordinate(axis_of(leaf), values(order), texts), order
-    numbers = np.array(listed, dtype=np.float64)
-    order = np.argsort(numbers, kind="stable").tolist()
-    rising = values(numbers[order])
-    log = field.axis.get("scale") == "log"
-    limits = (float(rising[0]), float(rising[-1])) if log else None
-    axis = axis_of(leaf, log=log, magnitude=False, limits=limits)
-    return Coordinate(axis, rising, own=field.own, scatters=leaf.declared.tolerance is not None), order
