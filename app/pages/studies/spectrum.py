@@ -380,12 +380,12 @@ def _chance(found: Line) -> Chance:
 def _tolerances_table(header: Line, found: Line | None) -> Table:
     """How the fields scatter, what is cut off, and how the worst case goes with them."""
     numbers = ("mean", "deviation", "median", "factor", "min", "mode", "max")
+    ranks = (found and found["rank_correlation"]) or {}
     rows = []
     for each in header["tolerances"]["inputs"]:
         law = ", ".join(f"{name} {shown(each[name], 4)}" for name in numbers if each.get(name) is not None)
-        known = None if found is None or not found["rank_correlation"] else found["rank_correlation"][each["path"]]
         drawn = (each["title"], f"{each['distribution']}: {law}", each["unit"] or "")
-        rows.append((*drawn, percent(each["cut_off"]), shown(known, 3)))
+        rows.append((*drawn, percent(each["cut_off"]), shown(ranks.get(each["path"]), 3)))
     head = ("field", "distribution", "unit", Number("cut off"), Number("rank"))
     note = "Cut off is the share beyond four deviations or the field's range"
     return Table("Tolerances", head, rows, f"{note}; rank is the correlation with the worst case.")

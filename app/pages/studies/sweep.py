@@ -98,19 +98,19 @@ class SweepPage(StudyPage):
 
         Whole numbers where the field takes no others, else four digits; none where it takes no numbers.
         """
-        value, tolerance, numbers = self._own(leaf), leaf.declared.tolerance, list(filter(is_number, leaf.options))
-        if numbers:
+        if numbers := [each for each in leaf.options if is_number(each)]:
             return min(numbers), max(numbers)
-        bounds = leaf.declared.bounds
+        value, bounds, tolerance = self._own(leaf), leaf.declared.bounds, leaf.declared.tolerance
         low, high = bounds.get("ge", bounds.get("gt", -inf)), bounds.get("le", bounds.get("lt", inf))
         margin = INSIDE * (high - low) if isfinite(high - low) else INSIDE
         if "gt" in bounds:
             low += margin
         if "lt" in bounds:
             high -= margin
-        reach = AROUND * abs(value) if value else None if tolerance is None else TOLERANCES * tolerance
-        if value is not None and reach is not None:
-            low, high = max(low, value - reach), min(high, value + reach)
+        if value:
+            low, high = max(low, value - AROUND * abs(value)), min(high, value + AROUND * abs(value))
+        elif value is not None and tolerance is not None:
+            low, high = max(low, value - TOLERANCES * tolerance), min(high, value + TOLERANCES * tolerance)
         if not isfinite(high - low):
             return None, None
         return (ceil(low), floor(high)) if leaf.kind == "integer" else (float(f"{low:.4g}"), float(f"{high:.4g}"))
@@ -169,11 +169,11 @@ class SweepPage(StudyPage):
 
     def places(self) -> dict[str, str]:
         """The controls of both axes; what concerns the whole grid is its number of points."""
+        places = {"vary": "x.count"}
         parts = {"": ".from", ".path": "", ".stop": ".to", ".count": ".count", ".scale": ".scale"}
-        axes = enumerate(AXES)
-        return {"vary": "x.count"} | {
-            f"vary.{place}{part}": f"{name}{own}" for place, name in axes for part, own in parts.items()
-        }
+        for place, name in enumerate(AXES):
+            places |= {f"vary.{place}{part}": f"{name}{control}" for part, control in parts.items()}
+        return places
 
     def controls(self) -> tuple[Controls, ...]:
         """The axes: menus of fields, ranges with what stands for them when empty."""
@@ -181,7 +181,8 @@ class SweepPage(StudyPage):
         groups = []
         for name, title, empty in (("x", "Vary", "choose …"), ("y", "and, as curves or a map", "nothing else")):
             leaf = fields.get(name)
-            unit, (start, stop) = (leaf.unit or "", self._usual_ends(leaf)) if leaf else ("", (None, None))
+            unit = (leaf.unit or "") if leaf else ""
+            start, stop = self._usual_ends(leaf) if leaf else (None, None)
             ends = (
                 self.field(f"{name}.from", "from", start, unit),
                 self.field(f"{name}.to", "to", stop, unit),
