@@ -13,8 +13,8 @@ import pytest
 from app.http.routes import study_pages
 from app.pages.query import pairs_of_query, split_views
 from app.pages.studies import page as pages
-from app.pages.studies.sensitivity import MOST_ROWS, SENSITIVITY
-from app.pages.studies.sweep import SWEEP
+from app.pages.studies.sensitivity import MOST_ROWS, SensitivityPage
+from app.pages.studies.sweep import SweepPage
 from app.pages.typesetting import shown
 from app.pages.views import Asked
 from tests.support.pages import asked, lines_of
@@ -24,10 +24,9 @@ COUPLING = "pahl-axial-displacement"
 
 
 def result_of(found: Asked) -> tuple[list[dict[str, Any]], str]:
-    study = pages.opened(SENSITIVITY, found, MOST, DEADLINE_S).study
-    assert study is not None
+    study = pages.opened(SensitivityPage, found, MOST, DEADLINE_S).page
     lines = lines_of(study)
-    return lines, unescape(pages.whole(study, lines).decode())
+    return lines, unescape(pages.drawn(study, lines).decode())
 
 
 @pytest.mark.parametrize(
@@ -54,7 +53,7 @@ def test_the_table_says_what_the_study_says(name: str) -> None:
         assert pairs == found.pairs
         assert said["x"] == line["path"]
     first = Asked(found.path, *split_views(pairs_of_query(rows[0][0].partition("?")[2])))
-    assert pages.checked(SWEEP, first, MOST, DEADLINE_S).study.total > 1
+    assert pages.checked(SweepPage, first, MOST, DEADLINE_S).study.total > 1
 
 
 def test_the_figure_shows_the_most_influential_first() -> None:
@@ -67,20 +66,18 @@ def test_the_figure_shows_the_most_influential_first() -> None:
 
 
 def test_a_case_without_the_output_says_so() -> None:
-    study = pages.opened(SENSITIVITY, asked(COUPLING), MOST, DEADLINE_S).study
-    assert study is not None
+    study = pages.opened(SensitivityPage, asked(COUPLING), MOST, DEADLINE_S).page
     *lines, end = lines_of(study)
     nothing = [{**line, "change": None, "derivative": None} for line in lines]
     without = {**end, "outputs": [{**end["outputs"][0], "value": None}]}
-    assert "The case has no thrust to be held" in pages.whole(study, [*nothing, without]).decode()
+    assert "The case has no thrust to be held" in pages.drawn(study, [*nothing, without]).decode()
     still = [{**line, "change": 0.0, "derivative": 0.0} for line in lines]
-    assert "No input moves the thrust to be held" in pages.whole(study, [*still, end]).decode()
+    assert "No input moves the thrust to be held" in pages.drawn(study, [*still, end]).decode()
 
 
 def test_a_study_that_breaks_off_says_why() -> None:
-    study = pages.opened(SENSITIVITY, asked(COUPLING), MOST, DEADLINE_S).study
-    assert study is not None
-    page = pages.whole(study, [{"type": "error", "code": "study_deadline", "message": "<b>too long</b>", "done": 3}])
+    study = pages.opened(SensitivityPage, asked(COUPLING), MOST, DEADLINE_S).page
+    page = pages.drawn(study, [{"type": "error", "code": "study_deadline", "message": "<b>too long</b>", "done": 3}])
     assert "&lt;b&gt;too long&lt;/b&gt;" in page.decode()
 
 
@@ -89,7 +86,7 @@ def test_a_study_that_breaks_off_says_why() -> None:
     [({"show": "axial_thrust"}, "is a section"), ({"show": "<script>"}, "there is no <script>")],
 )
 def test_a_wrong_output_is_refused(said: dict[str, str], message: str) -> None:
-    opened = pages.opened(SENSITIVITY, asked(COUPLING, **said), MOST, DEADLINE_S)
+    opened = pages.opened(SensitivityPage, asked(COUPLING, **said), MOST, DEADLINE_S)
     assert opened.status == 422
     assert b"<script>" not in opened.head.partition(b"<body>")[2]
     assert message in unescape(opened.head.decode())
@@ -118,4 +115,4 @@ class BrokenPool:
 
 def test_a_page_that_has_begun_says_that_a_part_failed() -> None:
     http: Any = SimpleNamespace(app=SimpleNamespace(state=SimpleNamespace(studies=SimpleNamespace(own=BrokenPool))))
-    assert b"could not be drawn" in asyncio.run(study_pages._part(http, pages.whole))
+    assert b"could not be drawn" in asyncio.run(study_pages._part(http, pages.drawn))

@@ -13,8 +13,8 @@ from app.errors import Unprocessable
 from app.examples import examples
 from app.pages.query import pairs_of, pairs_of_query, split_views
 from app.pages.studies import page as pages
-from app.pages.studies.declaration import PageStudy
-from app.pages.studies.spectrum import SPECTRUM, address_of, cases_of, table_of
+from app.pages.studies.page import StudyPage
+from app.pages.studies.spectrum import SpectrumPage, address_of, cases_of, table_of
 from app.pages.templating import page_path
 from app.pages.views import Asked
 from app.studies.requests import EXAMPLES
@@ -31,14 +31,14 @@ def asked(**said: str) -> Asked:
     return Asked(page_path(BY_PATH[COUPLING.endpoint]), pairs_of(COUPLING.request), said)
 
 
-def checked(found: Asked) -> PageStudy:
-    return pages.checked(SPECTRUM, found, MOST, DEADLINE_S)
+def checked(found: Asked) -> StudyPage:
+    return pages.checked(SpectrumPage, found, MOST, DEADLINE_S)
 
 
-def shown(study: PageStudy) -> tuple[dict[str, Any], str]:
+def shown(study: StudyPage) -> tuple[dict[str, Any], str]:
     """The last line of a study, and what its page shows."""
     lines = [line for line in lines_of(study) if line["type"] != "progress"]
-    return lines[-1], unescape(pages.whole(study, lines).decode())
+    return lines[-1], unescape(pages.drawn(study, lines).decode())
 
 
 def test_a_table_as_a_spreadsheet_copies_it() -> None:
@@ -173,6 +173,13 @@ def test_what_is_wrong_stands_at_its_control(client: httpx.Client, said: dict[st
     assert page.status_code == 422
     assert re.search(rf'id="f\.{re.escape(control)}-fault"(?! hidden)', page.text), page.text
     assert f'href="#f.{control}"' in page.text
+
+
+def test_names_that_contradict_each_other_are_a_fault_on_the_page(client: httpx.Client) -> None:
+    page = client.get("/coupling/spectrum?a.b=3&a=x&cases=name")
+    assert page.status_code == 400
+    assert "<li>A field stands twice</li>" in page.text
+    assert '<form id="study"' in page.text
 
 
 @pytest.mark.slow

@@ -23,11 +23,10 @@ from app.figures.studies import MOST_CURVES, Coordinate, Grid, figures_of
 from app.pages import views
 from app.pages.query import STUDY_NAMES, VIEW_NAMES, body_of, pairs_of_query, split_views
 from app.pages.studies import page as pages
-from app.pages.studies.declaration import PageStudy, StudyAddresses
-from app.pages.studies.design import DESIGN
+from app.pages.studies.design import DesignPage
 from app.pages.studies.page import output_choices
-from app.pages.studies.spectrum import SPECTRUM
-from app.pages.studies.sweep import SWEEP, field_choices, point_address
+from app.pages.studies.spectrum import SpectrumPage
+from app.pages.studies.sweep import SweepPage, field_choices
 from app.pages.study_links import STUDIES, StudyExample
 from app.pages.views import Asked
 from app.schema.fields import leaf_at, leaves
@@ -35,7 +34,6 @@ from app.sources import SHORT_SOURCES
 from app.studies.engine import Line, point_line
 from app.studies.point_sets import PointSet
 from app.studies.points import Question, solve_point
-from app.studies.sweep import Sweep
 from tests.support.pages import asked
 
 MOST, DEADLINE_S = 2500, 30.0
@@ -48,9 +46,9 @@ MAP = {"x": SLOPE, "x.from": "-20", "x.to": "20", "x.count": "3", "y": CROWNING,
 QUICK = (COUPLING, "pahl-sleeve-orbit", "pahl-recommended-crowning", "milian-table-1", "fzg-type-a")
 
 
-def checked(found: Asked) -> tuple[PageStudy, PointSet]:
-    study = pages.checked(SWEEP, found, MOST, DEADLINE_S)
-    assert isinstance(study.study, Sweep)
+def checked(found: Asked) -> tuple[SweepPage, PointSet]:
+    study = pages.checked(SweepPage, found, MOST, DEADLINE_S)
+    assert isinstance(study, SweepPage)
     return study, study.study.points
 
 
@@ -58,7 +56,7 @@ def total(found: Asked) -> int:
     return checked(found)[1].total
 
 
-def solved(found: Asked) -> tuple[PageStudy, list[Line]]:
+def solved(found: Asked) -> tuple[SweepPage, list[Line]]:
     study, points = checked(found)
     lines = [
         point_line(index, points.rows[index], solve_point(study.study.question, points.overrides(index)))
@@ -80,9 +78,9 @@ def test_what_a_study_says_is_no_field_of_a_request() -> None:
 
 @pytest.mark.parametrize("example", STUDIES, ids=lambda each: each.title)
 def test_every_study_to_start_from_is_one(example: StudyExample) -> None:
-    opened = pages.opened(SWEEP, study_of(example), MOST, DEADLINE_S)
+    opened = pages.opened(SweepPage, study_of(example), MOST, DEADLINE_S)
     assert opened.status == 200
-    assert opened.study is not None
+    assert opened.page.study is not None
     assert opened.tail.endswith(b"</html>\n") or opened.tail.strip().endswith(b"</html>")
 
 
@@ -142,7 +140,7 @@ def test_a_points_link_opens_the_case_that_was_solved(name: str) -> None:
     )
     study, (*points, _) = solved(Asked(found.path, found.pairs, {"x": field, "x.count": "3"}))
     for index, point in enumerate(points):
-        _, _, query = point_address(study, index).partition("?")
+        _, _, query = study.point_address(index).partition("?")
         body = body_of(calculation.request, pairs_of_query(query))
         alone = solve_point(study.study.question._replace(base=body), {})
         assert alone.out == point["out"] != [None]
@@ -153,7 +151,7 @@ def test_a_link_of_a_field_that_excludes_others_leaves_them_out() -> None:
     study, _ = checked(
         Asked(found.path, found.pairs, {"x": "load.pinion_torque_n_m", "x.from": "1000", "x.to": "2000"})
     )
-    names = dict(pairs_of_query(point_address(study, 0).partition("?")[2]))
+    names = dict(pairs_of_query(study.point_address(0).partition("?")[2]))
     assert "load.pinion_torque_n_m" in names
     assert "load.power_kw" not in names
 
@@ -166,7 +164,7 @@ def test_an_item_of_a_list_is_varied_and_opened() -> None:
         )
     )
     assert "refused" not in {point["status"] for point in points}
-    body = body_of(found.calculation.request, pairs_of_query(point_address(study, 2).partition("?")[2]))
+    body = body_of(found.calculation.request, pairs_of_query(study.point_address(2).partition("?")[2]))
     assert body["coupling"]["pitch_errors_um"][3] == 20
 
 
@@ -186,8 +184,8 @@ def test_the_figures_numbers_are_the_points() -> None:
 
 def test_the_best_point_is_the_one_of_the_sweeps_end(client: httpx.Client) -> None:
     study, _ = checked(asked(LOADS, **MAP, **{"y.count": "7"}))
-    lines = [json.loads(line) for line in client.get(study.links.view(".ndjson")).text.splitlines()]
-    page = pages.whole(study, lines).decode()
+    lines = [json.loads(line) for line in client.get(study.view(".ndjson")).text.splitlines()]
+    page = pages.drawn(study, lines).decode()
     best = lines[-1]["best"]
     assert f"at helix slope {best['at'][0]:g} µm, helix crowning {best['at'][1]:g} µm" in page
 
@@ -278,7 +276,7 @@ def test_a_map_over_even_ratios_puts_its_points_where_the_axes_have_them() -> No
     ],
 )
 def test_what_is_refused_stands_at_its_control(said: dict[str, str], control: str, message: str) -> None:
-    opened = pages.opened(SWEEP, asked(COUPLING, **said), MOST, DEADLINE_S)
+    opened = pages.opened(SweepPage, asked(COUPLING, **said), MOST, DEADLINE_S)
     assert opened.status == 422
     page = unescape(opened.head.decode())
     found = re.search(rf'id="f\.{re.escape(control)}-fault">([^<]*)<', page)
@@ -289,7 +287,7 @@ def test_what_is_refused_stands_at_its_control(said: dict[str, str], control: st
 def test_a_fault_of_the_case_is_named_by_the_title_of_its_field() -> None:
     pairs = [(name, "-5" if name == "operation.torque_n_m" else text) for name, text in asked(COUPLING).pairs]
     said = {"x": "operation.misalignment_deg", "show": "axial_thrust.coaxial_limit_n"}
-    study = pages.opened(SWEEP, replace(asked(COUPLING, **said), pairs=pairs), MOST, DEADLINE_S).head.decode()
+    study = pages.opened(SweepPage, replace(asked(COUPLING, **said), pairs=pairs), MOST, DEADLINE_S).head.decode()
     case = views.page(replace(asked(COUPLING), pairs=pairs)).content.decode()
     for html in (study, case):
         problem = re.search(r'<div class="problem".*?</div>', html, re.DOTALL)
@@ -351,14 +349,14 @@ def test_hostile_queries_get_a_clear_page(client: httpx.Client, query: str) -> N
 
 def test_a_page_grows_and_ends_with_the_same_points_as_its_files(client: httpx.Client) -> None:
     study, _ = checked(study_of(STUDIES[1]))
-    page = client.get(study.links.view(""))
+    page = client.get(study.view(""))
     assert page.status_code == 200
     assert "244 points in" in page.text
-    told = client.get(study.links.view(".ndjson"))
+    told = client.get(study.view(".ndjson"))
     points = [json.loads(line) for line in told.text.splitlines()][1:-1]
     data = json.loads(unescape(re.findall(r'data-study="([^"]+)"', page.text)[0]))
     assert data["out"] == [point["out"][0] for point in points if point["type"] == "point"]
-    table = client.get(study.links.view(".csv"))
+    table = client.get(study.view(".csv"))
     assert table.headers["content-type"].startswith("text/csv")
     assert len(table.text.splitlines()) == 245
 
@@ -374,7 +372,7 @@ def test_empty_fields_are_dropped_by_a_redirect(client: httpx.Client) -> None:
 
 def test_figures_are_files(client: httpx.Client) -> None:
     said = {"x": "operation.misalignment_deg", "y": "operation.axial_velocity_mm_per_s", "y.count": "7"}
-    links = StudyAddresses(SWEEP.link.name, asked(COUPLING, **said))
+    links = SweepPage(asked(COUPLING, **said))
     for image_format, kind in MEDIA_TYPES.items():
         answer = client.get(links.image("map", image_format))
         assert answer.headers["content-type"] == kind
@@ -385,7 +383,7 @@ def test_figures_are_files(client: httpx.Client) -> None:
 
 
 def test_a_posted_study_is_the_same(client: httpx.Client) -> None:
-    links = StudyAddresses(SWEEP.link.name, asked(COUPLING, x="operation.torque_n_m", **{"x.count": "3"}))
+    links = SweepPage(asked(COUPLING, x="operation.torque_n_m", **{"x.count": "3"}))
     path, _, query = links.view(".csv").partition("?")
     form = {"Content-Type": "application/x-www-form-urlencoded"}
     assert client.post(path, content=query, headers=form).content == client.get(links.view(".csv")).content
@@ -393,7 +391,7 @@ def test_a_posted_study_is_the_same(client: httpx.Client) -> None:
 
 def test_ready_questions_on_the_page_of_a_case_are_asked_of_this_case() -> None:
     own = asked("xue-pair-3-modified")
-    page = unescape(pages.opened(SWEEP, own, MOST, DEADLINE_S).head.decode())
+    page = unescape(pages.opened(SweepPage, own, MOST, DEADLINE_S).head.decode())
     links = re.findall(r'<li><a href="([^"]+)">Which crowning forgives', page)
     pairs, said = split_views(pairs_of_query(links[0].partition("?")[2]))
     assert pairs == own.pairs
@@ -424,7 +422,7 @@ def test_a_map_marks_the_case_and_the_best_point() -> None:
 def test_the_names_of_a_study_are_those_of_its_form() -> None:
     varied_one, unit = asked(COUPLING, x="operation.torque_n_m"), asked("starter-turbo-gear-drive-train")
     scattering = asked(COUPLING, **{"t9": "friction.coefficient", "t9.by": "0.01"})
-    studies = ((SWEEP, varied_one), (DESIGN, unit), (SPECTRUM, scattering))
+    studies = ((SweepPage, varied_one), (DesignPage, unit), (SpectrumPage, scattering))
     forms = [pages.opened(page, case, MOST, DEADLINE_S).head for page, case in studies]
     pattern = r'<(?:input|select|textarea)\b[^>]*?\bname="([^"]+)"'
     found = [set(re.findall(pattern, form.decode())) for form in forms]

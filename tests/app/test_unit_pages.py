@@ -13,10 +13,10 @@ from app.calculations import BY_PATH
 from app.pages.cases import solved
 from app.pages.query import pairs_of_query, split_views
 from app.pages.studies import page as pages
-from app.pages.studies.corners import CORNERS
-from app.pages.studies.declaration import PageStudy, StudyPage
-from app.pages.studies.design import DESIGN
-from app.pages.studies.sensitivity import SENSITIVITY
+from app.pages.studies.corners import CornersPage
+from app.pages.studies.design import DesignPage
+from app.pages.studies.page import StudyPage
+from app.pages.studies.sensitivity import SensitivityPage
 from app.pages.study_links import study_links
 from app.pages.typesetting import shown
 from app.pages.views import Asked
@@ -34,11 +34,11 @@ def small(**said: str) -> Asked:
 
 
 @cache
-def studied(page: StudyPage) -> tuple[PageStudy, list[dict[str, Any]], str]:
-    found = small(trials="5") if page is DESIGN else asked(UNIT)
+def studied(page: type[StudyPage]) -> tuple[StudyPage, list[dict[str, Any]], str]:
+    found = small(trials="5") if page is DesignPage else asked(UNIT)
     study = pages.checked(page, found, MOST, DEADLINE_S)
     lines = lines_of(study)
-    return study, lines, unescape(pages.whole(study, lines).decode())
+    return study, lines, unescape(pages.drawn(study, lines).decode())
 
 
 def rows_of(page: str, title: str) -> list[list[str]]:
@@ -55,7 +55,7 @@ def value_of(address: str, output: str) -> float:
 
 
 def test_corners_name_both_ends_of_every_output_and_lead_there() -> None:
-    _, lines, page = studied(CORNERS)
+    _, lines, page = studied(CornersPage)
     extremes = {line["output"]: line for line in lines if line["type"] == "extremes"}
     outputs = {each["title"]: each["path"] for each in lines[0]["outputs"]}
     rows = rows_of(page, "Over all corners")
@@ -70,24 +70,24 @@ def test_corners_name_both_ends_of_every_output_and_lead_there() -> None:
 
 
 def test_the_worst_corner_is_that_of_least_safety_and_its_load_is_drawn() -> None:
-    study, lines, page = studied(CORNERS)
+    study, lines, page = studied(CornersPage)
     points = [line for line in lines if line["type"] == "point"]
     worst = min(points, key=lambda line: line["out"][0])
     changed = next(line for line in lines if line["type"] == "extremes" and line["output"] == SAFETY)["min"]["at"]
-    result = CORNERS.result(study, lines)
-    assert set(result.figures) <= set(CORNERS.figures)
+    result = study.result(lines)
+    assert set(result.figures) <= set(CornersPage.figures)
     assert [row[2] for row in rows_of(page, "The worst corner")] == [shown(value) for value in changed.values()]
     (panel,) = result.figures["corners"].panels
     assert [len(row.dots) for row in panel.rows] == [len(axis["values"]) for axis in lines[0]["axes"]]
     for row in panel.rows:
         assert min(dot.value for dot in row.dots) == worst["out"][0] == row.value
         assert [dot.value for dot in row.dots if dot.hue == "vermillion"] == [row.value]
-    nominal = study.case({}, [SAFETY]).response.safety.blok_flank
+    nominal = study.solved({}).response.safety.blok_flank
     assert [(level.value, level.vertical) for level in panel.levels] == [(nominal, True)]
     curves = result.figures["face-load"].panels[0].lines
     assert [(line.title, line.role) for line in curves] == [("worst corner", "result"), ("as described", "variant")]
     for line, changes in zip(curves, (changed, {}), strict=True):
-        force = study.case(changes, [SAFETY]).response.misalignment.curves.line_force_n_per_mm
+        force = study.solved(changes).response.misalignment.curves.line_force_n_per_mm
         assert line.y.tolist() == force
     assert [lead.text for lead in result.leads] == ["Open the worst corner", "Its report", "What to grind"]
     assert value_of(result.leads[0].address, SAFETY) == worst["out"][0]
@@ -95,7 +95,7 @@ def test_the_worst_corner_is_that_of_least_safety_and_its_load_is_drawn() -> Non
 
 
 def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> None:
-    study, lines, page = studied(DESIGN)
+    study, lines, page = studied(DesignPage)
     end = lines[-1]
     assert end["evaluations"] == 5
     assert end["objective_best"] > end["objective_start"]
@@ -107,32 +107,32 @@ def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> 
     worst, nominal = rows_of(page, "What it brings")
     assert worst[1:3] == [shown(end["objective_start"]), shown(wanted["objective"])]
     before, after = dict[str, Any](), wanted["at"]
-    cases = [study.case(at, [SAFETY]).response.safety.blok_flank for at in (before, after)]
+    cases = [study.solved(at).response.safety.blok_flank for at in (before, after)]
     assert nominal[1:3] == [shown(each) for each in cases]
     assert ("With the inputs as described it is worse" in page) == (cases[1] < cases[0])
     numbers = {row[0].partition(":")[0].partition(",")[0]: row[1] for row in rows_of(page, "Which number is which")}
-    estimate = study.case({}, [SAFETY]).response.misalignment.recommended_helix_slope_um
+    estimate = study.solved({}).response.misalignment.recommended_helix_slope_um
     assert numbers["first estimate"] == shown(estimate, 4)
     assert numbers["best at the worst corner"] == shown(end["best"][SLOPE], 4)
     assert numbers["to grind"] == shown(wanted["at"][SLOPE], 4)
-    result = DESIGN.result(study, lines)
+    result = study.result(lines)
     assert list(result.figures) == ["lead", "face-load", "gap", "search"], "the search comes last"
-    assert set(result.figures) == set(DESIGN.figures)
+    assert set(result.figures) == set(DesignPage.figures)
     reached = result.figures["search"].panels[0].lines[0].y.tolist()
     assert reached == [line["objective"] for line in lines if line["type"] == "trial"]
     pairs = dict(pairs_of_query(result.leads[0].address.partition("?")[2]))
     assert {path: float(pairs[path]) for path in wanted["at"]} == wanted["at"]
     assert result.leads[2].address.startswith("/drive-train/corners?")
-    at_worst = study.case({**wanted["at"], **wanted["worst_corner"]}, [SAFETY]).response
+    at_worst = study.solved({**wanted["at"], **wanted["worst_corner"]}).response
     assert at_worst.safety.blok_flank == wanted["objective"]
 
 
 def test_the_sheet_names_the_end_where_material_is_removed() -> None:
     """The lead chart is lowest there, whatever the sign of the slope; the other end is the highest."""
-    study, lines, _ = studied(DESIGN)
+    study, lines, _ = studied(DesignPage)
     for slope in (30.0, -30.0):
         end = {**lines[-1], "rounded": {**lines[-1]["rounded"], "at": {**lines[-1]["rounded"]["at"], SLOPE: slope}}}
-        result = DESIGN.result(study, [*lines[:-1], end])
+        result = study.result([*lines[:-1], end])
         _, _, where, _, amount, *_ = map(str, result.first[0].rows[0])
         low, high = (float(text) for text in re.findall(r"Z = (\d+) mm", where))
         trace = result.figures["lead"].panels[0].lines[0]
@@ -142,24 +142,24 @@ def test_the_sheet_names_the_end_where_material_is_removed() -> None:
 
 
 def test_the_best_so_far_is_shown_while_the_search_runs_and_when_it_ends_early() -> None:
-    study, lines, _ = studied(DESIGN)
+    study, lines, _ = studied(DesignPage)
     trials = [line for line in lines if line["type"] == "trial"]
     best = max(trials[:3], key=lambda line: line["objective"])
     error = {"type": "error", "code": "study_deadline", "message": "the study took longer than 1 s", "done": 9}
-    for page in (pages.partial(study, lines[:4], 9), pages.whole(study, [*lines[:4], error])):
+    for page in (pages.drawn(study, lines[:4], 9), pages.drawn(study, [*lines[:4], error])):
         text = unescape(page.decode())
         *corrections, judged = rows_of(text, "Best so far")
         assert [row[2] for row in corrections] == [shown(value, 4) for value in best["at"].values()]
         assert judged[1:3] == [shown(trials[0]["objective"]), shown(best["objective"])]
         assert "Open the unit ground so" in text
-    assert "9 of " in pages.partial(study, [], 9).decode()
+    assert "9 of " in pages.drawn(study, [], 9).decode()
 
 
 def test_corners_are_those_typed_on_both_pages() -> None:
     said = {"corner.friction": "0,1; 0.2", "corner.offset": "0 300; 300 0", "corner.pinion_clearance": "140 120"}
     turbo = asked("starter-turbo-gear-drive-train", **said)
-    for page, part, others in ((CORNERS, "ranges", 3), (DESIGN, "corners", 1)):
-        body = page.body(turbo, pages.checked(page, turbo, MOST, DEADLINE_S).output)
+    for page, part, others in ((CornersPage, "ranges", 3), (DesignPage, "corners", 1)):
+        body = pages.checked(page, turbo, MOST, DEADLINE_S).body()
         values = {str(axis["path"]): axis["values"] for axis in body[part]}
         assert values["couplings.0.friction.coefficient"] == [0.1, 0.2]
         assert values["['couplings.0.offset_um.0', 'couplings.0.offset_um.1']"] == [[0, 300], [300, 0]]
@@ -173,7 +173,7 @@ def test_corners_are_those_typed_on_both_pages() -> None:
 
 def test_ranges_and_trials_come_from_the_form() -> None:
     said = {"low.0": "-10", "high.0": "20,5", "trials": "7", "show": "load.face_load_factor"}
-    body = DESIGN.body(asked(UNIT, **said), pages.checked(DESIGN, asked(UNIT, **said), MOST, DEADLINE_S).output)
+    body = pages.checked(DesignPage, asked(UNIT, **said), MOST, DEADLINE_S).body()
     assert body["variables"][0] == {"path": ["modifications.helix_slope_um"], "min": -10, "max": 20.5, "step": 0.5}
     assert body["variables"][1]["max"] == 20.0
     assert (body["evaluations"], body["objective"], body["direction"]) == (7, "load.face_load_factor", "minimise")
@@ -189,24 +189,24 @@ def test_ranges_and_trials_come_from_the_form() -> None:
     ],
 )
 def test_what_is_wrong_stands_at_its_control(said: dict[str, str], control: str, title: str) -> None:
-    opened = pages.opened(DESIGN, asked(UNIT, **said), MOST, DEADLINE_S)
+    opened = pages.opened(DesignPage, asked(UNIT, **said), MOST, DEADLINE_S)
     assert opened.status == 422
     assert f'<a href="#f.{control}">{title}</a>' in opened.head.decode()
 
 
-@pytest.mark.parametrize("page", [CORNERS, DESIGN], ids=lambda page: page.link.name)
-def test_a_unit_without_the_output_says_which_to_choose(page: StudyPage) -> None:
+@pytest.mark.parametrize("page", [CornersPage, DesignPage], ids=lambda page: page.link.name)
+def test_a_unit_without_the_output_says_which_to_choose(page: type[StudyPage]) -> None:
     bare = small()
     without = Asked(bare.path, [pair for pair in bare.pairs if not pair[0].startswith("temperatures.scuffing")])
     study = pages.checked(page, without, MOST, DEADLINE_S)
-    text = pages.whole(study, lines_of(study)).decode()
+    text = pages.drawn(study, lines_of(study)).decode()
     assert "choose another output" in text or "has no answer at its worst corner" in text
 
 
-@pytest.mark.parametrize("page", [SENSITIVITY, CORNERS, DESIGN], ids=lambda page: page.link.name)
-def test_a_study_that_breaks_off_says_why(page: StudyPage) -> None:
+@pytest.mark.parametrize("page", [SensitivityPage, CornersPage, DesignPage], ids=lambda page: page.link.name)
+def test_a_study_that_breaks_off_says_why(page: type[StudyPage]) -> None:
     study = pages.checked(page, asked(UNIT), MOST, DEADLINE_S)
-    text = pages.whole(study, [{"type": "error", "code": "study_deadline", "message": "<b>too long</b>", "done": 3}])
+    text = pages.drawn(study, [{"type": "error", "code": "study_deadline", "message": "<b>too long</b>", "done": 3}])
     assert "&lt;b&gt;too long&lt;/b&gt;" in text.decode()
 
 

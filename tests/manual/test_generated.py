@@ -19,7 +19,8 @@ from app.main import app
 from app.manual.chapters import NAMES, chapters
 from app.manual.equations import anchor
 from app.pages.manual import shown_studies
-from app.pages.studies.page import PAGES, checked, file
+from app.pages.studies import PAGES
+from app.pages.studies.page import checked, file
 from app.pages.views import Asked
 from app.settings import Settings
 from app.studies.engine import Clock, Line

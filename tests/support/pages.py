@@ -7,7 +7,7 @@ from typing import Any
 from app.calculations import BY_PATH
 from app.examples import examples
 from app.pages.query import pairs_of
-from app.pages.studies.declaration import PageStudy
+from app.pages.studies.page import StudyPage
 from app.pages.templating import page_path
 from app.pages.views import Asked
 from app.studies.engine import Clock
@@ -20,7 +20,7 @@ def asked(name: str, **said: str) -> Asked:
     return Asked(page_path(BY_PATH[example.endpoint]), pairs_of(example.request), said)
 
 
-def lines_of(study: PageStudy) -> list[dict[str, Any]]:
+def lines_of(study: StudyPage) -> list[dict[str, Any]]:
     """Every line of a study, calculated in this process, as a client reads it."""
 
     async def run() -> list[dict[str, Any]]:

@@ -3,7 +3,7 @@
 import asyncio
 import logging
 from collections.abc import AsyncGenerator, Callable
-from contextlib import aclosing
+from contextlib import aclosing, suppress
 from functools import partial
 from typing import Any
 
@@ -14,8 +14,9 @@ from app.errors import ClientGone, DeadlineExceeded, StudyEnded, WorkerLost
 from app.figures import rendering
 from app.http.routes import pages
 from app.http.routes.studies import MEDIA_TYPES, begun, encoder, planned, streamed
+from app.pages.studies import PAGES
 from app.pages.studies import page as study_page
-from app.pages.studies.declaration import PageStudy, StudyPage
+from app.pages.studies.page import StudyPage
 from app.pages.study_links import study_links
 from app.pages.templating import page_path
 from app.pages.views import Asked
@@ -46,7 +47,7 @@ def not_from_another_site(http: Request) -> None:
 router = APIRouter(include_in_schema=False, dependencies=[Depends(not_from_another_site)])
 
 
-def _add(calculation: Calculation, own: StudyPage) -> None:
+def _add(calculation: Calculation, own: type[StudyPage]) -> None:
     """The page of a study of a calculation's cases, its lines and its figures."""
     path = f"{page_path(calculation)}/{own.link.name}"
     policy = {"Content-Security-Policy": pages.DOCUMENT_POLICY}
@@ -77,9 +78,9 @@ def _add(calculation: Calculation, own: StudyPage) -> None:
             return pages.error_page(http, error)
         return Response(content, media_type=pages.HTML, headers=policy)
 
-    async def checked(http: Request) -> PageStudy:
+    async def checked(http: Request) -> StudyPage:
         asked, _ = await pages.asked_of(http, calculation)
-        found: PageStudy = await _planned(http, own, asked, study_page.checked)
+        found: StudyPage = await _planned(http, own, asked, study_page.checked)
         return found
 
     router.add_api_route(path, page, methods=pages.METHODS)
@@ -88,19 +89,19 @@ def _add(calculation: Calculation, own: StudyPage) -> None:
     router.add_api_route(f"{path}/figures/{{name}}.{{image_format}}", figure, methods=pages.METHODS)
 
 
-async def _page(http: Request, calculation: Calculation, own: StudyPage, path: str) -> Response:
+async def _page(http: Request, calculation: Calculation, own: type[StudyPage], path: str) -> Response:
     """A study's page; whole where there is nothing to calculate."""
     asked, clean = await pages.asked_of(http, calculation)
     if not clean and http.scope["method"] == "GET":
         return pages.redirected(path, asked)
     opened: study_page.Opened = await _planned(http, own, asked, study_page.opened)
-    if opened.study is None:
+    if opened.page.study is None:
         return pages.html(opened.head + opened.tail, opened.status)
     headers = {"Content-Security-Policy": pages.PAGE_POLICY}
-    return await streamed(http, opened.study.study, partial(_pieces, http, opened), pages.HTML, headers, PROGRESS_S)
+    return await streamed(http, opened.page.study, partial(_pieces, http, opened), pages.HTML, headers, PROGRESS_S)
 
 
-async def _planned(http: Request, own: StudyPage, asked: Asked, view: Callable[..., Any]) -> Any:
+async def _planned(http: Request, own: type[StudyPage], asked: Asked, view: Callable[..., Any]) -> Any:
     """The study of a case, or its page, from a worker."""
     if asked.pairs:
         http.app.state.start_up.require(asked.calculation.path)
@@ -110,45 +111,45 @@ async def _planned(http: Request, own: StudyPage, asked: Asked, view: Callable[.
 async def _pieces(http: Request, opened: study_page.Opened, lines: Lines, clock: Clock) -> AsyncGenerator[bytes, None]:
     """The page of a study: head, results so far that replace each other, tail."""
     yield opened.head
-    study, received, due = opened.study, list[Line](), FIRST_FRAME_S
-    assert study is not None
+    received, due = list[Line](), FIRST_FRAME_S
     async with aclosing(lines):
         async for group in lines:
             received += [line for line in group if line["type"] != "progress"]
             has_ended = bool(received) and received[-1]["type"] in {"end", "error"}
             if clock.done and clock.elapsed_s >= due and not has_ended:
-                yield await _part(http, study_page.partial, study, received if study.page.grows else [], clock.done)
+                yield await _part(http, study_page.drawn, opened.page, received, clock.done)
                 due = clock.elapsed_s + min(max(FRAME_SHARE * clock.elapsed_s, FIRST_FRAME_S), LONGEST_PAUSE_S)
-    yield await _part(http, study_page.whole, study, received)
+    yield await _part(http, study_page.drawn, opened.page, received)
     yield opened.tail
 
 
 async def _part(http: Request, view: Callable[..., bytes], *arguments: Any) -> bytes:
     """The result of a view in a worker, or a note that it failed: the page has begun, its status is sent."""
+    made: bytes = NOT_DRAWN
     try:
-        made: bytes = await twice_if_lost(http.app.state.studies.own(), view, *arguments)
-    except (WorkerLost, DeadlineExceeded):
-        return NOT_DRAWN
+        with suppress(WorkerLost, DeadlineExceeded):
+            made = await twice_if_lost(http.app.state.studies.own(), view, *arguments)
     except Exception:
         logger.exception("a part of a study's page failed")
-        return NOT_DRAWN
     return made
 
 
-async def _made(http: Request, study: PageStudy, view: Callable[..., bytes | str], *arguments: Any) -> bytes:
+async def _made(http: Request, study: StudyPage, view: Callable[..., bytes | str], *arguments: Any) -> bytes:
     """The result of a view of all lines of a study in a worker; the study ends when the client leaves.
 
     Raises StudyEnded at an error, HTTPException where the view answers why there is nothing, and ClientGone.
     """
 
-    async def work() -> bytes | str:
+    async def work() -> bytes:
         lines, _ = await begun(http, study.study)
         async with aclosing(lines):
             received = [line async for group in lines for line in group if line["type"] != "progress"]
         if received[-1]["type"] == "error":
             raise StudyEnded(received[-1]["message"])
-        found: bytes | str = await twice_if_lost(http.app.state.studies.own(), view, study, received, *arguments)
-        return found
+        made: bytes | str = await twice_if_lost(http.app.state.studies.own(), view, study, received, *arguments)
+        if isinstance(made, str):
+            raise HTTPException(404, made)
+        return made
 
     with http.app.state.studies.place():
         working, gone = asyncio.create_task(work()), asyncio.create_task(disconnected(http))
@@ -156,16 +157,13 @@ async def _made(http: Request, study: PageStudy, view: Callable[..., bytes | str
             await asyncio.wait({working, gone}, return_when=asyncio.FIRST_COMPLETED)
             if not working.done():
                 raise ClientGone
-            made = working.result()
+            return working.result()
         finally:
             working.cancel()
             gone.cancel()
             await asyncio.gather(working, gone, return_exceptions=True)
-    if isinstance(made, str):
-        raise HTTPException(404, made)
-    return made
 
 
 for each in CALCULATIONS:
     for study_link in study_links(each):
-        _add(each, study_page.PAGES[study_link])
+        _add(each, PAGES[study_link])

@@ -1,10 +1,19 @@
 """Pages of studies, each below that of the case.
 
-declaration     what is declared of a study's page, what it shows, the addresses of its views and points
+page            what they share: before, during and after the calculation; made in workers
 sweep           one field or two varied
 spectrum        a load spectrum with tolerances: probabilities and losses
 sensitivity     which input moves an output most
 corners         the worst combination of uncertain inputs
 design          the flank correction whose worst corner is best
-page            the page of each of these before, during and after the calculation; made in workers
 """
+
+from app.pages.studies.corners import CornersPage
+from app.pages.studies.design import DesignPage
+from app.pages.studies.page import StudyPage
+from app.pages.studies.sensitivity import SensitivityPage
+from app.pages.studies.spectrum import SpectrumPage
+from app.pages.studies.sweep import SweepPage
+
+KINDS: tuple[type[StudyPage], ...] = (SweepPage, SensitivityPage, SpectrumPage, CornersPage, DesignPage)
+PAGES = {each.link: each for each in KINDS}

@@ -1,30 +1,26 @@
 """Design: the flank correction whose worst corner is best, as a sheet for the grinder, and how it was found."""
 
-from functools import partial
 from math import inf
 from typing import Any
 
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, values
-from app.figures.models.drive_train import GAP
+from app.figures.models.drive_train import GAP, LOAD_ALONE
 from app.figures.studies import LeadTrace, Tried, lead_chart, search
 from app.figures.units import axis_of
 from app.pages import study_links
 from app.pages.cases import Case
-from app.pages.query import LOWER, TRIALS, UPPER, number_of, text_of
-from app.pages.studies.corners import OUTPUT, corner_table, load_figure, range_controls, ranges_of
-from app.pages.studies.declaration import Controls, Form, Link, Number, PageStudy, Result, StudyPage, Table
+from app.pages.query import LOWER, TRIALS, UPPER
+from app.pages.studies.corners import UnitPage, load_figure
+from app.pages.studies.page import Controls, Link, Number, Result, Table
 from app.pages.typesetting import shown
-from app.pages.views import Asked
-from app.schema.fields import Leaf
 from app.studies.design import Design
 from app.studies.engine import Line
-from app.studies.fields import scalar_at, value_at
+from app.studies.fields import value_at
 from app.studies.requests import Overrides
 
 EVALUATIONS = 40  # offered at first, chosen
 STEP_UM = 0.5  # to which a correction is rounded
-LEFT_ALONE = ("pinion clearance", "wheel clearance", "thrust fraction")  # of the uncertain inputs, for they say least
 SLOPE, CROWNING = "modifications.helix_slope_um", "modifications.lead_crowning_um"
 TIP, ROOT = "modifications.tip_relief_um", "modifications.root_relief_um"
 
@@ -38,92 +34,164 @@ GROUND = (
 )
 
 
-def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
-    """The ranges as typed or usual, at the corners as typed or the usual ones of heat and couplings."""
-    views = asked.views
-    return {
-        "request": asked.body,
-        "variables": [
+class DesignPage(UnitPage):
+    """The flank correction whose worst corner is best."""
+
+    link = study_links.DESIGN
+    question = "what to grind?"
+    about = (
+        "A search for helix slope, crowning and relief, each judged at its worst corner of the uncertain inputs. It "
+        "starts from the correction of the case."
+    )
+    figures = ("lead", LOAD_ALONE.name, GAP.name, "search")
+    grows = True
+    left_alone = ("pinion clearance", "wheel clearance", "thrust fraction")  # for they say least
+    plan = Design
+
+    def body(self) -> dict[str, Any]:
+        """The ranges as typed or usual, at the corners as typed or the usual ones of heat and couplings."""
+        output = self.output
+        variables = [
             {
                 "path": list(paths),
-                "min": number_of(views.get(f"{LOWER}{place}", text_of(low))),
-                "max": number_of(views.get(f"{UPPER}{place}", text_of(high))),
+                "min": self.number(f"{LOWER}{place}", low),
+                "max": self.number(f"{UPPER}{place}", high),
                 "step": STEP_UM,
             }
             for place, (_, paths, low, high) in enumerate(GROUND)
-        ],
-        "corners": list(ranges_of(asked, LEFT_ALONE).values()) or None,
-        "objective": output.path,
-        "direction": "maximise" if output.view.greatest_is_best else "minimise",
-        "evaluations": number_of(views.get(TRIALS, str(EVALUATIONS))),
-    }
+        ]
+        return {
+            "request": self.asked.body,
+            "variables": variables,
+            "corners": list(self.ranges().values()) or None,
+            "objective": output.path,
+            "direction": "maximise" if output.view.greatest_is_best else "minimise",
+            "evaluations": self.number(TRIALS, EVALUATIONS),
+        }
 
+    def places(self) -> dict[str, str]:
+        """The ends of the ranges, of the uncertain inputs, and the number of trials."""
+        lower = {f"variables.{place}": f"{LOWER}{place}" for place in range(len(GROUND))}
+        upper = {f"variables.{place}.max": f"{UPPER}{place}" for place in range(len(GROUND))}
+        return {**super().places(), **lower, **upper, "evaluations": TRIALS, "objective": "show"}
 
-def _controls(form: Form) -> tuple[Controls, ...]:
-    """Ranges of what may be ground, how many corrections are tried, and the uncertain inputs."""
-    fields = [form.field(TRIALS, "corrections tried", EVALUATIONS)]
-    for place, (label, _, low, high) in enumerate(GROUND):
-        fields.append(form.field(f"{LOWER}{place}", f"{label}, from", low, "µm"))
-        fields.append(form.field(f"{UPPER}{place}", f"{label}, to", high, "µm"))
-    return Controls("Search", fields=tuple(fields)), *range_controls(form, LEFT_ALONE)
+    def controls(self) -> tuple[Controls, ...]:
+        """Ranges of what may be ground, how many corrections are tried, and the uncertain inputs."""
+        fields = [self.field(TRIALS, "corrections tried", EVALUATIONS)]
+        for place, (label, _, low, high) in enumerate(GROUND):
+            fields.append(self.field(f"{LOWER}{place}", f"{label}, from", low, "µm"))
+            fields.append(self.field(f"{UPPER}{place}", f"{label}, to", high, "µm"))
+        return Controls("Search", fields=tuple(fields)), *super().controls()
 
+    def result(self, lines: list[Line]) -> Result:
+        """The sheet, what it brings, which number is which; the load and the gap; the search."""
+        trials = [line for line in lines if line["type"] == "trial"]
+        solved = [line for line in trials if line["objective"] is not None]
+        if not solved:
+            return Result("")
+        end, greatest = lines[-1], self.output.view.greatest_is_best
+        reached = [line["objective"] for line in trials]
+        tried = [Tried(inf if each is None else each, each is not None) for each in reached]
+        figure = {"search": search(axis_of(self.output), tried, greatest=greatest)}
+        if end["type"] != "end":
+            best = (max if greatest else min)(solved, key=lambda line: line["objective"])
+            lead = Link("Open the unit ground so", self.address(best["at"]))
+            return Result("", figure, first=(self._so_far(solved[0], best),), leads=(lead,))
+        wanted = end["rounded"]
+        if wanted["objective"] is None:
+            wanted = {"at": end["best"], "objective": end["objective_best"], "worst_corner": end["worst_corner"]}
+        at, corner = wanted["at"], wanted["worst_corner"]
+        case, ground = self.solved({}), self.solved(at)
+        at_worst, as_described = self.solved({**at, **corner}), self.solved(trials[0]["worst_corner"])
+        finding = "each at its worst corner, dashed as described: "
+        figures = {
+            "lead": self._lead_chart(case, at),
+            **load_figure(at_worst, as_described, "ground so", finding),
+            **_gap(ground, case),
+            **figure,
+        }
+        unsolved = end["unsolved"]
+        return Result(
+            f"{end['evaluations']} corrections at {lines[0]['corners']} corners in {shown(end['elapsed_s'], 2)} s",
+            figures,
+            (_numbers(case, end, at), self.corner_table("The worst corner with this correction", ground, corner)),
+            (f"{unsolved} of the corrections had a corner without solution.",) if unsolved else (),
+            (
+                Link("Open the unit ground so", self.address(at)),
+                Link("Its report", self.address(at, "/report")),
+                Link("Its worst corners", self.address(at, f"/{study_links.CORNERS.name}")),
+            ),
+            first=(self._sheet(case, at), self._before_and_after(end, wanted, case, ground)),
+        )
 
-def _result(study: PageStudy, lines: list[Line]) -> Result:
-    """The sheet, what it brings, which number is which; the load and the gap; the search."""
-    trials = [line for line in lines if line["type"] == "trial"]
-    solved = [line for line in trials if line["objective"] is not None]
-    if not solved:
-        return Result("")
-    end, output = lines[-1], study.output
-    greatest = output.view.greatest_is_best
-    reached = [line["objective"] for line in trials]
-    tried = [Tried(inf if each is None else each, each is not None) for each in reached]
-    figure = {"search": search(axis_of(output), tried, greatest=greatest)}
-    if end["type"] != "end":
-        best = (max if greatest else min)(solved, key=lambda line: line["objective"])
-        lead = Link("Open the unit ground so", study.address(best["at"]))
-        return Result("", figure, first=(_so_far(study, solved[0], best),), leads=(lead,))
-    wanted = end["rounded"]
-    if wanted["objective"] is None:
-        wanted = {"at": end["best"], "objective": end["objective_best"], "worst_corner": end["worst_corner"]}
-    at, corner, outputs = wanted["at"], wanted["worst_corner"], [output.path]
-    case, ground = study.case({}, outputs), study.case(at, outputs)
-    figures = {
-        "lead": _lead_chart(case, at),
-        **load_figure(
-            study.case({**at, **corner}, outputs),
-            study.case(trials[0]["worst_corner"], outputs),
-            "ground so",
-            "each at its worst corner, dashed as described: ",
-        ),
-        **_gap(ground, case),
-        **figure,
-    }
-    unsolved = end["unsolved"]
-    return Result(
-        f"{end['evaluations']} corrections at {lines[0]['corners']} corners in {shown(end['elapsed_s'], 2)} s",
-        figures,
-        (_numbers(case, end, at), corner_table("The worst corner with this correction", study, ground, corner)),
-        (f"{unsolved} of the corrections had a corner without solution.",) if unsolved else (),
-        (
-            Link("Open the unit ground so", study.address(at)),
-            Link("Its report", study.address(at, "/report")),
-            Link("Its worst corners", study.address(at, f"/{study_links.CORNERS.name}")),
-        ),
-        first=(_sheet(study, case, at), _before_and_after(study, end, wanted, case, ground)),
-    )
+    def _so_far(self, start: Line, best: Line) -> Table:
+        """The best correction found, before the search has ended."""
+        rows = []
+        for path, value in best["at"].items():
+            leaf = self.input(path)
+            rows.append((leaf.title, shown(start["at"][path], 4), shown(value, 4), leaf.unit or ""))
+        judged = f"{self.output.title}, at the worst corner"
+        rows.append((judged, shown(start["objective"]), shown(best["objective"]), self.output.unit or ""))
+        return Table("Best so far", ("correction", Number("as described"), Number("best so far"), "unit"), rows)
 
+    def _sheet(self, case: Case, at: Overrides) -> Table:
+        """What to grind: gear, place, amount and tolerance."""
+        inputs = case.response.inputs
+        slope = float(at[SLOPE] or 0.0)
+        deep, high = _ends(case) if slope < 0.0 else reversed(_ends(case))
+        tip, wheel_tip = (
+            f"tip relief, {shown(length)} mm along the line of action" if length is not None else "tip relief"
+            for length in (value_at(inputs, path.replace("_um", "_length_mm")) for path in (TIP, ROOT))
+        )
+        entries = (
+            (SLOPE, "pinion", "helix slope, over the face width", f"{deep} deeper than the {high}, straight between"),
+            (CROWNING, "pinion", "helix crowning", "both ends deeper than the middle of the face"),
+            (TIP, "pinion", tip, "tip deeper than the involute"),
+            (ROOT, "wheel", wheel_tip, "tip deeper than the involute"),
+        )
+        rows = []
+        for path, gear, feature, place in entries:
+            leaf, described, amount = self.input(path), float(value_at(inputs, path) or 0.0), at[path]
+            if path == SLOPE:  # `where` says the sign
+                described, amount = -described if slope < 0.0 else described, abs(slope)
+            numbers = (shown(described), shown(amount, 4), f"± {shown(leaf.declared.tolerance)}")
+            rows.append((gear, feature, place, *numbers, leaf.unit or ""))
+        numbered = map(Number, ("as described", "grind", "tolerance"))
+        note = (
+            f"Working flanks only; deeper: more material removed. Multiples of {STEP_UM:g} µm; tolerances are those "
+            "usual for these corrections. Helix slope and crowning are the sum of both gears, here all on the pinion; "
+            "tip relief of the wheel stands for root relief of the pinion."
+        )
+        return Table("What to grind", ("gear", "correction", "where", *numbered, "unit"), rows, note)
 
-def _so_far(study: PageStudy, start: Line, best: Line) -> Table:
-    """The best correction found, before the search has ended."""
-    output = study.output
-    rows = []
-    for path, value in best["at"].items():
-        leaf = study.input(path)
-        rows.append((leaf.title, shown(start["at"][path], 4), shown(value, 4), leaf.unit or ""))
-    judged = f"{output.title}, at the worst corner"
-    rows.append((judged, shown(start["objective"]), shown(best["objective"]), output.unit or ""))
-    return Table("Best so far", ("correction", Number("as described"), Number("best so far"), "unit"), tuple(rows))
+    def _before_and_after(self, end: Line, wanted: Line, case: Case, ground: Case) -> Table:
+        """The output at the worst corner and as described, before and after, and why the latter may fall."""
+        output = self.output
+        before, after = (value_at(each.response, output.path) for each in (case, ground))
+        unit, note = output.unit or "", ""
+        rows = (
+            ("at the worst corner of each", shown(end["objective_start"]), shown(wanted["objective"]), unit),
+            ("with the inputs as described", shown(before), shown(after), unit),
+        )
+        if None not in {before, after} and (after < before if output.view.greatest_is_best else after > before):
+            note = (
+                "With the inputs as described it is worse than before: the correction is sized for the corner that is "
+                "worst for it, and a flank that is right there is not quite right elsewhere."
+            )
+        return Table("What it brings", (output.title, Number("as described"), Number("ground so"), "unit"), rows, note)
+
+    def _lead_chart(self, case: Case, at: Overrides) -> Figure:
+        """The trace of helix slope and crowning with its tolerances, dashed as described."""
+        curves, inputs = case.response.misalignment.curves, case.response.inputs
+        position = values(curves.position_mm)
+        trace = LeadTrace(
+            values(curves.z_mm),
+            values(position / position[-1]),
+            *(float(at[path] or 0.0) for path in (SLOPE, CROWNING)),
+            *(self.input(path).declared.tolerance or 0.0 for path in (SLOPE, CROWNING)),
+        )
+        slope, crowning = (float(value_at(inputs, path) or 0.0) for path in (SLOPE, CROWNING))
+        return lead_chart(trace, (slope, crowning), _ends(case))
 
 
 def _ends(case: Case) -> tuple[str, str]:
@@ -134,54 +202,6 @@ def _ends(case: Case) -> tuple[str, str]:
         return f"end at Z = {shown(first)} mm", f"end at Z = {shown(last)} mm"
     sides = ("drive end", "free end") if abs(first - drive) < abs(last - drive) else ("free end", "drive end")
     return f"{sides[0]} (Z = {shown(first)} mm)", f"{sides[1]} (Z = {shown(last)} mm)"
-
-
-def _sheet(study: PageStudy, case: Case, at: Overrides) -> Table:
-    """What to grind: gear, place, amount and tolerance."""
-    inputs = case.response.inputs
-    slope = float(at[SLOPE] or 0.0)
-    deep, high = _ends(case) if slope < 0.0 else reversed(_ends(case))
-    tip, wheel_tip = (
-        f"tip relief, {shown(length)} mm along the line of action" if length is not None else "tip relief"
-        for length in (value_at(inputs, path.replace("_um", "_length_mm")) for path in (TIP, ROOT))
-    )
-    entries = (
-        (SLOPE, "pinion", "helix slope, over the face width", f"{deep} deeper than the {high}, straight between"),
-        (CROWNING, "pinion", "helix crowning", "both ends deeper than the middle of the face"),
-        (TIP, "pinion", tip, "tip deeper than the involute"),
-        (ROOT, "wheel", wheel_tip, "tip deeper than the involute"),
-    )
-    rows = []
-    for path, gear, feature, place in entries:
-        leaf, described, amount = study.input(path), float(value_at(inputs, path) or 0.0), at[path]
-        if path == SLOPE:  # `where` says the sign
-            described, amount = -described if slope < 0.0 else described, abs(slope)
-        numbers = (shown(described), shown(amount, 4), f"± {shown(leaf.declared.tolerance)}")
-        rows.append((gear, feature, place, *numbers, leaf.unit or ""))
-    numbered = map(Number, ("as described", "grind", "tolerance"))
-    note = (
-        f"Working flanks only; deeper: more material removed. Multiples of {STEP_UM:g} µm; tolerances are those usual "
-        "for these corrections. Helix slope and crowning are the sum of both gears, here all on the pinion; tip relief "
-        "of the wheel stands for root relief of the pinion."
-    )
-    return Table("What to grind", ("gear", "correction", "where", *numbered, "unit"), tuple(rows), note)
-
-
-def _before_and_after(study: PageStudy, end: Line, wanted: Line, case: Case, ground: Case) -> Table:
-    """The output at the worst corner and at the values as described, before and after, and why the latter may fall."""
-    output = study.output
-    before, after = (value_at(each.response, output.path) for each in (case, ground))
-    unit, note = output.unit or "", ""
-    rows = (
-        ("at the worst corner of each", shown(end["objective_start"]), shown(wanted["objective"]), unit),
-        ("with the inputs as described", shown(before), shown(after), unit),
-    )
-    if None not in {before, after} and (after < before if output.view.greatest_is_best else after > before):
-        note = (
-            "With the inputs as described it is worse than before: the correction is sized for the corner that is "
-            "worst for it, and a flank that is right there is not quite right elsewhere."
-        )
-    return Table("What it brings", (output.title, Number("as described"), Number("ground so"), "unit"), rows, note)
 
 
 def _numbers(case: Case, end: Line, at: Overrides) -> Table:
@@ -202,21 +222,6 @@ def _numbers(case: Case, end: Line, at: Overrides) -> Table:
     )
 
 
-def _lead_chart(case: Case, at: Overrides) -> Figure:
-    """The trace of helix slope and crowning with its tolerances, dashed as described."""
-    curves, inputs = case.response.misalignment.curves, case.response.inputs
-    leaves = [scalar_at(case.calculation.request, path, "", "unknown_path") for path in (SLOPE, CROWNING)]
-    position = values(curves.position_mm)
-    trace = LeadTrace(
-        values(curves.z_mm),
-        values(position / position[-1]),
-        *(float(at[leaf.path] or 0.0) for leaf in leaves),
-        *(leaf.declared.tolerance or 0.0 for leaf in leaves),
-    )
-    slope, crowning = (float(value_at(inputs, leaf.path) or 0.0) for leaf in leaves)
-    return lead_chart(trace, (slope, crowning), _ends(case))
-
-
 def _gap(ground: Case, case: Case) -> dict[str, Figure]:
     """The gap over the face as ground, dashed as described, both without the corner's changes."""
     try:
@@ -224,19 +229,3 @@ def _gap(ground: Case, case: Case) -> dict[str, Figure]:
     except NoFigure:
         return {}
     return {GAP.name: compared(own, given, "as described")}
-
-
-DESIGN = StudyPage(
-    link=study_links.DESIGN,
-    question="what to grind?",
-    about="A search for helix slope, crowning and relief, each judged at its worst corner of the uncertain inputs. It "
-    "starts from the correction of the case.",
-    figures=("lead", "face-load", GAP.name, "search"),
-    body=_body,
-    plan=Design,
-    result=_result,
-    outputs=(OUTPUT,),
-    controls=_controls,
-    ranges=partial(ranges_of, left_alone=LEFT_ALONE),
-    grows=True,
-)

@@ -14,12 +14,11 @@ from app.figures.wording import percent
 from app.pages import study_links
 from app.pages.form import FieldView
 from app.pages.query import SCATTERING, Pairs, link, number_of, pairs_of, text_of
-from app.pages.studies.declaration import Controls, Form, Link, Number, PageStudy, Result, StudyPage, Table
-from app.pages.studies.sweep import field_choices
+from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Table
+from app.pages.studies.sweep import field_choices, is_number
 from app.pages.templating import page_path
 from app.pages.typesetting import cited, shown
-from app.pages.views import Asked
-from app.schema.fields import Leaf, leaf_at
+from app.schema.fields import leaf_at
 from app.studies.engine import Line
 from app.studies.fields import NUMBERS, scalar_at, value_at
 from app.studies.points import SOLVED
@@ -98,261 +97,6 @@ def table_of(cases: list[dict[str, Any]]) -> str:
     return "\n".join("\t".join(cell.replace("\t", " ") for cell in row) for row in rows)
 
 
-def _body(asked: Asked, output: Leaf) -> dict[str, Any]:
-    """The cases and tolerances as typed, the output shown with its limit, and the losses."""
-    calculation, views = asked.calculation, asked.views
-    inputs = [_scatter(asked, place) for place in range(SCATTERING) if views.get(f"t{place}")]
-    machines = number_of(views.get("machines") or MACHINES[0][1])
-    if not isinstance(machines, int):
-        raise Unprocessable("int_type", "give a whole number", "tolerances.count")
-    tolerances = {"inputs": inputs, "count": machines // REPLICATES}
-    body = {
-        "endpoint": calculation.path,
-        "request": asked.body,
-        "cases": cases_of(calculation, views.get("cases", "")),
-        "tolerances": {**tolerances, "replicates": REPLICATES} if inputs else None,
-        "outputs": list(dict.fromkeys([output.path, *LOSSES.get(calculation.path, ())])),
-        "hours_per_year": number_of(views["hours"]) if views.get("hours") else None,
-    }
-    limits = _limits(calculation, output, views)
-    return body if limits is None else {**body, "limits": limits}
-
-
-def _scatter(asked: Asked, place: int) -> dict[str, Any]:
-    """The distribution of one field: around the value of the case, by its usual tolerance."""
-    calculation, views, name = asked.calculation, asked.views, f"t{place}"
-    where = f"tolerances.inputs.{place}"
-    leaf = scalar_at(calculation.request, views[name], f"{where}.path", "unknown_path")
-    own = value_at(asked.case, leaf.path)
-    numbers = []
-    for part, usual, lacks in (("about", own, "around which value"), ("by", leaf.declared.tolerance, "by how much")):
-        text = views.get(f"{name}.{part}")
-        number = number_of(text) if text else usual
-        if not isinstance(number, int | float) or isinstance(number, bool):
-            raise Unprocessable("missing", f"{leaf.title}: say {lacks}", where)
-        numbers.append(float(number))
-    about, by = numbers
-    law = views.get(f"{name}.law") or "normal"
-    known = {
-        "normal": {"mean": about, "deviation": by},
-        "lognormal": {"median": about, "factor": by},
-        "uniform": {"min": about - by, "max": about + by},
-        "triangular": {"min": about - by, "mode": about, "max": about + by},
-    }
-    return {"path": leaf.path, "distribution": law, **known.get(law, {})}
-
-
-def _limits(calculation: Calculation, output: Leaf, views: dict[str, str]) -> list[dict[str, Any]] | None:
-    """The limit as typed, else that of the output; None where it is the scuffing temperature."""
-    text, scatter, value = views.get("limit"), views.get("limit.by"), output.view.limit
-    assumed = calculation.path in SCUFFING and output.path == SCUFFING[calculation.path].contact
-    if text:
-        value = number_of(text)
-    elif assumed or not output.view.bound or not isinstance(value, int | float):
-        if scatter:
-            raise Unprocessable("missing", "give the limit whose deviation this is", "limits.0.above")
-        return None if assumed else []
-    side = views.get("limit.side") or ("below" if output.view.greatest_is_best else "above")
-    threshold = {"mean": value, "deviation": number_of(scatter)} if scatter else {"value": value}
-    return [{"output": output.path, side: threshold}]
-
-
-def _controls(form: Form) -> tuple[Controls, ...]:
-    """The table of cases, and the tolerances."""
-    asked, views = form.asked, form.asked.views
-    case = asked.case
-    help_ = (
-        "The first line names the columns: name, share (of the time) and fields of the request.",
-        "One line a case, columns parted by tabs or semicolons, as pasted from a spreadsheet.",
-        "An empty cell changes nothing.",
-    )
-    text = views.get("cases") or _suggested(case)
-    table = replace(form.field("cases", "cases"), widget="table", text=text, help=help_)
-    groups = [Controls("Load spectrum", fields=(table,))]
-    last = max((place for place in range(SCATTERING) if views.get(f"t{place}")), default=-1)
-    choices = field_choices(asked.calculation, case, texts=False) if asked.pairs else []
-    for place in range(min(SCATTERING, last + 3)):
-        name = f"t{place}"
-        leaf = leaf_at(asked.calculation.request, views.get(name, ""))
-        unit, usual, own = "", None, None
-        if leaf is not None:
-            unit, usual, own = leaf.unit or "", leaf.declared.tolerance, value_at(case, views[name])
-        fields = (
-            form.field(f"{name}.law", "distribution", options=LAWS),
-            form.field(f"{name}.by", "by", usual, unit),
-            form.field(f"{name}.about", "around", own, unit),
-        )
-        groups.append(Controls(f"Tolerance {place + 1}", form.menu(name, "field", "none", choices), fields))
-    return tuple(groups)
-
-
-def _suggested(case: dict[str, Any]) -> str:
-    """A table to start from: the case itself for most of the time, and half its load."""
-    known = {path: value for path in USUAL if isinstance(value := value_at(case, path), int | float)}
-    half = {path: value / 2 if "power" in path or "torque" in path else value for path, value in known.items()}
-    return table_of([{NAME: "full load", SHARE: 0.8, "set": known}, {NAME: "half load", SHARE: 0.2, "set": half}])
-
-
-def _shows(form: Form) -> tuple[FieldView, ...]:
-    views, paths = form.asked.views, SCUFFING.get(form.asked.calculation.path)
-    assumed = paths and not views.get("limit") and (views.get("show") or paths.contact) == paths.contact
-    return (
-        form.field("limit", "limit", "its own"),
-        form.field("limit.by", "deviation of the limit", f"{percent(RELATIVE_DEVIATION)} of it" if assumed else "none"),
-        form.field("limit.side", "side", options=SIDES),
-        form.field("machines", "machines drawn", options=MACHINES),
-        form.field("hours", "hours a year"),
-    )
-
-
-def _result(study: PageStudy, lines: list[Line]) -> Result:
-    """The probability, what it is made of, what decides, the losses; each case leads to its page."""
-    header, end, output = lines[0], lines[-1], study.output
-    cases = len(header["cases"])
-    machines = end["points"] // cases
-    counted = [f"{count} {noun}{'s' * (count > 1)}" for count, noun in ((machines, "machine"), (cases, "case"))]
-    progress = f"{' in '.join(counted)}, {shown(end['elapsed_s'], 2)} s"
-    figures, notes = dict[str, Figure](), [*end["notes"]]
-    found = next((each for each in end["limits"] if each["output"] == output.path), None)
-    if found is not None:
-        limited = _limited(study, header, end, found)
-        progress = f"{limited.sentence[0].upper()}{limited.sentence[1:]}; {progress}"
-        for name, draw in (("limit", overlap), ("probability", chances), ("decides", deciding)):
-            try:
-                figures[name] = draw(limited)
-            except NoFigure as error:
-                notes.append(error.message)
-    elif not notes:
-        notes.append(f"the {output.title} has no limit here; state one, and there is a probability")
-    unsolved = end["points"] - sum(end["counts"].get(status, 0) for status in SOLVED)
-    if unsolved:
-        notes.append(
-            f"{unsolved} of {end['points']} points have no solution; each probability lies between taking them as good "
-            f"and as bad"
-        )
-    tables = (
-        *((_limit_table(study, end, found),) if found is not None else ()),
-        _cases_table(study, end, found),
-        _outputs_table(study, header, end),
-        *((_tolerances_table(header, found),) if header["tolerances"] else ()),
-    )
-    remarks = tuple(f"{note[0].upper()}{note[1:]}." for note in notes)
-    leads = (Link("Report with this spectrum", study.links.view("/report")),)
-    return Result(progress, figures | _losses(study, header, end), tables, remarks, leads)
-
-
-def _chance(found: Line) -> Chance:
-    low, high = found["bounds"]
-    return Chance(low, high, found["interval"] and tuple(found["interval"]))
-
-
-def _limited(study: PageStudy, header: Line, end: Line, found: Line) -> Limited:
-    """The limit shown, with its most probable cases where there are many."""
-    output, place = study.output, end["limits"].index(found)
-    cases = []
-    for index, each in enumerate(end["cases"]):
-        band = each["quantiles"][output.path]
-        decides = None if found["decides"] is None else found["decides"][index]
-        cases.append(SpectrumCase(each["name"], Band(*band) if band else None, _chance(each["limits"][place]), decides))
-    worst = sorted(cases, key=lambda case: -case.chance.high)[:MOST_BARS]
-    titles = {each["path"]: each["title"] for each in header["tolerances"]["inputs"]} if header["tolerances"] else {}
-    ranks = found["rank_correlation"] or {}
-    return Limited(
-        output=axis_of(output),
-        above=found["side"] == "above",
-        mean=found["mean"],
-        deviation=found["deviation"],
-        chance=_chance(found),
-        risk=found["risk"],
-        cases=tuple(case for case in cases if case in worst),
-        edges=tuple(found["histogram"]["edges"]),
-        density=tuple(found["histogram"]["density"]),
-        influences={titles[path]: value for path, value in ranks.items() if value is not None},
-    )
-
-
-def _losses(study: PageStudy, header: Line, end: Line) -> dict[str, Figure]:
-    """Mean losses of the cases; nothing where none of them is known."""
-    titles, outputs = {each["path"]: each["title"] for each in header["outputs"]}, end["outputs"]
-    paths = [path for path in LOSSES.get(study.asked.calculation.path, ()) if outputs[path]["mean"] is not None]
-    if not paths:
-        return {}
-    cases = {
-        each["name"]: {titles[path]: (each["means"][path] or 0.0) / 1e3 for path in paths}
-        for each in end["cases"][:MOST_BARS]
-    }
-    mean = {titles[path]: outputs[path]["mean"] / 1e3 for path in paths}
-    years = [outputs[path].get("energy_kwh_per_year") for path in paths]
-    return {"losses": losses(cases, mean, None if None in years else sum(years) / 1e3)}
-
-
-def _limit_table(study: PageStudy, end: Line, found: Line) -> Table:
-    """The limit as number and deviation, and on what an assumed one rests."""
-    output = study.output
-    assumed = next((each["reason"] for each in end["assumptions"] if each["field"] == "limits"), None)
-    row = (
-        output.title,
-        f"not {found['side']}",
-        shown(found["mean"], 4),
-        "exact" if found["deviation"] is None else shown(found["deviation"], 4),
-        output.unit or "",
-        "given" if assumed is None else f"assumed: {cited(assumed)}",
-    )
-    return Table("Limit", ("output", "side", Number("limit"), Number("deviation"), "unit", "source"), (row,))
-
-
-def _cases_table(study: PageStudy, end: Line, found: Line | None) -> Table:
-    """Every case with its share, its probability, how often it decides, and its output."""
-    output, spectrum = study.output, study.study
-    assert isinstance(spectrum, Spectrum)
-    rows: list[tuple[str | Link, ...]] = []
-    for index, each in enumerate(end["cases"]):
-        name = Link(each["name"], study.address(spectrum.cases[index].set))
-        row: list[str | Link] = [name, percent(each["share"])]
-        if found is not None:
-            row.append(_chance(each["limits"][end["limits"].index(found)]).text)
-            row.append("–" if found["decides"] is None else percent(found["decides"][index]))
-        row += [shown(value, 4) for value in each["quantiles"][output.path] or [None] * 3]
-        rows.append((*row, percent(each["unsolved"])))
-    unit = f", {output.unit}" if output.unit else ""
-    heads = ["share", *(["probability alone", "decides"] if found else []), f"5 %{unit}", "50 %", "95 %", "unsolved"]
-    note = f"Of each case 5, 50 and 95 % of the machines have a lower {output.title}. A name leads to the nominal case."
-    return Table("Cases", ("case", *map(Number, heads)), tuple(rows), note)
-
-
-def _outputs_table(study: PageStudy, header: Line, end: Line) -> Table:
-    """Means over the operating time, and the extremes with the machine and case where they are."""
-    rows = []
-    for each in header["outputs"]:
-        found = end["outputs"][each["path"]]
-        ends = (
-            Link(shown(extreme["value"], 4), study.address(extreme["at"])) if extreme else "–"
-            for extreme in (found["min"], found["max"])
-        )
-        mean, error = shown(found["mean"], 4), shown(found["standard_error"], 2)
-        energy = shown(found.get("energy_kwh_per_year"), 4)
-        rows.append((each["title"], mean, error, *ends, each["unit"] or "", energy))
-    heads = map(Number, ("mean", "standard error", "least", "largest"))
-    head = ("output", *heads, "unit", Number("kWh a year"))
-    return Table("Over the operating time", head, tuple(rows), "A number leads to the machine and case where it is.")
-
-
-def _tolerances_table(header: Line, found: Line | None) -> Table:
-    """How the fields scatter, what is cut off, and how the worst case goes with them."""
-    numbers = ("mean", "deviation", "median", "factor", "min", "mode", "max")
-    rows = []
-    for each in header["tolerances"]["inputs"]:
-        law = ", ".join(f"{name} {shown(each[name], 4)}" for name in numbers if each.get(name) is not None)
-        known = None if found is None or not found["rank_correlation"] else found["rank_correlation"][each["path"]]
-        drawn = (each["title"], f"{each['distribution']}: {law}", each["unit"] or "")
-        rows.append((*drawn, percent(each["cut_off"]), shown(known, 3)))
-    head = ("field", "distribution", "unit", Number("cut off"), Number("rank"))
-    note = (
-        "Cut off is the share beyond four deviations or the field's range; rank is the correlation with the worst case."
-    )
-    return Table("Tolerances", head, tuple(rows), note)
-
-
 def address_of(endpoint: Calculation, request: Pairs, body: dict[str, Any]) -> str:
     """The page of a study of the interface, with the first of its limits."""
     views = {"cases": table_of(body["cases"])}
@@ -375,30 +119,273 @@ def address_of(endpoint: Calculation, request: Pairs, body: dict[str, Any]) -> s
     return link(f"{page_path(endpoint)}/{study_links.SPECTRUM.name}", request, **views)
 
 
-def _starters(_: str, asked: Asked) -> Sequence[study_links.Starter]:
-    """The ready studies of the interface; a case of one's own needs none."""
-    starters = []
-    for each in EXAMPLES["/v1/spectrum"].values():
-        body = each["value"]
-        if body["endpoint"] == asked.calculation.path and not asked.pairs:
-            address = address_of(asked.calculation, pairs_of(body["request"]), body)
-            starters.append(study_links.Starter(each["summary"], "example", address))
-    return starters
+class SpectrumPage(StudyPage):
+    """A machine with its tolerances over its load spectrum."""
+
+    link = study_links.SPECTRUM
+    question = "its load spectrum"
+    about = "Machines are drawn from the tolerances; each runs every case, and its worst case meets the limit."
+    figures = ("limit", "probability", "decides", "losses")
+    outputs = tuple(paths.contact for paths in SCUFFING.values())
+    most = "spectrum_solves"
+    needs = ("cases", "t0")
+    choose = "Cases are a table of what each part of the operating time changes; tolerances say how the fields scatter."
+    plan = Spectrum
+    study: Spectrum
+
+    def body(self) -> dict[str, Any]:
+        """The cases and tolerances as typed, the output shown with its limit, and the losses."""
+        calculation, views, output = self.calculation, self.views, self.output.path
+        inputs = [self._scatter(f"t{place}", place) for place in range(SCATTERING) if views.get(f"t{place}")]
+        machines = self.number("machines", int(MACHINES[0][1]))
+        if not isinstance(machines, int):
+            raise Unprocessable("int_type", "give a whole number", "tolerances.count")
+        tolerances = {"inputs": inputs, "count": machines // REPLICATES, "replicates": REPLICATES}
+        return {
+            "endpoint": calculation.path,
+            "request": self.asked.body,
+            "cases": cases_of(calculation, views.get("cases", "")),
+            "tolerances": tolerances if inputs else None,
+            "outputs": list(dict.fromkeys([output, *LOSSES.get(calculation.path, ())])),
+            "limits": self._limits(),
+            "hours_per_year": self.number("hours"),
+        }
+
+    def _scatter(self, name: str, place: int) -> dict[str, Any]:
+        """The distribution of one field: around the value of the case, by its usual tolerance."""
+        where = f"tolerances.inputs.{place}"
+        leaf = scalar_at(self.calculation.request, self.views[name], f"{where}.path", "unknown_path")
+        about = self.number(f"{name}.about", value_at(self.case, leaf.path))
+        by = self.number(f"{name}.by", leaf.declared.tolerance)
+        for value, lacks in ((about, "around which value"), (by, "by how much")):
+            if not is_number(value):
+                raise Unprocessable("missing", f"{leaf.title}: say {lacks}", where)
+        law = self.views.get(f"{name}.law") or "normal"
+        known = {
+            "normal": {"mean": about, "deviation": by},
+            "lognormal": {"median": about, "factor": by},
+            "uniform": {"min": about - by, "max": about + by},
+            "triangular": {"min": about - by, "mode": about, "max": about + by},
+        }
+        return {"path": leaf.path, "distribution": law, **known.get(law, {})}
+
+    @property
+    def _assumes_limit(self) -> bool:
+        """Whether the output is compared with the scuffing temperature where no limit is given."""
+        scuffing = SCUFFING.get(self.calculation.path)
+        return scuffing is not None and (self.views.get("show") or self.usual_output.path) == scuffing.contact
+
+    def _limits(self) -> list[dict[str, Any]] | None:
+        """The limit as typed, else that of the output; None where it is the scuffing temperature."""
+        view, scatter, value = self.output.view, self.number("limit.by"), self.number("limit")
+        if value is None and view.bound and isinstance(view.limit, int | float) and not self._assumes_limit:
+            value = view.limit
+        if value is None and scatter is not None:
+            raise Unprocessable("missing", "give the limit whose deviation this is", "limits.0.above")
+        if value is None:
+            return None if self._assumes_limit else []
+        side = self.views.get("limit.side") or ("below" if view.greatest_is_best else "above")
+        threshold = {"value": value} if scatter is None else {"mean": value, "deviation": scatter}
+        return [{"output": self.output.path, side: threshold}]
+
+    def places(self) -> dict[str, str]:
+        """The controls of the cases, the tolerances, the limit and the hours."""
+        places = {"cases": "cases", "limits": "limit", "tolerances": "machines", "hours_per_year": "hours"}
+        for place in range(SCATTERING):
+            where, name = f"tolerances.inputs.{place}", f"t{place}"
+            places |= {where: f"{name}.by", f"{where}.path": name}
+            places |= {f"{where}.{middle}": f"{name}.about" for middle in ("mean", "median")}
+        return {**places, "tolerances.inputs": "t0"}
+
+    def controls(self) -> tuple[Controls, ...]:
+        """The table of cases, and the tolerances: those given and two more."""
+        case = self.case
+        text = self.views.get("cases") or _suggested(case)
+        about = (
+            "The first line names the columns: name, share (of the time) and fields of the request.",
+            "One line a case, columns parted by tabs or semicolons, as pasted from a spreadsheet.",
+            "An empty cell changes nothing.",
+        )
+        table = replace(self.field("cases", "cases"), widget="table", text=text, help=about)
+        groups = [Controls("Load spectrum", fields=(table,))]
+        last = max((place for place in range(SCATTERING) if self.views.get(f"t{place}")), default=-1)
+        choices = field_choices(self.calculation, case, texts=False) if self.asked.pairs else []
+        for place in range(min(SCATTERING, last + 3)):
+            name = f"t{place}"
+            path = self.views.get(name, "")
+            leaf, own = leaf_at(self.calculation.request, path), value_at(case, path)
+            unit, usual = (leaf.unit or "", leaf.declared.tolerance) if leaf else ("", None)
+            fields = (
+                self.field(f"{name}.law", "distribution", options=LAWS),
+                self.field(f"{name}.by", "by", usual, unit),
+                self.field(f"{name}.about", "around", own, unit),
+            )
+            groups.append(Controls(f"Tolerance {place + 1}", self.menu(name, "field", "none", choices), fields))
+        return tuple(groups)
+
+    def shows(self) -> tuple[FieldView, ...]:
+        """The limit of the output, how many machines are drawn, and the hours of operation."""
+        assumed = self._assumes_limit and not self.views.get("limit")
+        deviation = f"{percent(RELATIVE_DEVIATION)} of it" if assumed else "none"
+        return (
+            self.field("limit", "limit", "its own"),
+            self.field("limit.by", "deviation of the limit", deviation),
+            self.field("limit.side", "side", options=SIDES),
+            self.field("machines", "machines drawn", options=MACHINES),
+            self.field("hours", "hours a year"),
+        )
+
+    def starters(self) -> Sequence[study_links.Starter]:
+        """The ready studies of the interface; a case of one's own needs none."""
+        starters = []
+        for each in EXAMPLES["/v1/spectrum"].values():
+            body = each["value"]
+            if body["endpoint"] == self.calculation.path and not self.asked.pairs:
+                address = address_of(self.calculation, pairs_of(body["request"]), body)
+                starters.append(study_links.Starter(each["summary"], "example", address))
+        return starters
+
+    def result(self, lines: list[Line]) -> Result:
+        """The probability, what it is made of, what decides, the losses; each case leads to its page."""
+        header, end, output = lines[0], lines[-1], self.output
+        cases = len(self.study.cases)
+        machines = end["points"] // cases
+        counted = [f"{count} {noun}{'s' * (count > 1)}" for count, noun in ((machines, "machine"), (cases, "case"))]
+        progress = f"{' in '.join(counted)}, {shown(end['elapsed_s'], 2)} s"
+        figures, notes = dict[str, Figure](), [*end["notes"]]
+        found = next((each for each in end["limits"] if each["output"] == output.path), None)
+        if found is not None:
+            limited = self._limited(end, found)
+            progress = f"{limited.sentence[0].upper()}{limited.sentence[1:]}; {progress}"
+            for name, draw in (("limit", overlap), ("probability", chances), ("decides", deciding)):
+                try:
+                    figures[name] = draw(limited)
+                except NoFigure as error:
+                    notes.append(error.message)
+        elif not notes:
+            notes.append(f"the {output.title} has no limit here; state one, and there is a probability")
+        unsolved = end["points"] - sum(end["counts"].get(status, 0) for status in SOLVED)
+        if unsolved:
+            notes.append(
+                f"{unsolved} of {end['points']} points have no solution; each probability lies between taking them as "
+                "good and as bad"
+            )
+        tables = (
+            *((self._limit_table(end, found),) if found else ()),
+            self._cases_table(end, found),
+            self._outputs_table(end),
+            *((_tolerances_table(header, found),) if header["tolerances"] else ()),
+        )
+        remarks = tuple(f"{note[0].upper()}{note[1:]}." for note in notes)
+        leads = (Link("Report with this spectrum", self.view("/report")),)
+        return Result(progress, figures | self._losses(end), tables, remarks, leads)
+
+    def _limited(self, end: Line, found: Line) -> Limited:
+        """The limit shown, with its most probable cases where there are many."""
+        output, place = self.output, end["limits"].index(found)
+        decides = found["decides"] or [None] * len(end["cases"])
+        cases = []
+        for each, share in zip(end["cases"], decides, strict=True):
+            band = each["quantiles"][output.path]
+            cases.append(SpectrumCase(each["name"], band and Band(*band), _chance(each["limits"][place]), share))
+        worst = sorted(cases, key=lambda case: -case.chance.high)[:MOST_BARS]
+        titles = {leaf.path: leaf.title for leaf in self.study.scattering}
+        ranks = found["rank_correlation"] or {}
+        return Limited(
+            output=axis_of(output),
+            above=found["side"] == "above",
+            mean=found["mean"],
+            deviation=found["deviation"],
+            chance=_chance(found),
+            risk=found["risk"],
+            cases=tuple(case for case in cases if case in worst),
+            edges=tuple(found["histogram"]["edges"]),
+            density=tuple(found["histogram"]["density"]),
+            influences={titles[path]: value for path, value in ranks.items() if value is not None},
+        )
+
+    def _losses(self, end: Line) -> dict[str, Figure]:
+        """Mean losses of the cases [kW]; nothing where none of them is known."""
+        wanted, outputs = LOSSES.get(self.calculation.path, ()), end["outputs"]
+        titles = {leaf.path: leaf.title for leaf in self.study.outputs}
+        known = {path: titles[path] for path in wanted if outputs[path]["mean"] is not None}
+        if not known:
+            return {}
+        cases = {
+            each["name"]: {title: (each["means"][path] or 0.0) / 1e3 for path, title in known.items()}
+            for each in end["cases"][:MOST_BARS]
+        }
+        mean = {title: outputs[path]["mean"] / 1e3 for path, title in known.items()}
+        years = [outputs[path].get("energy_kwh_per_year") for path in known]
+        return {"losses": losses(cases, mean, None if None in years else sum(years) / 1e3)}
+
+    def _limit_table(self, end: Line, found: Line) -> Table:
+        """The limit as number and deviation, and on what an assumed one rests."""
+        assumed = next((each["reason"] for each in end["assumptions"] if each["field"] == "limits"), None)
+        row = (
+            self.output.title,
+            f"not {found['side']}",
+            shown(found["mean"], 4),
+            "exact" if found["deviation"] is None else shown(found["deviation"], 4),
+            self.output.unit or "",
+            "given" if assumed is None else f"assumed: {cited(assumed)}",
+        )
+        return Table("Limit", ("output", "side", Number("limit"), Number("deviation"), "unit", "source"), (row,))
+
+    def _cases_table(self, end: Line, found: Line | None) -> Table:
+        """Every case with its share, its probability, how often it decides, and its output."""
+        output, rows = self.output, list[tuple[str | Link, ...]]()
+        for index, (case, each) in enumerate(zip(self.study.cases, end["cases"], strict=True)):
+            row: list[str | Link] = [Link(each["name"], self.address(case.set)), percent(each["share"])]
+            if found:
+                row.append(_chance(each["limits"][end["limits"].index(found)]).text)
+                row.append(percent(found["decides"][index]) if found["decides"] else "–")
+            row += [shown(value, 4) for value in each["quantiles"][output.path] or [None] * 3]
+            rows.append((*row, percent(each["unsolved"])))
+        unit = f", {output.unit}" if output.unit else ""
+        judged = ("probability alone", "decides") if found else ()
+        heads = ("share", *judged, f"5 %{unit}", "50 %", "95 %", "unsolved")
+        note = f"Of each case 5, 50 and 95 % of the machines have a lower {output.title}."
+        return Table("Cases", ("case", *map(Number, heads)), rows, f"{note} A name leads to the nominal case.")
+
+    def _outputs_table(self, end: Line) -> Table:
+        """Means over the operating time, and the extremes with the machine and case where they are."""
+        rows = []
+        for leaf in self.study.outputs:
+            found = end["outputs"][leaf.path]
+            ends = (
+                Link(shown(extreme["value"], 4), self.address(extreme["at"])) if extreme else "–"
+                for extreme in (found["min"], found["max"])
+            )
+            mean, error = shown(found["mean"], 4), shown(found["standard_error"], 2)
+            energy = shown(found.get("energy_kwh_per_year"), 4)
+            rows.append((leaf.title, mean, error, *ends, leaf.unit or "", energy))
+        heads = map(Number, ("mean", "standard error", "least", "largest"))
+        head = ("output", *heads, "unit", Number("kWh a year"))
+        return Table("Over the operating time", head, rows, "A number leads to the machine and case where it is.")
 
 
-SPECTRUM = StudyPage(
-    link=study_links.SPECTRUM,
-    question="its load spectrum",
-    about="Machines are drawn from the tolerances; each runs every case, and its worst case meets the limit.",
-    figures=("limit", "probability", "decides", "losses"),
-    body=_body,
-    plan=Spectrum,
-    result=_result,
-    outputs=tuple(paths.contact for paths in SCUFFING.values()),
-    controls=_controls,
-    shows=_shows,
-    most="spectrum_solves",
-    needs=("cases", "t0"),
-    choose="Cases are a table of what each part of the operating time changes; tolerances say how the fields scatter.",
-    starters=_starters,
-)
+def _suggested(case: dict[str, Any]) -> str:
+    """A table to start from: the case itself for most of the time, and half its load."""
+    known = {path: value for path in USUAL if isinstance(value := value_at(case, path), int | float)}
+    half = {path: value / 2 if "power" in path or "torque" in path else value for path, value in known.items()}
+    return table_of([{NAME: "full load", SHARE: 0.8, "set": known}, {NAME: "half load", SHARE: 0.2, "set": half}])
+
+
+def _chance(found: Line) -> Chance:
+    low, high = found["bounds"]
+    return Chance(low, high, found["interval"] and tuple(found["interval"]))
+
+
+def _tolerances_table(header: Line, found: Line | None) -> Table:
+    """How the fields scatter, what is cut off, and how the worst case goes with them."""
+    numbers = ("mean", "deviation", "median", "factor", "min", "mode", "max")
+    ranks = (found and found["rank_correlation"]) or {}
+    rows = []
+    for each in header["tolerances"]["inputs"]:
+        law = ", ".join(f"{name} {shown(each[name], 4)}" for name in numbers if each.get(name) is not None)
+        drawn = (each["title"], f"{each['distribution']}: {law}", each["unit"] or "")
+        rows.append((*drawn, percent(each["cut_off"]), shown(ranks.get(each["path"]), 3)))
+    head = ("field", "distribution", "unit", Number("cut off"), Number("rank"))
+    note = "Cut off is the share beyond four deviations or the field's range"
+    return Table("Tolerances", head, rows, f"{note}; rank is the correlation with the worst case.")
