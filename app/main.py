@@ -11,6 +11,7 @@ from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddle
 from starlette.staticfiles import StaticFiles
 
 from app import log
+from app.errors import PROBLEMS
 from app.http import problems
 from app.http.middleware import Protection
 from app.http.routes import calculations, pages, rexs, service, studies, study_pages
@@ -82,7 +83,9 @@ def create_app() -> FastAPI:
     app.include_router(rexs.pages)
     app.mount(service.DOCS_ASSETS, StaticFiles(packages=[("fastapi_offline", "static")]))
     problems.install(app)
-    app.add_exception_handler(HTTPException, pages.no_page)
+    app.add_exception_handler(HTTPException, pages.failed)
+    for kind in PROBLEMS:
+        app.add_exception_handler(kind, pages.failed)
     app.add_middleware(
         GZipMiddleware, minimum_size=COMPRESSED_FROM, compresslevel=4, exclude_content_types=NOT_COMPRESSED
     )

@@ -2,7 +2,7 @@
 
 import base64
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import zip_longest
 from typing import Any
@@ -46,15 +46,6 @@ class Chart:
     study: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Missing:
-    """A figure that the case does not have, why, and the field that decides it."""
-
-    title: str
-    reason: str
-    field: str | None
-
-
 def figure_of(declaration: Declaration, case: Case, variant: Case | None) -> Figure:
     """The data of one figure, and of the variant beside it, if the variant has the figure; raises NoFigure."""
     figure = declaration.figure(case.request, case.response)
@@ -67,25 +58,21 @@ def figure_of(declaration: Declaration, case: Case, variant: Case | None) -> Fig
     return compared(figure, other, VARIANT)
 
 
-def charts(
-    declarations: Iterable[Declaration],
-    case: Case,
-    variant: Case | None,
-    chart: Callable[[Declaration, Figure | None], Chart],
-    *,
-    compute: bool = False,
-) -> tuple[list[Chart], list[Missing]]:
-    """Figures of a case made a `chart` of each, and those that it lacks.
+def figures_of(
+    case: Case, variant: Case | None, *, compute: bool = False
+) -> tuple[list[tuple[Declaration, Figure | None]], list[tuple[str, NoFigure]]]:
+    """The figures that the page of a case shows, and the titles of those that it lacks with the reasons.
 
     The data of figures that need more than the answer are None unless `compute` asks for them.
     """
     found, missing = [], []
-    for declaration in declarations:
-        known = compute or declaration.compute is None
-        try:
-            found.append(chart(declaration, figure_of(declaration, case, variant) if known else None))
-        except NoFigure as reason:
-            missing.append(Missing(declaration.title, reason.message, reason.path))
+    for declaration in case.calculation.figures:
+        if not declaration.shown_at:
+            known = compute or declaration.compute is None
+            try:
+                found.append((declaration, figure_of(declaration, case, variant) if known else None))
+            except NoFigure as reason:
+                missing.append((declaration.title, reason))
     return found, missing
 
 
@@ -113,8 +100,8 @@ def embedded(name: str, figure: Figure, theme: ThemeName | None) -> Chart:
         name=name,
         title=figure.title,
         subtitle=figure.subtitle,
-        image=data_address(written(figure, "svg", theme or "light")),
-        dark="" if theme else data_address(written(figure, "svg", "dark")),
+        image=data_address(figure, theme or "light"),
+        dark="" if theme else data_address(figure, "dark"),
         width=width,
         height=height,
         content=json.dumps({"panels": _panels(figure)}),
@@ -129,9 +116,9 @@ def _pixels(figure: Figure) -> tuple[int, int]:
     return round(PIXELS * width), round(PIXELS * height)
 
 
-def data_address(image: bytes) -> str:
-    """An image as an address that holds it."""
-    return "data:image/svg+xml;base64," + base64.b64encode(image).decode()
+def data_address(figure: Figure, theme: ThemeName = "light") -> str:
+    """An address that holds the image of a figure."""
+    return "data:image/svg+xml;base64," + base64.b64encode(written(figure, "svg", theme)).decode()
 
 
 def values_of(figure: Figure) -> bytes:

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from app.pages.query import MATRIX, PICK, PRESENT, SIDE, excluded, text_of
 from app.pages.typesetting import cited, symbol, words
-from app.schema.fields import ITEM, Branch, Leaf, tree
+from app.schema.fields import Branch, Leaf, tree
 from app.schema.model import Request
 from app.schema.model import Section as Fields
 from app.schema.quantities import split_unit
@@ -44,7 +44,8 @@ class FieldView:
     """What the template shows of a field.
 
     `empty` says in a line what a field without a value stands for; `column` names the field where several stand side
-    by side; `excludes` are the fields and sections that must be empty where this one is given.
+    by side; `excludes` are the fields and sections that must be empty where this one is given. A matrix has `elements`,
+    row by row.
     """
 
     name: str
@@ -62,6 +63,7 @@ class FieldView:
     column: str = ""
     excludes: tuple[str, ...] = ()
     empty: str = ""
+    elements: tuple["FieldView", ...] = ()
     kind: str = "field"
 
     @property
@@ -73,15 +75,6 @@ class FieldView:
     def wide(self) -> bool:
         """Whether an option is too long for a control beside its label."""
         return any(len(label) > BESIDE for _, label in self.options)
-
-
-@dataclass(frozen=True, slots=True)
-class Matrix:
-    """A matrix with a field for each of its elements, row by row."""
-
-    whole: FieldView
-    elements: tuple[FieldView, ...]
-    kind: str = "matrix"
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,7 +100,10 @@ class Twins:
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """A part of the form; `switch` is the field that says that an optional section is there."""
+    """A part of the form, or the rows of a list of sections, the last one empty to be filled.
+
+    `switch` is the field that says that an optional section is there.
+    """
 
     path: str
     title: str
@@ -124,19 +120,7 @@ class Section:
     kind: str = "section"
 
 
-@dataclass(frozen=True, slots=True)
-class Rows:
-    """A list of sections; the last one is empty, to be filled."""
-
-    path: str
-    title: str
-    description: str
-    fault: str | None
-    items: tuple[Section, ...]
-    kind: str = "rows"
-
-
-Block = FieldView | Matrix | Choice | Twins | Section | Rows
+Block = FieldView | Choice | Twins | Section
 
 
 def anchor(path: str) -> str:
@@ -149,18 +133,19 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
     root, loose = tree(request), list[Block]()
     sections = []
     for block in _blocks(root, "", state):
-        if isinstance(block, Section):
-            sections.append(block)
-        elif isinstance(block, Twins):
-            path, *_ = paths = [*block.columns]
-            needed = any(each.required for fields in block.rows for each in fields)
-            title = " and ".join(block.columns.values())
-            sections.append(_section(path, title, paths, [block], state, id=f"{anchor(path)}-", needed=needed))
-        elif isinstance(block, Rows):
-            around = _section(block.path, block.title, [block.path], [block], state, id=f"{anchor(block.path)}-")
-            sections.append(replace(around, description=block.description, given=len(block.items) - 1))
-        else:
-            loose.append(block)
+        match block:
+            case Section(kind="rows", path=path, blocks=items):
+                around = replace(block, blocks=(block,), kind="section", id=f"{anchor(path)}-", fault=None)
+                sections.append(replace(around, given=len(items) - 1))
+            case Section():
+                sections.append(block)
+            case Twins():
+                path, *_ = paths = [*block.columns]
+                needed = any(each.required for fields in block.rows for each in fields)
+                title = " and ".join(block.columns.values())
+                sections.append(_section(path, title, paths, [block], state, id=f"{anchor(path)}-", needed=needed))
+            case _:
+                loose.append(block)
     if loose:
         names = [leaf.path for leaf in root.leaves if leaf.path != DETAIL]
         general = _section("general", "general", names, loose, state)
@@ -217,12 +202,13 @@ def _branch(branch: Branch, path: str, state: State, item: int | None = None) ->
     )
 
 
-def _rows(branch: Branch, path: str, state: State) -> Rows:
+def _rows(branch: Branch, path: str, state: State) -> Section:
     below = (name.removeprefix(f"{path}.") for name in state.texts if name.startswith(f"{path}."))
     indices = (name.partition(".")[0] for name in below)
     count = 1 + max((int(index) for index in indices if index.isdecimal() and index.isascii()), default=-1)
-    items = tuple(_branch(branch, f"{path}.{index}", state, item=index) for index in range(count + 1))
-    return Rows(path, branch.title, branch.description, state.faults.get(path), items)
+    items = (_branch(branch, f"{path}.{index}", state, item=index) for index in range(count + 1))
+    fault, about = state.faults.get(path), branch.description
+    return _section(path, branch.title, [path], items, state, description=about, fault=fault, kind="rows")
 
 
 def _twins(group: tuple[Branch, ...], prefix: str, state: State) -> Twins:
@@ -280,12 +266,12 @@ def _choice(group: tuple[Leaf, ...], prefix: str, state: State, required: str) -
     return Choice(PICK + first, views, [*given, *known, first][0], required)
 
 
-def _own(leaf: Leaf, name: str, state: State) -> FieldView | Matrix:
+def _own(leaf: Leaf, name: str, state: State) -> FieldView:
     """A field on a line of its own, or a matrix with a field for each element."""
     whole, resolved = field_view(leaf, name, state), state.resolved.get(name)
     if leaf.dimensions < MATRIX:
         return whole
-    elements = (
+    elements = tuple(
         replace(
             whole,
             name=f"{name}.{row}.{column}",
@@ -298,7 +284,7 @@ def _own(leaf: Leaf, name: str, state: State) -> FieldView | Matrix:
         )
         for row, column in product(range(SIDE), repeat=2)
     )
-    return Matrix(whole, tuple(elements))
+    return replace(whole, elements=elements, kind="matrix")
 
 
 def field_view(leaf: Leaf, name: str, state: State) -> FieldView:
@@ -365,4 +351,4 @@ def _help(leaf: Leaf, *, assumed: bool) -> tuple[str, ...]:
 
 
 def _last(path: str) -> str:
-    return path.removesuffix(f".{ITEM}").rpartition(".")[2]
+    return path.rpartition(".")[2]

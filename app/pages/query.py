@@ -67,12 +67,8 @@ def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
         text = spaced.strip()
         if not text or name.startswith(PICK):
             continue
-        leaf, matrix = leaf_at(model, name), leaf_at(model, name.rpartition(".")[0])
-        if leaf is not None and not picked.isdisjoint(excluded(name, leaf)):
-            continue
-        if matrix is not None and matrix.dimensions == MATRIX:  # a row of it: each element has a field of the form
-            kept += [(f"{name}.{column}", text_of(item)) for column, item in enumerate(_listed(matrix, text))]
-        else:
+        leaf = leaf_at(model, name)
+        if leaf is None or picked.isdisjoint(excluded(name, leaf)):
             kept.append((name, text))
     return _renumbered(model, kept)
 
@@ -167,15 +163,6 @@ def _value(model: type[Documented], name: str, text: str) -> Any:
         return number_of(text) if leaf_at(model, name.rpartition(".")[0].rpartition(".")[0]) else text
     if leaf.dimensions == 1:
         return _listed(leaf, text)
-    if leaf.dimensions == MATRIX:
-        alone = _number(text.strip().replace(",", ".", 1))
-        if not isinstance(alone, str):  # a number may stand for a matrix
-            return alone
-        return [_listed(leaf, line) for line in text.splitlines() if line.strip()]
-    return _scalar(leaf, text)
-
-
-def _scalar(leaf: Leaf, text: str) -> Any:
     if leaf.options:
         return next((option for option in leaf.options if option in (text, number_of(text))), text)
     if leaf.kind == "boolean":

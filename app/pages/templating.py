@@ -9,9 +9,10 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from app.calculations import CALCULATIONS, Calculation
 from app.examples import Example, examples
+from app.pages.charts import data_address
 from app.pages.form import anchor
 from app.pages.query import link, pairs_of
-from app.pages.typesetting import shown, symbol, typeset, words
+from app.pages.typesetting import cited, shown, symbol, typeset, words
 from app.schema.model import MODEL_VERSION
 
 ASSETS = {
@@ -89,5 +90,6 @@ def _environment(root: str) -> Environment:
         "asset": asset_address,
         "anchor": anchor,
     }
-    environment.filters |= {"shown": shown, "symbol": symbol, "url": url, "typeset": typeset, "words": words}
+    environment.filters |= {"cited": cited, "shown": shown, "symbol": symbol, "typeset": typeset, "words": words}
+    environment.filters |= {"image": data_address, "url": url}
     return environment

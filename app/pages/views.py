@@ -1,21 +1,18 @@
 """One view of one case, from its fields to bytes; runs in a worker."""
 
-import json
 from dataclasses import dataclass, field, replace
-from pathlib import PurePath
-from typing import Any, Literal, NamedTuple, get_args
+from typing import Any, Literal, get_args
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import InvalidBody, Unprocessable, Unreadable
 from app.evaluate import content_of
 from app.evaluate import written as json_written
-from app.figures.data import Figure, ThemeName
-from app.figures.declaration import Declaration
+from app.figures.data import ThemeName
 from app.figures.rendering import MEDIA_TYPES, Format, written
 from app.pages import csv
 from app.pages import report as reports
 from app.pages.cases import Case, Fault, faults_of, key_of, solved
-from app.pages.charts import Chart, charts, data_address, figure_of, linked, values_of
+from app.pages.charts import figure_of, figures_of, linked, values_of
 from app.pages.form import State, anchor, form
 from app.pages.manual import chapter_of
 from app.pages.query import (
@@ -94,14 +91,14 @@ class Asked:
         return self.views.get("ref", "")
 
     @property
+    def ref_pairs(self) -> Pairs:
+        """The fields of the variant to compare with."""
+        return split_views(normalised(self.calculation.request, pairs_of_query(self.ref)))[0]
+
+    @property
     def outdated(self) -> list[str]:
         """What has changed since the link was made, as far as it names the solvers' sources."""
         return changes_since(self.views.get("sources", ""))
-
-    @property
-    def figures(self) -> list[Declaration]:
-        """The figures that page and report show; those of other pages are a link."""
-        return [each for each in self.calculation.figures if not each.shown_at]
 
     @property
     def query(self) -> str:
@@ -144,18 +141,6 @@ class Asked:
             return link(f"{self.path}/{name}", [], case=case, ref_case=ref_case, theme=theme)
         return self.view(name, ref=self.ref, theme=theme)
 
-    @property
-    def saved(self) -> bytes:
-        """The case as it was typed, complete or not, as a JSON file: title, endpoint and request, like an example."""
-        content = {"title": self.title, "endpoint": self.calculation.path, "request": self.body}
-        return json.dumps(content, indent=1, ensure_ascii=False).encode()
-
-    @property
-    def file_name(self) -> str:
-        """What the file is called: the letters, digits, blanks and hyphens of the title."""
-        kept = "".join(each for each in self.title if each.isalnum() or each in " -").strip()
-        return f"{kept or PurePath(self.path).name}.json"
-
 
 def opened(content: bytes, root: str) -> Asked:
     """The case that a file holds; raises Unreadable where it holds none."""
@@ -179,40 +164,29 @@ class Shown:
     keep: dict[str, bytes] = field(default_factory=dict)
 
 
-def ref_pairs(calculation: Calculation, views: dict[str, str]) -> Pairs:
-    """The fields of the variant to compare with."""
-    return split_views(normalised(calculation.request, pairs_of_query(views.get("ref", ""))))[0]
-
-
 def page(asked: Asked) -> Shown:
     """The page of a case: form and result, or the form and what is wrong with it."""
-    texts = dict(asked.pairs)
     if not asked.pairs:
         return form_page(asked)
+    texts = dict(asked.pairs)
     try:
-        case = solved(asked.calculation, asked.pairs, asked.kept)
+        case, variant, trouble = _both(asked)
     except REFUSED as error:
         faults = [
             Fault(path, ambiguity(texts.get(path, "")) or message)
             for path, message in faults_of(error, asked.calculation)
         ]
-        said: dict[str, str] = {}
-        for path, message in faults:
-            said[path] = f"{said[path]}; {message}" if path in said else message
-        said.pop("", None)
+        said = {path: "; ".join(each.message for each in faults if each.path == path) for path, _ in faults}
         return _page(asked, State(texts, said), 400 if isinstance(error, Unreadable) else 422, faults=faults)
-    variant, trouble = _variant(asked)
     response = case.response
     asked = replace(asked, answered=(response.case, variant.response.case if variant else ""))
-    figures, missing = charts(
-        asked.figures, case, variant, lambda declaration, data: linked(declaration, data, asked.image, asked.theme)
-    )
+    figures, missing = figures_of(case, variant)
     shown = _page(
         asked,
         State(texts, {}, resolved(response), {each.field for each in response.assumptions}),
         **_answered(asked, case, variant),
         trouble=trouble,
-        charts=figures,
+        charts=[linked(each, figure, asked.image, asked.theme) for each, figure in figures],
         missing=missing,
         ready=studies_of_case(asked.calculation, asked.pairs, response.inputs),
         curves=_curves(case),
@@ -249,43 +223,24 @@ def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
 
 def figure(asked: Asked, name: str, image_format: Format | Literal["json"]) -> Shown:
     """One figure as a file; as JSON what the script of the pages needs of it."""
-    case = solved(asked.calculation, asked.pairs, asked.kept)
-    variant, _ = _variant(asked)
+    case, variant, _ = _both(asked)
     declaration = next(each for each in asked.calculation.figures if each.name == name)
     data = figure_of(declaration, case, variant)
     content = values_of(data) if image_format == "json" else written(data, image_format, asked.theme or "light")
     return Shown(content, keep=_keep(asked, case, variant))
 
 
-class StudySection(NamedTuple):
-    """What a report says of a study: figures by their names, tables as the study's page has them, the link to it."""
+def report(asked: Asked, host: str, **study: Any) -> Shown:
+    """The report of a case, with a section about a `study` of which `found` is the result.
 
-    title: str
-    progress: str
-    remarks: tuple[str, ...]
-    figures: dict[str, Figure]
-    tables: tuple[Any, ...]
-    link: str
-
-    @property
-    def charts(self) -> list[Chart]:
-        """The figures as they are printed."""
-        return [_printed(name, figure) for name, figure in self.figures.items()]
-
-
-def report(asked: Asked, host: str, study: StudySection | None = None) -> Shown:
-    """The report of a case, with a section about a study; an input that cannot be computed is shown on its page.
-
-    `host` is what addresses on it begin with; without one the link is relative, and the command asks this machine.
+    `host` is what addresses on it begin with; without one the link is relative, and the command asks this machine. An
+    input that cannot be computed is shown on its page.
     """
     try:
-        case = solved(asked.calculation, asked.pairs, asked.kept)
+        case, variant, trouble = _both(asked)
     except REFUSED:
         return page(asked)
-    variant, trouble = _variant(asked)
-    figures, missing = charts(
-        asked.figures, case, variant, lambda declaration, data: _printed(declaration.name, data), compute=True
-    )
+    figures, missing = figures_of(case, variant, compute=True)
     content = rendered(
         "report.html",
         asked.root,
@@ -293,10 +248,10 @@ def report(asked: Asked, host: str, study: StudySection | None = None) -> Shown:
         calculation=asked.calculation,
         **_answered(asked, case, variant),
         trouble=trouble,
-        charts=figures,
+        figures=[figure for _, figure in figures],
         missing=missing,
-        study=study,
         host=host,
+        **study,
         **reports.context(
             case,
             asked.pairs,
@@ -308,12 +263,6 @@ def report(asked: Asked, host: str, study: StudySection | None = None) -> Shown:
     return Shown(content.encode(), keep=_keep(asked, case, variant))
 
 
-def _printed(name: str, figure: Figure | None) -> Chart:
-    """A figure as a part of the report."""
-    assert figure is not None
-    return Chart(name, figure.title, figure.subtitle, data_address(written(figure, "svg", "light")))
-
-
 def case_key(path: str, case: str) -> str:
     """What an answer of a page's calculation is kept under that is asked for by its hash."""
     return key_of(path, [("case", case)])
@@ -323,7 +272,7 @@ def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, by
     """Answers that were not kept yet, by the keys of their fields."""
     keep = {key_of(asked.path, asked.pairs): case.kept} if asked.kept is None else {}
     if variant is not None and asked.kept_ref is None:
-        keep[key_of(asked.path, ref_pairs(asked.calculation, asked.views))] = variant.kept
+        keep[key_of(asked.path, asked.ref_pairs)] = variant.kept
     return keep
 
 
@@ -377,14 +326,15 @@ def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
     return found
 
 
-def _variant(asked: Asked) -> tuple[Case | None, str]:
-    """The case to compare with, or why it cannot be computed."""
+def _both(asked: Asked) -> tuple[Case, Case | None, str]:
+    """The case, and the one to compare it with or why that cannot be computed."""
+    case = solved(asked.calculation, asked.pairs, asked.kept)
     if not asked.ref and asked.kept_ref is None:
-        return None, ""
+        return case, None, ""
     try:
-        return solved(asked.calculation, ref_pairs(asked.calculation, asked.views), asked.kept_ref), ""
+        return case, solved(asked.calculation, asked.ref_pairs, asked.kept_ref), ""
     except REFUSED as error:
-        return None, faults_of(error, asked.calculation)[0].message
+        return case, None, faults_of(error, asked.calculation)[0].message
 
 
 def _curves(case: Case) -> list[str]:

@@ -16,7 +16,7 @@ from app.pages.studies.sensitivity import SENSITIVITY
 from app.pages.studies.spectrum import SPECTRUM
 from app.pages.studies.sweep import AXES, SWEEP
 from app.pages.templating import rendered
-from app.pages.views import REFUSED, Asked, StudySection, title_of
+from app.pages.views import REFUSED, Asked, title_of
 from app.pages.views import report as case_report
 from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves, tree
 from app.studies.engine import Line
@@ -189,12 +189,4 @@ def file(study: PageStudy, lines: list[Line], name: str, image_format: Format) -
 def report(study: PageStudy, lines: list[Line], host: str) -> bytes:
     """The report of the case, with a section about the study."""
     found = study.page.result(study, lines)
-    section = StudySection(
-        title=study.page.link.label,
-        progress=found.progress,
-        remarks=found.remarks,
-        figures=found.figures,
-        tables=found.tables,
-        link="" if study.links.too_long else study.links.view(""),
-    )
-    return case_report(study.asked, host, section).content
+    return case_report(study.asked, host, study=study, found=found).content
