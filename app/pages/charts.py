@@ -28,7 +28,7 @@ class Chart:
 
     `image` is the address of its image, `dark` that of the one for dark pages if there are two. Its values are either
     at the address `values` or in `content`, as JSON; `study` is JSON too: the points of a sweep, each of which opens
-    its case. Width and height are in pixels, the height None where it is not known before the figure is drawn.
+    its case. `size` is width and height in pixels, None where they are not known before the figure is drawn.
     """
 
     name: str
@@ -36,8 +36,7 @@ class Chart:
     subtitle: str
     image: str
     dark: str = ""
-    width: int | None = None
-    height: int | None = None
+    size: tuple[int, int] | None = None
     values: str = ""
     content: str = ""
     header: tuple[str, ...] = ()
@@ -80,30 +79,26 @@ def linked(
     declaration: Declaration, figure: Figure | None, address: Callable[..., str], theme: ThemeName | None
 ) -> Chart:
     """A figure whose image and values are at addresses of their own, dark on dark pages unless the page has a theme."""
-    width, height = _pixels(figure) if figure else (None, None)
     return Chart(
         name=declaration.name,
         title=figure.title if figure else declaration.title,
         subtitle=figure.subtitle if figure else declaration.source,
         image=address(declaration.name, "svg"),
         dark="" if theme else address(declaration.name, "svg", theme="dark"),
-        width=width,
-        height=height,
+        size=_pixels(figure) if figure else None,
         values=address(declaration.name, "json"),
     )
 
 
 def embedded(name: str, figure: Figure, theme: ThemeName | None) -> Chart:
     """A figure that is a part of the page with its values; dark on dark pages unless the page has a theme."""
-    width, height = _pixels(figure)
     return Chart(
         name=name,
         title=figure.title,
         subtitle=figure.subtitle,
         image=data_address(figure, theme or "light"),
         dark="" if theme else data_address(figure, "dark"),
-        width=width,
-        height=height,
+        size=_pixels(figure),
         content=json.dumps({"panels": _panels(figure)}),
         **_table(figure),
     )

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
 from itertools import groupby, product
-from typing import Any, Literal
+from typing import Any
 
 from app.pages.query import MATRIX, PICK, PRESENT, SIDE, excluded, text_of
 from app.pages.typesetting import cited, symbol, words
@@ -16,7 +16,6 @@ from app.schema.quantities import split_unit
 BESIDE = 10  # letters of an option that fit beside the label
 DETAIL = "detail"
 """Not asked for: each view takes the level of detail that it needs."""
-Widget = Literal["number", "text", "list", "select", "table"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +40,7 @@ class State:
 
 @dataclass(frozen=True, slots=True)
 class FieldView:
-    """What the template shows of a field.
+    """What the template shows of a field; its `widget` is number, text, list, select or table.
 
     `empty` says in a line what a field without a value stands for; `column` names the field where several stand side
     by side; `excludes` are the fields and sections that must be empty where this one is given. A matrix has `elements`,
@@ -52,7 +51,7 @@ class FieldView:
     label: str
     symbol: str = ""
     unit: str = ""
-    widget: Widget = "number"
+    widget: str = "number"
     text: str = ""
     placeholder: str = ""
     options: tuple[tuple[str, str], ...] = ()
@@ -291,7 +290,7 @@ def field_view(leaf: Leaf, name: str, state: State) -> FieldView:
     """A field under its name with indices."""
     text, value = state.texts.get(name, ""), state.resolved.get(name, leaf.default)
     options = _options(leaf, text)
-    widget: Widget = "text" if leaf.kind in {"text", "other"} else "number"
+    widget = "text" if leaf.kind in {"text", "other"} else "number"
     rule = "" if value not in (None, []) or leaf.options else leaf.declared.default_text or ""
     return FieldView(
         name=name,

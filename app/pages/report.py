@@ -12,13 +12,11 @@ from unicodedata import category
 from app.errors import Unprocessable
 from app.pages.cases import Case
 from app.pages.manual import method_of
-from app.pages.query import Pairs
+from app.pages.query import REPORT_NAMES, Pairs
 from app.pages.results import flattened, resolved
 from app.pages.typesetting import cited, shown
 from app.schema.fields import Leaf, leaf_at
 
-NAMES = {"title": 200, "project": 200, "part": 200, "author": 200, "checker": 200, "notes": 2000}
-"""What a report says of its occasion, and how many characters of it at most."""
 LONGEST_LINK = 240  # as text; what it leads to is the whole
 _element = re.compile(r"(\.\d+){1,2}$")  # of a list or a matrix of numbers
 PAPERS = {"a4": "A4", "letter": "letter"}
@@ -37,8 +35,8 @@ def context(case: Case, pairs: Pairs, views: dict[str, str], *, address: str, li
     Raises Unprocessable for a name or note that is too long.
     """
     return {
-        "longest": NAMES,
-        "names": {name: _said(name, views.get(name, ""), longest) for name, longest in NAMES.items()},
+        "longest": REPORT_NAMES,
+        "names": {name: _said(name, views.get(name, ""), longest) for name, longest in REPORT_NAMES.items()},
         "paper": PAPERS.get(views.get("paper", ""), "A4"),
         "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
         "inputs": _inputs(case, pairs),

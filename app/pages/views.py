@@ -117,10 +117,9 @@ class Asked:
 
     def beside(self, ref: str) -> str:
         """The page of the case, compared with the case of another query unless that is empty."""
-        theme = self.views.get("theme", "")
-        return link(self.path, self.pairs, ref=ref, theme=theme, title=self.title, sources=SHORT_SOURCES)
+        return link(self.path, self.pairs, ref=ref, theme=self.theme, title=self.title, sources=SHORT_SOURCES)
 
-    def view(self, name: str, **views: str) -> str:
+    def view(self, name: str, **views: str | None) -> str:
         """One view."""
         return link(f"{self.path}/{name}", self.pairs, **views)
 
@@ -131,11 +130,11 @@ class Asked:
 
     def study(self, name: str) -> str:
         """A study of the case that has a page of its own."""
-        return self.view(name, theme=self.views.get("theme", ""), title=self.title)
+        return self.view(name, theme=self.theme, title=self.title)
 
-    def image(self, figure: str, image_format: str, theme: str = "") -> str:
+    def image(self, figure: str, image_format: str, theme: ThemeName | None = None) -> str:
         """One figure as a file."""
-        name, theme = f"figures/{figure}.{image_format}", theme or self.views.get("theme", "")
+        name, theme = f"figures/{figure}.{image_format}", theme or self.theme
         if self.too_long:
             case, ref_case = self.answered
             return link(f"{self.path}/{name}", [], case=case, ref_case=ref_case, theme=theme)
@@ -180,14 +179,12 @@ def page(asked: Asked) -> Shown:
         return _page(asked, State(texts, said), 400 if isinstance(error, Unreadable) else 422, faults=faults)
     response = case.response
     asked = replace(asked, answered=(response.case, variant.response.case if variant else ""))
-    figures, missing = figures_of(case, variant)
+    found = _answered(asked, case, variant, trouble)
     shown = _page(
         asked,
         State(texts, {}, resolved(response), {each.field for each in response.assumptions}),
-        **_answered(asked, case, variant),
-        trouble=trouble,
-        charts=[linked(each, figure, asked.image, asked.theme) for each, figure in figures],
-        missing=missing,
+        **found,
+        charts=[linked(each, figure, asked.image, asked.theme) for each, figure in found["figures"]],
         ready=studies_of_case(asked.calculation, asked.pairs, response.inputs),
         curves=_curves(case),
         code={
@@ -230,8 +227,8 @@ def figure(asked: Asked, name: str, image_format: Format | Literal["json"]) -> S
     return Shown(content, keep=_keep(asked, case, variant))
 
 
-def report(asked: Asked, host: str, **study: Any) -> Shown:
-    """The report of a case, with a section about a `study` of which `found` is the result.
+def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Shown:
+    """The report of a case, with a section about a study: its `title`, the `link` to it, and what was `found`.
 
     `host` is what addresses on it begin with; without one the link is relative, and the command asks this machine. An
     input that cannot be computed is shown on its page.
@@ -240,18 +237,14 @@ def report(asked: Asked, host: str, **study: Any) -> Shown:
         case, variant, trouble = _both(asked)
     except REFUSED:
         return page(asked)
-    figures, missing = figures_of(case, variant, compute=True)
     content = rendered(
         "report.html",
         asked.root,
         asked=asked,
         calculation=asked.calculation,
-        **_answered(asked, case, variant),
-        trouble=trouble,
-        figures=[figure for _, figure in figures],
-        missing=missing,
+        **_answered(asked, case, variant, trouble, compute=True),
         host=host,
-        **study,
+        study=study,
         **reports.context(
             case,
             asked.pairs,
@@ -287,7 +280,7 @@ def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
         chapter=chapter_of(calculation).name,
         sections=form(calculation.request, state),
         outdated=asked.outdated,
-        theme=asked.views.get("theme", ""),
+        theme=asked.theme,
         examples=[(example, example_link(calculation, example)) for example in examples_of(calculation)],
         formats=MEDIA_TYPES,
         studies=study_links(calculation),
@@ -299,8 +292,9 @@ def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
     return Shown(content.encode(), status)
 
 
-def _answered(asked: Asked, case: Case, variant: Case | None) -> dict[str, Any]:
-    """What page and report show of an answer, beside that of the variant."""
+def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, compute: bool = False) -> dict[str, Any]:
+    """What page and report show of an answer, beside that of the variant, or the `trouble` with that."""
+    figures, missing = figures_of(case, variant, compute=compute)
     request, response, before = type(case.request), case.response, variant.response if variant else None
     derived = groups(response.derived) if response.derived else {}
     return {
@@ -311,6 +305,9 @@ def _answered(asked: Asked, case: Case, variant: Case | None) -> dict[str, Any]:
         "derived": [row for rows in derived.values() for row in rows if row.value != NO_VALUE],
         "elsewhere": _elsewhere(asked),
         "compared": variant is not None,
+        "trouble": trouble,
+        "figures": figures,
+        "missing": missing,
         "differences": differences(request, response, before) if before else [],
     }
 
@@ -321,7 +318,7 @@ def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
     for path in dict.fromkeys(each.shown_at for each in figures if each.shown_at):
         other = BY_PATH[path]
         pairs = [(name, text) for name, text in asked.pairs if leaf_at(other.request, name)]
-        address = link(page_path(other), pairs, theme=asked.views.get("theme", ""))
+        address = link(page_path(other), pairs, theme=asked.theme)
         found.append((other.title, address, [each.title for each in figures if each.shown_at == path]))
     return found
 

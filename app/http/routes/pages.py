@@ -2,8 +2,10 @@
 
 import json
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from http import HTTPStatus
+from mimetypes import guess_type
 from pathlib import PurePath
 from typing import Any
 from urllib.parse import quote
@@ -20,11 +22,11 @@ from app.figures.rendering import MEDIA_TYPES
 from app.http.problems import answer
 from app.manual import NAMES
 from app.pages import views
-from app.pages.cases import Answers, key_of
+from app.pages.cases import key_of
 from app.pages.manual import chapter_page, contents_page, functions_page
 from app.pages.overview import start_page
 from app.pages.query import link, normalised, pairs_of_query, split_views
-from app.pages.templating import ASSETS, asset, example_link, page_path, rendered
+from app.pages.templating import ASSETS, example_link, page_path, rendered
 from app.settings import Settings
 from app.sources import SHORT_SOURCES
 
@@ -51,7 +53,7 @@ async def static(name: str) -> Response:
     """Style, script and icon of the pages."""
     if name not in ASSETS:
         raise HTTPException(404, f"Available: {', '.join(ASSETS)}")
-    return Response(asset(name), media_type=ASSETS[name], headers={"Cache-Control": FOREVER})
+    return Response(ASSETS[name], media_type=guess_type(name)[0], headers={"Cache-Control": FOREVER})
 
 
 @router.post("/case", response_class=HTMLResponse)
@@ -181,7 +183,7 @@ async def asked_of(http: Request, calculation: Calculation) -> tuple[views.Asked
         return views.Asked(page_path(calculation), sent, given, root=root_of(http)), False
     pairs = normalised(calculation.request, sent)
     asked = views.Asked(page_path(calculation), pairs, given, root=root_of(http))
-    kept, kept_ref = (_answers(http).get(key_of(asked.path, each)) for each in (pairs, asked.ref_pairs))
+    kept, kept_ref = (http.app.state.answers.get(key_of(asked.path, each)) for each in (pairs, asked.ref_pairs))
     return replace(asked, kept=kept, kept_ref=kept_ref), pairs == sent and given == looks
 
 
@@ -189,7 +191,7 @@ def _kept(http: Request, path: str) -> views.Asked:
     """The case whose hash is asked for, and its variant; 410 where an answer is not kept any more."""
     query = http.query_params
     kept, kept_ref = (
-        _answers(http).get(views.case_key(path, query[name])) if query.get(name) else None
+        http.app.state.answers.get(views.case_key(path, query[name])) if query.get(name) else None
         for name in ("case", "ref_case")
     )
     if kept is None or (query.get("ref_case") and kept_ref is None):
@@ -201,13 +203,9 @@ async def _shown(http: Request, asked: views.Asked, view: Callable[..., views.Sh
     """A view of a case, made in a worker; the answers that it needed are kept for other views of the case."""
     shown: views.Shown = await http.app.state.pool.calculate(http, view, asked, *arguments)
     for key, content in shown.keep.items():
-        _answers(http).keep(key, content)
+        with suppress(ValueError):  # larger than all that may be kept
+            http.app.state.answers[key] = content
     return shown
-
-
-def _answers(http: Request) -> Answers:
-    answers: Answers = http.app.state.answers
-    return answers
 
 
 def failed(http: Request, error: Exception) -> Response:

@@ -189,4 +189,9 @@ def file(study: PageStudy, lines: list[Line], name: str, image_format: Format) -
 def report(study: PageStudy, lines: list[Line], host: str) -> bytes:
     """The report of the case, with a section about the study."""
     found = study.page.result(study, lines)
-    return case_report(study.asked, host, study=study, found=found).content
+    section = {
+        "title": study.page.link.label,
+        "link": "" if study.links.too_long else study.links.view(""),
+        "found": found,
+    }
+    return case_report(study.asked, host, section).content
