@@ -88,20 +88,12 @@ class Choice:
 
 
 @dataclass(frozen=True, slots=True)
-class Twins:
-    """Sections of one kind side by side, a line for each field; `columns` are the titles of the sections by path."""
-
-    columns: dict[str, str]
-    rows: tuple[tuple[FieldView, ...], ...]
-    faults: tuple[str, ...]
-    kind: str = "twins"
-
-
-@dataclass(frozen=True, slots=True)
 class Section:
-    """A part of the form, or the rows of a list of sections, the last one empty to be filled.
+    """A part of the form.
 
-    `switch` is the field that says that an optional section is there.
+    Its `kind` is a section; rows, a list of sections, the last one empty to be filled; or twins, sections of one kind
+    side by side, a line for each field, whose titles are in `columns` by path. `switch` is the field that says that an
+    optional section is there.
     """
 
     path: str
@@ -116,10 +108,11 @@ class Section:
     switch: FieldView | None = None
     needed: bool = False
     advanced: bool = False
+    columns: dict[str, str] = field(default_factory=dict)
     kind: str = "section"
 
 
-Block = FieldView | Choice | Twins | Section
+Block = FieldView | Choice | Section | tuple[FieldView, ...]
 
 
 def anchor(path: str) -> str:
@@ -132,19 +125,12 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
     root, loose = tree(request), list[Block]()
     sections = []
     for block in _blocks(root, "", state):
-        match block:
-            case Section(kind="rows", path=path, blocks=items):
-                around = replace(block, blocks=(block,), kind="section", id=f"{anchor(path)}-", fault=None)
-                sections.append(replace(around, given=len(items) - 1))
-            case Section():
-                sections.append(block)
-            case Twins():
-                path, *_ = paths = [*block.columns]
-                needed = any(each.required for fields in block.rows for each in fields)
-                title = " and ".join(block.columns.values())
-                sections.append(_section(path, title, paths, [block], state, id=f"{anchor(path)}-", needed=needed))
-            case _:
-                loose.append(block)
+        if not isinstance(block, Section):
+            loose.append(block)
+        elif block.kind == "section":
+            sections.append(block)
+        else:  # stands in a section of its own
+            sections.append(replace(block, blocks=(block,), kind="section", id=f"{anchor(block.path)}-", fault=None))
     if loose:
         names = [leaf.path for leaf in root.leaves if leaf.path != DETAIL]
         general = _section("general", "general", names, loose, state)
@@ -162,9 +148,8 @@ def _section(path: str, title: str, below: list[str], blocks: Iterable[Block], s
         title=title,
         blocks=tuple(blocks),
         open=known.get("needed", False) or given > 0 or faulty > 0,
-        given=given,
         assumed=assumed,
-        **{"id": anchor(path), **known},
+        **{"id": anchor(path), "given": given, **known},
     )
 
 
@@ -205,21 +190,39 @@ def _rows(branch: Branch, path: str, state: State) -> Section:
     below = (name.removeprefix(f"{path}.") for name in state.texts if name.startswith(f"{path}."))
     indices = (name.partition(".")[0] for name in below)
     count = 1 + max((int(index) for index in indices if index.isdecimal() and index.isascii()), default=-1)
-    items = (_branch(branch, f"{path}.{index}", state, item=index) for index in range(count + 1))
-    fault, about = state.faults.get(path), branch.description
-    return _section(path, branch.title, [path], items, state, description=about, fault=fault, kind="rows")
+    return _section(
+        path,
+        branch.title,
+        [path],
+        [_branch(branch, f"{path}.{index}", state, item=index) for index in range(count + 1)],
+        state,
+        given=count,
+        description=branch.description,
+        fault=state.faults.get(path),
+        kind="rows",
+    )
 
 
-def _twins(group: tuple[Branch, ...], prefix: str, state: State) -> Twins:
+def _twins(group: tuple[Branch, ...], prefix: str, state: State) -> Section:
     columns = {prefix + _last(branch.path): branch.title for branch in group}
-    rows = tuple(
+    lines = [
         tuple(
             replace(field_view(leaf, f"{path}.{_last(leaf.path)}", state), column=title)
             for leaf, (path, title) in zip(line, columns.items(), strict=True)
         )
         for line in zip(*(branch.leaves for branch in group), strict=True)
+    ]
+    return _section(
+        next(iter(columns)),
+        " and ".join(columns.values()),
+        [*columns],
+        lines,
+        state,
+        fault="; ".join(state.faults[path] for path in columns if path in state.faults) or None,
+        needed=any(each.required for line in lines for each in line),
+        columns=columns,
+        kind="twins",
     )
-    return Twins(columns, rows, tuple(state.faults[path] for path in columns if path in state.faults))
 
 
 def _blocks(branch: Branch, prefix: str, state: State) -> Iterator[Block]:

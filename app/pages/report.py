@@ -13,8 +13,8 @@ from app.errors import Unprocessable
 from app.pages.cases import Case
 from app.pages.manual import method_of
 from app.pages.query import REPORT_NAMES, Pairs
-from app.pages.results import flattened, resolved
-from app.pages.typesetting import cited, shown
+from app.pages.results import flattened, resolved, texts_of
+from app.pages.typesetting import cited
 from app.schema.fields import Leaf, leaf_at
 
 LONGEST_LINK = 240  # as text; what it leads to is the whole
@@ -95,7 +95,8 @@ def _inputs(case: Case, pairs: Pairs) -> list[tuple[str, list[int], list[tuple[L
             cell = Cell(cited(leaf.declared.default_text or ""), "not given")
         else:
             origin = "assumed" if path in assumed else "derived" if stated is None else "default"
-            cell = Cell(f"{_text(value)} {leaf.unit or ''}".rstrip(), "given" if path in typed else origin)
+            text = f"{', '.join(texts_of(value, 6, 6))} {leaf.unit or ''}".rstrip()
+            cell = Cell(text, "given" if path in typed else origin)
         *section, name = path.split(".")
         index = int(section.pop()) if section and section[-1].isdecimal() else 0
         title = " · ".join(part.replace("_", " ") for part in section) or "general"
@@ -105,10 +106,3 @@ def _inputs(case: Case, pairs: Pairs) -> list[tuple[str, list[int], list[tuple[L
         (title, sorted({index for _, cells in rows.values() for index in cells}), [*rows.values()])
         for title, rows in sections.items()
     ]
-
-
-def _text(value: Any) -> str:
-    """A number, a word, or a list of them; a matrix by its rows."""
-    if not isinstance(value, list):
-        return shown(value, 6)
-    return ", ".join(f"({_text(item)})" if isinstance(item, list) else _text(item) for item in value)

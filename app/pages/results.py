@@ -113,14 +113,16 @@ def _row(leaf: Leaf, path: str, now: Any, before: Any = None, *, label: str, dig
     if leaf.view.percent:
         now, before, unit = (None if now is None else 100.0 * now, None if before is None else 100.0 * before, "%")
     known_unit = unit if now is not None or before is not None else ""
-    return Row(leaf, label, path, _items(now, digits), known_unit, _items(before, digits), _change(now, before))
+    return Row(leaf, label, path, texts_of(now, digits), known_unit, texts_of(before, digits), _change(now, before))
 
 
-def _items(value: Any, digits: int) -> tuple[str, ...]:
-    """A value, or the items of a list; of a matrix its rows."""
+def texts_of(value: Any, digits: int, of_items: int = 4) -> tuple[str, ...]:
+    """A value, or the items of a list, with so many digits; of a matrix its rows."""
     if not isinstance(value, list):
         return (shown(value, digits),)
-    return tuple(f"({', '.join(_items(item, digits))})" if isinstance(item, list) else shown(item, 4) for item in value)
+    if value and isinstance(value[0], list):
+        return tuple(f"({', '.join(texts_of(row, of_items, of_items))})" for row in value)
+    return tuple(shown(item, of_items) for item in value)
 
 
 def _change(now: Any, before: Any) -> str:

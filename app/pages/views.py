@@ -26,7 +26,7 @@ from app.pages.query import (
     pairs_of_query,
     split_views,
 )
-from app.pages.results import assumptions, cards, differences, entries, groups, resolved
+from app.pages.results import assumptions, cards, differences, groups, resolved
 from app.pages.study_links import studies_of_case, study_links
 from app.pages.templating import example_link, examples_of, page_path, rendered
 from app.pages.typesetting import NO_VALUE
@@ -180,22 +180,19 @@ def page(asked: Asked) -> Shown:
     response = case.response
     asked = replace(asked, answered=(response.case, variant.response.case if variant else ""))
     found = _answered(asked, case, variant, trouble)
-    shown = _page(
+    return _page(
         asked,
         State(texts, {}, resolved(response), {each.field for each in response.assumptions}),
+        keep=_keep(asked, case, variant),
         **found,
         charts=[linked(each, figure, asked.image, asked.theme) for each, figure in found["figures"]],
         ready=studies_of_case(asked.calculation, asked.pairs, response.inputs),
-        curves=_curves(case),
+        curves=csv.curves(response),
         code={
             "Python": reports.for_python(LOCAL + asked.root, case),
             "curl": reports.for_shell(LOCAL + asked.root, case),
         },
     )
-    keep = _keep(asked, case, variant)
-    if asked.too_long:
-        keep |= {case_key(asked.path, each.response.case): each.kept for each in (case, variant) if each}
-    return replace(shown, keep=keep)
 
 
 def form_page(asked: Asked) -> Shown:
@@ -211,10 +208,7 @@ def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
     elif (path := asked.views.get("curve")) is None:
         content = csv.values(case, asked.title)
     else:
-        found = csv.curve(case.response, path)
-        if found is None:
-            raise Unprocessable("unknown_curve", f"Available curves: {', '.join(_curves(case))}", "curve")
-        content = found
+        content = csv.curve(case.response, path)
     return Shown(content, keep=_keep(asked, case))
 
 
@@ -262,14 +256,17 @@ def case_key(path: str, case: str) -> str:
 
 
 def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, bytes]:
-    """Answers that were not kept yet, by the keys of their fields."""
-    keep = {key_of(asked.path, asked.pairs): case.kept} if asked.kept is None else {}
-    if variant is not None and asked.kept_ref is None:
-        keep[key_of(asked.path, asked.ref_pairs)] = variant.kept
+    """Answers that were not kept yet, by the keys of their fields; those of a long case also by their hashes."""
+    keep = {}
+    for pairs, kept, each in (asked.pairs, asked.kept, case), (asked.ref_pairs, asked.kept_ref, variant):
+        if each is not None and kept is None:
+            keep[key_of(asked.path, pairs)] = each.kept
+        if each is not None and asked.too_long:
+            keep[case_key(asked.path, each.response.case)] = each.kept
     return keep
 
 
-def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
+def _page(asked: Asked, state: State, status: int = 200, keep: dict[str, bytes] | None = None, **found: Any) -> Shown:
     calculation = asked.calculation
     context = {"faults": [], "response": None, "compared": False, "cards": (), "trouble": "", **found}
     content = rendered(
@@ -289,7 +286,7 @@ def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
         field_title=lambda path: title_of(calculation, path),
         **context,
     )
-    return Shown(content.encode(), status)
+    return Shown(content.encode(), status, keep or {})
 
 
 def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, compute: bool = False) -> dict[str, Any]:
@@ -332,16 +329,6 @@ def _both(asked: Asked) -> tuple[Case, Case | None, str]:
         return case, solved(asked.calculation, asked.ref_pairs, asked.kept_ref), ""
     except REFUSED as error:
         return case, None, faults_of(error, asked.calculation)[0].message
-
-
-def _curves(case: Case) -> list[str]:
-    """What `curve=` can name."""
-    curves = (
-        each.path
-        for each in entries(case.response)
-        if each.leaf.dimensions == 1 and each.value is not None and each.leaf.kind in {"number", "integer"}
-    )
-    return [*dict.fromkeys(path.rpartition(".")[0] or path for path in curves)]
 
 
 def _place(calculation: Calculation, path: str) -> str:
