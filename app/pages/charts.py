@@ -3,7 +3,7 @@
 import base64
 import json
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import zip_longest
 from typing import Any
 
@@ -27,8 +27,9 @@ class Chart:
     """A figure on a page.
 
     `image` is the address of its image, `dark` that of the one for dark pages if there are two. Its values are either
-    at the address `values` or in `content`, as JSON; `study` is JSON too: the points of a sweep, each of which opens
-    its case. `size` is width and height in pixels, None where they are not known before the figure is drawn.
+    at the address `values`, or in `content`, as JSON, and in `table`; `study` is JSON too: the points of a sweep, each
+    of which opens its case. `size` is width and height in pixels, None where they are not known before the figure is
+    drawn.
     """
 
     name: str
@@ -39,9 +40,7 @@ class Chart:
     size: tuple[int, int] | None = None
     values: str = ""
     content: str = ""
-    header: tuple[str, ...] = ()
-    lines: tuple[tuple[str, ...], ...] = ()
-    more: int = 0
+    table: dict[str, Any] = field(default_factory=dict)
     study: str = ""
 
 
@@ -100,7 +99,7 @@ def embedded(name: str, figure: Figure, theme: ThemeName | None) -> Chart:
         dark="" if theme else data_address(figure, "dark"),
         size=_pixels(figure),
         content=json.dumps({"panels": _panels(figure)}),
-        **_table(figure),
+        table=_table(figure),
     )
 
 

@@ -13,6 +13,7 @@ from app.schema.model import Request
 from app.schema.model import Section as Fields
 from app.schema.quantities import split_unit
 
+REQUIRED, IF_USED = "required", "required if used"
 BESIDE = 10  # letters of an option that fit beside the label
 DETAIL = "detail"
 """Not asked for: each view takes the level of detail that it needs."""
@@ -22,20 +23,15 @@ DETAIL = "detail"
 class State:
     """What is known of a case beside the schema, by path: texts typed, faults, and what an answer resolved.
 
-    `assumed` are the fields whose default is ours. `unused` is whether the part of the form at hand is an optional
-    section of which nothing is given.
+    `assumed` are the fields whose default is ours. `required` is what stands beside a field that must be given: always,
+    or if the optional section that it is in is used.
     """
 
     texts: Mapping[str, str] = field(default_factory=dict)
     faults: Mapping[str, str] = field(default_factory=dict)
     resolved: Mapping[str, Any] = field(default_factory=dict)
     assumed: AbstractSet[str] = frozenset()
-    unused: bool = False
-
-    @property
-    def required(self) -> str:
-        """What stands beside a field that must be given: always, or if its section is."""
-        return "required if used" if self.unused else "required"
+    required: str = REQUIRED
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,12 +167,12 @@ def _branch(branch: Branch, path: str, state: State, item: int | None = None) ->
             options=(("", "no"), (PRESENT, "yes")),
             help=(branch.description,),
         )
-    inside = replace(state, unused=(branch.optional or branch.repeated or state.unused) and not given)
+    unused = (branch.optional or branch.repeated or state.required == IF_USED) and not given
     return _section(
         path,
         branch.title if item is None else f"{branch.title} {item + 1}",
         [path],
-        _blocks(branch, f"{path}.", inside),
+        _blocks(branch, f"{path}.", replace(state, required=IF_USED if unused else REQUIRED)),
         state,
         description=branch.description if item is None else "",
         fault=state.faults.get(path),

@@ -1,6 +1,7 @@
 """One view of one case, from its fields to bytes; runs in a worker."""
 
 from dataclasses import dataclass, field, replace
+from itertools import accumulate
 from typing import Any, Literal, get_args
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
@@ -344,6 +345,5 @@ def title_of(calculation: Calculation, path: str) -> str:
     leaf = leaf_at(calculation.request, path)
     if leaf is not None:
         return leaf.title
-    parts, known = path.split("."), branches(calculation.request)
-    around = [".".join(parts[: end + 1]) for end in range(len(parts))]
+    known, around = branches(calculation.request), accumulate(path.split("."), "{}.{}".format)
     return ", ".join(known[each].title for each in around if each in known) or path
