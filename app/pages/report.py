@@ -19,7 +19,6 @@ from app.schema.fields import Leaf, leaf_at
 
 LONGEST_LINK = 240  # as text; what it leads to is the whole
 _element = re.compile(r"(\.\d+){1,2}$")  # of a list or a matrix of numbers
-PAPERS = {"a4": "A4", "letter": "letter"}
 
 
 class Cell(NamedTuple):
@@ -37,7 +36,7 @@ def context(case: Case, pairs: Pairs, views: dict[str, str], *, address: str, li
     return {
         "longest": REPORT_NAMES,
         "names": {name: _said(name, views.get(name, ""), longest) for name, longest in REPORT_NAMES.items()},
-        "paper": PAPERS.get(views.get("paper", ""), "A4"),
+        "paper": "letter" if views.get("paper") == "letter" else "A4",
         "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
         "inputs": _inputs(case, pairs),
         "command": for_shell(address, case),

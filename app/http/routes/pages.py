@@ -109,18 +109,22 @@ def _add(calculation: Calculation) -> None:
     path = page_path(calculation)
     names = [figure.name for figure in calculation.figures]
 
+    @router.api_route(path, methods=METHODS, response_class=HTMLResponse)
     async def page(http: Request) -> Response:
         return await _answer(http, calculation, HTML, views.page)
 
+    @router.api_route(f"{path}/report", methods=METHODS, response_class=HTMLResponse)
     async def report(http: Request) -> Response:
         return await _answer(http, calculation, HTML, views.report, printed_host(http))
 
+    @router.api_route(f"{path}/result.{{media}}", methods=METHODS)
     async def result(http: Request, media: str) -> Response:
         types = {"json": JSON, "csv": MEDIA_TYPES["csv"]}
         if media not in types:
             raise HTTPException(404, "Available: result.json, result.csv")
         return await _answer(http, calculation, types[media], views.result, media)
 
+    @router.api_route(f"{path}/case.json", methods=METHODS)
     async def saved(http: Request) -> Response:
         """The case as it was typed, complete or not, as a JSON file of title, endpoint and request, like an example."""
         asked, _ = await asked_of(http, calculation)
@@ -130,6 +134,7 @@ def _add(calculation: Calculation) -> None:
         headers = {"Content-Security-Policy": DOCUMENT_POLICY, "Content-Disposition": disposition}
         return Response(json.dumps(content, indent=1, ensure_ascii=False), media_type=JSON, headers=headers)
 
+    @router.api_route(f"{path}/figures/{{name}}.{{image_format}}", methods=METHODS)
     async def figure(http: Request, name: str, image_format: str) -> Response:
         kinds = MEDIA_TYPES | {"json": JSON}
         if name not in names or image_format not in kinds:
@@ -139,12 +144,6 @@ def _add(calculation: Calculation) -> None:
             shown = await _shown(http, _kept(http, path), views.figure, name, image_format)
             return Response(shown.content, media_type=media, headers={"Content-Security-Policy": DOCUMENT_POLICY})
         return await _answer(http, calculation, media, views.figure, name, image_format)
-
-    router.add_api_route(path, page, methods=METHODS, response_class=HTMLResponse)
-    router.add_api_route(f"{path}/report", report, methods=METHODS, response_class=HTMLResponse)
-    router.add_api_route(f"{path}/result.{{media}}", result, methods=METHODS)
-    router.add_api_route(f"{path}/case.json", saved, methods=METHODS)
-    router.add_api_route(f"{path}/figures/{{name}}.{{image_format}}", figure, methods=METHODS)
 
 
 async def _answer(
